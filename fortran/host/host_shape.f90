@@ -24,6 +24,7 @@ module host_shape
   !> Integration points of a family, counted along the first direction first.
   type :: rule_t
     integer :: family = 0, dim = 0, nodes = 0, corners = 0, points = 0
+    logical :: reduced = .false.            !< one point stands for a quadrilateral or hexahedron, or for each of its layers
     real(dp), allocatable :: weight(:)      !< (points)
     real(dp), allocatable :: n(:, :)        !< (nodes, points) shape functions
     real(dp), allocatable :: dn(:, :, :)    !< (nodes, dim, points) their derivatives by the parent coordinates
@@ -89,13 +90,15 @@ contains
   end subroutine find_standard
 
   !> Make a rule known; returns the number of a family that has it, and with any other number of points the rule of the family.
-  function define_rule(family, parent, weight) result(number)
+  function define_rule(family, parent, weight, reduced) result(number)
     integer, intent(in) :: family
+    logical, intent(in) :: reduced
     real(dp), intent(in) :: parent(:, :), weight(:)    !< (dimension, points) parent coordinates; weights
     integer :: number
     type(shelf_t) :: new
     allocate (new%rule)
     call evaluate(family, parent, weight, new%rule)
+    new%rule%reduced = reduced
     if (.not. allocated(defined)) allocate (defined(0))
     defined = [defined, new]
     number = families + size(defined)
@@ -112,6 +115,7 @@ contains
     rule%nodes = sizes_of(family, 2)
     rule%corners = sizes_of(family, 3)
     rule%points = size(weight)
+    rule%reduced = rule%points == 1 .and. is_multilinear(rule)
     allocate (rule%n(rule%nodes, rule%points), rule%dn(rule%nodes, rule%dim, rule%points))
     do p = 1, rule%points
       call shape_functions(family, parent(:, p), rule%n(:, p), rule%dn(:, :, p))

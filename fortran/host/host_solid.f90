@@ -43,7 +43,7 @@ module host_solid
   use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point, add_stress_matrix
   use host_hybrid, only: add_compatibility, begin_pressure, begin_smoothing, keep_point, mean_stress, mean_stress_added, &
                          pressure_t, smooth, smoothing_change, smoothing_t
-  use host_hourglass, only: has_hourglass_modes, resist_hourglass
+  use host_hourglass, only: resist_hourglass
   use host_hyperelastic, only: volume_of
   use host_incompatible, only: mode_strains
   use host_inertia, only: is_dynamic, mass_matrix, respond
@@ -323,11 +323,12 @@ contains
     real(dp), intent(inout), optional :: moduli(2)    !< of the enhanced hourglass control, zero until the first tangent is known
     integer(i4), intent(in), optional :: layers(:, :)
     type(material_t), pointer :: here    !< material of the point
-    real(dp), dimension(rule%nodes, direct, rule%points) :: g, g_mid
+    real(dp), dimension(rule%nodes, direct, rule%points) :: g, g_mid, g_before
     real(dp), dimension(rule%dim*rule%nodes, strains, rule%points) :: b, b_mid
     real(dp), dimension(rule%points) :: volume, volume_mid, volume_now, volume_before, volume_strain
     real(dp) :: stresses(strains, rule%points)
     real(dp) :: by_unknowns(rule%dim*rule%nodes + modes, strains)
+    real(dp) :: first_tangent(strains, strains)    !< of all points
     real(dp) :: now(rule%dim, rule%nodes), g_start(rule%nodes, direct), volume_start, deformation(3, 3, 2, rule%points)
     real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(2), weight, elastic, work
     real(dp) :: now_axes(3, 3), middle(3, 3)
@@ -343,7 +344,7 @@ contains
     of_stress = stress_matrix(request)
     ! full integration of elements with straight edges locks if the volume is preserved, but not in plane stress; modes see to it
     averaged = rule%points > 1 .and. is_multilinear(rule) .and. material%ntens /= 3 .and. modes == 0
-    averaged = averaged .and. .not. present(pressure)
+    averaged = averaged .and. .not. (present(pressure) .or. rule%reduced)
     smoothed = .false.
     if (present(functions)) then
       smoothed = functions > 0 .and. rule%points > 1 .and. .not. begins
@@ -357,13 +358,18 @@ contains
     if (finite) call all_gradients(rule, direct, strains, averaged, now - 0.5_dp*du, g_mid, b_mid, volume_mid)
     g_start = g(:, :, 1)
     volume_start = volume(1)
-    if (finite .and. has_hourglass_modes(rule)) then
-      call mean_gradients(rule%family, direct, x, g_start, volume_start)
+    if (rule%reduced .and. finite) then
+      call gradients_of_points(rule, direct, x, g_before, volume_before)
+      g_start = g_before(:, :, 1)
+      volume_start = volume_before(1)
       if (direct == 3) then
-        call carry(dim, direct, strains, nodes, g_start, u, g(:, :, 1), b(:, :, 1))
-        call carry(dim, direct, strains, nodes, g_start, u - 0.5_dp*du, g_mid(:, :, 1), b_mid(:, :, 1))
+        do p = 1, rule%points
+          call carry(dim, direct, strains, nodes, g_before(:, :, p), u, g(:, :, p), b(:, :, p))
+          call carry(dim, direct, strains, nodes, g_before(:, :, p), u - 0.5_dp*du, g_mid(:, :, p), b_mid(:, :, p))
+        end do
       end if
     end if
+    if (rule%reduced .and. rule%points > 1) call mean_gradients(rule%family, direct, x, g_start, volume_start)
     elastic = 0
     dissipated = merge(3, 4, is_viscous(material))
     work = energy(2) + energy(dissipated)
@@ -385,6 +391,7 @@ contains
       volume = volume_before*sum(volume)/sum(volume_before)
     end if
     here => material
+    first_tangent = 0
     do p = 1, rule%points
       if (present(layers)) then
         here => find_material(layers(1, p))
@@ -438,9 +445,7 @@ contains
         if (present(axes)) call turn_strain(dim, strains, middle, strain)
         call point_update(dim, strains, here, int(p, i4), weight, finite, strain, thermal, svars(:, p), stress, modulus, &
                           elastic, work, of_point)
-        if (present(moduli)) then
-          if (.not. any(abs(moduli) > 0)) moduli = isotropic_part(dim, modulus)
-        end if
+        if (present(moduli)) first_tangent = first_tangent + volume(p)*modulus
         if (present(axes)) of_point(3:) = matmul(of_point(3:), turn_matrix(strains, axes(:, :, 2, p)))
         if (present(axes)) call turn_response(here, strains, axes(:, :, 2, p), stress, modulus)
       end if
@@ -465,8 +470,8 @@ contains
       if (finite) call add_geometric(dim, direct, strains, nodes, g(:, :, p), stress, weight, modulus, stiffness)
       if (finite .and. (allocated(here%hyperelastic) .or. present(pressure))) then
         if (averaged) stresses(:, p) = stress
-        if (has_hourglass_modes(rule)) call add_uniform_volume(rule%family, direct, strains, now, g(:, :, p), b(:, :, p), stress, &
-                                                               weight, merge(thickness, 1.0_dp, dim == 2), stiffness)
+        if (rule%reduced) call add_uniform_volume(rule%family, direct, strains, now, g(:, :, p), b(:, :, p), stress, weight, &
+                                                  merge(thickness, 1.0_dp, dim == 2), stiffness)
       end if
       by_unknowns(:dim*nodes, :) = b(:, :, p)
       if (modes > 0) by_unknowns(dim*nodes + 1:, :) = by_modes(:, :, p)
@@ -513,7 +518,10 @@ contains
     if (allocated(material%hyperelastic)) work = elastic
     energy(2) = elastic
     energy(dissipated) = work - elastic
-    if (has_hourglass_modes(rule)) then
+    if (present(moduli)) then
+      if (.not. any(abs(moduli) > 0)) moduli = isotropic_part(dim, first_tangent/sum(volume))
+    end if
+    if (rule%reduced) then
       call resist_hourglass(rule, g_start(:, :dim), volume_start*merge(thickness, 1.0_dp, dim == 2), hourglass, &
                             enhanced_constants(material, enhanced, moduli), finite, x, u, force, stiffness, energy(6))
     end if
@@ -625,8 +633,8 @@ contains
     real(dp), intent(out) :: volume(rule%points)
     real(dp) :: mean(rule%dim*rule%nodes)
     integer :: p
+    call gradients_of_points(rule, direct, x, g, volume)
     do p = 1, rule%points
-      call point_gradients(rule, direct, p, x, g(:, :, p), volume(p))
       call strain_matrix(rule%dim, direct, rule%nodes, g(:, :, p), b(:, :, p))
     end do
     if (.not. averaged) return
@@ -636,19 +644,32 @@ contains
     end do
   end subroutine all_gradients
 
-  !> Gradients and volume of a point: those at the point, or their mean where the only one stands for all of a
-  !> quadrilateral or hexahedron.
-  subroutine point_gradients(rule, direct, point, x, g, volume)
+  !> Gradients and volumes of all points. Where one stands for all of a quadrilateral or hexahedron they are the mean ones; those of
+  !> section points of layers differ from the mean as they do at the points, so that their own mean is that of the element.
+  subroutine gradients_of_points(rule, direct, x, g, volume)
     type(rule_t), intent(in) :: rule
-    integer, intent(in) :: direct, point
+    integer, intent(in) :: direct
     real(dp), intent(in) :: x(rule%dim, rule%nodes)
-    real(dp), intent(out) :: g(rule%nodes, direct), volume
-    if (has_hourglass_modes(rule)) then
-      call mean_gradients(rule%family, direct, x, g, volume)
-    else
-      call gradients(rule, direct, point, x, g, volume)
+    real(dp), intent(out) :: g(rule%nodes, direct, rule%points), volume(rule%points)
+    real(dp) :: mean(rule%nodes, direct), whole, own(rule%nodes, direct)
+    integer :: p
+    if (rule%reduced) call mean_gradients(rule%family, direct, x, mean, whole)
+    if (rule%reduced .and. rule%points == 1) then
+      g(:, :, 1) = mean
+      volume = whole
+      return
     end if
-  end subroutine point_gradients
+    do p = 1, rule%points
+      call gradients(rule, direct, p, x, g(:, :, p), volume(p))
+    end do
+    if (.not. rule%reduced) return
+    own = 0
+    do p = 1, rule%points
+      own = own + volume(p)/sum(volume)*g(:, :, p)
+    end do
+    g = g + spread(mean - own, 3, rule%points)
+    volume = volume*(whole/sum(volume))
+  end subroutine gradients_of_points
 
   !> With large displacements elements of one point take the shape of the strain from the mean deformation gradient
   !> F = 1 + u g_start, so that the gradients are those before any displacement times its inverse; and its volume from
@@ -691,18 +712,17 @@ contains
     real(dp), dimension(rule%dim, rule%nodes), intent(in) :: x, u, du
     real(dp), intent(out) :: f(3, 3, 2, rule%points)
     real(dp), intent(out) :: initial(rule%points)   !< volumes of the points before any displacement
-    real(dp) :: g(rule%nodes, direct), volume, total, swept(2)
+    real(dp) :: g(rule%nodes, direct, rule%points), total, swept(2)
     integer :: p, k
     total = 0
     swept = 0
+    call gradients_of_points(rule, direct, x, g, initial)
     do p = 1, rule%points
-      call point_gradients(rule, direct, p, x, g, volume)
-      f(:, :, 1, p) = identity + gradient_of(rule%dim, direct, rule%nodes, u - du, g)
-      f(:, :, 2, p) = identity + gradient_of(rule%dim, direct, rule%nodes, u, g)
-      initial(p) = volume
-      total = total + volume
+      f(:, :, 1, p) = identity + gradient_of(rule%dim, direct, rule%nodes, u - du, g(:, :, p))
+      f(:, :, 2, p) = identity + gradient_of(rule%dim, direct, rule%nodes, u, g(:, :, p))
+      total = total + initial(p)
       do k = 1, 2
-        swept(k) = swept(k) + volume*determinant(f(:, :, k, p))
+        swept(k) = swept(k) + initial(p)*determinant(f(:, :, k, p))
       end do
     end do
     if (.not. averaged) return

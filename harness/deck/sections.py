@@ -81,7 +81,8 @@ def _solid_section(
     """Of a material, or of layers."""
     elset, found = block.options.text("ELSET"), _controls(block, controls)
     if isinstance(given, tuple):
-        return CompositeSection(elset, given, int(block.options.text("STACK DIRECTION")), block.source)
+        direction = int(block.options.text("STACK DIRECTION"))
+        return CompositeSection(elset, given, direction, block.source, controls=found)
     thickness = _thickness(list(block.rows()), 0, "thickness")
     return SolidSection(elset, given, orientation, thickness, block.source, controls=found)
 

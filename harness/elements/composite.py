@@ -25,11 +25,20 @@ from harness.elements.materials import (
     refuse_output_variables,
     refuse_user_hardening,
     refuse_viscous,
+    shear_modulus,
     state_variables,
 )
 from harness.elements.routine import VALUES_OF_AXES, Linearity, PointAxes, Routine
 from harness.elements.simpson import simpson
-from harness.elements.solid import check_modes, numbered
+from harness.elements.solid import (
+    HOURGLASS_FRACTION,
+    OF_FIRST_TANGENT,
+    check_modes,
+    check_one_control,
+    numbered,
+    section_depth,
+    warn_of_enhanced,
+)
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import ContinuumType
@@ -87,19 +96,22 @@ def composite_routine(
 ) -> Routine:
     """What the driver calls for a group of bricks with layers. Raises DeckError."""
     _check(model, group, kind, section)
-    dynamic = any(step.procedure.inertia for step in model.steps)
+    reduced, dynamic = kind.hourglass_control, any(step.procedure.inertia for step in model.steps)
+    hourglass, enhanced = _hourglass_stiffness(group, kind, section), reduced and section.controls.enhanced
+    warn_of_enhanced(model, group, kind, library, "tangents of the layers")
     materials = materials_of(section)
     statev = max(map(state_variables, materials))
     numbers = [_define(kind, section, layer, library, statev) for layer in section.layers]
     points = layer_points(kind, section)
-    family = _binding.define_rule(kind.family.number, points.parent, points.weight)
+    family = _binding.define_rule(kind.family.number, points.parent, points.weight, reduced=reduced)
     count = len(points.weight)
     values = statev + max(history_values(material) - state_variables(material) for material in materials)
     of_points, forces = count * 2 * len(kind.components), 2 * kind.dimension * kind.nodes if dynamic else 0
     orientation = section.layers[0].orientation or Orientation("", np.eye(3), section.source)
     axes = PointAxes(of_points + forces, count, False, orientation)
-    hidden = forces + VALUES_OF_AXES * count + kind.modes
-    heads = [family, count, kind.direct, 0, kind.mass_points, kind.modes, 0]
+    hidden = forces + VALUES_OF_AXES * count + kind.modes + (2 if enhanced else 0)
+    control = OF_FIRST_TANGENT if enhanced else 0
+    heads = [family, count, kind.direct, control, kind.mass_points, kind.modes, 0]
     of_layers = np.column_stack([np.array(numbers)[points.number[:, 1] - 1], points.number]).ravel()
     known = all(linearity(material) is Linearity.KNOWN for material in materials)
     return Routine(
@@ -109,7 +121,7 @@ def composite_routine(
         svars=of_points + hidden,
         hidden=hidden,
         density=1,
-        props=np.array([1.0, materials[0].density, 0.0]),
+        props=np.array([section_depth(kind, section), materials[0].density, hourglass]),
         jprops=np.array([*heads, *of_layers]),
         family=family,
         material=numbers[0],
@@ -119,10 +131,28 @@ def composite_routine(
         turns=True,
         linear=values == 1,
         forces=Linearity.KNOWN if known else Linearity.UNKNOWN,
-        stores=True,
+        # the energy of hourglass control is another one
+        stores=not kind.hourglass_control,
         free=(1, 2, 3),
         axes=axes,
     )
+
+
+def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: CompositeSection) -> float:
+    """Parameter of the total stiffness, by default of the mean shear modulus, or 0 for none. Raises DeckError."""
+    if not kind.hourglass_control:
+        return 0.0
+    check_one_control(section)
+    if section.controls.enhanced or section.hourglass:
+        return section.hourglass
+    moduli = []
+    for layer in section.layers:
+        if layer.material.elastic is None:
+            what = f"elements of type {group.type} with *USER MATERIAL"
+            raise DeckError(section.source, f"{what} need *HOURGLASS STIFFNESS after *SOLID SECTION")
+        moduli.append(shear_modulus(layer.material.elastic, kind.tensor))
+    mean = np.average(moduli, weights=[layer.thickness for layer in section.layers])
+    return float(section.controls.hourglass * HOURGLASS_FRACTION * mean)
 
 
 def composite_variables(kind: ContinuumType, section: CompositeSection, routine: Routine) -> PointVariables:
@@ -175,7 +205,10 @@ def _directions(
 
 
 def _turned(group: ElementGroup, layer: SolidLayer, axes: FloatArray, normal: FloatArray) -> FloatArray:
-    """Directions of an orientation projected on the layer, then turned about its normal. Raises DeckError."""
+    """Directions of an orientation projected on the layer, then turned about its normal. Raises DeckError.
+
+    An angle of zero leaves directions as they are where none of the orientation can be the normal.
+    """
     orientation = layer.orientation
     assert orientation is not None
     assert layer.angle is not None
@@ -186,6 +219,8 @@ def _turned(group: ElementGroup, layer: SolidLayer, axes: FloatArray, normal: Fl
     along = rolled[:, :, 0] - upright * np.einsum("mpd,mpd->mp", rolled[:, :, 0], upright)[..., None]
     size = np.linalg.norm(along, axis=-1)
     lying = np.argwhere((np.abs(cosine[..., 2:]) < np.abs(cosine[..., :2])).any(axis=-1) | (size < ALONG))
+    if len(lying) and layer.angle == 0:
+        return axes
     if len(lying):
         label = group.labels[lying[0, 0]]
         message = f"direction {orientation.normal}, about which the angles of layers are, must be the closest one to"

@@ -78,7 +78,8 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         # the material is in the directions of the points
         orientation = replace(local, axes=np.eye(3), system=None)
     hourglass = _hourglass_stiffness(group, kind, section)
-    _warn_of_enhanced(model, group, kind, library)
+    tangent = f"DDSDDE of UMAT (material {material.name})" if _of_tangent(kind, section) else ""
+    warn_of_enhanced(model, group, kind, library, tangent)
     _warn_of_modified(model, group, kind, library)
     number = define_material(material, orientation, kind.tensor, section.source, library, hybrid=kind.pressures > 0)
     prestressed = _is_prestressed(model, group, material)
@@ -251,11 +252,7 @@ def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: Soli
     controls, elastic = section.controls, section.material.elastic
     if not kind.hourglass_control:
         return 0.0
-    if section.hourglass and (controls.enhanced or controls.hourglass != 1):
-        what = "HOURGLASS=ENHANCED" if controls.enhanced else "a factor of the hourglass stiffness"
-        raise DeckError(
-            section.source, f"*HOURGLASS STIFFNESS and *SECTION CONTROLS with {what}: expected only one of them"
-        )
+    check_one_control(section)
     if controls.enhanced:
         _check_enhanced(group, kind, section)
         return 0.0
@@ -269,6 +266,16 @@ def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: Soli
         message = f"elements of type {group.type} with *USER MATERIAL need *HOURGLASS STIFFNESS after *SOLID SECTION"
         raise DeckError(section.source, message)
     return controls.hourglass * HOURGLASS_FRACTION * shear_modulus(elastic, kind.tensor)
+
+
+def check_one_control(section: SolidSection | CompositeSection) -> None:
+    """Raise DeckError if two keywords give the hourglass control."""
+    controls = section.controls
+    if section.hourglass and (controls.enhanced or controls.hourglass != 1):
+        what = "HOURGLASS=ENHANCED" if controls.enhanced else "a factor of the hourglass stiffness"
+        raise DeckError(
+            section.source, f"*HOURGLASS STIFFNESS and *SECTION CONTROLS with {what}: expected only one of them"
+        )
 
 
 def _check_enhanced(group: ElementGroup, kind: ContinuumType, section: SolidSection) -> None:
@@ -298,15 +305,18 @@ def _of_tangent(kind: ContinuumType, section: SolidSection) -> bool:
     return section.material.user is not None and not pressure_unknowns(kind, section.material)
 
 
-def _warn_of_enhanced(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> None:
-    """Say, once per section, what the enhanced hourglass control is based on."""
+def warn_of_enhanced(
+    model: Model, group: ElementGroup, kind: ContinuumType, library: Library, tangent: str = ""
+) -> None:
+    """Say, once per section, what the enhanced hourglass control is based on; tangent: what its moduli are from."""
     section = group.section
-    if not (isinstance(section, SolidSection) and section.controls.enhanced and kind.hourglass_control):
+    assert isinstance(section, SolidSection | CompositeSection)
+    if not (section.controls.enhanced and kind.hourglass_control):
         return
     if group is next(other for other in model.groups if other.section is section):
         message = "*SECTION CONTROLS, HOURGLASS=ENHANCED: the published method that Abaqus' manual names"
-        if _of_tangent(kind, section):
-            message += f", with the isotropic part of the first DDSDDE of UMAT (material {section.material.name})"
+        if tangent:
+            message += f", with the isotropic part of the first {tangent}"
         library.warn(f"{section.source}: {message}; there are no results of Abaqus to compare with")
 
 

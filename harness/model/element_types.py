@@ -220,12 +220,8 @@ class ContinuumType(SolidType):
 
     @property
     def layered(self) -> bool:
-        """Whether it may have layers (*SOLID SECTION, COMPOSITE): bricks of displacements alone.
-
-        Those of one point are left out here: their hourglass control is that of one material.
-        """
-        bricks = self.family in (HEX8, HEX20) and not self.hourglass_control
-        return bricks and not (self.coupled or self.electrical or self.pressures)
+        """Whether it may have layers (*SOLID SECTION, COMPOSITE): bricks of displacements alone."""
+        return self.family in (HEX8, HEX20) and not (self.coupled or self.electrical or self.pressures)
 
     @property
     def modes(self) -> int:

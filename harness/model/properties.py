@@ -353,12 +353,17 @@ class SolidLayer:
 
 @dataclass(frozen=True, slots=True)
 class CompositeSection:
-    """*SOLID SECTION, COMPOSITE: layers that follow each other along a direction of parent coordinates, 1, 2 or 3."""
+    """*SOLID SECTION, COMPOSITE: layers that follow each other along a direction of parent coordinates, 1, 2 or 3.
+
+    hourglass  *HOURGLASS STIFFNESS; 0: not given
+    """
 
     elset: str
     layers: tuple[SolidLayer, ...]
     direction: int
     source: Source
+    hourglass: float = 0.0
+    controls: SectionControls = SectionControls()
 
     @property
     def sections(self) -> int:

@@ -547,12 +547,12 @@ def integration_rule(family: int, points: int, nodes: int, dimension: int) -> tu
     return weights, shapes, slopes.transpose(0, 2, 1)
 
 
-def define_rule(family: int, parent: FloatArray, weights: FloatArray) -> int:
+def define_rule(family: int, parent: FloatArray, weights: FloatArray, *, reduced: bool) -> int:
     """Add a family with integration points at parent coordinates (points, dimension); returns its number.
 
-    With any other number of points it is the given family.
+    With any other number of points it is the given family. reduced: of an element with hourglass control.
     """
-    return int(_host.host_define_rule(family, parent.T, weights))
+    return int(_host.host_define_rule(family, parent.T, weights, reduced))
 
 
 def slopes_at_nodes(family: int, nodes: int) -> FloatArray:

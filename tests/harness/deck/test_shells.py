@@ -236,7 +236,11 @@ SHEAR = HOMOGENEOUS + "\n*TRANSVERSE SHEAR STIFFNESS\n1., 1."
         ),
         (
             {"section": GENERAL, "material": "*ELASTIC\n1., 0.\n*PLASTIC\n1."},
-            r"shell\.inp:\d+: .*material M is not linear elastic, which the section is; \*SHELL SECTION takes it",
+            r"shell\.inp:\d+: .*material M is not linear elastic, but the section is linear elastic with constants; ",
+        ),
+        (
+            {"section": GENERAL, "material": "*ELASTIC\n1., 0.3, 0.\n2., 0.3, 100."},
+            r"material M depends on temperature or fields, but the section is linear elastic with constants; \*SHELL",
         ),
         ({"data": "1., 1.\n*DLOAD\nALL, EDLD1, 1.\n"}, "EDLD1 needs a direction, entries 4 to 6"),
         (

@@ -21,6 +21,7 @@ from harness.model.properties import (
     Material,
     Orientation,
     Plastic,
+    SectionControls,
     SolidLayer,
     SolidSection,
 )
@@ -130,8 +131,8 @@ def one_layer(points, splits=(1.0,), orientation=None, direction=3, **options):
 
 
 def test_types():
-    """Bricks with displacements alone; those of one point have hourglass control, which is that of one material."""
-    assert LAYERED == ("C3D8", "C3D20", "C3D20R", "C3D8I")
+    """Bricks with displacements alone (Analysis User's Guide, Solid elements)."""
+    assert set(LAYERED) == {"C3D8", "C3D8R", "C3D8I", "C3D20", "C3D20R"}
 
 
 @pytest.mark.parametrize("element_type", ["C3D8", "C3D8I"])
@@ -216,6 +217,18 @@ def test_uniform_strain_is_that_of_laminate_theory(solid, element_type, directio
         np.testing.assert_allclose(here, np.tile(expected, (len(here), 1)), rtol=1e-9, atol=1e-9)
 
 
+def bending_stiffness(section, thickness):
+    """D11 about the middle of a laminate whose relative thicknesses have the sum 1."""
+    bottom, found = -thickness / 2, 0.0
+    for layer in section.layers:
+        top = bottom + thickness * layer.thickness
+        axes = about(3, layer.angle or 0.0)
+        q11 = stress_of(CONSTANTS[layer.material.name], tensor_of([1, 0, 0, 0, 0, 0]), axes)[0, 0]
+        found += q11 * (top**3 - bottom**3) / 3
+        bottom = top
+    return found
+
+
 @pytest.mark.parametrize("element_type", ["C3D20", "C3D20R"])
 def test_bending_is_that_of_laminate_theory(solid, element_type):
     """u = k x z, w = -k x^2/2: a curvature alone, and a strain across the layers of which no stress comes. Its energy
@@ -227,14 +240,30 @@ def test_bending_is_that_of_laminate_theory(solid, element_type):
     u = np.column_stack([k * x * z, 0 * x, -k * x**2 / 2])
     section = laminate()
     _, _, energy, _ = solid(element_type, section, nodes)(u)
-    bottom, bending = -0.25, 0.0
-    for layer in section.layers:
-        top = bottom + 0.5 * layer.thickness
-        axes = about(3, layer.angle or 0.0)
-        q11 = stress_of(CONSTANTS[layer.material.name], tensor_of([1, 0, 0, 0, 0, 0]), axes)[0, 0]
-        bending += q11 * (top**3 - bottom**3) / 3
-        bottom = top
-    assert energy[1] == pytest.approx(0.5 * bending * k**2 * 6.0, rel=1e-9)
+    assert energy[1] == pytest.approx(0.5 * bending_stiffness(section, 0.5) * k**2 * 6.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("options", [{}, {"hourglass": 3.0}, {"controls": SectionControls(enhanced=True)}])
+def test_one_layer_of_one_point(solid, options):
+    """C3D8R, with its hourglass control: the same as without layers."""
+    nodes, _ = affine("hexahedron")
+    nodes[6] += [0.3, 0.2, -0.1]
+    section = replace(one_layer(1, elastic=ISOTROPIC), **options)
+    plain = SolidSection("ALL", material(elastic=ISOTROPIC), None, 1.0, SOURCE, **options)
+    u = 0.01 * np.random.default_rng(3).uniform(-1, 1, nodes.shape)
+    found, expected = (solid("C3D8R", given, nodes)(u) for given in (section, plain))
+    for one, other in zip(found[:3], expected[:3], strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-9 * abs(other).max())
+
+
+def test_layers_of_one_point_bend(solid):
+    """u = k x z: in the middle of C3D8R it is a curvature alone, whose energy has D11 of laminate theory."""
+    nodes, _ = unit_cell("hexahedron")
+    nodes = (nodes - 0.5) * [2.0, 3.0, 0.5]
+    k, section = 0.01, laminate()
+    u = np.column_stack([k * nodes[:, 0] * nodes[:, 2], 0 * nodes[:, 0], 0 * nodes[:, 0]])
+    _, _, energy, _ = solid("C3D8R", section, nodes)(u)
+    assert energy[1] == pytest.approx(0.5 * bending_stiffness(section, 0.5) * k**2 * 6.0, rel=1e-9)
 
 
 @pytest.mark.parametrize("element_type", ["C3D20", "C3D20R"])
@@ -357,7 +386,7 @@ def test_stack_direction_without_layers(run):
     np.testing.assert_array_equal(*found)
 
 
-@pytest.mark.parametrize("element_type", ["C3D8", "C3D8I"])
+@pytest.mark.parametrize("element_type", ["C3D8", "C3D8R", "C3D8I"])
 def test_large_displacements_of_equal_layers(run, element_type):
     """Uniform stretches and rotations: the same as without layers, whose directions turn in the same way."""
     gradient = np.array([[0.2, 0.3, 0.0], [-0.2, 0.1, 0.1], [0.05, 0.0, -0.1]])
@@ -534,8 +563,8 @@ def test_modes_of_equal_layers(run, step):
         (
             "1., 1, P",
             "",
-            {"type": "C3D8R"},
-            r"COMPOSITE is not supported for elements of type C3D8R; expected C3D8, C3D20, C3D20R, C3D8I",
+            {"type": "C3D8H"},
+            r"COMPOSITE is not supported for elements of type C3D8H; expected C3D8, C3D8R, C3D20, C3D20R, C3D8I",
         ),
         (
             "1., 1, Q\n1., 1, D",
@@ -578,6 +607,26 @@ def test_modes_of_equal_layers(run, step):
 def test_what_is_wrong_is_named(run, layers, options, more, message):
     with pytest.raises(DeckError, match=message):
         run(plies(layers, options, **more))
+
+
+def test_umat_in_elements_of_one_point_needs_hourglass_stiffness(run):
+    text = plies("1., 1, U", type="C3D8R", before="*MATERIAL, NAME=U\n*USER MATERIAL, CONSTANTS=1\n1.\n")
+    message = r"elements of type C3D8R with \*USER MATERIAL need \*HOURGLASS STIFFNESS after \*SOLID SECTION"
+    with pytest.raises(DeckError, match=message):
+        run(text)
+
+
+def test_two_hourglass_controls(run):
+    text = plies("1., 1, P\n*HOURGLASS STIFFNESS\n1.", ", CONTROLS=C", type="C3D8R")
+    text = text.replace("*MATERIAL", "*SECTION CONTROLS, NAME=C, HOURGLASS=ENHANCED\n*MATERIAL", 1)
+    with pytest.raises(DeckError, match=r"\*HOURGLASS STIFFNESS and \*SECTION CONTROLS with HOURGLASS=ENHANCED"):
+        run(text)
+
+
+def test_an_angle_of_zero_needs_no_normal(run):
+    """The direction about which angles are lies in the layer, as in the public deck 1Element-UMAT."""
+    found = run(plies("1., 3, P, 0.", ", ORIENTATION=O, STACK DIRECTION=1")).field("U").copy()
+    np.testing.assert_array_equal(found, run(plies("1., 3, P, O", ", STACK DIRECTION=1")).field("U"))
 
 
 def test_dynamic_needs_density(run):
