@@ -349,12 +349,13 @@ subroutine host_set_dependence(number, constants, turn, table, rows, columns)
 end subroutine host_set_dependence
 
 !> Let USDFLD give the field variables of a material.
-subroutine host_set_user_field(number, address, names, statev, axes)
+subroutine host_set_user_field(number, address, names, statev, room, axes)
   use, intrinsic :: iso_c_binding, only: c_intptr_t
   use host_kinds, only: dp, i4, i8
   use host_materials, only: find_material, material_t
   implicit none (type, external)
   integer(i4), intent(in) :: number, statev
+  integer(i4), intent(in) :: room             !< as user_field_t has it
   integer(i8), intent(in) :: address
   character(len=80), intent(in) :: names(2)   !< of the material and its orientation
   real(dp), intent(in) :: axes(3, 3)          !< rows: material directions
@@ -365,12 +366,14 @@ subroutine host_set_user_field(number, address, names, statev, axes)
   material%user_field%material = names(1)
   material%user_field%orientation = names(2)
   material%user_field%statev = statev
+  material%user_field%room = room
+  material%user_field%plastic = allocated(material%yield) .or. allocated(material%hardening)
   material%axes = axes
   material%variables = max(material%variables, 1)
 end subroutine host_set_user_field
 
 !> Make a material of UMAT known; returns the number that stands for it.
-subroutine host_define_user_material(umat, name, ntens, hybrid, constants, count, number, n)
+subroutine host_define_user_material(umat, name, ntens, hybrid, statev, room, constants, count, number, n)
   use, intrinsic :: iso_c_binding, only: c_intptr_t
   use host_kinds, only: dp, i4, i8
   use host_materials, only: define, material_t
@@ -380,6 +383,7 @@ subroutine host_define_user_material(umat, name, ntens, hybrid, constants, count
   character(len=80), intent(in) :: name
   integer(i4), intent(in) :: n, ntens
   integer(i4), intent(in) :: hybrid           !< formulation in hybrid elements (host_umat)
+  integer(i4), intent(in) :: statev, room     !< as user_material_t has them
   real(dp), intent(in) :: constants(n)
   integer(i4), intent(in) :: count            !< of the constants: f2py passes no empty arrays
   integer(i4), intent(out) :: number
@@ -389,6 +393,8 @@ subroutine host_define_user_material(umat, name, ntens, hybrid, constants, count
   material%user%umat = transfer(int(umat, c_intptr_t), material%user%umat)
   material%user%name = name
   material%user%hybrid = hybrid
+  material%user%statev = statev
+  material%user%room = room
   material%user%constants = constants(:count)
   allocate (material%user%reported(outputs), material%user%spoilt(outputs), source=.false.)
   number = define(material)
@@ -796,8 +802,8 @@ subroutine host_uamp_call(address, name, clock, props, svars, info, sensors, nam
   define = arguments%define
 end subroutine host_uamp_call
 
-!> Address of built-in elements: 1 continuum, 2 coupled temperature-displacement, 3 cohesive, 4 trusses, springs and masses,
-!> 5 heat transfer, 6 heat that enters, 7 shells, 8 beams, 9 piezoelectric.
+!> Address of built-in elements: 1 continuum, 2 coupled temperature-displacement, 3 cohesive, 4 springs and masses, 5 heat
+!> transfer, 6 heat that enters, 7 shells, 8 beams, 9 piezoelectric, 10 trusses.
 subroutine host_element_address(elements, address)
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_intptr_t
   use host_beam, only: beam_uel
@@ -810,11 +816,13 @@ subroutine host_element_address(elements, address)
   use host_piezoelectric, only: piezoelectric_uelmat
   use host_shell, only: shell_uelmat
   use host_solid, only: solid_uelmat
+  use host_truss, only: truss_uelmat
   implicit none (type, external)
   integer(i4), intent(in) :: elements
   integer(i8), intent(out) :: address
-  type(c_funptr) :: all(9)
+  type(c_funptr) :: all(10)
   all = [c_funloc(solid_uelmat), c_funloc(coupled_uelmat), c_funloc(cohesive_uel), c_funloc(discrete_uel), c_funloc(heat_uelmat), &
-         c_funloc(heat_load_uel), c_funloc(shell_uelmat), c_funloc(beam_uel), c_funloc(piezoelectric_uelmat)]
+         c_funloc(heat_load_uel), c_funloc(shell_uelmat), c_funloc(beam_uel), c_funloc(piezoelectric_uelmat), &
+         c_funloc(truss_uelmat)]
   address = int(transfer(all(elements), 1_c_intptr_t), i8)
 end subroutine host_element_address

@@ -21,6 +21,18 @@ subroutine host_rule(family, weight, n, dn, known, points, nodes, dim)
   dn = rule%dn
 end subroutine host_rule
 
+!> Make a rule of a family known; returns the number of the family that has it.
+subroutine host_define_rule(family, parent, weight, reduced, number, points, dim)
+  use host_kinds, only: dp, i4
+  use host_shape, only: define_rule
+  implicit none (type, external)
+  integer(i4), intent(in) :: family, points, dim
+  real(dp), intent(in) :: parent(dim, points), weight(points)   !< parent coordinates and weights
+  integer(i4), intent(in) :: reduced          !< 0 or 1, as rule_t has it
+  integer(i4), intent(out) :: number
+  number = int(define_rule(int(family), parent, weight, reduced /= 0), i4)
+end subroutine host_define_rule
+
 !> Derivatives of the shape functions of a surface (nodes, 2, place) by its parent coordinates, at its nodes.
 subroutine host_slopes_at_nodes(family, slopes, nodes)
   use host_kinds, only: dp, i4

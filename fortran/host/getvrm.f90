@@ -1,13 +1,13 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !> GETVRM: values of the material point for which UVARM or USDFLD is running, in the directions of *ORIENTATION. S, E and
-!> LE (direct components, then shear); PE (the same, then in place 7 the equivalent plastic strain); SINV (Mises, Tresca,
-!> pressure, third invariant); SDV. jrcd = 1 if the point does not have the variable.
+!> LE (11, 22, 33, 12, 13, 23; those that the point does not have are zero, and N/A in flgray); PE (the same, then in place 7
+!> the equivalent plastic strain); SINV (Mises, Tresca, pressure, third invariant); SDV. jrcd = 1 if the point does not have
+!> the variable.
 subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccfla)
   use host_context, only: current
   use host_kinds, only: dp, i4
   use host_kinematics, only: rotated
-  use host_materials, only: history_values
   use host_tensors, only: eigen
   implicit none (type, external)
   character(len=*), intent(in) :: var
@@ -16,34 +16,40 @@ subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccf
   character(len=3), intent(inout) :: flgray(15)
   integer(i4), intent(out) :: jrcd
   integer(i4), intent(in) :: jmac(*), jmatyp(*), matlayo, laccfla
-  integer :: n, head, shown
+  integer :: n, shown
+  real(dp) :: strain(6), stress(6)
+  integer, allocatable :: place(:)
   jrcd = 1
   if (.not. associated(current%values)) return
   array = 0
   jarray = 0
   flgray = 'YES'
-  n = size(current%values)/2
-  head = 0
-  if (associated(current%history)) head = size(current%history, 1) - current%statev
+  place = places(size(current%values))
+  n = size(place)
+  strain = 0
+  strain(place) = current%values(:n)
+  stress = 0
+  stress(place) = current%values(n + 1:2*n)
   jrcd = 0
   select case (var)
   case ('E', 'LE')
-    array(:n) = current%values(:n)
+    call give(strain)
   case ('S')
-    array(:n) = current%values(n + 1:)
+    call give(stress)
   case ('SINV')
-    array(:4) = invariants(n, current%values(n + 1:))
+    array(:4) = invariants(stress)
   case ('PE')
-    ! backstresses may follow
-    if (head >= history_values .and. mod(head - history_values, 6) == 0) then
-      array(:6) = rotated(6, current%history(:6, current%point), current%axes, 2.0_dp)
-      array(7) = current%history(7, current%point)
-    else
+    if (.not. current%plastic) then
       jrcd = 1
+    else if (n == 1) then
+      array([1, 7]) = current%values(3:4)
+    else
+      array(:6) = rotated(6, current%history(:6, current%column), current%axes, 2.0_dp)
+      array(7) = current%history(7, current%column)
     end if
   case ('SDV')
     shown = min(current%statev, 15)
-    if (shown > 0) array(:shown) = current%history(head + 1:head + shown, current%point)
+    if (shown > 0) array(:shown) = current%history(current%first:current%first + shown - 1, current%column)
     if (shown == 0) jrcd = 1
   case default
     jrcd = 1
@@ -51,12 +57,33 @@ subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccf
 
 contains
 
+  !> Which of the six components a point has, by the number of its values: of a truss, of plane stress in shells, of solids.
+  pure function places(values) result(place)
+    integer, intent(in) :: values
+    integer, allocatable :: place(:)
+    integer :: k
+    select case (values)
+    case (4)
+      place = [1]
+    case (6)
+      place = [1, 2, 4]
+    case default
+      place = [(k, k=1, values/2)]
+    end select
+  end function places
+
+  subroutine give(tensor)
+    real(dp), intent(in) :: tensor(6)
+    array(:6) = tensor
+    flgray = 'N/A'
+    flgray(place) = 'YES'
+  end subroutine give
+
   !> Mises stress, Tresca stress, pressure, and the cube root of 27/2 times the determinant of the deviator.
-  function invariants(n, stress) result(values)
-    integer, intent(in) :: n
-    real(dp), intent(in) :: stress(n)
+  function invariants(stress) result(values)
+    real(dp), intent(in) :: stress(6)
     real(dp) :: values(4), principal(3), directions(3, 3), third
-    call eigen(stress, 1_i4, 3_i4, int(n - 3, i4), principal, directions)
+    call eigen(stress, 1_i4, 3_i4, 3_i4, principal, directions)
     values(2) = maxval(principal) - minval(principal)
     values(3) = -sum(principal)/3
     principal = principal + values(3)

@@ -53,9 +53,13 @@ module host_context
     real(dp) :: mean_stress = 0
     real(dp), pointer, contiguous :: history(:, :) => null()        !< (values, npt) committed material history
     real(dp), pointer, contiguous :: history_trial(:, :) => null()  !< (values, npt) of this call
-    real(dp), pointer, contiguous :: values(:) => null()            !< strain, then stress of the point, for GETVRM
+    !> Strain, then stress of the point, for GETVRM; of a truss E11, S11, PE11 and the equivalent plastic strain.
+    real(dp), pointer, contiguous :: values(:) => null()
     real(dp) :: axes(3, 3) = 0    !< rows: directions of those values
-    integer :: statev = 0         !< number of STATEV, the last values of the history, for GETVRM
+    integer :: column = 0         !< of the point in the history, for GETVRM
+    integer :: first = 0          !< place of its STATEV there
+    integer :: statev = 0         !< and their number
+    logical :: plastic = .false.  !< it has a plastic strain, with which its history begins, but that of a truss
   end type call_context
 
   ! each thread has its own

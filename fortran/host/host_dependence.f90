@@ -22,7 +22,7 @@ contains
   !> Stiffness and compliance in global axes; thickness: strain 33 per stress in plane stress.
   subroutine elastic_matrices(dependence, ntens, variables, stiffness, compliance, thickness, constants, definite)
     type(dependence_t), intent(in) :: dependence
-    integer, intent(in) :: ntens                      !< 3, 4 or 6
+    integer, intent(in) :: ntens                      !< 1, 3, 4 or 6
     real(dp), intent(in) :: variables(:)              !< temperature and fields; more than the table has are left out
     real(dp), intent(out) :: stiffness(ntens, ntens), compliance(ntens, ntens), thickness(3)
     real(dp), intent(out) :: constants(dependence%constants)
@@ -33,8 +33,8 @@ contains
     call interpolate(dependence%constants, size(dependence%table, 1) - dependence%constants, dependence%table, variables, constants)
     full = matmul(transpose(dependence%turn), matmul(compliance_of(constants), dependence%turn))
     thickness = full(3, plane(:3))
-    if (ntens == 3) then
-      compliance = full(plane(:3), plane(:3))
+    if (ntens <= 3) then
+      compliance = full(plane(:ntens), plane(:ntens))
       call invert_definite(compliance, stiffness, definite)
     else
       call invert_definite(full, rigid, definite)

@@ -1,10 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in trusses, springs, masses and loads that follow their faces, as a procedure with the arguments of UEL. JTYPE tells which:
+!> Built-in springs, masses and loads that follow their faces, as a procedure with the arguments of UEL. JTYPE tells which:
 !>
-!> 1  T2D2, T3D2: PROPS hold area, Young's modulus, density, then yield stress and plastic strain in turn; SVARS strain,
-!>    stress, plastic strain, equivalent plastic strain. With NLGEOM the strain is the logarithm of the stretch and the
-!>    volume stays (Abaqus Theory Guide, Truss elements).
 !> 2  SPRINGA: PROPS hold force and elongation in turn, ascending; SVARS elongation, force.
 !> 3  SPRING1, SPRING2: the same between the first unknown and the second, or the ground; SVARS as SPRINGA.
 !> 4  MASS: PROPS(1).
@@ -14,11 +11,10 @@
 !>
 !> In dynamic analyses SVARS go on with the forces of the last two increments, those of loads on faces always.
 module host_discrete
-  use host_context, only: added_stress, stress_matrix
+  use host_bar, only: bar_forces, bar_of, bar_t
   use host_inertia, only: respond
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
-  use host_mises, only: radial_return, yield_stress
   use host_followers, only: add_pressure, add_traction
   use host_protect, only: escape
   use host_shape, only: rule_of, rule_t
@@ -26,7 +22,7 @@ module host_discrete
   private
   public :: discrete_uel
 
-  integer(i4), parameter :: truss = 1, axial_spring = 2, spring = 3, mass_point = 4, face = 5
+  integer(i4), parameter :: axial_spring = 2, spring = 3, mass_point = 4, face = 5
 
 contains
 
@@ -38,23 +34,25 @@ contains
     real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
                 params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
     real(dp) :: mass(ndofel, ndofel), old(ndofel, 2)
+    real(dp) :: pull, slope
+    type(bar_t) :: bar
     integer :: i, n, states
     n = ndofel
-    states = merge(4, 2, jtype == truss)
-    if (jtype == face) states = 0
+    states = merge(0, 2, jtype == face)
     rhs(1:n*nrhs) = 0
     amatrx(1:n*n) = 0
     mass = 0
     do i = 1, n
       if (jtype == mass_point) mass(i, i) = props(1)
-      if (jtype == truss) mass(i, i) = 0.5_dp*props(1)*props(3)*initial_length(int(mcrd), coords)
     end do
     old = 0
     if (nsvars >= states + 2*n) old = reshape(svars(states + 1:states + 2*n), [n, 2])
     if (lflags(3) /= 3 .and. lflags(3) /= 4) then
       select case (jtype)
-      case (truss, axial_spring)
-        call bar(int(mcrd), jtype, lflags(2) /= 0, lflags(3), int(nprops), props, coords, u, du, svars, rhs, amatrx, energy)
+      case (axial_spring)
+        bar = bar_of(int(mcrd), lflags(2) /= 0, coords, u)
+        call spring_force(int(nprops), props, bar%elongation, svars, pull, slope, energy)
+        call bar_forces(int(mcrd), bar, lflags(3), pull, slope, du, rhs, amatrx)
       case (spring)
         call dof_spring(n, int(nprops), props, u, svars, rhs, amatrx, energy)
       case (face)
@@ -88,104 +86,6 @@ contains
     end if
     if (.not. finite) stiffness = 0
   end subroutine load_face
-
-  pure real(dp) function initial_length(dim, x)
-    integer, intent(in) :: dim
-    real(dp), intent(in) :: x(dim, 2)
-    initial_length = norm2(x(:, 2) - x(:, 1))
-  end function initial_length
-
-  !> A force along the line between two nodes; for the matrix of a stress (request, as LFLAGS(3)) its change as it turns, alone.
-  subroutine bar(dim, kind, finite, request, n, props, x, u, du, state, force, stiffness, energy)
-    integer, intent(in) :: dim, n
-    integer(i4), intent(in) :: kind, request
-    logical, intent(in) :: finite
-    real(dp), intent(in) :: props(n), x(dim, 2), u(dim, 2), du(dim, 2)
-    real(dp), intent(inout) :: state(4), force(dim, 2), stiffness(dim, 2, dim, 2), energy(8)
-    real(dp) :: along(dim), length, now, elongation, pull, slope, block(dim, dim)
-    integer :: i
-    length = initial_length(dim, x)
-    if (.not. length > 0) then
-      call add_message(-3_i4, 'both nodes are at the same position')
-      call escape()
-    end if
-    along = (x(:, 2) - x(:, 1))/length
-    now = length
-    elongation = dot_product(along, u(:, 2) - u(:, 1))
-    if (finite) then
-      along = x(:, 2) + u(:, 2) - x(:, 1) - u(:, 1)
-      now = norm2(along)
-      along = along/now
-      elongation = now - length
-    end if
-    if (kind == truss) then
-      call truss_force(n, props, length, now, elongation, finite, state, pull, slope, energy)
-    else
-      call spring_force(n, props, elongation, state, pull, slope, energy)
-    end if
-    if (request == added_stress) pull = slope*dot_product(along, du(:, 2) - du(:, 1))
-    block = slope*outer(dim, along)
-    if (stress_matrix(request)) block = 0
-    if (finite .or. stress_matrix(request)) then
-      ! the force turns with the line
-      block = block - pull/now*outer(dim, along)
-      do i = 1, dim
-        block(i, i) = block(i, i) + pull/now
-      end do
-    end if
-    force(:, 1) = -pull*along
-    force(:, 2) = pull*along
-    stiffness(:, 1, :, 1) = block
-    stiffness(:, 2, :, 2) = block
-    stiffness(:, 1, :, 2) = -block
-    stiffness(:, 2, :, 1) = -block
-  end subroutine bar
-
-  pure function outer(n, x) result(matrix)
-    integer, intent(in) :: n
-    real(dp), intent(in) :: x(n)
-    real(dp) :: matrix(n, n)
-    matrix = spread(x, 2, n)*spread(x, 1, n)
-  end function outer
-
-  !> Force of a truss and its derivative by the elongation; Mises plasticity in one direction where there is a table.
-  pure subroutine truss_force(n, props, length, now, elongation, finite, state, pull, slope, energy)
-    integer, intent(in) :: n
-    real(dp), intent(in) :: props(n), length, now, elongation
-    logical, intent(in) :: finite
-    real(dp), intent(inout) :: state(4), energy(8)
-    real(dp), intent(out) :: pull, slope
-    real(dp) :: area, young, strain, stress, modulus, flow, hardening, increment, volume, work, table((n - 3)/2, 2)
-    area = props(1)
-    young = props(2)
-    volume = area*length
-    strain = elongation/length
-    if (finite) strain = log(now/length)
-    stress = young*(strain - state(3))
-    modulus = young
-    if (n > 3) then
-      table = transpose(reshape(props(4:), [2, (n - 3)/2]))
-      call yield_stress(table, state(4), flow, hardening)
-      if (abs(stress) > flow) then
-        call radial_return(table, state(4), abs(stress), young, increment, hardening)
-        state(3) = state(3) + sign(increment, stress)
-        state(4) = state(4) + increment
-        stress = young*(strain - state(3))
-        modulus = young*hardening/(young + hardening)
-      end if
-    end if
-    ! trapezoidal rule, exact where the response is linear
-    work = energy(2) + energy(4) + 0.5_dp*volume*(stress + state(2))*(strain - state(1))
-    state(1:2) = [strain, stress]
-    energy(2) = 0.5_dp*volume*stress**2/young
-    energy(4) = work - energy(2)
-    pull = area*stress
-    slope = area*modulus/length
-    if (finite) then
-      pull = pull*length/now
-      slope = volume*(modulus - stress)/now**2
-    end if
-  end subroutine truss_force
 
   !> Force of a spring and its derivative by the elongation: proportional where PROPS is one number, else along the table
   !> of force and elongation, constant outside it.

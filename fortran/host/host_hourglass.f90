@@ -1,6 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Hourglass control of elements of one integration point with four or eight nodes.
+!> Hourglass control of elements with four or eight nodes that have one integration point, or one for each section point of layers.
+!> The latter bend across their layers without it; that it acts on all patterns there too is inferred.
 !>
 !> h is a pattern of 1 and -1 at the nodes, B the mean gradients of the shape functions over the volume V before any
 !> displacement. gamma = h - B (x h) is the part of the pattern that is in no linear displacement, q = u gamma is the hourglass
@@ -25,25 +26,19 @@
 !> which names enhanced assumed strains; there are no results to compare with.
 module host_hourglass
   use host_kinds, only: dp
-  use host_shape, only: hourglass_shapes, is_multilinear, rule_t
+  use host_shape, only: hourglass_shapes, rule_of, rule_t
   implicit none (type, external)
   private
-  public :: has_hourglass_modes, resist_hourglass
+  public :: resist_hourglass
 
   integer, parameter :: modes_of(3) = [0, 1, 4]           !< hourglass patterns by the dimension
   real(dp), parameter :: factor_in_space = 0.2357_dp     !< sqrt(2)/6 in four digits, as Abaqus has it
 
 contains
 
-  !> Whether displacements other than rigid ones cause no strain at the points of an element.
-  pure logical function has_hourglass_modes(rule)
-    type(rule_t), intent(in) :: rule
-    has_hourglass_modes = rule%points == 1 .and. is_multilinear(rule)
-  end function has_hourglass_modes
-
   !> Add force and tangent of the hourglass control; its energy.
-  pure subroutine resist_hourglass(rule, b, volume, parameter, enhanced, finite, x, u, force, stiffness, energy)
-    type(rule_t), intent(in) :: rule                  !< of one point
+  subroutine resist_hourglass(rule, b, volume, parameter, enhanced, finite, x, u, force, stiffness, energy)
+    type(rule_t), intent(in) :: rule                  !< reduced
     real(dp), intent(in) :: b(rule%nodes, rule%dim), volume    !< mean gradients and volume before any displacement
     real(dp), intent(in) :: parameter                 !< hourglass stiffness parameter of the total stiffness
     real(dp), intent(in) :: enhanced(:)               !< Young's modulus and Poisson's ratio instead; none: total stiffness
@@ -52,13 +47,15 @@ contains
     real(dp), intent(inout) :: force(rule%dim, rule%nodes), stiffness(rule%dim*rule%nodes, rule%dim*rule%nodes), energy
     real(dp), dimension(rule%nodes, modes_of(rule%dim)) :: h, gamma
     real(dp) :: q(rule%dim, modes_of(rule%dim)), k(rule%dim, modes_of(rule%dim), rule%dim, modes_of(rule%dim))
+    type(rule_t), pointer :: middle
     integer :: dim
     dim = rule%dim
+    middle => rule_of(rule%family, 1)
     h = hourglass_shapes(dim)
     gamma = h - matmul(b, matmul(x, h))
     q = matmul(u, gamma)
     if (size(enhanced) > 0) then
-      call enhanced_stiffness(dim, volume, enhanced(1), enhanced(2), matmul(x, rule%dn(:, :, 1)), k)
+      call enhanced_stiffness(dim, volume, enhanced(1), enhanced(2), matmul(x, middle%dn(:, :, 1)), k)
     else
       call total_stiffness(dim, volume*parameter, b, dot_product(h(:, 1), gamma(:, 1)), k)
     end if

@@ -41,7 +41,7 @@ module host_materials
   real(dp), parameter :: smaller = 0.25_dp
 
   type :: material_t
-    integer :: ntens = 0                           !< 3, 4 or 6
+    integer :: ntens = 0                           !< 1, 3, 4 or 6
     real(dp) :: stiffness(6, 6) = 0                !< (ntens, ntens) of it, global axes
     real(dp) :: compliance(6, 6) = 0               !< its inverse
     real(dp) :: thickness(3) = 0                   !< plane stress: elastic strain 33 = thickness . stress

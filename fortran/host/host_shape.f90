@@ -4,6 +4,7 @@
 !>
 !> A family is a cell with its interpolation. Families have the numbers of harness/model/element_types.py, and nodes in the
 !> order of Abaqus: corners, then the midside nodes. The rest of what defines an element type is in that file.
+!> Numbers beyond those are families with integration points of their own (define_rule), of sections with layers.
 module host_shape
   use core_serendipity, only: brick_places, quad_places, serendipity_functions
   use host_kinds, only: dp, i4
@@ -12,7 +13,7 @@ module host_shape
   implicit none (type, external)
   private
   public :: line2, quad4, rule_t, rule_of, find_rule, is_quadratic, is_multilinear, radius_of, hourglass_shapes, &
-            parent_place, slopes_at_nodes
+            parent_place, slopes_at_nodes, define_rule
 
   integer, parameter :: line2 = 1, line3 = 2, tri3 = 3, tri6 = 4, quad4 = 5, quad8 = 6, tet4 = 7, hex8 = 8, hex20 = 9, tet10 = 10
   integer, parameter :: wedge6 = 11, wedge15 = 12, families = wedge15, most_points = 27
@@ -23,6 +24,7 @@ module host_shape
   !> Integration points of a family, counted along the first direction first.
   type :: rule_t
     integer :: family = 0, dim = 0, nodes = 0, corners = 0, points = 0
+    logical :: reduced = .false.            !< one point stands for a quadrilateral or hexahedron, or for each of its layers
     real(dp), allocatable :: weight(:)      !< (points)
     real(dp), allocatable :: n(:, :)        !< (nodes, points) shape functions
     real(dp), allocatable :: dn(:, :, :)    !< (nodes, dim, points) their derivatives by the parent coordinates
@@ -30,6 +32,12 @@ module host_shape
 
   !> Rules requested so far, by family and number of points.
   type(rule_t), save, target :: rules(families, most_points)
+
+  type :: shelf_t
+    type(rule_t), pointer :: rule => null()
+  end type shelf_t
+
+  type(shelf_t), allocatable, save :: defined(:)   !< those of define_rule
 
 contains
 
@@ -49,32 +57,71 @@ contains
   subroutine find_rule(family, points, rule)
     integer, intent(in) :: family, points
     type(rule_t), pointer, intent(out) :: rule
+    nullify (rule)
+    if (family > families .and. allocated(defined)) then
+      if (family > families + size(defined)) return
+      associate (own => defined(family - families)%rule)
+        if (own%points == points) then
+          rule => own
+        else
+          call find_standard(own%family, points, rule)
+        end if
+      end associate
+    else
+      call find_standard(family, points, rule)
+    end if
+  end subroutine find_rule
+
+  !> The same of a family that is not defined by its points.
+  subroutine find_standard(family, points, rule)
+    integer, intent(in) :: family, points
+    type(rule_t), pointer, intent(out) :: rule
     real(dp), allocatable :: parent(:, :), weight(:)
-    integer :: dim, nodes, p
     logical :: known
     nullify (rule)
     if (min(family, points) < 1 .or. family > families .or. points > most_points) return
     if (.not. allocated(rules(family, points)%weight)) then
-      dim = sizes_of(family, 1)
-      nodes = sizes_of(family, 2)
-      allocate (parent(dim, points), weight(points))
+      allocate (parent(sizes_of(family, 1), points), weight(points))
       call integration_points(family, points, parent, weight, known)
       if (.not. known) return
-      associate (new => rules(family, points))
-        new%family = family
-        new%dim = dim
-        new%nodes = nodes
-        new%corners = sizes_of(family, 3)
-        new%points = points
-        allocate (new%n(nodes, points), new%dn(nodes, dim, points))
-        do p = 1, points
-          call shape_functions(family, parent(:, p), new%n(:, p), new%dn(:, :, p))
-        end do
-        call move_alloc(weight, new%weight)
-      end associate
+      call evaluate(family, parent, weight, rules(family, points))
     end if
     rule => rules(family, points)
-  end subroutine find_rule
+  end subroutine find_standard
+
+  !> Make a rule known; returns the number of a family that has it, and with any other number of points the rule of the family.
+  function define_rule(family, parent, weight, reduced) result(number)
+    integer, intent(in) :: family
+    logical, intent(in) :: reduced
+    real(dp), intent(in) :: parent(:, :), weight(:)    !< (dimension, points) parent coordinates; weights
+    integer :: number
+    type(shelf_t) :: new
+    allocate (new%rule)
+    call evaluate(family, parent, weight, new%rule)
+    new%rule%reduced = reduced
+    if (.not. allocated(defined)) allocate (defined(0))
+    defined = [defined, new]
+    number = families + size(defined)
+  end function define_rule
+
+  !> Shape functions at the points of a rule.
+  subroutine evaluate(family, parent, weight, rule)
+    integer, intent(in) :: family
+    real(dp), intent(in) :: parent(:, :), weight(:)
+    type(rule_t), intent(out) :: rule
+    integer :: p
+    rule%family = family
+    rule%dim = sizes_of(family, 1)
+    rule%nodes = sizes_of(family, 2)
+    rule%corners = sizes_of(family, 3)
+    rule%points = size(weight)
+    rule%reduced = rule%points == 1 .and. is_multilinear(rule)
+    allocate (rule%n(rule%nodes, rule%points), rule%dn(rule%nodes, rule%dim, rule%points))
+    do p = 1, rule%points
+      call shape_functions(family, parent(:, p), rule%n(:, p), rule%dn(:, :, p))
+    end do
+    rule%weight = weight
+  end subroutine evaluate
 
   !> Dimension, nodes or corners of a family.
   pure integer function sizes_of(family, which)

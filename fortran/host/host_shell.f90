@@ -27,13 +27,14 @@ module host_shell
   use host_coupling, only: interpolate_fields
   use host_inertia, only: respond
   use host_kinds, only: dp, i4
-  use host_materials, only: elastic_energy, find_material, has_fields, material_t, stress_update
+  use host_materials, only: elastic_energy, find_material, has_fields, material_t, set_constants, stress_update
   use host_messages, only: add_message
-  use host_polar, only: step
+  use host_polar, only: polar_axes, step
   use host_protect, only: escape
   use host_shape, only: parent_place, rule_of, rule_t
   use host_shell_directors, only: director_stiffness, director_strains, mean_directors, shell_stress
   use host_shell_strains, only: drilling_strain, enhance, shell_middle, shell_point, shell_strains, tensor_turn
+  use host_usdfld, only: call_usdfld
   implicit none (type, external)
   private
   public :: shell_uelmat
@@ -41,14 +42,17 @@ module host_shell
   integer, parameter :: values = 14       !< of SVARS for a section point
   integer, parameter :: head = 44         !< values of PROPS before those of the section points
 
+  real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
+
   !> Sine below which the direction of an orientation is normal to the surface.
   real(dp), parameter :: smallest_sine = 1.745328e-3_dp
 
-  !> The strain operators of an element, and the angle of the section's direction 1 at each point from the first axis.
+  !> The strain operators of an element, and the angle of the section's direction 1 at each point from the first axis, with
+  !> *ORIENTATION and without.
   type :: operators_t
     type(shell_point), allocatable :: point(:)
     real(dp), allocatable :: b(:, :, :)     !< (8, unknowns, points)
-    real(dp), allocatable :: angle(:)
+    real(dp), allocatable :: angle(:), default(:)
     real(dp), allocatable :: turn(:, :, :)  !< (3, 3, points) strains to the directions of the section
   end type operators_t
 
@@ -58,6 +62,7 @@ module host_shell
     real(dp), allocatable :: u(:), old(:)   !< displacements and rotations, now and before the increment
     real(dp), allocatable :: x(:, :)        !< where the nodes are, as COORDS of user routines
     real(dp), allocatable :: normal(:, :)   !< (3, points)
+    real(dp), allocatable :: frame(:, :, :) !< (3, 3, points) rows: axes and normal before the increment
     real(dp), allocatable :: strain(:, :), before(:, :)   !< (8, points) along the axes of the points
     real(dp), allocatable :: drill(:)       !< drilling strains of host_shell_directors
   end type motion_t
@@ -138,14 +143,15 @@ contains
     logical, intent(in) :: large
     type(motion_t) :: found
     type(corotation_t) :: before, now
-    real(dp) :: moved(6, nodes), gradient(nodes, 2), turn(3, 3)
+    real(dp) :: moved(6, nodes), gradient(nodes, 2), turn(3, 3), turn_before(3, 3)
     integer :: p
     moved = reshape(u, [6, nodes])
     found%middle = shell_middle(nodes, x)
     found%u = u
     found%old = u - du
     found%x = x
-    turn = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
+    turn = identity
+    turn_before = identity
     if (large) then
       gradient = found%middle%gradient(:nodes, :)
       before = local_motion(nodes, x, found%middle%frame, gradient, cmplx(reshape(found%old, [6, nodes]), kind=dp))
@@ -153,11 +159,13 @@ contains
       found%u = reshape(real(now%local, dp), [n])
       found%old = reshape(real(before%local, dp), [n])
       turn = real(now%rotation, dp)
+      turn_before = real(before%rotation, dp)
       found%x = x + moved(:3, :)
     end if
-    allocate (found%normal(3, size(at%point)), found%strain(8, size(at%point)))
+    allocate (found%normal(3, size(at%point)), found%strain(8, size(at%point)), found%frame(3, 3, size(at%point)))
     do p = 1, size(at%point)
       found%normal(:, p) = matmul(turn, at%point(p)%frame(3, :))
+      found%frame(:, :, p) = matmul(at%point(p)%frame, transpose(turn_before))
       found%strain(:, p) = matmul(at%b(:, :, p), found%u)
     end do
   end function motion_of
@@ -170,6 +178,7 @@ contains
     type(shell_point), intent(in) :: full(:)
     type(motion_t) :: found
     complex(dp) :: strains(8, size(at%point)), drill(size(full))
+    integer :: p
     found%x = x + u(:3, :)
     found%normal = mean_directors(nodes, x, v, at%point, u)
     call director_strains(nodes, x, v, at%point, full, cmplx(u - du, kind=dp), strains, drill)
@@ -177,6 +186,12 @@ contains
     call director_strains(nodes, x, v, at%point, full, cmplx(u, kind=dp), strains, drill)
     found%strain = real(strains, dp)
     found%drill = real(drill, dp)
+    allocate (found%frame(3, 3, size(at%point)))
+    do p = 1, size(at%point)
+      associate (along => matmul(x + u(:3, :) - du(:3, :), at%point(p)%gradient(:nodes, :)))
+        found%frame(:, :, p) = transpose(real(polar_axes(cmplx(along, kind=dp)), dp))
+      end associate
+    end do
   end function motion_of_directors
 
   !> The matrix of a stress (host_context), from the forces and the stiffness by the motion of an element: what its forces change by
@@ -260,16 +275,15 @@ contains
     real(dp) :: b(8, 6, rule%nodes)
     integer :: p
     elastic = reshape(props(9:44), [6, 6])
-    allocate (found%point(rule%points), found%b(8, n, rule%points), found%angle(rule%points), found%turn(3, 3, rule%points))
+    allocate (found%point(rule%points), found%b(8, n, rule%points), found%angle(rule%points), found%default(rule%points), &
+              found%turn(3, 3, rule%points))
     do p = 1, rule%points
       call shell_strains(rule%nodes, x, v, parent_place(rule, p), rule%weight(p), found%point(p), b)
       if (.not. found%point(p)%good) call report_shape(p)
       found%b(:, :, p) = reshape(b, [8, n])
-      if (associated(axes)) then
-        angle = angle_of(p, found%point(p)%frame, axes(1, :, 1, min(p, size(axes, 4))))
-      else
-        angle = angle_of(p, found%point(p)%frame, default_direction(found%point(p)%frame(3, :)))
-      end if
+      angle = angle_of(p, found%point(p)%frame, default_direction(found%point(p)%frame(3, :)))
+      found%default(p) = angle
+      if (associated(axes)) angle = angle_of(p, found%point(p)%frame, axes(1, :, 1, min(p, size(axes, 4))))
       found%angle(p) = angle
       found%turn(:, :, p) = tensor_turn(angle)
       membrane(:, :, p) = matmul(transpose(found%turn(:, :, p)), matmul(elastic(:3, :3), found%turn(:, :, p)))
@@ -466,7 +480,8 @@ contains
     type(operators_t), intent(in) :: at
     type(motion_t), intent(in) :: motion
     type(shell_stress), intent(inout) :: found
-    real(dp), intent(inout) :: svars(values, sections, rule%points), energy(8)
+    real(dp), intent(inout), target :: svars(values, sections, rule%points)
+    real(dp), intent(inout) :: energy(8)
     type(material_t), pointer :: material
     real(dp) :: axes(8, 8), strain(8), resultant(8), tangent(8, 8), turn(3, 3), layer(3), stress(3), modulus(3, 3)
     real(dp) :: elastic, work, volume, z
@@ -488,16 +503,21 @@ contains
         material => find_material(of_section(1, k))
         z = section(1, k)
         if (has_fields(material)) then
-          current%length = sqrt(area)
+          current%length = sqrt(area)*merge(0.5_dp, 1.0_dp, rule%nodes == 8)
           current%place = matmul(motion%x, at%point(p)%n(:rule%nodes)) + z*motion%normal(:, p)
           call interpolate_fields(rule, p, fields, predef, material%variables)
         end if
         current%npt = int(p, i4)
         current%layer = of_section(2, k)
         current%kspt = of_section(3, k)
+        column = int((p - 1)*sections + k, i4)
+        if (allocated(material%user_field)) then
+          call call_usdfld(material%user_field, 3, column, turned(at%angle(p) + section(3, k), motion%frame(:, :, p)), &
+                           turned(at%angle(p) - at%default(p) + section(3, k), identity), .true., svars(:6, k, p))
+        end if
+        if (allocated(material%dependence)) call set_constants(material, p)
         turn = tensor_turn(section(3, k))
         layer = matmul(turn, strain(:3) + z*strain(4:6))
-        column = int((p - 1)*sections + k, i4)
         call stress_update(material, column, layer, stress, modulus, valid)
         volume = at%point(p)%weight*section(2, k)
         elastic = elastic + volume*elastic_energy(material, column, stress)
@@ -524,4 +544,13 @@ contains
     energy(2) = elastic
     energy(4) = work - elastic
   end subroutine integrate
+
+  !> Directions (rows) turned by an angle about the third.
+  pure function turned(angle, axes)
+    real(dp), intent(in) :: angle, axes(3, 3)
+    real(dp) :: turned(3, 3)
+    turned(1, :) = cos(angle)*axes(1, :) + sin(angle)*axes(2, :)
+    turned(2, :) = cos(angle)*axes(2, :) - sin(angle)*axes(1, :)
+    turned(3, :) = axes(3, :)
+  end function turned
 end module host_shell

@@ -22,6 +22,9 @@
 !>
 !> The matrix of a stress (host_context) is what the tangent in large displacements has of it, also where displacements are small.
 !>
+!> With layers JPROPS(1) is a family with the points of all layers (host_shape), and material, NPT, LAYER and KSPT of each point
+!> follow; MATERIALLIB is the material of the first layer. Then all materials are in the directions of the points.
+!>
 !> The last of the predefined fields is the initial temperature; thermal strain is that of *EXPANSION since then.
 !>
 !> SVARS hold, for each point, E11 E22 E33 E12 S11 S22 S33 S12, in space with 13 and 23 after 12, in the directions of
@@ -40,7 +43,7 @@ module host_solid
   use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point, add_stress_matrix
   use host_hybrid, only: add_compatibility, begin_pressure, begin_smoothing, keep_point, mean_stress, mean_stress_added, &
                          pressure_t, smooth, smoothing_change, smoothing_t
-  use host_hourglass, only: has_hourglass_modes, resist_hourglass
+  use host_hourglass, only: resist_hourglass
   use host_hyperelastic, only: volume_of
   use host_incompatible, only: mode_strains
   use host_inertia, only: is_dynamic, mass_matrix, respond
@@ -60,6 +63,8 @@ module host_solid
 
   real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
 
+  integer, parameter :: head = 7    !< values of JPROPS before those of layers
+
 contains
 
   subroutine solid_uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
@@ -69,17 +74,24 @@ contains
                    lflags(*), mlvarx, mdload, jprops(*), njprop, materiallib
     real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
                 params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
-    call solid_element(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, coords, mcrd, nnode, u, du, v, a, params, dtime, &
-                       predef, npredf, lflags, jprops, materiallib)
+    if (njprop > head) then
+      call solid_element(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, coords, mcrd, nnode, u, du, v, a, params, dtime, &
+                         predef, npredf, lflags, jprops, materiallib, layers=reshape(jprops(head + 1:njprop), [4, int(jprops(2))]))
+    else
+      call solid_element(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, coords, mcrd, nnode, u, du, v, a, params, dtime, &
+                         predef, npredf, lflags, jprops, materiallib)
+    end if
   end subroutine solid_uelmat
 
-  !> The same without the unused arguments; coupling: if the element also has temperatures.
+  !> The same without the unused arguments; coupling: if the element also has temperatures; layers: material, NPT, LAYER and KSPT
+  !> of each point, if there are any.
   subroutine solid_element(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, coords, mcrd, nnode, u, du, v, a, params, &
-                           dtime, predef, npredf, lflags, jprops, materiallib, coupling)
+                           dtime, predef, npredf, lflags, jprops, materiallib, coupling, layers)
     integer(i4) :: ndofel, nrhs, nsvars, mcrd, nnode, npredf, lflags(*), jprops(*), materiallib
     real(dp) :: rhs(*), amatrx(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), params(*), dtime, predef(*)
     real(dp), target :: svars(*)
     type(coupling_t), intent(inout), optional :: coupling
+    integer(i4), intent(in), optional :: layers(:, :)
     type(material_t), pointer :: material
     type(rule_t), pointer :: rule
     real(dp), pointer, contiguous :: axes(:, :, :, :)   !< of the points (host_axes), if the material is in them
@@ -123,14 +135,14 @@ contains
       if (modes > 0) then
         call integrate_with_modes(rule, direct + 2*dim - 3, modes, lflags(3), lflags(2) /= 0, material, props(1), coords, &
                                   int(npredf), predef, u, change, du, rhs, amatrx, svars, &
-                                  svars(nsvars - modes + 1:nsvars), energy, axes)
+                                  svars(nsvars - modes + 1:nsvars), energy, axes, layers)
       else if (n > of_nodes .and. .not. present(coupling)) then
         call integrate_with_pressure(rule, direct, n, lflags(3), lflags(2) /= 0, material, props(1), props(3), jprops(4) /= 0, &
                                      coords, int(npredf), predef, u, change, du, rhs, amatrx, svars, energy, axes)
       else
         call integrate(rule, direct, direct + 2*dim - 3, modes, lflags(3), lflags(2) /= 0, material, &
                        props(1), props(3), jprops(4) /= 0, coords, int(npredf), predef, u, change, rhs, amatrx, svars, energy, &
-                       coupling, axes=axes, functions=int(jprops(7)), added=du(:of_nodes), moduli=moduli)
+                       coupling, axes=axes, functions=int(jprops(7)), added=du(:of_nodes), moduli=moduli, layers=layers)
       end if
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
@@ -146,7 +158,7 @@ contains
   !> The same with incompatible modes: they are sought at the displacements of the nodes. With large displacements (finite)
   !> strains are small in axes that turn with the middle of the element (core_solid_rotation).
   subroutine integrate_with_modes(rule, strains, modes, request, finite, material, thickness, x, fields, predef, u, du, added, &
-                                  force, stiffness, svars, alpha, energy, axes)
+                                  force, stiffness, svars, alpha, energy, axes, layers)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: strains, modes, fields
     integer(i4), intent(in) :: request   !< LFLAGS(3)
@@ -157,6 +169,7 @@ contains
     real(dp), intent(inout) :: force(rule%dim*rule%nodes), stiffness(rule%dim*rule%nodes, rule%dim*rule%nodes)
     real(dp), intent(inout) :: svars(values_of_point(rule%dim)*rule%points), alpha(modes), energy(8)
     real(dp), intent(inout), optional :: axes(3, 3, 2, rule%points)
+    integer(i4), intent(in), optional :: layers(:, :)
     real(dp), dimension(rule%dim*rule%nodes + modes) :: all_force
     real(dp), dimension(rule%dim*rule%nodes + modes, rule%dim*rule%nodes + modes) :: all_stiffness
     real(dp) :: b(modes, strains, rule%points), inverse(modes, modes), svars_start(size(svars)), energy_start(8)
@@ -183,7 +196,7 @@ contains
       all_stiffness = 0
       call integrate(rule, rule%dim, strains, modes, merge(request, 1_i4, request == initial_stresses), .false., material, &
                      thickness, 0.0_dp, .false., x, fields, predef, moved, du, all_force, all_stiffness, svars, energy, &
-                     alpha=alpha, by_modes=b, axes=axes)
+                     alpha=alpha, by_modes=b, axes=axes, layers=layers)
       if (request == initial_stresses) then
         force = all_force(:size(force))
         return
@@ -290,12 +303,12 @@ contains
   !> those of the nodes, then the incompatible modes.
   subroutine integrate(rule, direct, strains, modes, request, finite, material, thickness, hourglass, enhanced, x, fields, &
                        predef, u, du, force, stiffness, svars, energy, coupling, alpha, by_modes, axes, functions, pressure, &
-                       added, moduli)
+                       added, moduli, layers)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: direct, strains, modes, fields
     integer(i4), intent(in) :: request   !< LFLAGS(3)
     logical, intent(in) :: finite, enhanced
-    type(material_t), intent(inout) :: material
+    type(material_t), intent(inout), target :: material    !< of the first layer
     real(dp), intent(in) :: thickness, hourglass, predef(2, fields, rule%nodes)
     real(dp), dimension(rule%dim, rule%nodes), intent(in) :: x, u, du
     real(dp), dimension(rule%dim*rule%nodes + modes), intent(inout) :: force
@@ -308,11 +321,14 @@ contains
     type(pressure_t), intent(inout), optional :: pressure      !< with the unknowns; then there is no initial stress
     real(dp), intent(in), optional :: added(rule%dim*rule%nodes)    !< perturbation, whose stress may be asked for
     real(dp), intent(inout), optional :: moduli(2)    !< of the enhanced hourglass control, zero until the first tangent is known
-    real(dp), dimension(rule%nodes, direct, rule%points) :: g, g_mid
+    integer(i4), intent(in), optional :: layers(:, :)
+    type(material_t), pointer :: here    !< material of the point
+    real(dp), dimension(rule%nodes, direct, rule%points) :: g, g_mid, g_before
     real(dp), dimension(rule%dim*rule%nodes, strains, rule%points) :: b, b_mid
     real(dp), dimension(rule%points) :: volume, volume_mid, volume_now, volume_before, volume_strain
     real(dp) :: stresses(strains, rule%points)
     real(dp) :: by_unknowns(rule%dim*rule%nodes + modes, strains)
+    real(dp) :: first_tangent(strains, strains)    !< of all points
     real(dp) :: now(rule%dim, rule%nodes), g_start(rule%nodes, direct), volume_start, deformation(3, 3, 2, rule%points)
     real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(2), weight, elastic, work
     real(dp) :: now_axes(3, 3), middle(3, 3)
@@ -328,7 +344,7 @@ contains
     of_stress = stress_matrix(request)
     ! full integration of elements with straight edges locks if the volume is preserved, but not in plane stress; modes see to it
     averaged = rule%points > 1 .and. is_multilinear(rule) .and. material%ntens /= 3 .and. modes == 0
-    averaged = averaged .and. .not. present(pressure)
+    averaged = averaged .and. .not. (present(pressure) .or. rule%reduced)
     smoothed = .false.
     if (present(functions)) then
       smoothed = functions > 0 .and. rule%points > 1 .and. .not. begins
@@ -342,18 +358,23 @@ contains
     if (finite) call all_gradients(rule, direct, strains, averaged, now - 0.5_dp*du, g_mid, b_mid, volume_mid)
     g_start = g(:, :, 1)
     volume_start = volume(1)
-    if (finite .and. has_hourglass_modes(rule)) then
-      call mean_gradients(rule%family, direct, x, g_start, volume_start)
+    if (rule%reduced .and. finite) then
+      call gradients_of_points(rule, direct, x, g_before, volume_before)
+      g_start = g_before(:, :, 1)
+      volume_start = volume_before(1)
       if (direct == 3) then
-        call carry(dim, direct, strains, nodes, g_start, u, g(:, :, 1), b(:, :, 1))
-        call carry(dim, direct, strains, nodes, g_start, u - 0.5_dp*du, g_mid(:, :, 1), b_mid(:, :, 1))
+        do p = 1, rule%points
+          call carry(dim, direct, strains, nodes, g_before(:, :, p), u, g(:, :, p), b(:, :, p))
+          call carry(dim, direct, strains, nodes, g_before(:, :, p), u - 0.5_dp*du, g_mid(:, :, p), b_mid(:, :, p))
+        end do
       end if
     end if
+    if (rule%reduced .and. rule%points > 1) call mean_gradients(rule%family, direct, x, g_start, volume_start)
     elastic = 0
     dissipated = merge(3, 4, is_viscous(material))
     work = energy(2) + energy(dissipated)
     volume_strain = sum(svars(:3, :), 1)
-    if (has_fields(material)) current%length = size_of(rule, direct, now, volume)
+    if (has_fields(material) .or. present(layers)) current%length = size_of(rule, direct, now, volume)
     current%finite = finite
     if (finite .and. (needs_deformation(material) .or. material%local .or. smoothed .or. present(pressure))) then
       call find_deformation(rule, direct, averaged, x, u, du, deformation, volume_before)
@@ -369,27 +390,35 @@ contains
     if (finite .and. averaged .and. allocated(material%hyperelastic)) then
       volume = volume_before*sum(volume)/sum(volume_before)
     end if
-    thermal = 0
+    here => material
+    first_tangent = 0
     do p = 1, rule%points
-      if (has_fields(material)) then
+      if (present(layers)) then
+        here => find_material(layers(1, p))
+        current%npt = layers(2, p)
+        current%layer = layers(3, p)
+        current%kspt = layers(4, p)
+      end if
+      if (has_fields(here)) then
         current%place = point_position(rule, p, now)
-        call interpolate_fields(rule, p, fields, predef, material%variables)
+        call interpolate_fields(rule, p, fields, predef, here%variables)
         if (present(coupling)) call set_temperature(coupling, direct, rule%points, p, now)
       end if
-      if (allocated(material%user_field) .and. .not. begins) then
-        now_axes = material%axes
+      if (allocated(here%user_field) .and. .not. begins) then
+        now_axes = here%axes
         if (present(axes)) now_axes = axes(:, :, 2, p)
-        call call_usdfld(material%user_field, material%ntens, int(p, i4), now_axes, material%local, svars(:, p))
+        call call_usdfld(here%user_field, here%ntens, int(p, i4), now_axes, now_axes, here%local, svars(:, p))
       end if
-      if (allocated(material%dependence)) call set_constants(material, p)
-      if (abs(material%expansion) > 0) thermal = thermal_strain(rule, p, fields, material%expansion, predef)
+      if (allocated(here%dependence)) call set_constants(here, p)
+      thermal = 0
+      if (abs(here%expansion) > 0) thermal = thermal_strain(rule, p, fields, here%expansion, predef)
       if (finite) then
         current%rotation = rotation_of(gradient_of(dim, direct, nodes, du, g_mid(:, :, p)))
         call find_strain(dim*nodes, strains, b_mid(:, :, p), du, strain)
         if (present(axes)) then
           call carry_axes(p, deformation(:, :, :, p), axes(:, :, 2, p), middle)
           current%turn = matmul(axes(:, :, 2, p), transpose(axes(:, :, 1, p)))
-        else if (needs_deformation(material)) then
+        else if (needs_deformation(here)) then
           current%deformation = deformation(:, :, :, p)
           current%turn = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
         end if
@@ -404,29 +433,27 @@ contains
       weight = volume(p)*merge(thickness, 1.0_dp, dim == 2)
       if (present(pressure)) then
         current%mean_stress = mean_stress(pressure, p)
-        call compare_volumes(pressure, p, direct, strains, material, finite, weight, &
+        call compare_volumes(pressure, p, direct, strains, here, finite, weight, &
                              volume_before(p)*merge(thickness, 1.0_dp, dim == 2), strain, b(:, :, p))
       end if
       if (begins) then
-        call begin_point(material, int(p, i4), weight, svars(:, p), stress, elastic)
+        call begin_point(here, int(p, i4), weight, svars(:, p), stress, elastic)
         if (present(axes)) stress = rotated(strains, stress, transpose(axes(:, :, 2, p)), 1.0_dp)
         modulus = 0
         work = elastic
       else
         if (present(axes)) call turn_strain(dim, strains, middle, strain)
-        call point_update(dim, strains, material, int(p, i4), weight, finite, strain, thermal, svars(:, p), stress, modulus, &
+        call point_update(dim, strains, here, int(p, i4), weight, finite, strain, thermal, svars(:, p), stress, modulus, &
                           elastic, work, of_point)
-        if (present(moduli)) then
-          if (.not. any(abs(moduli) > 0)) moduli = isotropic_part(dim, modulus)
-        end if
+        if (present(moduli)) first_tangent = first_tangent + volume(p)*modulus
         if (present(axes)) of_point(3:) = matmul(of_point(3:), turn_matrix(strains, axes(:, :, 2, p)))
-        if (present(axes)) call turn_response(material, strains, axes(:, :, 2, p), stress, modulus)
+        if (present(axes)) call turn_response(here, strains, axes(:, :, 2, p), stress, modulus)
       end if
-      if (finite .and. material%ntens == 3) weight = weight*exp(svars(3, p))
-      if (present(coupling) .and. generates_heat(material) .and. .not. begins) then
-        if (.not. allocated(material%user)) current%heat = heat_t()
-        if (allocated(material%thermal%source)) call call_hetval(material%thermal%source, int(p, i4))
-        call add_heat_source(coupling, weight, b(:, :, p), components(strains, material%ntens))
+      if (finite .and. here%ntens == 3) weight = weight*exp(svars(3, p))
+      if (present(coupling) .and. generates_heat(here) .and. .not. begins) then
+        if (.not. allocated(here%user)) current%heat = heat_t()
+        if (allocated(here%thermal%source)) call call_hetval(here%thermal%source, int(p, i4))
+        call add_heat_source(coupling, weight, b(:, :, p), components(strains, here%ntens))
       end if
       if (request == added_stress) then
         call find_strain(dim*nodes, strains, b(:, :, p), added, strain)
@@ -441,10 +468,10 @@ contains
         cycle
       end if
       if (finite) call add_geometric(dim, direct, strains, nodes, g(:, :, p), stress, weight, modulus, stiffness)
-      if (finite .and. (allocated(material%hyperelastic) .or. present(pressure))) then
+      if (finite .and. (allocated(here%hyperelastic) .or. present(pressure))) then
         if (averaged) stresses(:, p) = stress
-        if (has_hourglass_modes(rule)) call add_uniform_volume(rule%family, direct, strains, now, g(:, :, p), b(:, :, p), stress, &
-                                                               weight, merge(thickness, 1.0_dp, dim == 2), stiffness)
+        if (rule%reduced) call add_uniform_volume(rule%family, direct, strains, now, g(:, :, p), b(:, :, p), stress, weight, &
+                                                  merge(thickness, 1.0_dp, dim == 2), stiffness)
       end if
       by_unknowns(:dim*nodes, :) = b(:, :, p)
       if (modes > 0) by_unknowns(dim*nodes + 1:, :) = by_modes(:, :, p)
@@ -491,7 +518,10 @@ contains
     if (allocated(material%hyperelastic)) work = elastic
     energy(2) = elastic
     energy(dissipated) = work - elastic
-    if (has_hourglass_modes(rule)) then
+    if (present(moduli)) then
+      if (.not. any(abs(moduli) > 0)) moduli = isotropic_part(dim, first_tangent/sum(volume))
+    end if
+    if (rule%reduced) then
       call resist_hourglass(rule, g_start(:, :dim), volume_start*merge(thickness, 1.0_dp, dim == 2), hourglass, &
                             enhanced_constants(material, enhanced, moduli), finite, x, u, force, stiffness, energy(6))
     end if
@@ -603,8 +633,8 @@ contains
     real(dp), intent(out) :: volume(rule%points)
     real(dp) :: mean(rule%dim*rule%nodes)
     integer :: p
+    call gradients_of_points(rule, direct, x, g, volume)
     do p = 1, rule%points
-      call point_gradients(rule, direct, p, x, g(:, :, p), volume(p))
       call strain_matrix(rule%dim, direct, rule%nodes, g(:, :, p), b(:, :, p))
     end do
     if (.not. averaged) return
@@ -614,19 +644,32 @@ contains
     end do
   end subroutine all_gradients
 
-  !> Gradients and volume of a point: those at the point, or their mean where the only one stands for all of a
-  !> quadrilateral or hexahedron.
-  subroutine point_gradients(rule, direct, point, x, g, volume)
+  !> Gradients and volumes of all points. Where one stands for all of a quadrilateral or hexahedron they are the mean ones; those of
+  !> section points of layers differ from the mean as they do at the points, so that their own mean is that of the element.
+  subroutine gradients_of_points(rule, direct, x, g, volume)
     type(rule_t), intent(in) :: rule
-    integer, intent(in) :: direct, point
+    integer, intent(in) :: direct
     real(dp), intent(in) :: x(rule%dim, rule%nodes)
-    real(dp), intent(out) :: g(rule%nodes, direct), volume
-    if (has_hourglass_modes(rule)) then
-      call mean_gradients(rule%family, direct, x, g, volume)
-    else
-      call gradients(rule, direct, point, x, g, volume)
+    real(dp), intent(out) :: g(rule%nodes, direct, rule%points), volume(rule%points)
+    real(dp) :: mean(rule%nodes, direct), whole, own(rule%nodes, direct)
+    integer :: p
+    if (rule%reduced) call mean_gradients(rule%family, direct, x, mean, whole)
+    if (rule%reduced .and. rule%points == 1) then
+      g(:, :, 1) = mean
+      volume = whole
+      return
     end if
-  end subroutine point_gradients
+    do p = 1, rule%points
+      call gradients(rule, direct, p, x, g(:, :, p), volume(p))
+    end do
+    if (.not. rule%reduced) return
+    own = 0
+    do p = 1, rule%points
+      own = own + volume(p)/sum(volume)*g(:, :, p)
+    end do
+    g = g + spread(mean - own, 3, rule%points)
+    volume = volume*(whole/sum(volume))
+  end subroutine gradients_of_points
 
   !> With large displacements elements of one point take the shape of the strain from the mean deformation gradient
   !> F = 1 + u g_start, so that the gradients are those before any displacement times its inverse; and its volume from
@@ -669,18 +712,17 @@ contains
     real(dp), dimension(rule%dim, rule%nodes), intent(in) :: x, u, du
     real(dp), intent(out) :: f(3, 3, 2, rule%points)
     real(dp), intent(out) :: initial(rule%points)   !< volumes of the points before any displacement
-    real(dp) :: g(rule%nodes, direct), volume, total, swept(2)
+    real(dp) :: g(rule%nodes, direct, rule%points), total, swept(2)
     integer :: p, k
     total = 0
     swept = 0
+    call gradients_of_points(rule, direct, x, g, initial)
     do p = 1, rule%points
-      call point_gradients(rule, direct, p, x, g, volume)
-      f(:, :, 1, p) = identity + gradient_of(rule%dim, direct, rule%nodes, u - du, g)
-      f(:, :, 2, p) = identity + gradient_of(rule%dim, direct, rule%nodes, u, g)
-      initial(p) = volume
-      total = total + volume
+      f(:, :, 1, p) = identity + gradient_of(rule%dim, direct, rule%nodes, u - du, g(:, :, p))
+      f(:, :, 2, p) = identity + gradient_of(rule%dim, direct, rule%nodes, u, g(:, :, p))
+      total = total + initial(p)
       do k = 1, 2
-        swept(k) = swept(k) + volume*determinant(f(:, :, k, p))
+        swept(k) = swept(k) + initial(p)*determinant(f(:, :, k, p))
       end do
     end do
     if (.not. averaged) return

@@ -37,6 +37,8 @@ module host_umat
     type(c_funptr) :: umat
     character(len=80) :: name = ' '
     integer :: hybrid = 0                       !< its formulation, of an element that is
+    integer :: statev = 0                       !< number of STATEV
+    integer :: room = 0                         !< values at the end of the history of which STATEV are the first
     real(dp), allocatable :: constants(:)
     logical, pointer :: reported(:) => null()   !< (outputs) a write outside the array is
     logical, pointer :: spoilt(:) => null()     !< (outputs) NaN in the array is
@@ -60,7 +62,7 @@ contains
   !> Number of direct components among ntens.
   pure integer(i4) function direct_components(ntens)
     integer, intent(in) :: ntens
-    direct_components = merge(2_i4, 3_i4, ntens == 3)
+    direct_components = merge(2_i4, int(min(ntens, 3), i4), ntens == 3)
   end function direct_components
 
   !> Number of field variables besides temperature.
@@ -87,12 +89,13 @@ contains
     integer(i4) :: ndi, nshr, components, nstatv, nprops, noel, npt, layer, kspt, jstep(4), kinc
     character(len=80) :: cmname
     character(len=len(current%routine)) :: routine
-    integer :: extra
+    integer :: extra, first
     call c_f_procpointer(material%umat, umat)
+    first = size(new) - material%room + 1
     stran = old(:ntens)
     stress = old(stress_place:stress_place + ntens - 1)
     extra = merge(3, 0, material%hybrid == total)
-    call lay_out_guarded(work, [ntens + extra, ntens**2, ntens, ntens, size(new) - head])
+    call lay_out_guarded(work, [ntens + extra, ntens**2, ntens, ntens, material%statev])
     drot = identity
     dfgrd0 = identity
     dfgrd1 = identity
@@ -125,7 +128,7 @@ contains
     components = int(ntens, i4)
     ndi = direct_components(ntens)
     nshr = components - ndi
-    nstatv = size(new, kind=i4) - head
+    nstatv = int(material%statev, i4)
     nprops = size(constants, kind=i4)
     noel = current%element
     npt = merge(current%npt, point, current%npt > 0)
@@ -143,7 +146,7 @@ contains
       x(s(2):s(2) + ntens**2 - 1) = 0
       x(s(3):s(3) + ntens - 1) = 0
       x(s(4):s(4) + ntens - 1) = 0
-      x(s(5):s(5) + nstatv - 1) = new(head + 1:)
+      x(s(5):s(5) + nstatv - 1) = new(first:first + nstatv - 1)
       call umat(x(s(1)), x(s(5)), x(s(2)), new(13), new(14), new(15), rpl, x(s(3)), x(s(4)), drpldt, stran, dstran, time, dtime, &
                 temp, dtemp, predef, dpred, cmname, ndi, nshr, components, nstatv, constants, nprops, coords, drot, pnewdt, &
                 celent, dfgrd0, dfgrd1, noel, npt, layer, kspt, jstep, kinc)
@@ -154,7 +157,7 @@ contains
       current%heat = heat_t(source=rpl, source_by_temperature=drpldt)
       current%heat%stress_by_temperature(:ntens) = x(s(3):s(3) + ntens - 1)
       current%heat%source_by_strain(:ntens) = x(s(4):s(4) + ntens - 1)
-      new(head + 1:) = x(s(5):s(5) + size(new) - head - 1)
+      new(first:first + material%statev - 1) = x(s(5):s(5) + material%statev - 1)
     end associate
     current%routine = routine
     current%pnewdt = min(current%pnewdt, pnewdt)

@@ -16,7 +16,9 @@ module host_usdfld
   type :: user_field_t
     type(c_funptr) :: address
     character(len=80) :: material = ' ', orientation = ' '
-    integer :: statev = 0                !< number of STATEV, the last values of the history
+    integer :: statev = 0                !< number of STATEV
+    integer :: room = 0                  !< values at the end of the history of which STATEV are the first
+    logical :: plastic = .false.         !< points have a plastic strain
   end type user_field_t
 
   abstract interface
@@ -32,11 +34,12 @@ module host_usdfld
 contains
 
   !> Set the fields of current%fields, and STATEV of the point in current%history_trial.
-  subroutine call_usdfld(user, ntens, point, axes, local, values)
+  subroutine call_usdfld(user, ntens, point, axes, basis, local, values)
     type(user_field_t), intent(in) :: user
     integer, intent(in) :: ntens
     integer(i4), intent(in) :: point                  !< from 1
     real(dp), intent(in) :: axes(3, 3)                !< rows: directions of the material
+    real(dp), intent(in) :: basis(3, 3)               !< the same along the directions of the element
     logical, intent(in) :: local                      !< the history is in them
     real(dp), intent(in), target :: values(:)         !< strain and stress at the start of the increment
     procedure(usdfld_procedure), pointer :: usdfld
@@ -46,16 +49,17 @@ contains
     character(len=len(current%routine)) :: routine
     integer(i4) :: nfield, nstatv, noel, npt, layer, kspt, kstep, kinc, ndi, nshr, jmac(1), jmatyp(1), matlayo, laccfla
     integer :: first
+    first = 0
     call c_f_procpointer(user%address, usdfld)
     field = current%fields(2:, 1) + current%fields(2:, 2)
     statev = 0
     ! without STATEV, a material need not have a history
     if (user%statev > 0) then
-      first = size(current%history, 1) - user%statev + 1
-      statev(:user%statev) = current%history(first:, min(int(point), size(current%history, 2)))
+      first = size(current%history, 1) - user%room + 1
+      statev(:user%statev) = current%history(first:first + user%statev - 1, point)
     end if
     direct = transpose(axes)
-    t = direct
+    t = transpose(basis)
     time = current%time
     dtime = current%dtime
     pnewdt = current%pnewdt
@@ -66,9 +70,9 @@ contains
     nfield = size(field, kind=i4)
     nstatv = int(user%statev, i4)
     noel = current%element
-    npt = point
-    layer = 1
-    kspt = 1
+    npt = merge(current%npt, point, current%npt > 0)
+    layer = current%layer
+    kspt = current%kspt
     kstep = current%step
     kinc = current%increment
     ndi = direct_components(ntens)
@@ -79,8 +83,11 @@ contains
     laccfla = 0
     routine = current%routine
     current%routine = 'USDFLD'
-    current%point = point
+    current%point = npt
+    current%column = point
+    current%first = first
     current%statev = user%statev
+    current%plastic = user%plastic
     current%values => values
     current%axes = axes
     if (local) current%axes = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
@@ -94,6 +101,6 @@ contains
     current%routine = routine
     current%pnewdt = min(current%pnewdt, pnewdt)
     current%fields(2:, 2) = field - current%fields(2:, 1)
-    if (user%statev > 0) current%history_trial(first:, point) = statev
+    if (user%statev > 0) current%history_trial(first:first + user%statev - 1, point) = statev
   end subroutine call_usdfld
 end module host_usdfld

@@ -5,6 +5,7 @@ module host_uvarm
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funloc, c_funptr, c_loc, c_ptr
   use host_context, only: current
   use host_kinds, only: dp, i4
+  use host_materials, only: history_values
   use host_protect, only: begin_call, protect
   use host_kinematics, only: point_position
   use host_shape, only: rule_of
@@ -50,6 +51,11 @@ contains
     current%increment = pass%kinc
     current%time = pass%time
     current%dtime = pass%dtime
+    ! backstresses may follow the plastic strain
+    associate (head => size(pass%history, 1) - pass%statev)
+      current%first = head + 1
+      current%plastic = head >= history_values .and. mod(head - history_values, 6) == 0
+    end associate
     current%statev = pass%statev
     left = int(protect(c_funloc(all_points), c_loc(pass)), i4)
     nullify (current%values, current%history)
@@ -66,6 +72,7 @@ contains
       current%history => pass%history(:, :, e)
       do point = 1, size(pass%uvar, 2, kind=i4)
         current%point = point
+        current%column = point
         call begin_call(0_i4, current%element)
         current%values => pass%svars(:, point, e)
         call call_uvarm(pass, point, pass%coords(:, :, e), &

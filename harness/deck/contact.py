@@ -27,7 +27,7 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.contact import ContactPair, ContactProperty, Pieces, RigidProfile, SlidingPair
 from harness.model.element_types import LINE2, QUAD4, TRI3, ContinuumType, Family
 from harness.model.mesh import ElementGroup, full_name
-from harness.model.properties import SolidSection
+from harness.model.properties import CompositeSection, SolidSection
 from harness.model.steps import Step
 
 LINEAR_FACES = (LINE2, TRI3, QUAD4)
@@ -251,10 +251,11 @@ class ContactReader:
         """Thickness at the nodes of faces (f, n); about an axis, the circumference."""
         kind, section = group.built_in, group.section
         assert isinstance(kind, ContinuumType)
-        assert isinstance(section, SolidSection)
+        assert isinstance(section, SolidSection | CompositeSection)
         if kind.axisymmetric:
             return np.asarray(2 * np.pi * self._points[faces, 0])
-        return np.full(faces.shape, section.thickness if kind.dimension == 2 else 1.0)
+        depth = section.thickness if isinstance(section, SolidSection) and kind.dimension == 2 else 1.0
+        return np.full(faces.shape, depth)
 
     def _of_nodes(self, name: str, row: Row, given: list[tuple[IntArray, float]], size: float) -> _Side:
         areas = np.zeros(len(self._points))

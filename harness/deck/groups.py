@@ -23,7 +23,15 @@ from harness.errors import DeckError, Source
 from harness.model.arrays import IntArray
 from harness.model.element_types import HOURGLASS_CONTROLLED
 from harness.model.mesh import ElementGroup, full_name
-from harness.model.properties import BeamSection, Material, Section, SectionControls, ShellSection, SolidSection
+from harness.model.properties import (
+    BeamSection,
+    CompositeSection,
+    Material,
+    Section,
+    SectionControls,
+    ShellSection,
+    SolidSection,
+)
 
 
 class _Elements:
@@ -96,7 +104,7 @@ def make_groups(
     made = _make_sections(elements, sections, materials, controls, problems)
     problems.check()
     for (section, kind), found in made.items():
-        if section in hourglass and isinstance(found, SolidSection | ShellSection):
+        if section in hourglass and isinstance(found, SolidSection | CompositeSection | ShellSection):
             made[section, kind] = replace(found, hourglass=hourglass[section])
     for (section, kind), found in made.items():
         if section in shear and isinstance(found, ShellSection | BeamSection):

@@ -195,8 +195,8 @@ _OPTIONS = (
             ),
             *refused("COMPRESSION FACTOR"),
         ),
-        "constants in the order of the type; those of continuum elements may depend on temperature and fields, "
-        "which follow, eight values per line",
+        "constants in the order of the type; those of continuum elements, trusses and shells may depend on temperature "
+        "and fields, which follow, eight values per line",
     ),
     Keyword(
         "USER MATERIAL",
@@ -223,7 +223,11 @@ _OPTIONS = (
         (*ignored("DELETE"),),
         "number of variables; then number, name, description of variables, which are not read",
     ),
-    Keyword("USER DEFINED FIELD", "USDFLD gives the field variables of continuum elements.", Where.MODEL),
+    Keyword(
+        "USER DEFINED FIELD",
+        "USDFLD gives the field variables of continuum elements, trusses and shells.",
+        Where.MODEL,
+    ),
     Keyword(
         "USER OUTPUT VARIABLES",
         "Number of variables that UVARM gives at a material point.",

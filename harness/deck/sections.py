@@ -15,18 +15,21 @@ import numpy as np
 from harness.deck.beams import BEAM_KEYWORDS, read_beam_section
 from harness.deck.blocks import Block, Row
 from harness.deck.error_report import Problems, look_up
-from harness.deck.shells import SHELL_KEYWORDS, read_shell_section
-from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
+from harness.deck.shells import MOST_POINTS, SHELL_KEYWORDS, read_shell_section
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF, ElementType, read_user_property
-from harness.model.element_types import BEAM, DISCRETE, HEAT, DiscreteKind
+from harness.errors import DeckError
+from harness.model.element_types import BEAM, DISCRETE, HEAT, LAYERED, DiscreteKind
 from harness.model.properties import (
     CohesiveSection,
+    CompositeSection,
     ElasticType,
     MassSection,
     Material,
     Orientation,
     Section,
     SectionControls,
+    SolidLayer,
     SolidSection,
     SpringSection,
 )
@@ -63,10 +66,78 @@ def make_section(
     orientation = look_up(orientations, name, "orientation", block.source) if name else None
     if kind.definition:
         return read_user_property(block, kind.definition, material, orientation, problems)
-    assert material is not None
+    layers: tuple[SolidLayer, ...] = ()
+    if _is_composite(block, kind):
+        layers = _solid_layers(block, materials, orientations, orientation)
+    return _solid_section(block, material or layers, orientation, controls)
+
+
+def _solid_section(
+    block: Block,
+    given: Material | tuple[SolidLayer, ...],
+    orientation: Orientation | None,
+    controls: Mapping[str, SectionControls],
+) -> SolidSection | CompositeSection:
+    """Of a material, or of layers."""
+    elset, found = block.options.text("ELSET"), _controls(block, controls)
+    if isinstance(given, tuple):
+        direction = int(block.options.text("STACK DIRECTION"))
+        return CompositeSection(elset, given, direction, block.source, controls=found)
     thickness = _thickness(list(block.rows()), 0, "thickness")
-    found = _controls(block, controls)
-    return SolidSection(elset, material, orientation, thickness, block.source, controls=found)
+    return SolidSection(elset, given, orientation, thickness, block.source, controls=found)
+
+
+def _is_composite(block: Block, kind: ElementType) -> bool:
+    """Whether a solid section has layers. Raises DeckError unless it has either a material or layers, for bricks."""
+    composite = block.options.flag("COMPOSITE")
+    if composite == block.options.given("MATERIAL"):
+        raise block.error("expected either MATERIAL= or COMPOSITE, with the material of each layer on its line")
+    if composite and kind.name not in LAYERED:
+        types = ", ".join(LAYERED)
+        raise block.error(f"COMPOSITE is not supported for elements of type {kind.name}; expected {types}")
+    return composite
+
+
+def _solid_layers(
+    block: Block,
+    materials: Mapping[str, Material],
+    orientations: Mapping[str, Orientation],
+    orientation: Orientation | None,
+) -> tuple[SolidLayer, ...]:
+    layers = [_solid_layer(block, row, materials, orientations, orientation) for row in block.rows()]
+    if not layers:
+        raise block.error("COMPOSITE needs a data line for each layer")
+    if block.options.flag("SYMMETRIC"):
+        layers += layers[::-1]
+    return tuple(layers)
+
+
+def _solid_layer(
+    block: Block,
+    row: Row,
+    materials: Mapping[str, Material],
+    orientations: Mapping[str, Orientation],
+    of_section: Orientation | None,
+) -> SolidLayer:
+    # the fifth is the name of the layer
+    row.at_most(5)
+    thickness, points = row.real(0, "thickness"), row.integer(1, "number of section points", 1)
+    if thickness <= 0:
+        raise row.error(f"thickness {thickness:g} must be positive")
+    if not 1 <= points <= MOST_POINTS or points % 2 == 0:
+        raise row.error(f"{points} section points: expected an odd number from 1 to {MOST_POINTS - 1}")
+    material = look_up(materials, row.name(2, "material"), "material", row.source)
+    _check_material(block, material)
+    if row.blank(3):
+        return SolidLayer(thickness, points, material, of_section)
+    try:
+        angle = row.real(3, "orientation angle")
+    except DeckError:
+        own = look_up(orientations, row.name(3, "orientation"), "orientation", row.source)
+        return SolidLayer(thickness, points, material, own)
+    if of_section is None:
+        raise row.error("an angle is measured from the ORIENTATION of the section, which is not given")
+    return SolidLayer(thickness, points, material, of_section, angle)
 
 
 def _mass(block: Block) -> float:
@@ -202,12 +273,25 @@ KEYWORDS = (
         Where.MODEL,
         (
             _ELSET,
-            _MATERIAL,
+            Option("MATERIAL", Kind.NAME, "material"),
+            Option(
+                "COMPOSITE", doc="a data line for each layer, the first at face S6, S3, S1 of stack direction 1, 2, 3"
+            ),
             _ORIENTATION,
             _CONTROLS,
-            *refused("COMPOSITE", "LAYUP", "ORDER", "REF NODE", "STACK DIRECTION", "SYMMETRIC"),
+            one_of(
+                "STACK DIRECTION",
+                "direction of parent coordinates along which layers follow each other; nothing without COMPOSITE",
+                ("1", "2", "3"),
+                default="3",
+                refused=("ORIENTATION",),
+            ),
+            Option("SYMMETRIC", doc="the layers again, in reverse"),
+            *ignored("LAYUP"),
+            *refused("ORDER", "REF NODE"),
         ),
-        "thickness (1)",
+        "thickness (1); COMPOSITE: thickness over that of the other layers, section points (1), material, angle in "
+        "degrees from ORIENTATION or the name of another orientation, name",
     ),
     Keyword(
         "COHESIVE SECTION",

@@ -97,9 +97,11 @@ def _read_layer(block: Block, row: Row, materials: Mapping[str, Material], defau
 def _material(block: Block, name: str, materials: Mapping[str, Material]) -> Material:
     """A material with elasticity or of UMAT. Raises DeckError."""
     material = look_up(materials, name, "material", block.source)
-    if block.name == "SHELL GENERAL SECTION" and (material.user or material.plastic):
-        message = f"material {material.name} is not linear elastic, which the section is; *SHELL SECTION takes it"
-        raise block.error(message)
+    depends = material.user_field or (material.elastic is not None and material.elastic.table is not None)
+    if block.name == "SHELL GENERAL SECTION" and (material.user or material.plastic or depends):
+        what = "depends on temperature or fields" if depends else "is not linear elastic"
+        message = f"material {material.name} {what}, but the section is linear elastic with constants"
+        raise block.error(f"{message}; *SHELL SECTION takes it")
     if material.user is not None:
         return material
     if material.elastic is None:

@@ -14,6 +14,7 @@ import numpy as np
 from harness.elements.beam import beam_routine, beam_variables, start_directions
 from harness.elements.block import ElementBlock
 from harness.elements.cohesive import cohesive_routine, cohesive_variables
+from harness.elements.composite import composite_routine, composite_variables, layer_axes
 from harness.elements.coupled import coupled_routine, heat_routine, heat_variables, is_unsymmetric
 from harness.elements.directions import start_axes
 from harness.elements.discrete import discrete_routine, discrete_unknowns, discrete_variables
@@ -49,6 +50,7 @@ from harness.model.model import Model
 from harness.model.properties import (
     BeamSection,
     CohesiveSection,
+    CompositeSection,
     ShellSection,
     SolidSection,
     UserElement,
@@ -230,7 +232,27 @@ MOST_POINTS: Final = 64
 """Points of a plastic material per user element if *USER ELEMENT does not give INTEGRATION=."""
 
 
+def _composite_block(
+    model: Model, group: ElementGroup, kind: ContinuumType, section: CompositeSection, library: Library
+) -> ElementBlock:
+    _check_nodes(group, kind.nodes)
+    routine = composite_routine(model, group, kind, section, library)
+    block = ElementBlock(
+        group,
+        model.mesh.coordinates,
+        tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
+        routine,
+        library,
+        unsymmetric=any(map(has_unsymmetric_tangent, materials_of(section))),
+        variables=composite_variables(kind, section, routine),
+    )
+    block.begin_axes(layer_axes(model, group, kind, section, routine.family))
+    return block
+
+
 def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> ElementBlock:
+    if isinstance(group.section, CompositeSection):
+        return _composite_block(model, group, kind, group.section, library)
     section, coupled = _solid_section(group), kind.coupled
     _check_nodes(group, kind.nodes)
     if coupled:
@@ -353,14 +375,15 @@ def _beam_block(model: Model, group: ElementGroup, kind: BeamType, library: Libr
 
 def _discrete_block(model: Model, group: ElementGroup, library: Library) -> ElementBlock:
     unknowns = discrete_unknowns(model, group)
+    routine = discrete_routine(model, group, len(unknowns), library)
     return ElementBlock(
         group,
         model.mesh.coordinates,
         unknowns,
-        discrete_routine(model, group, len(unknowns)),
+        routine,
         library,
         unsymmetric=False,
-        variables=discrete_variables(group),
+        variables=discrete_variables(group, routine),
     )
 
 

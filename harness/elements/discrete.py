@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Built-in trusses, springs and masses: what the driver calls for them."""
+"""Built-in trusses, springs and masses: what the driver calls for them.
+
+In fortran/host trusses are in host_truss.f90, the others in host_discrete.f90.
+"""
 
 from __future__ import annotations
 
@@ -8,15 +11,22 @@ from typing import Final
 
 import numpy as np
 
-from harness.elements.materials import refuse_fields, refuse_user_hardening, refuse_viscous
+from harness.elements.materials import (
+    define_truss_material,
+    refuse_output_variables,
+    refuse_user_hardening,
+    refuse_viscous,
+    state_variables,
+)
 from harness.elements.routine import Routine
+from harness.elements.solid import numbered
 from harness.errors import DeckError
-from harness.model.element_types import DISCRETE, DiscreteKind
+from harness.model.element_types import DISCRETE, LINE2, DiscreteKind, Tensor
 from harness.model.mesh import ElementGroup, is_in_space
 from harness.model.model import Model
 from harness.model.properties import ElasticType, MassSection, SolidSection, SpringSection
 from harness.model.records import PointVariables
-from harness.usersub import _binding
+from harness.usersub import Library, _binding
 
 _STATES: Final = {DiscreteKind.TRUSS: 4, DiscreteKind.AXIAL_SPRING: 2, DiscreteKind.SPRING: 2, DiscreteKind.MASS: 2}
 """SVARS of an element."""
@@ -34,43 +44,65 @@ def discrete_unknowns(model: Model, group: ElementGroup) -> tuple[tuple[int, int
     return tuple((node, dof) for node in range(group.nodes.shape[1]) for dof in range(1, dimension + 1))
 
 
-def discrete_routine(model: Model, group: ElementGroup, unknowns: int) -> Routine:
+def discrete_routine(model: Model, group: ElementGroup, unknowns: int, library: Library) -> Routine:
     """What the driver calls for a group. Raises DeckError."""
     kind = DISCRETE[group.type].kind
     dynamic = any(step.procedure.inertia for step in model.steps)
     hidden = 2 * unknowns if dynamic else 0
+    if kind is DiscreteKind.TRUSS:
+        return _truss_routine(group, unknowns, hidden, library, dynamic=dynamic)
+    section = group.section
+    assert isinstance(section, MassSection | SpringSection)
     return Routine(
         address=_binding.address_of("discrete"),
         jtype=kind,
-        mcrd=unknowns // 2 if kind in (DiscreteKind.TRUSS, DiscreteKind.AXIAL_SPRING) else 3,
+        mcrd=unknowns // 2 if kind is DiscreteKind.AXIAL_SPRING else 3,
         svars=_STATES[kind] + hidden,
         hidden=hidden,
-        density=2 if kind is DiscreteKind.TRUSS else -1,
-        props=_properties(group, dynamic=dynamic),
-        turns=kind in (DiscreteKind.TRUSS, DiscreteKind.AXIAL_SPRING),
+        props=np.array([section.mass]) if isinstance(section, MassSection) else section.table,
+        turns=kind is DiscreteKind.AXIAL_SPRING,
         jprops=np.zeros(0, dtype=np.int64),
     )
 
 
-def discrete_variables(group: ElementGroup) -> PointVariables | None:
-    """Meaning of the state variables: strain and stress of a truss; those of springs have no name in Abaqus' output."""
-    if DISCRETE[group.type].kind is not DiscreteKind.TRUSS:
-        return None
-    return PointVariables("continuum", ("E11", "S11", "PE11", "PEEQ"), 1)
-
-
-def _properties(group: ElementGroup, *, dynamic: bool) -> np.ndarray:
+def _truss_routine(group: ElementGroup, unknowns: int, hidden: int, library: Library, *, dynamic: bool) -> Routine:
     section = group.section
-    if isinstance(section, MassSection):
-        return np.array([section.mass])
-    if isinstance(section, SpringSection):
-        return section.table
     if not isinstance(section, SolidSection):
         raise DeckError(section.source, f"elements of type {group.type} need *SOLID SECTION")
     material = section.material
-    refuse_fields(material, f"elements of type {group.type}")
+    _check_truss(group, section, dynamic=dynamic)
+    statev = state_variables(material)
+    return Routine(
+        address=_binding.address_of("truss"),
+        jtype=2,
+        mcrd=unknowns // 2,
+        svars=_STATES[DiscreteKind.TRUSS] + hidden,
+        hidden=hidden,
+        density=1,
+        props=np.array([section.thickness, material.density]),
+        turns=True,
+        jprops=np.array([LINE2.number]),
+        material=define_truss_material(material, library),
+        tensor=int(Tensor.UNIAXIAL),
+        # one value stands for no history
+        history=(1 + statev, 1),
+        statev=statev,
+    )
+
+
+def discrete_variables(group: ElementGroup, routine: Routine) -> PointVariables | None:
+    """Meaning of the state variables: strain and stress of a truss; those of springs have no name in Abaqus' output."""
+    if DISCRETE[group.type].kind is not DiscreteKind.TRUSS:
+        return None
+    return PointVariables("continuum", ("E11", "S11", "PE11", "PEEQ", *numbered("SDV", routine.statev)), 1)
+
+
+def _check_truss(group: ElementGroup, section: SolidSection, *, dynamic: bool) -> None:
+    """Raise DeckError for what trusses do not support."""
+    material = section.material
     refuse_viscous(material, f"elements of type {group.type}")
     refuse_user_hardening(material, f"elements of type {group.type}")
+    refuse_output_variables(material, f"elements of type {group.type}", section.source)
     if material.elastic is None or material.elastic.type is not ElasticType.ISOTROPIC:
         message = f"elements of type {group.type} need *ELASTIC, TYPE=ISOTROPIC (material {material.name})"
         raise DeckError(section.source, message)
@@ -80,5 +112,3 @@ def _properties(group: ElementGroup, *, dynamic: bool) -> np.ndarray:
     if material.plastic is not None and len(material.plastic.backstresses):
         message = f"elements of type {group.type} support isotropic hardening only (material {material.name})"
         raise DeckError(material.plastic.source, f"*PLASTIC: {message}")
-    table = np.zeros(0) if material.plastic is None else material.plastic.table.ravel()
-    return np.array([section.thickness, material.elastic.constants[0], material.density, *table])

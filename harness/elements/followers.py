@@ -20,7 +20,7 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import DiscreteKind, Family, ShellType
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.properties import SolidSection
+from harness.model.properties import CompositeSection, SolidSection
 from harness.model.restart import Saved
 from harness.model.steps import ElementLoad, LoadKind, LoadType
 from harness.usersub import Library, _binding
@@ -100,9 +100,9 @@ def _face(
     if isinstance(shell, ShellType):
         # the order of the nodes of a side gives the outward normal
         return shell.dimension, 1.0, shell.family, 1, False
-    assert isinstance(section, SolidSection)
+    assert isinstance(section, SolidSection | CompositeSection)
     kind = solid_of(parent)
-    depth = section_depth(kind, section) if kind.dimension == 2 else 1.0
+    depth = section_depth(kind, section)
     outward = outward_sign(parent, row, load.face, coordinates)
     return kind.dimension, depth, kind.family.face_family(load.face), outward, kind.axisymmetric
 

@@ -103,7 +103,7 @@ def _on_elements(
         points, nodes = family.full_points, nodes[:, list(load.face)]
     # coupled elements have temperatures at their corners
     field = family if isinstance(kind, HeatType) else family.linear
-    depth = section_depth(kind, section) if kind.dimension == 2 else 1.0
+    depth = section_depth(kind, section)
     integers = [family.number, points, field.number, kind.axisymmetric, number]
     group = replace(parent, labels=parent.labels[rows], nodes=nodes)
     jtype = FACE if load.face else VOLUME

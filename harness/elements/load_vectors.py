@@ -15,7 +15,7 @@ from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import BeamType, ContinuumType, Face, Family, ShellType
 from harness.model.mesh import ElementGroup
-from harness.model.properties import ShellLayer, ShellSection, SolidSection
+from harness.model.properties import CompositeSection, ShellLayer, ShellSection, SolidLayer, SolidSection, materials_of
 from harness.model.steps import ON_EDGES, ElementLoad, LoadKind
 from harness.usersub import _binding
 
@@ -36,7 +36,7 @@ def unit_forces(
         return _forces_on_shells(group, structural, rows, load, coordinates)
     if isinstance(structural, BeamType):
         return beam_forces(group, structural, rows, load, coordinates)
-    assert isinstance(section, SolidSection)
+    assert isinstance(section, SolidSection | CompositeSection)
     kind = solid_of(group)
     dimension = kind.dimension
     local = list(load.type.face) or list(range(group.nodes.shape[1]))
@@ -48,11 +48,13 @@ def unit_forces(
         weights, shapes, derivatives = _rule(kind.family, kind.body_points)
     # (elements, points, dimension, along) derivatives of the position
     tangents = np.einsum("mkd,pka->mpda", x, derivatives)
-    scale = section_depth(kind, section) if dimension == 2 else 1.0
+    scale = section_depth(kind, section)
     if load.type.kind is LoadKind.GRAVITY:
-        if not section.material.density:
-            raise DeckError(load.source, f"GRAV needs *DENSITY, which material {section.material.name} does not have")
-        scale *= section.material.density
+        # layers have the same density
+        material = materials_of(section)[0]
+        if not material.density:
+            raise DeckError(load.source, f"GRAV needs *DENSITY, which material {material.name} does not have")
+        scale *= material.density
     if not load.type.face:
         force = np.linalg.det(tangents)[:, :, None] * np.array(load.type.direction)[:dimension]
     else:
@@ -112,8 +114,8 @@ def _forces_on_edges(
     return np.einsum("p,pk,mpd->mpkd", weights, shapes, force), np.einsum("pk,mkd->mpd", shapes, x[:, local])
 
 
-def check_density(layers: Iterable[ShellLayer], source: Source, what: str) -> None:
-    """Raise DeckError if a layer of a shell has no density."""
+def check_density(layers: Iterable[ShellLayer | SolidLayer], source: Source, what: str) -> None:
+    """Raise DeckError if a layer has no density."""
     for layer in layers:
         if not layer.material.density:
             raise DeckError(source, f"{what} needs *DENSITY, which material {layer.material.name} does not have")

@@ -105,6 +105,13 @@ def refuse_user_hardening(material: Material, elements: str) -> None:
         raise DeckError(material.plastic.source, f"*PLASTIC, HARDENING=USER is not supported for {elements}")
 
 
+def refuse_output_variables(material: Material, elements: str, section: Source) -> None:
+    """Raise DeckError if UVARM gives output of the material of these elements."""
+    if material.output_variables:
+        message = f"*USER OUTPUT VARIABLES (material {material.name}) is not supported for {elements}"
+        raise DeckError(section, message)
+
+
 def refuse_hyperelastic(material: Material, elements: str) -> None:
     """Raise DeckError if the material of these elements is hyperelastic."""
     if material.hyperelastic is not None:
@@ -123,24 +130,40 @@ def directions(orientation: Orientation | None) -> tuple[FloatArray, str]:
 
 
 def define_fields(
-    number: int, material: Material, orientation: Orientation | None, tensor: Tensor, library: Library
+    number: int,
+    material: Material,
+    along: tuple[FloatArray, str],
+    tensor: Tensor,
+    library: Library,
+    *,
+    room: int | None = None,
 ) -> None:
-    """Tell the host which parts of a material depend on temperature and fields, or on USDFLD. Raises DeckError."""
-    axes, name = directions(orientation)
+    """Tell the host which parts of a material depend on temperature and fields, or on USDFLD. Raises DeckError.
+
+    along: directions of the material, as `directions` has them; room: as `define_material` has it.
+    """
+    axes, name = along
     elastic = material.elastic
     if elastic is not None and elastic.table is not None:
         count = elastic.type.constants
-        rows = [_engineering(elastic, tuple(row[:count]), tensor) for row in elastic.table.tolist()]
-        for row in rows:
-            _check_definite(elastic, _binding.compliance(row))
-        if elastic.type is ElasticType.ISOTROPIC:
-            # the shear modulus is not linear in both constants
-            rows = [(row[0], row[3]) for row in rows]
+        rows = [tuple(row[:count]) for row in elastic.table.tolist()]
+        if tensor is not Tensor.UNIAXIAL:
+            rows = _definite_rows(elastic, rows, tensor)
         table = np.hstack([np.array(rows), elastic.table[:, count:]])
         _binding.set_dependence(number, len(rows[0]), _turn(axes), table)
     if material.user_field is not None:
         address = _needed(library.usdfld, "USDFLD", material, "*USER DEFINED FIELD", material.user_field, library)
-        _binding.set_user_field(number, address, (material.name, name), state_variables(material), axes)
+        statev = state_variables(material)
+        _binding.set_user_field(number, address, (material.name, name), statev, statev if room is None else room, axes)
+
+
+def _definite_rows(elastic: Elastic, rows: list[tuple[float, ...]], tensor: Tensor) -> list[tuple[float, ...]]:
+    """Constants as the host takes them, of rows of a table that are positive definite. Raises DeckError."""
+    found = [_engineering(elastic, row, tensor) for row in rows]
+    for row in found:
+        _check_definite(elastic, _binding.compliance(row))
+    # the shear modulus is not linear in both constants
+    return [(row[0], row[3]) for row in found] if elastic.type is ElasticType.ISOTROPIC else found
 
 
 def define_material(
@@ -151,13 +174,15 @@ def define_material(
     library: Library,
     *,
     hybrid: bool = False,
+    room: int | None = None,
 ) -> int:
     """Define a material in the host; returns its number there. `user` is the place that uses it. Raises DeckError.
 
-    hybrid: its elements are, so that it may be incompressible.
+    hybrid: its elements are, so that it may be incompressible; room: values at the end of the history of which STATEV
+    are the first, if they are not all, since another layer has more.
     """
     if material.user is not None:
-        return _define_user_material(material, material.user, orientation, tensor, library, hybrid=hybrid)
+        return _define_user_material(material, material.user, orientation, tensor, library, hybrid=hybrid, room=room)
     if material.hyperelastic is not None:
         return _define_hyperelastic(material, orientation, tensor, library, hybrid=hybrid)
     elastic = material.elastic
@@ -287,6 +312,18 @@ def _define_incompressible(elastic: Elastic, tensor: Tensor) -> int:
     return _binding.define_material(stiffness[chosen], compliance[chosen], *nothing)
 
 
+def define_truss_material(material: Material, library: Library) -> int:
+    """Define an isotropic material of trusses in the host; returns its number there. Raises DeckError."""
+    elastic = material.elastic
+    assert elastic is not None
+    young, poisson = _isotropic_constants(elastic)
+    table = np.zeros((1, 2)) if material.plastic is None else material.plastic.table
+    one = np.eye(1)
+    number = _binding.define_material(one * young, one / young, np.zeros(3), np.eye(3), (young, poisson), table)
+    define_fields(number, material, directions(None), Tensor.UNIAXIAL, library)
+    return number
+
+
 def define_thermal(number: int, material: Material, library: Library) -> None:
     """Tell the host how a material conducts, stores and generates heat. Raises DeckError."""
     tables = material.conductivity, material.specific_heat, material.latent_heat
@@ -328,12 +365,17 @@ def _define_user_material(
     library: Library,
     *,
     hybrid: bool,
+    room: int | None,
 ) -> int:
     address = _needed(library.umat, "UMAT", material, "*USER MATERIAL", given.source, library)
     if orientation is not None and not is_global(orientation):
         raise DeckError(orientation.source, f"*ORIENTATION is not supported for *USER MATERIAL ({material.name})")
     formulation = int(given.hybrid) if hybrid else 0
-    return _binding.define_user_material(address, material.name, int(tensor), given.constants, formulation)
+    statev = state_variables(material)
+    room = statev if room is None else room
+    return _binding.define_user_material(
+        address, material.name, int(tensor), given.constants, formulation, statev, room
+    )
 
 
 INCOMPRESSIBLE: Final = 0.5

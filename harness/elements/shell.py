@@ -11,17 +11,19 @@ import numpy as np
 
 from harness.elements.load_vectors import check_density
 from harness.elements.materials import (
+    define_fields,
     define_material,
     global_compliance,
     history_values,
     linearity,
-    refuse_fields,
     refuse_hyperelastic,
+    refuse_output_variables,
     refuse_user_hardening,
     refuse_viscous,
     state_variables,
 )
 from harness.elements.routine import VALUES_OF_AXES, Linearity, PointAxes, Routine
+from harness.elements.simpson import simpson
 from harness.elements.solid import HOURGLASS_FRACTION, numbered
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray
@@ -68,10 +70,14 @@ def shell_routine(
     _check(model, group, section)
     dynamic = any(step.procedure.inertia for step in model.steps)
     points, materials = section_points(section), {layer.material.name: layer.material for layer in section.layers}
-    numbers = {
-        name: define_material(material, None, Tensor.PLANE_STRESS, section.source, library)
-        for name, material in materials.items()
-    }
+    statev = max(map(state_variables, materials.values()))
+    numbers = {}
+    for name, material in materials.items():
+        number = define_material(material, None, Tensor.PLANE_STRESS, section.source, library, room=statev)
+        # the axes are those of each section point
+        along = np.eye(3), section.orientation.name if section.orientation else ""
+        define_fields(number, material, along, Tensor.PLANE_STRESS, library, room=statev)
+        numbers[name] = number
     layers = [section.layers[k] for k in points.layer.tolist()]
     forces = 12 * kind.nodes if dynamic else 0
     of_points = kind.points * len(points.place) * len(NAMES)
@@ -80,7 +86,8 @@ def shell_routine(
     user = any(material.user is not None for material in materials.values())
     stiffness = section_stiffness(section, points)
     shear = section.shear or shear_stiffness(section, stiffness)
-    values = max(map(history_values, materials.values()))
+    # STATEV are behind what any of the materials has of other values
+    values = statev + max(history_values(material) - state_variables(material) for material in materials.values())
     of_layers = zip(layers, points.layer.tolist(), points.number.tolist(), strict=True)
     known = all(linearity(material) is Linearity.KNOWN for material in materials.values())
     return Routine(
@@ -111,7 +118,7 @@ def shell_routine(
         material=next(iter(numbers.values())),
         tensor=int(Tensor.PLANE_STRESS),
         history=(values, kind.points * len(points.place) if values > 1 else 1),
-        statev=max(map(state_variables, materials.values())),
+        statev=statev,
         linear=values == 1,
         forces=Linearity.KNOWN if known else Linearity.UNKNOWN,
         free=(1, 2, 3),
@@ -199,9 +206,7 @@ def section_points(section: ShellSection) -> SectionPoints:
             at, weight = np.polynomial.legendre.leggauss(layer.points)
             at, weight = (1 + at) / 2, weight / 2
         else:
-            at = np.linspace(0, 1, layer.points)
-            weight = np.where(np.arange(layer.points) % 2, 4.0, 2.0) / (3 * (layer.points - 1))
-            weight[[0, -1]] /= 2
+            at, weight = simpson(layer.points)
         places.append(bottom + layer.thickness * at)
         weights.append(layer.thickness * weight)
         bottom += layer.thickness
@@ -305,10 +310,7 @@ def _check(model: Model, group: ElementGroup, section: ShellSection) -> None:
         raise DeckError(section.source, message)
     for layer in section.layers:
         material = layer.material
-        refuse_fields(material, elements)
         refuse_hyperelastic(material, elements)
         refuse_viscous(material, elements)
         refuse_user_hardening(material, elements)
-        if material.output_variables:
-            message = f"*USER OUTPUT VARIABLES (material {material.name}) is not supported for {elements}"
-            raise DeckError(section.source, message)
+        refuse_output_variables(material, elements, section.source)

@@ -30,7 +30,7 @@ from harness.errors import DeckError
 from harness.model.element_types import ContinuumType, SolidType, Tensor
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.properties import ElasticType, Hyperelastic, Material, Orientation, SolidSection
+from harness.model.properties import CompositeSection, ElasticType, Hyperelastic, Material, Orientation, SolidSection
 from harness.model.records import PointVariables
 from harness.usersub import Library, _binding
 
@@ -52,9 +52,11 @@ def solid_of(group: ElementGroup) -> ContinuumType:
     return kind
 
 
-def section_depth(kind: SolidType, section: SolidSection) -> float:
-    """Factor from area to volume: the thickness; in axisymmetric elements 2 pi, to be multiplied by the radius."""
-    return 2 * np.pi if kind.axisymmetric else section.thickness
+def section_depth(kind: SolidType, section: SolidSection | CompositeSection) -> float:
+    """Factor from area to volume: the thickness in the plane, 2 pi about an axis, to be multiplied by the radius."""
+    if kind.axisymmetric:
+        return 2 * np.pi
+    return section.thickness if isinstance(section, SolidSection) and kind.dimension == 2 else 1.0
 
 
 def solid_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
@@ -66,10 +68,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     if dynamic is not None and not material.density:
         message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
         raise DeckError(material.source, message)
-    nonlinear = next((step for step in model.steps if step.nlgeom), None)
-    if kind.incompatible and nonlinear is not None and (material.user or material.user_field):
-        message = f"NLGEOM is not supported for elements of type {group.type} with UMAT or USDFLD"
-        raise DeckError(nonlinear.source, message)
+    check_modes(model, group, kind, material)
     _check_hyperelastic(model, group, kind, material)
     _check_viscous(model, group, kind, material)
     _check_user_hardening(model, group, kind, material)
@@ -79,13 +78,14 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         # the material is in the directions of the points
         orientation = replace(local, axes=np.eye(3), system=None)
     hourglass = _hourglass_stiffness(group, kind, section)
-    _warn_of_enhanced(model, group, kind, library)
+    tangent = f"DDSDDE of UMAT (material {material.name})" if _of_tangent(kind, section) else ""
+    warn_of_enhanced(model, group, kind, library, tangent)
     _warn_of_modified(model, group, kind, library)
     number = define_material(material, orientation, kind.tensor, section.source, library, hybrid=kind.pressures > 0)
     prestressed = _is_prestressed(model, group, material)
     if prestressed:
         _binding.set_prestressed(number)
-    define_fields(number, material, orientation, kind.tensor, library)
+    define_fields(number, material, directions(orientation), kind.tensor, library)
     if local is not None:
         _binding.set_local(number)
     if material.expansion:
@@ -126,6 +126,14 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         stress=_places_of_stress(kind),
         axes=axes,
     )
+
+
+def check_modes(model: Model, group: ElementGroup, kind: ContinuumType, material: Material) -> None:
+    """Raise DeckError if elements with incompatible modes do not support the material in the steps."""
+    nonlinear = next((step for step in model.steps if step.nlgeom), None)
+    if kind.incompatible and nonlinear is not None and (material.user or material.user_field):
+        message = f"NLGEOM is not supported for elements of type {group.type} with UMAT or USDFLD"
+        raise DeckError(nonlinear.source, message)
 
 
 def _check_hyperelastic(model: Model, group: ElementGroup, kind: ContinuumType, material: Material) -> None:
@@ -244,11 +252,7 @@ def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: Soli
     controls, elastic = section.controls, section.material.elastic
     if not kind.hourglass_control:
         return 0.0
-    if section.hourglass and (controls.enhanced or controls.hourglass != 1):
-        what = "HOURGLASS=ENHANCED" if controls.enhanced else "a factor of the hourglass stiffness"
-        raise DeckError(
-            section.source, f"*HOURGLASS STIFFNESS and *SECTION CONTROLS with {what}: expected only one of them"
-        )
+    check_one_control(section)
     if controls.enhanced:
         _check_enhanced(group, kind, section)
         return 0.0
@@ -262,6 +266,16 @@ def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: Soli
         message = f"elements of type {group.type} with *USER MATERIAL need *HOURGLASS STIFFNESS after *SOLID SECTION"
         raise DeckError(section.source, message)
     return controls.hourglass * HOURGLASS_FRACTION * shear_modulus(elastic, kind.tensor)
+
+
+def check_one_control(section: SolidSection | CompositeSection) -> None:
+    """Raise DeckError if two keywords give the hourglass control."""
+    controls = section.controls
+    if section.hourglass and (controls.enhanced or controls.hourglass != 1):
+        what = "HOURGLASS=ENHANCED" if controls.enhanced else "a factor of the hourglass stiffness"
+        raise DeckError(
+            section.source, f"*HOURGLASS STIFFNESS and *SECTION CONTROLS with {what}: expected only one of them"
+        )
 
 
 def _check_enhanced(group: ElementGroup, kind: ContinuumType, section: SolidSection) -> None:
@@ -291,15 +305,18 @@ def _of_tangent(kind: ContinuumType, section: SolidSection) -> bool:
     return section.material.user is not None and not pressure_unknowns(kind, section.material)
 
 
-def _warn_of_enhanced(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> None:
-    """Say, once per section, what the enhanced hourglass control is based on."""
+def warn_of_enhanced(
+    model: Model, group: ElementGroup, kind: ContinuumType, library: Library, tangent: str = ""
+) -> None:
+    """Say, once per section, what the enhanced hourglass control is based on; tangent: what its moduli are from."""
     section = group.section
-    if not (isinstance(section, SolidSection) and section.controls.enhanced and kind.hourglass_control):
+    assert isinstance(section, SolidSection | CompositeSection)
+    if not (section.controls.enhanced and kind.hourglass_control):
         return
     if group is next(other for other in model.groups if other.section is section):
         message = "*SECTION CONTROLS, HOURGLASS=ENHANCED: the published method that Abaqus' manual names"
-        if _of_tangent(kind, section):
-            message += f", with the isotropic part of the first DDSDDE of UMAT (material {section.material.name})"
+        if tangent:
+            message += f", with the isotropic part of the first {tangent}"
         library.warn(f"{section.source}: {message}; there are no results of Abaqus to compare with")
 
 

@@ -101,9 +101,11 @@ FAMILIES: Final = {
 class Tensor(IntEnum):
     """State of stress, by its number of components.
 
-    These are 11, 22, 12 in plane stress, 11, 22, 33, 12 in plane strain, and 11, 22, 33, 12, 13, 23 in space.
+    These are 11 in a truss, 11, 22, 12 in plane stress, 11, 22, 33, 12 in plane strain, and 11, 22, 33, 12, 13, 23 in
+    space.
     """
 
+    UNIAXIAL = 1
     PLANE_STRESS = 3
     PLANE_STRAIN = 4
     SOLID = 6
@@ -215,6 +217,11 @@ class ContinuumType(SolidType):
     def hourglass_control(self) -> bool:
         """True where displacements other than rigid ones leave its only point without strain."""
         return self.points == 1 and self.family in (QUAD4, HEX8)
+
+    @property
+    def layered(self) -> bool:
+        """Whether it may have layers (*SOLID SECTION, COMPOSITE): bricks of displacements alone."""
+        return self.family in (HEX8, HEX20) and not (self.coupled or self.electrical or self.pressures)
 
     @property
     def modes(self) -> int:
@@ -393,7 +400,7 @@ class BeamType:
 
 
 class DiscreteKind(IntEnum):
-    """What a discrete element is; values are JTYPE of fortran/host/host_discrete.f90."""
+    """What a discrete element is; values but that of trusses are JTYPE of fortran/host/host_discrete.f90."""
 
     TRUSS = 1
     AXIAL_SPRING = 2
@@ -459,6 +466,9 @@ MODIFIED: Final = {
 
 CONTINUUM: Final = _SOLIDS | HYBRID | MODIFIED
 """Continuum elements by their names."""
+
+LAYERED: Final = tuple(name for name, kind in CONTINUUM.items() if kind.layered)
+"""Names of those that may have layers."""
 
 COUPLED: Final = {
     f"{name}T": replace(kind, name=f"{name}T", coupled=True) for name, kind in _SOLIDS.items() if name not in _UNCOUPLED

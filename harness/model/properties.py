@@ -334,6 +334,44 @@ class SolidSection:
 
 
 @dataclass(frozen=True, slots=True)
+class SolidLayer:
+    """A layer of a solid.
+
+    thickness    over that of the other layers
+    points       section points across it
+    orientation  of its material; None: the global directions
+    angle        of its direction from that of the orientation, about the normal of the layer, degrees; None: the
+                 directions of the orientation, whether they are along the layer or not
+    """
+
+    thickness: float
+    points: int
+    material: Material
+    orientation: Orientation | None
+    angle: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class CompositeSection:
+    """*SOLID SECTION, COMPOSITE: layers that follow each other along a direction of parent coordinates, 1, 2 or 3.
+
+    hourglass  *HOURGLASS STIFFNESS; 0: not given
+    """
+
+    elset: str
+    layers: tuple[SolidLayer, ...]
+    direction: int
+    source: Source
+    hourglass: float = 0.0
+    controls: SectionControls = SectionControls()
+
+    @property
+    def sections(self) -> int:
+        """Section points of an integration point."""
+        return sum(layer.points for layer in self.layers)
+
+
+@dataclass(frozen=True, slots=True)
 class CohesiveSection:
     """*COHESIVE SECTION with RESPONSE=TRACTION SEPARATION.
 
@@ -511,12 +549,21 @@ class UserProperty:
     orientation: Orientation | None = None
 
 
-Section = SolidSection | CohesiveSection | ShellSection | BeamSection | SpringSection | MassSection | UserProperty
+Section = (
+    SolidSection
+    | CompositeSection
+    | CohesiveSection
+    | ShellSection
+    | BeamSection
+    | SpringSection
+    | MassSection
+    | UserProperty
+)
 
 
 def materials_of(section: Section) -> tuple[Material, ...]:
-    """Materials of a section: one of each layer of a shell."""
-    if isinstance(section, ShellSection):
+    """Materials of a section: one of each layer."""
+    if isinstance(section, ShellSection | CompositeSection):
         return tuple(layer.material for layer in section.layers)
     material: Material | None = getattr(section, "material", None)
     return () if material is None else (material,)

@@ -288,7 +288,7 @@ def _at_position(
     """
     elements, nodes = group.labels[inside].tolist(), group.nodes[inside]
     matrix = at_centroid(group.type) if position is Position.CENTROID else at_nodes(group.type)
-    if position is Position.POINTS or matrix is None:
+    if position is Position.POINTS or matrix is None or sections:
         points = [f"{point:4d}       " for point in range(1, values.shape[1] + 1)]
         if sections:
             points = [f"{k // len(sections) + 1:4d}{sections[k % len(sections)]:4d}   " for k in range(values.shape[1])]

@@ -15,6 +15,7 @@ from harness.model.model import Model
 from harness.model.properties import (
     BeamSection,
     CohesiveSection,
+    CompositeSection,
     ElasticType,
     Holzapfel,
     Material,
@@ -85,7 +86,7 @@ def property_tables(model: Model) -> Iterator[Table]:
         seen.add(section.source)
         if isinstance(section, UserProperty):
             yield _user_table(group, section)
-        elif isinstance(section, SolidSection | CohesiveSection | ShellSection | BeamSection):
+        elif isinstance(section, SolidSection | CompositeSection | CohesiveSection | ShellSection | BeamSection):
             rows = _said_once(_section_rows(section, group.built_in))
             yield Table(f"{section.elset}: {group.type}", ("property", "value", ""), rows, section.source)
 
@@ -136,12 +137,13 @@ def _said_once(rows: Sequence[Row]) -> list[Row]:
 
 
 def _section_rows(
-    section: SolidSection | CohesiveSection | ShellSection | BeamSection, kind: BuiltInType | None
+    section: SolidSection | CompositeSection | CohesiveSection | ShellSection | BeamSection, kind: BuiltInType | None
 ) -> list[Row]:
     if isinstance(section, BeamSection):
         return [*_beam_rows(section)]
-    if isinstance(section, ShellSection):
-        return [*_layer_rows(section), *(row for material in _materials(section) for row in _material_rows(material))]
+    if isinstance(section, ShellSection | CompositeSection):
+        layers = _layer_rows(section) if isinstance(section, ShellSection) else _solid_layer_rows(section)
+        return [*layers, *(row for material in _materials(section) for row in _material_rows(material))]
     rows: list[Row] = [("material", section.material.name, "")]
     # of a solid in space it is no more than the default
     if isinstance(section, CohesiveSection) or kind is None or kind.dimension == 2:
@@ -163,6 +165,17 @@ def _layer_rows(section: ShellSection) -> Iterator[Row]:
         yield "orientation", section.orientation.name, ""
 
 
+def _solid_layer_rows(section: CompositeSection) -> Iterator[Row]:
+    for number, layer in enumerate(section.layers, 1):
+        place = f"layer {number}, {layer.points} section points"
+        if layer.orientation is not None:
+            place += f", orientation {layer.orientation.name}"
+        if layer.angle is not None:
+            place += f", {layer.angle:g} degrees"
+        yield f"relative thickness of {layer.material.name}", f"{layer.thickness:g}", place
+    yield "stack direction", f"{section.direction}", ""
+
+
 def _beam_rows(section: BeamSection) -> Iterator[Row]:
     yield "profile", section.profile, ", ".join(f"{value:g}" for value in section.dimensions)
     yield "n1", ", ".join(f"{value:g}" for value in section.n1), "approximate"
@@ -173,7 +186,7 @@ def _beam_rows(section: BeamSection) -> Iterator[Row]:
         yield "G", f"{section.shear_modulus:g}", ""
 
 
-def _materials(section: ShellSection) -> list[Material]:
+def _materials(section: ShellSection | CompositeSection) -> list[Material]:
     """Each material of the layers once."""
     return list({layer.material.name: layer.material for layer in section.layers}.values())
 

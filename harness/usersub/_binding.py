@@ -383,17 +383,24 @@ def set_local(number: int) -> None:
     _host.host_set_local(number)
 
 
-def set_user_field(number: int, address: int, names: tuple[str, str], statev: int, axes: FloatArray) -> None:
-    """Let USDFLD give the field variables of a material; names: of the material and its orientation."""
-    _host.host_set_user_field(number, address, _padded(names), statev, axes)
+def set_user_field(number: int, address: int, names: tuple[str, str], statev: int, room: int, axes: FloatArray) -> None:
+    """Let USDFLD give the field variables of a material; names: of the material and its orientation.
+
+    room: values at the end of the history of which the `statev` STATEV are the first.
+    """
+    _host.host_set_user_field(number, address, _padded(names), statev, room, axes)
 
 
-def define_user_material(umat: int, name: str, ntens: int, constants: FloatArray, hybrid: int = 0) -> int:
+def define_user_material(
+    umat: int, name: str, ntens: int, constants: FloatArray, hybrid: int, statev: int, room: int
+) -> int:
     """Add a material of UMAT, whose address is given, to the host's library.
 
-    hybrid: 1 for the total formulation of hybrid elements, 2 for that of incompressible materials.
+    hybrid: 1 for the total formulation of hybrid elements, 2 for that of incompressible materials; statev, room: as
+    set_user_field has them.
     """
-    return int(_host.host_define_user_material(umat, name, ntens, hybrid, np.append(constants, 0.0), len(constants)))
+    values = np.append(constants, 0.0)
+    return int(_host.host_define_user_material(umat, name, ntens, hybrid, statev, room, values, len(constants)))
 
 
 def define_empty_material() -> int:
@@ -540,6 +547,14 @@ def integration_rule(family: int, points: int, nodes: int, dimension: int) -> tu
     return weights, shapes, slopes.transpose(0, 2, 1)
 
 
+def define_rule(family: int, parent: FloatArray, weights: FloatArray, *, reduced: bool) -> int:
+    """Add a family with integration points at parent coordinates (points, dimension); returns its number.
+
+    With any other number of points it is the given family. reduced: of an element with hourglass control.
+    """
+    return int(_host.host_define_rule(family, parent.T, weights, reduced))
+
+
 def slopes_at_nodes(family: int, nodes: int) -> FloatArray:
     """Derivatives (places, nodes, 2) of a surface's shape functions by parent coordinates, at each of its nodes."""
     slopes = np.zeros((nodes, 2, nodes))
@@ -547,18 +562,20 @@ def slopes_at_nodes(family: int, nodes: int) -> FloatArray:
     return slopes.transpose(0, 2, 1)
 
 
-_ELEMENTS: Final = ("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric")
+_ELEMENTS: Final = (
+    *("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric", "truss"),
+)
 """In the order of host_element_address."""
 
 
 def address_of(
     elements: Literal[
-        "solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric"
+        "solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric", "truss"
     ],
 ) -> int:
     """Address of built-in elements.
 
-    Solid, coupled, heat, shell and piezoelectric ones are called like UELMAT, the others like UEL.
+    Solid, coupled, heat, shell, piezoelectric ones and trusses are called like UELMAT, the others like UEL.
     """
     return int(_host.host_element_address(1 + _ELEMENTS.index(elements)))
 

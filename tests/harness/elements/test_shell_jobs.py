@@ -396,8 +396,9 @@ def test_umat(run, user, element_type):
         one, other = (found[name].history[f"U{dof}[P:2]"][-1] for name in ("user", "elastic"))
         assert one == pytest.approx(other, rel=1e-6 if element_type == "S3" else 0.05)
     points = SHELL[element_type].points
-    area = 2.0 if element_type != "S3" else 1.0
-    expected = [2, 1, 3, None, (points + 1) / 2, None, None, None, None, None, np.sqrt(area), 3, 3]
+    # of second-order elements CELENT is half of the typical length (User Subroutines Guide, UMAT)
+    length = np.sqrt(2.0 if element_type != "S3" else 1.0) / (2 if element_type == "S8R" else 1)
+    expected = [2, 1, 3, None, (points + 1) / 2, None, None, None, None, None, length, 3, 3]
     for side, layer, number, z in (("SNEG", 1, 1, -0.3), ("SPOS", 2, 5, 0.3)):
         expected[5:7], expected[9] = [layer, number], z
         for k, value in enumerate(expected, 1):
