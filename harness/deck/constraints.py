@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Linear equations between dofs: *EQUATION, and what *MPC, *COUPLING, *RIGID BODY and *TIE stand for.
 
-Equations have small rotations. With NLGEOM, nodes all of whose displacements follow a reference node are arms, which
-turn by any angle in static steps; what else couples displacements to rotations is refused, unless these are held at
-zero.
+Equations have small rotations. With NLGEOM, nodes all of whose displacements follow a reference node are arms, and
+*DISTRIBUTING is no equation, so that both turn by any angle in static steps; what else couples displacements to
+rotations is refused, unless these are held at zero.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from harness.deck.table import INPUT, NAME, Keyword, Kind, Option, Where, ignore
 from harness.deck.user_elements import dofs_by_node
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.couplings import Distributing
 from harness.model.element_types import ContinuumType
 from harness.model.mesh import ElementGroup, is_in_space
 from harness.model.model import Arm, Equation
@@ -57,16 +58,17 @@ class ConstraintReader:
             if isinstance(group.built_in, ContinuumType) and group.built_in.axisymmetric:
                 self._axisymmetric[group.nodes] = True
         self._turning: dict[Source, dict[int, set[int]]] = {}
-        """Rotations of reference nodes that matter, by the place of a constraint; none for distributing couplings."""
+        """Rotations of reference nodes that matter, by the place of a constraint."""
         self._followers: list[Arm] = []
         self._partial: set[tuple[Source, int]] = set()
         self._finite = False
         self.arms: tuple[Arm, ...] = ()
+        self.couplings: list[Distributing] = []
 
     def read(self, boundaries: Sequence[Boundary], steps: Sequence[Step]) -> tuple[Equation, ...]:
         """Equations of all constraints of the deck; boundaries are those before the first step.
 
-        `arms` are those that have finite rotations.
+        `arms` are those that have finite rotations; `couplings` have them too, and no equations.
         """
         self._finite = any(step.nlgeom for step in steps)
         found: list[Equation] = []
@@ -92,6 +94,7 @@ class ConstraintReader:
         nonlinear = [step for step in steps if step.nlgeom]
         if nonlinear:
             self._turn(nonlinear, _held_rotations(boundaries, steps))
+            self._check_couplings(found, steps)
         return tuple(found)
 
     def _turn(self, nonlinear: Sequence[Step], held: dict[int, set[int]]) -> None:
@@ -101,7 +104,7 @@ class ConstraintReader:
         for source, references in self._turning.items():
             free = {node: dofs for node in references if (dofs := sorted(references[node] - held.get(node, set())))}
             places = {(source, node) for node in free}
-            if references and not (other and free) and not places & self._partial:
+            if not (other and free) and not places & self._partial:
                 turning |= places
                 continue
             where = f"in *{other.procedure.keyword} ({other.source})" if other else f"({nonlinear[0].source})"
@@ -113,9 +116,23 @@ class ConstraintReader:
                 message += (
                     f"; expected *BOUNDARY to hold dofs {those} of the reference node {name} at zero in each step"
                 )
-            if free or not references:
+            if free:
                 self._problems.add(source, message)
         self.arms = tuple(arm for arm in self._followers if (arm.source, arm.reference) in turning)
+
+    def _check_couplings(self, equations: Sequence[Equation], steps: Sequence[Step]) -> None:
+        """Refuse distributing couplings with finite rotations of free nodes, and beside procedures without them."""
+        tied = {node for equation in equations for node, _, _ in equation.terms} if self.couplings else set()
+        for coupling in self.couplings:
+            for node in coupling.nodes.tolist():
+                if not self._active[node] and node not in tied:
+                    name = self._flat.mesh.name(node)
+                    message = f"*DISTRIBUTING: node {name} is free, for no element has it: its force cannot be balanced"
+                    self._problems.add(coupling.source, message)
+        others = [step for step in steps if step.procedure.linear or step.procedure.inertia]
+        for coupling in self.couplings if others else ():
+            where = f"*{others[0].procedure.keyword} ({others[0].source}) where a step has NLGEOM"
+            self._problems.add(coupling.source, f"*DISTRIBUTING: is not supported with {where}")
 
     def _mpc(self, block: Block, owner: Owner) -> Iterator[Equation]:
         for row in block.rows():
@@ -226,13 +243,25 @@ class ConstraintReader:
         if turning and motion.axes < (3 if self._solid else 1):
             place = "its nodes lie on a line" if motion.axes else "all its nodes are in one place"
             self._problems.warn(block.source, f"*DISTRIBUTING: {place}, about which no moment is passed on")
-        if turning or distance.max() > 0.0:
-            self._turning[block.source] = {}
+        if self._finite and motion.axes:
+            self._turn_with(block, reference, (nodes, weights / weights.sum()), len(turning), motion.axes)
+            return
         for dof in (*dofs, *turning):
             factors = motion.displacement[dof - 1] if dof <= 3 else motion.rotation[dof - 4]
             terms = [(node, k, -factors[n, k - 1]) for n, node in enumerate(nodes.tolist()) for k in dofs]
             others = tuple((node, k, float(factor)) for node, k, factor in terms if factor != 0.0)
             yield Equation(((reference, dof, 1.0), *others), block.source)
+
+    def _turn_with(
+        self, block: Block, reference: int, cloud: tuple[IntArray, FloatArray], turning: int, axes: int
+    ) -> None:
+        """Note that nodes with weights turn: so many rotations are coupled, about so many axes there is inertia."""
+        dimension = 3 if self._solid else 2
+        if turning < (3 if self._solid else 1):
+            raise block.error("released rotations are not supported with NLGEOM; expected all dofs to be coupled")
+        if self._solid and axes < dimension:
+            raise block.error("its nodes lie on a line, about which they have no rotation: not supported with NLGEOM")
+        self.couplings.append(Distributing(reference, *cloud, dimension, block.source))
 
     def _kinematic_coupling(self, block: Block, owner: Owner) -> Iterator[Equation]:
         reference = self._reference(block, owner)
@@ -451,7 +480,7 @@ KEYWORDS = (
         "DISTRIBUTING",
         "The reference node of *COUPLING moves as the nodes of the surface do on average; its forces are spread over "
         "them. Weights are tributary areas. Abaqus does not document those of quadratic faces, which are cut at the "
-        "middles of edges here.",
+        "middles of edges here. With NLGEOM, in static steps, it turns by any angle, as the theory manual says.",
         Where.MODEL,
         (
             one_of(

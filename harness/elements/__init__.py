@@ -7,15 +7,19 @@ from harness.elements.build import build_blocks
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.contact import ContactBlock, contact_blocks
 from harness.elements.contact_sliding import FiniteSliding
-from harness.elements.fields import FIELD_NAMES, MULTIPLIER, PRESSURE, VOLUME, field_of
+from harness.elements.distributing import DistributingBlock, distributing_blocks
+from harness.elements.fields import COUPLED, FIELD_NAMES, MULTIPLIER, PRESSURE, VOLUME, field_of
 from harness.elements.followers import FollowerBlock
 from harness.elements.heat_loads import HeatLoadBlock
 from harness.elements.lflags import Damping, Flags, Request
 from harness.elements.rigid_surface import RigidSurface
+from harness.elements.rotations import PERMUTATION, rotation_matrices, spin_matrices
 
 __all__ = [
+    "COUPLED",
     "FIELD_NAMES",
     "MULTIPLIER",
+    "PERMUTATION",
     "PRESSURE",
     "VOLUME",
     "BlockReport",
@@ -23,6 +27,7 @@ __all__ = [
     "ContactBlock",
     "Damping",
     "Distributed",
+    "DistributingBlock",
     "ElementBlock",
     "FiniteSliding",
     "Flags",
@@ -34,5 +39,8 @@ __all__ = [
     "RigidSurface",
     "build_blocks",
     "contact_blocks",
+    "distributing_blocks",
     "field_of",
+    "rotation_matrices",
+    "spin_matrices",
 ]
