@@ -25,7 +25,7 @@ from harness.deck.user_elements import dofs_by_node
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.couplings import Distributing
-from harness.model.element_types import ContinuumType
+from harness.model.element_types import ContinuumType, RigidType
 from harness.model.mesh import ElementGroup, is_in_space
 from harness.model.model import Arm, Equation
 from harness.model.steps import Boundary, Step
@@ -55,7 +55,7 @@ class ConstraintReader:
         self._active = dofs_by_node(len(self._points), groups)
         self._axisymmetric = np.zeros(len(self._points), dtype=np.bool_)
         for group in groups:
-            if isinstance(group.built_in, ContinuumType) and group.built_in.axisymmetric:
+            if isinstance(group.built_in, ContinuumType | RigidType) and group.built_in.axisymmetric:
                 self._axisymmetric[group.nodes] = True
         self._turning: dict[Source, dict[int, set[int]]] = {}
         """Rotations of reference nodes that matter, by the place of a constraint."""
@@ -507,7 +507,7 @@ KEYWORDS = (
         Where.MODEL,
         (
             _REF_NODE,
-            Option("ELSET", Kind.NAME, "elements that are rigid"),
+            Option("ELSET", Kind.NAME, "elements that are rigid: R2D2, RAX2, R3D3, R3D4, or any others"),
             Option("PIN NSET", Kind.NAME, "nodes whose displacements follow"),
             Option("TIE NSET", Kind.NAME, "nodes whose displacements and rotations follow"),
             Option("ANALYTICAL SURFACE", Kind.NAME, "analytical rigid surface, for contact"),

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Built-in trusses, springs and masses: what the driver calls for them."""
+"""Built-in trusses, springs, masses and rigid elements: what the driver calls for them."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ import numpy as np
 from harness.elements.materials import refuse_fields, refuse_user_hardening, refuse_viscous
 from harness.elements.routine import Routine
 from harness.errors import DeckError
-from harness.model.element_types import DISCRETE, DiscreteKind
+from harness.model.element_types import DISCRETE, DiscreteKind, RigidType
 from harness.model.mesh import ElementGroup, is_in_space
 from harness.model.model import Model
-from harness.model.properties import ElasticType, MassSection, SolidSection, SpringSection
+from harness.model.properties import ElasticType, MassSection, RigidSection, SolidSection, SpringSection
 from harness.model.records import PointVariables
 from harness.usersub import _binding
 
@@ -27,16 +27,21 @@ def discrete_unknowns(model: Model, group: ElementGroup) -> tuple[tuple[int, int
     section = group.section
     if isinstance(section, SpringSection) and section.dofs:
         return tuple(enumerate(section.dofs))
-    kind = DISCRETE[group.type]
+    rigid = group.built_in if isinstance(group.built_in, RigidType) else None
+    kind = rigid or DISCRETE[group.type]
     dimension = kind.dimension
-    if kind.kind is not DiscreteKind.TRUSS and not is_in_space(model.mesh.coordinates, model.groups):
+    if (
+        rigid is None
+        and _kind_of(group) is not DiscreteKind.TRUSS
+        and not is_in_space(model.mesh.coordinates, model.groups)
+    ):
         dimension = 2
     return tuple((node, dof) for node in range(group.nodes.shape[1]) for dof in range(1, dimension + 1))
 
 
 def discrete_routine(model: Model, group: ElementGroup, unknowns: int) -> Routine:
     """What the driver calls for a group. Raises DeckError."""
-    kind = DISCRETE[group.type].kind
+    kind = _kind_of(group)
     dynamic = any(step.procedure.inertia for step in model.steps)
     hidden = 2 * unknowns if dynamic else 0
     return Routine(
@@ -49,20 +54,26 @@ def discrete_routine(model: Model, group: ElementGroup, unknowns: int) -> Routin
         props=_properties(group, dynamic=dynamic),
         turns=kind in (DiscreteKind.TRUSS, DiscreteKind.AXIAL_SPRING),
         jprops=np.zeros(0, dtype=np.int64),
+        forceless=isinstance(group.section, RigidSection),
     )
 
 
 def discrete_variables(group: ElementGroup) -> PointVariables | None:
     """Meaning of the state variables: strain and stress of a truss; those of springs have no name in Abaqus' output."""
-    if DISCRETE[group.type].kind is not DiscreteKind.TRUSS:
+    if _kind_of(group) is not DiscreteKind.TRUSS:
         return None
     return PointVariables("continuum", ("E11", "S11", "PE11", "PEEQ"), 1)
 
 
+def _kind_of(group: ElementGroup) -> DiscreteKind:
+    """To the driver the nodes of rigid elements are masses of zero, which have no forces."""
+    return DISCRETE[group.type].kind if group.type in DISCRETE else DiscreteKind.MASS
+
+
 def _properties(group: ElementGroup, *, dynamic: bool) -> np.ndarray:
     section = group.section
-    if isinstance(section, MassSection):
-        return np.array([section.mass])
+    if isinstance(section, MassSection | RigidSection):
+        return np.array([section.mass if isinstance(section, MassSection) else 0.0])
     if isinstance(section, SpringSection):
         return section.table
     if not isinstance(section, SolidSection):

@@ -449,6 +449,14 @@ class MassSection:
 
 
 @dataclass(frozen=True, slots=True)
+class RigidSection:
+    """*RIGID BODY of rigid elements."""
+
+    elset: str
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
 class ElementNames:
     """Names that a deck gives in comments, all of a kind or none; a unit may follow a name: 'E [MPa]'.
 
@@ -511,7 +519,16 @@ class UserProperty:
     orientation: Orientation | None = None
 
 
-Section = SolidSection | CohesiveSection | ShellSection | BeamSection | SpringSection | MassSection | UserProperty
+Section = (
+    SolidSection
+    | CohesiveSection
+    | ShellSection
+    | BeamSection
+    | SpringSection
+    | MassSection
+    | RigidSection
+    | UserProperty
+)
 
 
 def materials_of(section: Section) -> tuple[Material, ...]:
