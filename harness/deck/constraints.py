@@ -10,7 +10,6 @@ rotations is refused, unless these are held at zero.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,7 +19,8 @@ from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.prescribed import read_dof
 from harness.deck.surfaces import Surfaces
-from harness.deck.table import INPUT, NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
+from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused
+from harness.deck.ties import ROTATIONS, TieReader
 from harness.deck.user_elements import dofs_by_node
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
@@ -29,13 +29,6 @@ from harness.model.element_types import ContinuumType, RigidType
 from harness.model.mesh import ElementGroup, is_in_space
 from harness.model.model import Arm, Equation
 from harness.model.steps import Boundary, Step
-
-if TYPE_CHECKING:
-    from scipy.spatial import cKDTree
-
-ROTATIONS = (4, 5, 6)
-CLOSE = 0.05
-"""Position tolerance of *TIE as a fraction of the largest distance between neighbouring nodes of the main surface."""
 
 TERM_FIELDS = 3
 """Fields of a term of *EQUATION: node or set, dof, coefficient."""
@@ -62,6 +55,8 @@ class ConstraintReader:
         self._followers: list[Arm] = []
         self._partial: set[tuple[Source, int]] = set()
         self._finite = False
+        self._ties = TieReader(flat, self._surfaces, self._solid, problems)
+        self._held: dict[int, set[int]] = {}
         self.arms: tuple[Arm, ...] = ()
         self.couplings: list[Distributing] = []
 
@@ -71,6 +66,11 @@ class ConstraintReader:
         `arms` are those that have finite rotations; `couplings` have them too, and no equations.
         """
         self._finite = any(step.nlgeom for step in steps)
+        ties = [block for owner in self._flat.owners for block in owner.blocks if block.name == "TIE"]
+        if self._finite or ties:
+            self._held = _held_at_zero(boundaries, steps)
+        with self._problems.gather():
+            self._ties.read_sector(ties, steps)
         found: list[Equation] = []
         readers = {
             "MPC": self._mpc,
@@ -93,16 +93,18 @@ class ConstraintReader:
                         found += readers[block.name](block, owner)
         nonlinear = [step for step in steps if step.nlgeom]
         if nonlinear:
-            self._turn(nonlinear, _held_rotations(boundaries, steps))
+            self._turn(nonlinear)
             self._check_couplings(found, steps)
         return tuple(found)
 
-    def _turn(self, nonlinear: Sequence[Step], held: dict[int, set[int]]) -> None:
+    def _turn(self, nonlinear: Sequence[Step]) -> None:
         """Find the arms that turn, and refuse other constraints with rotations that are not held at zero."""
         other = next((step for step in nonlinear if step.procedure.linear or step.procedure.inertia), None)
         turning: set[tuple[Source, int]] = set()
         for source, references in self._turning.items():
-            free = {node: dofs for node in references if (dofs := sorted(references[node] - held.get(node, set())))}
+            free = {
+                node: dofs for node in references if (dofs := sorted(references[node] - self._held.get(node, set())))
+            }
             places = {(source, node) for node in free}
             if not (other and free) and not places & self._partial:
                 turning |= places
@@ -116,8 +118,7 @@ class ConstraintReader:
                 message += (
                     f"; expected *BOUNDARY to hold dofs {those} of the reference node {name} at zero in each step"
                 )
-            if free:
-                self._problems.add(source, message)
+            self._problems.add(source, message)
         self.arms = tuple(arm for arm in self._followers if (arm.source, arm.reference) in turning)
 
     def _check_couplings(self, equations: Sequence[Equation], steps: Sequence[Step]) -> None:
@@ -292,26 +293,7 @@ class ConstraintReader:
             yield from self._follow(node, reference, dofs, block.source)
 
     def _tie(self, block: Block, owner: Owner) -> Iterator[Equation]:
-        for row in block.rows():
-            second, main = (self._surfaces.nodes(row.name(k, "surface"), row.source, owner.name) for k in range(2))
-            if not len(main) or not len(second):
-                raise row.error("a surface has no nodes")
-            tree = _search_tree(self._points[main])
-            tolerance = block.options.real("POSITION TOLERANCE", CLOSE * _spacing(self._points[main]))
-            distance, nearest = tree.query(self._points[second])
-            apart = second[distance > tolerance]
-            if len(apart):
-                name, more = self._flat.mesh.name(int(apart[0])), len(apart) - 1
-                others = f" and {more} more" if more else ""
-                raise row.error(
-                    f"node {name}{others} of the first surface coincides with no node of the second one (tolerance "
-                    f"{tolerance:g}): only surfaces with matching nodes can be tied"
-                )
-            rotations = not block.options.flag("NO ROTATION")
-            for node, other in zip(second.tolist(), main[nearest].tolist(), strict=True):
-                dofs = [dof for dof in sorted(self._active[node]) if rotations or dof not in ROTATIONS]
-                if node != other:
-                    yield from self._equal(node, other, dofs, row.source)
+        yield from self._ties.read(block, owner, self._active, self._held)
 
 
 def reference_node(block: Block, owner: Owner, flat: FlatMesh) -> int:
@@ -331,17 +313,16 @@ def bodies_with_surfaces(flat: FlatMesh) -> Iterator[tuple[Block, Owner, str]]:
                 yield block, owner, block.options.text("ANALYTICAL SURFACE")
 
 
-def _held_rotations(boundaries: Sequence[Boundary], steps: Sequence[Step]) -> dict[int, set[int]]:
-    """Rotations of nodes that are prescribed as zero in each step."""
+def _held_at_zero(boundaries: Sequence[Boundary], steps: Sequence[Step]) -> dict[int, set[int]]:
+    """Dofs of nodes that are prescribed as zero in each step."""
     found: set[tuple[int, int]] | None = None
     now: set[tuple[int, int]] = set()
     for entries, new in ((boundaries, False), *((step.boundaries, step.new_boundary) for step in steps)):
         if new:
             now = set()
         for entry in entries:
-            if entry.dof in ROTATIONS:
-                places = {(node, entry.dof) for node in entry.nodes.tolist()}
-                now = now - places if entry.magnitude or entry.user else now | places
+            places = {(node, entry.dof) for node in entry.nodes.tolist()}
+            now = now - places if entry.magnitude or entry.user else now | places
         if entries is not boundaries:
             found = now if found is None else found & now
     by_node: dict[int, set[int]] = {}
@@ -364,20 +345,6 @@ def _dofs(row: Row, start: int) -> set[int]:
     if not 1 <= first <= last <= 6:
         raise row.error(f"dofs {first} to {last}: expected 1 to 6")
     return set(range(first, last + 1))
-
-
-def _spacing(points: np.ndarray) -> float:
-    """Largest distance of a point to the one nearest to it; 1 for a single point."""
-    if len(points) == 1:
-        return 1.0
-    distance, _ = _search_tree(points).query(points, k=2)
-    return float(distance[:, 1].max())
-
-
-def _search_tree(points: np.ndarray) -> cKDTree:
-    from scipy.spatial import cKDTree  # noqa: PLC0415 (takes 0.2 s, and few decks have ties)
-
-    return cKDTree(points)
 
 
 def read_equations(flat: FlatMesh, problems: Problems) -> tuple[Equation, ...]:
@@ -514,18 +481,5 @@ KEYWORDS = (
             *ignored("ISOTHERMAL"),
             *refused("POSITION"),
         ),
-    ),
-    Keyword(
-        "TIE",
-        "Tie surfaces with matching nodes: all dofs of the first one follow the second.",
-        Where.MODEL,
-        (
-            NAME,
-            Option("POSITION TOLERANCE", Kind.REAL, "largest distance of nodes that are tied"),
-            Option("NO ROTATION", doc="rotations stay free"),
-            *ignored("ADJUST", "CONSTRAINT RATIO", "NO THICKNESS", "TYPE"),
-            *refused("CYCLIC SYMMETRY", "TIED NSET"),
-        ),
-        "first (secondary) surface, second (main) surface",
     ),
 )

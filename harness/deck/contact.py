@@ -18,19 +18,18 @@ from harness.deck.interactions import Interactions
 from harness.deck.numbers import read_real
 from harness.deck.pieces import make_pieces, wound
 from harness.deck.profiles import find_profile
-from harness.deck.surfaces import Surfaces, tributary_areas
+from harness.deck.surfaces import Surfaces, linear_face, tributary_areas
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import dofs_by_node
 from harness.elements import FiniteSliding
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.contact import ContactPair, ContactProperty, Pieces, RigidProfile, SlidingPair
-from harness.model.element_types import LINE2, QUAD4, TRI3, ContinuumType, Family, RigidType
+from harness.model.element_types import LINE2, ContinuumType, RigidType
 from harness.model.mesh import ElementGroup, full_name
 from harness.model.properties import SolidSection
 from harness.model.steps import Step
 
-LINEAR_FACES = (LINE2, TRI3, QUAD4)
 PROCEDURES = ("STATIC", "VISCO")
 
 SMOOTH = 0.2
@@ -224,7 +223,7 @@ class ContactReader:
         by_corners: dict[int, list[tuple[IntArray, FloatArray]]] = {}
         areas, depth, lengths = np.zeros(len(self._points)), np.zeros(len(self._points)), [np.zeros(0)]
         for group, rows, local, place in self._surfaces.facets(name, row.source, owner.name):
-            family = _face_family(group, local)
+            family = linear_face(group, local)
             if family is None:
                 kinds = ", ".join(f"those of {count} nodes" for count in (2, 3, 4))
                 message = f"faces of elements of type {group.type} are not supported in contact pairs"
@@ -382,17 +381,6 @@ def check_contact(pairs: Sequence[ContactPair | SlidingPair], steps: Sequence[St
         for what, there in obstacles.items():
             if there:
                 problems.add(step.source, f"{place} is not supported with {what}")
-
-
-def _face_family(group: ElementGroup, local: tuple[int, ...]) -> Family | None:
-    """The family of a face, None where contact does not support it."""
-    kind = group.built_in
-    if isinstance(kind, RigidType):
-        return kind.family
-    if not isinstance(kind, ContinuumType):
-        return None
-    family = kind.family.face_family(local)
-    return family if family in LINEAR_FACES else None
 
 
 def _normals(corners: FloatArray) -> FloatArray:

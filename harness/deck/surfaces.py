@@ -14,7 +14,20 @@ from harness.deck.flatten import FlatMesh
 from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import LINE3, QUAD8, TRI6, Face, Family, RigidType, ShellType, SolidType
+from harness.model.element_types import (
+    LINE2,
+    LINE3,
+    QUAD4,
+    QUAD8,
+    TRI3,
+    TRI6,
+    ContinuumType,
+    Face,
+    Family,
+    RigidType,
+    ShellType,
+    SolidType,
+)
 from harness.model.mesh import ElementGroup
 
 _CORNERS = np.array([[-1.0, 1.0, 1.0, -1.0], [-1.0, -1.0, 1.0, 1.0]])
@@ -209,6 +222,20 @@ def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> 
         known = ", ".join(faces) or "none"
         raise DeckError(source, f"*{keyword}: elements of type {group.type} have no face {face} (faces: {known})")
     return faces[face]
+
+
+def family_of_face(group: ElementGroup, local: Face) -> Family | None:
+    """The family of a face of solids or rigid elements, None of others."""
+    kind = group.built_in
+    if isinstance(kind, RigidType):
+        return kind.family
+    return kind.family.face_family(local) if isinstance(kind, ContinuumType) else None
+
+
+def linear_face(group: ElementGroup, local: Face) -> Family | None:
+    """The family of a face of solids or rigid elements, None where it is another one, or has middle nodes."""
+    family = family_of_face(group, local)
+    return family if family in (LINE2, TRI3, QUAD4) else None
 
 
 KEYWORDS = (

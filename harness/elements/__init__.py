@@ -7,6 +7,7 @@ from harness.elements.build import build_blocks
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.contact import ContactBlock, contact_blocks
 from harness.elements.contact_sliding import FiniteSliding
+from harness.elements.contact_surface import FaceSurface, monomials
 from harness.elements.distributing import DistributingBlock, distributing_blocks
 from harness.elements.fields import COUPLED, FIELD_NAMES, MULTIPLIER, PRESSURE, VOLUME, field_of
 from harness.elements.followers import FollowerBlock
@@ -29,6 +30,7 @@ __all__ = [
     "Distributed",
     "DistributingBlock",
     "ElementBlock",
+    "FaceSurface",
     "FiniteSliding",
     "Flags",
     "FollowerBlock",
@@ -41,6 +43,7 @@ __all__ = [
     "contact_blocks",
     "distributing_blocks",
     "field_of",
+    "monomials",
     "rotation_matrices",
     "spin_matrices",
 ]

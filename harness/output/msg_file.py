@@ -3,8 +3,7 @@
 """The message file (.msg): tolerances of each step, then every iteration with its checks, as Abaqus prints them.
 
 Layout and words are those of the message files of Abaqus 6.14 to 2024. Left out are the figures of the solver
-(equations, operations). The words on hybrid elements and on distributing couplings in
-an iteration are ours.
+(equations, operations). The words on hybrid elements and on distributing couplings in an iteration are ours.
 """
 
 from __future__ import annotations
