@@ -21,7 +21,7 @@ from harness.errors import ConvergenceError, ElementError, UelError, UsageError,
 from harness.interrupts import held, settle
 from harness.job_on_ranks import files_of_job, messages_of, refuse_unshared
 from harness.job_restart import decks_of, find_state, refuse_nothing_left, refuse_on_ranks
-from harness.model.model import Model
+from harness.model.model import Model, constraints_with_multipliers
 from harness.model.records import AttemptEnded, IncrementDone, ModeShape, Record, StepDone
 from harness.model.restart import Resumption
 from harness.output import JobOutput, Result
@@ -138,7 +138,7 @@ def run(
         decks = ranks.agree(lambda: decks_of(model, parameters, parts))
         if ranks.size > 1:
             refuse_unshared(model, ranks)
-        _refuse_with_contact(model, {"--fallback": fallback, "--control energy": energy_control})
+        _refuse_with_multipliers(model, {"--fallback": fallback, "--control energy": energy_control})
         types = _linear_types(model, linear)
         safe = _safe_routines(model, thread_safe)
         usersub.limit_calls(call_limit)
@@ -180,12 +180,12 @@ def _assemble(
     return system
 
 
-def _refuse_with_contact(model: Model, options: Mapping[str, bool]) -> None:
-    """Raise UsageError for options of the run that contact does not take."""
-    for pair in model.contacts:
+def _refuse_with_multipliers(model: Model, options: Mapping[str, bool]) -> None:
+    """Raise UsageError for options of the run that contact and distributing couplings with NLGEOM do not take."""
+    for keyword, source in constraints_with_multipliers(model):
         for name, given in options.items():
             if given:
-                raise UsageError(f"{name}: not supported with *CONTACT PAIR ({pair.source})")
+                raise UsageError(f"{name}: not supported with {keyword} ({source})")
 
 
 def _safe_routines(model: Model, given: Collection[str]) -> frozenset[str]:
@@ -274,8 +274,8 @@ def _analyse(
             error.add_note(far)
         error.add_note(f"{output.job} ended {output.reached}; what was written is readable")
         if isinstance(error, ConvergenceError):
-            # contact takes neither of the two
-            taken = {"fallback": True, "energy_control": True} if model.contacts else {}
+            # contact and distributing couplings take neither of the two
+            taken = {"fallback": True, "energy_control": True} if constraints_with_multipliers(model) else {}
             error.add_note(_advice(str(error), **{"fallback": fallback, "energy_control": energy_control} | taken))
         raise
 

@@ -9,7 +9,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from harness.errors import DeckError, SilentError, UsageError, in_words
-from harness.model.model import Model
+from harness.model.model import Model, constraints_with_multipliers
 from harness.output.lock import locked
 from harness.output.verdict import forget_verdict, write_verdict
 from harness.parallel import leave_word
@@ -18,10 +18,11 @@ from harness.usersub import Library, Message
 
 
 def refuse_unshared(model: Model, ranks: Ranks) -> None:
-    """Raise DeckError for contact, and for linear perturbation steps, whose matrices are not shared out."""
-    for pair in model.contacts:
-        message = f"*CONTACT PAIR does not run on {ranks.size} ranks; run this deck in one process"
-        raise DeckError(pair.source, message)
+    """Raise DeckError for contact, distributing couplings with NLGEOM and linear perturbation steps, whose matrices are
+    not shared out.
+    """
+    for keyword, source in constraints_with_multipliers(model):
+        raise DeckError(source, f"{keyword} does not run on {ranks.size} ranks; run this deck in one process")
     for step in model.steps:
         if step.procedure.linear:
             raise DeckError(

@@ -18,24 +18,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from harness.assembly.dofs import DofMap
+from harness.elements import PERMUTATION, rotation_matrices, spin_matrices
 from harness.errors import DeckError
-from harness.model.arrays import ComplexArray, FloatArray, IntArray
+from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Arm, Equation
-
-SMALL = 1e-3
-"""Square of an angle below which series are used."""
 
 IMAGINARY = 1e-30
 """Step of derivatives: the imaginary part of a function of theta + i h has no cancellation."""
 
 _DISPLACEMENTS, _ROTATIONS = np.array([1, 2, 3]), np.array([4, 5, 6])
-# of the cross product
-_EPSILON = np.zeros((3, 3, 3))
-for _i, _j, _k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-    _EPSILON[_i, _j, _k], _EPSILON[_i, _k, _j] = 1.0, -1.0
 
 
 class Arms:
@@ -62,20 +55,20 @@ class Arms:
     def place(self, start: FloatArray, increment: FloatArray) -> FloatArray:
         """An increment (n,) with those of all nodes that follow."""
         u, chosen, placed = start + increment, self.own >= 0, increment.copy()
-        turned = np.einsum("kij,kj->ki", _rotation(self._angles(u))[self._of], self._arm)
+        turned = np.einsum("kij,kj->ki", rotation_matrices(self._angles(u))[self._of], self._arm)
         following = _gathered(u, self._moves) + turned - self._arm
         placed[self.own[chosen]] = following[chosen] - start[self.own[chosen]]
         return placed
 
     def levers(self, u: FloatArray) -> FloatArray:
         """Moments (k, 3, 3) about the global axes by the forces on each node: force, then axis."""
-        turned = np.einsum("kij,kj->ki", _rotation(self._angles(u))[self._of], self._arm)
-        found: FloatArray = np.einsum("iab,ka->kbi", _EPSILON, turned)
+        turned = np.einsum("kij,kj->ki", rotation_matrices(self._angles(u))[self._of], self._arm)
+        found: FloatArray = np.einsum("iab,ka->kbi", PERMUTATION, turned)
         return found
 
     def slopes(self, u: FloatArray) -> FloatArray:
         """Derivatives (k, 3, 3) of the displacements of each node by the rotations of its reference node."""
-        return np.asarray(self.levers(u) @ _spins(self._angles(u))[self._of], dtype=np.float64)
+        return np.asarray(self.levers(u) @ spin_matrices(self._angles(u))[self._of], dtype=np.float64)
 
     def curvature(self, u: FloatArray, force: FloatArray) -> FloatArray:
         """What forces (n,) on the nodes add to the stiffness (references, 3, 3) of the rotations, as arms turn."""
@@ -87,8 +80,8 @@ class Arms:
             step = np.zeros(3, dtype=np.complex128)
             step[k] = 1j * IMAGINARY
             # sum of f x^T, x the arms then; the axial vector of its skew part is the moment
-            now = moments @ _rotation(angles + step).transpose(0, 2, 1)
-            found[:, :, k] = -np.einsum("iab,mba->mi", _EPSILON, now).imag / IMAGINARY
+            now = moments @ rotation_matrices(angles + step).transpose(0, 2, 1)
+            found[:, :, k] = -np.einsum("iab,mba->mi", PERMUTATION, now).imag / IMAGINARY
         return found
 
     def _angles(self, u: FloatArray) -> FloatArray:
@@ -98,37 +91,6 @@ class Arms:
 def _gathered(values: FloatArray, unknowns: IntArray) -> FloatArray:
     """Values of unknowns, zero where there is none."""
     return np.asarray(np.append(values, 0.0)[unknowns], dtype=np.float64)
-
-
-def _factors(angles: ComplexArray | FloatArray) -> tuple[NDArray[np.inexact], ...]:
-    """sin t/t, (1 - cos t)/t^2 and (t - sin t)/t^3 of angles (m, 3), each (m, 1, 1)."""
-    square = np.sum(angles * angles, axis=1)[:, None, None]
-    small = np.abs(square) < SMALL
-    t = np.sqrt(np.where(small, 1.0, square))
-    series = [1 - square / 6 * (1 - square / 20 * (1 - square / 42))]
-    series.append(0.5 - square / 24 * (1 - square / 30 * (1 - square / 56)))
-    series.append(1 / 6 - square / 120 * (1 - square / 42 * (1 - square / 72)))
-    closed = np.sin(t) / t, (1 - np.cos(t)) / t**2, (t - np.sin(t)) / t**3
-    return tuple(np.where(small, one, other) for one, other in zip(series, closed, strict=True))
-
-
-def _skew(angles: ComplexArray | FloatArray) -> NDArray[np.inexact]:
-    """(m, 3, 3) matrices of the cross product with angles (m, 3)."""
-    return np.asarray(np.einsum("iaj,ma->mij", _EPSILON, angles))
-
-
-def _rotation(angles: ComplexArray | FloatArray) -> NDArray[np.inexact]:
-    """R (m, 3, 3)."""
-    first, second, _ = _factors(angles)
-    skew = _skew(angles)
-    return np.asarray(np.eye(3) + first * skew + second * (skew @ skew))
-
-
-def _spins(angles: ComplexArray | FloatArray) -> NDArray[np.inexact]:
-    """H (m, 3, 3)."""
-    _, second, third = _factors(angles)
-    skew = _skew(angles)
-    return np.asarray(np.eye(3) + second * skew + third * (skew @ skew))
 
 
 def _check(

@@ -11,20 +11,22 @@ from typing import Self, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.elements import MULTIPLIER, PRESSURE, ContactBlock, ElementBlock, field_of
+from harness.elements import COUPLED, MULTIPLIER, PRESSURE, ContactBlock, DistributingBlock, ElementBlock, field_of
 from harness.model.arrays import ComplexArray, FloatArray, IntArray
 from harness.model.mesh import Mesh, full_name
 from harness.model.model import Equation, dof_in_deck, is_local
 
 Forces = TypeVar("Forces", FloatArray, ComplexArray)
+Block = ElementBlock | ContactBlock | DistributingBlock
 
 
 @dataclass(frozen=True, slots=True)
 class DofMap:
-    """Unknowns of a model, ordered by node, then by dof; those of elements and contact points, which are of no node,
-    come last.
+    """Unknowns of a model, ordered by node, then by dof; those of elements, contact points and couplings, which are of
+    no node, come last.
 
     node  (n,) node index of each unknown; the elements of the model follow the nodes, then its contact points
+          and distributing couplings
     dof   (n,) its dof, as Abaqus numbers them (1-3 displacements, ...)
     field (n,) its field, index into FIELD_NAMES
     coordinates  (n, 3) original coordinates of its node, or of the middle of its element
@@ -41,11 +43,10 @@ class DofMap:
     _local: tuple[IntArray, IntArray, FloatArray]
 
     @classmethod
-    def build(
-        cls, mesh: Mesh, blocks: Sequence[ElementBlock | ContactBlock], equations: Sequence[Equation] = ()
-    ) -> Self:
-        """Collect unknowns of elements, of contact pairs, and of *EQUATION, whose reference nodes need not belong to an
-        element.
+    def build(cls, mesh: Mesh, blocks: Sequence[Block], equations: Sequence[Equation] = ()) -> Self:
+        """Collect unknowns of elements, contact pairs and distributing couplings, and of *EQUATION.
+
+        Reference nodes need not belong to an element.
         """
         nodes = [np.zeros(0, dtype=np.int64)]
         dofs = [np.zeros(0, dtype=np.int64)]
@@ -58,7 +59,7 @@ class DofMap:
                 dofs.append(np.full(len(used), dof))
             if any(dof >= PRESSURE for _, dof in block.unknowns):
                 own = _positions(mesh, block, block.group.nodes.shape[1]).tolist()
-                names = block.names if isinstance(block, ContactBlock) else _names(block)
+                names = _names(block) if isinstance(block, ElementBlock) else block.names
                 elements |= dict(zip(own, names, strict=True))
                 middles |= dict(zip(own, mesh.coordinates[block.group.nodes].mean(axis=1), strict=True))
         terms = np.array([(node, dof) for equation in equations for node, dof, _ in equation.terms], dtype=np.int64)
@@ -108,7 +109,7 @@ class DofMap:
         known = (self._keys[found] == keys) & (np.asarray(dof) < self._base)
         return np.asarray(np.where(known, found, -1), dtype=np.int64)
 
-    def equations_of(self, block: ElementBlock | ContactBlock) -> NDArray[np.int32]:
+    def equations_of(self, block: Block) -> NDArray[np.int32]:
         """The unknowns of each element of a block.
 
         Parameters
@@ -130,6 +131,8 @@ class DofMap:
 
     def name(self, unknown: int) -> tuple[str, int]:
         """Node name and dof of an unknown, for messages; a pressure is one of its element, or of a contact point."""
+        if (number := int(self.dof[unknown]) - COUPLED) >= 0:
+            return f"{self.element(unknown)}, forces of its distributing coupling", number + 1
         if int(self.dof[unknown]) == MULTIPLIER:
             return f"{self.element(unknown)}, contact pressure", 1
         if element := self.element(unknown):
@@ -150,7 +153,7 @@ def _names(block: ElementBlock) -> list[str]:
     return [full_name(block.group.instance, label) for label in block.group.labels.tolist()]
 
 
-def _positions(mesh: Mesh, block: ElementBlock | ContactBlock, local: int) -> IntArray:
+def _positions(mesh: Mesh, block: Block, local: int) -> IntArray:
     """(m,) nodes with this local number; behind those of an element it is the element, which follows all nodes."""
     if local < block.group.nodes.shape[1]:
         return block.group.nodes[:, local]

@@ -21,6 +21,7 @@ from harness.elements import (
     FIELD_NAMES,
     Call,
     ContactBlock,
+    DistributingBlock,
     ElementBlock,
     FollowerBlock,
     HeatLoadBlock,
@@ -30,6 +31,7 @@ from harness.elements import (
 from harness.errors import ElementError
 from harness.model.arrays import ComplexArray, FloatArray, IntArray
 from harness.model.contact import ContactChanges
+from harness.model.couplings import CouplingErrors
 from harness.model.mesh import Mesh
 from harness.model.model import Equation
 from harness.model.records import ElementState
@@ -55,6 +57,7 @@ class Evaluation:
     largest     (fields,) largest |element nodal force|
     entries     (fields,) number of element nodal forces
     contact     what the iteration changed in each contact pair
+    coupling    errors of distributing couplings, None without any
     """
 
     residual: FloatArray
@@ -68,6 +71,7 @@ class Evaluation:
     largest: FloatArray = field(default_factory=lambda: np.zeros(len(FIELD_NAMES)))
     entries: IntArray = field(default_factory=lambda: np.zeros(len(FIELD_NAMES), dtype=np.int64))
     contact: tuple[ContactChanges, ...] = ()
+    coupling: CouplingErrors | None = None
 
 
 LOADED: Final = (FollowerBlock, HeatLoadBlock)
@@ -80,6 +84,7 @@ class System:
     blocks   of its elements
     loaded   faces under loads that follow them, and what heat enters: called where loads act, and no elements
     contacts its contact pairs, whose points do not count as elements either
+    coupled  its distributing couplings, whose pairs of nodes do not
     dofs     what each unknown is
     indptr   (n + 1,) row starts of the matrix, int32
     indices  (nnz,) columns, ascending in each row, int32; every diagonal entry is there and the pattern is symmetric.
@@ -92,19 +97,22 @@ class System:
         blocks: Sequence[ElementBlock],
         equations: Sequence[Equation] = (),
         contacts: Sequence[ContactBlock] = (),
+        coupled: Sequence[DistributingBlock] = (),
         *,
         spare_linear: bool = False,
         ranks: Ranks = ALONE,
     ) -> None:
-        """Blocks of a model with this mesh, these constraints and contact pairs, of which this rank keeps a part.
+        """Blocks of a model with this mesh, these constraints, contact pairs and distributing couplings.
+
+        This rank keeps a part of the elements.
 
         spare_linear: do not call linear elements again. Raises UsageError if several ranks cannot share the elements.
         """
         self.ranks = ranks
-        self.contacts = tuple(contacts)
+        self.contacts, self.coupled = tuple(contacts), tuple(coupled)
         self.blocks = tuple(block for block in blocks if not isinstance(block, LOADED))
         self.loaded = tuple(block for block in blocks if isinstance(block, LOADED))
-        self.dofs = DofMap.build(mesh, (*self.blocks, *self.contacts), equations)
+        self.dofs = DofMap.build(mesh, (*self.blocks, *self.contacts, *self.coupled), equations)
         if ranks.size > 1:
             self._keep_own()
         self._of_elements = tuple(blocks)
@@ -126,10 +134,11 @@ class System:
 
     def _bind(self) -> None:
         """Make the pattern, in new arrays, and tell all blocks where they are in it."""
-        numbers = [self.dofs.equations_of(block) for block in self._of_elements]
+        bound: tuple[ElementBlock | DistributingBlock, ...] = (*self._of_elements, *self.coupled)
+        numbers = [self.dofs.equations_of(block) for block in bound]
         couplings = [pair.couplings() for pair in self.contacts]
         self.indptr, self.indices = build_pattern(len(self.dofs), [*numbers, *couplings])
-        for block, equation_numbers in zip(self._of_elements, numbers, strict=True):
+        for block, equation_numbers in zip(bound, numbers, strict=True):
             block.bind(equation_numbers, _binding.scatter_map(equation_numbers, self.indptr, self.indices))
         for pair in self.contacts:
             pair.bind(self.indptr, self.indices)
@@ -227,8 +236,13 @@ class System:
         linear.passed(call, u, du, spared=spared)
         for pair in self.contacts:
             pair.evaluate(call, u, du, columns[0], data)
+        for coupled in self.coupled:
+            coupled.evaluate(call, u, du, columns[0], data)
         contact = tuple(pair.trial_changes for pair in self.contacts)
-        return Evaluation(columns[0], data, flux, count, pnewdt, energy, load, damage, largest, entries, contact)
+        coupling = next((coupled.errors for coupled in self.coupled), None)
+        return Evaluation(
+            columns[0], data, flux, count, pnewdt, energy, load, damage, largest, entries, contact, coupling
+        )
 
     def _evaluate_all(self, act: Callable[[], Evaluation], nrhs: int) -> Evaluation:
         """Sums over the elements of all ranks; act: gives those of this one. The matrix stays a part.
@@ -418,6 +432,7 @@ class System:
             "blocks": [block.kept() for block in self.blocks],
             "faces": [[face.key, face.elements, face.kept()] for face in self._faces],
             "contacts": [pair.kept() for pair in self.contacts],
+            "coupled": [coupled.kept() for coupled in self.coupled],
             "linear": self._linear.known,
         }
 
@@ -427,10 +442,14 @@ class System:
             raise ValueError("groups of elements")
         if len(saved["contacts"]) != len(self.contacts):
             raise ValueError("contact pairs")
+        if len(saved["coupled"]) != len(self.coupled):
+            raise ValueError("distributing couplings")
         for block, own in zip(self.blocks, saved["blocks"], strict=True):
             block.resume(own)
         for pair, own in zip(self.contacts, saved["contacts"], strict=True):
             pair.resume(own)
+        for coupled, own in zip(self.coupled, saved["coupled"], strict=True):
+            coupled.resume(own)
         if self.contacts:
             self._bind()
         for key, elements, own in saved["faces"]:

@@ -9,7 +9,7 @@ from contextlib import suppress
 from typing import Any
 
 from harness.assembly.system import Evaluation, System
-from harness.elements import Call, build_blocks, contact_blocks
+from harness.elements import Call, build_blocks, contact_blocks, distributing_blocks
 from harness.errors import NotFiniteError
 from harness.model.arrays import FloatArray
 from harness.model.model import Model
@@ -24,7 +24,8 @@ class TolerantSystem(System):
         """Blocks of all elements of a model; linear: types of user elements that the user says are linear."""
         blocks = build_blocks(model, library, strict=False, zeros=True, linear=linear)
         contacts = contact_blocks(model, blocks)
-        super().__init__(model.mesh, blocks, model.equations, contacts, spare_linear=True, ranks=ranks)
+        coupled = distributing_blocks(model, blocks, contacts)
+        super().__init__(model.mesh, blocks, model.equations, contacts, coupled, spare_linear=True, ranks=ranks)
         self._library = library
         self._tolerated = False
 

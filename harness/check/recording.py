@@ -16,7 +16,16 @@ import numpy as np
 from harness import usersub
 from harness.assembly import Evaluation, System
 from harness.deck import read_deck
-from harness.elements import Call, ElementBlock, Flags, Motion, Request, build_blocks, contact_blocks
+from harness.elements import (
+    Call,
+    ElementBlock,
+    Flags,
+    Motion,
+    Request,
+    build_blocks,
+    contact_blocks,
+    distributing_blocks,
+)
 from harness.errors import (
     ConvergenceError,
     ElementError,
@@ -229,7 +238,8 @@ class _RecordedSystem(System):
     """A system that keeps what its elements are called with."""
 
     def __init__(self, model: Model, blocks: Sequence[ElementBlock], events: list[Event]) -> None:
-        super().__init__(model.mesh, blocks, model.equations, contact_blocks(model, blocks))
+        contacts = contact_blocks(model, blocks)
+        super().__init__(model.mesh, blocks, model.equations, contacts, distributing_blocks(model, blocks, contacts))
         self._events = events
 
     def evaluate(

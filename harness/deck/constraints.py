@@ -2,15 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Linear equations between dofs: *EQUATION, and what *MPC, *COUPLING, *RIGID BODY and *TIE stand for.
 
-Equations have small rotations. With NLGEOM, nodes all of whose displacements follow a reference node are arms, which
-turn by any angle in static steps; what else couples displacements to rotations is refused, unless these are held at
-zero.
+Equations have small rotations. With NLGEOM, nodes all of whose displacements follow a reference node are arms, and
+*DISTRIBUTING is no equation, so that both turn by any angle in static steps; what else couples displacements to
+rotations is refused, unless these are held at zero.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,21 +19,16 @@ from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.prescribed import read_dof
 from harness.deck.surfaces import Surfaces
-from harness.deck.table import INPUT, NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
+from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused
+from harness.deck.ties import ROTATIONS, TieReader
 from harness.deck.user_elements import dofs_by_node
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import ContinuumType
+from harness.model.couplings import Distributing
+from harness.model.element_types import ContinuumType, RigidType
 from harness.model.mesh import ElementGroup, is_in_space
 from harness.model.model import Arm, Equation
 from harness.model.steps import Boundary, Step
-
-if TYPE_CHECKING:
-    from scipy.spatial import cKDTree
-
-ROTATIONS = (4, 5, 6)
-CLOSE = 0.05
-"""Position tolerance of *TIE as a fraction of the largest distance between neighbouring nodes of the main surface."""
 
 TERM_FIELDS = 3
 """Fields of a term of *EQUATION: node or set, dof, coefficient."""
@@ -54,21 +48,29 @@ class ConstraintReader:
         self._active = dofs_by_node(len(self._points), groups)
         self._axisymmetric = np.zeros(len(self._points), dtype=np.bool_)
         for group in groups:
-            if isinstance(group.built_in, ContinuumType) and group.built_in.axisymmetric:
+            if isinstance(group.built_in, ContinuumType | RigidType) and group.built_in.axisymmetric:
                 self._axisymmetric[group.nodes] = True
         self._turning: dict[Source, dict[int, set[int]]] = {}
-        """Rotations of reference nodes that matter, by the place of a constraint; none for distributing couplings."""
+        """Rotations of reference nodes that matter, by the place of a constraint."""
         self._followers: list[Arm] = []
         self._partial: set[tuple[Source, int]] = set()
         self._finite = False
+        self._ties = TieReader(flat, self._surfaces, self._solid, problems)
+        self._held: dict[int, set[int]] = {}
         self.arms: tuple[Arm, ...] = ()
+        self.couplings: list[Distributing] = []
 
     def read(self, boundaries: Sequence[Boundary], steps: Sequence[Step]) -> tuple[Equation, ...]:
         """Equations of all constraints of the deck; boundaries are those before the first step.
 
-        `arms` are those that have finite rotations.
+        `arms` are those that have finite rotations; `couplings` have them too, and no equations.
         """
         self._finite = any(step.nlgeom for step in steps)
+        ties = [block for owner in self._flat.owners for block in owner.blocks if block.name == "TIE"]
+        if self._finite or ties:
+            self._held = _held_at_zero(boundaries, steps)
+        with self._problems.gather():
+            self._ties.read_sector(ties, steps)
         found: list[Equation] = []
         readers = {
             "MPC": self._mpc,
@@ -91,17 +93,20 @@ class ConstraintReader:
                         found += readers[block.name](block, owner)
         nonlinear = [step for step in steps if step.nlgeom]
         if nonlinear:
-            self._turn(nonlinear, _held_rotations(boundaries, steps))
+            self._turn(nonlinear)
+            self._check_couplings(found, steps)
         return tuple(found)
 
-    def _turn(self, nonlinear: Sequence[Step], held: dict[int, set[int]]) -> None:
+    def _turn(self, nonlinear: Sequence[Step]) -> None:
         """Find the arms that turn, and refuse other constraints with rotations that are not held at zero."""
         other = next((step for step in nonlinear if step.procedure.linear or step.procedure.inertia), None)
         turning: set[tuple[Source, int]] = set()
         for source, references in self._turning.items():
-            free = {node: dofs for node in references if (dofs := sorted(references[node] - held.get(node, set())))}
+            free = {
+                node: dofs for node in references if (dofs := sorted(references[node] - self._held.get(node, set())))
+            }
             places = {(source, node) for node in free}
-            if references and not (other and free) and not places & self._partial:
+            if not (other and free) and not places & self._partial:
                 turning |= places
                 continue
             where = f"in *{other.procedure.keyword} ({other.source})" if other else f"({nonlinear[0].source})"
@@ -113,9 +118,22 @@ class ConstraintReader:
                 message += (
                     f"; expected *BOUNDARY to hold dofs {those} of the reference node {name} at zero in each step"
                 )
-            if free or not references:
-                self._problems.add(source, message)
+            self._problems.add(source, message)
         self.arms = tuple(arm for arm in self._followers if (arm.source, arm.reference) in turning)
+
+    def _check_couplings(self, equations: Sequence[Equation], steps: Sequence[Step]) -> None:
+        """Refuse distributing couplings with finite rotations of free nodes, and beside procedures without them."""
+        tied = {node for equation in equations for node, _, _ in equation.terms} if self.couplings else set()
+        for coupling in self.couplings:
+            for node in coupling.nodes.tolist():
+                if not self._active[node] and node not in tied:
+                    name = self._flat.mesh.name(node)
+                    message = f"*DISTRIBUTING: node {name} is free, for no element has it: its force cannot be balanced"
+                    self._problems.add(coupling.source, message)
+        others = [step for step in steps if step.procedure.linear or step.procedure.inertia]
+        for coupling in self.couplings if others else ():
+            where = f"*{others[0].procedure.keyword} ({others[0].source}) where a step has NLGEOM"
+            self._problems.add(coupling.source, f"*DISTRIBUTING: is not supported with {where}")
 
     def _mpc(self, block: Block, owner: Owner) -> Iterator[Equation]:
         for row in block.rows():
@@ -226,13 +244,25 @@ class ConstraintReader:
         if turning and motion.axes < (3 if self._solid else 1):
             place = "its nodes lie on a line" if motion.axes else "all its nodes are in one place"
             self._problems.warn(block.source, f"*DISTRIBUTING: {place}, about which no moment is passed on")
-        if turning or distance.max() > 0.0:
-            self._turning[block.source] = {}
+        if self._finite and motion.axes:
+            self._turn_with(block, reference, (nodes, weights / weights.sum()), len(turning), motion.axes)
+            return
         for dof in (*dofs, *turning):
             factors = motion.displacement[dof - 1] if dof <= 3 else motion.rotation[dof - 4]
             terms = [(node, k, -factors[n, k - 1]) for n, node in enumerate(nodes.tolist()) for k in dofs]
             others = tuple((node, k, float(factor)) for node, k, factor in terms if factor != 0.0)
             yield Equation(((reference, dof, 1.0), *others), block.source)
+
+    def _turn_with(
+        self, block: Block, reference: int, cloud: tuple[IntArray, FloatArray], turning: int, axes: int
+    ) -> None:
+        """Note that nodes with weights turn: so many rotations are coupled, about so many axes there is inertia."""
+        dimension = 3 if self._solid else 2
+        if turning < (3 if self._solid else 1):
+            raise block.error("released rotations are not supported with NLGEOM; expected all dofs to be coupled")
+        if self._solid and axes < dimension:
+            raise block.error("its nodes lie on a line, about which they have no rotation: not supported with NLGEOM")
+        self.couplings.append(Distributing(reference, *cloud, dimension, block.source))
 
     def _kinematic_coupling(self, block: Block, owner: Owner) -> Iterator[Equation]:
         reference = self._reference(block, owner)
@@ -263,26 +293,7 @@ class ConstraintReader:
             yield from self._follow(node, reference, dofs, block.source)
 
     def _tie(self, block: Block, owner: Owner) -> Iterator[Equation]:
-        for row in block.rows():
-            second, main = (self._surfaces.nodes(row.name(k, "surface"), row.source, owner.name) for k in range(2))
-            if not len(main) or not len(second):
-                raise row.error("a surface has no nodes")
-            tree = _search_tree(self._points[main])
-            tolerance = block.options.real("POSITION TOLERANCE", CLOSE * _spacing(self._points[main]))
-            distance, nearest = tree.query(self._points[second])
-            apart = second[distance > tolerance]
-            if len(apart):
-                name, more = self._flat.mesh.name(int(apart[0])), len(apart) - 1
-                others = f" and {more} more" if more else ""
-                raise row.error(
-                    f"node {name}{others} of the first surface coincides with no node of the second one (tolerance "
-                    f"{tolerance:g}): only surfaces with matching nodes can be tied"
-                )
-            rotations = not block.options.flag("NO ROTATION")
-            for node, other in zip(second.tolist(), main[nearest].tolist(), strict=True):
-                dofs = [dof for dof in sorted(self._active[node]) if rotations or dof not in ROTATIONS]
-                if node != other:
-                    yield from self._equal(node, other, dofs, row.source)
+        yield from self._ties.read(block, owner, self._active, self._held)
 
 
 def reference_node(block: Block, owner: Owner, flat: FlatMesh) -> int:
@@ -302,17 +313,16 @@ def bodies_with_surfaces(flat: FlatMesh) -> Iterator[tuple[Block, Owner, str]]:
                 yield block, owner, block.options.text("ANALYTICAL SURFACE")
 
 
-def _held_rotations(boundaries: Sequence[Boundary], steps: Sequence[Step]) -> dict[int, set[int]]:
-    """Rotations of nodes that are prescribed as zero in each step."""
+def _held_at_zero(boundaries: Sequence[Boundary], steps: Sequence[Step]) -> dict[int, set[int]]:
+    """Dofs of nodes that are prescribed as zero in each step."""
     found: set[tuple[int, int]] | None = None
     now: set[tuple[int, int]] = set()
     for entries, new in ((boundaries, False), *((step.boundaries, step.new_boundary) for step in steps)):
         if new:
             now = set()
         for entry in entries:
-            if entry.dof in ROTATIONS:
-                places = {(node, entry.dof) for node in entry.nodes.tolist()}
-                now = now - places if entry.magnitude or entry.user else now | places
+            places = {(node, entry.dof) for node in entry.nodes.tolist()}
+            now = now - places if entry.magnitude or entry.user else now | places
         if entries is not boundaries:
             found = now if found is None else found & now
     by_node: dict[int, set[int]] = {}
@@ -335,20 +345,6 @@ def _dofs(row: Row, start: int) -> set[int]:
     if not 1 <= first <= last <= 6:
         raise row.error(f"dofs {first} to {last}: expected 1 to 6")
     return set(range(first, last + 1))
-
-
-def _spacing(points: np.ndarray) -> float:
-    """Largest distance of a point to the one nearest to it; 1 for a single point."""
-    if len(points) == 1:
-        return 1.0
-    distance, _ = _search_tree(points).query(points, k=2)
-    return float(distance[:, 1].max())
-
-
-def _search_tree(points: np.ndarray) -> cKDTree:
-    from scipy.spatial import cKDTree  # noqa: PLC0415 (takes 0.2 s, and few decks have ties)
-
-    return cKDTree(points)
 
 
 def read_equations(flat: FlatMesh, problems: Problems) -> tuple[Equation, ...]:
@@ -451,7 +447,7 @@ KEYWORDS = (
         "DISTRIBUTING",
         "The reference node of *COUPLING moves as the nodes of the surface do on average; its forces are spread over "
         "them. Weights are tributary areas. Abaqus does not document those of quadratic faces, which are cut at the "
-        "middles of edges here.",
+        "middles of edges here. With NLGEOM, in static steps, it turns by any angle, as the theory manual says.",
         Where.MODEL,
         (
             one_of(
@@ -478,25 +474,12 @@ KEYWORDS = (
         Where.MODEL,
         (
             _REF_NODE,
-            Option("ELSET", Kind.NAME, "elements that are rigid"),
+            Option("ELSET", Kind.NAME, "elements that are rigid: R2D2, RAX2, R3D3, R3D4, or any others"),
             Option("PIN NSET", Kind.NAME, "nodes whose displacements follow"),
             Option("TIE NSET", Kind.NAME, "nodes whose displacements and rotations follow"),
             Option("ANALYTICAL SURFACE", Kind.NAME, "analytical rigid surface, for contact"),
             *ignored("ISOTHERMAL"),
             *refused("POSITION"),
         ),
-    ),
-    Keyword(
-        "TIE",
-        "Tie surfaces with matching nodes: all dofs of the first one follow the second.",
-        Where.MODEL,
-        (
-            NAME,
-            Option("POSITION TOLERANCE", Kind.REAL, "largest distance of nodes that are tied"),
-            Option("NO ROTATION", doc="rotations stay free"),
-            *ignored("ADJUST", "CONSTRAINT RATIO", "NO THICKNESS", "TYPE"),
-            *refused("CYCLIC SYMMETRY", "TIED NSET"),
-        ),
-        "first (secondary) surface, second (main) surface",
     ),
 )

@@ -18,19 +18,18 @@ from harness.deck.interactions import Interactions
 from harness.deck.numbers import read_real
 from harness.deck.pieces import make_pieces, wound
 from harness.deck.profiles import find_profile
-from harness.deck.surfaces import Surfaces, tributary_areas
+from harness.deck.surfaces import Surfaces, linear_face, tributary_areas
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import dofs_by_node
 from harness.elements import FiniteSliding
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.contact import ContactPair, ContactProperty, Pieces, RigidProfile, SlidingPair
-from harness.model.element_types import LINE2, QUAD4, TRI3, ContinuumType, Family
+from harness.model.element_types import LINE2, ContinuumType, RigidType
 from harness.model.mesh import ElementGroup, full_name
-from harness.model.properties import CompositeSection, SolidSection
+from harness.model.properties import SolidSection
 from harness.model.steps import Step
 
-LINEAR_FACES = (LINE2, TRI3, QUAD4)
 PROCEDURES = ("STATIC", "VISCO")
 
 SMOOTH = 0.2
@@ -113,6 +112,7 @@ class ContactReader:
             return self._against_rigid(block, row, owner, rigid, surface)
         if self._surfaces.of_nodes(main, row.source, owner.name) is not None:
             raise row.error(f"the main surface {main} is made of nodes; expected faces of elements")
+        self._check_secondary(secondary, row, owner)
         target = self._side(main, row, owner, None)
         side = self._side(secondary, row, owner, target)
         shared = np.intersect1d(side.nodes, target.nodes)
@@ -168,6 +168,7 @@ class ContactReader:
                 f"TYPE=SURFACE TO SURFACE is not supported on the analytical rigid surface {main}; expected NODE TO "
                 "SURFACE"
             )
+        self._check_secondary(secondary, row, owner)
         side = self._side(secondary, row, owner, None)
         active = dofs_by_node(len(self._points), self._groups)
         if any(3 in active[node] for node in side.nodes.tolist()):
@@ -204,6 +205,14 @@ class ContactReader:
         self._adjust(block, side.nodes, (at_start.above, at_start.start(), normals), owner)
         return pair
 
+    def _check_secondary(self, name: str, row: Row, owner: Owner) -> None:
+        """Raise DeckError if a secondary surface is rigid."""
+        if self._surfaces.of_nodes(name, row.source, owner.name) is not None:
+            return
+        for group, _, _, _ in self._surfaces.facets(name, row.source, owner.name):
+            if isinstance(group.built_in, RigidType):
+                raise row.error(f"surface {name} is rigid ({group.type}); expected it as the main surface")
+
     def _side(self, name: str, row: Row, owner: Owner, main: _Side | None) -> _Side:
         """A surface of a pair; main: the other one of a secondary surface, if it has faces, whose length one of nodes
         has.
@@ -214,16 +223,20 @@ class ContactReader:
         by_corners: dict[int, list[tuple[IntArray, FloatArray]]] = {}
         areas, depth, lengths = np.zeros(len(self._points)), np.zeros(len(self._points)), [np.zeros(0)]
         for group, rows, local, place in self._surfaces.facets(name, row.source, owner.name):
-            family = _face_family(group, local)
+            family = linear_face(group, local)
             if family is None:
                 kinds = ", ".join(f"those of {count} nodes" for count in (2, 3, 4))
                 message = f"faces of elements of type {group.type} are not supported in contact pairs"
-                raise DeckError(place, f"*CONTACT PAIR: {message}; expected linear ones of solids: {kinds}")
+                raise DeckError(
+                    place, f"*CONTACT PAIR: {message}; expected linear ones of solids, or rigid ones: {kinds}"
+                )
             nodes = group.nodes[rows]
             faces = nodes[:, list(local)]
             corners = self._points[faces]
             with np.errstate(over="ignore", invalid="ignore"):
-                own, outward = tributary_areas(family, corners), _outward(corners, self._points[nodes].mean(axis=1))
+                own, outward = tributary_areas(family, corners), _normals(corners)
+                if not isinstance(group.built_in, RigidType):
+                    outward = _away(outward, corners, self._points[nodes].mean(axis=1))
                 size = np.linalg.norm(outward, axis=1)
                 flat = ~(np.isfinite(own).all(axis=1) & np.isfinite(size) & (own.sum(axis=1) > 0.0) & (size > 0.0))
             if flat.any():
@@ -250,12 +263,11 @@ class ContactReader:
     def _depth(self, group: ElementGroup, faces: IntArray) -> FloatArray:
         """Thickness at the nodes of faces (f, n); about an axis, the circumference."""
         kind, section = group.built_in, group.section
-        assert isinstance(kind, ContinuumType)
-        assert isinstance(section, SolidSection | CompositeSection)
+        assert isinstance(kind, ContinuumType | RigidType)
         if kind.axisymmetric:
             return np.asarray(2 * np.pi * self._points[faces, 0])
-        depth = section.thickness if isinstance(section, SolidSection) and kind.dimension == 2 else 1.0
-        return np.full(faces.shape, depth)
+        thickness = section.thickness if isinstance(section, SolidSection) and kind.dimension == 2 else 1.0
+        return np.full(faces.shape, thickness)
 
     def _of_nodes(self, name: str, row: Row, given: list[tuple[IntArray, float]], size: float) -> _Side:
         areas = np.zeros(len(self._points))
@@ -371,24 +383,18 @@ def check_contact(pairs: Sequence[ContactPair | SlidingPair], steps: Sequence[St
                 problems.add(step.source, f"{place} is not supported with {what}")
 
 
-def _face_family(group: ElementGroup, local: tuple[int, ...]) -> Family | None:
-    """The family of a face, None where contact does not support it."""
-    kind = group.built_in
-    if not isinstance(kind, ContinuumType):
-        return None
-    family = kind.family.face_family(local)
-    return family if family in LINEAR_FACES else None
-
-
-def _outward(corners: FloatArray, centres: FloatArray) -> FloatArray:
-    """Normals (f, 3) of faces (f, corners, 3) that point away from the centres (f, 3) of their elements."""
+def _normals(corners: FloatArray) -> FloatArray:
+    """Normals (f, 3) of faces (f, corners, 3) by the order of their corners, not of length one."""
     if corners.shape[1] == 2:
         along = corners[:, 1] - corners[:, 0]
-        normals = np.stack([along[:, 1], -along[:, 0], np.zeros(len(along))], axis=1)
-    else:
-        # the diagonals of a quadrilateral, two edges of a triangle
-        last = corners.shape[1] - 1
-        normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, last] - corners[:, 1])
+        return np.stack([along[:, 1], -along[:, 0], np.zeros(len(along))], axis=1)
+    # the diagonals of a quadrilateral, two edges of a triangle
+    last = corners.shape[1] - 1
+    return np.cross(corners[:, 2] - corners[:, 0], corners[:, last] - corners[:, 1])
+
+
+def _away(normals: FloatArray, corners: FloatArray, centres: FloatArray) -> FloatArray:
+    """The normals, or those on the other side, that point away from the centres (f, 3) of the elements of faces."""
     inward = np.einsum("fd,fd->f", normals, corners.mean(axis=1) - centres) < 0.0
     return np.where(inward[:, None], -normals, normals)
 

@@ -24,8 +24,8 @@ TIME_LINES = (
     # growth before a time point of the output, at which increments do not end
     ("",),
 )
-# the others belong to constraints that hold exactly: of hybrid beams, soft contact at p = 0, distributing couplings
-CONSTRAINT_LINES = (("volume", "", "", "contact", "", "", "", "contact_force"),)
+# the others belong to constraints that hold exactly: of hybrid beams, soft contact at p = 0
+CONSTRAINT_LINES = (("volume", "", "", "contact", "", "coupling", "coupling_rotation", "contact_force"),)
 LINE_SEARCH_LINES = (("n_ls", "s_max", "s_min", "f_s", "eta_s"),)
 DISCONTINUOUS = {"i_0": 8, "i_r": 10}
 Group = TypeVar("Group", FieldControls, TimeControls, LineSearchControls, Controls)
@@ -110,9 +110,9 @@ KEYWORDS = (
     Keyword(
         "CONTROLS",
         "Solution controls; blank entries keep their value, later steps keep the controls. Of CONSTRAINTS the "
-        "volumetric strain compatibility tolerance of hybrid solids, that of contact and the contact force error "
-        "tolerance count; what the others limit holds exactly here. Creep is integrated implicitly and increments do "
-        "not end at output times: what controls these has no effect.",
+        "volumetric strain compatibility tolerance of hybrid solids, the tolerance of contact, the contact force error "
+        "tolerance and those of distributing couplings count; what the others limit holds exactly here. Creep is "
+        "integrated implicitly and increments do not end at output times: what controls these has no effect.",
         Where.STEP,
         (
             one_of("ANALYSIS", "I_0 = 8, I_R = 10", ("DISCONTINUOUS",)),

@@ -128,7 +128,13 @@ def _hourglass_stiffness(block: Block) -> float:
 
 
 def _assign(elements: _Elements, sections: list[tuple[Block, Owner]], block: Block, owner: Owner) -> None:
+    if block.name == "RIGID BODY" and not block.options.given("ELSET"):
+        return
     positions = elements.flat.elements(block.options.text("ELSET"), block.source, owner.name)
+    if block.name == "RIGID BODY":
+        # others are rigid too, but have a section of their own
+        kinds = np.array([kind.section == block.name for kind in elements.types])
+        positions = positions[kinds[elements.type_of[positions]]]
     taken = positions[elements.section_of[positions] >= 0]
     if len(taken):
         other = sections[elements.section_of[taken[0]]][0]

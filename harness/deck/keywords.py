@@ -41,6 +41,7 @@ from harness.deck import (
     steps,
     structure,
     surfaces,
+    ties,
     transforms,
     user_elements,
     viscous,
@@ -48,7 +49,7 @@ from harness.deck import (
 from harness.deck.table import Keyword, Kind, Option, Support, compact
 
 _FILES = (
-    *(structure, lexer, placement, orientations, local_mesh, generation, user_elements, surfaces, constraints),
+    *(structure, lexer, placement, orientations, local_mesh, generation, user_elements, surfaces, constraints, ties),
     *(contact, interactions),
     *(
         materials,

@@ -10,13 +10,15 @@ nodes stays constant. The parabola is two pieces, one for each face.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from scipy import sparse
 
+from harness.elements import monomials
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.contact import Pieces
+from harness.model.element_types import Family
 
 Faces = Sequence[tuple[IntArray, FloatArray]]
 
@@ -55,6 +57,43 @@ def make_pieces(faces: Sequence[IntArray], coordinates: FloatArray, smooth: floa
     """
     in_plane = faces[0].shape[1] == 2
     return _of_lines(faces[0], coordinates, smooth, zone) if in_plane else _of_areas(faces, zone)
+
+
+def whole_pieces(faces: Mapping[Family, IntArray]) -> Pieces:
+    """Pieces of a surface that is not smoothed and has no edges: of each family of faces their nodes (f, k)."""
+    width = max(family.nodes for family in faces)
+    along = next(iter(faces)).dimension
+    # those that have nodes fewer repeat the first one
+    nodes = [
+        np.concatenate([part, np.repeat(part[:, :1], width - part.shape[1], axis=1)], axis=1) for part in faces.values()
+    ]
+    count = 3 if along == 1 else 4 if width <= 4 else 8
+    shapes, low, total = [], [], []
+    for family, part in faces.items():
+        own = np.zeros((width, count))
+        own[: family.nodes, : family.nodes] = _coefficients(family, count)
+        triangle = family.dimension == 2 and family.corners == 3
+        shapes.append(np.broadcast_to(own, (len(part), width, count)))
+        low.append(np.full((len(part), along), 0.0 if triangle else -1.0))
+        total.append(np.full(len(part), 1.0 if triangle else np.inf))
+    every, start, most = np.concatenate(nodes), np.concatenate(low), np.concatenate(total)
+    without = np.full(start.shape, np.inf)
+    all_shapes = np.concatenate(shapes)
+    bounds = start, np.ones_like(start), most, -without, without, without[:, 0]
+    return Pieces(every, all_shapes, all_shapes, *bounds, _ring(every))
+
+
+def _coefficients(family: Family, count: int) -> FloatArray:
+    """(k, k) coefficients of the first k monomials in the shape functions of a face, each one at its own node."""
+    if family.dimension == 1:
+        corners = np.array([[-1.0], [1.0]])
+    elif family.corners == 3:
+        corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    else:
+        corners = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    middles = 0.5 * (corners + np.roll(corners, -1, axis=0))
+    places = np.concatenate([corners, middles])[: family.nodes]
+    return np.asarray(np.linalg.inv(monomials(places, count)[0][:, : family.nodes]).T, dtype=np.float64)
 
 
 def _of_lines(lines: IntArray, coordinates: FloatArray, smooth: float, zone: float) -> Pieces:

@@ -130,6 +130,7 @@ def read_deck(
         equations=(*equations, *related, *transforms.equations()),
         contacts=contacts,
         arms=constraints.arms,
+        couplings=tuple(constraints.couplings),
         initial_velocities=velocities,
         initial_temperatures=temperatures,
         initial_fields=fields,

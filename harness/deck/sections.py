@@ -27,6 +27,7 @@ from harness.model.properties import (
     MassSection,
     Material,
     Orientation,
+    RigidSection,
     Section,
     SectionControls,
     SolidLayer,
@@ -49,8 +50,8 @@ def make_section(
     alike = any({block.name, kind.section}.issubset(names) for names in (BEAM_KEYWORDS, SHELL_KEYWORDS))
     if block.name != kind.section and not alike:
         raise block.error(f"element set {elset} holds elements of type {kind.name}, which take *{kind.section}")
-    if block.name in ("MASS", "SPRING"):
-        return MassSection(elset, _mass(block), block.source) if block.name == "MASS" else _spring(block, kind)
+    if block.name in ("MASS", "RIGID BODY", "SPRING"):
+        return _without_material(block, kind)
     if kind.name in BEAM:
         return read_beam_section(block, materials, BEAM[kind.name].dimension)
     if block.name in SHELL_KEYWORDS:
@@ -138,6 +139,13 @@ def _solid_layer(
     if of_section is None:
         raise row.error("an angle is measured from the ORIENTATION of the section, which is not given")
     return SolidLayer(thickness, points, material, of_section, angle)
+
+
+def _without_material(block: Block, kind: ElementType) -> MassSection | RigidSection | SpringSection:
+    elset = block.options.text("ELSET")
+    if block.name == "RIGID BODY":
+        return RigidSection(elset, block.source)
+    return MassSection(elset, _mass(block), block.source) if block.name == "MASS" else _spring(block, kind)
 
 
 def _mass(block: Block) -> float:
@@ -325,4 +333,10 @@ KEYWORDS = (
     ),
     Keyword("MASS", "Point masses.", Where.MODEL, (_ELSET, *refused("ALPHA", "ORIENTATION", "TYPE")), "mass"),
 )
-SECTION_KEYWORDS = {"UEL PROPERTY", *SHELL_KEYWORDS, *BEAM_KEYWORDS, *(keyword.name for keyword in KEYWORDS)}
+SECTION_KEYWORDS = {
+    "UEL PROPERTY",
+    "RIGID BODY",
+    *SHELL_KEYWORDS,
+    *BEAM_KEYWORDS,
+    *(keyword.name for keyword in KEYWORDS),
+}

@@ -14,7 +14,20 @@ from harness.deck.flatten import FlatMesh
 from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import LINE3, QUAD8, TRI6, Face, Family, ShellType, SolidType
+from harness.model.element_types import (
+    LINE2,
+    LINE3,
+    QUAD4,
+    QUAD8,
+    TRI3,
+    TRI6,
+    ContinuumType,
+    Face,
+    Family,
+    RigidType,
+    ShellType,
+    SolidType,
+)
 from harness.model.mesh import ElementGroup
 
 _CORNERS = np.array([[-1.0, 1.0, 1.0, -1.0], [-1.0, -1.0, 1.0, 1.0]])
@@ -156,9 +169,9 @@ class Surfaces:
         group = self._groups[k]
         local = face_nodes(group, face, source, "SURFACE")
         kind = group.built_in
-        assert isinstance(kind, SolidType | ShellType)
+        assert isinstance(kind, SolidType | ShellType | RigidType)
         nodes: IntArray = group.nodes[element - self._starts[k]][list(local)]
-        whole = isinstance(kind, ShellType) and len(local) == kind.nodes
+        whole = not isinstance(kind, SolidType) and len(local) == kind.nodes
         return kind.family if whole else kind.family.face_family(local), nodes
 
 
@@ -203,10 +216,26 @@ def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> 
         faces = {f"S{number}": nodes for number, nodes in enumerate(kind.family.faces, start=1)}
     elif isinstance(kind, ShellType):
         faces = kind.sides | kind.edges
+    elif isinstance(kind, RigidType):
+        faces = kind.sides
     if face not in faces:
         known = ", ".join(faces) or "none"
         raise DeckError(source, f"*{keyword}: elements of type {group.type} have no face {face} (faces: {known})")
     return faces[face]
+
+
+def family_of_face(group: ElementGroup, local: Face) -> Family | None:
+    """The family of a face of solids or rigid elements, None of others."""
+    kind = group.built_in
+    if isinstance(kind, RigidType):
+        return kind.family
+    return kind.family.face_family(local) if isinstance(kind, ContinuumType) else None
+
+
+def linear_face(group: ElementGroup, local: Face) -> Family | None:
+    """The family of a face of solids or rigid elements, None where it is another one, or has middle nodes."""
+    family = family_of_face(group, local)
+    return family if family in (LINE2, TRI3, QUAD4) else None
 
 
 KEYWORDS = (
@@ -229,7 +258,7 @@ KEYWORDS = (
             Option("FILLET RADIUS", Kind.REAL, "of arcs between lines of an analytical rigid surface"),
             *ignored("INTERNAL", "DEFINITION", "TRIM", "COMBINE", "CROP", "NO OFFSET", "NO THICK"),
         ),
-        "set or element, face (S1, S2, ...; SPOS, SNEG, E1, E2, ... of shells); or node set or node; or START, x, y, "
-        "then LINE, x, y or CIRCL, x, y, x and y of the centre",
+        "set or element, face (S1, S2, ...; SPOS, SNEG of shells and rigid elements; E1, E2, ... of shells); or node "
+        "set or node; or START, x, y, then LINE, x, y or CIRCL, x, y, x and y of the centre",
     ),
 )

@@ -7,15 +7,20 @@ from harness.elements.build import build_blocks
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.contact import ContactBlock, contact_blocks
 from harness.elements.contact_sliding import FiniteSliding
-from harness.elements.fields import FIELD_NAMES, MULTIPLIER, PRESSURE, VOLUME, field_of
+from harness.elements.contact_surface import FaceSurface, monomials
+from harness.elements.distributing import DistributingBlock, distributing_blocks
+from harness.elements.fields import COUPLED, FIELD_NAMES, MULTIPLIER, PRESSURE, VOLUME, field_of
 from harness.elements.followers import FollowerBlock
 from harness.elements.heat_loads import HeatLoadBlock
 from harness.elements.lflags import Damping, Flags, Request
 from harness.elements.rigid_surface import RigidSurface
+from harness.elements.rotations import PERMUTATION, rotation_matrices, spin_matrices
 
 __all__ = [
+    "COUPLED",
     "FIELD_NAMES",
     "MULTIPLIER",
+    "PERMUTATION",
     "PRESSURE",
     "VOLUME",
     "BlockReport",
@@ -23,7 +28,9 @@ __all__ = [
     "ContactBlock",
     "Damping",
     "Distributed",
+    "DistributingBlock",
     "ElementBlock",
+    "FaceSurface",
     "FiniteSliding",
     "Flags",
     "FollowerBlock",
@@ -34,5 +41,9 @@ __all__ = [
     "RigidSurface",
     "build_blocks",
     "contact_blocks",
+    "distributing_blocks",
     "field_of",
+    "monomials",
+    "rotation_matrices",
+    "spin_matrices",
 ]

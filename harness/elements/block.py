@@ -108,7 +108,8 @@ class ElementBlock:
         self._watch = Watch(group, library)
         fields = np.array([field_of(dof) for _, dof in unknowns])
         # (unknowns, fields): sums entries of an element vector by field
-        self._by_field = (fields[:, None] == np.arange(len(FIELD_NAMES))).astype(np.float64)
+        by_field = (fields[:, None] == np.arange(len(FIELD_NAMES))) & (not routine.forceless)
+        self._by_field = by_field.astype(np.float64)
         self._count_by_field = np.count_nonzero(self._by_field, axis=0)
         self._all_terms = np.full(n, -1.0)
         dofs = [dof for _, dof in unknowns]

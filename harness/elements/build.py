@@ -42,6 +42,7 @@ from harness.model.element_types import (
     ContinuumType,
     DiscreteType,
     HeatType,
+    RigidType,
     ShellType,
     Tensor,
 )
@@ -161,7 +162,7 @@ def _block_of(
             return _cohesive_block(model, group, kind, library)
         case ShellType() | BeamType():
             return _structural_block(model, group, kind, library)
-        case DiscreteType():
+        case DiscreteType() | RigidType():
             return _discrete_block(model, group, library)
     near = get_close_matches(group.type.upper(), BUILT_IN, n=1)
     hint = f"; did you mean {near[0]}?" if near else ""

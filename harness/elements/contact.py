@@ -10,7 +10,6 @@ User's Guide, "Frictional behavior"). See contact.md.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
@@ -24,6 +23,7 @@ from harness.elements.contact_kinematics import Clearances, Find, Motion, Slips,
 from harness.elements.contact_sliding import FiniteSliding
 from harness.elements.fields import MULTIPLIER
 from harness.elements.lflags import Request
+from harness.elements.multipliers import scale_of_multipliers
 from harness.model.arrays import FloatArray, IntArray, first_largest
 from harness.model.contact import ContactChanges, ContactPair, SlidingPair
 from harness.model.model import Model
@@ -156,7 +156,7 @@ class ContactBlock:
         if request not in (Request.NORMAL, Request.RESIDUAL) or not len(self.rows):
             return
         if data is not None and not self._scale:
-            self._scale = self._stiffness(data)
+            self._scale = scale_of_multipliers(data, self._scatter, self.pair.dimension)
         count = self._count
         moved, change = u[self._equations[:, :count]], du[self._equations[:, :count]]
         found = self._motion.clearances(moved, nlgeom=call.flags.nlgeom)
@@ -182,12 +182,6 @@ class ContactBlock:
             self._output = (clearance, force, np.einsum("mat,mt->ma", slips.axes, friction.force))
             missed = closed & self.direct & (np.abs(clearance) > small)
             self._penetration = np.where(missed, clearance, 0.0)
-
-    def _stiffness(self, data: FloatArray) -> float:
-        """That of the secondary nodes, as a power of two: it scales the multipliers, so that the matrix is balanced."""
-        directions = np.arange(self.pair.dimension)
-        largest = float(np.abs(data[self._scatter[:, directions, directions]]).max())
-        return 2.0 ** round(math.log2(largest)) if largest > 0.0 else 1.0
 
     @property
     def _penalty_stiffness(self) -> FloatArray:

@@ -17,6 +17,7 @@ from typing import Final, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from harness.elements.rotations import PERMUTATION
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.contact import ContactPair
 from harness.model.restart import Saved
@@ -26,11 +27,6 @@ Find = Callable[[IntArray, IntArray | int], IntArray]
 
 _TURN: Final = np.array([[0.0, -1.0], [1.0, 0.0]])
 """By a right angle, in the plane."""
-
-_PRODUCT: Final = np.zeros((3, 3, 3))
-"""e_p x e_q = sum over r of _PRODUCT[r, p, q] e_r."""
-for _r, _p, _q in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-    _PRODUCT[_r, _p, _q], _PRODUCT[_r, _q, _p] = 1.0, -1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,7 +206,7 @@ class SmallSliding:
             # v is quadratic in the places of the nodes
             twist = np.einsum("mn,mk->mnk", self._slopes[..., 0], self._slopes[..., 1])
             twist = self._parts[:, 2, None, None] * (twist - twist.transpose(0, 2, 1))
-            second = np.einsum("mnk,md,dpq->mnpkq", twist, beside, _PRODUCT)
+            second = np.einsum("mnk,md,dpq->mnpkq", twist, beside, PERMUTATION)
             curvature += second.reshape(m, n * dimension, -1)
         eps = float(np.finfo(float).eps)
         return Clearances(value, gradient, gradient, curvature, eps * float(np.abs(places).max()))
@@ -253,8 +249,8 @@ class SmallSliding:
         product = parts[:, 2, None, None, None]
         cross = product * np.stack(
             [
-                np.einsum("rpq,mq->mrp", _PRODUCT, tangents[:, 1]),
-                np.einsum("rpq,mp->mrq", _PRODUCT, tangents[:, 0]),
+                np.einsum("rpq,mq->mrp", PERMUTATION, tangents[:, 1]),
+                np.einsum("rpq,mp->mrq", PERMUTATION, tangents[:, 0]),
             ],
             axis=1,
         )

@@ -184,6 +184,17 @@ class FaceSurface:
                 break
         return found, natural, above
 
+    def nearest(self, points: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Nodes (m, k) of the pieces, before any displacement, that are nearest to points (m, d), and their shares
+        there: those that are rounding are zero.
+        """
+        still = np.zeros_like(self._coordinates)
+        before = np.zeros(len(points), dtype=np.int64)
+        piece, natural, _ = self.track(points, np.zeros_like(points), still, before, everywhere=True)
+        shares = _weights(self.pieces.shapes[piece], self._inside(piece, natural))[0]
+        shares = np.where(np.abs(shares) <= EQUAL, 0.0, shares)
+        return self.nodes_of(piece), shares / shares.sum(axis=1, keepdims=True)
+
     def _nearest(
         self, points: FloatArray, looks: FloatArray, moved: FloatArray, candidates: IntArray
     ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
@@ -242,7 +253,7 @@ class FaceSurface:
 
 def _weights(shapes: FloatArray, natural: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """N (m, k) of coefficients (m, k, p), and their first (m, k, a) and second derivatives (m, k, a, a)."""
-    values, first, second = _monomials(natural)
+    values, first, second = monomials(natural, shapes.shape[2])
     return (
         np.einsum("mkp,mp->mk", shapes, values),
         np.einsum("mkp,mpa->mka", shapes, first),
@@ -250,18 +261,40 @@ def _weights(shapes: FloatArray, natural: FloatArray) -> tuple[FloatArray, Float
     )
 
 
-def _monomials(natural: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """1, xi, xi^2 or 1, xi, eta, xi eta (m, p), with first (m, p, a) and second derivatives (m, p, a, a)."""
+def monomials(natural: FloatArray, count: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """The first ones of 1, xi, xi^2 or 1, xi, eta, xi eta, xi^2, eta^2, xi^2 eta, xi eta^2, and their derivatives.
+
+    Parameters
+    ----------
+    natural
+        (m, 1 or 2) natural coordinates.
+    count
+        p of them: 3 on a line, 4 or 8 on an area.
+
+    Returns
+    -------
+    tuple[FloatArray, FloatArray, FloatArray]
+        (m, p), with first (m, p, a) and second derivatives (m, p, a, a).
+    """
     m, along = natural.shape
-    first, second = np.zeros((m, along + 2, along)), np.zeros((m, along + 2, along, along))
-    values = np.ones((m, along + 2))
+    first, second = np.zeros((m, count, along)), np.zeros((m, count, along, along))
+    values = np.ones((m, count))
     values[:, 1 : along + 1] = natural
     if along == 1:
         values[:, 2] = natural[:, 0] ** 2
         first[:, 1, 0], first[:, 2, 0], second[:, 2, 0, 0] = 1.0, 2.0 * natural[:, 0], 2.0
         return values, first, second
-    values[:, 3] = natural[:, 0] * natural[:, 1]
+    xi, eta = natural.T
+    values[:, 3] = xi * eta
     first[:, 1, 0] = first[:, 2, 1] = 1.0
     first[:, 3] = natural[:, ::-1]
     second[:, 3, 0, 1] = second[:, 3, 1, 0] = 1.0
+    if count > 4:
+        values[:, 4:] = np.stack([xi**2, eta**2, xi**2 * eta, xi * eta**2], axis=1)
+        first[:, 4, 0], first[:, 5, 1] = 2.0 * xi, 2.0 * eta
+        first[:, 6], first[:, 7] = np.stack([2.0 * xi * eta, xi**2], axis=1), np.stack([eta**2, 2.0 * xi * eta], axis=1)
+        second[:, 4, 0, 0] = second[:, 5, 1, 1] = 2.0
+        second[:, 6, 0, 0], second[:, 7, 1, 1] = 2.0 * eta, 2.0 * xi
+        second[:, 6, 0, 1] = second[:, 6, 1, 0] = 2.0 * xi
+        second[:, 7, 0, 1] = second[:, 7, 1, 0] = 2.0 * eta
     return values, first, second

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Built-in trusses, springs and masses: what the driver calls for them.
+"""Built-in trusses, springs, masses and rigid elements: what the driver calls for them.
 
 In fortran/host trusses are in host_truss.f90, the others in host_discrete.f90.
 """
@@ -21,10 +21,10 @@ from harness.elements.materials import (
 from harness.elements.routine import Routine
 from harness.elements.solid import numbered
 from harness.errors import DeckError
-from harness.model.element_types import DISCRETE, LINE2, DiscreteKind, Tensor
+from harness.model.element_types import DISCRETE, LINE2, DiscreteKind, RigidType, Tensor
 from harness.model.mesh import ElementGroup, is_in_space
 from harness.model.model import Model
-from harness.model.properties import ElasticType, MassSection, SolidSection, SpringSection
+from harness.model.properties import ElasticType, MassSection, RigidSection, SolidSection, SpringSection
 from harness.model.records import PointVariables
 from harness.usersub import Library, _binding
 
@@ -37,32 +37,44 @@ def discrete_unknowns(model: Model, group: ElementGroup) -> tuple[tuple[int, int
     section = group.section
     if isinstance(section, SpringSection) and section.dofs:
         return tuple(enumerate(section.dofs))
-    kind = DISCRETE[group.type]
+    rigid = group.built_in if isinstance(group.built_in, RigidType) else None
+    kind = rigid or DISCRETE[group.type]
     dimension = kind.dimension
-    if kind.kind is not DiscreteKind.TRUSS and not is_in_space(model.mesh.coordinates, model.groups):
+    if (
+        rigid is None
+        and _kind_of(group) is not DiscreteKind.TRUSS
+        and not is_in_space(model.mesh.coordinates, model.groups)
+    ):
         dimension = 2
     return tuple((node, dof) for node in range(group.nodes.shape[1]) for dof in range(1, dimension + 1))
 
 
 def discrete_routine(model: Model, group: ElementGroup, unknowns: int, library: Library) -> Routine:
     """What the driver calls for a group. Raises DeckError."""
-    kind = DISCRETE[group.type].kind
+    kind = _kind_of(group)
     dynamic = any(step.procedure.inertia for step in model.steps)
     hidden = 2 * unknowns if dynamic else 0
     if kind is DiscreteKind.TRUSS:
         return _truss_routine(group, unknowns, hidden, library, dynamic=dynamic)
     section = group.section
-    assert isinstance(section, MassSection | SpringSection)
+    assert isinstance(section, MassSection | RigidSection | SpringSection)
+    mass = section.mass if isinstance(section, MassSection) else 0.0
     return Routine(
         address=_binding.address_of("discrete"),
         jtype=kind,
         mcrd=unknowns // 2 if kind is DiscreteKind.AXIAL_SPRING else 3,
         svars=_STATES[kind] + hidden,
         hidden=hidden,
-        props=np.array([section.mass]) if isinstance(section, MassSection) else section.table,
+        props=section.table if isinstance(section, SpringSection) else np.array([mass]),
         turns=kind is DiscreteKind.AXIAL_SPRING,
         jprops=np.zeros(0, dtype=np.int64),
+        forceless=isinstance(section, RigidSection),
     )
+
+
+def _kind_of(group: ElementGroup) -> DiscreteKind:
+    """To the driver the nodes of rigid elements are masses of zero, which have no forces."""
+    return DISCRETE[group.type].kind if group.type in DISCRETE else DiscreteKind.MASS
 
 
 def _truss_routine(group: ElementGroup, unknowns: int, hidden: int, library: Library, *, dynamic: bool) -> Routine:
@@ -92,7 +104,7 @@ def _truss_routine(group: ElementGroup, unknowns: int, hidden: int, library: Lib
 
 def discrete_variables(group: ElementGroup, routine: Routine) -> PointVariables | None:
     """Meaning of the state variables: strain and stress of a truss; those of springs have no name in Abaqus' output."""
-    if DISCRETE[group.type].kind is not DiscreteKind.TRUSS:
+    if _kind_of(group) is not DiscreteKind.TRUSS:
         return None
     return PointVariables("continuum", ("E11", "S11", "PE11", "PEEQ", *numbered("SDV", routine.statev)), 1)
 

@@ -7,9 +7,10 @@ from __future__ import annotations
 from typing import Final
 
 from harness.model.contact import CONTACT
+from harness.model.couplings import COUPLING
 from harness.model.model import dof_in_deck
 
-FIELD_NAMES: Final = ("force", "moment", "pore", "electrical", "temperature", VOLUME := "volume", CONTACT)
+FIELD_NAMES: Final = ("force", "moment", "pore", "electrical", "temperature", VOLUME := "volume", CONTACT, COUPLING)
 """Names of the fields; their numbers index the arrays by field."""
 
 PRESSURE: Final = 101
@@ -18,10 +19,14 @@ PRESSURE: Final = 101
 MULTIPLIER: Final = 201
 """Number of the multiplier of a contact point among the unknowns of its block."""
 
+COUPLED: Final = 301
+"""Number of the first multiplier of a distributing coupling among the unknowns of its block."""
+
 
 def field_of(dof: int) -> int:
     """Field of a degree of freedom: 1-3 force, 4-7 moment, 8 pore pressure, 9 electrical, 11 to 30 temperature;
-    of those that are of no node, pressures of hybrid elements volume, and multipliers of contact points contact.
+    of those that are of no node, pressures of hybrid elements volume, multipliers of contact points contact, those of
+    distributing couplings coupling.
 
     Parameters
     ----------
@@ -34,7 +39,7 @@ def field_of(dof: int) -> int:
         Index into FIELD_NAMES.
     """
     dof = dof_in_deck(dof)
-    for last, field in ((3, 0), (7, 1), (8, 2), (9, 3), (PRESSURE - 1, 4), (MULTIPLIER - 1, 5)):
+    for last, field in ((3, 0), (7, 1), (8, 2), (9, 3), (PRESSURE - 1, 4), (MULTIPLIER - 1, 5), (COUPLED - 1, 6)):
         if dof <= last:
             return field
-    return 6
+    return 7

@@ -55,6 +55,7 @@ class Routine:
     free      dofs along which a translation of an element causes no force, as far as that is known
     axes      the directions of the points, if the material is in them, None if it is not
     turns     whether the elements have an initial stress matrix; stresses of others do not turn with them
+    forceless whether they have no forces, not even zeros that would count in average forces
     stress    places of the stress components of a point among its SVARS, in Abaqus' order; the last one is S12 or
               S23; none: the elements take no initial stress
     """
@@ -82,6 +83,7 @@ class Routine:
     axes: PointAxes | None = None
     stress: tuple[int, ...] = ()
     turns: bool = False
+    forceless: bool = False
 
     def stress_of(self, svars: FloatArray) -> tuple[FloatArray, IntArray]:
         """SVARS of elements (m, svars) by their points (m, points, values), a view, and the places of the stress there.

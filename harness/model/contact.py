@@ -75,11 +75,12 @@ class Pieces:
     """A main surface of p pieces, over which points slide from one to the next.
 
     A piece is X(xi) = sum over its nodes of N X; in the plane N are polynomials 1, xi, xi^2, in space 1, xi, eta,
-    xi eta. Tangents by xi (and eta) turn the outward normal: (t2, -t1) in the plane, their product in space.
+    xi eta, of faces with middle nodes also xi^2, eta^2, xi^2 eta, xi eta^2. Tangents by xi (and eta) turn the outward
+    normal: (t2, -t1) in the plane, their product in space.
 
     nodes       (p, k) of each piece, repeated where N is zero
-    shapes      (p, k, 3 or 4) coefficients of N
-    loads       (p, k, 3 or 4) those of the shares of the nodes in a force, whose sum is one
+    shapes      (p, k, 3, 4 or 8) coefficients of N
+    loads       (p, k, 3, 4 or 8) those of the shares of the nodes in a force, whose sum is one
     low, high   (p, 1 or 2) ends of the natural coordinates
     total       (p,) largest sum of them, infinite where there is no such end
     reach_low, reach_high, reach_total  the same of where a point is still above the surface: beyond free edges by the

@@ -399,6 +399,47 @@ class BeamType:
         return (1, 2, 3, 4, 5, 6) if self.dimension == 3 else (1, 2, 6)
 
 
+@dataclass(frozen=True, slots=True)
+class RigidType:
+    """A rigid element, which is there for its surface: its nodes move with the reference node of a *RIGID BODY.
+
+    family        of its surface
+    dimension     displacements of a node: 2 or 3
+    axisymmetric  direction 1 is the radius, 2 the axis
+    """
+
+    name: str
+    family: Family
+    dimension: int
+    axisymmetric: bool = False
+
+    @property
+    def section(self) -> str:
+        """Keyword that says with which node it moves."""
+        return "RIGID BODY"
+
+    @property
+    def nodes(self) -> int:
+        """Nodes per element."""
+        return self.family.nodes
+
+    @property
+    def sides(self) -> dict[str, Face]:
+        """Local nodes of its sides, from 0: the normal by their order points outward.
+
+        In the plane that is the right of the way along them. The positive normal is on the left of the way from node 1
+        to 2 (Abaqus Analysis User's Guide, Rigid elements).
+        """
+        nodes = tuple(range(self.nodes))
+        ways = {"SPOS": nodes, "SNEG": nodes[::-1]}
+        return ways if self.dimension == 3 else dict(zip(("SNEG", "SPOS"), ways.values(), strict=True))
+
+    def dofs(self, node: int) -> tuple[int, ...]:
+        """Dofs of a local node, from 0."""
+        del node
+        return tuple(range(1, self.dimension + 1))
+
+
 class DiscreteKind(IntEnum):
     """What a discrete element is; values but that of trusses are JTYPE of fortran/host/host_discrete.f90."""
 
@@ -428,7 +469,7 @@ class DiscreteType:
         return tuple(range(1, self.dimension + 1))
 
 
-BuiltInType = ContinuumType | HeatType | CohesiveType | ShellType | BeamType | DiscreteType
+BuiltInType = ContinuumType | HeatType | CohesiveType | ShellType | BeamType | RigidType | DiscreteType
 
 _PLANE: Final = {"3": (TRI3, 1), "4": (QUAD4, 4), "4R": (QUAD4, 1), "6": (TRI6, 3), "8": (QUAD8, 9), "8R": (QUAD8, 4)}
 _SPACE: Final = {
@@ -518,6 +559,17 @@ _BEAMS: Final = (
 BEAM: Final = {kind.name: kind for beam in _BEAMS for kind in (beam, replace(beam, name=f"{beam.name}H"))}
 """Beams by their names; linear elastic hybrid ones are the same."""
 
+RIGID: Final = {
+    kind.name: kind
+    for kind in (
+        RigidType("R2D2", LINE2, 2),
+        RigidType("RAX2", LINE2, 2, axisymmetric=True),
+        RigidType("R3D3", TRI3, 3),
+        RigidType("R3D4", QUAD4, 3),
+    )
+}
+"""Rigid elements by their names."""
+
 DISCRETE: Final = {
     kind.name: kind
     for kind in (
@@ -537,6 +589,7 @@ BUILT_IN: Final[dict[str, BuiltInType]] = {
     **COHESIVE,
     **SHELL,
     **BEAM,
+    **RIGID,
     **DISCRETE,
 }
 """All built-in elements by their names."""

@@ -10,6 +10,7 @@ from pathlib import Path
 from harness.errors import Source
 from harness.model.arrays import IntArray
 from harness.model.contact import ContactPair, SlidingPair
+from harness.model.couplings import Distributing
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.steps import Boundary, InitialSolution, InitialStress, InitialValue, Step
 
@@ -54,6 +55,7 @@ class Model:
     elsets     element positions of each set (position in the groups walked in order)
     boundaries *BOUNDARY before the first step
     arms       which of the equations have finite rotations with NLGEOM
+    couplings  distributing ones that are no equations, as a step has NLGEOM
     initial_velocities    *INITIAL CONDITIONS, TYPE=VELOCITY
     initial_temperatures  TYPE=TEMPERATURE, for unknowns that are temperatures, and as a predefined field
     initial_fields        TYPE=FIELD; their dof is the number of the field
@@ -76,6 +78,7 @@ class Model:
     equations: tuple[Equation, ...] = ()
     contacts: tuple[ContactPair | SlidingPair, ...] = ()
     arms: tuple[Arm, ...] = ()
+    couplings: tuple[Distributing, ...] = ()
     initial_velocities: tuple[InitialValue, ...] = ()
     initial_temperatures: tuple[InitialValue, ...] = ()
     initial_fields: tuple[InitialValue, ...] = ()
@@ -85,3 +88,9 @@ class Model:
     ignored: tuple[tuple[str, Source], ...] = ()
     warnings: tuple[str, ...] = ()
     differences: tuple[str, ...] = ()
+
+
+def constraints_with_multipliers(model: Model) -> list[tuple[str, Source]]:
+    """Keywords, with their places, that Lagrange multipliers or stiffnesses between nodes enforce."""
+    contacts = [("*CONTACT PAIR", pair.source) for pair in model.contacts]
+    return contacts + [("*DISTRIBUTING with NLGEOM", coupling.source) for coupling in model.couplings]

@@ -487,6 +487,14 @@ class MassSection:
 
 
 @dataclass(frozen=True, slots=True)
+class RigidSection:
+    """*RIGID BODY of rigid elements."""
+
+    elset: str
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
 class ElementNames:
     """Names that a deck gives in comments, all of a kind or none; a unit may follow a name: 'E [MPa]'.
 
@@ -557,6 +565,7 @@ Section = (
     | BeamSection
     | SpringSection
     | MassSection
+    | RigidSection
     | UserProperty
 )
 

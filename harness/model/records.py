@@ -48,10 +48,10 @@ class Largest:
 @dataclass(frozen=True, slots=True)
 class FieldCheck:
     """Convergence check of one field, as a block of the message file prints it; or of the volumes of hybrid elements,
-    or of contact.
+    of distributing couplings, or of contact.
 
-    These have no fluxes, and a residual alone: the largest difference of two changes of volume, or the largest
-    penetration.
+    These have no fluxes. Their residual is the largest difference of two changes of volume, the largest error of the
+    displacement of a reference node, or the largest penetration; their correction that of its rotation, or of a force.
 
     converted  the time average flux comes from the other of the two fields, forces and moments
     """

@@ -89,6 +89,8 @@ class Controls:
     """Solution controls: `default` for all fields, `fields` by name ('DISPLACEMENT', ...) where they differ.
 
     volume   largest difference of the changes of volume of hybrid elements, by displacements and by pressure
+    coupling  largest error of the displacement of the reference node of a distributing coupling, over its length
+    coupling_rotation  that of its rotation (radians)
     contact  largest penetration of points in contact over the largest increment of displacement
     contact_force  largest force that points give up or take on in a severe discontinuity iteration, over the time
                    average force, if it may end the increment
@@ -99,6 +101,8 @@ class Controls:
     time: TimeControls = field(default_factory=TimeControls)
     line_search: LineSearchControls = field(default_factory=LineSearchControls)
     volume: float = 1e-5
+    coupling: float = 1e-5
+    coupling_rotation: float = 1e-5
     contact: float = 5e-3
     contact_force: float = 1.0
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from harness.errors import UelError
 from harness.model.contact import CONTACT
+from harness.model.couplings import COUPLING
 from harness.model.model import Model
 from harness.model.records import (
     AttemptAbandoned,
@@ -47,7 +48,8 @@ from harness.output.progress import ProgressDisplay
 from harness.output.sta_file import StatusFile, StatusRow
 from harness.output.state_files import StateFiles
 
-PENETRATION, FORCE_ERROR = "penetration", "contact force error"
+ERRORS = {CONTACT: ("penetration", "contact force error"), COUPLING: ("displacement error", "rotation error")}
+"""What the checks of constraints measure, where those of fields have a residual and a correction."""
 
 
 class JobOutput:
@@ -178,13 +180,13 @@ class JobOutput:
     @property
     def unbalanced(self) -> list[str]:
         """Where the last iteration was farthest from convergence, a sentence for each field that it did not accept."""
-        failed = [
-            (PENETRATION if check.field == CONTACT else f"residual {check.field}", check.residual)
-            if check.verdict is Convergence.NOT_ACHIEVED
-            else (FORCE_ERROR if check.field == CONTACT else "correction", check.correction)
-            for check in self._checks
-            if not check.verdict.accepted
-        ]
+        failed = []
+        for check in self._checks:
+            residual, correction = ERRORS.get(check.field, (f"residual {check.field}", "correction"))
+            if check.verdict is Convergence.NOT_ACHIEVED:
+                failed.append((residual, check.residual))
+            elif not check.verdict.accepted:
+                failed.append((correction, check.correction))
         return [
             f"last iteration: largest {what} {largest.value:.4g} {self._place(largest)}"
             for what, largest in failed
@@ -195,7 +197,9 @@ class JobOutput:
         if largest.node < 0:
             return f"in element {largest.element}"
         node = f"at node {self._model.mesh.name(largest.node)}"
-        return f"{node} of contact pair {largest.element}" if largest.element else f"{node}, dof {largest.dof}"
+        if largest.element:
+            return f"{node} of contact pair {largest.element}"
+        return f"{node}, dof {largest.dof}" if largest.dof else f"{node}, of its distributing coupling"
 
     def close(self, error: UelError | None) -> None:
         """Write what the last converged increment still owes, and the verdict; the job ends here.

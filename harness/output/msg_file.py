@@ -3,7 +3,7 @@
 """The message file (.msg): tolerances of each step, then every iteration with its checks, as Abaqus prints them.
 
 Layout and words are those of the message files of Abaqus 6.14 to 2024. Left out are the figures of the solver
-(equations, operations). The words on hybrid elements in an iteration are ours.
+(equations, operations). The words on hybrid elements and on distributing couplings in an iteration are ours.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Final
 
 from harness.model.contact import CONTACT, ContactChanges
+from harness.model.couplings import COUPLING
 from harness.model.element_types import HYBRID
 from harness.model.model import Model
 from harness.model.records import (
@@ -47,7 +48,7 @@ class MessageFile:
         self._file = TextFile(path)
         self._fields = fields_of(model)
         self._hybrid = any(group.type in HYBRID for group in model.groups)
-        self._touches = bool(model.contacts)
+        self._touches, self._coupled = bool(model.contacts), bool(model.couplings)
         self._started = (time.perf_counter(), time.process_time())
         self.warnings: list[str] = []
         self._counts = dict.fromkeys(("increments", "cutbacks", "iterations", "searches", "helped", "errors"), 0)
@@ -56,12 +57,13 @@ class MessageFile:
         """Head of a step: tolerances and controls."""
         step = self._model.steps[record.step - 1]
         now = datetime.now()
+        limits = {"hybrid": self._hybrid, "coupled": self._coupled, "contact": self._touches}
         self._file.write(
             f"1\n\n   {program()}                                  Date {now:%d-%b-%Y}   Time {now:%H:%M:%S}\n\n"
             f" {self._model.heading}".rstrip()
             + "\n\n"
             f" STEP {step.number:4d}     INCREMENT     1     STEP TIME {general(0.0)}\n\n\n"
-            f"{procedure(step)}{tolerances(step, self._fields, hybrid=self._hybrid, contact=self._touches)}"
+            f"{procedure(step)}{tolerances(step, self._fields, **limits)}"
         )
 
     def attempt_started(self, record: AttemptStarted) -> None:
@@ -145,6 +147,8 @@ class MessageFile:
         self._file.close()
 
     def _check(self, check: FieldCheck) -> str:
+        if check.field == COUPLING:
+            return self._coupling(check)
         if check.residual.element:
             return (
                 f"\n{' LARGEST VOLUMETRIC STRAIN ERROR':<34}{general(check.residual.value)}   IN HYBRID ELEMENT "
@@ -168,6 +172,17 @@ class MessageFile:
         if check.verdict is Convergence.ACCEPTED_ESTIMATE and check.estimated_correction is not None:
             text += f"{f' ESTIMATE OF {quantity:<9}CORRECTION':<34}{general(check.estimated_correction)}\n"
         return text + f"{_verdict(check.verdict, words)}\n"
+
+    def _coupling(self, check: FieldCheck) -> str:
+        """Errors of distributing couplings, a line for displacements and one for rotations."""
+        errors = {"DISPLACEMENT": check.residual, "ROTATION": check.correction}
+        lines = [
+            f"{f' LARGEST {words} ERROR':<34}{general(found.value)}   AT REFERENCE NODE "
+            f"{self._model.mesh.name(found.node)}\n"
+            for words, found in errors.items()
+        ]
+        verdict = "" if check.verdict.accepted else "NOT "
+        return "".join(["\n", *lines, f"          THE DISTRIBUTING COUPLING EQUATIONS HAVE {verdict}CONVERGED\n"])
 
     def _contact(self, check: FieldCheck, *, severe: bool) -> str:
         """Errors of the contact constraints, in two lines and a verdict."""

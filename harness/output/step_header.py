@@ -71,16 +71,24 @@ def completed(record: IncrementDone, period: float) -> str:
     )
 
 
-def tolerances(step: Step, fields: Iterable[str], *, hybrid: bool = False, contact: bool = False) -> str:
+def tolerances(
+    step: Step, fields: Iterable[str], *, hybrid: bool = False, coupled: bool = False, contact: bool = False
+) -> str:
     """Everything that the convergence checks and the time incrementation of the step depend on.
 
-    hybrid: the model has hybrid elements; contact: it has contact pairs.
+    hybrid: the model has hybrid elements; coupled: it has distributing couplings that turn; contact: it has contact
+    pairs.
     """
     if step.procedure.linear:
         return ""
     blocks = [_field(FIELDS[name], controls_of(name, step.controls)) for name in fields]
     if hybrid:
         blocks.append(_row("VOLUMETRIC STRAIN COMPATIBILITY TOLERANCE FOR HYBRID SOLIDS", step.controls.volume))
+    if coupled:
+        blocks.append(
+            _row("DISPLACEMENT COMPATIBILITY TOLERANCE FOR DCOUP ELEMENTS", step.controls.coupling)
+            + _row("ROTATION COMPATIBILITY TOLERANCE FOR DCOUP ELEMENTS", step.controls.coupling_rotation)
+        )
     if contact and step.convert_sdi:
         blocks.append(" EQUILIBRIUM WILL BE CHECKED FOR SEVERE DISCONTINUITY ITERATIONS\n")
     blocks.append(_time(step, contact=contact))

@@ -15,6 +15,7 @@ from harness.assembly import Constraints, DofMap, System
 from harness.elements import FIELD_NAMES, VOLUME
 from harness.model.arrays import FloatArray, IntArray, first_largest
 from harness.model.contact import CONTACT
+from harness.model.couplings import COUPLING, CouplingErrors
 from harness.model.mesh import Mesh
 from harness.model.model import dof_in_deck
 from harness.model.records import Convergence, FieldCheck, Largest
@@ -26,7 +27,7 @@ from harness.solver.newton import Iterate
 
 CONTROLLED_AS = dict(
     zip(
-        (name for name in FIELD_NAMES if name not in (VOLUME, CONTACT)),
+        (name for name in FIELD_NAMES if name not in (VOLUME, CONTACT, COUPLING)),
         ("DISPLACEMENT", "ROTATION", "PORE FLUID PRESSURE", "ELECTRICAL POTENTIAL", "TEMPERATURE"),
         strict=True,
     )
@@ -126,7 +127,7 @@ class Checker:
         self._start = [_largest(state.reduced, checked.free) if extrapolated else 0.0 for checked in self.fields]
 
     def check(self, state: Iterate) -> tuple[FieldCheck, ...]:
-        """Checks of all fields after an iteration, then those of volumes and of contact."""
+        """Checks of all fields after an iteration, then those of volumes, distributing couplings and contact."""
         if is_severe(state):
             self._calm = state.iteration
             for checked in self.fields:
@@ -138,6 +139,8 @@ class Checker:
         checks = tuple(self._check(k, checked, state) for k, checked in enumerate(self.fields))
         if len(self._pressures):
             checks = (*checks, self._check_volume(state))
+        if state.evaluation.coupling is not None:
+            checks = (*checks, self._check_coupling(state, state.evaluation.coupling))
         return (*checks, self._check_contact(state)) if state.evaluation.contact else checks
 
     def give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Cutback | None:
@@ -145,7 +148,7 @@ class Checker:
 
         iteration: of those in a row without severe discontinuities.
         """
-        # that of the volume, which is no field, comes last
+        # those of volume and so on, which are no fields, come last
         for checked, check in zip(self.fields, checks, strict=False):
             if check.verdict is Convergence.NOT_ACHIEVED:
                 tolerance = checked.controls.r_n * check.time_average_flux
@@ -265,9 +268,19 @@ class Checker:
         k = int(first_largest(np.abs(chosen)))
         nothing = Largest(0.0, -1, 0)
         found = Largest(float(chosen[k]), -1, 0, self._dofs.element(int(self._free[self._pressures[k]])))
-        accepted = Convergence.LINEAR if state.iteration == 1 else Convergence.CONVERGED
-        verdict = accepted if abs(found.value) <= self._controls.volume else Convergence.NOT_ACHIEVED
+        verdict = _verdict(state, fulfilled=abs(found.value) <= self._controls.volume)
         return FieldCheck(VOLUME, 0.0, 0.0, found, nothing, nothing, verdict)
+
+    def _check_coupling(self, state: Iterate, errors: CouplingErrors) -> FieldCheck:
+        """Whether reference nodes move as the nodes that distributing couplings spread their forces over.
+
+        Abaqus' displacement and rotation compatibility tolerances.
+        """
+        displacement, rotation = Largest(*errors.displacement, 0), Largest(*errors.rotation, 0)
+        controls, nothing = self._controls, Largest(0.0, -1, 0)
+        within = displacement.value <= controls.coupling and rotation.value <= controls.coupling_rotation
+        verdict = _verdict(state, fulfilled=within)
+        return FieldCheck(COUPLING, 0.0, 0.0, displacement, nothing, rotation, verdict)
 
     def _check_contact(self, state: Iterate) -> FieldCheck:
         """Whether points in contact penetrate little, compared with the largest increment of displacement, and those
@@ -301,6 +314,13 @@ class Checker:
 
 def _worst(found: Iterable[Largest]) -> Largest:
     return max(found, key=lambda largest: abs(largest.value))
+
+
+def _verdict(state: Iterate, *, fulfilled: bool) -> Convergence:
+    """Of constraints after an iteration."""
+    if not fulfilled:
+        return Convergence.NOT_ACHIEVED
+    return Convergence.LINEAR if state.iteration == 1 else Convergence.CONVERGED
 
 
 def is_severe(state: Iterate) -> bool:

@@ -11,6 +11,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bent_beams import COUPLING, HIGH, LENGTH
+from bent_beams import beam as bent_beam
+from bent_beams import step as bending
 from contact_decks import plane, two_boxes
 from contact_decks import step as contact_step
 
@@ -118,9 +121,19 @@ SLIDING = two_boxes(
     pair="TYPE=NODE TO SURFACE",
     behavior="*FRICTION\n0.3,",
 )
+TURNING = "\n".join(
+    [
+        *bent_beam(
+            reference=(LENGTH + 1.0, HIGH),
+            constraint="*RESTART, WRITE\n" + COUPLING.replace("KINEMATIC", "DISTRIBUTING"),
+        ),
+        *bending("*CLOAD", "900, 2, 1.", increments=4),
+        *bending("*BOUNDARY", "900, 6, 6, 1.", increments=4),
+    ]
+)
 DECKS = {
     **{"dynamic": DYNAMIC, "rubber": RUBBER, "heat": HEAT, "umat": UMAT, "steps": STEPS, "delamination": DELAMINATION},
-    **{"contact": CONTACT, "sliding": SLIDING},
+    **{"contact": CONTACT, "sliding": SLIDING, "turning": TURNING},
 }
 
 

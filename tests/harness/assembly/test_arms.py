@@ -1,19 +1,23 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rigid arms in large displacements: rotations of any angle, their derivatives, and beams bent by them."""
+"""Rigid arms in large displacements: rotations of any angle, their derivatives, and beams bent by them.
+
+Distributing couplings bend beams too.
+"""
 
 import numpy as np
 import pytest
+from bent_beams import CELLS, COUPLING, DISTRIBUTING, HIGH, LENGTH, YOUNG, beam, beam_of_quads, last, step
 from scipy import sparse
 from scipy.spatial.transform import Rotation
-from small_decks import body_lines
+from small_decks import bars
 
 import harness
 from harness import usersub
 from harness.assembly import System, TurningConstraints
-from harness.assembly.arms import Arms, _rotation, _spins
+from harness.assembly.arms import Arms
 from harness.deck import read_deck
-from harness.elements import Call, Flags, build_blocks
+from harness.elements import Call, Flags, build_blocks, rotation_matrices, spin_matrices
 from harness.errors import DeckError, Source
 from harness.model.model import Arm
 
@@ -24,11 +28,11 @@ ANGLES = [[0, 0, 0], [1e-5, -2e-5, 1e-5], [0.02, 0.02, 0.01], [0.03, 0.01, 0.0],
 def test_rotations(angle):
     """Those of scipy, and H dtheta is the spin of dR R^T."""
     angles = np.array([angle], dtype=float)
-    np.testing.assert_allclose(_rotation(angles)[0], Rotation.from_rotvec(angle).as_matrix(), atol=1e-14)
-    for k, step in enumerate(1e-6 * np.eye(3)):
-        ahead, behind = (Rotation.from_rotvec(angle + sign * step) for sign in (1, -1))
+    np.testing.assert_allclose(rotation_matrices(angles)[0], Rotation.from_rotvec(angle).as_matrix(), atol=1e-14)
+    for k, small in enumerate(1e-6 * np.eye(3)):
+        ahead, behind = (Rotation.from_rotvec(angle + sign * small) for sign in (1, -1))
         spin = (ahead * behind.inv()).as_rotvec() / 2e-6
-        np.testing.assert_allclose(_spins(angles)[0][:, k], spin, atol=1e-9)
+        np.testing.assert_allclose(spin_matrices(angles)[0][:, k], spin, atol=1e-9)
 
 
 class Numbering:
@@ -84,57 +88,19 @@ def run(tmp_path):
     return run
 
 
-LENGTH, HIGH, YOUNG, CELLS = 10.0, 0.5, 1e4, 20
-OUTPUT = "*OUTPUT, FIELD\n*ELEMENT OUTPUT\nS\n*NODE OUTPUT\nU\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=REF\nU, UR, RM, RF"
-COUPLING = "*SURFACE, NAME=END, TYPE=NODE\nEND\n*COUPLING, CONSTRAINT NAME=C, REF NODE=900, SURFACE=END\n*KINEMATIC"
+COUPLINGS = pytest.mark.parametrize("coupling", [COUPLING, DISTRIBUTING], ids=["kinematic", "distributing"])
 
 
-def beam(element_type="CPS8R", *, reference=(LENGTH, HIGH / 2), constraint=COUPLING, held="START, 1\nMIDDLE, 2"):
-    """A row of elements along axis 1, the end of which follows node 900, or is free."""
-    space = element_type.startswith("C3D")
-    nodes, numbers, elements = [], {}, []
-    for k in range(2 * CELLS + 1):
-        for j in range(3):
-            if k % 2 == 0 or j != 1:
-                numbers[k, j] = len(nodes)
-                nodes.append([LENGTH * k / (2 * CELLS), HIGH * j / 2])
-    if space:
-        corners = [(0, 0), (2, 0), (2, 2), (0, 2)]
-        layer = len(nodes)
-        nodes = [[*x, z] for z in (0.0, HIGH) for x in nodes]
-        for c in range(CELLS):
-            flat = [numbers[2 * c + i, j] for i, j in corners]
-            elements.append([*flat, *(n + layer for n in flat)])
-    else:
-        around = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1)]
-        elements = [[numbers[2 * c + i, j] for i, j in around] for c in range(CELLS)]
-    used = {n for element in elements for n in element}
-    ends = {"START": 0.0, "END": LENGTH}
-    lines = body_lines(element_type, nodes, elements)
-    lines += ["*NODE, NSET=REF", "900, " + ", ".join(map(str, reference))]
-    for name, x in ends.items():
-        lines += [f"*NSET, NSET={name}", *(str(n + 1) for n in sorted(used) if nodes[n][0] == x)]
-    middle = [n for n in sorted(used) if nodes[n][0] == 0 and nodes[n][1] == (0 if space else HIGH / 2)]
-    lines += ["*NSET, NSET=MIDDLE", *(str(n + 1) for n in middle)]
-    lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", "1.", "*MATERIAL, NAME=M", f"*ELASTIC\n{YOUNG}, 0."]
-    lines += [constraint] if constraint else []
-    return [*lines, "*BOUNDARY", held] if held else lines
-
-
-def last(result, name):
-    """Last value of the reference node."""
-    return next(values[-1] for column, values in result.history.items() if column.startswith(f"{name}["))
-
-
-def step(*loads, increments=10, how="*STATIC", name="*STEP, NLGEOM, INC=100"):
-    times = f"{how}\n{1 / increments}, 1., 1e-6, {1 / increments}"
-    return [name, times, *loads, OUTPUT, "*END STEP"]
-
-
-@pytest.mark.parametrize("element_type", ["CPE4", "CPS8R", "CPE8H"])
-def test_rigid_rotation(run, element_type):
+@pytest.mark.parametrize(
+    ("element_type", "coupling"),
+    [
+        *((kind, COUPLING) for kind in ("CPE4", "CPS8R", "CPE8H")),
+        *((kind, DISTRIBUTING) for kind in ("CPS8R", "CPE8H")),
+    ],
+)
+def test_rigid_rotation(run, element_type, coupling):
     """By 90 degrees about a node far away: no stress, and every node where the rotation puts it."""
-    coupled = COUPLING.replace("END\n*COUPLING", "START\n*COUPLING")
+    coupled = coupling.replace("END\n*COUPLING", "START\n*COUPLING")
     lines = beam("CPS8R", reference=(-3.0, 4.0), constraint=coupled, held="")
     if element_type == "CPE4":
         lines = beam_of_quads(lines)
@@ -146,15 +112,6 @@ def test_rigid_rotation(run, element_type):
     np.testing.assert_allclose(result.field("U")[used], (turned - x)[used], atol=1e-9)
     for name in ("S11", "S22", "S12"):
         np.testing.assert_allclose(result.field(name), 0, atol=1e-7 * YOUNG)
-
-
-def beam_of_quads(lines):
-    """The corners of the elements alone."""
-    found = []
-    for line in lines:
-        words = line.split(", ")
-        found.append(", ".join(words[:5]) if len(words) == 9 else line)
-    return found
 
 
 @pytest.mark.parametrize("reference", [(LENGTH, HIGH / 2), (LENGTH + 2.0, HIGH / 2 + 1.0)])
@@ -192,40 +149,9 @@ def test_moment_and_force_on_the_reference_node(run):
     np.testing.assert_allclose(found, [-0.1606 * LENGTH, 0.4935 * LENGTH], rtol=1e-2)
 
 
-BARS = """*NODE
-1, 0., 0., 0.
-2, 3., 0., 0.
-3, 0., 3., 1.
-4, 2., 2., 0.5
-5, 1., 2., -1.
-6, 2., 0.5, 2.
-9, 1.5, 1.0, 3.0
-*ELEMENT, TYPE=T3D2, ELSET=BARS
-1, 1, 4
-2, 2, 4
-3, 3, 5
-4, 1, 5
-5, 2, 6
-6, 3, 6
-7, 4, 6
-*SOLID SECTION, ELSET=BARS, MATERIAL=M
-1.
-*MATERIAL, NAME=M
-*ELASTIC
-100.
-*NSET, NSET=BODY
-4, 5, 6
-*RIGID BODY, REF NODE=9, PIN NSET=BODY
-*STEP, NLGEOM
-*STATIC
-1., 1.
-*END STEP
-"""
-
-
 def test_tangent(tmp_path):
     """It is the derivative of the reduced forces, of bars whose own tangent is exact."""
-    (tmp_path / "bars.inp").write_text(BARS)
+    (tmp_path / "bars.inp").write_text(bars("*RIGID BODY, REF NODE=9, PIN NSET=BODY"))
     model = read_deck(tmp_path / "bars.inp")
     library = usersub.load(None, job="bars", output_dir=tmp_path)
     system = System(model.mesh, build_blocks(model, library), model.equations)
@@ -251,8 +177,9 @@ def test_tangent(tmp_path):
         np.testing.assert_allclose(tangent[:, k], -slope, atol=1e-6 * abs(tangent).max())
 
 
+@COUPLINGS
 @pytest.mark.parametrize("how", ["*STATIC", "*STATIC, RIKS", "*VISCO, CETOL=1.", "*STATIC, STABILIZE=1e-12"])
-def test_procedures(run, how):
+def test_procedures(run, how, coupling):
     """The same deflection in each."""
     inertia = HIGH**3 / 12
     lines = step(
@@ -260,7 +187,7 @@ def test_procedures(run, how):
     )
     if "RIKS" in how:
         lines[1] += ", 1."
-    result = run([*beam(), *lines])
+    result = run([*beam(constraint=coupling), *lines])
     factor = result.history["LPF"][-1] if "RIKS" in how else 1.0
     assert last(result, "U2") == pytest.approx(0.4935 * LENGTH, rel=1e-2 if factor == 1.0 else 0.1)
 
@@ -283,10 +210,11 @@ def test_keywords(run, name):
     assert last(result, "UR3") == pytest.approx(np.pi / 2, rel=1e-2)
 
 
-def test_rotation_in_space(run):
+@COUPLINGS
+def test_rotation_in_space(run, coupling):
     """About a skew axis, of a body all of whose one end follows: every node is where the rotation vector puts it."""
     vector, reference = np.array([0.4, -1.1, 0.7]), np.array([1.0, 2.0, -3.0])
-    coupled = COUPLING.replace("END\n*COUPLING", "START\n*COUPLING")
+    coupled = coupling.replace("END\n*COUPLING", "START\n*COUPLING")
     lines = beam("C3D8", reference=reference.tolist(), constraint=coupled, held="")
     given = [f"900, {k}, {k}, {one!r}" for k, one in enumerate(vector.tolist(), start=4)]
     result = run([*lines, *step("*BOUNDARY", "900, 1, 3", *given)])
@@ -298,9 +226,10 @@ def test_rotation_in_space(run):
     np.testing.assert_allclose(result.field("S11"), 0, atol=1e-6 * YOUNG)
 
 
-def test_free_rotation_in_space(run):
+@COUPLINGS
+def test_free_rotation_in_space(run, coupling):
     """A force on an arm across the end turns it about two axes; its moments are in equilibrium with the support's."""
-    lines = beam("C3D8I", reference=[LENGTH, 2.0, 1.0], held="START, 1, 3")
+    lines = beam("C3D8I", reference=[LENGTH, 2.0, 1.0], held="START, 1, 3", constraint=coupling)
     force = np.array([0.0, 0.2, -0.3])
     loads = [f"900, {k + 1}, {force[k]:.1f}" for k in (1, 2)]
     result = run([*lines, *step("*CLOAD", *loads, increments=5)])

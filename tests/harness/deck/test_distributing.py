@@ -113,7 +113,7 @@ E, S2
 2, 1, 3
 3, 1, 3
 4, 1, 3
-*STEP{nlgeom}
+*STEP
 *STATIC
 1., 1.
 {load}
@@ -124,9 +124,9 @@ U, RF
 """
 
 
-def run(tmp_path, load, rotations="", nlgeom="", changes=()):
+def run(tmp_path, load, rotations="", changes=()):
     """Values at the end: a function of the variable and the node, None where there is none."""
-    deck = CUBE.format(load=load, rotations=rotations, nlgeom=nlgeom)
+    deck = CUBE.format(load=load, rotations=rotations)
     for old, new in changes:
         assert old in deck
         deck = deck.replace(old, new)
@@ -188,11 +188,6 @@ def test_radius_of_influence(tmp_path):
     assert value("U1", 9) > value("U1", 7) > 0.0
     message = "*DISTRIBUTING: all its nodes are in one place, about which no moment is passed on"
     assert message in " ".join((tmp_path / "cube.dat").read_text().split())
-
-
-def test_large_rotations_are_refused(tmp_path):
-    with pytest.raises(DeckError, match=r"a constraint with rotations is not supported with NLGEOM"):
-        run(tmp_path, "*CLOAD\n9, 3, 10.", nlgeom=", NLGEOM")
 
 
 def test_axisymmetric_elements_are_refused(tmp_path):

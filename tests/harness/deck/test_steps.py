@@ -180,8 +180,8 @@ CONSTRAINTS = "*CONTROLS, PARAMETERS=CONSTRAINTS"
         ),
         (f"{CONSTRAINTS}\n1e-3\n", Controls(volume=1e-3)),
         (
-            f"{CONSTRAINTS}\n, 1e-6, 1e-6, 1e-2, .2, 1e-6, 1e-6, .5\n",
-            Controls(contact=1e-2, contact_force=0.5),
+            f"{CONSTRAINTS}\n, 1e-6, 1e-6, 1e-2, .2, 1e-6, 1e-4, .5\n",
+            Controls(contact=1e-2, coupling=1e-6, coupling_rotation=1e-4, contact_force=0.5),
         ),
         (f"{FIELD}\n\n, , 1e-8\n", Controls()),
         (f"{TIME}\n8, 10\n*CONTROLS, RESET\n", Controls()),

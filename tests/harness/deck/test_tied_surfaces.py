@@ -1,0 +1,345 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*TIE of meshes that do not match, and of the two sides of a sector with cyclic symmetry."""
+
+import numpy as np
+import pytest
+from contact_decks import YOUNG, Box
+from reference_cells import nodes_of
+from scipy.spatial.transform import Rotation
+from small_decks import body_lines
+
+import harness
+from harness.deck import read_deck
+from harness.errors import DeckError
+from harness.model.element_types import BUILT_IN
+
+
+@pytest.fixture
+def run(tmp_path):
+    def run(text, name="deck"):
+        (tmp_path / f"{name}.inp").write_text(text)
+        return harness.run(tmp_path / f"{name}.inp", output_dir=tmp_path)
+
+    return run
+
+
+# ------------------------------------------------------------ meshes that do not match
+
+
+def tied(lower, upper, steps, *, tie="TYPE=NODE TO SURFACE", model=""):
+    """UPPER, whose lower side is the first surface, on LOWER."""
+    lines = ["*HEADING", "two bodies", *lower.lines(), *upper.lines(), "*MATERIAL, NAME=M", f"*ELASTIC\n{YOUNG}, 0.3"]
+    return (
+        "\n".join([*lines, f"*TIE, NAME=T, {tie}\nUPPER_LOW, LOWER_HIGH", model, *steps]).replace("\n\n", "\n") + "\n"
+    )
+
+
+def boxes(kind, lower, upper, gap=0.0):
+    """Two boxes of height 1 with so many elements along their common side."""
+    flat = len(lower) == 1
+    low, high = ((0, 0), (2, 1)) if flat else ((0, 0, 0), (2, 1, 1))
+    raised = np.array([0] * len(lower) + [1 + gap])
+    return (
+        Box("LOWER", kind, low, high, (*lower, 1)),
+        Box("UPPER", kind, low + raised, high + raised, (*upper, 2), first=1001),
+    )
+
+
+GRADIENT = 1e-3 * np.array([[1.0, 0.4, -0.2], [0.3, -0.7, 0.5], [-0.6, 0.2, 0.8]])
+
+
+@pytest.mark.parametrize(
+    ("kind", "lower", "upper"), [("CPE4", (2,), (6,)), ("C3D8", (2, 1), (4, 3)), ("CPS4", (1,), (1,))]
+)
+def test_patch(run, kind, lower, upper):
+    """Where each face of the second surface is cut by the first one, displacements are continuous: any state of
+    constant strain passes.
+    """
+    bodies = boxes(kind, lower, upper)
+    d = bodies[0].nodes.shape[1]
+    given = []
+    for body in bodies:
+        outer = (body.nodes <= 1e-9) | (body.nodes >= [*([2, 1, 2][: d - 1]), 2])
+        for node in np.flatnonzero(outer.any(axis=1)).tolist():
+            if body is bodies[1] and body.nodes[node, -1] <= 1.0:
+                continue
+            u = GRADIENT[:d, :d] @ body.nodes[node]
+            given += [f"{body.first + node}, {k + 1}, {k + 1}, {u[k]!r}" for k in range(d)]
+    step = "\n".join(["*STEP\n*STATIC\n1., 1.", "*BOUNDARY", *given, "*OUTPUT, FIELD\n*END STEP"])
+    result = run(tied(*bodies, [step.replace("np.float64(", "").replace(")", "")]))
+    x = result.mesh().points
+    expected = x[:, :d] @ GRADIENT[:d, :d].T
+    np.testing.assert_allclose(result.field("U")[:, :d], expected, atol=1e-12)
+
+
+@pytest.mark.parametrize(("kind", "lower", "upper"), [("CPE4", (3,), (5,)), ("C3D8", (2, 3), (3, 2))])
+def test_linear_fields(tmp_path, kind, lower, upper):
+    """The nodes of any mesh follow a linear field of the second surface exactly."""
+    (tmp_path / "deck.inp").write_text(tied(*boxes(kind, lower, upper), ["*STEP\n*STATIC\n1., 1.\n*END STEP"]))
+    model = read_deck(tmp_path / "deck.inp")
+    points = model.mesh.coordinates
+    assert len(model.equations) == np.prod([n + 1 for n in upper]) * (len(upper) + 1)
+    for equation in model.equations:
+        (first, dof, one), *others = equation.terms
+        assert one == 1.0
+        assert {k for _, k, _ in others} == {dof}
+        shares = np.array([-share for _, _, share in others])
+        assert shares.sum() == pytest.approx(1.0, abs=1e-12)
+        assert (shares > 0.0).all()
+        np.testing.assert_allclose(shares @ points[[node for node, _, _ in others]], points[first], atol=1e-9)
+
+
+def line3(r):
+    return np.array([r * (r - 1) / 2, r * (r + 1) / 2, 1 - r**2])
+
+
+def triangle6(r, s):
+    t = 1 - r - s
+    return np.array([t * (2 * t - 1), r * (2 * r - 1), s * (2 * s - 1), 4 * r * t, 4 * r * s, 4 * s * t])
+
+
+def quad8(r, s):
+    corners = [(1 + r * a) * (1 + s * b) * (r * a + s * b - 1) / 4 for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    along, across = (1 - r**2) / 2, (1 - s**2) / 2
+    return np.array([*corners, along * (1 - s), across * (1 + r), along * (1 + s), across * (1 - r)])
+
+
+@pytest.mark.parametrize(
+    ("kind", "cell", "face", "functions"),
+    [
+        ("CPE8", "quad8", 3, line3),
+        ("CPE6", "triangle6", 2, line3),
+        ("C3D10", "tetra10", 3, triangle6),
+        ("C3D20R", "hexahedron20", 2, quad8),
+        ("C3D15", "wedge15", 1, triangle6),
+        ("C3D15", "wedge15", 4, quad8),
+    ],
+)
+def test_faces_with_middle_nodes(tmp_path, kind, cell, face, functions):
+    """Nodes on curved faces have the shares of their shape functions.
+
+    (O.C. Zienkiewicz, R.L. Taylor, The Finite Element Method: quadratic line, triangle and serendipity quadrilateral.)
+    """
+    family = BUILT_IN[kind].family
+    nodes = nodes_of(cell)
+    d, local = nodes.shape[1], family.faces[face - 1]
+    rng = np.random.default_rng(1)
+    nodes[family.corners :] += 0.05 * rng.standard_normal(nodes[family.corners :].shape)
+    natural = rng.uniform(0.05, 0.4, (6, d - 1))
+    expected = np.array([functions(*place) for place in natural])
+    points = expected @ nodes[list(local)]
+    lines = [*body_lines(kind, nodes, [range(len(nodes))]), "*NODE, NSET=FREE"]
+    lines += [", ".join(map(repr, [100 + k, *x])) for k, x in enumerate(points.tolist())]
+    lines += ["*ELEMENT, TYPE=MASS, ELSET=POINTS", *(f"{200 + k}, {100 + k}" for k in range(len(points)))]
+    lines += [
+        "*SOLID SECTION, ELSET=BODY, MATERIAL=M",
+        "",
+        "*MATERIAL, NAME=M\n*ELASTIC\n1., 0.",
+        "*MASS, ELSET=POINTS\n1.",
+    ]
+    lines += [f"*SURFACE, NAME=FACE\nBODY, S{face}", "*SURFACE, NAME=DOTS, TYPE=NODE\nFREE"]
+    lines += ["*TIE, NAME=T, POSITION TOLERANCE=1e-6\nDOTS, FACE", "*STEP\n*STATIC\n1., 1.\n*END STEP"]
+    (tmp_path / "deck.inp").write_text("\n".join(lines) + "\n")
+    equations = read_deck(tmp_path / "deck.inp").equations
+    assert len(equations) == len(points) * d
+    for k, shares in enumerate(expected):
+        for equation in equations[k * d : (k + 1) * d]:
+            found = np.zeros(len(nodes))
+            for node, _, share in equation.terms[1:]:
+                found[node] -= share
+            np.testing.assert_allclose(found[list(local)], shares, atol=1e-7)
+
+
+PULL = "*STEP\n*STATIC\n1., 1.\n*BOUNDARY\nUPPER_TOP, 2, 2, 0.01\n*OUTPUT, FIELD\n*END STEP"
+
+
+def test_both_sides_held(run, tmp_path):
+    """A line of symmetry through both bodies: its nodes are held on both surfaces, and the ties say nothing more."""
+    held = "*BOUNDARY\nLOWER_BOTTOM, 2\nLOWER_LEFT, 1\nUPPER_LEFT, 1"
+    result = run(tied(*boxes("CPS4", (2,), (6,)), [PULL], tie="TYPE=SURFACE TO SURFACE", model=held))
+    np.testing.assert_allclose(result.field("S22"), YOUNG * 0.005, rtol=1e-9)
+    text = " ".join((tmp_path / "deck.dat").read_text().split())
+    assert "*TIE: nodes between those of the main surface follow its faces at their places" in text
+
+
+def test_rounding_of_places(run):
+    """A gap within the tolerance stays, and the bodies move as if there was none."""
+    held = "*BOUNDARY\nLOWER_BOTTOM, 2\nLOWER_LEFT, 1"
+    result = run(tied(*boxes("CPS4", (2,), (6,), gap=1e-3), [PULL], model=held))
+    np.testing.assert_allclose(result.field("S22"), YOUNG * 0.005, rtol=1e-9)
+
+
+# ------------------------------------------------------------ cyclic symmetry
+
+SECTORS, RINGS, CUTS = 9, 3, 4
+ANGLE = 2 * np.pi / SECTORS
+
+
+def annulus(sectors, *, layers=1, centre=False):
+    """Nodes (n, 3), elements, and node numbers (rings, cuts, layers) of some sectors, whose sides are spirals.
+
+    All sectors close, with common nodes. `centre`: triangles fill the hole, in the plane.
+    """
+    closed = sectors == SECTORS
+    count = sectors * CUTS + (not closed)
+    radius = 1.0 + np.arange(RINGS + 1) / RINGS
+    angle = np.arange(count) * ANGLE / CUTS
+    r, phi, z = np.meshgrid(radius, angle, np.arange(layers + 1) * 0.5, indexing="ij")
+    phi = phi + 0.4 * (r - 1.0) + 0.3 * z
+    nodes = np.stack([r * np.cos(phi), r * np.sin(phi), z], axis=-1).reshape(-1, 3)
+    numbers = np.arange(len(nodes)).reshape(r.shape)
+    following = np.roll(numbers, -1, axis=1) if closed else numbers[:, 1:]
+    own = numbers if closed else numbers[:, :-1]
+    around = [own[:-1], own[1:], following[1:], following[:-1]]
+    if layers:
+        around = [part[:, :, k : k + layers] for k in (0, 1) for part in around]
+    elements = np.stack([part[..., :layers] if layers else part[..., 0] for part in around], axis=-1)
+    elements = elements.reshape(-1, len(around))
+    triangles = []
+    if centre:
+        nodes = np.concatenate([nodes, np.zeros((1, 3))])
+        inner = zip(own[0, :, 0].tolist(), following[0, :, 0].tolist(), strict=True)
+        triangles = [[len(nodes) - 1, a, b] for a, b in inner]
+    return nodes, elements, numbers, triangles
+
+
+def sector_deck(nodes, elements, numbers, triangles, *, kind, place, loads, held, nlgeom, cyclic):
+    """place: turns and shifts the whole; loads (force, node) and held nodes by their numbers."""
+    turn, shift = place
+    lines = body_lines(kind, nodes @ turn.T + shift, elements)
+    if triangles:
+        lines += ["*ELEMENT, TYPE=CPS3, ELSET=BODY"]
+        lines += [", ".join(map(str, [5001 + k, *(n + 1 for n in row)])) for k, row in enumerate(triangles)]
+    lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", "1.", "*MATERIAL, NAME=M", f"*ELASTIC\n{YOUNG}, 0.3"]
+    if cyclic:
+        # sides of the sector by the nodes on them
+        for name, side in (("FIRST", numbers[:, 0]), ("LAST", numbers[:, -1])):
+            chosen = [*side.ravel().tolist(), *([len(nodes) - 1] if triangles else [])]
+            lines += [f"*NSET, NSET={name}", *(f"{k + 1}," for k in chosen)]
+            lines.append(f"*SURFACE, NAME={name}, TYPE=NODE\n{name}")
+        ends = np.concatenate([shift, shift + turn[:, 2] * 3.0]).tolist()
+        lines += ["*TIE, NAME=T, CYCLIC SYMMETRY\nLAST, FIRST", f"*CYCLIC SYMMETRY MODEL, N={SECTORS}"]
+        lines.append(", ".join(map(repr, ends if kind == "C3D8" else ends[:2])))
+    dofs = 3 if kind == "C3D8" else 2
+    lines += ["*BOUNDARY", *(f"{k + 1}, 1, {dofs}" for k in held)] if held else []
+    lines += [f"*STEP{', NLGEOM' if nlgeom else ''}\n*STATIC\n0.5, 1.", "*CLOAD"]
+    lines += [
+        f"{node + 1}, {k + 1}, {float(value)!r}"
+        for force, node in loads
+        for k, value in enumerate((turn @ force)[:dofs])
+    ]
+    return "\n".join([*lines, "*OUTPUT, FIELD\n*END STEP"]) + "\n"
+
+
+SKEW = Rotation.from_rotvec([0.5, -0.8, 0.3]).as_matrix(), np.array([3.0, -2.0, 1.0])
+IN_PLANE = np.eye(3), np.array([3.0, -2.0, 0.0])
+
+
+@pytest.mark.parametrize("nlgeom", [False, True])
+@pytest.mark.parametrize("shape", ["in space", "in the plane", "with a centre"])
+def test_sector_is_that_of_the_whole(run, shape, nlgeom):
+    """One sector moves as each of the nine of the whole under loads that repeat themselves, radial and round the axis.
+
+    Held is the inner side, or, with a centre, the first node of the outer side of each sector.
+    """
+    space, centre = shape == "in space", shape == "with a centre"
+    kind, place = ("C3D8", SKEW) if space else ("CPS4", IN_PLANE)
+    force = np.array([3.0, 6.0, 2.0 if space else 0.0])
+    found = []
+    for sectors in (1, SECTORS):
+        nodes, elements, numbers, triangles = annulus(sectors, layers=int(space), centre=centre)
+        loads = []
+        for k in range(sectors):
+            node = int(numbers[-1, k * CUTS + 2, -1])
+            x, y, _ = nodes[node]
+            radial = np.array([[x, -y, 0.0], [y, x, 0.0], [0.0, 0.0, np.hypot(x, y)]]) / np.hypot(x, y)
+            loads.append((radial @ force, node))
+        held = (numbers[-1, ::CUTS] if centre else numbers[0]).ravel().tolist()
+        text = sector_deck(
+            nodes,
+            elements,
+            numbers,
+            triangles,
+            kind=kind,
+            place=place,
+            loads=loads,
+            held=held,
+            nlgeom=nlgeom,
+            cyclic=sectors == 1,
+        )
+        result = run(text, name=f"sectors{sectors}")
+        own = numbers[:, :CUTS].ravel()
+        found.append(result.field("U")[own])
+    assert np.abs(found[1]).max() > 1e-3
+    np.testing.assert_allclose(found[0], found[1], atol=1e-9 * np.abs(found[1]).max())
+
+
+def test_modes_of_a_sector_are_refused(run):
+    """They differ from sector to sector."""
+    nodes, elements, numbers, triangles = annulus(1, layers=0)
+    given = {"kind": "CPS4", "place": IN_PLANE, "loads": [], "held": [], "nlgeom": False, "cyclic": True}
+    text = sector_deck(nodes, elements, numbers, triangles, **given)
+    text = text[: text.index("*STEP")].replace("*ELASTIC", "*DENSITY\n1.\n*ELASTIC")
+    message = r"deck\.inp:\d+: \*TIE: CYCLIC SYMMETRY is not supported with \*FREQUENCY \(.*deck\.inp:\d+\)"
+    with pytest.raises(DeckError, match=message):
+        run(text + "*STEP\n*FREQUENCY\n2,\n*END STEP\n")
+
+
+MODEL = "*CYCLIC SYMMETRY MODEL, N=9\n3.0, -2.0"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (MODEL, "", r"\*TIE: CYCLIC SYMMETRY needs \*CYCLIC SYMMETRY MODEL"),
+        (", CYCLIC SYMMETRY\n", "\n", r"\*CYCLIC SYMMETRY MODEL: no \*TIE has CYCLIC SYMMETRY"),
+        (MODEL, f"{MODEL}\n{MODEL}", r"\*CYCLIC SYMMETRY MODEL: is there already, at .*deck\.inp:\d+"),
+        ("N=9", "N=0", r"\*CYCLIC SYMMETRY MODEL: N=0: expected at least one sector"),
+        (MODEL, "*CYCLIC SYMMETRY MODEL, N=9", r"needs a data line with the points a and b of the axis"),
+        (
+            "N=9",
+            "N=8",
+            r"node .* of the first surface coincides with no node of the second one .*; expected matching nodes",
+        ),
+        ("*NSET, NSET=LAST\n", "*NSET, NSET=LAST\n1,\n", r"node 1 is on both surfaces, but not on the axis"),
+    ],
+)
+def test_wrong_sectors(run, old, new, message):
+    nodes, elements, numbers, triangles = annulus(1, layers=0)
+    given = {"kind": "CPS4", "place": IN_PLANE, "loads": [], "held": [], "nlgeom": False, "cyclic": True}
+    text = sector_deck(nodes, elements, numbers, triangles, **given)
+    assert old in text
+    with pytest.raises(DeckError, match=rf"deck\.inp:\d+: .*{message}"):
+        run(text.replace(old, new))
+
+
+def test_axis_of_one_point(run):
+    nodes, elements, numbers, triangles = annulus(1)
+    given = {"kind": "C3D8", "place": SKEW, "loads": [], "held": [], "nlgeom": False, "cyclic": True}
+    text = sector_deck(nodes, elements, numbers, triangles, **given)
+    line = next(line for line in text.splitlines() if line.startswith("3.0, -2.0, 1.0, "))
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: .*points a and b of the axis are the same"):
+        run(text.replace(line, "3.0, -2.0, 1.0, 3.0, -2.0, 1.0"))
+
+
+@pytest.mark.parametrize(
+    ("kind", "change", "message"),
+    [
+        (
+            "CPS4",
+            ("UPPER_LOW, S1", "UPPER_LOW, S3"),
+            r"node .* and 6 more of the first surface is farther than .* from the second one",
+        ),
+        (
+            "CPS4",
+            ("*SURFACE, NAME=LOWER_HIGH\nLOWER_HIGH, S3", "*SURFACE, NAME=LOWER_HIGH, TYPE=NODE\nLOWER_TOP"),
+            r"node .* and 3 more of the first surface coincides with no node .*, or a second surface of faces",
+        ),
+    ],
+)
+def test_surfaces_that_cannot_be_tied(run, kind, change, message):
+    text = tied(*boxes(kind, (2,), (6,)), [PULL])
+    assert change[0] in text
+    with pytest.raises(DeckError, match=rf"deck\.inp:\d+: \*TIE: {message}"):
+        run(text.replace(*change))
