@@ -531,5 +531,5 @@ BUILT_IN: Final[dict[str, BuiltInType]] = {
 }
 """All built-in elements by their names."""
 
-HOURGLASS_CONTROLLED: Final = tuple(name for name, kind in CONTINUUM.items() if kind.hourglass_control)
+HOURGLASS_CONTROLLED: Final = tuple(name for name, kind in (CONTINUUM | GENERALISED).items() if kind.hourglass_control)
 """Names of elements with hourglass control."""
