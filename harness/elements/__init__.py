@@ -7,7 +7,7 @@ from harness.elements.build import build_blocks
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.contact import ContactBlock, contact_blocks
 from harness.elements.contact_sliding import FiniteSliding
-from harness.elements.fields import FIELD_NAMES, MULTIPLIER, PRESSURE, VOLUME, field_of
+from harness.elements.fields import FIELD_NAMES, MULTIPLIER, PRESSURE, REFERENCE, VOLUME, field_of
 from harness.elements.followers import FollowerBlock
 from harness.elements.heat_loads import HeatLoadBlock
 from harness.elements.lflags import Damping, Flags, Request
@@ -17,6 +17,7 @@ __all__ = [
     "FIELD_NAMES",
     "MULTIPLIER",
     "PRESSURE",
+    "REFERENCE",
     "VOLUME",
     "BlockReport",
     "Call",

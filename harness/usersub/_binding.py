@@ -547,18 +547,30 @@ def slopes_at_nodes(family: int, nodes: int) -> FloatArray:
     return slopes.transpose(0, 2, 1)
 
 
-_ELEMENTS: Final = ("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric")
+_ELEMENTS: Final = (
+    *("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric"),
+    "generalised",
+)
 """In the order of host_element_address."""
 
 
 def address_of(
     elements: Literal[
-        "solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric"
+        "solid",
+        "coupled",
+        "cohesive",
+        "discrete",
+        "heat",
+        "heat load",
+        "shell",
+        "beam",
+        "piezoelectric",
+        "generalised",
     ],
 ) -> int:
     """Address of built-in elements.
 
-    Solid, coupled, heat, shell and piezoelectric ones are called like UELMAT, the others like UEL.
+    Solid, coupled, heat, shell, piezoelectric and generalised ones are called like UELMAT, the others like UEL.
     """
     return int(_host.host_element_address(1 + _ELEMENTS.index(elements)))
 
