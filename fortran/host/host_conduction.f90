@@ -5,8 +5,10 @@
 !>
 !> The equations are those of Abaqus' Theory Guide (Uncoupled heat transfer analysis): the internal energy changes over time by
 !> backward differences, with the mass before any displacement; heat flows through the present shape. Elements with straight edges
-!> store heat at their corners, by the tables of the material. UMATHT gives the energy at the integration points, so there it
-!> is stored by their shape functions: the manual does not tell how Abaqus integrates it.
+!> store heat at their corners, by the tables of the material. UMATHT gives the energy at the integration points: there each corner
+!> has its share, to which DUDT adds what the corner has warmed more than the point. So does Abaqus 2023 (CAX4RT, C3D8T;
+!> harness/procedures/fidelity.md), as far as DUDT is constant. In elements with fewer points for stresses than for heat, UMATHT has
+!> the STATEV of the stress point that stands for the place.
 !>
 !> Heat transfer elements: JPROPS family, integration points, direct strains (host_kinematics); PROPS(1) thickness or 2 pi;
 !> SVARS the heat flux of each point, then the energies per mass of UMATHT.
@@ -30,6 +32,7 @@ module host_conduction
     real(dp) :: depth = 1              !< thickness, or 2 pi
     real(dp) :: dtime = 0              !< 0: heat is not stored
     logical :: generates = .false.     !< HETVAL is called here
+    integer :: states = 0              !< points that have STATEV: those of the stresses, if there are any
   end type body_t
 
 contains
@@ -55,6 +58,7 @@ contains
     body%dtime = merge(0.0_dp, dtime, is_steady(lflags(1)))
     body%generates = .true.
     points = body%geometry%points
+    body%states = points
     current%deformed = .false.
     call conduct(body, material, coords, coords, int(npredf), predef, u, du, svars(:mcrd*points), svars(mcrd*points + 1:), rhs, &
                  amatrx)
@@ -96,7 +100,7 @@ contains
           current%fields(1, 1) = dot_product(t, n) - current%fields(1, 2)
         end if
         old = energy(p)
-        call flow_at(material, p, dot_product(t, n), gradient, flux(:, p), energy(p), flow)
+        call flow_at(material, p, state_of(body, p), dot_product(t, n), gradient, flux(:, p), energy(p), flow)
         call add_flow(body%depth*volume, n, g, flow, heat, tangent)
         if (body%generates .and. allocated(material%thermal%source)) then
           current%heat = heat_t()
@@ -110,6 +114,7 @@ contains
             if (allocated(material%thermal%flow)) then
               heat = heat - weight*(flow%energy - old)*n
               call add_product(weight, n, n*flow%energy_by_temperature + matmul(g, flow%energy_by_gradient(:dim)), tangent)
+              if (.not. is_quadratic(body%geometry)) call store_at_corners(weight*flow%energy_by_temperature, n, dt, heat, tangent)
             else if (is_quadratic(body%geometry)) then
               call store(material, weight, dot_product(t - dt, n), dot_product(t, n), n, heat, tangent)
             else
@@ -125,10 +130,17 @@ contains
     end do
   end subroutine conduct
 
-  !> Heat flux of a point by the tables of the material or by UMATHT, and the energy that UMATHT gives; both are kept.
-  subroutine flow_at(material, point, temperature, gradient, flux, energy, flow)
-    type(material_t), intent(in) :: material
+  !> The point that has the STATEV of a point: itself, or the only one of the element or, in a wedge, of its layer.
+  pure integer function state_of(body, point)
+    type(body_t), intent(in) :: body
     integer, intent(in) :: point
+    state_of = (point - 1)*body%states/body%geometry%points + 1
+  end function state_of
+
+  !> Heat flux of a point by the tables of the material or by UMATHT, and the energy that UMATHT gives; both are kept.
+  subroutine flow_at(material, point, state, temperature, gradient, flux, energy, flow)
+    type(material_t), intent(in) :: material
+    integer, intent(in) :: point, state      !< state: the point that has the STATEV
     real(dp), intent(in) :: temperature, gradient(:)
     real(dp), intent(inout) :: flux(:), energy
     type(flow_t), intent(out) :: flow
@@ -138,7 +150,7 @@ contains
     if (allocated(material%thermal%flow)) then
       flow%energy = energy
       flow%flux(:n) = flux
-      call call_umatht(material%thermal%flow, int(point, i4), gradient, flow)
+      call call_umatht(material%thermal%flow, int(point, i4), int(state, i4), gradient, flow)
       energy = flow%energy
     else
       call conductivity_at(material%thermal, temperature, conductivity, slope)
@@ -162,6 +174,18 @@ contains
     tangent = tangent - volume*matmul(matmul(g, flow%flux_by_gradient(:dim, :dim)), transpose(g))
     call add_product(-volume, matmul(g, flow%flux_by_temperature(:dim)), n, tangent)
   end subroutine add_flow
+
+  !> Move heat between the corners: it is stored where they have warmed by dt, in place of the point, which has warmed by dt n.
+  pure subroutine store_at_corners(capacity, n, dt, heat, tangent)
+    real(dp), intent(in) :: capacity, n(:), dt(:)      !< capacity: over the time increment
+    real(dp), intent(inout) :: heat(:), tangent(:, :)
+    integer :: k
+    heat = heat - capacity*n*(dt - dot_product(n, dt))
+    call add_product(-capacity, n, n, tangent)
+    do k = 1, size(n)
+      tangent(k, k) = tangent(k, k) + capacity*n(k)
+    end do
+  end subroutine store_at_corners
 
   !> Heat that a mass over the time increment takes, whose temperature is given by n.
   pure subroutine store(material, mass, from, to, n, heat, tangent)

@@ -52,6 +52,7 @@ contains
     if (lflags(2) /= 0) now = now + reshape(u(:n), [int(mcrd), int(nnode)])
     body%geometry => coupling%geometry
     body%field => coupling%field
+    body%states = jprops(2)
     body%direct = jprops(3)
     body%depth = merge(props(1), 1.0_dp, mcrd == 2)
     body%dtime = merge(0.0_dp, dtime, is_steady(lflags(1)))

@@ -22,7 +22,9 @@
 !> Engineering 88 (1991) 311 and 105 (1993) 225, to which enhanced assumed strains reduce: of a strain that is linear in a parent
 !> coordinate, the components in the direction of this coordinate are free. The stress is uniaxial along the other edge, in space
 !> plane in the two other edges, and rectangles and bricks bend exactly. Directions are those of the edges in the middle of the
-!> element, so the result is the same in rotated and in sheared elements. That Abaqus uses these values is inferred from its manual,
+!> element, so the result is the same in rotated and in sheared elements. About an axis it is that of plane strain: the wall of a
+!> cylinder bends exactly, and the hoop strain by hourglass displacements, smaller by the size of the element over the radius, is
+!> left out. That Abaqus uses these values is inferred from its manual,
 !> which names enhanced assumed strains; there are no results to compare with.
 module host_hourglass
   use host_kinds, only: dp

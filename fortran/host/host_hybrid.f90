@@ -99,10 +99,10 @@ contains
   end subroutine add_compatibility
 
   !> Begin an element with a pressure that is eliminated; initial: volumes of its points before any displacement.
-  pure subroutine begin_smoothing(this, rule, functions, x, initial)
+  pure subroutine begin_smoothing(this, rule, functions, x, initial, unknowns)
     type(smoothing_t), intent(out) :: this
     type(rule_t), intent(in) :: rule
-    integer, intent(in) :: functions
+    integer, intent(in) :: functions, unknowns       !< unknowns: of the element
     real(dp), intent(in) :: x(rule%dim, rule%nodes), initial(rule%points)
     real(dp), dimension(functions, rule%points) :: values, weighted
     real(dp) :: inverse(functions, functions)
@@ -113,7 +113,7 @@ contains
     call invert_general(matmul(weighted, transpose(values)), inverse, good)
     this%projection = matmul(transpose(values), matmul(inverse, weighted))
     allocate (this%mean(rule%points), this%weight(rule%points), this%strain(rule%points), this%change(rule%points))
-    allocate (this%by_displacements(rule%dim*rule%nodes, rule%points), this%rate(rule%dim*rule%nodes, rule%points))
+    allocate (this%by_displacements(unknowns, rule%points), this%rate(unknowns, rule%points))
   end subroutine begin_smoothing
 
   !> Keep a point with its volume now, its mean stress, the volume strain of that, and its derivatives by the strains: in large

@@ -17,6 +17,8 @@
 !> increment. Elements with incompatible modes have small strains in axes that turn with their middle (core_solid_rotation), to the
 !> order of the strain the same; their tangent is exact.
 !>
+!> Generalised plane strain (host_planes): the planes come with the call, three unknowns of theirs behind those of the nodes.
+!>
 !> Hyperelastic materials take their stress from the deformation gradient. Their forces are derivatives of the strain energy, the
 !> tangent those of the forces (host_mean_volume); where the volume strain is the mean, the points share the change of the volume.
 !>
@@ -52,6 +54,7 @@ module host_solid
   use host_kinematics, only: components, gradients, mean_gradients, point_position, rotated, rotation_of
   use host_mean_volume, only: add_curvature, add_mean_volume, add_uniform_volume
   use host_protect, only: escape
+  use host_planes, only: add_curvature_of_fibres, add_stress_of_fibres, find_fibre, planes, planes_t
   use host_materials, only: elastic_energy, elastic_volume, find_material, generates_heat, has_fields, is_viscous, material_t, &
                             needs_deformation, not_solved, set_constants, stress_update, thickness_strain
   use host_shape, only: is_multilinear, is_quadratic, radius_of, rule_of, rule_t
@@ -84,16 +87,18 @@ contains
   end subroutine solid_uelmat
 
   !> The same without the unused arguments; coupling: if the element also has temperatures; layers: material, NPT, LAYER and KSPT
-  !> of each point, if there are any.
+  !> of each point, if there are any; bounds: if the element is between two planes.
   subroutine solid_element(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, coords, mcrd, nnode, u, du, v, a, params, &
-                           dtime, predef, npredf, lflags, jprops, materiallib, coupling, layers)
+                           dtime, predef, npredf, lflags, jprops, materiallib, coupling, layers, bounds)
     integer(i4) :: ndofel, nrhs, nsvars, mcrd, nnode, npredf, lflags(*), jprops(*), materiallib
     real(dp) :: rhs(*), amatrx(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), params(*), dtime, predef(*)
     real(dp), target :: svars(*)
     type(coupling_t), intent(inout), optional :: coupling
     integer(i4), intent(in), optional :: layers(:, :)
+    type(planes_t), intent(in), optional :: bounds
     type(material_t), pointer :: material
     type(rule_t), pointer :: rule
+    type(planes_t) :: moved
     real(dp), pointer, contiguous :: axes(:, :, :, :)   !< of the points (host_axes), if the material is in them
     real(dp), pointer, contiguous :: moduli(:)          !< of the first tangent, if the hourglass control has them
     real(dp) :: mass(ndofel, ndofel), old(ndofel, 2), at_nodes(mcrd*nnode, mcrd*nnode), change(ndofel)
@@ -136,6 +141,13 @@ contains
         call integrate_with_modes(rule, direct + 2*dim - 3, modes, lflags(3), lflags(2) /= 0, material, props(1), coords, &
                                   int(npredf), predef, u, change, du, rhs, amatrx, svars, &
                                   svars(nsvars - modes + 1:nsvars), energy, axes, layers)
+      else if (present(bounds)) then
+        moved = bounds
+        moved%w = u(of_nodes + 1:n)
+        moved%dw = change(of_nodes + 1:)
+        call integrate(rule, 3, 4, planes, lflags(3), lflags(2) /= 0, material, props(1), props(3), jprops(4) /= 0, coords, &
+                       int(npredf), predef, u, change, rhs, amatrx, svars, energy, axes=axes, functions=int(jprops(7)), &
+                       added=du(:n), moduli=moduli, bounds=moved)
       else if (n > of_nodes .and. .not. present(coupling)) then
         call integrate_with_pressure(rule, direct, n, lflags(3), lflags(2) /= 0, material, props(1), props(3), jprops(4) /= 0, &
                                      coords, int(npredf), predef, u, change, du, rhs, amatrx, svars, energy, axes)
@@ -300,34 +312,36 @@ contains
   end subroutine turn_states
 
   !> Force, tangent, state and energies; of the initial stresses without a tangent; or the matrix of a stress. The unknowns are
-  !> those of the nodes, then the incompatible modes.
-  subroutine integrate(rule, direct, strains, modes, request, finite, material, thickness, hourglass, enhanced, x, fields, &
+  !> those of the nodes, then others: incompatible modes, or those of two planes.
+  subroutine integrate(rule, direct, strains, others, request, finite, material, thickness, hourglass, enhanced, x, fields, &
                        predef, u, du, force, stiffness, svars, energy, coupling, alpha, by_modes, axes, functions, pressure, &
-                       added, moduli, layers)
+                       added, moduli, layers, bounds)
     type(rule_t), intent(in) :: rule
-    integer, intent(in) :: direct, strains, modes, fields
+    integer, intent(in) :: direct, strains, others, fields
     integer(i4), intent(in) :: request   !< LFLAGS(3)
     logical, intent(in) :: finite, enhanced
     type(material_t), intent(inout), target :: material    !< of the first layer
     real(dp), intent(in) :: thickness, hourglass, predef(2, fields, rule%nodes)
     real(dp), dimension(rule%dim, rule%nodes), intent(in) :: x, u, du
-    real(dp), dimension(rule%dim*rule%nodes + modes), intent(inout) :: force
-    real(dp), dimension(rule%dim*rule%nodes + modes, rule%dim*rule%nodes + modes), intent(inout) :: stiffness
+    real(dp), dimension(rule%dim*rule%nodes + others), intent(inout) :: force
+    real(dp), dimension(rule%dim*rule%nodes + others, rule%dim*rule%nodes + others), intent(inout) :: stiffness
     real(dp), intent(inout) :: svars(values_of_point(rule%dim), rule%points), energy(8)
     type(coupling_t), intent(inout), optional :: coupling
-    real(dp), intent(in), optional :: alpha(modes), by_modes(modes, strains, rule%points)   !< modes, and strains by them
+    real(dp), intent(in), optional :: alpha(others), by_modes(others, strains, rule%points)  !< modes, and strains by them
     real(dp), intent(inout), optional :: axes(3, 3, 2, rule%points)   !< of the points (host_axes), if the material is in them
     integer, intent(in), optional :: functions                 !< of the pressure, on which the mean stress is projected
     type(pressure_t), intent(inout), optional :: pressure      !< with the unknowns; then there is no initial stress
-    real(dp), intent(in), optional :: added(rule%dim*rule%nodes)    !< perturbation, whose stress may be asked for
+    real(dp), intent(in), optional :: added(rule%dim*rule%nodes + others)   !< perturbation, whose stress may be asked for
     real(dp), intent(inout), optional :: moduli(2)    !< of the enhanced hourglass control, zero until the first tangent is known
     integer(i4), intent(in), optional :: layers(:, :)
+    type(planes_t), intent(in), optional :: bounds
     type(material_t), pointer :: here    !< material of the point
+    real(dp) :: ratio(rule%points), by_planes(planes, rule%points), by_planes_mid(planes, rule%points), w(planes)
     real(dp), dimension(rule%nodes, direct, rule%points) :: g, g_mid, g_before
     real(dp), dimension(rule%dim*rule%nodes, strains, rule%points) :: b, b_mid
     real(dp), dimension(rule%points) :: volume, volume_mid, volume_now, volume_before, volume_strain
     real(dp) :: stresses(strains, rule%points)
-    real(dp) :: by_unknowns(rule%dim*rule%nodes + modes, strains)
+    real(dp) :: by_unknowns(rule%dim*rule%nodes + others, strains)
     real(dp) :: first_tangent(strains, strains)    !< of all points
     real(dp) :: now(rule%dim, rule%nodes), g_start(rule%nodes, direct), volume_start, deformation(3, 3, 2, rule%points)
     real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(2), weight, elastic, work
@@ -337,13 +351,16 @@ contains
     real(dp) :: unit(material%ntens)    !< stress
     type(smoothing_t) :: smoothing
     real(dp) :: of_point(strains + 2)   !< mean stress, its volume strain, and derivatives
-    integer :: dim, nodes, p, dissipated
+    integer :: dim, nodes, n, flat, p, dissipated
     dim = rule%dim
     nodes = rule%nodes
+    n = dim*nodes
+    ! direct strains by the displacements of the nodes where x is their place
+    flat = merge(dim, direct, present(bounds))
     begins = request == initial_stresses
     of_stress = stress_matrix(request)
     ! full integration of elements with straight edges locks if the volume is preserved, but not in plane stress; modes see to it
-    averaged = rule%points > 1 .and. is_multilinear(rule) .and. material%ntens /= 3 .and. modes == 0
+    averaged = rule%points > 1 .and. is_multilinear(rule) .and. material%ntens /= 3 .and. .not. present(by_modes)
     averaged = averaged .and. .not. (present(pressure) .or. rule%reduced)
     smoothed = .false.
     if (present(functions)) then
@@ -354,15 +371,22 @@ contains
     if (finite) now = x + u
     ! the first pass of an analysis, without displacements, sees the initial shape
     current%deformed = finite .and. any(abs(u) > 0)
-    call all_gradients(rule, direct, strains, averaged, now, g, b, volume)
-    if (finite) call all_gradients(rule, direct, strains, averaged, now - 0.5_dp*du, g_mid, b_mid, volume_mid)
+    w = 0
+    if (present(bounds) .and. finite) w = bounds%w
+    call all_gradients(rule, direct, strains, averaged, now, g, b, volume, bounds, w, ratio, by_planes)
+    if (finite) then
+      if (present(bounds)) w = bounds%w - 0.5_dp*bounds%dw
+      call all_gradients(rule, direct, strains, averaged, now - 0.5_dp*du, g_mid, b_mid, volume_mid, bounds, w, &
+                         by_planes=by_planes_mid)
+    end if
     g_start = g(:, :, 1)
     volume_start = volume(1)
     if (rule%reduced .and. finite) then
-      call gradients_of_points(rule, direct, x, g_before, volume_before)
+      g_before = 0
+      call gradients_of_points(rule, flat, x, g_before(:, :flat, :), volume_before)
       g_start = g_before(:, :, 1)
       volume_start = volume_before(1)
-      if (direct == 3) then
+      if (flat == 3) then
         do p = 1, rule%points
           call carry(dim, direct, strains, nodes, g_before(:, :, p), u, g(:, :, p), b(:, :, p))
           call carry(dim, direct, strains, nodes, g_before(:, :, p), u - 0.5_dp*du, g_mid(:, :, p), b_mid(:, :, p))
@@ -374,14 +398,14 @@ contains
     dissipated = merge(3, 4, is_viscous(material))
     work = energy(2) + energy(dissipated)
     volume_strain = sum(svars(:3, :), 1)
-    if (has_fields(material) .or. present(layers)) current%length = size_of(rule, direct, now, volume)
+    if (has_fields(material) .or. present(layers)) current%length = size_of(rule, flat, now, volume)
     current%finite = finite
     if (finite .and. (needs_deformation(material) .or. material%local .or. smoothed .or. present(pressure))) then
-      call find_deformation(rule, direct, averaged, x, u, du, deformation, volume_before)
+      call find_deformation(rule, flat, averaged, x, u, du, deformation, volume_before, bounds)
     end if
     volume_now = volume
     if ((smoothed .or. present(pressure)) .and. .not. finite) volume_before = volume
-    if (smoothed) call begin_smoothing(smoothing, rule, functions, x, volume_before)
+    if (smoothed) call begin_smoothing(smoothing, rule, functions, x, volume_before, size(force))
     if (present(pressure)) then
       call begin_pressure(pressure, rule, x, volume_before*merge(thickness, 1.0_dp, dim == 2))
       current%hybrid = .true.
@@ -414,7 +438,8 @@ contains
       if (abs(here%expansion) > 0) thermal = thermal_strain(rule, p, fields, here%expansion, predef)
       if (finite) then
         current%rotation = rotation_of(gradient_of(dim, direct, nodes, du, g_mid(:, :, p)))
-        call find_strain(dim*nodes, strains, b_mid(:, :, p), du, strain)
+        call find_strain(n, strains, b_mid(:, :, p), du, strain)
+        if (present(bounds)) strain(3) = strain(3) + dot_product(bounds%dw, by_planes_mid(:, p))
         if (present(axes)) then
           call carry_axes(p, deformation(:, :, :, p), axes(:, :, 2, p), middle)
           current%turn = matmul(axes(:, :, 2, p), transpose(axes(:, :, 1, p)))
@@ -427,8 +452,9 @@ contains
           middle = axes(:, :, 1, p)
           axes(:, :, 2, p) = middle
         end if
-        call find_strain(dim*nodes, strains, b(:, :, p), u, strain)
-        if (modes > 0) strain = strain + matmul(alpha, by_modes(:, :, p))
+        call find_strain(n, strains, b(:, :, p), u, strain)
+        if (present(by_modes)) strain = strain + matmul(alpha, by_modes(:, :, p))
+        if (present(bounds)) strain(3) = strain(3) + dot_product(bounds%w, by_planes(:, p))
       end if
       weight = volume(p)*merge(thickness, 1.0_dp, dim == 2)
       if (present(pressure)) then
@@ -455,39 +481,53 @@ contains
         if (allocated(here%thermal%source)) call call_hetval(here%thermal%source, int(p, i4))
         call add_heat_source(coupling, weight, b(:, :, p), components(strains, here%ntens))
       end if
+      by_unknowns(:n, :) = b(:, :, p)
+      if (present(by_modes)) by_unknowns(n + 1:, :) = by_modes(:, :, p)
+      if (present(bounds)) by_unknowns(n + 1:, :) = of_planes(by_planes(:, p))
       if (request == added_stress) then
-        call find_strain(dim*nodes, strains, b(:, :, p), added, strain)
+        call find_strain(size(added), strains, by_unknowns(:size(added), :), added, strain)
         stress = matmul(modulus, strain)
         of_point(1) = dot_product(of_point(3:), strain)
         if (present(pressure)) stress(:direct) = stress(:direct) + mean_stress_added(pressure, p)
       end if
-      if (smoothed) call keep_point(smoothing, p, weight, direct, finite, of_point, b(:, :, p))
+      if (smoothed) call keep_point(smoothing, p, weight, direct, finite, of_point, by_unknowns)
       if (of_stress) then
         stresses(:, p) = stress
         weights(p) = weight
         cycle
       end if
-      if (finite) call add_geometric(dim, direct, strains, nodes, g(:, :, p), stress, weight, modulus, stiffness)
+      if (finite .and. present(bounds)) then
+        call add_stress_of_fibres(bounds, rule, p, g(:, :, p), by_unknowns(:, 3), ratio(p), stress, weight, modulus, stiffness)
+      else if (finite) then
+        call add_geometric(dim, direct, strains, nodes, g(:, :, p), stress, weight, modulus, stiffness)
+      end if
       if (finite .and. (allocated(here%hyperelastic) .or. present(pressure))) then
         if (averaged) stresses(:, p) = stress
         if (rule%reduced) call add_uniform_volume(rule%family, direct, strains, now, g(:, :, p), b(:, :, p), stress, weight, &
                                                   merge(thickness, 1.0_dp, dim == 2), stiffness)
       end if
-      by_unknowns(:dim*nodes, :) = b(:, :, p)
-      if (modes > 0) by_unknowns(dim*nodes + 1:, :) = by_modes(:, :, p)
       select case (strains)
       case (3)
-        call add_plane_point(2*nodes + modes, by_unknowns, weight*stress, weight*modulus, force, stiffness)
+        call add_plane_point(n + others, by_unknowns, weight*stress, weight*modulus, force, stiffness)
       case (4)
-        call add_axisymmetric_point(2*nodes, by_unknowns, weight*stress, weight*modulus, force, stiffness)
+        call add_axisymmetric_point(n + others, by_unknowns, weight*stress, weight*modulus, force, stiffness)
       case default
-        call add_space_point(3*nodes + modes, by_unknowns, weight*stress, weight*modulus, force, stiffness)
+        call add_space_point(n + others, by_unknowns, weight*stress, weight*modulus, force, stiffness)
       end select
     end do
     if (of_stress) then
       if (smoothed) stresses(:direct, :) = stresses(:direct, :) + spread(smoothing_change(smoothing), 1, direct)
       do p = 1, rule%points
-        call add_stress_matrix(dim, direct, strains, nodes, g(:, :, p), b(:, :, p), stresses(:, p), weights(p), stiffness)
+        if (present(bounds)) then
+          by_unknowns(:n, :) = b(:, :, p)
+          by_unknowns(n + 1:, :) = of_planes(by_planes(:, p))
+          modulus = 0
+          call add_stress_of_fibres(bounds, rule, p, g(:, :, p), by_unknowns(:, 3), ratio(p), stresses(:, p), weights(p), &
+                                    modulus, stiffness)
+          stiffness = stiffness + weights(p)*matmul(by_unknowns, matmul(modulus, transpose(by_unknowns)))
+        else
+          call add_stress_matrix(dim, direct, strains, nodes, g(:, :, p), b(:, :, p), stresses(:, p), weights(p), stiffness)
+        end if
       end do
       if (allocated(current%fields)) deallocate (current%fields)
       current%hybrid = .false.
@@ -503,8 +543,14 @@ contains
       call smooth(smoothing, force, stiffness)
       do p = 1, rule%points
         associate (change => smoothing%change(p))
-          if (finite) call add_curvature(dim, direct, strains, nodes, g(:, :, p), b(:, :, p), smoothing%weight(p)*change, &
-                                         stiffness)
+          if (finite .and. present(bounds)) then
+            by_unknowns(:n, :) = b(:, :, p)
+            by_unknowns(n + 1:, :) = of_planes(by_planes(:, p))
+            call add_curvature_of_fibres(bounds, rule, p, g(:, :, p), by_unknowns, by_unknowns(:, 3), ratio(p), &
+                                         smoothing%weight(p)*change, stiffness)
+          else if (finite) then
+            call add_curvature(dim, direct, strains, nodes, g(:, :, p), b(:, :, p), smoothing%weight(p)*change, stiffness)
+          end if
           elastic = elastic + smoothing%weight(p)*change*(smoothing%strain(p) + 0.5_dp*change*elastic_volume(material, unit))
           work = work + smoothing%weight(p)*0.5_dp*change*(sum(svars(:3, p)) - volume_strain(p))
           svars(values_of_point(dim)/2 + 1:values_of_point(dim)/2 + 3, p) = &
@@ -523,9 +569,17 @@ contains
     end if
     if (rule%reduced) then
       call resist_hourglass(rule, g_start(:, :dim), volume_start*merge(thickness, 1.0_dp, dim == 2), hourglass, &
-                            enhanced_constants(material, enhanced, moduli), finite, x, u, force, stiffness, energy(6))
+                            enhanced_constants(material, enhanced, moduli), finite, x, u, force(:n), stiffness(:n, :n), energy(6))
     end if
   end subroutine integrate
+
+  !> Strains by the unknowns of two planes, which strain the fibres alone.
+  pure function of_planes(by_planes) result(b)
+    real(dp), intent(in) :: by_planes(planes)
+    real(dp) :: b(planes, 4)
+    b = 0
+    b(:, 3) = by_planes
+  end function of_planes
 
   !> Adds a point to the residual of the pressure: the change of its volume now, by the displacements less that of the material.
   subroutine compare_volumes(pressure, point, direct, m, material, finite, now, before, strain, b)
@@ -623,24 +677,36 @@ contains
     end do
   end subroutine find_strain
 
-  !> Gradients, strain matrices and volumes of all points.
-  subroutine all_gradients(rule, direct, strains, averaged, x, g, b, volume)
+  !> Gradients, strain matrices and volumes of all points. Between two planes, with their unknowns w: relative lengths of the
+  !> fibres, and derivatives of their logarithms by w; those by the nodes are in b.
+  subroutine all_gradients(rule, direct, strains, averaged, x, g, b, volume, bounds, w, ratio, by_planes)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: direct, strains
     logical, intent(in) :: averaged
     real(dp), intent(in) :: x(rule%dim, rule%nodes)
     real(dp), intent(out) :: g(rule%nodes, direct, rule%points), b(rule%dim*rule%nodes, strains, rule%points)
     real(dp), intent(out) :: volume(rule%points)
-    real(dp) :: mean(rule%dim*rule%nodes)
-    integer :: p
-    call gradients_of_points(rule, direct, x, g, volume)
+    type(planes_t), intent(in), optional :: bounds
+    real(dp), intent(in), optional :: w(planes)
+    real(dp), intent(out), optional :: ratio(rule%points), by_planes(planes, rule%points)
+    real(dp) :: mean(rule%dim*rule%nodes), by_nodes(rule%dim, rule%nodes), fibre
+    integer :: p, flat
+    flat = merge(rule%dim, direct, present(bounds))
+    g(:, flat + 1:, :) = 0
+    call gradients_of_points(rule, flat, x, g(:, :flat, :), volume)
     do p = 1, rule%points
       call strain_matrix(rule%dim, direct, rule%nodes, g(:, :, p), b(:, :, p))
+      if (.not. present(bounds)) cycle
+      call find_fibre(bounds, rule, p, x, w, fibre, by_nodes, by_planes(:, p))
+      b(:, 3, p) = reshape(by_nodes, [size(by_nodes)])
+      volume(p) = volume(p)*fibre
+      if (present(ratio)) ratio(p) = fibre
     end do
     if (.not. averaged) return
-    mean = mean_volume_strain(direct, rule%dim*rule%nodes, strains, rule%points, volume, b)
+    ! fibres of elements with straight edges have one strain
+    mean = mean_volume_strain(flat, rule%dim*rule%nodes, strains, rule%points, volume, b)
     do p = 1, rule%points
-      call set_volume_strain(direct, rule%dim*rule%nodes, strains, mean, b(:, :, p))
+      call set_volume_strain(flat, rule%dim*rule%nodes, strains, mean, b(:, :, p))
     end do
   end subroutine all_gradients
 
@@ -705,14 +771,15 @@ contains
 
   !> Deformation gradients of all points at both ends of the increment; with the mean change of volume where it
   !> is averaged.
-  subroutine find_deformation(rule, direct, averaged, x, u, du, f, initial)
+  subroutine find_deformation(rule, direct, averaged, x, u, du, f, initial, bounds)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: direct
     logical, intent(in) :: averaged
     real(dp), dimension(rule%dim, rule%nodes), intent(in) :: x, u, du
     real(dp), intent(out) :: f(3, 3, 2, rule%points)
     real(dp), intent(out) :: initial(rule%points)   !< volumes of the points before any displacement
-    real(dp) :: g(rule%nodes, direct, rule%points), total, swept(2)
+    type(planes_t), intent(in), optional :: bounds
+    real(dp) :: g(rule%nodes, direct, rule%points), total, swept(2), by_nodes(rule%dim, rule%nodes), by_planes(planes)
     integer :: p, k
     total = 0
     swept = 0
@@ -725,11 +792,15 @@ contains
         swept(k) = swept(k) + initial(p)*determinant(f(:, :, k, p))
       end do
     end do
-    if (.not. averaged) return
-    do p = 1, rule%points
+    do p = 1, merge(rule%points, 0, averaged)
       do k = 1, 2
         f(:direct, :direct, k, p) = f(:direct, :direct, k, p)*(swept(k)/total/determinant(f(:, :, k, p)))**(1.0_dp/direct)
       end do
+    end do
+    if (.not. present(bounds)) return
+    do p = 1, rule%points
+      call find_fibre(bounds, rule, p, x + u - du, bounds%w - bounds%dw, f(3, 3, 1, p), by_nodes, by_planes)
+      call find_fibre(bounds, rule, p, x + u, bounds%w, f(3, 3, 2, p), by_nodes, by_planes)
     end do
   end subroutine find_deformation
 

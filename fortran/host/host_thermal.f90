@@ -181,9 +181,9 @@ contains
 
   !> Energy and heat flux that UMATHT gives at a point, whose temperature, fields and place are in the context. Its TIME is that at
   !> the end of the increment; TEMP and PREDEF are values at its start.
-  subroutine call_umatht(user, point, gradient, flow)
+  subroutine call_umatht(user, point, state, gradient, flow)
     type(user_thermal_t), intent(in) :: user
-    integer(i4), intent(in) :: point                !< from 1
+    integer(i4), intent(in) :: point, state         !< from 1; state: the point that has the STATEV
     real(dp), intent(in) :: gradient(:)             !< of the temperature, at the end of the increment
     type(flow_t), intent(inout) :: flow
     procedure(umatht_procedure), pointer :: umatht
@@ -225,7 +225,7 @@ contains
       x(s(2):s(2) + n - 1) = flow%flux(:n)
       x(s(3):s(3) + n - 1) = 0
       x(s(4):s(4) + n**2 - 1) = 0
-      call take_statev(user%statev, point, x(s(5):s(5) + user%statev - 1))
+      call take_statev(user%statev, state, x(s(5):s(5) + user%statev - 1))
       call umatht(u, dudt, x(s(1)), x(s(2)), x(s(3)), x(s(4)), x(s(5)), temp, dtemp, dtemdx, time, dtime, predef, dpred, cmname, &
                   ntgrd, nstatv, constants, nprops, coords, pnewdt, noel, npt, layer, kspt, kstep, kinc)
       call warn_of_writes(flow_work, flow_names, flow_sizes, point, user%reported)
@@ -236,7 +236,7 @@ contains
       flow%flux(:n) = x(s(2):s(2) + n - 1)
       flow%flux_by_temperature(:n) = x(s(3):s(3) + n - 1)
       flow%flux_by_gradient(:n, :n) = reshape(x(s(4):s(4) + n**2 - 1), [n, n])
-      call keep_statev(user%statev, point, x(s(5):s(5) + user%statev - 1))
+      call keep_statev(user%statev, state, x(s(5):s(5) + user%statev - 1))
     end associate
     current%routine = routine
     current%pnewdt = min(current%pnewdt, pnewdt)

@@ -11,7 +11,16 @@ from typing import Self, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.elements import COUPLED, MULTIPLIER, PRESSURE, ContactBlock, DistributingBlock, ElementBlock, field_of
+from harness.elements import (
+    COUPLED,
+    MULTIPLIER,
+    PRESSURE,
+    REFERENCE,
+    ContactBlock,
+    DistributingBlock,
+    ElementBlock,
+    field_of,
+)
 from harness.model.arrays import ComplexArray, FloatArray, IntArray
 from harness.model.mesh import Mesh, full_name
 from harness.model.model import Equation, dof_in_deck, is_local
@@ -154,7 +163,10 @@ def _names(block: ElementBlock) -> list[str]:
 
 
 def _positions(mesh: Mesh, block: Block, local: int) -> IntArray:
-    """(m,) nodes with this local number; behind those of an element it is the element, which follows all nodes."""
+    """(m,) nodes with this local number, or the reference node; behind those of an element it is the element, which
+    follows all nodes."""
+    if local == REFERENCE and isinstance(block, ElementBlock):
+        return np.full(len(block.group.labels), block.group.reference)
     if local < block.group.nodes.shape[1]:
         return block.group.nodes[:, local]
     positions: IntArray = len(mesh.labels) + block.first + block.rows

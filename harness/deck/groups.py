@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.local_mesh import ElementRun
 from harness.deck.orientations import read_orientations
-from harness.deck.sections import SECTION_KEYWORDS, make_section
+from harness.deck.sections import SECTION_KEYWORDS, make_section, reference_node
 from harness.deck.shells import SHELL_KEYWORDS, read_shear_stiffness
 from harness.deck.table import Keyword, Where
 from harness.deck.user_elements import ElementType
@@ -171,8 +172,12 @@ def _make_sections(
     for section, kind in pairs.tolist():
         block, owner = sections[section]
         with problems.gather():
-            found = orientations[owner.name]
-            made[section, kind] = make_section(block, elements.types[kind], materials, found, controls, problems)
+            type, axes = elements.types[kind], orientations[owner.name]
+            found = make_section(block, type, materials, axes, controls, problems)
+            if isinstance(found, SolidSection):
+                find = partial(elements.flat.nodes, owner=owner.name)
+                found = replace(found, reference=reference_node(block, type.name, find))
+            made[section, kind] = found
     return made
 
 

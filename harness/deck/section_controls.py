@@ -44,7 +44,8 @@ KEYWORDS = (
         "and bricks bend exactly; that Abaqus has the same numbers is inferred from its manual, which names the "
         "method, and a warning says so. It needs *ELASTIC, TYPE=ISOTROPIC with constant values, *HYPERELASTIC, whose "
         "initial moduli it takes, or UMAT, of whose first DDSDDE it takes the isotropic part (not if it is "
-        "incompressible), and is not available for axisymmetric elements.",
+        "incompressible). Axisymmetric elements have that of plane strain: the strain around the axis by hourglass "
+        "displacements, of the order of the size over the radius, is left out.",
         Where.MODEL,
         (
             NAME,

@@ -7,7 +7,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from itertools import pairwise
 
 import numpy as np
@@ -18,8 +18,9 @@ from harness.deck.error_report import Problems, look_up
 from harness.deck.shells import MOST_POINTS, SHELL_KEYWORDS, read_shell_section
 from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF, ElementType, read_user_property
-from harness.errors import DeckError
-from harness.model.element_types import BEAM, DISCRETE, HEAT, LAYERED, DiscreteKind
+from harness.errors import DeckError, Source
+from harness.model.arrays import IntArray
+from harness.model.element_types import BEAM, DISCRETE, GENERALISED, HEAT, LAYERED, DiscreteKind
 from harness.model.properties import (
     CohesiveSection,
     CompositeSection,
@@ -70,11 +71,12 @@ def make_section(
     layers: tuple[SolidLayer, ...] = ()
     if _is_composite(block, kind):
         layers = _solid_layers(block, materials, orientations, orientation)
-    return _solid_section(block, material or layers, orientation, controls)
+    return _solid_section(block, kind.name, material or layers, orientation, controls)
 
 
 def _solid_section(
     block: Block,
+    type: str,
     given: Material | tuple[SolidLayer, ...],
     orientation: Orientation | None,
     controls: Mapping[str, SectionControls],
@@ -84,7 +86,10 @@ def _solid_section(
     if isinstance(given, tuple):
         direction = int(block.options.text("STACK DIRECTION"))
         return CompositeSection(elset, given, direction, block.source, controls=found)
-    thickness = _thickness(list(block.rows()), 0, "thickness")
+    rows = list(block.rows())
+    if type in GENERALISED:
+        _check_planes(rows)
+    thickness = _thickness(rows, 0, "thickness")
     return SolidSection(elset, given, orientation, thickness, block.source, controls=found)
 
 
@@ -146,6 +151,32 @@ def _without_material(block: Block, kind: ElementType) -> MassSection | RigidSec
     if block.name == "RIGID BODY":
         return RigidSection(elset, block.source)
     return MassSection(elset, _mass(block), block.source) if block.name == "MASS" else _spring(block, kind)
+
+
+def reference_node(block: Block, type: str, find: Callable[[str, Source], IntArray]) -> int:
+    """Index of the node that REF NODE of *SOLID SECTION names, -1 where the elements have none.
+
+    find: nodes of a number or set. Raises DeckError.
+    """
+    name = block.options.text("REF NODE")
+    if name and type not in GENERALISED:
+        message = f"REF NODE goes with elements in generalised plane strain ({', '.join(GENERALISED)})"
+        raise block.error(f"{message}; element set {block.options.text('ELSET')} holds {type}")
+    if not name:
+        if type in GENERALISED:
+            raise block.error(f"elements of type {type} need REF NODE")
+        return -1
+    nodes = find(name, block.source)
+    if len(nodes) != 1:
+        raise block.error(f"REF NODE={name} has {len(nodes)} nodes; expected one")
+    return int(nodes[0])
+
+
+def _check_planes(rows: list[Row]) -> None:
+    """The bounding planes of generalised plane strain are parallel before any displacement."""
+    for k, axis in enumerate("xy", start=1):
+        if rows and rows[0].real(k, f"initial rotation about {axis}", 0.0):
+            raise rows[0].error(f"an initial rotation of the bounding planes about {axis} is not supported; expected 0")
 
 
 def _mass(block: Block) -> float:
@@ -277,7 +308,10 @@ KEYWORDS = (
     Keyword(
         "SOLID SECTION",
         "Section of built-in continuum and heat transfer elements. Axisymmetric ones (CAX, DCAX) ignore the thickness: "
-        "forces, masses and energies are those of the whole circumference.",
+        "forces, masses and energies are those of the whole circumference. Elements in generalised plane strain (CPEG) "
+        "lie between two rigid planes: dof 3 of the reference node is the change of the length of its fibre, dofs 4 "
+        "and 5 are the relative rotations of the planes about x and y. Loads on their edges act on the initial "
+        "thickness.",
         Where.MODEL,
         (
             _ELSET,
@@ -295,11 +329,14 @@ KEYWORDS = (
                 refused=("ORIENTATION",),
             ),
             Option("SYMMETRIC", doc="the layers again, in reverse"),
+            Option("REF NODE", Kind.NAME, "reference node of CPEG elements, or a set with this node alone"),
             *ignored("LAYUP"),
-            *refused("ORDER", "REF NODE"),
+            *refused("ORDER"),
         ),
-        "thickness (1); COMPOSITE: thickness over that of the other layers, section points (1), material, angle in "
-        "degrees from ORIENTATION or the name of another orientation, name",
+        "thickness (1), of CPEG elements the length of the fibre through the reference node; there then rotations of "
+        "the bounding planes about x and y before any displacement, which must be 0; COMPOSITE: thickness over that of "
+        "the other layers, section points (1), material, angle in degrees from ORIENTATION or the name of another "
+        "orientation, name",
     ),
     Keyword(
         "COHESIVE SECTION",

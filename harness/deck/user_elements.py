@@ -18,7 +18,7 @@ from harness.deck.error_report import Problems, nearest
 from harness.deck.numbers import LARGEST_INTEGER
 from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
 from harness.errors import DeckError, Source
-from harness.model.element_types import BUILT_IN
+from harness.model.element_types import BUILT_IN, PLANES
 from harness.model.mesh import ElementGroup
 from harness.model.properties import Material, Orientation, SpringSection, UserElement, UserProperty
 
@@ -68,6 +68,8 @@ def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[set[int]]:
                 dofs = set(BUILT_IN[group.type].dofs(local))
             for node in group.nodes[:, local].tolist():
                 found[node] |= dofs
+        if group.reference >= 0:
+            found[group.reference] |= set(PLANES)
     return found
 
 

@@ -9,7 +9,7 @@ from harness.elements.contact import ContactBlock, contact_blocks
 from harness.elements.contact_sliding import FiniteSliding
 from harness.elements.contact_surface import FaceSurface, monomials
 from harness.elements.distributing import DistributingBlock, distributing_blocks
-from harness.elements.fields import COUPLED, FIELD_NAMES, MULTIPLIER, PRESSURE, VOLUME, field_of
+from harness.elements.fields import COUPLED, FIELD_NAMES, MULTIPLIER, PRESSURE, REFERENCE, VOLUME, field_of
 from harness.elements.followers import FollowerBlock
 from harness.elements.heat_loads import HeatLoadBlock
 from harness.elements.lflags import Damping, Flags, Request
@@ -22,6 +22,7 @@ __all__ = [
     "MULTIPLIER",
     "PERMUTATION",
     "PRESSURE",
+    "REFERENCE",
     "VOLUME",
     "BlockReport",
     "Call",

@@ -46,7 +46,7 @@ class ElementBlock:
     """Elements of one group: their committed and trial state, and one pass over them.
 
     unknowns     (local node, dof) of each element unknown, in the order of U and RHS; the local node behind the last
-                 one is the element itself, which has pressures
+                 one is the element itself, which has pressures, and REFERENCE the reference node of its section
     unsymmetric  False: (A + A^T)/2 is assembled
     first        position of the first element of the group in the model
     rows         (m,) elements of the group that are here, ascending: all of them, or those of this rank

@@ -18,8 +18,9 @@ from harness.elements.composite import composite_routine, composite_variables, l
 from harness.elements.coupled import coupled_routine, heat_routine, heat_variables, is_unsymmetric
 from harness.elements.directions import start_axes
 from harness.elements.discrete import discrete_routine, discrete_unknowns, discrete_variables
-from harness.elements.fields import PRESSURE
+from harness.elements.fields import PRESSURE, REFERENCE
 from harness.elements.followers import follower_blocks
+from harness.elements.generalised import generalised_routine
 from harness.elements.heat_loads import heat_load_blocks
 from harness.elements.hybrid import pressure_unknowns
 from harness.elements.materials import (
@@ -36,6 +37,7 @@ from harness.elements.solid import history_of, solid_routine, solid_variables
 from harness.errors import DeckError, all_of
 from harness.model.element_types import (
     BUILT_IN,
+    PLANES,
     POTENTIAL,
     BeamType,
     CohesiveType,
@@ -260,12 +262,15 @@ def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library
         routine = coupled_routine(model, group, section, library)
     elif kind.electrical:
         routine = piezoelectric_routine(model, group, section, library)
+    elif kind.generalised:
+        routine = generalised_routine(model, group, section, library)
     else:
         routine = solid_routine(model, group, section, library)
-    # displacements of all nodes, then temperatures of the corners, or potentials of all
+    # displacements of all nodes, then temperatures of the corners, or potentials of all, or those of the reference node
     unknowns = tuple((node, dof) for node in range(kind.nodes) for dof in range(1, kind.dimension + 1))
     unknowns += tuple((node, 11) for node in range(kind.corners) if coupled)
     unknowns += tuple((node, POTENTIAL) for node in range(kind.nodes) if kind.electrical)
+    unknowns += tuple((REFERENCE, dof) for dof in PLANES if kind.generalised)
     unknowns += tuple((kind.nodes, PRESSURE + k) for k in range(pressure_unknowns(kind, section.material)))
     block = ElementBlock(
         group,

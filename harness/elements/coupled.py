@@ -35,9 +35,7 @@ def coupled_routine(model: Model, group: ElementGroup, section: SolidSection, li
     _check_thermal(model, group, material)
     kind = solid_of(group)
     if material.user_thermal is not None and kind.points != kind.thermal_points:
-        # Abaqus User Subroutines Guide, UMATHT: not with reduced integration
-        message = f"*USER MATERIAL, TYPE=THERMAL is not supported for elements of type {group.type}: UMATHT needs full"
-        raise DeckError(section.source, f"{message} integration, with the same points for stresses and heat")
+        _warn_of_reduced(model, group, library)
     solid = solid_routine(model, group, section, library)
     define_thermal(solid.material, material, library)
     hidden = (kind.dimension + 1) * kind.thermal_points
@@ -48,6 +46,14 @@ def coupled_routine(model: Model, group: ElementGroup, section: SolidSection, li
         hidden=solid.hidden + hidden,
         jprops=np.concatenate([solid.jprops, [kind.thermal_points, kind.family.linear.number]]),
     )
+
+
+def _warn_of_reduced(model: Model, group: ElementGroup, library: Library) -> None:
+    """Say, once per type, what Abaqus says of UMATHT where heat has more points than stresses."""
+    if group is next(other for other in model.groups if other.type == group.type):
+        message = f"elements of type {group.type} have more points for heat than for stresses"
+        advice = "UMATHT should not be used there if plastic dissipation couples displacements and temperatures"
+        library.warn(f"{group.source}: {message}; {advice}")
 
 
 def heat_routine(model: Model, group: ElementGroup, kind: HeatType, section: SolidSection, library: Library) -> Routine:

@@ -16,6 +16,9 @@ FIELD_NAMES: Final = ("force", "moment", "pore", "electrical", "temperature", VO
 PRESSURE: Final = 101
 """Number of the first pressure of hybrid elements among the unknowns of an element: more than any dof of Abaqus."""
 
+REFERENCE: Final = -1
+"""Local number, among the nodes of an element, of the reference node of its section."""
+
 MULTIPLIER: Final = 201
 """Number of the multiplier of a contact point among the unknowns of its block."""
 

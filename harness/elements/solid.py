@@ -254,7 +254,7 @@ def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: Soli
         return 0.0
     check_one_control(section)
     if controls.enhanced:
-        _check_enhanced(group, kind, section)
+        _check_enhanced(kind, section)
         return 0.0
     if section.hourglass:
         return section.hourglass
@@ -278,19 +278,14 @@ def check_one_control(section: SolidSection | CompositeSection) -> None:
         )
 
 
-def _check_enhanced(group: ElementGroup, kind: ContinuumType, section: SolidSection) -> None:
-    """Raise DeckError if there is no enhanced hourglass control for the elements or the material."""
-    elastic = section.material.elastic
-    if kind.axisymmetric:
-        what, expected = f"elements of type {group.type}", "plane elements or C3D8R"
-    elif isinstance(section.material.hyperelastic, Hyperelastic) or _of_tangent(kind, section):
+def _check_enhanced(kind: ContinuumType, section: SolidSection) -> None:
+    """Raise DeckError if there is no enhanced hourglass control for the material."""
+    material, elastic = section.material, section.material.elastic
+    if isinstance(material.hyperelastic, Hyperelastic) or _of_tangent(kind, section):
         return
-    elif elastic is None or elastic.type is not ElasticType.ISOTROPIC or elastic.table is not None:
-        what, expected = f"material {section.material.name}", "*ELASTIC, TYPE=ISOTROPIC with constant values"
-    else:
-        return
-    message = f"*SECTION CONTROLS, HOURGLASS=ENHANCED is not supported for {what}; expected {expected}"
-    raise DeckError(section.source, message)
+    if elastic is None or elastic.type is not ElasticType.ISOTROPIC or elastic.table is not None:
+        message = f"*SECTION CONTROLS, HOURGLASS=ENHANCED is not supported for material {material.name}"
+        raise DeckError(section.source, f"{message}; expected *ELASTIC, TYPE=ISOTROPIC with constant values")
 
 
 def _enhanced_moduli(kind: ContinuumType, section: SolidSection) -> int:

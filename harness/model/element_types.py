@@ -18,6 +18,9 @@ Face = tuple[int, ...]
 POTENTIAL: Final = 9
 """Dof of an electrical potential."""
 
+PLANES: Final = (3, 4, 5)
+"""Dofs of the reference node of generalised plane strain: change of the length of its fibre, rotations of planes."""
+
 
 @dataclass(frozen=True, slots=True)
 class Family:
@@ -192,6 +195,7 @@ class ContinuumType(SolidType):
     pressures     functions of the pressure of hybrid elements: 1 of a constant one, 1 + dimension of a linear one
     modified      Abaqus has the modified interpolation there, which is not published; here it is the quadratic one
     electrical    piezoelectric, with an electrical potential at all nodes
+    generalised   in generalised plane strain, with the dofs PLANES of the reference node of the section
     """
 
     tensor: Tensor
@@ -200,6 +204,7 @@ class ContinuumType(SolidType):
     pressures: int = 0
     modified: bool = False
     electrical: bool = False
+    generalised: bool = False
 
     @property
     def components(self) -> tuple[str, ...]:
@@ -516,6 +521,14 @@ COUPLED: Final = {
 }
 """The same with temperatures at their corners."""
 
+GENERALISED: Final = {
+    name: replace(kind, name=name, generalised=True)
+    for kind in (*_SOLIDS.values(), *HYBRID.values())
+    if kind.name.startswith("CPE") and not kind.incompatible
+    for name in (kind.name.replace("CPE", "CPEG"),)
+}
+"""Elements in generalised plane strain by their names."""
+
 PIEZOELECTRIC: Final = {
     f"{name}E": replace(kind, name=f"{name}E", electrical=True)
     for name, kind in _SOLIDS.items()
@@ -584,7 +597,7 @@ DISCRETE: Final = {
 """Trusses, springs and masses by their names."""
 
 BUILT_IN: Final[dict[str, BuiltInType]] = {
-    **(CONTINUUM | COUPLED | PIEZOELECTRIC),
+    **(CONTINUUM | COUPLED | PIEZOELECTRIC | GENERALISED),
     **HEAT,
     **COHESIVE,
     **SHELL,
@@ -594,5 +607,5 @@ BUILT_IN: Final[dict[str, BuiltInType]] = {
 }
 """All built-in elements by their names."""
 
-HOURGLASS_CONTROLLED: Final = tuple(name for name, kind in CONTINUUM.items() if kind.hourglass_control)
+HOURGLASS_CONTROLLED: Final = tuple(name for name, kind in (CONTINUUM | GENERALISED).items() if kind.hourglass_control)
 """Names of elements with hourglass control."""

@@ -12,7 +12,7 @@ import numpy as np
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import BUILT_IN, BeamType, BuiltInType, ContinuumType, ShellType
-from harness.model.properties import Section, UserElement
+from harness.model.properties import Section, SolidSection, UserElement
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +65,11 @@ class ElementGroup:
     def built_in(self) -> BuiltInType | None:
         """The type in the table of built-in elements; None for user elements, and for a name that is not in it."""
         return None if self.definition else BUILT_IN.get(self.type)
+
+    @property
+    def reference(self) -> int:
+        """Index of the reference node of its section, which has unknowns of all its elements; -1 without one."""
+        return self.section.reference if isinstance(self.section, SolidSection) else -1
 
     @property
     def electrical(self) -> bool:

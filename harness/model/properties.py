@@ -321,7 +321,8 @@ class SectionControls:
 class SolidSection:
     """*SOLID SECTION of built-in continuum and heat transfer elements.
 
-    Thickness 1, default hourglass stiffness (0) unless given.
+    Thickness 1, default hourglass stiffness (0) unless given. The reference node of generalised plane strain is an
+    index into the nodes of the model, -1 in other elements; there the thickness is the length of its fibre.
     """
 
     elset: str
@@ -331,6 +332,7 @@ class SolidSection:
     source: Source
     hourglass: float = 0.0
     controls: SectionControls = SectionControls()
+    reference: int = -1
 
 
 @dataclass(frozen=True, slots=True)

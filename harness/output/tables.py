@@ -80,6 +80,8 @@ def used_nodes(model: Model) -> NDArray[np.bool_]:
     used = np.zeros(len(model.mesh.labels), dtype=bool)
     for group in model.groups:
         used[group.nodes] = True
+        if group.reference >= 0:
+            used[group.reference] = True
     for equation in model.equations:
         used[[node for node, _, _ in equation.terms]] = True
     return used

@@ -564,18 +564,29 @@ def slopes_at_nodes(family: int, nodes: int) -> FloatArray:
 
 _ELEMENTS: Final = (
     *("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric", "truss"),
+    "generalised",
 )
 """In the order of host_element_address."""
 
 
 def address_of(
     elements: Literal[
-        "solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric", "truss"
+        "solid",
+        "coupled",
+        "cohesive",
+        "discrete",
+        "heat",
+        "heat load",
+        "shell",
+        "beam",
+        "piezoelectric",
+        "truss",
+        "generalised",
     ],
 ) -> int:
     """Address of built-in elements.
 
-    Solid, coupled, heat, shell, piezoelectric ones and trusses are called like UELMAT, the others like UEL.
+    Cohesive ones, springs and masses, heat that enters and beams are called like UEL, the others like UELMAT.
     """
     return int(_host.host_element_address(1 + _ELEMENTS.index(elements)))
 

@@ -49,6 +49,37 @@ def test_rectangles_with_enhanced_control_bend_exactly(forces_of, element_type):
     np.testing.assert_allclose(force[:, 1], 0.0, atol=1e-10)
 
 
+def test_far_from_the_axis_the_control_is_that_of_plane_strain(control_of):
+    radius = 1e7
+    u = np.random.default_rng(4).normal(size=(4, 2))
+    (plane, _), (round_, _) = (
+        control_of(name, SQUARE[:, :2] + [shift, 0.0], None)(u) for name, shift in (("CPE4R", 0.0), ("CAX4R", radius))
+    )
+    np.testing.assert_allclose(round_ / (2 * np.pi * radius), plane, rtol=1e-5, atol=1e-6 * abs(plane).max())
+
+
+def test_wall_of_a_cylinder_bends_in_one_element(tmp_path):
+    """A force Q per length around the end of a long cylinder moves it by Q/(2 beta^3 D), beta^4 = 3 (1 - nu^2)/(R t)^2
+    (S. Timoshenko, S. Woinowsky-Krieger, Theory of Plates and Shells, 1959, 115). CAX4R has one point across the wall,
+    so that all of its bending stiffness is that of the hourglass control."""
+    young, nu, radius, thickness, count = 1000.0, 0.3, 100.0, 1.0, 60
+    beta = (3 * (1 - nu**2)) ** 0.25 / np.sqrt(radius * thickness)
+    rigidity = young * thickness**3 / (12 * (1 - nu**2))
+    z = np.linspace(0.0, 6.0 / beta, count + 1)
+    nodes = np.array([(r, height) for height in z for r in (radius - thickness / 2, radius + thickness / 2)])
+    elements = np.array([[0, 1, 3, 2]]) + 2 * np.arange(count)[:, None]
+    lines = [*body_lines("CAX4R", nodes, elements), "*SOLID SECTION, ELSET=BODY, MATERIAL=M, CONTROLS=C"]
+    lines += ["*SECTION CONTROLS, NAME=C, HOURGLASS=ENHANCED", "*MATERIAL, NAME=M", f"*ELASTIC\n{young}, {nu}"]
+    lines += ["*STEP\n*STATIC\n1., 1.", f"*BOUNDARY\n{2 * count + 1}, 1, 2\n{2 * count + 2}, 1, 2"]
+    half = np.pi * radius  # half of a force of one per length
+    lines += [f"*CLOAD\n1, 1, {half}\n2, 1, {half}", "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nU\n*END STEP"]
+    (tmp_path / "wall.inp").write_text("\n".join([*lines, ""]))
+    history = harness.run(tmp_path / "wall.inp", output_dir=tmp_path).history
+    found = (history["U1[ALL:1]"][-1] + history["U1[ALL:2]"][-1]) / 2
+    # thin: of the order of the thickness over the radius
+    assert found == pytest.approx(1 / (2 * beta**3 * rigidity), rel=0.02)
+
+
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_bricks_with_enhanced_control_bend_exactly(forces_of, axis):
     """Bending by E11 = y alone, the section bent as well: u = (xy, -x^2/2 - nu (y^2 - z^2)/2, -nu y z)."""
@@ -110,7 +141,6 @@ USER = Material("M", SOURCE, user=UserMaterial(np.array([1.0]), False, SOURCE, H
 @pytest.mark.parametrize(
     ("element_type", "change", "message"),
     [
-        ("CAX4R", {}, r"not supported for elements of type CAX4R; expected plane elements or C3D8R"),
         ("CPS4R", {"material": Material("M", SOURCE, PLY)}, r"for material M; expected \*ELASTIC, TYPE=ISOTROPIC with"),
         (
             "C3D8RH",

@@ -10,12 +10,13 @@ import pytest
 from reference_cells import affine
 
 from harness.elements import Flags, Request, build_blocks
-from harness.model.element_types import CONTINUUM, Tensor
+from harness.model.element_types import CONTINUUM, GENERALISED, Tensor
 from harness.model.mesh import Mesh
 from harness.model.model import Model
 from harness.model.steps import InitialStress
 
-TYPES = [name for name, kind in CONTINUUM.items() if not kind.coupled]
+KINDS = CONTINUUM | GENERALISED
+TYPES = [name for name, kind in KINDS.items() if not kind.coupled]
 
 
 STRESS = (3.0, -2.0, 1.0, 0.5, 0.4, 0.3)
@@ -26,18 +27,21 @@ def element(solid_group, load, call):
     """Its block, the matrix of a request, and a random displacement."""
 
     def element(element_type, *, stressed=False):
-        kind = CONTINUUM[element_type]
+        kind = KINDS[element_type]
         nodes, _ = affine(kind.family.cell)
         if kind.axisymmetric:
             nodes = nodes + np.array([2.0, 0.0])
         nodes = nodes + 0.03 * np.random.default_rng(1).standard_normal(nodes.shape)
         group = solid_group(element_type, np.arange(len(nodes))[None], 1.5)
-        mesh = Mesh(np.arange(len(nodes)) + 1, np.pad(nodes, ((0, 0), (0, 3 - nodes.shape[1]))), ("",) * len(nodes))
+        # behind them a reference node
+        group = replace(group, section=replace(group.section, reference=len(nodes) if kind.generalised else -1))
+        places = np.pad(np.vstack([nodes, nodes[:1] + 0.3]), ((0, 0), (0, 3 - nodes.shape[1])))
+        mesh = Mesh(np.arange(len(places)) + 1, places, ("",) * len(places))
         count = 3 if kind.tensor is Tensor.PLANE_STRESS else len(kind.components)
         initial = InitialStress(np.array([0]), np.array(STRESS[:count]), True, group.source)
         model = Model(Path("test.inp"), "", mesh, (group,), (), initial_stresses=(initial,) if stressed else ())
         (block,) = build_blocks(model, load(None))
-        n = nodes.size
+        n = len(block.unknowns)
         block.bind(np.arange(n, dtype=np.int32)[None], np.arange(n * n, dtype=np.int32).reshape(1, n, n))
         if stressed:
             block.set_stress(np.array([0]), initial.values)
@@ -71,7 +75,7 @@ def test_stress_of_displacements(element, element_type):
     np.testing.assert_allclose(evaluate(Request.BASE_STRESS, zero, zero, nlgeom=False), 0, atol=1e-14)
 
 
-@pytest.mark.parametrize("element_type", [name for name in TYPES if not CONTINUUM[name].pressures])
+@pytest.mark.parametrize("element_type", [name for name in TYPES if not KINDS[name].pressures])
 def test_part_of_the_tangent(element, element_type):
     """What the tangent of NLGEOM in the shape without displacements gains by an initial stress.
 

@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Built-in elements in generalised plane strain for the driver (fortran/host/host_generalised.f90)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from harness.elements.hybrid import pressure_unknowns
+from harness.elements.materials import refuse_hyperelastic
+from harness.elements.routine import Routine
+from harness.elements.solid import solid_of, solid_routine
+from harness.errors import DeckError
+from harness.model.mesh import ElementGroup
+from harness.model.model import Model
+from harness.model.properties import SolidSection
+from harness.usersub import Library, _binding
+
+
+def generalised_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
+    """What the driver calls for a group of elements in generalised plane strain. Raises DeckError."""
+    kind, material = solid_of(group), section.material
+    elements = f"elements of type {group.type}"
+    for step in model.steps:
+        procedure = step.procedure
+        if procedure.inertia or procedure.finds_modes or procedure.harmonic or procedure.modal:
+            message = "are not supported in steps that need a mass: that of their bounding planes is not documented"
+            raise DeckError(step.source, f"{elements} {message}")
+    refuse_hyperelastic(material, elements)
+    if pressure_unknowns(kind, material):
+        message = f"incompressible materials (material {material.name}) are not supported for {elements}"
+        raise DeckError(section.source, message)
+    solid = solid_routine(model, group, section, library)
+    origin = model.mesh.coordinates[section.reference, : kind.dimension]
+    return replace(solid, address=_binding.address_of("generalised"), props=np.concatenate([solid.props, origin]))
