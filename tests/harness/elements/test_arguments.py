@@ -6,6 +6,7 @@ A square of side 1 is held in step 1, which takes a time of 1, and stretched by 
 0.5, or one of 1 (*GEOSTATIC); values are those of the last call in its last increment.
 """
 
+import re
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
@@ -15,8 +16,10 @@ import pytest
 
 import harness
 from harness.errors import DeckError
+from harness.usersub.library import ENTRY_POINTS
 
 HERE = Path(__file__).parent
+PAGE = Path(harness.__file__).parent / "usersub" / "calls.md"
 DECK = """*NODE, NSET=ALL
 1, 0., 0.
 2, 1., 0.
@@ -59,11 +62,32 @@ ALL, 2
 1, 1
 4, 1
 ALL, 11, 11, 20.
-{loads}
-*OUTPUT, HISTORY, SENSOR, NAME=PLACE, OP=ADD
+{loads}*OUTPUT, HISTORY, SENSOR, NAME=PLACE, OP=ADD
 *NODE OUTPUT, NSET=END
 {sensor}
 *END STEP
+"""
+SPRING = """*NODE, NSET=ALL
+1, 1.
+2, 3.
+*USER ELEMENT, TYPE=U5, NODES=2, COORDINATES=1, PROPERTIES=1, I PROPERTIES=1, VARIABLES=1
+{dof}
+*ELEMENT, TYPE=U5, ELSET=E
+7, 1, 2
+*UEL PROPERTY, ELSET=E
+10., 3
+{initial}*STEP{first}
+{begin}
+1., 1.
+*BOUNDARY
+ALL, {dof}
+*END STEP
+*STEP{options}
+{procedure}
+*BOUNDARY, OP=NEW
+1, {dof}
+2, {dof}, {dof}, 0.02
+{loads}*END STEP
 """
 USERS = """*BOUNDARY, USER, OP=NEW
 RIGHT, 1, 1, 0.02
@@ -76,8 +100,10 @@ BY_DECK = "*BOUNDARY, OP=NEW\nRIGHT, 1, 1, 0.02\n"
 HEATED = """*BOUNDARY, USER, OP=NEW
 RIGHT, 11, 11, 0.02
 *CFLUX, AMPLITUDE=GIVEN
-1, 11, 3."""
-VARY = "*TEMPERATURE\nALL, 60.\n*FIELD\nALL, 6."
+1, 11, 3.
+"""
+FIELD = "*FIELD, USER\nALL, 6.\n"
+VARY = f"*TEMPERATURE, USER\nALL, 60.\n{FIELD}"
 ELASTIC = "*ELASTIC\n1000., 0.\n*USER DEFINED FIELD\n*DEPVAR\n1\n*USER OUTPUT VARIABLES\n3"
 RUBBER = "*HYPERELASTIC, USER, TYPE=COMPRESSIBLE, PROPERTIES=2\n0.5, 0.4\n*DEPVAR\n1"
 THERMAL = "*ELASTIC\n1000., 0.\n*CONDUCTIVITY\n1.\n*SPECIFIC HEAT\n1.\n*USER OUTPUT VARIABLES\n3"
@@ -125,12 +151,11 @@ def calls(tmp_path_factory):
     """Calls of a run: their routine, (KSTEP, KINC, NOEL, NPT), and arguments by name."""
 
     @cache
-    def calls(procedure, options, loads, material=ELASTIC, type="CPE4", begin="*STATIC", sensor="U1", initial=""):
+    def calls(procedure, options, loads, material=ELASTIC, *, deck=DECK, **changed):
         folder = tmp_path_factory.mktemp("told")
-        given = {"material": material, "type": type, "begin": begin, "sensor": sensor, "procedure": procedure}
-        given |= {"initial": initial}
-        first = "" if "PERTURBATION" in options else options
-        text = DECK.format(first=first, options=options, loads=loads, **given)
+        given = {"material": material, "type": "CPE4", "begin": "*STATIC", "sensor": "U1", "initial": "", "dof": 1}
+        given |= {"procedure": procedure, "options": options, "loads": loads} | changed
+        text = deck.format(first="" if "PERTURBATION" in options else options, **given)
         (folder / "told.inp").write_text(text)
         harness.run(folder / "told.inp", HERE / "told.f", output_dir=folder)
         found = []
@@ -158,8 +183,8 @@ def in_step(calls, kind, material=ELASTIC):
         return calls(*given, USERS + VARY, material)
     begin = given[0].partition("\n")[0]
     if kind in COUPLED_STEPS:
-        return calls(*given, USERS, THERMAL, "CPE4T", begin)
-    return calls(*given, HEATED, THERMAL, "DC2D4", begin, "NT11")
+        return calls(*given, USERS + FIELD, THERMAL, type="CPE4T", begin=begin)
+    return calls(*given, HEATED + FIELD, THERMAL, type="DC2D4", begin=begin, sensor="NT11")
 
 
 def last(calls, routine, place=None):
@@ -199,6 +224,11 @@ def place(kind, *of):
     return 2, round(1 / size(kind)), *of
 
 
+def kept(kind):
+    """10 KSTEP + KINC of the increment before."""
+    return 21 if size(kind) < 1 else 11
+
+
 def start(kind):
     """TIME at the start of the increment, and DTIME."""
     return {"TIME": [1 - size(kind), 2 - size(kind)], "DTIME": size(kind)}
@@ -210,7 +240,7 @@ def test_usdfld(calls, kind):
     assert found.pop("PNEWDT") > 1
     expected = {
         "FIELD": 6.0,
-        "STATEV": 21 if size(kind) < 1 else 11,
+        "STATEV": kept(kind),
         "CELENT": np.sqrt(stretch(kind)[0]),
         "COORD": PLACE * stretch(kind),
     }
@@ -282,6 +312,33 @@ def test_uanisohyper_inv(calls, kind):
     check(found, expected | {"STATEV": committed(kind)} | HYPERELASTIC | field(kind))
 
 
+def test_uhyper_along_a_path(calls):
+    """The stretch is that of the load factor; fields stay."""
+    found = last(in_step(calls, "large path", RUBBER), "UHYPER")
+    j = found["AJ"][0]
+    assert j > 1
+    increments = [at[1] for name, at, _ in in_step(calls, "large path", RUBBER) if name == "UEXTERNALDB" and at[0] == 2]
+    expected = {"BI1": (2 + j**2) * j ** (-2 / 3), "BI2": (1 + 2 * j**2) * j ** (-4 / 3), "AJ": j}
+    expected |= HYPERELASTIC | {"TEMP": 20.0, "FIELDV": 4.0, "FIELDVINC": 0.0, "STATEV": max(increments)}
+    check(found, expected)
+
+
+@pytest.mark.parametrize("kind", TIMED)
+def test_utemp(calls, kind):
+    """The temperature of the deck at the end of the increment."""
+    found = last(in_step(calls, kind), "UTEMP", place(kind, 0, 3))
+    check(found, {"TEMP": 60, "NSECPT": 1, "TIME": [1, 2], "COORDS": [1, 1, 0]})
+
+
+@pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS, *HEAT_STEPS])
+def test_ufield(calls, kind):
+    """And that of UTEMP, with its increment; without predefined temperatures zero."""
+    found = last(in_step(calls, kind), "UFIELD", place(kind, 0, 2))
+    temperature = [0, 0] if kind not in TIMED else [60, 0 if kind in AT_ONCE else 40 * size(kind)]
+    expected = {"FIELD": 6, "KFIELD": 1, "NSECPT": 1, "TIME": [1, 2], "NFIELD": 1, "COORDS": [1, 0, 0]}
+    check(found, expected | {"TEMP": temperature[0], "DTEMP": temperature[1]})
+
+
 @pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS])
 def test_dload(calls, kind):
     """At the end of the increment; JLTYP of BX is 1."""
@@ -339,7 +396,7 @@ def test_uexternaldb(calls, kind):
 def test_linear_steps(calls, kind):
     """USDFLD is called in the base state, the end of step 1, in which no time passes; no other routine is."""
     procedure, options = LINEAR[kind]
-    loads = {"frequency": "", "buckle": "*CLOAD\nRIGHT, 1, -1."}.get(kind, "*CLOAD\nRIGHT, 1, 1.")
+    loads = {"frequency": "", "buckle": "*CLOAD\nRIGHT, 1, -1.\n"}.get(kind, "*CLOAD\nRIGHT, 1, 1.\n")
     found = calls(procedure, options, loads)
     assert {name for name, (step, *_), _ in found if step == 2} == {"USDFLD", "UEXTERNALDB"}
     given = dict(last(found, "USDFLD", (2, 1, 7, POINT)))
@@ -349,20 +406,12 @@ def test_linear_steps(calls, kind):
     check(given, {"FIELD": 4.0, "STATEV": 11, "CELENT": 1.0, "COORD": PLACE} | expected | AXES | SECTION)
 
 
-@pytest.mark.parametrize(
-    ("loads", "message"),
-    [
-        ("*DLOAD\nE, BXNU, 4.", "loads by DLOAD are not supported in a linear perturbation"),
-        (
-            "*BOUNDARY, OP=NEW, USER\nRIGHT, 1, 1, 0.02",
-            "TYPE=VELOCITY and USER have no meaning in a linear perturbation",
-        ),
-    ],
-)
 @pytest.mark.parametrize("kind", ["static perturbation", "harmonic"])
-def test_values_by_time_in_linear_steps(calls, kind, loads, message):
-    with pytest.raises(DeckError, match=rf"told.inp:\d+: {message}"):
-        calls(*LINEAR[kind], loads)
+def test_disp_in_linear_steps(calls, kind):
+    with pytest.raises(
+        DeckError, match=r"told.inp:\d+: TYPE=VELOCITY and USER have no meaning in a linear perturbation"
+    ):
+        calls(*LINEAR[kind], "*BOUNDARY, OP=NEW, USER\nRIGHT, 1, 1, 0.02\n")
 
 
 def test_sdvini(calls):
@@ -373,3 +422,64 @@ def test_sdvini(calls):
     assert begun[1:] == [("SDVINI", (0, 0, 7, point)) for point in (1, 2, 3, 4)]
     given = last(found, "SDVINI", (0, 0, 7, POINT))
     check(given, {"STATEV": 0, "COORDS": PLACE[:2], "LAYER": 1, "KSPT": 1})
+
+
+CODES = {"fixed": 2, "visco": 21, "geostatic": 61, "dynamic": 11, "large dynamic": 12, "heat": 33, "heat steady": 31}
+CODES |= {"large visco": 21, "large geostatic": 61, "coupled": 73, "coupled steady": 71}
+CODES |= {f"large {kind}": CODES[kind] for kind in ("coupled", "coupled steady")}
+BETA, GAMMA = 0.275625, 0.55
+
+
+def motion(h, changes):
+    """V and A at the end of increments h by Newmark's formulas, from rest."""
+    v = a = 0.0
+    for change in changes:
+        before, a = a, change / (BETA * h**2) - v / (BETA * h) - (0.5 / BETA - 1) * a
+        v += h * ((1 - GAMMA) * before + GAMMA * a)
+    return v, a
+
+
+@pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS, *HEAT_STEPS])
+def test_uel(calls, kind):
+    """In the last call with LFLAGS(3) = 1, of a spring whose end is moved; loads and fields are those of its deck."""
+    thermal = kind in COUPLED_STEPS or kind in HEAT_STEPS
+    given = (STEPS | COUPLED_STEPS | HEAT_STEPS)[kind]
+    begin = given[0].partition("\n")[0] if thermal else "*STATIC"
+    start = "*INITIAL CONDITIONS, TYPE=FIELD\nALL, 4.\n"
+    start += "" if thermal else "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\n"
+    loads = "*DLOAD\nE, U2, 4.\n" + (FIELD if thermal else VARY)
+    found = calls(*given, loads, deck=SPRING, dof=11 if thermal else 1, begin=begin, initial=start)
+    found = dict(last(found, "UEL", place(kind, 7, 1)))
+    assert found.pop("PNEWDT") > 1
+    h = size(kind)
+    # what acts at once does not change in the second increment: there loads and fields, here temperatures too
+    constant = kind in AT_ONCE or kind in ("coupled", "large coupled", "heat")
+    part = 0.0 if constant else h
+    v, a = motion(h, [0.01, 0.01]) if "dynamic" in kind else (0.0, 0.0)
+    temperature = [0, 0] if thermal else [60, 40 * part]
+    check(
+        found,
+        {
+            **{
+                "SVARS": kept(kind),
+                "ENERGY": [0, kept(kind), 0, 0, 0, 0, 0, 0],
+                "NRHS": 1,
+                "PROPS": 10,
+                "COORDS": [1, 3],
+            },
+            **{"U": [0, 0.02], "DU": [0, 0.0 if constant and thermal else 0.02 * h], "V": [0, v], "A": [0, a]},
+            **{"JTYPE": 5, "TIME": [1, 2], "DTIME": h, "PERIOD": 1, "JPROPS": 3, "MLVARX": 2, "MDLOAD": 1},
+            **{"JDLTYP": 2, "ADLMAG": 4, "DDLMAG": 4 * part, "PREDEF": [*temperature, 6, 2 * part] * 2},
+            "PARAMS": [-0.05, BETA, GAMMA] if "dynamic" in kind else [0, 0, 0],
+            "LFLAGS": [CODES.get(kind, 1), "large" in kind, 1, 0, 0],
+        },
+    )
+
+
+def test_the_page_names_tests_of_each_routine(load):
+    rows = [line.split("|")[1:-1] for line in PAGE.read_text().splitlines() if ".py::" in line]
+    library = load(None)
+    assert {row[0].strip() for row in rows} == {name for name in ENTRY_POINTS if hasattr(library, name.lower())}
+    for file, name in re.findall(r"`(test_\w+\.py)::(test_\w+)`", "".join(map("".join, rows))):
+        (path,) = HERE.parent.rglob(file)
+        assert f"def {name}(" in path.read_text(), name

@@ -1,7 +1,53 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 ! User routines that print each of their arguments on entry, by its name; what they return keeps the values of the deck. STATEV and
-! SVARS take 10 KSTEP + KINC where the routine has them.
+! SVARS take 10 KSTEP + KINC where the routine has them. UEL is a spring of stiffness PROPS(1) with a mass, or a conductor.
+      subroutine uel(rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,kstep,
+     1 kinc,jelem,params,ndload,jdltyp,adlmag,predef,npredf,lflags,mlvarx,ddlmag,mdload,pnewdt,jprops,njprop,period)
+      include 'aba_param.inc'
+      dimension rhs(mlvarx,*),amatrx(ndofel,ndofel),props(*),svars(*),energy(8),coords(mcrd,nnode),u(ndofel),du(mlvarx,*),
+     1 v(ndofel),a(ndofel),time(2),params(3),jdltyp(mdload,*),adlmag(mdload,*),ddlmag(mdload,*),predef(2,npredf,nnode),
+     2 lflags(*),jprops(*)
+      call begins('UEL',kstep,kinc,jelem,lflags(3))
+      call told('SVARS',svars,nsvars)
+      call told('ENERGY',energy,8)
+      call counted('NRHS',nrhs)
+      call told('PROPS',props,nprops)
+      call told('COORDS',coords,mcrd*nnode)
+      call told('U',u,ndofel)
+      call told('DU',du,mlvarx*nrhs)
+      call told('V',v,ndofel)
+      call told('A',a,ndofel)
+      call counted('JTYPE',jtype)
+      call told('TIME',time,2)
+      call told('DTIME',(/dtime/),1)
+      call told('PARAMS',params,3)
+      call told('JDLTYP',dble(jdltyp(1:ndload,1)),ndload)
+      call told('ADLMAG',adlmag,ndload)
+      call told('DDLMAG',ddlmag,ndload)
+      call told('PREDEF',predef,2*npredf*nnode)
+      call told('LFLAGS',dble(lflags(1:5)),5)
+      call counted('MLVARX',mlvarx)
+      call counted('MDLOAD',mdload)
+      call told('PNEWDT',(/pnewdt/),1)
+      call told('JPROPS',dble(jprops(1:njprop)),njprop)
+      call told('PERIOD',(/period/),1)
+      rhs(1:ndofel,1:nrhs)=0
+      amatrx=0
+      do i=1,ndofel
+        if (lflags(3).eq.4.or.lflags(3).eq.6) then
+          amatrx(i,i)=1
+        else
+          amatrx(i,i)=props(1)
+          amatrx(3-i,i)=-props(1)
+          if (lflags(1).eq.11.or.lflags(1).eq.12) amatrx(i,i)=props(1)+1/(params(2)*dtime**2)
+          rhs(i,1)=-props(1)*(u(i)-u(3-i))-a(i)
+        end if
+      end do
+      svars(1)=10*kstep+kinc
+      energy(2)=svars(1)
+      end
+
       subroutine usdfld(field,statev,pnewdt,direct,t,celent,time,dtime,cmname,orname,nfield,nstatv,noel,npt,layer,kspt,kstep,kinc,
      1 ndi,nshr,coord,jmac,jmatyp,matlayo,laccfla)
       include 'aba_param.inc'
@@ -136,6 +182,30 @@
       if (nsensor.gt.0) call named('SENSORNAMES',sensornames(1))
       svars(1)=time(2)
       ampvaluenew=time(2)
+      end
+
+      subroutine utemp(temp,nsecpt,kstep,kinc,time,node,coords)
+      include 'aba_param.inc'
+      dimension temp(nsecpt),time(2),coords(3)
+      call begins('UTEMP',kstep,kinc,0,node)
+      call told('TEMP',temp,nsecpt)
+      call counted('NSECPT',nsecpt)
+      call told('TIME',time,2)
+      call told('COORDS',coords,3)
+      end
+
+      subroutine ufield(field,kfield,nsecpt,kstep,kinc,time,node,coords,temp,dtemp,nfield)
+      include 'aba_param.inc'
+      dimension field(nsecpt,nfield),time(2),coords(3),temp(nsecpt),dtemp(nsecpt)
+      call begins('UFIELD',kstep,kinc,0,node)
+      call told('FIELD',field,nsecpt*nfield)
+      call counted('KFIELD',kfield)
+      call counted('NSECPT',nsecpt)
+      call counted('NFIELD',nfield)
+      call told('TIME',time,2)
+      call told('COORDS',coords,3)
+      call told('TEMP',temp,nsecpt)
+      call told('DTEMP',dtemp,nsecpt)
       end
 
       subroutine sdvini(statev,coords,nstatv,ncrds,noel,npt,layer,kspt)
