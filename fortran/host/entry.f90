@@ -741,7 +741,7 @@ subroutine host_value_pass(routine, address, place, time, places, coords, temper
   integer(i4), intent(in) :: routine
   integer(i8), intent(in) :: address
   integer(i4), intent(in) :: place(2)         !< step, increment
-  real(dp), intent(in) :: time(2)             !< step and total time at the end of the increment
+  real(dp), intent(in) :: time(3)             !< step and total time at the end of the increment, time increment
   integer(i4), intent(in) :: rows, n
   integer(i4), intent(in), target :: places(rows, n)   !< as value_pass_t has them
   real(dp), intent(in), target :: coords(3, n), temperatures(2, n)
@@ -753,7 +753,8 @@ subroutine host_value_pass(routine, address, place, time, places, coords, temper
   pass%address = transfer(int(address, c_intptr_t), pass%address)
   pass%kstep = place(1)
   pass%kinc = place(2)
-  pass%time = time
+  pass%time = time(:2)
+  pass%dtime = time(3)
   pass%places => places
   pass%coords => coords
   pass%temperatures => temperatures

@@ -35,6 +35,7 @@ module host_context
     integer(i4) :: thread = 0     !< of the call, from 0
     real(dp) :: time(2) = 0       !< step and total time at the start of the increment
     real(dp) :: dtime = 0
+    integer(i4) :: flags(4) = 0   !< LFLAGS(1) to (4)
     integer(i4) :: procedure = 0  !< LFLAGS(1); 0 in the pass for the initial acceleration, in which no time passes
     real(dp) :: place(3) = 0      !< coordinates of the material point
     real(dp), allocatable :: fields(:, :)   !< (fields, 2) temperature and fields of the point: at the start, increments

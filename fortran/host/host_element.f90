@@ -128,6 +128,7 @@ contains
     current%routine = merge('UELMAT', 'UEL   ', block%with_material)
     current%time = block%scalars%time - block%scalars%dtime
     current%dtime = block%scalars%dtime
+    current%flags = block%scalars%lflags(:4)
     current%procedure = merge(0_i4, block%scalars%lflags(1), block%scalars%lflags(3) == 6)
   end subroutine prepare
 

@@ -134,7 +134,8 @@ contains
     npt = merge(current%npt, point, current%npt > 0)
     layer = current%layer
     kspt = current%kspt
-    jstep = [current%step, 1_i4, 0_i4, 0_i4]
+    ! procedure type, NLGEOM, linear perturbation
+    jstep = [current%step, current%flags([1, 2, 4])]
     kinc = current%increment
     cmname = material%name
     routine = current%routine

@@ -49,6 +49,7 @@ module host_values
     integer(i4) :: kstep = 0, kinc = 0
     integer(i4) :: last = 0                                      !< place that was asked for last
     real(dp) :: time(2) = 0                                      !< step and total time at the end of the increment
+    real(dp) :: dtime = 0                                        !< time increment, for DISP
     !> DISP: node number, dof; DLOAD: element number, point, JLTYP; UTEMP, UFIELD: node number, number of the field
     integer(i4), pointer, contiguous :: places(:, :) => null()
     real(dp), pointer, contiguous :: temperatures(:, :) => null()   !< (2, n) for UFIELD: at the end, and the increment
@@ -99,12 +100,12 @@ contains
     real(dp), intent(inout) :: value
     procedure(disp_procedure), pointer :: disp
     integer(i4) :: kstep, kinc, node, noel, jdof
-    real(dp) :: u(3), time(2), coords(3)
+    real(dp) :: u(3), time(3), coords(3)
     call c_f_procpointer(pass%address, disp)
     u = [value, 0.0_dp, 0.0_dp]
     kstep = pass%kstep
     kinc = pass%kinc
-    time = pass%time
+    time = [pass%time, pass%dtime]
     node = place(1)
     noel = 0
     jdof = place(2)

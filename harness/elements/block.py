@@ -105,6 +105,7 @@ class ElementBlock:
         )
         self._uvar = np.zeros((m, routine.uvarm.points, routine.uvarm.count)) if routine.uvarm else None
         self._last: Call | None = None
+        self._places = self._arrays.coords
         self._watch = Watch(group, library)
         fields = np.array([field_of(dof) for _, dof in unknowns])
         # (unknowns, fields): sums entries of an element vector by field
@@ -291,6 +292,8 @@ class ElementBlock:
             _NO_MATRIX if matrix is None else matrix,
         )
         self._last = call
+        if self._uvar is not None:
+            self._places = self._coordinates_at(call, u)
         self._count_interrupted(outcome)
         if outcome.fault is Fault.UNSET and self._entries is not Entries.STOP:
             self._entries = Entries.ZERO
@@ -788,7 +791,7 @@ class ElementBlock:
             (self._routine.tensor, self._routine.statev, self._routine.family),
             place,
             start,
-            self._arrays,
+            replace(self._arrays, coords=self._places),
             self._routine.hidden,
             uvar,
             local=self._routine.axes is not None,
@@ -796,6 +799,18 @@ class ElementBlock:
         if element:
             why = f"{at_point('UVARM', point)}{self._library.stop_reason()}"
             raise KernelError(element, self.group.type, f"{why} (step {call.step}, increment {call.increment})")
+
+    def _coordinates_at(self, call: Call, u: FloatArray) -> FloatArray:
+        """(m, nodes, MCRD) of the nodes at the displacements u (n,): with NLGEOM those of the displaced nodes."""
+        original = self._arrays.coords
+        if not call.flags.nlgeom:
+            return original
+        # the driver counts from 1
+        now, moved = original.copy(), u[self._arrays.equations - 1]
+        for k, (local, dof) in enumerate(self.unknowns):
+            if local < original.shape[1] and dof <= original.shape[2]:
+                now[:, local, dof - 1] += moved[:, k]
+        return now
 
     def _axes_now(self, given: PointAxes) -> FloatArray:
         """(m, points, 3, 3) directions of the points, in rows."""

@@ -19,6 +19,7 @@ class UserValues:
 
     routine  its name
     time     step and total time
+    size     of the increment, for DISP
     places   (n, 2) node number and dof for DISP, or number of the field for UTEMP and UFIELD, 0 for temperature;
              (n, 3) element number, point and JLTYP for DLOAD
     coords   (n, 3) of the places
@@ -34,6 +35,7 @@ class UserValues:
     coords: FloatArray
     given: FloatArray
     temperatures: FloatArray | None = None
+    size: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

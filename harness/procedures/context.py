@@ -115,10 +115,20 @@ class StepContext:
             dofs = self.system.dofs
             nodes = dofs.node[by_user]
             places = np.stack([dofs.mesh.labels[nodes], dofs.dof[by_user]], axis=1).astype(np.int32)
-            coords = dofs.mesh.coordinates[nodes]
-            asked = UserValues("DISP", self.step.number, self.increment, time, places, coords, values[by_user])
+            moment = self.step.number, self.increment, time
+            size = step_time - self.step_time
+            asked = UserValues("DISP", *moment, places, self._places(nodes), values[by_user], size=size)
             values[by_user] = self.user.user_values(asked)
         return values
+
+    def _places(self, nodes: IntArray) -> FloatArray:
+        """(k, 3) coordinates of nodes at the start of the increment; with NLGEOM those of the displaced nodes."""
+        dofs = self.system.dofs
+        coordinates = dofs.mesh.coordinates[nodes]
+        if not self.step.nlgeom:
+            return coordinates
+        unknowns = dofs.find(nodes[:, None], np.arange(1, 4))
+        return coordinates + np.where(unknowns >= 0, self.state.displacement[unknowns], 0.0)
 
     def call(self, size: float, step_time: float, total_time: float) -> Call:
         """Arguments of the passes of an increment that ends at these times."""

@@ -510,7 +510,7 @@ def user_values(address: int, asked: UserValues, values: FloatArray) -> int:
 
     values (n,) are those given, and become those of the routine.
     """
-    moment = (asked.step, asked.increment), asked.time
+    moment = (asked.step, asked.increment), (*asked.time, asked.size)
     coords = np.ascontiguousarray(asked.coords)
     temperatures = np.zeros((len(values), 2)) if asked.temperatures is None else asked.temperatures
     routine = 1 + VALUE_ROUTINES.index(asked.routine)

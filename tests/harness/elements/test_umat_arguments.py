@@ -3,8 +3,8 @@
 """Every argument of UMAT with its value, in every kind of step that has displacements.
 
 A square is stretched by 0.02 in two increments; values are those of the last call in the second one, in point 3 of
-element 7 (Abaqus User Subroutines Guide, UMAT). In linear steps UMAT is called in the base state alone, where nothing
-changes.
+element 7 (Abaqus User Subroutines Guide, UMAT); *GEOSTATIC takes one increment. In linear steps UMAT is called in the
+base state alone, where nothing changes.
 """
 
 from pathlib import Path
@@ -20,6 +20,7 @@ UMAT = f"""      INCLUDE '{HERE}/umat.inc'
      1 NPT .EQ. 3) THEN
       WRITE(6,'(A,11I5,1X,A)') 'GOT INTEGERS ', NDI, NSHR, NTENS, NSTATV,
      1 NPROPS, NOEL, NPT, LAYER, KSPT, JSTEP(1), KINC, TRIM(CMNAME)
+      CALL TELL('JSTEP', DBLE(JSTEP), 4)
       CALL TELL('STRESS', STRESS, NTENS)
       CALL TELL('STATEV', STATEV, NSTATV)
       CALL TELL('ENERGY', (/ SSE, SPD, SCD, PNEWDT /), 4)
@@ -94,15 +95,15 @@ RIGHT, 1, 1, 0.02
 FIELDS = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\n*INITIAL CONDITIONS, TYPE=FIELD\nALL, 4.\n"
 VARY = "*TEMPERATURE\nALL, 60.\n*FIELD\nALL, 6.\n"
 RAMPED, AT_ONCE = [40.0, 20.0, 5.0, 1.0], [60.0, 0.0, 6.0, 0.0]
-# procedure, options, temperature and field at the start, each with its change
+# procedure, options, temperature and field at the start, each with its change; procedure type key
 GENERAL = {
-    "static": ("*STATIC\n0.5, 1., 0.5, 0.5", "", RAMPED),
-    "fixed": ("*STATIC, DIRECT\n0.5, 1.", "", RAMPED),
-    "large": ("*STATIC\n0.5, 1., 0.5, 0.5", ", NLGEOM", RAMPED),
-    "damped": ("*STATIC, STABILIZE\n0.5, 1., 0.5, 0.5", "", RAMPED),
-    "visco": ("*VISCO\n0.5, 1., 0.5, 0.5", "", AT_ONCE),
-    "dynamic": ("*DYNAMIC, NOHAF\n0.5, 1., 0.5, 0.5", "", AT_ONCE),
-    "large dynamic": ("*DYNAMIC, DIRECT, NOHAF\n0.5, 1.", ", NLGEOM", AT_ONCE),
+    "static": ("*STATIC\n0.5, 1., 0.5, 0.5", "", RAMPED, 1),
+    "fixed": ("*STATIC, DIRECT\n0.5, 1.", "", RAMPED, 2),
+    "large": ("*STATIC\n0.5, 1., 0.5, 0.5", ", NLGEOM", RAMPED, 1),
+    "damped": ("*STATIC, STABILIZE\n0.5, 1., 0.5, 0.5", "", RAMPED, 1),
+    "visco": ("*VISCO\n0.5, 1., 0.5, 0.5", "", AT_ONCE, 21),
+    "dynamic": ("*DYNAMIC, NOHAF\n0.5, 1., 0.5, 0.5", "", AT_ONCE, 11),
+    "large dynamic": ("*DYNAMIC, DIRECT, NOHAF\n0.5, 1.", ", NLGEOM", AT_ONCE, 12),
 }
 
 
@@ -137,7 +138,7 @@ def gradient(stretch):
 
 @pytest.mark.parametrize("kind", GENERAL)
 def test_in_general_steps(told, kind):
-    procedure, options, fields = GENERAL[kind]
+    procedure, options, fields, key = GENERAL[kind]
     found = told(2, 1, procedure=procedure, options=options)
     assert found["INTEGERS"] == ["3", "1", "4", "2", "2", "7", "3", "1", "1", "1", "2", "SOFT"]
     large = bool(options)
@@ -150,6 +151,7 @@ def test_in_general_steps(told, kind):
     check(
         found,
         {
+            "JSTEP": [1, key, large, 0],
             "STRESS": [100 * before, 0, 0, 0],
             "STATEV": [1, 7],
             "STRAN": [before, 0, 0, 0],
@@ -169,9 +171,64 @@ def test_in_general_steps(told, kind):
     assert pnewdt > 1
 
 
+@pytest.mark.parametrize("options", ["", ", NLGEOM"])
+def test_in_a_geostatic_step(told, options):
+    """One increment from the start to the end."""
+    found = told(1, 1, procedure="*GEOSTATIC", options=options)
+    assert found["INTEGERS"] == ["3", "1", "4", "2", "2", "7", "3", "1", "1", "1", "1", "SOFT"]
+    large = bool(options)
+    stretch = 1.02 if large else 1.0
+    check(
+        found,
+        {
+            "JSTEP": [1, 61, large, 0],
+            "STRESS": np.zeros(4),
+            "STATEV": [0, 0],
+            "STRAN": np.zeros(4),
+            "DSTRAN": [0.02 / 1.01 if large else 0.02, 0, 0, 0],
+            "TIME": [0, 0, 1],
+            "FIELDS": [20, 40, 4, 2],
+            "COORDS": [(0.5 - 0.5 / np.sqrt(3)) * stretch, 0.5 + 0.5 / np.sqrt(3), 0],
+            "DROT": np.eye(3).ravel(),
+            "CELENT": [np.sqrt(stretch)],
+            "DFGRD0": np.eye(3).ravel(),
+            "DFGRD1": gradient(stretch),
+        },
+    )
+
+
+@pytest.mark.parametrize("options", ["", ", NLGEOM"])
+def test_along_a_path(told, options):
+    """In increment 2 the displacement is the load factor times 0.02: strains, gradients and place are those of it."""
+    found = told(2, 1, procedure="*STATIC, RIKS\n0.25, 1., 0.25, 0.25, 1.", options=options, given="")
+    assert found["INTEGERS"] == ["3", "1", "4", "2", "2", "7", "3", "1", "1", "1", "2", "SOFT"]
+    large = bool(options)
+    change, before = found["DSTRAN"][0], found["STRAN"][0]
+    assert change > 0
+    # of e = 2 (l - 1)/(l + 1), the strain of the first increment, then of the ratio of the lengths of the second
+    length = np.cumprod([(2 + e) / (2 - e) for e in (before, change)]) if large else np.ones(2)
+    expected = {
+        "JSTEP": [1, 1, large, 0],
+        "STRESS": [100 * before, 0, 0, 0],
+        "STATEV": [1, 7],
+        "STRAN": [before, 0, 0, 0],
+        "DSTRAN": [change, 0, 0, 0],
+        "FIELDS": [20, 0, 4, 0],
+        "COORDS": [(0.5 - 0.5 / np.sqrt(3)) * length[1], 0.5 + 0.5 / np.sqrt(3), 0],
+        "DROT": np.eye(3).ravel(),
+        "CELENT": [np.sqrt(length[1])],
+        "DFGRD0": gradient(length[0]),
+        "DFGRD1": gradient(length[1]),
+    }
+    check(found, expected)
+    # the arc length is the time, in both steps and of the first step
+    assert found["TIME"][0] == found["TIME"][1] > 0
+    assert found["TIME"][2] > 0
+
+
 def test_in_coupled_steps(told):
     """Temperatures are those of the nodes, here held: they go from 20 to 60 at once in a transient step."""
-    for steady, temperatures in ((", STEADY STATE", [40.0, 20.0]), ("", [60.0, 0.0])):
+    for steady, temperatures, key in ((", STEADY STATE", [40.0, 20.0], 71), ("", [60.0, 0.0], 73)):
         found = told(
             2,
             1,
@@ -183,6 +240,7 @@ def test_in_coupled_steps(told):
         check(
             found,
             {
+                "JSTEP": [1, key, 0, 0],
                 "STRAN": [0.01, 0, 0, 0],
                 "DSTRAN": [0.01, 0, 0, 0],
                 "TIME": [0.5, 0.5, 0.5],
@@ -193,20 +251,23 @@ def test_in_coupled_steps(told):
 
 
 @pytest.mark.parametrize(
-    "linear",
+    ("linear", "key"),
     [
-        "*STEP, PERTURBATION\n*STATIC\n*CLOAD\n3, 2, 1.\n*END STEP\n",
-        "*STEP\n*FREQUENCY\n1,\n*BOUNDARY, OP=NEW\n1, 1, 2\n2, 2\n*END STEP\n",
-        "*STEP\n*STEADY STATE DYNAMICS, DIRECT\n0.01\n*BOUNDARY, OP=NEW\n1, 1, 2\n2, 2\n*CLOAD\n3, 1, 1.\n*END STEP\n",
+        ("*STEP, PERTURBATION\n*STATIC\n{}", 1),
+        ("*STEP\n*FREQUENCY\n1,\n*BOUNDARY, OP=NEW\n1, 1, 2\n2, 2\n", 41),
+        ("*STEP\n*STEADY STATE DYNAMICS, DIRECT\n0.01\n*BOUNDARY, OP=NEW\n1, 1, 2\n2, 2\n{}", 95),
     ],
 )
-def test_in_linear_steps(told, linear):
+def test_in_linear_steps(told, linear, key):
     """The strain of the base state, without a change; no time passes."""
-    found = told(1, 2, procedure="*STATIC\n0.5, 1., 0.5, 0.5", after=linear)
+    found = told(
+        1, 2, procedure="*STATIC\n0.5, 1., 0.5, 0.5", after=linear.format("*CLOAD\n3, 1, 1.\n") + "*END STEP\n"
+    )
     assert found["INTEGERS"] == ["3", "1", "4", "2", "2", "7", "3", "1", "1", "2", "1", "SOFT"]
     check(
         found,
         {
+            "JSTEP": [2, key, 0, 1],
             "STRESS": [2.0, 0, 0, 0],
             "STATEV": [2, 7],
             "STRAN": [0.02, 0, 0, 0],

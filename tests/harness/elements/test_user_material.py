@@ -89,6 +89,15 @@ def test_uvarm_sees_the_point_and_the_common_block(run):
     np.testing.assert_allclose(result.field("UVARM5"), [24, 24])
 
 
+def test_uvarm_is_given_where_the_point_is_now(run, monkeypatch):
+    """With NLGEOM COORD is current (User Subroutines Guide, UVARM): the mean over the points is that of the nodes."""
+    monkeypatch.setattr(f"{__name__}.DECK", DECK.replace("*STEP", "*STEP, NLGEOM"))
+    result = run(USER.format(0))
+    nodes = np.array([[0, 0], [3, 0], [4, 0], [0, 2], [3, 2], [4, 2.0]]) + result.field("U")[:, :2]
+    means = np.array([nodes[[0, 1, 4, 3]].mean(axis=0), nodes[[1, 2, 5, 4]].mean(axis=0)])
+    np.testing.assert_allclose(result.field("UVARM2"), means @ [1, 100], rtol=1e-9)
+
+
 def test_umat_cuts_the_increment_back(run):
     """PNEWDT = 0.5 where the increment exceeds 0.2, as all that the deck asks for do."""
     lines = run(USER.format(1)).status

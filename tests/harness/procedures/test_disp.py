@@ -44,6 +44,9 @@ DISP = """      SUBROUTINE DISP(U,KSTEP,KINC,TIME,NODE,NOEL,JDOF,COORDS)
       END
 """
 STRETCH = "      U(1) = U(1) + 0.01*TIME(1)*JDOF*COORDS(JDOF)"
+ORIGINAL = """      X = 0
+      IF (JDOF .EQ. 1 .AND. (NODE .EQ. 2 .OR. NODE .EQ. 3)) X = 2
+      IF (JDOF .EQ. 2 .AND. NODE .GE. 3) X = 1"""
 ARGUMENTS = "      U(1) = NODE + 0.1*JDOF + 10*KINC + 100*KSTEP + 1000*TIME(1)\n     1  + 10000*TIME(2)"
 
 
@@ -85,6 +88,21 @@ def test_arguments(run):
     third = labels + 0.1 * dofs + 10 + 200 + 1000 * 1 + 10000 * 1.5
     third[3] = 7.0
     np.testing.assert_allclose(displacements(history, 2), third)
+
+
+def test_time_increment(run):
+    """TIME(3) is the time increment (Abaqus User Subroutines Guide, DISP): which is 0.25 and then 1."""
+    history = run("      U(1) = TIME(3)", more=SECOND.format(boundary="**"))
+    np.testing.assert_allclose(displacements(history, 1), 0.25)
+    np.testing.assert_allclose(displacements(history, 2), 1.0)
+
+
+def test_coordinates_with_nlgeom(run, monkeypatch):
+    """Those at the start of the increment: twice a stretch by 1.1 gives 1.21."""
+    monkeypatch.setattr(f"{__name__}.DECK", DECK.replace("*STEP", "*STEP, NLGEOM", 1))
+    history = run(f"{ORIGINAL}\n      U(1) = 1.1D0*COORDS(JDOF) - X")
+    np.testing.assert_allclose(displacements(history, 0), 0.1 * NODES)
+    np.testing.assert_allclose(displacements(history), 0.21 * NODES)
 
 
 def test_disp_may_end_the_analysis(run):

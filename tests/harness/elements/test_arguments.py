@@ -1,0 +1,485 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every argument of user routines with its value in every kind of step, as the Abaqus User Subroutines Guide says.
+
+A square of side 1 is held in step 1, which takes a time of 1, and stretched by 0.02 in step 2, in two increments of
+0.5, or one of 1 (*GEOSTATIC); values are those of the last call in its last increment.
+"""
+
+import re
+from functools import cache
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+import pytest
+
+import harness
+from harness.errors import DeckError
+from harness.usersub.library import ENTRY_POINTS
+
+HERE = Path(__file__).parent
+PAGE = Path(harness.__file__).parent / "usersub" / "calls.md"
+DECK = """*NODE, NSET=ALL
+1, 0., 0.
+2, 1., 0.
+3, 1., 1.
+4, 0., 1.
+*NSET, NSET=RIGHT
+2, 3
+*NSET, NSET=END
+3
+*ELEMENT, TYPE={type}, ELSET=E
+7, 1, 2, 3, 4
+*ORIENTATION, NAME=TURNED, LOCAL DIRECTIONS=2
+0.8, 0.6, 0., -0.6, 0.8, 0.
+3, 0.
+1., 0., 0.
+0.6, 0.8, 0.
+*SOLID SECTION, ELSET=E, MATERIAL=STUFF, ORIENTATION=TURNED
+0.5
+*MATERIAL, NAME=STUFF
+{material}
+*DENSITY
+2.
+*AMPLITUDE, NAME=GIVEN, DEFINITION=USER, PROPERTIES=2, VARIABLES=1
+5., 6.
+*INITIAL CONDITIONS, TYPE=TEMPERATURE
+ALL, 20.
+*INITIAL CONDITIONS, TYPE=FIELD
+ALL, 4.
+{initial}*STEP{first}
+{begin}
+1., 1.
+*BOUNDARY
+ALL, 1, 2
+ALL, 11, 11, 20.
+*END STEP
+*STEP{options}
+{procedure}
+*BOUNDARY, OP=NEW
+ALL, 2
+1, 1
+4, 1
+ALL, 11, 11, 20.
+{loads}*OUTPUT, HISTORY, SENSOR, NAME=PLACE, OP=ADD
+*NODE OUTPUT, NSET=END
+{sensor}
+*END STEP
+"""
+SPRING = """*NODE, NSET=ALL
+1, 1.
+2, 3.
+*USER ELEMENT, TYPE=U5, NODES=2, COORDINATES=1, PROPERTIES=1, I PROPERTIES=1, VARIABLES=1
+{dof}
+*ELEMENT, TYPE=U5, ELSET=E
+7, 1, 2
+*UEL PROPERTY, ELSET=E
+10., 3
+{initial}*STEP{first}
+{begin}
+1., 1.
+*BOUNDARY
+ALL, {dof}
+*END STEP
+*STEP{options}
+{procedure}
+*BOUNDARY, OP=NEW
+1, {dof}
+2, {dof}, {dof}, 0.02
+{loads}*END STEP
+"""
+USERS = """*BOUNDARY, USER, OP=NEW
+RIGHT, 1, 1, 0.02
+*DLOAD
+E, BXNU, 4.
+*CLOAD, AMPLITUDE=GIVEN
+1, 2, 3.
+"""
+BY_DECK = "*BOUNDARY, OP=NEW\nRIGHT, 1, 1, 0.02\n"
+HEATED = """*BOUNDARY, USER, OP=NEW
+RIGHT, 11, 11, 0.02
+*CFLUX, AMPLITUDE=GIVEN
+1, 11, 3.
+"""
+FIELD = "*FIELD, USER\nALL, 6.\n"
+VARY = f"*TEMPERATURE, USER\nALL, 60.\n{FIELD}"
+ELASTIC = "*ELASTIC\n1000., 0.\n*USER DEFINED FIELD\n*DEPVAR\n1\n*USER OUTPUT VARIABLES\n3"
+RUBBER = "*HYPERELASTIC, USER, TYPE=COMPRESSIBLE, PROPERTIES=2\n0.5, 0.4\n*DEPVAR\n1"
+THERMAL = "*ELASTIC\n1000., 0.\n*CONDUCTIVITY\n1.\n*SPECIFIC HEAT\n1.\n*USER OUTPUT VARIABLES\n3"
+TISSUE = "*ANISOTROPIC HYPERELASTIC, USER, FORMULATION=INVARIANT, LOCAL DIRECTIONS=2, TYPE=COMPRESSIBLE, PROPERTIES=2\n"
+TISSUE += "0.5, 0.4\n*DEPVAR\n1"
+STEPS = {
+    "static": ("*STATIC\n0.5, 1., 0.5, 0.5", ""),
+    "fixed": ("*STATIC, DIRECT\n0.5, 1.", ""),
+    "large": ("*STATIC\n0.5, 1., 0.5, 0.5", ", NLGEOM"),
+    "damped": ("*STATIC, STABILIZE\n0.5, 1., 0.5, 0.5", ""),
+    "path": ("*STATIC, RIKS\n0.5, 1., 0.5, 0.5, 1.", ""),
+    "large path": ("*STATIC, RIKS\n0.5, 1., 0.5, 0.5, 1.", ", NLGEOM"),
+    "visco": ("*VISCO\n0.5, 1., 0.5, 0.5", ""),
+    "large visco": ("*VISCO\n0.5, 1., 0.5, 0.5", ", NLGEOM"),
+    "geostatic": ("*GEOSTATIC", ""),
+    "large geostatic": ("*GEOSTATIC", ", NLGEOM"),
+    "dynamic": ("*DYNAMIC, NOHAF\n0.5, 1., 0.5, 0.5", ""),
+    "large dynamic": ("*DYNAMIC, DIRECT, NOHAF\n0.5, 1.", ", NLGEOM"),
+}
+COUPLED_STEPS = {
+    f"{large}coupled{name}": (f"*COUPLED TEMPERATURE-DISPLACEMENT{steady}\n0.5, 1., 0.5, 0.5", ", NLGEOM" * bool(large))
+    for large in ("", "large ")
+    for name, steady in (("", ""), (" steady", ", STEADY STATE"))
+}
+HEAT_STEPS = {
+    "heat": ("*HEAT TRANSFER\n0.5, 1., 0.5, 0.5", ""),
+    "heat steady": ("*HEAT TRANSFER, STEADY STATE\n0.5, 1., 0.5, 0.5", ""),
+}
+# the factor of these is found: they take no routine that gives values by time
+PATHS = tuple(name for name in STEPS if "path" in name)
+TIMED = tuple(name for name in STEPS if "path" not in name)
+LARGE = tuple(name for name in TIMED if "large" in name)
+AT_ONCE = tuple(name for name in STEPS if "visco" in name or "dynamic" in name)
+LINEAR = {
+    "static perturbation": ("*STATIC", ", PERTURBATION"),
+    "frequency": ("*FREQUENCY\n1,", ""),
+    "harmonic": ("*STEADY STATE DYNAMICS, DIRECT\n0.01", ""),
+    "buckle": ("*BUCKLE\n1,", ""),
+}
+POINT = 3
+
+
+@pytest.fixture(scope="module")
+def calls(tmp_path_factory):
+    """Calls of a run: their routine, (KSTEP, KINC, NOEL, NPT), and arguments by name."""
+
+    @cache
+    def calls(procedure, options, loads, material=ELASTIC, *, deck=DECK, **changed):
+        folder = tmp_path_factory.mktemp("told")
+        given = {"material": material, "type": "CPE4", "begin": "*STATIC", "sensor": "U1", "initial": "", "dof": 1}
+        given |= {"procedure": procedure, "options": options, "loads": loads} | changed
+        text = deck.format(first="" if "PERTURBATION" in options else options, **given)
+        (folder / "told.inp").write_text(text)
+        harness.run(folder / "told.inp", HERE / "told.f", output_dir=folder)
+        found = []
+        for line in (folder / "told.dat").read_text().splitlines():
+            word, _, rest = line.strip().partition(" ")
+            if word == "CALL":
+                routine, *place = rest.split()
+                found.append((routine, tuple(map(int, place)), {}))
+            elif word == "TOLD":
+                name, *values = rest.split()
+                found[-1][2][name] = np.array(values, dtype=float)
+            elif word == "NAMED":
+                name, _, value = rest.partition(" <")
+                found[-1][2][name] = value.removesuffix(">")
+        return tuple((routine, place, MappingProxyType(given)) for routine, place, given in found)
+
+    return calls
+
+
+def in_step(calls, kind, material=ELASTIC):
+    given = (STEPS | COUPLED_STEPS | HEAT_STEPS)[kind]
+    if kind in PATHS:
+        return calls(*given, BY_DECK, material)
+    if kind in TIMED:
+        return calls(*given, USERS + VARY, material)
+    begin = given[0].partition("\n")[0]
+    if kind in COUPLED_STEPS:
+        return calls(*given, USERS + FIELD, THERMAL, type="CPE4T", begin=begin)
+    return calls(*given, HEATED + FIELD, THERMAL, type="DC2D4", begin=begin, sensor="NT11")
+
+
+def last(calls, routine, place=None):
+    """Arguments of the last call of a routine, at a place."""
+    return [given for name, at, given in calls if name == routine and place in (None, at)][-1]
+
+
+def check(found, expected):
+    """All arguments, and no others; names fill 80 characters."""
+    assert sorted(found) == sorted(expected)
+    for name, value in expected.items():
+        if isinstance(value, str):
+            assert found[name] == value.ljust(80), name
+        else:
+            np.testing.assert_allclose(found[name], np.atleast_1d(value), rtol=1e-9, atol=1e-12, err_msg=name)
+
+
+# of point 3, before it moves
+PLACE = np.array([0.5 - 0.5 / 3**0.5, 0.5 + 0.5 / 3**0.5, 0.0])
+# columns are the directions of the material, which Fortran prints one after the other
+DIRECT = [0.8, 0.6, 0.0, -0.6, 0.8, 0.0, 0.0, 0.0, 1.0]
+AXES = {"DIRECT": DIRECT, "T": DIRECT, "ORNAME": "TURNED", "CMNAME": "STUFF"}
+SECTION = {"LAYER": 1, "KSPT": 1, "NDI": 3, "NSHR": 1}
+
+
+def stretch(kind):
+    return np.array([1.02 if "large" in kind else 1.0, 1.0, 1.0])
+
+
+def size(kind):
+    """Of the increments."""
+    return 1.0 if "geostatic" in kind else 0.5
+
+
+def place(kind, *of):
+    """KSTEP and KINC, and two more numbers."""
+    return 2, round(1 / size(kind)), *of
+
+
+def kept(kind):
+    """10 KSTEP + KINC of the increment before."""
+    return 21 if size(kind) < 1 else 11
+
+
+def start(kind):
+    """TIME at the start of the increment, and DTIME."""
+    return {"TIME": [1 - size(kind), 2 - size(kind)], "DTIME": size(kind)}
+
+
+@pytest.mark.parametrize("kind", TIMED)
+def test_usdfld(calls, kind):
+    found = dict(last(in_step(calls, kind), "USDFLD", place(kind, 7, POINT)))
+    assert found.pop("PNEWDT") > 1
+    expected = {
+        "FIELD": 6.0,
+        "STATEV": kept(kind),
+        "CELENT": np.sqrt(stretch(kind)[0]),
+        "COORD": PLACE * stretch(kind),
+    }
+    check(found, expected | AXES | SECTION | start(kind))
+
+
+@pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS])
+def test_uvarm(calls, kind):
+    found = last(in_step(calls, kind), "UVARM", place(kind, 7, POINT))
+    check(found, {"NUVARM": 3, "COORD": PLACE * stretch(kind)} | AXES | SECTION | start(kind))
+
+
+@pytest.mark.parametrize("kind", PATHS)
+def test_points_along_a_path(calls, kind):
+    """TIME is the arc length; the displacements are the load factor times 0.02, and fields stay."""
+    found = in_step(calls, kind)
+    steps = [given for name, (step, *_), given in found if name == "UEXTERNALDB" and step == 2]
+    begun = [given for given in steps if given["LOP"] == 1][-1]
+    increments = [at[1] for name, at, _ in found if name == "UEXTERNALDB" and at[0] == 2]
+    for routine in ("USDFLD", "UVARM"):
+        given = dict(last(found, routine, (2, max(increments), 7, POINT)))
+        np.testing.assert_allclose(given.pop("TIME"), begun["TIME"])
+        np.testing.assert_allclose(given.pop("DTIME"), begun["DTIME"])
+        moved = given.pop("COORD")
+        np.testing.assert_allclose(moved[1:], PLACE[1:])
+        assert (moved[0] > PLACE[0]) == ("large" in kind)
+        expected = AXES | SECTION
+        if routine == "UVARM":
+            expected |= {"NUVARM": 3}
+        else:
+            assert given.pop("PNEWDT") > 1
+            expected |= {"FIELD": 4.0, "STATEV": 20 + max(increments) - 1, "CELENT": np.sqrt(moved[0] / PLACE[0])}
+        check(given, expected)
+
+
+def field(kind):
+    """The field and its increment at the end: in *VISCO and *DYNAMIC it acts at once."""
+    return {"FIELDV": 6.0, "FIELDVINC": 0.0 if kind in AT_ONCE else 2 * size(kind)}
+
+
+def committed(kind):
+    """Calls of which STATEV holds the count: one of each increment before, and that for initial accelerations."""
+    return round(1 / size(kind)) + ("dynamic" in kind)
+
+
+J = 1.02
+INVARIANTS = (2 + J**2) * J ** (-2 / 3), (1 + 2 * J**2) * J ** (-4 / 3), J
+HYPERELASTIC = {"TEMP": 60.0, "CMNAME": "STUFF", "INCMPFLAG": 0, "PROPS": [0.5, 0.4]}
+
+
+@pytest.mark.parametrize("kind", LARGE)
+def test_uhyper(calls, kind):
+    """The first two invariants are without the change of volume."""
+    found = last(in_step(calls, kind, RUBBER), "UHYPER")
+    expected = dict(zip(("BI1", "BI2", "AJ"), INVARIANTS, strict=True)) | {"STATEV": committed(kind)}
+    check(found, expected | HYPERELASTIC | field(kind))
+
+
+@pytest.mark.parametrize("kind", LARGE)
+def test_uanisohyper_inv(calls, kind):
+    """Invariants of C, without the change of volume, and the directions A1, A2 of the fibers; ZETA is A1 A2."""
+    found = last(in_step(calls, kind, TISSUE), "UANISOHYPER_INV")
+    first = np.array([0.8, 0.6, 0.0])
+    second = 0.6 * first + 0.8 * np.array([-0.6, 0.8, 0.0])
+    c = np.diag([J**2, 1, 1]) * J ** (-2 / 3)
+    pairs = ((first, first), (first, second), (second, second))
+    of_fibers = [value for a, b in pairs for value in (a @ c @ b, a @ c @ c @ b)]
+    expected = {"AINV": [*INVARIANTS, *of_fibers], "ZETA": first @ second, "NFIBERS": 2, "IHYBFLAG": 0}
+    check(found, expected | {"STATEV": committed(kind)} | HYPERELASTIC | field(kind))
+
+
+def test_uhyper_along_a_path(calls):
+    """The stretch is that of the load factor; fields stay."""
+    found = last(in_step(calls, "large path", RUBBER), "UHYPER")
+    j = found["AJ"][0]
+    assert j > 1
+    increments = [at[1] for name, at, _ in in_step(calls, "large path", RUBBER) if name == "UEXTERNALDB" and at[0] == 2]
+    expected = {"BI1": (2 + j**2) * j ** (-2 / 3), "BI2": (1 + 2 * j**2) * j ** (-4 / 3), "AJ": j}
+    expected |= HYPERELASTIC | {"TEMP": 20.0, "FIELDV": 4.0, "FIELDVINC": 0.0, "STATEV": max(increments)}
+    check(found, expected)
+
+
+@pytest.mark.parametrize("kind", TIMED)
+def test_utemp(calls, kind):
+    """The temperature of the deck at the end of the increment."""
+    found = last(in_step(calls, kind), "UTEMP", place(kind, 0, 3))
+    check(found, {"TEMP": 60, "NSECPT": 1, "TIME": [1, 2], "COORDS": [1, 1, 0]})
+
+
+@pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS, *HEAT_STEPS])
+def test_ufield(calls, kind):
+    """And that of UTEMP, with its increment; without predefined temperatures zero."""
+    found = last(in_step(calls, kind), "UFIELD", place(kind, 0, 2))
+    temperature = [0, 0] if kind not in TIMED else [60, 0 if kind in AT_ONCE else 40 * size(kind)]
+    expected = {"FIELD": 6, "KFIELD": 1, "NSECPT": 1, "TIME": [1, 2], "NFIELD": 1, "COORDS": [1, 0, 0]}
+    check(found, expected | {"TEMP": temperature[0], "DTEMP": temperature[1]})
+
+
+@pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS])
+def test_dload(calls, kind):
+    """At the end of the increment; JLTYP of BX is 1."""
+    found = last(in_step(calls, kind), "DLOAD", place(kind, 7, POINT))
+    expected = {"F": 4.0, "TIME": [1.0, 2.0], "LAYER": 1, "KSPT": 1, "COORDS": PLACE, "JLTYP": 1, "SNAME": ""}
+    check(found, expected)
+
+
+@pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS, *HEAT_STEPS])
+def test_disp(calls, kind):
+    """TIME is the step and the total time at the end, and the time increment; COORDS with NLGEOM that of the start."""
+    found = last(in_step(calls, kind), "DISP", place(kind, 0, 3))
+    moved = 0.02 * (1 - size(kind)) if "large" in kind else 0.0
+    check(
+        found,
+        {
+            "U": [0.02, 0, 0],
+            "TIME": [1.0, 2.0, size(kind)],
+            "JDOF": 11 if kind in HEAT_STEPS else 1,
+            "COORDS": [1 + moved, 1, 0],
+        },
+    )
+
+
+@pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS, *HEAT_STEPS])
+def test_uamp(calls, kind):
+    """The sensor has its value at the end of the last increment, a temperature that falls from 20, or at once, or a
+    displacement; in LFLAGSINFO are no initialization, a regular increment, no cutbacks, and the step."""
+    found = last(in_step(calls, kind), "UAMP")
+    before = 2 - size(kind)
+    expected = {"AMPNAME": "GIVEN", "TIME": [1.0, 2.0], "AMPVALUEOLD": before, "DT": size(kind), "PROPS": [5, 6]}
+    expected |= {"SVARS": before, "LFLAGSINFO": [0, 1, 0, 2], "SENSORNAMES": "PLACE"}
+    sensor = {"heat": 0.02, "heat steady": 10.01}.get(kind, 0.02 * (before - 1))
+    check(found, expected | {"SENSORVALUES": sensor})
+
+
+@pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS, *HEAT_STEPS])
+def test_uexternaldb(calls, kind):
+    """LOP, TIME, DTIME, KSTEP and KINC of all calls; LOP is the one of the guide."""
+    rows = [
+        (int(given["LOP"][0]), *given["TIME"].tolist(), float(given["DTIME"][0]), *place[:2])
+        for name, place, given in in_step(calls, kind)
+        if name == "UEXTERNALDB"
+    ]
+    h, ends = size(kind), []
+    for k in range(1, round(1 / h) + 1):
+        ends += [(1, k * h - h, 1 + k * h - h, h, 2, k), (2, k * h, 1 + k * h, h, 2, k)]
+    assert rows == [
+        *[(0, 0, 0, 0, 1, 0), (5, 0, 0, 0, 1, 0), (1, 0, 0, 1, 1, 1), (2, 1, 1, 1, 1, 1), (6, 1, 1, 0, 1, 1)],
+        *[(5, 0, 1, 0, 2, 0), *ends, (6, 1, 2, 0, *place(kind)), (3, 1, 2, 0, *place(kind))],
+    ]
+
+
+@pytest.mark.parametrize("kind", LINEAR)
+def test_linear_steps(calls, kind):
+    """USDFLD is called in the base state, the end of step 1, in which no time passes; no other routine is."""
+    procedure, options = LINEAR[kind]
+    loads = {"frequency": "", "buckle": "*CLOAD\nRIGHT, 1, -1.\n"}.get(kind, "*CLOAD\nRIGHT, 1, 1.\n")
+    found = calls(procedure, options, loads)
+    assert {name for name, (step, *_), _ in found if step == 2} == {"USDFLD", "UEXTERNALDB"}
+    given = dict(last(found, "USDFLD", (2, 1, 7, POINT)))
+    assert given.pop("PNEWDT") > 1
+    # the frequency in place of the time
+    expected = {"TIME": [0.01 if kind == "harmonic" else 0.0, 1.0], "DTIME": 0.0}
+    check(given, {"FIELD": 4.0, "STATEV": 11, "CELENT": 1.0, "COORD": PLACE} | expected | AXES | SECTION)
+
+
+@pytest.mark.parametrize("kind", ["static perturbation", "harmonic"])
+def test_disp_in_linear_steps(calls, kind):
+    with pytest.raises(
+        DeckError, match=r"told.inp:\d+: TYPE=VELOCITY and USER have no meaning in a linear perturbation"
+    ):
+        calls(*LINEAR[kind], "*BOUNDARY, OP=NEW, USER\nRIGHT, 1, 1, 0.02\n")
+
+
+def test_sdvini(calls):
+    """At all points, before the first step."""
+    found = calls(*STEPS["static"], USERS + VARY, initial="*INITIAL CONDITIONS, TYPE=SOLUTION, USER\n")
+    steps = [k for k, (name, place, _) in enumerate(found) if name == "UEXTERNALDB" and place[0] == 1]
+    begun = [(name, place) for name, place, _ in found[steps[0] : steps[1]]]
+    assert begun[1:] == [("SDVINI", (0, 0, 7, point)) for point in (1, 2, 3, 4)]
+    given = last(found, "SDVINI", (0, 0, 7, POINT))
+    check(given, {"STATEV": 0, "COORDS": PLACE[:2], "LAYER": 1, "KSPT": 1})
+
+
+CODES = {"fixed": 2, "visco": 21, "geostatic": 61, "dynamic": 11, "large dynamic": 12, "heat": 33, "heat steady": 31}
+CODES |= {"large visco": 21, "large geostatic": 61, "coupled": 73, "coupled steady": 71}
+CODES |= {f"large {kind}": CODES[kind] for kind in ("coupled", "coupled steady")}
+BETA, GAMMA = 0.275625, 0.55
+
+
+def motion(h, changes):
+    """V and A at the end of increments h by Newmark's formulas, from rest."""
+    v = a = 0.0
+    for change in changes:
+        before, a = a, change / (BETA * h**2) - v / (BETA * h) - (0.5 / BETA - 1) * a
+        v += h * ((1 - GAMMA) * before + GAMMA * a)
+    return v, a
+
+
+@pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS, *HEAT_STEPS])
+def test_uel(calls, kind):
+    """In the last call with LFLAGS(3) = 1, of a spring whose end is moved; loads and fields are those of its deck."""
+    thermal = kind in COUPLED_STEPS or kind in HEAT_STEPS
+    given = (STEPS | COUPLED_STEPS | HEAT_STEPS)[kind]
+    begin = given[0].partition("\n")[0] if thermal else "*STATIC"
+    start = "*INITIAL CONDITIONS, TYPE=FIELD\nALL, 4.\n"
+    start += "" if thermal else "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\n"
+    loads = "*DLOAD\nE, U2, 4.\n" + (FIELD if thermal else VARY)
+    found = calls(*given, loads, deck=SPRING, dof=11 if thermal else 1, begin=begin, initial=start)
+    found = dict(last(found, "UEL", place(kind, 7, 1)))
+    assert found.pop("PNEWDT") > 1
+    h = size(kind)
+    # what acts at once does not change in the second increment: there loads and fields, here temperatures too
+    constant = kind in AT_ONCE or kind in ("coupled", "large coupled", "heat")
+    part = 0.0 if constant else h
+    v, a = motion(h, [0.01, 0.01]) if "dynamic" in kind else (0.0, 0.0)
+    temperature = [0, 0] if thermal else [60, 40 * part]
+    check(
+        found,
+        {
+            **{
+                "SVARS": kept(kind),
+                "ENERGY": [0, kept(kind), 0, 0, 0, 0, 0, 0],
+                "NRHS": 1,
+                "PROPS": 10,
+                "COORDS": [1, 3],
+            },
+            **{"U": [0, 0.02], "DU": [0, 0.0 if constant and thermal else 0.02 * h], "V": [0, v], "A": [0, a]},
+            **{"JTYPE": 5, "TIME": [1, 2], "DTIME": h, "PERIOD": 1, "JPROPS": 3, "MLVARX": 2, "MDLOAD": 1},
+            **{"JDLTYP": 2, "ADLMAG": 4, "DDLMAG": 4 * part, "PREDEF": [*temperature, 6, 2 * part] * 2},
+            "PARAMS": [-0.05, BETA, GAMMA] if "dynamic" in kind else [0, 0, 0],
+            "LFLAGS": [CODES.get(kind, 1), "large" in kind, 1, 0, 0],
+        },
+    )
+
+
+def test_the_page_names_tests_of_each_routine(load):
+    rows = [line.split("|")[1:-1] for line in PAGE.read_text().splitlines() if ".py::" in line]
+    library = load(None)
+    assert {row[0].strip() for row in rows} == {name for name in ENTRY_POINTS if hasattr(library, name.lower())}
+    for file, name in re.findall(r"`(test_\w+\.py)::(test_\w+)`", "".join(map("".join, rows))):
+        (path,) = HERE.parent.rglob(file)
+        assert f"def {name}(" in path.read_text(), name
