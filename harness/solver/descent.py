@@ -9,8 +9,8 @@ Where elements soften, the tangent K is indefinite while one of them snaps. The 
   falls. Where d is almost orthogonal to K_0^-1 r, or no scale lowers the residual along d, or K is singular,
   d = K_0^-1 r. After a step of a hundredth of c or less, which near a singular K repeats itself, c is that of
   K + mu (K_0 - K), with mu four times as large after each such step, and less again after good ones;
-- a scale s with |d . r(s)| <= 0.25 d . r(0): from that of the iteration before, four times as large while the residual
-  still points along d, since a step must be long where an element fails, then regula falsi.
+- a scale s with |d . r(s)| <= 0.25 d . r(0): four times as large while the residual still points along d, since a step
+  must be long where an element fails, then regula falsi.
 
 It uses only the residual and the matrix, which is all that a UEL gives.
 
@@ -62,9 +62,6 @@ SHORT, GOOD = 0.01, 0.5
 
 FIRST_SHARE, CHANGE = 0.01, 4.0
 """Share of K_0 after the first short step, and the factor of its changes."""
-
-SHORTEST_START, LONGEST_START = 0.25, 4.0
-"""Of the scale of the iteration before: a search that starts farther from 1 takes longer to come back to it."""
 
 UPHILL = "THE CORRECTION WENT UPHILL"
 GROWING = "THE RESIDUAL ALONG THE CORRECTION GREW"
@@ -129,7 +126,6 @@ class Descent(Newton):
         self.reason = ""
         self.since = 0
         self._share = 0.0
-        self._start = 1.0
 
     def take_over(self, iteration: int, reason: str) -> None:
         """Search from this iteration on; the first reason stays."""
@@ -139,7 +135,7 @@ class Descent(Newton):
     def _advance(self, given: Increment, state: Iterate, missing: FloatArray) -> Iterate:
         assert state.evaluation.data is not None
         if state.iteration == 0:
-            self.reason, self._share, self._start = "", 0.0, 1.0
+            self.reason, self._share = "", 0.0
             self._majoriser.keep(state.evaluation.data)
         if np.abs(missing).max(initial=0.0) > NEGLIGIBLE * np.abs(given.prescribed).max(initial=0.0):
             # the correction introduces the prescribed values: it has to be taken in full
@@ -191,13 +187,12 @@ class Descent(Newton):
             evaluation = self._trial(given, start + scale * direction)
             return float(direction @ (evaluation.residual + given.load)) if evaluation.pnewdt >= 1.0 else None
 
-        scale, tried = descend(component, float(direction @ state.residual), self._start)
+        scale, tried = descend(component, float(direction @ state.residual))
         if scale == 0.0:
             direction = self._majoriser.direction(state.reduced)
             scale, more = descend(component, float(direction @ state.residual))
             tried += more
         self._adapt(scale)
-        self._start = min(max(scale, SHORTEST_START), LONGEST_START)
         end = start + (scale or tried[-1]) * direction
         new = self._evaluate(given.call, given, state.iteration + 1, end, end - state.increment)
         return replace(new, line_search=tried)
