@@ -30,6 +30,7 @@ def test_an_older_processor_with_one_core() -> None:
     assert json.loads(found.stdout) == [1, "Nehalem", []], found.stderr
 
 
+@pytest.mark.long
 def test_one_core_for_each_worker(tmp_path) -> None:
     count = max(len(os.sched_getaffinity(0)), 2)
     tests = "".join(

@@ -9,7 +9,6 @@ from typing import Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.contact import Pieces
@@ -174,6 +173,8 @@ class FaceSurface:
         found = before
         if everywhere:
             places = self._coordinates[self._own] + moved[self._own]
+            from scipy.spatial import KDTree  # noqa: PLC0415 (takes 0.1 s, and few decks have contact)
+
             _, near = KDTree(places).query(points, k=min(NEAREST, len(places)))
             near = self._of_node[near.reshape(len(points), -1)].reshape(len(points), -1)
             found = self._nearest(points, looks, moved, np.concatenate([before[:, None], near], axis=1))[0]

@@ -20,6 +20,7 @@ SHORT = ("delamination, user elements", "dynamic", "frequency", "large displacem
 QUICK = SHORT[:3]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("name", [*QUICK, *(pytest.param(name, marks=pytest.mark.long) for name in SHORT[3:])])
 def test_units_numbers_and_threads(case, tmp_path, name):
     rows = list(invariances.examine(case(name), tmp_path / "runs", seeds=1, threads=(2,)))

@@ -63,6 +63,7 @@ def replayed(tmp_path, monkeypatch):
     return replay
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("page", TUTORIALS)
 def test_tutorial_is_as_its_commands_say(page, replayed, assert_same):
     text = text_of(Path(page))

@@ -201,6 +201,7 @@ def assert_goes_on(job, new, place):
         np.testing.assert_allclose(values, whole[len(whole) - len(values) :], rtol=0, atol=EQUAL * size, err_msg=name)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("name", "solver"), [*((name, "auto") for name in DECKS), pytest.param("umat", "superlu", marks=pytest.mark.long)]
 )

@@ -134,6 +134,7 @@ def deviation(specimen: Specimen, folder: Path, increments: int = INCREMENTS) ->
     return float(np.abs(turned - still).max() / np.abs(still).max())
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("build", "solid", "kind"),
     [

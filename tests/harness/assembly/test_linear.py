@@ -115,7 +115,7 @@ def assert_same(found: harness.Result, expected: harness.Result) -> None:
         np.testing.assert_allclose(found.history[name], column, rtol=0, atol=1e-10 * (1 + np.abs(column).max()))
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(5)
 @pytest.mark.parametrize("element_type", CONTINUUM)
 def test_built_in_elements_are_called_once_and_at_the_end_of_increments(
     tmp_path, monkeypatch, spring, calls, element_type

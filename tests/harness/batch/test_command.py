@@ -137,6 +137,7 @@ def test_runs_that_crash_do_not_end_the_others(
     assert "segmentation fault" in Path("batch/crash-1/crash-1.log").read_text()
 
 
+@pytest.mark.long
 def test_options_of_runs(pulled: Path, started: list[str]) -> None:
     """They reach the run, and other options are another run."""
     words = [str(pulled), "--user", str(SPRING), "--quiet"]
@@ -212,6 +213,7 @@ def test_run_that_another_batch_has(pulled: Path, started: list[str], capsys: py
     assert started == ["pulled"]
 
 
+@pytest.mark.long
 def test_entry_that_is_damaged(pulled: Path, started: list[str]) -> None:
     words = [str(pulled), "--user", str(SPRING), "--quiet"]
     for content in ("{", '{"pulled": {}}', '{"pulled": {"fingerprint": "", "row": {}}}'):

@@ -93,7 +93,7 @@ def test_element_without_mistakes_passes_all_checks(patch):
     assert list(found) == [check.name for check in CHECKS]
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     "mistake, check, message, advice",
     [pytest.param(*row, marks=pytest.mark.nan if row[0] in NAN else ()) for row in MISTAKES],

@@ -56,7 +56,7 @@ OSCILLATOR = """\
 """
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize(
     "requests, wrong, message, advice",
     [

@@ -123,7 +123,7 @@ def look(tmp_path):
     return look
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(5)
 @pytest.mark.parametrize("law", RIGHT.values(), ids=RIGHT)
 def test_right_laws(look, law):
     found = look(law)
@@ -140,7 +140,7 @@ def test_right_conduction(look, theta):
     assert not [(name, finding) for name, finding in found.items() if finding.verdict is Verdict.FAILED]
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(("law", "check", "message"), WRONG)
 def test_wrong_laws(look, law, check, message):
     finding = look(law)[check]

@@ -94,6 +94,7 @@ def held(nodes, ends, *, dof=11, value=0.0):
 BARS = [name for name, kind in COUPLED.items() if kind.corners == 2**kind.dimension]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("element_type", BARS)
 @pytest.mark.parametrize("procedure", [STEADY, "*COUPLED TEMPERATURE-DISPLACEMENT\n1e6, 1e7"])
 def test_a_constant_source_makes_a_parabola(run, element_type, procedure):

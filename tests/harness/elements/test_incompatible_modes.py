@@ -251,6 +251,7 @@ RF1
 """
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("turned", [0.1, 1.0])
 @pytest.mark.parametrize("hardening", ["5., 0.\n25., 1.", "5., 0.\n5.02, 1.", "5., 0.\n8., 0.002\n9., 1."])
 @pytest.mark.parametrize("element_type", ["CPS4I", "CPE4I", "C3D8I"])

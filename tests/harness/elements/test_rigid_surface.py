@@ -167,6 +167,7 @@ def test_ring_on_a_rigid_plate(run):
     np.testing.assert_allclose(result.field("S22"), -YOUNG * 0.001, rtol=1e-9)
 
 
+@pytest.mark.long
 def test_roller_that_is_free_to_turn(run):
     """Drawn along a held block with friction, it rolls: no moment, hardly a force, and it turns by way over radius.
 

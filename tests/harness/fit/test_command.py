@@ -67,6 +67,7 @@ def bar(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.long
 def test_modulus_and_strength(bar: Path, capsys: pytest.CaptureFixture[str]) -> None:
     words = ["fit", "bar.inp", "curve.csv", "modulus=100:180:300", "STRENGTH=2:2.8:4", "--cpus", "2"]
     assert main(words) == 0
