@@ -8,6 +8,7 @@ UFIELD give the values at the end of each attempt at an increment, UTEMP first.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from operator import itemgetter
 from typing import Literal
@@ -26,6 +27,8 @@ from harness.procedures.loads import Loads, Slots, Variation
 
 Times = tuple[float, float]
 """Step and total time."""
+Places = Callable[[IntArray], FloatArray]
+"""Coordinates (k, 3) of nodes at the start of the increment."""
 FIRST_TEMPERATURE = 11
 """The dof whose initial value is also that of the predefined field."""
 
@@ -137,7 +140,9 @@ class UserFields:
     slots: IntArray
     reached: list[tuple[float, FloatArray]]
 
-    def replace(self, values: FloatArray, before: FloatArray, increment: int, end: Times, user: GivesValues) -> None:
+    def replace(
+        self, values: FloatArray, before: FloatArray, increment: int, end: Times, user: GivesValues, places: Places
+    ) -> None:
         """Put what the routines give into values (n,); before: those at the start of the increment."""
         nodes, numbers = self.slots % self.grid.nodes, self.slots // self.grid.nodes
         routines: tuple[Literal["UTEMP", "UFIELD"], ...] = ("UTEMP", "UFIELD")
@@ -145,10 +150,10 @@ class UserFields:
             if not chosen.any():
                 continue
             slots, at = self.slots[chosen], nodes[chosen]
-            places = np.stack([self.mesh.labels[at], numbers[chosen]], axis=1).astype(np.int32)
+            numbered = np.stack([self.mesh.labels[at], numbers[chosen]], axis=1).astype(np.int32)
             temperatures = np.stack([values[at], values[at] - before[at]], axis=1)
             moment = self.step, increment, end
-            asked = UserValues(routine, *moment, places, self.mesh.coordinates[at], values[slots], temperatures)
+            asked = UserValues(routine, *moment, numbered, places(at), values[slots], temperatures)
             values[slots] = user.user_values(asked)
 
     def at(self, total_time: float) -> FloatArray | None:
@@ -176,9 +181,9 @@ class StepConditions:
     by_user: UserFields
 
     def at(
-        self, start: Times, end: Times, increment: int, user: GivesValues
+        self, start: Times, end: Times, increment: int, user: GivesValues, places: Places
     ) -> tuple[Distributed | None, Predefined | None]:
-        """Loads and fields of an increment between these step and total times."""
+        """Loads and fields of an increment between these step and total times; places are for UTEMP and UFIELD."""
         predefined = None
         values, before = self.loads.at(*end)[self.slots], self.loads.at(*start)[self.slots]
         distributed = _distributed(self.elements, self.kinds, values, values - before)
@@ -186,12 +191,18 @@ class StepConditions:
             shape = self.grid.fields, self.grid.nodes
             values, before = self.fields.at(*end), self.fields.at(*start)
             if len(self.by_user.slots):
-                values, before = self._with_user(values, before, (start, end), increment, user)
+                values, before = self._with_user(values, before, (start, end), increment, user, places)
             predefined = Predefined(values.reshape(shape), (values - before).reshape(shape), self.initial)
         return distributed, predefined
 
     def _with_user(
-        self, values: FloatArray, before: FloatArray, times: tuple[Times, Times], increment: int, user: GivesValues
+        self,
+        values: FloatArray,
+        before: FloatArray,
+        times: tuple[Times, Times],
+        increment: int,
+        user: GivesValues,
+        places: Places,
     ) -> tuple[FloatArray, FloatArray]:
         """Fields at the end and at the start of an increment, those of the routines among them."""
         (_, start), (_, end) = times
@@ -199,7 +210,7 @@ class StepConditions:
         before = before if known is None else known
         if start == end:
             return before, before
-        self.by_user.replace(values, before, increment, times[1], user)
+        self.by_user.replace(values, before, increment, times[1], user, places)
         self.by_user.keep(start, end, values)
         return values, before
 

@@ -117,11 +117,11 @@ class StepContext:
             places = np.stack([dofs.mesh.labels[nodes], dofs.dof[by_user]], axis=1).astype(np.int32)
             moment = self.step.number, self.increment, time
             size = step_time - self.step_time
-            asked = UserValues("DISP", *moment, places, self._places(nodes), values[by_user], size=size)
+            asked = UserValues("DISP", *moment, places, self.places(nodes), values[by_user], size=size)
             values[by_user] = self.user.user_values(asked)
         return values
 
-    def _places(self, nodes: IntArray) -> FloatArray:
+    def places(self, nodes: IntArray) -> FloatArray:
         """(k, 3) coordinates of nodes at the start of the increment; with NLGEOM those of the displaced nodes."""
         dofs = self.system.dofs
         coordinates = dofs.mesh.coordinates[nodes]
@@ -133,7 +133,7 @@ class StepContext:
     def call(self, size: float, step_time: float, total_time: float) -> Call:
         """Arguments of the passes of an increment that ends at these times."""
         step, end = self.step, (step_time, total_time)
-        distributed, predefined = self.conditions.at(self.times, end, max(self.increment, 1), self.user)
+        distributed, predefined = self.conditions.at(self.times, end, max(self.increment, 1), self.user, self.places)
         return Call(
             flags=Flags.of(step),
             step=step.number,

@@ -311,7 +311,7 @@ class GeneralStep:
         )
         self._state.total_time = reached.total_time
         times = reached.step_time, reached.total_time
-        self._state.predefined = context.conditions.at(times, times, context.increment, self._user)[1]
+        self._state.predefined = context.conditions.at(times, times, context.increment, self._user, context.places)[1]
         yield IncrementDone(
             number,
             context.increment,

@@ -154,8 +154,9 @@ def calls(tmp_path_factory):
     def calls(procedure, options, loads, material=ELASTIC, *, deck=DECK, **changed):
         folder = tmp_path_factory.mktemp("told")
         given = {"material": material, "type": "CPE4", "begin": "*STATIC", "sensor": "U1", "initial": "", "dof": 1}
+        given |= {"first": "" if "PERTURBATION" in options else options}
         given |= {"procedure": procedure, "options": options, "loads": loads} | changed
-        text = deck.format(first="" if "PERTURBATION" in options else options, **given)
+        text = deck.format(**given)
         (folder / "told.inp").write_text(text)
         harness.run(folder / "told.inp", HERE / "told.f", output_dir=folder)
         found = []
@@ -312,6 +313,16 @@ def test_uanisohyper_inv(calls, kind):
     check(found, expected | {"STATEV": committed(kind)} | HYPERELASTIC | field(kind))
 
 
+@pytest.mark.parametrize("kind", LINEAR)
+def test_uhyper_in_linear_steps(calls, kind):
+    """In the base state, the end of step 1, in which nothing is strained."""
+    loads = "*CLOAD\nRIGHT, 1, -1.\n" * (kind != "frequency")
+    found = calls(*LINEAR[kind], loads, RUBBER, first=", NLGEOM")
+    begun = next(k for k, (name, at, _) in enumerate(found) if name == "UEXTERNALDB" and at == (2, 1, 0, 0))
+    expected = {"BI1": 3.0, "BI2": 3.0, "AJ": 1.0, "STATEV": 1} | HYPERELASTIC
+    check(last(found[begun:], "UHYPER"), expected | {"TEMP": 20.0, "FIELDV": 4.0, "FIELDVINC": 0.0})
+
+
 def test_uhyper_along_a_path(calls):
     """The stretch is that of the load factor; fields stay."""
     found = last(in_step(calls, "large path", RUBBER), "UHYPER")
@@ -323,11 +334,16 @@ def test_uhyper_along_a_path(calls):
     check(found, expected)
 
 
+def moved(kind):
+    """Of nodes at the start of the increment, as far as the step accounts for it."""
+    return 0.02 * (1 - size(kind)) if "large" in kind else 0.0
+
+
 @pytest.mark.parametrize("kind", TIMED)
 def test_utemp(calls, kind):
     """The temperature of the deck at the end of the increment."""
     found = last(in_step(calls, kind), "UTEMP", place(kind, 0, 3))
-    check(found, {"TEMP": 60, "NSECPT": 1, "TIME": [1, 2], "COORDS": [1, 1, 0]})
+    check(found, {"TEMP": 60, "NSECPT": 1, "TIME": [1, 2], "COORDS": [1 + moved(kind), 1, 0]})
 
 
 @pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS, *HEAT_STEPS])
@@ -335,7 +351,7 @@ def test_ufield(calls, kind):
     """And that of UTEMP, with its increment; without predefined temperatures zero."""
     found = last(in_step(calls, kind), "UFIELD", place(kind, 0, 2))
     temperature = [0, 0] if kind not in TIMED else [60, 0 if kind in AT_ONCE else 40 * size(kind)]
-    expected = {"FIELD": 6, "KFIELD": 1, "NSECPT": 1, "TIME": [1, 2], "NFIELD": 1, "COORDS": [1, 0, 0]}
+    expected = {"FIELD": 6, "KFIELD": 1, "NSECPT": 1, "TIME": [1, 2], "NFIELD": 1, "COORDS": [1 + moved(kind), 0, 0]}
     check(found, expected | {"TEMP": temperature[0], "DTEMP": temperature[1]})
 
 
@@ -351,14 +367,13 @@ def test_dload(calls, kind):
 def test_disp(calls, kind):
     """TIME is the step and the total time at the end, and the time increment; COORDS with NLGEOM that of the start."""
     found = last(in_step(calls, kind), "DISP", place(kind, 0, 3))
-    moved = 0.02 * (1 - size(kind)) if "large" in kind else 0.0
     check(
         found,
         {
             "U": [0.02, 0, 0],
             "TIME": [1.0, 2.0, size(kind)],
             "JDOF": 11 if kind in HEAT_STEPS else 1,
-            "COORDS": [1 + moved, 1, 0],
+            "COORDS": [1 + moved(kind), 1, 0],
         },
     )
 
