@@ -72,8 +72,9 @@ $(RANKS): $(INSTALLED)
 
 # what users get, and with bytecode: an editable package is looked for and compiled by each of the processes anew
 copy: $(INSTALLED)
-	@rm -rf $(COPY)
-	$(RUN) $(BIN)/meson install -C $(BUILD) --quiet --destdir $(CURDIR)/$(COPY)
+	@rm -rf $(COPY).new
+	$(RUN) $(BIN)/meson install -C $(BUILD) --quiet --destdir $(CURDIR)/$(COPY).new
+	@rm -rf $(COPY) && mv $(COPY).new $(COPY)
 
 test: copy
 	$(PYTEST) -m '$(SELECT)' $(PYTEST_ARGS)
