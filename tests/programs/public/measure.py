@@ -111,7 +111,7 @@ def _records(root: Path, row: Row) -> Iterator[tuple[Model, Any]]:
             shutil.copy(root / name, output)
         model = read_deck(deck)
         sources = [root / name for name in row["sources"]] or None
-        library = usersub.load(sources, job="job", output_dir=Path(output), deck=deck, zero_locals=True)
+        library = usersub.load(sources, job=deck.stem, output_dir=Path(output), deck=deck, zero_locals=True)
         try:
             with guard_values({}):
                 for record in run_steps(TolerantSystem(model, library), model, library):
