@@ -12,11 +12,12 @@
 !> point E11 ... and S11 ... of host_solid, then the gradient of the potential and the electrical displacement, all in the
 !> directions of *ORIENTATION where the section has one.
 module host_piezoelectric
+  use host_gradients, only: all_gradients
   use host_kinds, only: dp, i4
   use host_kinematics, only: components, rotated
   use host_materials, only: find_material, material_t
   use host_shape, only: is_multilinear, rule_of, rule_t
-  use host_solid, only: all_gradients, solid_element, values_of_point
+  use host_solid, only: solid_element, values_of_point
   implicit none (type, external)
   private
   public :: piezoelectric_uelmat

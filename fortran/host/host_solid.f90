@@ -36,13 +36,13 @@
 module host_solid
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
   use core_mode_search, only: find_modes, mode_search, most_passes
-  use core_small_matrix, only: cofactors, determinant
   use core_solid_rotation, only: find_turn, solid_turn, turn_forces, turn_stiffness
-  use core_strains, only: condense, mean_volume_strain, set_volume_strain, strain_matrix
+  use core_strains, only: condense
   use host_axes, only: carry_axes, turn_heat, turn_matrix, values_of_axes
   use host_context, only: added_stress, current, heat_t, initial_stresses, stress_matrix
   use host_coupling, only: add_heat_source, coupling_t, interpolate_fields, set_temperature
   use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point, add_stress_matrix
+  use host_gradients, only: all_gradients, carry, find_deformation, gradient_of, gradients_of_points
   use host_hybrid, only: add_compatibility, begin_pressure, begin_smoothing, keep_point, mean_stress, mean_stress_added, &
                          pressure_t, smooth, smoothing_change, smoothing_t
   use host_hourglass, only: resist_hourglass
@@ -54,7 +54,7 @@ module host_solid
   use host_kinematics, only: components, gradients, mean_gradients, point_position, rotated, rotation_of
   use host_mean_volume, only: add_curvature, add_mean_volume, add_uniform_volume
   use host_protect, only: escape
-  use host_planes, only: add_curvature_of_fibres, add_stress_of_fibres, find_fibre, planes, planes_t
+  use host_planes, only: add_curvature_of_fibres, add_stress_of_fibres, planes, planes_t
   use host_materials, only: elastic_energy, elastic_volume, find_material, generates_heat, has_fields, is_viscous, material_t, &
                             needs_deformation, not_solved, set_constants, stress_update, thickness_strain
   use host_shape, only: is_multilinear, is_quadratic, radius_of, rule_of, rule_t
@@ -62,9 +62,7 @@ module host_solid
   use host_usdfld, only: call_usdfld
   implicit none (type, external)
   private
-  public :: all_gradients, solid_uelmat, solid_element, values_of_point
-
-  real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
+  public :: solid_uelmat, solid_element, values_of_point
 
   integer, parameter :: head = 7    !< values of JPROPS before those of layers
 
@@ -676,133 +674,6 @@ contains
       strain(k) = sum(b(:, k)*u)
     end do
   end subroutine find_strain
-
-  !> Gradients, strain matrices and volumes of all points. Between two planes, with their unknowns w: relative lengths of the
-  !> fibres, and derivatives of their logarithms by w; those by the nodes are in b.
-  subroutine all_gradients(rule, direct, strains, averaged, x, g, b, volume, bounds, w, ratio, by_planes)
-    type(rule_t), intent(in) :: rule
-    integer, intent(in) :: direct, strains
-    logical, intent(in) :: averaged
-    real(dp), intent(in) :: x(rule%dim, rule%nodes)
-    real(dp), intent(out) :: g(rule%nodes, direct, rule%points), b(rule%dim*rule%nodes, strains, rule%points)
-    real(dp), intent(out) :: volume(rule%points)
-    type(planes_t), intent(in), optional :: bounds
-    real(dp), intent(in), optional :: w(planes)
-    real(dp), intent(out), optional :: ratio(rule%points), by_planes(planes, rule%points)
-    real(dp) :: mean(rule%dim*rule%nodes), by_nodes(rule%dim, rule%nodes), fibre
-    integer :: p, flat
-    flat = merge(rule%dim, direct, present(bounds))
-    g(:, flat + 1:, :) = 0
-    call gradients_of_points(rule, flat, x, g(:, :flat, :), volume)
-    do p = 1, rule%points
-      call strain_matrix(rule%dim, direct, rule%nodes, g(:, :, p), b(:, :, p))
-      if (.not. present(bounds)) cycle
-      call find_fibre(bounds, rule, p, x, w, fibre, by_nodes, by_planes(:, p))
-      b(:, 3, p) = reshape(by_nodes, [size(by_nodes)])
-      volume(p) = volume(p)*fibre
-      if (present(ratio)) ratio(p) = fibre
-    end do
-    if (.not. averaged) return
-    ! fibres of elements with straight edges have one strain
-    mean = mean_volume_strain(flat, rule%dim*rule%nodes, strains, rule%points, volume, b)
-    do p = 1, rule%points
-      call set_volume_strain(flat, rule%dim*rule%nodes, strains, mean, b(:, :, p))
-    end do
-  end subroutine all_gradients
-
-  !> Gradients and volumes of all points. Where one stands for all of a quadrilateral or hexahedron they are the mean ones; those of
-  !> section points of layers differ from the mean as they do at the points, so that their own mean is that of the element.
-  subroutine gradients_of_points(rule, direct, x, g, volume)
-    type(rule_t), intent(in) :: rule
-    integer, intent(in) :: direct
-    real(dp), intent(in) :: x(rule%dim, rule%nodes)
-    real(dp), intent(out) :: g(rule%nodes, direct, rule%points), volume(rule%points)
-    real(dp) :: mean(rule%nodes, direct), whole, own(rule%nodes, direct)
-    integer :: p
-    if (rule%reduced) call mean_gradients(rule%family, direct, x, mean, whole)
-    if (rule%reduced .and. rule%points == 1) then
-      g(:, :, 1) = mean
-      volume = whole
-      return
-    end if
-    do p = 1, rule%points
-      call gradients(rule, direct, p, x, g(:, :, p), volume(p))
-    end do
-    if (.not. rule%reduced) return
-    own = 0
-    do p = 1, rule%points
-      own = own + volume(p)/sum(volume)*g(:, :, p)
-    end do
-    g = g + spread(mean - own, 3, rule%points)
-    volume = volume*(whole/sum(volume))
-  end subroutine gradients_of_points
-
-  !> With large displacements elements of one point take the shape of the strain from the mean deformation gradient
-  !> F = 1 + u g_start, so that the gradients are those before any displacement times its inverse; and its volume from
-  !> the mean of the gradients now, the difference in equal parts to the directions of the displacements. So does Abaqus
-  !> R2018x (reactions of C3D8RT and CAX4RT); in the plane the two are the same.
-  pure subroutine carry(dim, direct, strains, nodes, g_start, u, g, b)
-    integer, intent(in) :: dim, direct, strains, nodes
-    real(dp), intent(in) :: g_start(nodes, direct), u(dim, nodes)
-    real(dp), intent(inout) :: g(nodes, direct), b(dim, nodes, strains)     !< on entry the mean now
-    real(dp) :: f(3, 3), c(3, 3), change(dim, nodes)
-    integer :: i
-    change = sum(b(:, :, :direct), 3)
-    f = identity + gradient_of(dim, direct, nodes, u, g_start)
-    c = cofactors(f)/determinant(f)
-    g(:, :dim) = matmul(g_start(:, :dim), transpose(c(:dim, :dim)))
-    if (direct > dim) g(:, direct) = g_start(:, direct)/f(3, 3)
-    call strain_matrix(dim, direct, nodes, g, b)
-    change = (change - sum(b(:, :, :direct), 3))/dim
-    do i = 1, dim
-      b(:, :, i) = b(:, :, i) + change
-    end do
-  end subroutine carry
-
-  !> Gradient (3, 3) of displacements.
-  pure function gradient_of(dim, direct, nodes, u, g) result(gradient)
-    integer, intent(in) :: dim, direct, nodes
-    real(dp), intent(in) :: u(dim, nodes), g(nodes, direct)
-    real(dp) :: gradient(3, 3)
-    gradient = 0
-    gradient(:dim, :dim) = matmul(u, g(:, :dim))
-    if (direct > dim) gradient(3, 3) = dot_product(u(1, :), g(:, 3))
-  end function gradient_of
-
-  !> Deformation gradients of all points at both ends of the increment; with the mean change of volume where it
-  !> is averaged.
-  subroutine find_deformation(rule, direct, averaged, x, u, du, f, initial, bounds)
-    type(rule_t), intent(in) :: rule
-    integer, intent(in) :: direct
-    logical, intent(in) :: averaged
-    real(dp), dimension(rule%dim, rule%nodes), intent(in) :: x, u, du
-    real(dp), intent(out) :: f(3, 3, 2, rule%points)
-    real(dp), intent(out) :: initial(rule%points)   !< volumes of the points before any displacement
-    type(planes_t), intent(in), optional :: bounds
-    real(dp) :: g(rule%nodes, direct, rule%points), total, swept(2), by_nodes(rule%dim, rule%nodes), by_planes(planes)
-    integer :: p, k
-    total = 0
-    swept = 0
-    call gradients_of_points(rule, direct, x, g, initial)
-    do p = 1, rule%points
-      f(:, :, 1, p) = identity + gradient_of(rule%dim, direct, rule%nodes, u - du, g(:, :, p))
-      f(:, :, 2, p) = identity + gradient_of(rule%dim, direct, rule%nodes, u, g(:, :, p))
-      total = total + initial(p)
-      do k = 1, 2
-        swept(k) = swept(k) + initial(p)*determinant(f(:, :, k, p))
-      end do
-    end do
-    do p = 1, merge(rule%points, 0, averaged)
-      do k = 1, 2
-        f(:direct, :direct, k, p) = f(:direct, :direct, k, p)*(swept(k)/total/determinant(f(:, :, k, p)))**(1.0_dp/direct)
-      end do
-    end do
-    if (.not. present(bounds)) return
-    do p = 1, rule%points
-      call find_fibre(bounds, rule, p, x + u - du, bounds%w - bounds%dw, f(3, 3, 1, p), by_nodes, by_planes)
-      call find_fibre(bounds, rule, p, x + u, bounds%w, f(3, 3, 2, p), by_nodes, by_planes)
-    end do
-  end subroutine find_deformation
 
   !> Strain of a point, from global directions to those of axes (rows).
   pure subroutine turn_strain(dim, m, axes, strain)

@@ -37,14 +37,11 @@ def discrete_unknowns(model: Model, group: ElementGroup) -> tuple[tuple[int, int
     section = group.section
     if isinstance(section, SpringSection) and section.dofs:
         return tuple(enumerate(section.dofs))
-    rigid = group.built_in if isinstance(group.built_in, RigidType) else None
-    kind = rigid or DISCRETE[group.type]
-    dimension = kind.dimension
-    if (
-        rigid is None
-        and _kind_of(group) is not DiscreteKind.TRUSS
-        and not is_in_space(model.mesh.coordinates, model.groups)
-    ):
+    if isinstance(group.built_in, RigidType):
+        dimension = group.built_in.dimension
+    elif _kind_of(group) is DiscreteKind.TRUSS or is_in_space(model.mesh.coordinates, model.groups):
+        dimension = DISCRETE[group.type].dimension
+    else:
         dimension = 2
     return tuple((node, dof) for node in range(group.nodes.shape[1]) for dof in range(1, dimension + 1))
 
