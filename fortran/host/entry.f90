@@ -6,15 +6,16 @@
 !> One pass over a block; see block_t for the arrays.
 subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matrix, kstep, kinc, guards, entries, &
                          iteration, parallel, lflags, time, dtime, period, params, labels, jprops, equations, map, &
-                         props, coords, u, du, v, a, counts, kinds, loads, predef, floor, svars, svars_trial, energy, &
+                         props, coords, u, du, v, a, counts, kinds, loads, predef, floor, field, svars, svars_trial, energy, &
                          energy_trial, history, history_trial, residual, matrix, flux, pnewdt, energy_sum, &
                          fault, position, array, item, alone, ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, &
-                         nrhs, nnz, values, points, most, nfield, nrate, mload, mfield)
+                         nrhs, nnz, values, points, most, nfield, nrate, mload, mfield, fluxes)
   use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
   use host_context, only: initial_stresses
   use host_driver, only: run_block
   use host_element, only: block_t, keeps_state, scalars_t
   use host_kinds, only: dp, i4, i8
+  use host_scatter, only: sum_by_field
   implicit none (type, external)
   integer(i8), intent(in) :: address          !< of UEL or UELMAT
   integer(i4), intent(in) :: material         !< its number in the host; with 0 UEL is called, otherwise UELMAT
@@ -35,10 +36,13 @@ subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matri
   real(dp), intent(inout), target :: svars_trial(nsvars, m), energy_trial(8, m), history_trial(values, points, m), &
                                      residual(n, nrhs), matrix(nnz)
   real(dp), intent(in), target :: floor(ndofel)
-  real(dp), intent(out), target :: flux(ndofel, 3)
+  integer(i4), intent(in) :: field(ndofel)    !< of each unknown, from 1; 0: none
+  integer(i4), intent(in) :: fluxes           !< number of fields
+  real(dp), intent(out) :: flux(fluxes, 3)    !< sum of |RHS|, number of terms, the largest one
   real(dp), intent(out) :: pnewdt, energy_sum(8)
   integer(i4), intent(out) :: fault, position, array, item   !< as block_t has them; item is its index
   integer(i4), intent(out) :: alone           !< as block_t has it
+  real(dp), target :: by_unknown(ndofel, 3)
   type(block_t), target :: block
   block%address = transfer(int(address, c_intptr_t), block%address)
   block%with_material = material > 0
@@ -77,12 +81,13 @@ subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matri
     block%history => history
     block%history_trial => history_trial
   end if
-  flux = 0
+  by_unknown = 0
   block%residual => residual
   block%matrix => matrix
   block%floor => floor
-  block%flux => flux
+  block%flux => by_unknown
   call run_block(block)
+  call sum_by_field(ndofel, field, by_unknown, fluxes, flux)
   pnewdt = block%pnewdt
   energy_sum = block%energy_sum
   fault = block%fault

@@ -5,7 +5,7 @@ module host_scatter
   use host_kinds, only: dp, i4
   implicit none (type, external)
   private
-  public :: add, add_residual, add_magnitude, add_matrix, add_own_residual, add_own_matrix
+  public :: add, add_residual, add_magnitude, add_matrix, add_own_residual, add_own_matrix, sum_by_field
 
 contains
 
@@ -41,6 +41,21 @@ contains
       largest(i) = max(largest(i), abs(x(i)))
     end do
   end subroutine add_magnitude
+
+  !> Sums, terms and largest magnitudes by unknown, as add_magnitude leaves them, taken together by field.
+  subroutine sum_by_field(n, field, by_unknown, fields, flux)
+    integer(i4), intent(in) :: n, fields
+    integer(i4), intent(in) :: field(n)             !< of each unknown, from 1; 0: none
+    real(dp), intent(in) :: by_unknown(n, 3)
+    real(dp), intent(out) :: flux(fields, 3)
+    integer :: i
+    flux = 0
+    do i = 1, n
+      if (field(i) == 0) cycle
+      flux(field(i), :2) = flux(field(i), :2) + by_unknown(i, :2)
+      flux(field(i), 3) = max(flux(field(i), 3), by_unknown(i, 3))
+    end do
+  end subroutine sum_by_field
 
   !> Scatter AMATRX, or its symmetric part, into the values of the sparse matrix.
   subroutine add_matrix(n, a, map, symmetric, matrix)

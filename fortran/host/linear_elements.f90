@@ -4,21 +4,26 @@
 
 !> Add the forces -K u of all elements to the residual, and measure them as the element loop does. Where a translation causes no
 !> force, that of the first node is taken out before: it would only cost digits. The energy is that which the elements store.
-subroutine host_linear_pass(matrices, equations, first, u, floor, residual, flux, energy, ndofel, m, n)
+subroutine host_linear_pass(matrices, equations, first, u, floor, field, residual, flux, energy, ndofel, m, n, fluxes)
   use host_kinds, only: dp, i4
   use host_linear, only: add_linear_forces
+  use host_scatter, only: sum_by_field
   implicit none (type, external)
   integer(i4), intent(in) :: ndofel, m, n
+  integer(i4), intent(in) :: fluxes                     !< number of fields
   real(dp), intent(in) :: matrices(ndofel, ndofel, m)   !< K of each element
   integer(i4), intent(in) :: equations(ndofel, m)       !< unknown, from 1
   integer(i4), intent(in) :: first(ndofel)              !< the entry of u to be taken out of this one, from 1; 0: none
   real(dp), intent(in) :: u(n), floor(ndofel)           !< |force| above which an entry counts as a term
   real(dp), intent(inout) :: residual(n)
-  real(dp), intent(out) :: flux(ndofel, 3)              !< sum of |force|, number of terms, the largest one
+  integer(i4), intent(in) :: field(ndofel)              !< of each unknown, from 1; 0: none
+  real(dp), intent(out) :: flux(fluxes, 3)              !< sum of |force|, number of terms, the largest one
   real(dp), intent(out) :: energy                       !< sum of u.K u/2
-  flux = 0
+  real(dp) :: by_unknown(ndofel, 3)
+  by_unknown = 0
   energy = 0
-  call add_linear_forces(ndofel, m, matrices, equations, first, u, floor, residual, flux, energy)
+  call add_linear_forces(ndofel, m, matrices, equations, first, u, floor, residual, by_unknown, energy)
+  call sum_by_field(ndofel, field, by_unknown, fluxes, flux)
 end subroutine host_linear_pass
 
 !> Scatter the matrices of elements into the values of the sparse matrix.

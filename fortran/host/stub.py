@@ -50,9 +50,10 @@ def stub() -> str:
 
 
 def _signature(block: dict[str, Any]) -> str:
-    """Of a procedure: sizes that follow from the shape of an array are no arguments."""
+    """Of a procedure: sizes that follow from the shape of an array that is passed are no arguments."""
     variables: dict[str, dict[str, Any]] = {name: block["vars"][name] for name in block["args"]}
-    sizes = {size for variable in variables.values() for size in variable.get("dimension", ())}
+    passed = [variable for variable in variables.values() if "out" not in variable["intent"]]
+    sizes = {size for variable in passed for size in variable.get("dimension", ())}
     taken, returned = [], []
     for name, variable in variables.items():
         if "out" in variable["intent"]:

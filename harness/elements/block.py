@@ -27,7 +27,7 @@ from harness.model.records import ElementState, PointVariables
 from harness.model.restart import Saved
 from harness.model.steps import VerticalStress
 from harness.usersub import Library, _binding
-from harness.usersub.exchange import BlockArrays, LoadArrays, Outcome
+from harness.usersub.exchange import BlockArrays, LoadArrays, Outcome, UnknownFields
 from harness.usersub.faults import Entries, Fault, Guards
 
 _PLASTIC: Final = 3
@@ -107,11 +107,9 @@ class ElementBlock:
         self._last: Call | None = None
         self._places = self._arrays.coords
         self._watch = Watch(group, library)
-        fields = np.array([field_of(dof) for _, dof in unknowns])
-        # (unknowns, fields): sums entries of an element vector by field
-        by_field = (fields[:, None] == np.arange(len(FIELD_NAMES))) & (not routine.forceless)
-        self._by_field = by_field.astype(np.float64)
-        self._count_by_field = np.count_nonzero(self._by_field, axis=0)
+        of = np.array([0 if routine.forceless else field_of(dof) + 1 for _, dof in unknowns], dtype=np.int32)
+        self._unknown_fields = UnknownFields(of, len(FIELD_NAMES))
+        self._forces = np.zeros(len(FIELD_NAMES), dtype=np.int64)
         self._all_terms = np.full(n, -1.0)
         dofs = [dof for _, dof in unknowns]
         # of each unknown the first one of the same dof, from 1
@@ -198,6 +196,8 @@ class ElementBlock:
         self._arrays.equations = np.ascontiguousarray(equations + 1, dtype=np.int32)
         # the driver walks AMATRX by columns
         self._arrays.map = np.ascontiguousarray(scatter.transpose(0, 2, 1) + 1, dtype=np.int32)
+        fields = self._unknown_fields
+        self._forces = len(equations) * np.bincount(fields.of, minlength=fields.number + 1)[1:]
 
     def split(self, *, strict: bool = True) -> list[ElementBlock]:
         """Its elements, each in its own unbound block and in its committed state, for calls in any order.
@@ -288,7 +288,8 @@ class ElementBlock:
             self._loads(call.distributed),
             self._fields(call.predefined),
             self._floor(call),
-            np.atleast_2d(residual),
+            self._unknown_fields,
+            residual if residual.ndim == 2 else residual[np.newaxis],
             _NO_MATRIX if matrix is None else matrix,
         )
         self._last = call
@@ -358,13 +359,14 @@ class ElementBlock:
         """
         if not len(self.group.labels):
             return _NOTHING
-        outcome = _binding.linear_pass(matrices, self._arrays.equations, self._first, u, self._floor(call), residual)
+        outcome = _binding.linear_pass(
+            matrices, self._arrays.equations, self._first, u, self._floor(call), self._unknown_fields, residual
+        )
         energy = outcome.energy if self.can_wait else np.zeros(8)
         return self._report(outcome, energy, 0.0)
 
     def _report(self, outcome: Outcome, energy: FloatArray, damage: float) -> BlockReport:
-        entries: IntArray = len(self.group.labels) * self._count_by_field
-        return BlockReport.of(outcome, self._by_field, entries, energy, damage)
+        return BlockReport.of(outcome, self._forces, energy, damage)
 
     def largest_deviation(
         self, matrices: FloatArray, call: Call, u: FloatArray, du: FloatArray
@@ -396,7 +398,7 @@ class ElementBlock:
 
     def _floor(self, call: Call) -> FloatArray:
         """Force above which an entry of RHS is a term of the average flux, by unknown."""
-        return self._all_terms if call.flux_floor is None else self._by_field @ call.flux_floor
+        return self._all_terms if call.flux_floor is None else call.flux_floor[self._unknown_fields.of - 1]
 
     def _loads(self, distributed: Distributed | None) -> LoadArrays:
         """Loads on the elements of the block, one row for each element, or one for all if there is none."""

@@ -4,8 +4,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from typing import Self
+from dataclasses import dataclass, replace
+from typing import NamedTuple, Self
 
 import numpy as np
 
@@ -108,9 +108,8 @@ class Motion:
         return Motion(self.velocity[unknowns], self.acceleration[unknowns])
 
 
-@dataclass(frozen=True, slots=True)
-class BlockReport:
-    """Sums of one pass over one block.
+class BlockReport(NamedTuple):
+    """Sums of one pass over one block; a tuple as `Outcome` is.
 
     flux        (fields,) sum of |element nodal force| by field
     flux_count  (fields,) number of terms in it
@@ -126,12 +125,11 @@ class BlockReport:
     pnewdt: float
     energy: FloatArray
     damage: float = 0.0
-    largest: FloatArray = field(default_factory=lambda: np.zeros(1))
-    entries: IntArray = field(default_factory=lambda: np.zeros(1, dtype=np.int64))
+    largest: FloatArray = np.zeros(1)
+    entries: IntArray = np.zeros(1, dtype=np.int64)
 
     @classmethod
-    def of(cls, outcome: Outcome, by_field: FloatArray, entries: IntArray, energy: FloatArray, damage: float) -> Self:
-        """From sums by unknown; by_field (unknowns, fields) is 1 where an unknown belongs to a field, else 0."""
-        flux, terms = outcome.flux[:2] @ by_field
-        largest = (outcome.flux[2, :, None] * by_field).max(axis=0)
+    def of(cls, outcome: Outcome, entries: IntArray, energy: FloatArray, damage: float) -> Self:
+        """From the sums of a pass."""
+        flux, terms, largest = outcome.flux
         return cls(flux, terms.astype(np.int64), outcome.pnewdt, energy, damage, largest, entries)

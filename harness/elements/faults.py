@@ -22,12 +22,12 @@ ERRORS: Final[Mapping[Fault, type[ElementError]]] = {
 
 def wrong_entry(outcome: Outcome, n: int) -> str:
     """An entry of RHS or AMATRX that was not set, or is not a number; n: unknowns of the element."""
-    column, row = divmod(outcome.index - 1, n)
-    entry = f"RHS({outcome.index})"
+    column, row = divmod(outcome.item - 1, n)
+    entry = f"RHS({outcome.item})"
     if outcome.array != "RHS" or column:
         entry = f"{outcome.array}({row + 1},{column + 1})"
     if outcome.fault is Fault.UNSET:
-        half = outcome.array == "RHS" and outcome.index == n // 2 + 1 and n > 3
+        half = outcome.array == "RHS" and outcome.item == n // 2 + 1 and n > 3
         hint = "; half of it is set, as if it were declared REAL (four bytes) instead of REAL*8" if half else ""
         why = "was not filled, or was added to without being set first (RHS and AMATRX are not zero on entry)"
         return f"{entry} {why}{hint}"
@@ -36,7 +36,7 @@ def wrong_entry(outcome: Outcome, n: int) -> str:
 
 def material_point(outcome: Outcome) -> str:
     """The beginning of a sentence if a user routine of a point has ended the call, else ''."""
-    return at_point(outcome.routine, outcome.index) if outcome.routine else ""
+    return at_point(outcome.routine, outcome.item) if outcome.routine else ""
 
 
 def at_point(routine: str, point: int) -> str:
@@ -46,8 +46,8 @@ def at_point(routine: str, point: int) -> str:
 
 def distortion(outcome: Outcome) -> str:
     """A built-in element whose current shape is inside out, or crosses the axis (at -index)."""
-    what = "turns inside out" if outcome.index > 0 else "crosses the axis"
-    return f"{what} at its integration point {abs(outcome.index)}"
+    what = "turns inside out" if outcome.item > 0 else "crosses the axis"
+    return f"{what} at its integration point {abs(outcome.item)}"
 
 
 def write_outside(outcome: Outcome, n: int, nrhs: int, sizes: Mapping[str, str]) -> str:
@@ -55,4 +55,4 @@ def write_outside(outcome: Outcome, n: int, nrhs: int, sizes: Mapping[str, str])
     columns = str(n) if nrhs == 1 else f"{n * nrhs} ({n} x NRHS = {nrhs})"
     known = {"RHS": columns, "DU": columns, "ENERGY": "8", "AMATRX": f"{n * n} ({n} x {n})", **sizes}
     unknown = "" if outcome.position >= 0 else "; the element is unknown, because a repeated pass did not do it"
-    return f"writes outside {outcome.array}: entry {outcome.index} of {known.get(outcome.array, str(n))}{unknown}"
+    return f"writes outside {outcome.array}: entry {outcome.item} of {known.get(outcome.array, str(n))}{unknown}"

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from harness.elements.call import Call
@@ -22,7 +24,7 @@ class Watch:
 
     def pnewdt(self, call: Call, value: float) -> None:
         """The smallest PNEWDT of a pass, or one that is not finite."""
-        if not (self._done or np.isfinite(value)):
+        if not (self._done or math.isfinite(value)):
             alone = len(self._group.labels) == 1
             place = f"step {call.step}, increment {call.increment}, iteration {call.iteration}"
             self._warn(int(self._group.labels[0]) if alone else None, f"PNEWDT is NaN or infinite ({place})")

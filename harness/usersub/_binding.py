@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from harness.errors import UelError
 from harness.model.arrays import FloatArray
 from harness.model.user_values import AskedAmplitude, UserValues
-from harness.usersub.exchange import BlockArrays, Int32Array, LoadArrays, Outcome, RawMessage
+from harness.usersub.exchange import BlockArrays, Int32Array, LoadArrays, Outcome, RawMessage, UnknownFields
 from harness.usersub.faults import Fault
 
 # threads that wait for each other give their core away soon: on a busy machine another process has work for it
@@ -98,6 +98,7 @@ def evaluate(
     loads: LoadArrays,
     predef: FloatArray,
     floor: FloatArray,
+    fields: UnknownFields,
     residual: FloatArray,
     matrix: FloatArray,
 ) -> Outcome:
@@ -108,7 +109,7 @@ def evaluate(
     """
     if _watching:
         scalars = {**scalars, "address": _host.host_watch(scalars["address"], scalars["material"])}
-    flux, pnewdt, energy, fault, position, array, index, alone = _host.host_evaluate(
+    flux, pnewdt, energy, fault, position, array, item, alone = _host.host_evaluate(
         **scalars,
         **options,
         lflags=lflags,
@@ -127,6 +128,7 @@ def evaluate(
         loads=loads.values.T,
         predef=predef.T,
         floor=floor,
+        field=fields.of,
         svars=arrays.svars.T,
         svars_trial=arrays.svars_trial.T,
         energy=arrays.energy.T,
@@ -135,6 +137,7 @@ def evaluate(
         history_trial=arrays.history_trial.T,
         residual=residual.T,
         matrix=matrix,
+        fluxes=fields.number,
     )
     left = fault == Fault.LEFT
     return Outcome(
@@ -142,7 +145,7 @@ def evaluate(
         position=position - 1,
         array="" if left else ARRAYS[array - 1],
         routine=POINT_ROUTINES[array] if left else "",
-        index=index,
+        item=item,
         flux=flux.T,
         pnewdt=pnewdt,
         energy=energy,
@@ -233,6 +236,7 @@ def linear_pass(
     first: Int32Array,
     u: FloatArray,
     floor: FloatArray,
+    fields: UnknownFields,
     residual: FloatArray,
 ) -> Outcome:
     """Add the forces of elements that are linear to residual (n,): what a pass over them would, without calling them.
@@ -240,7 +244,7 @@ def linear_pass(
     matrices (m, ndofel, ndofel), each by columns; equations (m, ndofel), from 1; first, floor (ndofel,): the
     entry of U, from 1, that is taken out of each one before the product, 0 for none. ENERGY(2) is what they store.
     """
-    flux, stored = _host.host_linear_pass(matrices.T, equations.T, first, u, floor, residual)
+    flux, stored = _host.host_linear_pass(matrices.T, equations.T, first, u, floor, fields.of, residual, fields.number)
     energy = np.zeros(8)
     energy[_STRAIN_ENERGY] = stored
     return Outcome(Fault.NONE, -1, ARRAYS[0], "", 0, flux.T, np.inf, energy, 0)

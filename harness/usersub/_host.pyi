@@ -39,6 +39,7 @@ def host_evaluate(
     loads: NDArray[np.float64],
     predef: NDArray[np.float64],
     floor: NDArray[np.float64],
+    field: NDArray[np.int32],
     svars: NDArray[np.float64],
     svars_trial: NDArray[np.float64],
     energy: NDArray[np.float64],
@@ -47,6 +48,7 @@ def host_evaluate(
     history_trial: NDArray[np.float64],
     residual: NDArray[np.float64],
     matrix: NDArray[np.float64],
+    fluxes: int,
 ) -> tuple[NDArray[np.float64], float, NDArray[np.float64], int, int, int, int, int]: ...
 def host_exchange_guard_values(values: NDArray[np.float64]) -> None: ...
 def host_take_message() -> tuple[int, NDArray[np.int32], bytes]: ...
@@ -256,7 +258,9 @@ def host_linear_pass(
     first: NDArray[np.int32],
     u: NDArray[np.float64],
     floor: NDArray[np.float64],
+    field: NDArray[np.int32],
     residual: NDArray[np.float64],
+    fluxes: int,
 ) -> tuple[NDArray[np.float64], float]: ...
 def host_add_matrices(matrices: NDArray[np.float64], map: NDArray[np.int32], matrix: NDArray[np.float64]) -> None: ...
 def host_scatter_map(

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,26 +16,37 @@ from harness.usersub.faults import Fault
 Int32Array = NDArray[np.int32]
 
 
-@dataclass(frozen=True, slots=True)
-class Outcome:
-    """End of a pass over a block.
+class Outcome(NamedTuple):
+    """End of a pass over a block; made in each pass, and a tuple takes half the time of a frozen data class.
 
     position  element of the fault (from 0; -1 unknown)
-    array, index  array of the fault and entry, from 1 (beyond its ends for a write outside); or
-    routine, index  user routine of points that has ended the call, and the point, from 1; '' for another one
+    array, item  array of the fault and entry, from 1 (beyond its ends for a write outside); or
+    routine, item  user routine of points that has ended the call, and the point, from 1; '' for another one
     alone     elements that one thread has called again, because several could not go on
-    flux      (3, ndofel) of the elements: sum of |RHS|, number of those above the floor, the largest one
+    flux      (3, fields) of the elements: sum of |RHS|, number of those above the floor, the largest one
     """
 
     fault: Fault
     position: int
     array: str
     routine: str
-    index: int
+    item: int
     flux: FloatArray
     pnewdt: float
     energy: FloatArray
     alone: int
+
+
+@dataclass(frozen=True, slots=True)
+class UnknownFields:
+    """Fields that the forces of an element count in.
+
+    of      (ndofel,) field of each unknown, from 1; 0: none
+    number  of all fields
+    """
+
+    of: Int32Array
+    number: int
 
 
 @dataclass(slots=True)
