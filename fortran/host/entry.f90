@@ -293,15 +293,17 @@ subroutine host_set_creep(number, constants, by_time, power_law)
 end subroutine host_set_creep
 
 !> Give a material thermal expansion.
-subroutine host_set_expansion(number, expansion)
+subroutine host_set_expansion(number, table, zero, n)
   use host_kinds, only: dp, i4
   use host_materials, only: find_material, material_t
   implicit none (type, external)
-  integer(i4), intent(in) :: number
-  real(dp), intent(in) :: expansion           !< strain per change of temperature
+  integer(i4), intent(in) :: number, n
+  real(dp), intent(in) :: table(7, n), zero   !< as expansion_t has them
   type(material_t), pointer :: material
   material => find_material(number)
-  material%expansion = expansion
+  allocate (material%expansion)
+  material%expansion%table = table
+  material%expansion%zero = zero
 end subroutine host_set_expansion
 
 !> Compliance (11, 22, 33, 12, 13, 23; engineering shear) from E1, E2, E3, nu12, nu13, nu23, G12, G13, G23.

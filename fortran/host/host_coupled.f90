@@ -4,9 +4,9 @@
 !> UELMAT: a continuum element (host_solid), and heat conduction with temperatures at its corners.
 !>
 !> The unknowns are the displacements of all nodes, then the temperatures of the corners. JPROPS go on with the family of the
-!> temperatures and their integration points; SVARS with the heat flux of each of these, then the energies of UMATHT. Without
-!> thermal expansion, the two parts interact through the heat terms of UMAT and HETVAL (host_coupling) and through the change of
-!> shape, which the tangent leaves out. The heat is that of host_conduction.
+!> temperatures and their integration points; SVARS with the heat flux of each of these, then the energies of UMATHT. The two
+!> parts interact through thermal expansion, the heat terms of UMAT and HETVAL (host_coupling) and the change of shape, which the
+!> tangent leaves out. The heat is that of host_conduction.
 module host_coupled
   use host_conduction, only: body_t, conduct, is_steady
   use host_context, only: initial_stresses

@@ -4,8 +4,8 @@
 !> and the derivatives DRPLDT, DRPLDE, DDSDDT and FLUX(2) for the tangent (User Subroutines Guide, UMAT, HETVAL).
 !>
 !> The temperature of a point is that between the corners, in elements with middle nodes too (Analysis User's Guide,
-!> Coupled temperature-displacement elements). The manual leaves open whether elements with straight edges take the mean of
-!> the corners instead, as it says of their thermal strain: here every point has its own.
+!> Coupled temperature-displacement elements). Thermal strain is that of the mean of the corners in elements with straight edges,
+!> as the manual says; it leaves open whether UMAT is given this mean too: here every point has its own temperature.
 module host_coupling
   use host_context, only: current
   use host_kinds, only: dp
@@ -13,7 +13,7 @@ module host_coupling
   use host_shape, only: rule_t
   implicit none (type, external)
   private
-  public :: coupling_t, interpolate_fields, set_temperature, add_heat_source
+  public :: coupling_t, interpolate_fields, find_shape, set_temperature, add_heat_source, add_thermal_strain
 
   !> Corners of an element: their temperatures, and their part of its equations. The arrays belong to the caller.
   type :: coupling_t
@@ -24,7 +24,7 @@ module host_coupling
     real(dp), pointer :: tangent(:, :) => null()
     !> Points of the integrals over temperatures, of the shape and of the temperatures.
     type(rule_t), pointer :: geometry => null(), field => null()
-    real(dp) :: shape(8) = 0                        !< of the temperatures, in the point of set_temperature
+    real(dp) :: shape(8) = 0                        !< of the temperatures, in the point of find_shape
   end type coupling_t
 
 contains
@@ -43,9 +43,8 @@ contains
     end do
   end subroutine interpolate_fields
 
-  !> Give UMAT the temperature of a point, at the start of the increment and its change. The only point of an element stands
-  !> for all of it, and has the mean.
-  subroutine set_temperature(coupling, direct, points, point, x)
+  !> Find the shape of the temperatures in a point. The only point of an element stands for all of it, and has the mean.
+  subroutine find_shape(coupling, direct, points, point, x)
     type(coupling_t), intent(inout) :: coupling
     integer, intent(in) :: direct, points, point   !< points: of the stresses
     real(dp), intent(in) :: x(:, :)             !< (dimension, nodes) of the present shape
@@ -64,9 +63,37 @@ contains
       end do
       coupling%shape = coupling%shape/total
     end if
+  end subroutine find_shape
+
+  !> Give UMAT the temperature of a point, at the start of the increment and its change.
+  subroutine set_temperature(coupling)
+    type(coupling_t), intent(in) :: coupling
+    integer :: corners
+    corners = size(coupling%temperature)
     current%fields(1, 2) = dot_product(coupling%increment, coupling%shape(:corners))
     current%fields(1, 1) = dot_product(coupling%temperature, coupling%shape(:corners)) - current%fields(1, 2)
   end subroutine set_temperature
+
+  !> Add what thermal strain does to the tangent: the mechanical strain of a point falls by `rate` with its temperature, in which
+  !> the corners have these shares.
+  subroutine add_thermal_strain(coupling, volume, b, stress_by_temperature, rate, shares)
+    type(coupling_t), intent(inout) :: coupling
+    real(dp), intent(in) :: volume
+    real(dp), intent(in) :: b(:, :)           !< (displacements, strains)
+    real(dp), intent(in) :: stress_by_temperature(:), shares(:)
+    real(dp), intent(in) :: rate(:)           !< of all strains of UMAT
+    real(dp) :: force(size(b, 1)), source
+    integer :: j, n
+    n = size(b, 1)
+    force = matmul(b, stress_by_temperature)
+    source = dot_product(current%heat%source_by_strain(:size(rate)), rate)
+    associate (shape => coupling%shape(:size(shares)), k => coupling%tangent)
+      do j = 1, size(shares)
+        k(:n, n + j) = k(:n, n + j) + volume*shares(j)*force
+        k(n + 1:, n + j) = k(n + 1:, n + j) + volume*shares(j)*source*shape
+      end do
+    end associate
+  end subroutine add_thermal_strain
 
   !> Add the heat source of a point, as UMAT and HETVAL left it.
   subroutine add_heat_source(coupling, volume, b, component)

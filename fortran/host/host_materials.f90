@@ -19,6 +19,7 @@ module host_materials
   use host_mises, only: mises_plane_stress, mises_solid
   use host_prony, only: prony_solid, prony_t, prony_values
   use host_protect, only: escape
+  use host_expansion, only: expansion_t
   use host_thermal, only: thermal_t
   use host_thickness, only: free_thickness, reduced_stress, reduced_tangent, solid_strain, thickness_search
   use host_uhard, only: user_hardening_t, user_solid
@@ -55,7 +56,7 @@ module host_materials
     type(user_hardening_t), allocatable :: hardening   !< of UHARD
     real(dp) :: young = 0, poisson = 0             !< of a material with plasticity, viscoelasticity or creep, which is isotropic
     logical :: prestressed = .false.               !< it has a history for initial stresses
-    real(dp) :: expansion = 0                      !< thermal strain per change of temperature
+    type(expansion_t), allocatable :: expansion    !< in global directions, or in those of each point if it is local
     type(hyperelastic_t), allocatable :: hyperelastic   !< then nothing above counts but ntens, axes and local
     type(user_material_t), allocatable :: user     !< of UMAT; then nothing above counts but ntens
     integer :: variables = 0                       !< field variables, at least

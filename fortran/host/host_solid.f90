@@ -40,7 +40,8 @@ module host_solid
   use core_strains, only: condense
   use host_axes, only: carry_axes, turn_heat, turn_matrix, values_of_axes
   use host_context, only: added_stress, current, heat_t, initial_stresses, stress_matrix
-  use host_coupling, only: add_heat_source, coupling_t, interpolate_fields, set_temperature
+  use host_coupling, only: add_heat_source, add_thermal_strain, coupling_t, find_shape, interpolate_fields, set_temperature
+  use host_expansion, only: expansion_t, free_strain, free_strain_rate
   use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point, add_stress_matrix
   use host_gradients, only: all_gradients, carry, find_deformation, gradient_of, gradients_of_points
   use host_hybrid, only: add_compatibility, begin_pressure, begin_smoothing, keep_point, mean_stress, mean_stress_added, &
@@ -342,8 +343,8 @@ contains
     real(dp) :: by_unknowns(rule%dim*rule%nodes + others, strains)
     real(dp) :: first_tangent(strains, strains)    !< of all points
     real(dp) :: now(rule%dim, rule%nodes), g_start(rule%nodes, direct), volume_start, deformation(3, 3, 2, rule%points)
-    real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(2), weight, elastic, work
-    real(dp) :: now_axes(3, 3), middle(3, 3)
+    real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(6, 2), weight, elastic, work
+    real(dp) :: now_axes(3, 3), middle(3, 3), rate(6), by_temperature(strains)
     real(dp) :: weights(rule%points)
     logical :: averaged, begins, of_stress, smoothed
     real(dp) :: unit(material%ntens)    !< stress
@@ -421,10 +422,11 @@ contains
         current%layer = layers(3, p)
         current%kspt = layers(4, p)
       end if
+      if (present(coupling)) call find_shape(coupling, direct, rule%points, p, now)
       if (has_fields(here)) then
         current%place = point_position(rule, p, now)
         call interpolate_fields(rule, p, fields, predef, here%variables)
-        if (present(coupling)) call set_temperature(coupling, direct, rule%points, p, now)
+        if (present(coupling)) call set_temperature(coupling)
       end if
       if (allocated(here%user_field) .and. .not. begins) then
         now_axes = here%axes
@@ -433,7 +435,10 @@ contains
       end if
       if (allocated(here%dependence)) call set_constants(here, p)
       thermal = 0
-      if (abs(here%expansion) > 0) thermal = thermal_strain(rule, p, fields, here%expansion, predef)
+      rate = 0
+      if (allocated(here%expansion)) then
+        thermal = thermal_strain(rule, p, fields, here%expansion, predef, present(by_modes), coupling, rate)
+      end if
       if (finite) then
         current%rotation = rotation_of(gradient_of(dim, direct, nodes, du, g_mid(:, :, p)))
         call find_strain(n, strains, b_mid(:, :, p), du, strain)
@@ -467,17 +472,27 @@ contains
         work = elastic
       else
         if (present(axes)) call turn_strain(dim, strains, middle, strain)
-        call point_update(dim, strains, here, int(p, i4), weight, finite, strain, thermal, svars(:, p), stress, modulus, &
-                          elastic, work, of_point)
+        call point_update(dim, strains, here, int(p, i4), weight, finite, strain, thermal, rate, svars(:, p), stress, modulus, &
+                          by_temperature, elastic, work, of_point)
         if (present(moduli)) first_tangent = first_tangent + volume(p)*modulus
         if (present(axes)) of_point(3:) = matmul(of_point(3:), turn_matrix(strains, axes(:, :, 2, p)))
         if (present(axes)) call turn_response(here, strains, axes(:, :, 2, p), stress, modulus)
       end if
       if (finite .and. here%ntens == 3) weight = weight*exp(svars(3, p))
-      if (present(coupling) .and. generates_heat(here) .and. .not. begins) then
+      if (present(coupling) .and. .not. begins) then
         if (.not. allocated(here%user)) current%heat = heat_t()
-        if (allocated(here%thermal%source)) call call_hetval(here%thermal%source, int(p, i4))
-        call add_heat_source(coupling, weight, b(:, :, p), components(strains, here%ntens))
+        if (generates_heat(here)) then
+          if (allocated(here%thermal%source)) call call_hetval(here%thermal%source, int(p, i4))
+          call add_heat_source(coupling, weight, b(:, :, p), components(strains, here%ntens))
+        end if
+        if (allocated(here%expansion)) then
+          if (present(axes)) then
+            rate = rotated(6, rate, transpose(axes(:, :, 2, p)), 2.0_dp)
+            by_temperature = rotated(strains, by_temperature, transpose(axes(:, :, 2, p)), 1.0_dp)
+          end if
+          call add_thermal_strain(coupling, weight, b(:, :, p), by_temperature, rate(components(here%ntens, 6)), &
+                                  shares(rule, p, .false., coupling))
+        end if
       end if
       by_unknowns(:n, :) = b(:, :, p)
       if (present(by_modes)) by_unknowns(n + 1:, :) = by_modes(:, :, p)
@@ -654,16 +669,47 @@ contains
     if (is_quadratic(rule)) length = length/2
   end function size_of
 
-  !> Thermal strain at the start and at the end of the increment.
-  pure function thermal_strain(rule, point, fields, expansion, predef) result(strain)
+  !> Thermal strain at the start and at the end of the increment, and its derivative by the temperature there.
+  function thermal_strain(rule, point, fields, expansion, predef, with_modes, coupling, rate) result(strain)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: point, fields
-    real(dp), intent(in) :: expansion, predef(2, fields, rule%nodes)
-    real(dp) :: strain(2), change(rule%nodes)
-    change = predef(1, 1, :) - predef(1, fields, :)
-    strain(2) = expansion*dot_product(change, rule%n(:, point))
-    strain(1) = strain(2) - expansion*dot_product(predef(2, 1, :), rule%n(:, point))
+    type(expansion_t), intent(in) :: expansion
+    real(dp), intent(in) :: predef(2, fields, rule%nodes)
+    logical, intent(in) :: with_modes
+    type(coupling_t), intent(in), optional :: coupling
+    real(dp), intent(out) :: rate(6)
+    real(dp) :: strain(6, 2), initial, last, before
+    associate (share => shares(rule, point, with_modes, coupling))
+      initial = dot_product(predef(1, fields, :size(share)), share)
+      if (present(coupling)) then
+        last = dot_product(coupling%temperature, share)
+        before = last - dot_product(coupling%increment, share)
+      else
+        last = dot_product(predef(1, 1, :), share)
+        before = last - dot_product(predef(2, 1, :), share)
+      end if
+    end associate
+    strain(:, 1) = free_strain(expansion, before, initial)
+    strain(:, 2) = free_strain(expansion, last, initial)
+    rate = free_strain_rate(expansion, last)
   end function thermal_strain
+
+  !> Shares of the temperatures of nodes, or of corners with a coupling, in that of thermal strain: the mean in elements with
+  !> straight edges without incompatible modes, so that this strain, too, is about constant in them; else those of interpolation.
+  function shares(rule, point, with_modes, coupling)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: point
+    logical, intent(in) :: with_modes
+    type(coupling_t), intent(in), optional :: coupling
+    real(dp), allocatable :: shares(:)
+    if (.not. (is_quadratic(rule) .or. with_modes)) then
+      allocate (shares(rule%nodes), source=1.0_dp/rule%nodes)
+    else if (present(coupling)) then
+      shares = coupling%shape(:size(coupling%temperature))
+    else
+      shares = rule%n(:, point)
+    end if
+  end function shares
 
   pure subroutine find_strain(n, m, b, u, strain)
     integer, intent(in) :: n, m
@@ -703,23 +749,24 @@ contains
   end subroutine turn_response
 
   !> Stress and tangent of a point (11, 22, 12 in the plane); its state and its part of the energies. strain is the total
-  !> one in small displacements, that of the increment in large ones; thermal: at the start and end of the increment. All is in
-  !> global directions, or in those of the point if the material is (local).
-  subroutine point_update(dim, m, material, point, volume, finite, strain, thermal, state, stress, modulus, elastic, work, &
-                          of_point)
+  !> one in small displacements, that of the increment in large ones; thermal: at the start and end of the increment, and rate
+  !> its derivative there. All is in global directions, or in those of the point if the material is (local).
+  subroutine point_update(dim, m, material, point, volume, finite, strain, thermal, rate, state, stress, modulus, &
+                          by_temperature, elastic, work, of_point)
     integer, intent(in) :: dim, m     !< m: number of strains
     type(material_t), intent(in) :: material
     integer(i4), intent(in) :: point
     logical, intent(in) :: finite
-    real(dp), intent(in) :: volume, strain(m), thermal(2)
+    real(dp), intent(in) :: volume, strain(m), thermal(6, 2), rate(6)
     real(dp), intent(inout) :: state(values_of_point(dim)), elastic, work
     real(dp), intent(out) :: stress(m), modulus(m, m)
+    real(dp), intent(out) :: by_temperature(m)   !< derivative of the stress, by thermal strain
     !> Mean stress, its elastic volume strain, and derivatives of the mean stress by the strains.
     real(dp), intent(out) :: of_point(m + 2)
     integer :: j, k, n, of_material(m), of_state(m), direct
     real(dp) :: total(material%ntens), t(material%ntens), tangent(material%ntens, material%ntens)
     real(dp) :: e_old(values_of_point(dim)/2), t_old(values_of_point(dim)/2), e_new(values_of_point(dim)/2), &
-                t_new(values_of_point(dim)/2)
+                t_new(values_of_point(dim)/2), free(values_of_point(dim)/2)
     logical :: valid
     n = values_of_point(dim)/2
     of_state = components(m, 2*dim)
@@ -736,9 +783,9 @@ contains
       if (finite) total(of_material(k)) = e_old(of_state(k)) + strain(k)
     end do
     direct = merge(2, 3, material%ntens == 3)
-    if (abs(material%expansion) > 0) total(:direct) = total(:direct) - thermal(2)
+    if (allocated(material%expansion)) total = total - thermal(components(material%ntens, 6), 2)
     call stress_update(material, point, total, t, tangent, valid)
-    if (abs(material%expansion) > 0) total(:direct) = total(:direct) + thermal(2)
+    if (allocated(material%expansion)) total = total + thermal(components(material%ntens, 6), 2)
     e_new = 0
     t_new = 0
     do k = 1, m
@@ -749,9 +796,13 @@ contains
         modulus(j, k) = tangent(of_material(j), of_material(k))
       end do
     end do
+    by_temperature = 0
+    if (allocated(material%expansion)) then
+      by_temperature = -matmul(tangent(of_material, :), rate(components(material%ntens, 6)))
+    end if
     of_point = [sum(t(:direct))/3, elastic_volume(material, t), sum(tangent(:direct, of_material), 1)/3]
     elastic = elastic + volume*elastic_energy(material, point, t)
-    if (material%ntens == 3) e_new(3) = thickness_strain(material, point, t) + thermal(2)
+    if (material%ntens == 3) e_new(3) = thickness_strain(material, point, t) + thermal(3, 2)
     if (material%ntens == 4) t_new(3) = t(3)
     if (material%turned) then
       e_new = rotated(n, e_new, material%axes, 2.0_dp)
@@ -759,7 +810,11 @@ contains
     end if
     ! trapezoidal rule, exact where the response is linear
     work = work + volume*0.5_dp*dot_product(t_new + t_old, e_new - e_old)
-    if (abs(material%expansion) > 0) work = work - volume*0.5_dp*sum(t_new(:3) + t_old(:3))*(thermal(2) - thermal(1))
+    if (allocated(material%expansion)) then
+      free = thermal(:n, 2) - thermal(:n, 1)
+      if (material%turned) free = rotated(n, free, material%axes, 2.0_dp)
+      work = work - volume*0.5_dp*dot_product(t_new + t_old, free)
+    end if
     state(:n) = e_new
     state(n + 1:) = t_new
   end subroutine point_update

@@ -58,14 +58,12 @@ def _read_latent_heat(block: Block) -> FloatArray:
     return np.array(table)
 
 
-ISOTROPIC = one_of("TYPE", "symmetry", ("ISO",), refused=("ORTHO", "ANISO"))
-
 KEYWORDS = (
     Keyword(
         "CONDUCTIVITY",
         "Thermal conductivity.",
         Where.MODEL,
-        (ISOTROPIC, *refused("DEPENDENCIES", "PORE FLUID")),
+        (one_of("TYPE", "symmetry", ("ISO",), refused=("ORTHO", "ANISO")), *refused("DEPENDENCIES", "PORE FLUID")),
         "conductivity, temperature; linear in between",
     ),
     Keyword("HEAT GENERATION", "HETVAL gives the heat that the material generates.", Where.MODEL),

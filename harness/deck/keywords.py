@@ -14,6 +14,7 @@ from harness.deck import (
     controls,
     damage,
     distributed,
+    expansion,
     generation,
     groups,
     heat,
@@ -53,6 +54,7 @@ _FILES = (
     *(contact, interactions),
     *(
         materials,
+        expansion,
         plastic,
         viscous,
         hyperelastic,

@@ -13,8 +13,10 @@ from harness.deck.blocks import PER_LINE, Block, Row
 from harness.deck.damage import KEYWORDS as DAMAGE_OPTIONS
 from harness.deck.damage import extend_damage
 from harness.deck.error_report import Problems
-from harness.deck.heat import ISOTROPIC, extend_heat
+from harness.deck.expansion import KEYWORDS as EXPANSION_OPTIONS
+from harness.deck.expansion import read_expansion
 from harness.deck.heat import KEYWORDS as HEAT_OPTIONS
+from harness.deck.heat import extend_heat
 from harness.deck.hyperelastic import KEYWORDS as HYPERELASTIC_OPTIONS
 from harness.deck.hyperelastic import read_hyperelastic
 from harness.deck.piezoelectric import KEYWORDS as PIEZO_OPTIONS
@@ -78,7 +80,7 @@ def _extend(material: Material, block: Block, problems: Problems) -> Material:
         case "PIEZOELECTRIC" | "DIELECTRIC":
             extended = extend_electrical(material, block)
         case "EXPANSION":
-            extended = replace(material, expansion=_read_constant(block, "expansion coefficient", positive=False))
+            extended = replace(material, expansion=read_expansion(block))
         case _:
             extended = replace(material, damage=extend_damage(material.damage, block))
     return extended
@@ -92,13 +94,13 @@ def _extend_counts(material: Material, block: Block) -> Material:
     return replace(material, output_variables=count)
 
 
-def _read_constant(block: Block, what: str, *, positive: bool = True) -> float:
-    """The one number of a material option."""
+def _read_constant(block: Block, what: str) -> float:
+    """The one positive number of a material option."""
     rows = list(block.rows())
     if len(rows) != 1 or len(rows[0]) != 1:
         raise block.error(f"needs one data line with the {what}; a temperature is not supported")
     value = rows[0].real(0, what)
-    if positive and value <= 0:
+    if value <= 0:
         raise rows[0].error(f"{what} {value:g} must be positive")
     return value
 
@@ -235,17 +237,10 @@ _OPTIONS = (
         data="number of variables",
     ),
     Keyword("DENSITY", "Mass density.", Where.MODEL, refused("DEPENDENCIES", "PORE FLUID"), "density"),
-    Keyword(
-        "EXPANSION",
-        "Thermal expansion from the initial temperature on (*INITIAL CONDITIONS, *TEMPERATURE), of continuum elements "
-        "without temperatures of their own.",
-        Where.MODEL,
-        (ISOTROPIC, *refused("DEPENDENCIES", "FIELD", "PORE FLUID", "USER", "ZERO")),
-        "expansion coefficient",
-    ),
 )
-_OTHERS = (*PLASTIC_OPTIONS, *VISCOUS_OPTIONS, *HYPERELASTIC_OPTIONS, *DAMAGE_OPTIONS, *HEAT_OPTIONS, *PIEZO_OPTIONS)
-MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *_OTHERS)}
+_OTHERS = (*PLASTIC_OPTIONS, *VISCOUS_OPTIONS, *HYPERELASTIC_OPTIONS, *DAMAGE_OPTIONS)
+_FIELDS = (*EXPANSION_OPTIONS, *HEAT_OPTIONS, *PIEZO_OPTIONS)
+MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *_OTHERS, *_FIELDS)}
 
 KEYWORDS = (
     Keyword(

@@ -421,11 +421,16 @@ class ElementBlock:
 
         That of built-in elements ends with the initial temperature.
         """
+        initial = self._routine.initial_temperatures
         if predefined is None:
-            return self._no_fields
+            if initial is None:
+                return self._no_fields
+            none = np.zeros((1, len(initial)))
+            predefined = Predefined(none, none, initial)
         end, increment = predefined.end, predefined.increment
         if self.group.definition is None:
-            end, increment = np.vstack([end, predefined.initial]), np.vstack([increment, np.zeros_like(increment[0])])
+            initial = predefined.initial if initial is None else initial
+            end, increment = np.vstack([end, initial]), np.vstack([increment, np.zeros_like(increment[0])])
         values = np.stack([end, increment], axis=-1)[:, self.group.nodes]
         return np.ascontiguousarray(values.transpose(1, 2, 0, 3))
 

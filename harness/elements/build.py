@@ -54,6 +54,7 @@ from harness.model.properties import (
     BeamSection,
     CohesiveSection,
     CompositeSection,
+    Material,
     ShellSection,
     SolidSection,
     UserElement,
@@ -146,7 +147,7 @@ def _block_of(
     model: Model, group: ElementGroup, library: Library, *, strict: bool, zeros: bool, linear: Collection[str]
 ) -> ElementBlock:
     kind = group.built_in
-    expands = isinstance(kind, HeatType) or (isinstance(kind, ContinuumType) and not kind.coupled)
+    expands = isinstance(kind, HeatType | ContinuumType)
     material = next((material for material in materials_of(group.section) if material.expansion), None)
     if material is not None and not expands:
         message = f"*EXPANSION (material {material.name}) is not supported for elements of type {group.type}"
@@ -279,14 +280,18 @@ def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library
         routine,
         library,
         # Abaqus stores the matrix of coupled steps as unsymmetric, UNSYMM or not (Analysis User's Guide, Fully coupled
-        # thermal-stress analysis), as the heat terms of UMAT need
-        unsymmetric=has_unsymmetric_tangent(section.material)
-        or (coupled and (section.material.user is not None or is_unsymmetric(section.material))),
+        # thermal-stress analysis), as thermal expansion and the heat terms of UMAT need
+        unsymmetric=has_unsymmetric_tangent(section.material) or (coupled and _interacts(section.material)),
         variables=piezoelectric_variables(group) if kind.electrical else solid_variables(group, routine),
     )
     if routine.axes is not None:
         block.begin_axes(start_axes(model, group, kind, routine.axes.orientation, library))
     return block
+
+
+def _interacts(material: Material) -> bool:
+    """Whether temperatures change stresses, or the heat flux depends on them."""
+    return material.user is not None or material.expansion is not None or is_unsymmetric(material)
 
 
 def _heat_block(model: Model, group: ElementGroup, kind: HeatType, library: Library) -> ElementBlock:

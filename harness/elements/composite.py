@@ -17,6 +17,7 @@ import numpy as np
 from harness.elements.directions import first_element, is_user, undefined
 from harness.elements.load_vectors import check_density
 from harness.elements.materials import (
+    define_expansion,
     define_fields,
     define_material,
     history_values,
@@ -240,8 +241,7 @@ def _define(kind: ContinuumType, section: CompositeSection, layer: SolidLayer, l
     name = layer.orientation.name if layer.orientation else ""
     define_fields(number, material, (np.eye(3), name), kind.tensor, library, room=room)
     _binding.set_local(number)
-    if material.expansion:
-        _binding.set_expansion(number, material.expansion)
+    define_expansion(number, material, None)
     return number
 
 

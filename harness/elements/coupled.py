@@ -15,6 +15,7 @@ from harness.elements.materials import define_thermal, refuse_fields, refuse_hyp
 from harness.elements.routine import Routine
 from harness.elements.solid import check_radii, history_of, numbered, section_depth, solid_of, solid_routine
 from harness.errors import DeckError
+from harness.model.arrays import FloatArray
 from harness.model.element_types import HeatType
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
@@ -45,7 +46,17 @@ def coupled_routine(model: Model, group: ElementGroup, section: SolidSection, li
         svars=solid.svars + hidden,
         hidden=solid.hidden + hidden,
         jprops=np.concatenate([solid.jprops, [kind.thermal_points, kind.family.linear.number]]),
+        initial_temperatures=_initial_temperatures(model) if material.expansion else None,
     )
+
+
+def _initial_temperatures(model: Model) -> FloatArray:
+    """Of all nodes (nodes,), zero where none is given."""
+    temperatures = np.zeros(len(model.mesh.labels))
+    for entry in model.initial_temperatures:
+        if entry.dof == 11:
+            temperatures[entry.nodes] = entry.value
+    return temperatures
 
 
 def _warn_of_reduced(model: Model, group: ElementGroup, library: Library) -> None:

@@ -473,6 +473,19 @@ def _anisotropic(c: tuple[float, ...]) -> FloatArray:
     return d
 
 
+def define_expansion(number: int, material: Material, orientation: Orientation | None) -> None:
+    """Give a material of the host its thermal expansion, if it has any.
+
+    orientation: its directions; None if the material of the host is in them.
+    """
+    if material.expansion is None:
+        return
+    table = material.expansion.table.copy()
+    # strains go with the stresses that do work on them
+    table[:, 1:] = table[:, 1:] @ _turn(directions(orientation)[0])
+    _binding.set_expansion(number, table, material.expansion.zero)
+
+
 def _rotated(compliance: FloatArray, axes: FloatArray) -> FloatArray:
     """Compliance in global axes. Local stress = T global stress, so S_global = T^T S_local T."""
     t = _turn(axes)

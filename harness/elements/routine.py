@@ -56,6 +56,8 @@ class Routine:
     axes      the directions of the points, if the material is in them, None if it is not
     turns     whether the elements have an initial stress matrix; stresses of others do not turn with them
     forceless whether they have no forces, not even zeros that would count in average forces
+    initial_temperatures  (nodes of the model,) from which elements with temperatures expand; None: those of the
+              predefined fields
     stress    places of the stress components of a point among its SVARS, in Abaqus' order; the last one is S12 or
               S23; none: the elements take no initial stress
     """
@@ -84,6 +86,7 @@ class Routine:
     stress: tuple[int, ...] = ()
     turns: bool = False
     forceless: bool = False
+    initial_temperatures: FloatArray | None = None
 
     def stress_of(self, svars: FloatArray) -> tuple[FloatArray, IntArray]:
         """SVARS of elements (m, svars) by their points (m, points, values), a view, and the places of the stress there.

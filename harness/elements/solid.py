@@ -13,6 +13,7 @@ from harness.elements.directions import first_element
 from harness.elements.hybrid import check_hybrid, pressure_unknowns
 from harness.elements.materials import (
     VISCOUS_CHANGE,
+    define_expansion,
     define_fields,
     define_material,
     directions,
@@ -88,8 +89,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     define_fields(number, material, directions(orientation), kind.tensor, library)
     if local is not None:
         _binding.set_local(number)
-    if material.expansion:
-        _binding.set_expansion(number, material.expansion)
+    define_expansion(number, material, orientation)
     enhanced = _enhanced_moduli(kind, section)
     pressures = pressure_unknowns(kind, material)
     unknowns = kind.dimension * kind.nodes + pressures

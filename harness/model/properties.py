@@ -239,6 +239,19 @@ class Piezoelectric:
 
 
 @dataclass(frozen=True, slots=True)
+class Expansion:
+    """*EXPANSION.
+
+    table  (k, 7) temperature, ascending, and coefficients of 11, 22, 33, 12, 13, 23, the latter of engineering strains
+    zero   temperature without thermal strain, which counts where coefficients depend on it
+    """
+
+    table: FloatArray
+    zero: float
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
 class Material:
     """*MATERIAL; state_variables is *DEPVAR, output_variables *USER OUTPUT VARIABLES.
 
@@ -264,7 +277,7 @@ class Material:
     specific_heat: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
     latent_heat: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
     heat_generation: Source | None = None
-    expansion: float = 0.0
+    expansion: Expansion | None = None
     user: UserMaterial | None = None
     user_thermal: UserMaterial | None = None
     user_field: Source | None = None

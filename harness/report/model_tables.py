@@ -224,9 +224,17 @@ def _material_rows(material: Material) -> Iterator[Row]:
             (f"constant {k}", f"{value:g}", "*USER MATERIAL")
             for k, value in enumerate(material.user.constants.tolist(), 1)
         )
-    for name, value in (("density", material.density), ("expansion", material.expansion)):
-        if value:
-            yield name, f"{value:g}", ""
+    if material.density:
+        yield "density", f"{material.density:g}", ""
+    yield from _thermal_rows(material)
+
+
+def _thermal_rows(material: Material) -> Iterator[Row]:
+    if material.expansion is not None:
+        table = material.expansion.table
+        for temperature, *values in table.tolist():
+            place = f"at temperature {temperature:g}" if len(table) > 1 else ""
+            yield "expansion", ", ".join(f"{value:g}" for value in values if value), place
     for name, table in (("conductivity", material.conductivity), ("specific heat", material.specific_heat)):
         for value, temperature in table.tolist():
             yield name, f"{value:g}", f"at temperature {temperature:g}" if len(table) > 1 else ""

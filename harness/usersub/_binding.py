@@ -327,9 +327,9 @@ def set_user_invariants(number: int, uanisohyper: int, name: str, statev: int, c
     _host.host_set_user_invariants(number, uanisohyper, name, statev, np.append(constants, 0.0), len(constants))
 
 
-def set_expansion(number: int, expansion: float) -> None:
-    """Give a material of the host's library thermal expansion, strain per change of temperature."""
-    _host.host_set_expansion(number, expansion)
+def set_expansion(number: int, table: FloatArray, zero: float) -> None:
+    """Give a material of the host's library thermal expansion; table (k, 7) as that of `Expansion`."""
+    _host.host_set_expansion(number, table.T, zero)
 
 
 def compliance(constants: Sequence[float]) -> FloatArray:

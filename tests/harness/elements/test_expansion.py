@@ -112,20 +112,104 @@ def test_umat_gets_temperature_field_and_mechanical_strain(run):
     assert statev is not None
 
 
+def coupled(element_type, held, more="", **options):
+    """The same with temperatures as unknowns, all of them prescribed."""
+    text = deck(element_type, held, temperature="*BOUNDARY\nALL, 11, 11, 70.", **options)
+    text = text.replace("*STATIC", "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE")
+    return text.replace("*EXPANSION", f"*CONDUCTIVITY\n3.\n{more}*EXPANSION")
+
+
+@pytest.mark.parametrize("options", ["", ", NLGEOM"])
+@pytest.mark.parametrize("element_type", ["C3D8", "CPS4", "CPE4", "CAX4", "CPS4R"])
+def test_elements_with_temperatures_expand_alike(run, element_type, options):
+    """Displacements and stresses of elements without them, which are given the same temperatures."""
+    held = FREE[element_type]
+    plain = run(deck(element_type, held, options=options)).history
+    warm = run(coupled(element_type + "T", held, options=options)).history
+    for name, values in plain.items():
+        if name.startswith(("U", "RF")) and "11[" not in name:
+            np.testing.assert_allclose(warm[name], values, rtol=1e-9, atol=1e-8, err_msg=name)
+
+
+LAMINA = "*ELASTIC, TYPE=LAMINA\n1000., 100., 0.3, 50., 50., 40."
+ANGLE = 30.0
+ORIENTED = "*ORIENTATION, NAME=O\n{0}, {1}, 0., {2}, {0}, 0.\n3, 0.".format(
+    *(f"{value:.17g}" for value in (np.cos(np.radians(ANGLE)), np.sin(np.radians(ANGLE)), -np.sin(np.radians(ANGLE))))
+)
+STRAINS = {"ORTHO": (1e-5, 4e-5, 7e-5), "ANISO": (1e-5, 4e-5, 7e-5, 3e-5, 0.0, 0.0)}
+
+
+@pytest.mark.parametrize("kind", STRAINS)
 @pytest.mark.parametrize(
-    ("text", "message"),
+    ("element_type", "warm", "options"),
+    [("CPS4", deck, ""), ("CPS4", deck, ", NLGEOM"), ("CPS4T", coupled, ""), ("CPS4T", coupled, ", NLGEOM")],
+)
+def test_a_free_ply_expands_along_its_directions(run, kind, element_type, warm, options):
+    """Strains are those of the table, turned by 30 degrees; there is no stress."""
+    text = warm(element_type, FREE["CPS4"], material=LAMINA, options=options)
+    text = text.replace(f"*EXPANSION\n{ALPHA}", f"*EXPANSION, TYPE={kind}\n{', '.join(map(str, STRAINS[kind]))}")
+    text = text.replace("MATERIAL=M", "MATERIAL=M, ORIENTATION=O").replace(
+        "*SOLID SECTION", f"{ORIENTED}\n*SOLID SECTION"
+    )
+    history = run(text).history
+    a1, a2, _, a12 = (*STRAINS[kind], 0.0)[:4]
+    c, s = np.cos(np.radians(ANGLE)), np.sin(np.radians(ANGLE))
+    axes = np.array([[c, s], [-s, c]])
+    strain = WARMER * axes.T @ np.array([[a1, a12 / 2], [a12 / 2, a2]]) @ axes
+    # held at node 1, and node 2 along y: the strain, and a rotation that keeps the side between them on the x axis
+    gradient = strain + strain[0, 1] * np.array([[0, 1], [-1, 0]])
+    moved = np.array([nodal(history, f"U{dof}", 4) for dof in (1, 2)]).T
+    np.testing.assert_allclose(
+        moved, CUBE[:4, :2] @ gradient.T, rtol=1e-2 if options else 1e-10, atol=1e-6 * ALPHA * WARMER
+    )
+    np.testing.assert_allclose(nodal(history, "RF1", 4), 0.0, atol=1e-9)
+
+
+def test_coefficients_by_temperature(run):
+    """a(T) (T - zero) - a(T0) (T0 - zero) of the Analysis User's Guide; a is linear between 0 and 100."""
+    table = "*EXPANSION, ZERO=-10.\n1e-5, 0.\n3e-5, 100."
+    for text in (deck("CPS4", FREE["CPS4"]), coupled("CPS4T", FREE["CPS4"])):
+        moved = nodal(run(text.replace(f"*EXPANSION\n{ALPHA}", table)).history, "U1", 4)
+        strain = 2.4e-5 * 80.0 - 1.4e-5 * 30.0
+        np.testing.assert_allclose(moved, strain * CUBE[:4, 0], rtol=1e-9, atol=1e-15)
+
+
+@pytest.mark.parametrize(("element_type", "even"), [("CPS4", True), ("CPS4T", True), ("CPS4I", False)])
+def test_thermal_strain_of_the_mean_in_elements_with_straight_edges(run, element_type, even):
+    """A held square that is warmer at x = 1: the stress of the mean of its nodes pushes alike at x = 0 and 1."""
+    lines = body_lines(element_type, np.array([[0, 0], [1, 0], [1, 1], [0, 1]]), [range(4)])
+    lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", "1.", "*MATERIAL, NAME=M", ELASTIC, "*CONDUCTIVITY", "3."]
+    lines += ["*EXPANSION", f"{ALPHA}", "*STEP"]
+    if element_type.endswith("T"):
+        lines += ["*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE", "1., 1.", "*BOUNDARY"]
+        lines += ["1, 11", "4, 11", "2, 11, 11, 100.", "3, 11, 11, 100."]
+    else:
+        lines += ["*STATIC", "1., 1.", "*TEMPERATURE", "2, 100.", "3, 100."]
+    lines += ["*BOUNDARY", "ALL, 1, 2", "*OUTPUT, HISTORY", "*NODE OUTPUT, NSET=ALL", "RF", "*END STEP"]
+    history = run("\n".join(lines) + "\n").history
+    along, across = (nodal(history, f"RF{dof}", 4) for dof in (1, 2))
+    stress = YOUNG * ALPHA * 50.0 / (1 - NU)
+    np.testing.assert_allclose(along, 0.5 * stress * np.array([1, -1, -1, 1]), rtol=1e-9)
+    expected = 0.5 * stress * np.array([1, 1, -1, -1])
+    if even:
+        np.testing.assert_allclose(across, expected, rtol=1e-9)
+    else:
+        assert np.abs(across - expected).max() > 0.1 * stress
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
     [
         (
-            deck("CPE4", "ALL, 1, 2").replace("TYPE=CPE4", "TYPE=CPE4T"),
-            r"warm.inp:\d+: \*EXPANSION \(material M\) is not supported for elements of type CPE4T",
+            "*EXPANSION\n1e-5, 20.\n2e-5, 20.",
+            r"warm.inp:\d+: \*EXPANSION: temperature 20 is not above that of the line before, 20",
         ),
-        (deck("CPE4", "ALL, 1, 2").replace("*EXPANSION", "*EXPANSION, ZERO=20."), "option ZERO is not supported"),
-        (
-            deck("CPE4", "ALL, 1, 2").replace(f"{ALPHA}", "1e-5, 20."),
-            "needs one data line with the expansion coefficient",
-        ),
+        ("*EXPANSION", "needs a data line with the expansion coefficients"),
+        ("*EXPANSION, TYPE=ORTHO\n1e-5, 2e-5", "expansion coefficient"),
+        ("*EXPANSION\n1e-5, 20., 3.", "expected at most 2"),
+        ("*EXPANSION, USER", "option USER is not supported"),
     ],
 )
-def test_what_is_wrong_is_named(run, text, message):
+def test_what_is_wrong_is_named(run, given, message):
     with pytest.raises(DeckError, match=message):
-        run(text)
+        run(deck("CPE4", "ALL, 1, 2").replace(f"*EXPANSION\n{ALPHA}", given))

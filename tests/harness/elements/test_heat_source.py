@@ -17,7 +17,7 @@ from harness.elements import Flags
 from harness.errors import Source
 from harness.model.element_types import CONTINUUM, COUPLED
 from harness.model.mesh import ElementGroup
-from harness.model.properties import Material, Orientation, SolidSection, UserMaterial
+from harness.model.properties import Expansion, Material, Orientation, SolidSection, UserMaterial
 
 HERE = Path(__file__).parent
 SOURCE = Source("test.inp", 1)
@@ -178,7 +178,7 @@ TANGENTS += ["C3D4T", "C3D6T", "C3D8T", "C3D10T", "C3D20RT"]
 @pytest.mark.parametrize("element_type", TANGENTS)
 @pytest.mark.parametrize(("lflag", "angle"), [(71, None), (72, None), (72, 30.0)])
 def test_tangent_is_the_derivative_of_the_residual(load, bound, call, element_type, lflag, angle):
-    """Of a distorted element that is strained and warm: central differences of what is quadratic are exact."""
+    """Of a distorted element that is strained, warm and expands: central differences of what is quadratic are exact."""
     kind = COUPLED[element_type]
     if kind.corners != 2**kind.dimension:
         nodes = unit_cell(kind.family.cell)[0]
@@ -189,7 +189,8 @@ def test_tangent_is_the_derivative_of_the_residual(load, bound, call, element_ty
     nodes = nodes + 0.05 * random.uniform(-1, 1, nodes.shape) + 0.1
     constants = np.array([1000.0, 0.3, 7.0, 2.0, 11.0, 3.0, 1.0, 1.0, 1.0])
     given = UserMaterial(constants, False, SOURCE)
-    material = Material("M", SOURCE, user=given, state_variables=2, density=2.0, **THERMAL)
+    expansion = Expansion(np.array([[0.0, 0.02, 0.03, 0.01, 0.02, 0.0, 0.0]]), 0.0, SOURCE)
+    material = Material("M", SOURCE, user=given, state_variables=2, density=2.0, expansion=expansion, **THERMAL)
     # UMAT in global directions, or in turned ones
     orientation = None if angle is None else Orientation("O", turn(np.radians(angle)).T, SOURCE)
     section = SolidSection("ALL", material, orientation, THICKNESS, SOURCE, hourglass=1.0)
