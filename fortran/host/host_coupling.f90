@@ -6,6 +6,8 @@
 !> The temperature of a point is that between the corners, in elements with middle nodes too (Analysis User's Guide,
 !> Coupled temperature-displacement elements). The manual leaves open whether elements with straight edges take the mean of
 !> the corners instead, as it says of their thermal strain: here every point has its own.
+!>
+!> And what temperatures that are given make at a point of any element: its temperature, and its thermal strain.
 module host_coupling
   use host_context, only: current
   use host_kinds, only: dp
@@ -13,7 +15,7 @@ module host_coupling
   use host_shape, only: rule_t
   implicit none (type, external)
   private
-  public :: coupling_t, interpolate_fields, set_temperature, add_heat_source
+  public :: coupling_t, interpolate_fields, set_temperature, add_heat_source, thermal_strain
 
   !> Corners of an element: their temperatures, and their part of its equations. The arrays belong to the caller.
   type :: coupling_t
@@ -42,6 +44,17 @@ contains
       current%fields(k, 1) = dot_product(predef(1, k, :), rule%n(:, point)) - current%fields(k, 2)
     end do
   end subroutine interpolate_fields
+
+  !> Thermal strain at the start and at the end of the increment.
+  pure function thermal_strain(rule, point, fields, expansion, predef) result(strain)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: point, fields
+    real(dp), intent(in) :: expansion, predef(2, fields, rule%nodes)
+    real(dp) :: strain(2), change(rule%nodes)
+    change = predef(1, 1, :) - predef(1, fields, :)
+    strain(2) = expansion*dot_product(change, rule%n(:, point))
+    strain(1) = strain(2) - expansion*dot_product(predef(2, 1, :), rule%n(:, point))
+  end function thermal_strain
 
   !> Give UMAT the temperature of a point, at the start of the increment and its change. The only point of an element stands
   !> for all of it, and has the mean.

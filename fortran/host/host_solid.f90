@@ -40,7 +40,7 @@ module host_solid
   use core_strains, only: condense
   use host_axes, only: carry_axes, turn_heat, turn_matrix, values_of_axes
   use host_context, only: added_stress, current, heat_t, initial_stresses, stress_matrix
-  use host_coupling, only: add_heat_source, coupling_t, interpolate_fields, set_temperature
+  use host_coupling, only: add_heat_source, coupling_t, interpolate_fields, set_temperature, thermal_strain
   use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point, add_stress_matrix
   use host_gradients, only: all_gradients, carry, find_deformation, gradient_of, gradients_of_points
   use host_hybrid, only: add_compatibility, begin_pressure, begin_smoothing, keep_point, mean_stress, mean_stress_added, &
@@ -653,17 +653,6 @@ contains
     length = sum([(volume(p)/radius_of(rule, p, direct > rule%dim, x), p=1, rule%points)])**(1.0_dp/rule%dim)
     if (is_quadratic(rule)) length = length/2
   end function size_of
-
-  !> Thermal strain at the start and at the end of the increment.
-  pure function thermal_strain(rule, point, fields, expansion, predef) result(strain)
-    type(rule_t), intent(in) :: rule
-    integer, intent(in) :: point, fields
-    real(dp), intent(in) :: expansion, predef(2, fields, rule%nodes)
-    real(dp) :: strain(2), change(rule%nodes)
-    change = predef(1, 1, :) - predef(1, fields, :)
-    strain(2) = expansion*dot_product(change, rule%n(:, point))
-    strain(1) = strain(2) - expansion*dot_product(predef(2, 1, :), rule%n(:, point))
-  end function thermal_strain
 
   pure subroutine find_strain(n, m, b, u, strain)
     integer, intent(in) :: n, m

@@ -195,8 +195,8 @@ _OPTIONS = (
             ),
             *refused("COMPRESSION FACTOR"),
         ),
-        "constants in the order of the type; those of continuum elements, trusses and shells may depend on temperature "
-        "and fields, which follow, eight values per line",
+        "constants in the order of the type; those of continuum elements, trusses, shells and beams may depend on "
+        "temperature and fields, which follow, eight values per line",
     ),
     Keyword(
         "USER MATERIAL",
@@ -225,7 +225,7 @@ _OPTIONS = (
     ),
     Keyword(
         "USER DEFINED FIELD",
-        "USDFLD gives the field variables of continuum elements, trusses and shells.",
+        "USDFLD gives the field variables of continuum elements, trusses, shells and beams.",
         Where.MODEL,
     ),
     Keyword(
@@ -238,7 +238,7 @@ _OPTIONS = (
     Keyword(
         "EXPANSION",
         "Thermal expansion from the initial temperature on (*INITIAL CONDITIONS, *TEMPERATURE), of continuum elements "
-        "without temperatures of their own.",
+        "without temperatures of their own, and of beams.",
         Where.MODEL,
         (ISOTROPIC, *refused("DEPENDENCIES", "FIELD", "PORE FLUID", "USER", "ZERO")),
         "expansion coefficient",

@@ -4,15 +4,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
+from harness.elements.beam_points import SectionPoints, section_points, section_tensor
 from harness.elements.beam_profiles import SHEAR_FACTORS, Profile, profile_of
+from harness.elements.materials import define_fields, define_material, directions, history_values, state_variables
 from harness.elements.routine import Linearity, Routine
+from harness.elements.solid import numbered
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray
-from harness.model.element_types import LINE2, BeamType
+from harness.model.element_types import LINE2, BeamType, Tensor
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import BeamSection
@@ -41,12 +45,17 @@ def beam_routine(model: Model, group: ElementGroup, kind: BeamType, section: Bea
     _check(model, group, kind, section, library)
     profile = profile_of(section, kind.dimension)
     dynamic = any(step.procedure.inertia for step in model.steps)
-    sections = len(profile.points)
-    states = kind.points * max(1, sections) * len(_names(profile, kind))
+    points = section_points(section, kind.dimension) if section.integrated else None
+    sections = len(profile.points) if points is None else len(points.area)
+    states = kind.points * max(1, sections) * len(_names(section, profile, kind))
     hidden = (2 * len(kind.dofs(0)) * kind.nodes if dynamic else 0) + 9 * (kind.points + _mass_points(kind))
     shear = section.shear or (SHEAR_FACTORS[section.profile] * section.shear_modulus * profile.area,) * 2
-    return Routine(
-        address=_binding.address_of("beam"),
+    stiffness = section_stiffness(section, profile, shear)
+    if points is not None:
+        by_points = [0, 3, 4, 5] if section_tensor(section, kind.dimension) is Tensor.TORSION else [0, 3, 4]
+        stiffness[np.ix_(by_points, by_points)] = 0.0
+    found = Routine(
+        address=_binding.address_of("beam" if points is None else "beam section"),
         jtype=kind.nodes,
         mcrd=kind.dimension,
         svars=states + hidden,
@@ -59,9 +68,9 @@ def beam_routine(model: Model, group: ElementGroup, kind: BeamType, section: Bea
                 *profile.centroid,
                 *profile.shear_centre,
                 section.young,
-                *section_stiffness(section, profile, shear).ravel(),
+                *stiffness.ravel(),
                 *section_mass(profile, isotropic=section.isotropic, plane=kind.dimension == 2).ravel(),
-                *(value for point in profile.points for value in point[1:]),
+                *_values_of_points(profile, points),
             ]
         ),
         jprops=np.array([kind.family.number, kind.points, sections, _mass_points(kind)]),
@@ -70,21 +79,67 @@ def beam_routine(model: Model, group: ElementGroup, kind: BeamType, section: Bea
         stores=True,
         free=tuple(range(1, kind.dimension + 1)),
     )
+    return found if points is None else _with_material(found, kind, section, sections, library)
 
 
-def beam_variables(section: BeamSection, kind: BeamType) -> PointVariables:
-    """Meaning of the state variables of a group of beams."""
-    profile = profile_of(section, kind.dimension)
-    sections, names = len(profile.points), _names(profile, kind)
-    numbers = tuple(number for number, *_ in profile.points)
-    points = kind.points * max(1, sections)
-    return PointVariables(
-        "continuum", names, points, sections=max(1, sections), whole=_WHOLE[kind.dimension], numbers=numbers
+def _values_of_points(profile: Profile, points: SectionPoints | None) -> list[float]:
+    """What the driver needs of the section points."""
+    if points is None:
+        return [value for point in profile.points for value in point[1:]]
+    found: list[float] = np.column_stack([points.place, points.area, points.lever]).ravel().tolist()
+    return found
+
+
+def _with_material(found: Routine, kind: BeamType, section: BeamSection, sections: int, library: Library) -> Routine:
+    """The same for a section over which its material is integrated. Raises DeckError."""
+    material = section.material
+    assert material is not None
+    tensor = section_tensor(section, kind.dimension)
+    number = define_material(material, None, tensor, section.source, library)
+    if material.expansion:
+        _binding.set_expansion(number, material.expansion)
+    define_fields(number, material, directions(None), tensor, library)
+    values = history_values(material)
+    return replace(
+        found,
+        material=number,
+        tensor=int(tensor),
+        history=(values, kind.points * sections if values > 1 else 1),
+        statev=state_variables(material),
+        linear=False,
+        forces=Linearity.UNKNOWN,
+        stores=False,
     )
 
 
-def _names(profile: Profile, kind: BeamType) -> tuple[str, ...]:
-    return (*(("E11", "S11") if profile.points else ()), *_WHOLE[kind.dimension])
+def beam_variables(section: BeamSection, kind: BeamType, routine: Routine) -> PointVariables:
+    """Meaning of the state variables of a group of beams."""
+    profile = profile_of(section, kind.dimension)
+    numbers = [number for number, *_ in profile.points]
+    # where a material is integrated, all section points are there, in the order of their numbers
+    places = [number - 1 for number in numbers] if section.integrated else range(len(numbers))
+    sections = max(1, int(routine.jprops[2]))
+    return PointVariables(
+        "continuum",
+        (*_names(section, profile, kind), *numbered("SDV", routine.statev)),
+        kind.points * sections,
+        sections=sections,
+        whole=_WHOLE[kind.dimension],
+        numbers=tuple(zip(numbers, places, strict=True)),
+    )
+
+
+def _names(section: BeamSection, profile: Profile, kind: BeamType) -> tuple[str, ...]:
+    """Variables of a section point, and those of its section."""
+    components: tuple[str, ...] = ("11",) if profile.points else ()
+    quantities = ["E", "S"]
+    plastic = section.material is not None and section.material.plastic is not None
+    if section.integrated and section_tensor(section, kind.dimension) is Tensor.TORSION:
+        components = "11", "12"
+    if plastic:
+        quantities.append("PE")
+    of_point = [quantity + component for quantity in quantities for component in components]
+    return (*of_point, *(("PEEQ",) if plastic else ()), *_WHOLE[kind.dimension])
 
 
 def _mass_points(kind: BeamType) -> int:
@@ -201,6 +256,7 @@ def _check(model: Model, group: ElementGroup, kind: BeamType, section: BeamSecti
     nonlinear = next((step for step in model.steps if step.nlgeom), None)
     dynamic = any(step.procedure.inertia for step in model.steps)
     profile = profile_of(section, kind.dimension)
+    _check_material(model, group, kind, section)
     if nonlinear is not None and kind.dimension == 3 and kind.family is not LINE2:
         message = f"NLGEOM is not supported for elements of type {group.type}, whose rotations are small"
         raise DeckError(nonlinear.source, message)
@@ -219,6 +275,24 @@ def _check(model: Model, group: ElementGroup, kind: BeamType, section: BeamSecti
     if kind.dimension == 3 and not (first > 0 and second > 0 and first * second > product**2):
         message = f"I11 = {first:g}, I12 = {product:g}, I22 = {second:g}: beams in space need I11 I22 > I12^2"
         raise DeckError(section.source, message)
+
+
+def _check_material(model: Model, group: ElementGroup, kind: BeamType, section: BeamSection) -> None:
+    """Raise DeckError for what beams do not support where their material is integrated over the section."""
+    if not section.integrated:
+        return
+    assert section.material is not None
+    elements = f"elements of type {group.type}"
+    if section.material.user is not None:
+        if not section.shear:
+            message = f"{elements} with *USER MATERIAL need *TRANSVERSE SHEAR STIFFNESS after *BEAM SECTION"
+            raise DeckError(section.source, message)
+        if kind.dimension == 3 and section_tensor(section, 3) is Tensor.UNIAXIAL:
+            message = f"*USER MATERIAL is not supported for {elements} with SECTION={section.profile}"
+            raise DeckError(section.source, f"{message}: their torsion needs the shear modulus of *ELASTIC")
+    initial = next((entry for entry in model.initial_solutions if entry.elements is None), None)
+    if initial is not None and state_variables(section.material):
+        raise DeckError(initial.source, f"SDVINI is not supported for {elements}")
 
 
 def _error(group: ElementGroup, row: int, source: Source, message: str) -> DeckError:

@@ -135,10 +135,26 @@ def test_mistakes(deck, section, message):
 @pytest.mark.parametrize(
     ("material", "message"),
     [
-        ("*DENSITY\n1.", r"material M needs \*ELASTIC, TYPE=ISOTROPIC with constant values"),
-        ("*ELASTIC\n1., 0.3, 0.\n2., 0.3, 100.", r"material M needs \*ELASTIC, TYPE=ISOTROPIC with constant values"),
-        ("*ELASTIC\n1., 0.3\n*PLASTIC\n1., 0.", r"material M has \*PLASTIC, at .*; beams are linear elastic here"),
-        ("*USER MATERIAL, CONSTANTS=1\n1.", r"material M has \*USER MATERIAL, at .*; beams are linear elastic here"),
+        ("*DENSITY\n1.", r"material M needs \*ELASTIC, TYPE=ISOTROPIC"),
+        ("*ELASTIC, TYPE=LAMINA\n1., 1., 0.3, 1., 1., 1.", r"material M needs \*ELASTIC, TYPE=ISOTROPIC"),
+        ("*HYPERELASTIC, NEO HOOKE\n1., 0.", r"\*HYPERELASTIC is not supported for beams"),
+        ("*ELASTIC\n1., 0.3\n*VISCOELASTIC, TIME=PRONY\n0.5, 0.5, 1.", r"\*VISCOELASTIC is not supported for beams"),
+        (
+            "*ELASTIC\n1., 0.3\n*PLASTIC, HARDENING=USER, PROPERTIES=1\n1.",
+            r"\*PLASTIC, HARDENING=USER is not supported for beams",
+        ),
+        (
+            "*ELASTIC\n1., 0.3\n*PLASTIC, HARDENING=KINEMATIC\n1., 0.\n2., 1.",
+            r"\*PLASTIC: beams support isotropic hardening only \(material M\)",
+        ),
+        (
+            "*ELASTIC\n1., 0.3\n*USER OUTPUT VARIABLES\n1",
+            r"\*USER OUTPUT VARIABLES \(material M\) is not supported for beams",
+        ),
+        (
+            "*ELASTIC\n1., 0.3\n*DAMAGE INITIATION, CRITERION=MAXS\n1., 1., 1.",
+            r"material M has \*DAMAGE INITIATION, at .*, not for beams",
+        ),
         ("*ELASTIC\n1., 0.7", r"\*ELASTIC"),
     ],
 )
@@ -172,10 +188,6 @@ def test_materials_that_beams_do_not_take(deck, material, message):
                 "material": "*ELASTIC\n1., 0.3\n*DENSITY\n1.",
             },
             r"NLGEOM and elements of type B21 whose centroid is beside their nodes is not supported; ROTARY INERTIA",
-        ),
-        (
-            {"material": "*ELASTIC\n1., 0.3\n*EXPANSION\n1e-5"},
-            r"\*EXPANSION \(material M\) is not supported for elements of type B31",
         ),
         (
             {"procedure": "DYNAMIC", "data": "0.1, 1.\n"},

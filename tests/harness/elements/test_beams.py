@@ -333,7 +333,7 @@ def test_section_forces_in_space(beam, element_type):
     expected = strain + corners[:, 1] * about_1 - corners[:, 0] * about_2
     np.testing.assert_allclose(found["E11"], expected, rtol=1e-9)
     np.testing.assert_allclose(found["S11"], E * expected, rtol=1e-9)
-    assert evaluate.block.state(0).variables.numbers == (1, 5, 21, 25)
+    assert evaluate.block.state(0).variables.numbers == ((1, 0), (5, 1), (21, 2), (25, 3))
     # the axial force acts at the ends
     assert force.reshape(-1, 6)[-1, :3] @ t == pytest.approx(stiffness[0] * strain)
 
@@ -357,7 +357,7 @@ def test_section_forces_in_a_plane(beam, element_type):
     np.testing.assert_allclose(found["SM1"], E * a * b**3 / 12 * curvature, rtol=1e-9)
     np.testing.assert_allclose(found["SE2"], shear, rtol=1e-9)
     np.testing.assert_allclose(found["S11"], np.tile([-1, 1], BEAM[element_type].points) * E * curvature * b / 2)
-    assert evaluate.block.state(0).variables.numbers == (1, 5)
+    assert evaluate.block.state(0).variables.numbers == ((1, 0), (5, 1))
 
 
 def test_an_unequal_section_bends_about_its_centroid(beam):
