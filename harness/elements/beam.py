@@ -78,6 +78,7 @@ def beam_routine(model: Model, group: ElementGroup, kind: BeamType, section: Bea
         forces=Linearity.KNOWN,
         stores=True,
         free=tuple(range(1, kind.dimension + 1)),
+        turns=True,
     )
     return found if points is None else _with_material(found, kind, section, sections, library)
 
@@ -257,9 +258,6 @@ def _check(model: Model, group: ElementGroup, kind: BeamType, section: BeamSecti
     dynamic = any(step.procedure.inertia for step in model.steps)
     profile = profile_of(section, kind.dimension)
     _check_material(model, group, kind, section)
-    if nonlinear is not None and kind.dimension == 3 and kind.family is not LINE2:
-        message = f"NLGEOM is not supported for elements of type {group.type}, whose rotations are small"
-        raise DeckError(nonlinear.source, message)
     if nonlinear is not None and kind.dimension == 3 and dynamic:
         message = f"elements of type {group.type}, whose inertia is that of small rotations"
         raise DeckError(nonlinear.source, f"*DYNAMIC with NLGEOM is not supported for {message}")

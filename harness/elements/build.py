@@ -127,8 +127,6 @@ def _check_buckling(model: Model, group: ElementGroup) -> None:
     reason = ""
     if group.definition is not None:
         reason = "no call asks user elements for it"
-    elif isinstance(kind, BeamType):
-        reason = "they are beams"
     elif isinstance(kind, HeatType) or (isinstance(kind, ContinuumType) and kind.coupled):
         reason = "they have temperatures"
     if reason:

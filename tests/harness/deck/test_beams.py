@@ -167,16 +167,16 @@ def test_materials_that_beams_do_not_take(deck, material, message):
     ("options", "message"),
     [
         (
-            {"type": "B32", "extra": ", 3", "step": ", NLGEOM"},
-            r"beam\.inp:\d+: NLGEOM is not supported for elements of type B32, whose rotations are small",
-        ),
-        (
             {"step": ", NLGEOM", "procedure": "DYNAMIC", "data": "0.1, 1.\n", "material": "*ELASTIC\n1.\n*DENSITY\n1."},
             r"\*DYNAMIC with NLGEOM is not supported for elements of type B31, whose inertia is that of small",
         ),
         (
             {"type": "B21", "step": ", NLGEOM", "data": "1., 1.\n*DLOAD\nALL, P2, 1.\n"},
             r"a force along a local direction of a beam follows it, which is not supported with NLGEOM \(.*:12\)",
+        ),
+        (
+            {"procedure": "BUCKLE", "data": "1\n*DLOAD\nALL, P1, 1.\n"},
+            r"beam\.inp:\d+: a force along a local direction of a beam follows it; its load stiffness for \*BUCKLE",
         ),
         (
             {

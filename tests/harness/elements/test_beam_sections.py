@@ -305,8 +305,6 @@ def forces_of_solid_path():
 @pytest.mark.parametrize("element_type", TYPES)
 def test_tangent_is_the_derivative_of_the_forces(beam, element_type, profile, large):
     """In the second plastic increment, in all unknowns."""
-    if large and element_type == "B32":
-        pytest.skip("refused")
     evaluate = beam(element_type, section(profile, HARDENING), large=large)
     random = np.random.default_rng(4)
     first = 0.01 * random.normal(size=evaluate.unknowns)
