@@ -12,12 +12,13 @@ import numpy as np
 from harness.elements.beam_points import SectionPoints, section_points, section_tensor
 from harness.elements.beam_profiles import SHEAR_FACTORS, Profile, profile_of
 from harness.elements.materials import define_fields, define_material, directions, history_values, state_variables
-from harness.elements.routine import Linearity, Routine
+from harness.elements.node_normals import mean_normals
+from harness.elements.routine import PARALLEL, Linearity, Routine
 from harness.elements.solid import numbered
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray
 from harness.model.element_types import LINE2, BeamType, Tensor
-from harness.model.mesh import ElementGroup
+from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
 from harness.model.properties import BeamSection
 from harness.model.records import PointVariables
@@ -190,13 +191,62 @@ def start_directions(model: Model, group: ElementGroup, kind: BeamType, section:
     return np.concatenate(parts, axis=1).reshape(len(group.labels), -1)
 
 
+def with_normals(groups: tuple[ElementGroup, ...], mesh: Mesh) -> tuple[ElementGroup, ...]:
+    """Groups with the normals n2 of beams in space at their nodes, where they are not those of the elements alone.
+
+    The approximate n1 is the vector from the first node to an additional one, or that of the section. At a node n2 is
+    the direction that *NODE gives, or the mean of those of all beams there that are within 20 degrees
+    (Analysis User's Guide, Beam element cross-section orientation).
+    """
+    beams = [
+        k for k, group in enumerate(groups) if isinstance(group.built_in, BeamType) and group.built_in.dimension == 3
+    ]
+    if not beams:
+        return groups
+    own = [_own_directions(groups[k], mesh.coordinates) for k in beams]
+    nodes = np.concatenate([groups[k].nodes.ravel() for k in beams])
+    found = mean_normals(nodes, np.concatenate([n2.reshape(-1, 3) for _, n2 in own]), mesh.normals)
+    made, first = list(groups), 0
+    for k, (n1, n2) in zip(beams, own, strict=True):
+        mine = found[first : first + groups[k].nodes.size].reshape(n2.shape)
+        first += groups[k].nodes.size
+        # a turn about n1 leaves the directions, which are normal to the axis; without own ones any normal counts
+        alike = np.where(n2.any(axis=-1), np.einsum("mkd,mkd->mk", n2, mine), 1.0 - mine.any(axis=-1))
+        turn = np.abs(np.einsum("mkd,mkd->mk", n1, mine))
+        if groups[k].orienting is not None or (turn > PARALLEL).any() or (alike <= SMALLEST_SINE).any():
+            made[k] = replace(groups[k], n2=mine)
+    return tuple(made)
+
+
+def _own_directions(group: ElementGroup, coordinates: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """(m, nodes, 3) n1 and n2 of elements at their nodes by their approximate n1; zero where there are none."""
+    kind, section = group.built_in, group.section
+    assert isinstance(kind, BeamType) and isinstance(section, BeamSection)
+    x = coordinates[group.nodes]
+    slopes = [[-0.5, 0.5]] * 2 if kind.nodes == 2 else [[-1.5, 2, -0.5], [-0.5, 0, 0.5], [0.5, -2, 1.5]]
+    t = _units(np.einsum("mjd,kj->mkd", x, np.array(slopes)))
+    given = np.tile(section.n1, (len(x), 1))
+    if group.orienting is not None:
+        along = coordinates[group.orienting] - x[:, 0]
+        given = np.where(group.orienting[:, None] >= 0, along, given)
+    n2 = np.cross(t, _units(given)[:, None])
+    n2 = _units(np.where(np.linalg.norm(n2, axis=-1, keepdims=True) > SMALLEST_SINE, n2, 0.0))
+    return np.cross(n2, t), n2
+
+
+def _units(vectors: FloatArray) -> FloatArray:
+    size = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return np.asarray(vectors / np.where(size > 0, size, 1.0))
+
+
 def local_axes(
     group: ElementGroup, kind: BeamType, section: BeamSection, coordinates: FloatArray, points: int
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Directions t, 1, 2 in rows (m, points, 3, 3), lengths (m, points) and places (m, points, 3) of points.
 
-    The approximate n1 gives n2 = t x n1, then n1 = n2 x t (Analysis User's Guide, Beam element cross-section
-    orientation). Raises DeckError where an element has no length, or n1 is along the axis.
+    The approximate n1 gives n2 = t x n1, unless the elements have it at their nodes, then n1 = n2 x t (Analysis User's
+    Guide, Beam element cross-section orientation). Raises DeckError where an element has no length, or n1 or n2 is
+    along the axis.
     """
     weights, shapes, slopes = _binding.integration_rule(kind.family.number, points, kind.nodes, 1)
     x = coordinates[group.nodes[:, list(kind.order)]]
@@ -207,13 +257,18 @@ def local_axes(
     if (lost := np.argwhere(~(sizes > 0))).size:
         raise _error(group, int(lost[0, 0]), group.source, "has no length; its nodes must follow each other")
     t = tangents / sizes[:, :, None]
-    given = np.array(section.n1 if kind.dimension == 3 else (0.0, 0.0, -1.0))
-    n2 = np.cross(t, given / np.linalg.norm(given))
+    if group.n2 is None:
+        given = np.array(section.n1 if kind.dimension == 3 else (0.0, 0.0, -1.0))
+        n2, what = np.cross(t, given / np.linalg.norm(given)), "n1 = ({:g}, {:g}, {:g})".format(*section.n1)
+        source, advice = section.source, "give another approximate n1 on the second data line"
+    else:
+        n2 = np.einsum("mkd,pk->mpd", group.n2[:, list(kind.order)], shapes)
+        n2 -= np.einsum("mpd,mpd->mp", n2, t)[:, :, None] * t
+        what = "n1 of its additional node, or n2 of its nodes"
+        source, advice = group.source, "give another node, or other direction cosines on *NODE"
     sines = np.linalg.norm(n2, axis=-1)
     if (along := np.argwhere(~(sines > SMALLEST_SINE))).size:
-        n1 = "({:g}, {:g}, {:g})".format(*section.n1)
-        message = f"lies along n1 = {n1}; give another approximate n1 on the second data line"
-        raise _error(group, int(along[0, 0]), section.source, message)
+        raise _error(group, int(along[0, 0]), source, f"lies along {what}; {advice}")
     n2 = n2 / sines[:, :, None]
     axes = np.stack([t, np.cross(n2, t), n2], axis=2)
     return axes, sizes * weights, np.einsum("mkd,pk->mpd", coordinates[group.nodes[:, list(kind.order)]], shapes)

@@ -75,9 +75,9 @@ class Line:
 
 @pytest.fixture
 def run(tmp_path):
-    def run(line: Line, data: str, *, step: str = STEP):
+    def run(line: Line, data: str, *, step: str = STEP, text: str = ""):
         file = tmp_path / "beam.inp"
-        file.write_text(line.text(step.format(data=data)))
+        file.write_text(text or line.text(step.format(data=data)))
         return harness.run(file, output_dir=tmp_path / "out")
 
     return run
@@ -673,3 +673,19 @@ def test_preload(run, element_type, count):
     more = found[~np.isnan(found)][0]
     # the axial strain of the preload is 3e-4
     assert more == pytest.approx(whole - load, rel=2e-3)
+
+
+@pytest.mark.parametrize(("element_type", "count"), [("B31", 12), ("B32", 6)])
+def test_twisted_beam(run, element_type, count):
+    """MacNeal and Harder: normals of *NODE twist a cantilever by 90 degrees; 5.424e-3 and 1.754e-3 at its end."""
+    last = count * (BEAM[element_type].nodes - 1) + 1
+    line = Line.straight(element_type, count, (12.0, 0, 0), rect(0.32, 1.1), material="*ELASTIC\n29e6, 0.22")
+    text = line.text(STEP.format(data=f"{CLAMPED}*CLOAD\nEND, {{dof}}, 1."))
+    for k, angle in enumerate(np.linspace(0, np.pi / 2, last), 1):
+        plain = f"\n{k}, {line.places[k - 1, 0]}, 0.0, 0.0"
+        assert plain in text
+        text = text.replace(plain, f"{plain}, 0., {np.cos(angle)}, {np.sin(angle)}", 1)
+    for dof, expected in ((3, 5.424e-3), (2, 1.754e-3)):
+        history = run(line, "", text=text.replace("{dof}", str(dof))).history
+        # the figures are those of beam theory
+        assert history[f"U{dof}[ALL:{last}]"][-1] == pytest.approx(expected, rel=1e-2)
