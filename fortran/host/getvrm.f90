@@ -24,7 +24,7 @@ subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccf
   array = 0
   jarray = 0
   flgray = 'YES'
-  place = places(size(current%values))
+  place = places(size(current%values), current%tensor)
   n = size(place)
   strain = 0
   strain(place) = current%values(:n)
@@ -41,7 +41,7 @@ subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccf
   case ('PE')
     if (.not. current%plastic) then
       jrcd = 1
-    else if (n == 1) then
+    else if (n == 1 .and. size(current%values) > 2) then
       array([1, 7]) = current%values(3:4)
     else
       array(:6) = rotated(6, current%history(:6, current%column), current%axes, 2.0_dp)
@@ -57,14 +57,16 @@ subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccf
 
 contains
 
-  !> Which of the six components a point has, by the number of its values: of a truss, of plane stress in shells, of solids.
-  pure function places(values) result(place)
-    integer, intent(in) :: values
+  !> Which of the six components a point has, by the number of its values, and by that of its stresses in trusses and beams: of one
+  !> direction, of beams with torsion, of plane stress in shells, of solids.
+  pure function places(values, tensor) result(place)
+    integer, intent(in) :: values, tensor
     integer, allocatable :: place(:)
     integer :: k
     select case (values)
-    case (4)
+    case (2, 4)
       place = [1]
+      if (tensor == 2) place = [1, 4]
     case (6)
       place = [1, 2, 4]
     case default

@@ -41,7 +41,7 @@ module host_context
     real(dp), allocatable :: fields(:, :)   !< (fields, 2) temperature and fields of the point: at the start, increments
     real(dp) :: length = 0        !< characteristic length of the element
     real(dp) :: pnewdt = 0        !< smallest that a user material has returned in this call
-    integer(i4) :: tensor = 0     !< components of stress: 3, 4 or 6; 0 without a material
+    integer(i4) :: tensor = 0     !< components of stress: 1, 2, 3, 4 or 6; 0 without a material
     type(heat_t) :: heat          !< of the last call of UMAT
     logical :: deformed = .false. !< the element is deformed
     integer :: distorted = 0      !< point at which it is inside out, negative: over the axis; 0 for none

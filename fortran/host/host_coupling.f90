@@ -6,14 +6,18 @@
 !> The temperature of a point is that between the corners, in elements with middle nodes too (Analysis User's Guide,
 !> Coupled temperature-displacement elements). Thermal strain is that of the mean of the corners in elements with straight edges,
 !> as the manual says; it leaves open whether UMAT is given this mean too: here every point has its own temperature.
+!>
+!> And what temperatures that are given make at a point of any element: its temperature, and its thermal strain.
 module host_coupling
   use host_context, only: current
+  use host_expansion, only: expansion_t, free_strain, free_strain_rate
   use host_kinds, only: dp
   use host_kinematics, only: gradients
-  use host_shape, only: rule_t
+  use host_shape, only: is_quadratic, rule_t
   implicit none (type, external)
   private
-  public :: coupling_t, interpolate_fields, find_shape, set_temperature, add_heat_source, add_thermal_strain
+  public :: coupling_t, interpolate_fields, find_shape, set_temperature, add_heat_source, add_thermal_strain, thermal_strain, &
+            shares
 
   !> Corners of an element: their temperatures, and their part of its equations. The arrays belong to the caller.
   type :: coupling_t
@@ -42,6 +46,48 @@ contains
       current%fields(k, 1) = dot_product(predef(1, k, :), rule%n(:, point)) - current%fields(k, 2)
     end do
   end subroutine interpolate_fields
+
+  !> Thermal strain at the start and at the end of the increment, and its derivative by the temperature there.
+  function thermal_strain(rule, point, fields, expansion, predef, interpolated, rate, coupling) result(strain)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: point, fields
+    type(expansion_t), intent(in) :: expansion
+    real(dp), intent(in) :: predef(2, fields, rule%nodes)
+    logical, intent(in) :: interpolated   !< as in `shares`
+    real(dp), intent(out) :: rate(6)
+    type(coupling_t), intent(in), optional :: coupling
+    real(dp) :: strain(6, 2), initial, last, before
+    associate (share => shares(rule, point, interpolated, coupling))
+      initial = dot_product(predef(1, fields, :size(share)), share)
+      if (present(coupling)) then
+        last = dot_product(coupling%temperature, share)
+        before = last - dot_product(coupling%increment, share)
+      else
+        last = dot_product(predef(1, 1, :), share)
+        before = last - dot_product(predef(2, 1, :), share)
+      end if
+    end associate
+    strain(:, 1) = free_strain(expansion, before, initial)
+    strain(:, 2) = free_strain(expansion, last, initial)
+    rate = free_strain_rate(expansion, last)
+  end function thermal_strain
+
+  !> Shares of the temperatures of nodes, or of corners with a coupling, in that of thermal strain: the mean in elements with
+  !> straight edges, unless they have incompatible modes or are beams (interpolated); else those of interpolation.
+  function shares(rule, point, interpolated, coupling)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: point
+    logical, intent(in) :: interpolated
+    type(coupling_t), intent(in), optional :: coupling
+    real(dp), allocatable :: shares(:)
+    if (.not. (is_quadratic(rule) .or. interpolated)) then
+      allocate (shares(rule%nodes), source=1.0_dp/rule%nodes)
+    else if (present(coupling)) then
+      shares = coupling%shape(:size(coupling%temperature))
+    else
+      shares = rule%n(:, point)
+    end if
+  end function shares
 
   !> Find the shape of the temperatures in a point. The only point of an element stands for all of it, and has the mean.
   subroutine find_shape(coupling, direct, points, point, x)

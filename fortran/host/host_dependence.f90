@@ -22,19 +22,22 @@ contains
   !> Stiffness and compliance in global axes; thickness: strain 33 per stress in plane stress.
   subroutine elastic_matrices(dependence, ntens, variables, stiffness, compliance, thickness, constants, definite)
     type(dependence_t), intent(in) :: dependence
-    integer, intent(in) :: ntens                      !< 1, 3, 4 or 6
+    integer, intent(in) :: ntens                      !< 1, 2, 3, 4 or 6
     real(dp), intent(in) :: variables(:)              !< temperature and fields; more than the table has are left out
     real(dp), intent(out) :: stiffness(ntens, ntens), compliance(ntens, ntens), thickness(3)
     real(dp), intent(out) :: constants(dependence%constants)
     logical, intent(out) :: definite                  !< false: they are not positive definite, and the stiffness is zero
     real(dp) :: full(6, 6), rigid(6, 6)
     logical :: good
-    integer, parameter :: plane(4) = [1, 2, 4, 3]
+    integer :: kept(min(ntens, 3))
+    integer, parameter :: plane(3) = [1, 2, 4]
     call interpolate(dependence%constants, size(dependence%table, 1) - dependence%constants, dependence%table, variables, constants)
     full = matmul(transpose(dependence%turn), matmul(compliance_of(constants), dependence%turn))
-    thickness = full(3, plane(:3))
+    thickness = full(3, plane)
     if (ntens <= 3) then
-      compliance = full(plane(:ntens), plane(:ntens))
+      kept = plane(:ntens)
+      if (ntens == 2) kept(2) = 4
+      compliance = full(kept, kept)
       call invert_definite(compliance, stiffness, definite)
     else
       call invert_definite(full, rigid, definite)

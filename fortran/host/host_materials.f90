@@ -3,8 +3,8 @@
 !> The material library behind MATERIAL_LIB_MECH and the built-in elements: linear elasticity, Mises plasticity with isotropic,
 !> kinematic and combined hardening, viscoelasticity, creep, hyperelasticity, UMAT.
 !>
-!> Stress components: plane stress (11, 22, 12), plane strain (11, 22, 33, 12), three-dimensional
-!> (11, 22, 33, 12, 13, 23); shear strains are engineering strains.
+!> Stress components: one direction (11), beams with torsion (11, 12), plane stress (11, 22, 12), plane strain (11, 22, 33, 12),
+!> three-dimensional (11, 22, 33, 12, 13, 23); shear strains are engineering strains.
 module host_materials
   use core_root, only: advance, searching
   use host_backstress, only: backstress_t, combined_solid
@@ -16,7 +16,7 @@ module host_materials
   use host_kinds, only: dp, i4
   use host_kinematics, only: components, rotated
   use host_messages, only: add_message
-  use host_mises, only: mises_plane_stress, mises_solid
+  use host_mises, only: mises_beam, mises_plane_stress, mises_solid
   use host_prony, only: prony_solid, prony_t, prony_values
   use host_protect, only: escape
   use host_expansion, only: expansion_t
@@ -42,7 +42,7 @@ module host_materials
   real(dp), parameter :: smaller = 0.25_dp
 
   type :: material_t
-    integer :: ntens = 0                           !< 1, 3, 4 or 6
+    integer :: ntens = 0                           !< 1, 2, 3, 4 or 6
     real(dp) :: stiffness(6, 6) = 0                !< (ntens, ntens) of it, global axes
     real(dp) :: compliance(6, 6) = 0               !< its inverse
     real(dp) :: thickness(3) = 0                   !< plane stress: elastic strain 33 = thickness . stress
@@ -202,6 +202,8 @@ contains
       else if (.not. allocated(material%yield)) then
         new(:history_values) = old(:history_values)
         call linear(material, strain - old(components(n, 6)), stress, tangent)
+      else if (n < 3) then
+        call mises_beam(material%young, material%poisson, material%yield, n, old(:last), strain, stress, tangent, new, solved)
       else if (n == 3) then
         call mises_plane_stress(material%young, material%poisson, material%yield, old(:last), strain, stress, tangent, new, solved)
       else

@@ -2,14 +2,15 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Isotropic Mises plasticity with tabulated hardening, small strains, backward Euler.
 !>
-!> J.C. Simo, T.J.R. Hughes, Computational Inelasticity, Springer 1998: boxes 3.1, 3.2 (solid) and 3.3 (plane stress).
+!> J.C. Simo, T.J.R. Hughes, Computational Inelasticity, Springer 1998: boxes 3.1, 3.2 (solid) and 3.3 (plane stress; with fewer
+!> stresses, beams).
 !> History of a point: plastic strain 11, 22, 33, 12, 13, 23 (engineering shear), equivalent plastic strain.
 module host_mises
   use core_root, only: advance, root_search, search_between, searching
   use host_kinds, only: dp
   implicit none (type, external)
   private
-  public :: mises_solid, mises_plane_stress, yield_stress, radial_return, trial_mises, returned_solid
+  public :: mises_solid, mises_plane_stress, mises_beam, mises_uniaxial, yield_stress, radial_return, trial_mises, returned_solid
 
 contains
 
@@ -124,7 +125,7 @@ contains
     real(dp), intent(in) :: young, poisson, table(:, :), old(7), strain(3)
     real(dp), intent(out) :: stress(3), tangent(3, 3), new(7)
     logical, intent(out) :: solved
-    real(dp) :: shear, flow, slope, multiplier, trial(3), q, algorithmic(3, 3), direction(3), flow_vector(3), beta
+    real(dp) :: shear, flow, slope, multiplier, trial(3), q, algorithmic(3, 3), flow_vector(3)
     shear = young/(2*(1 + poisson))
     new = old
     algorithmic = plane_modulus(young, poisson, shear, 0.0_dp)
@@ -135,50 +136,118 @@ contains
     call yield_stress(table, old(7), flow, slope)
     solved = .true.
     if (q <= flow) return
-    call plane_return(young, poisson, shear, table, old(7), trial, multiplier, q, slope, solved)
+    ! the return shrinks both parts of the squared Mises stress, each with its own rate
+    call find_multiplier([(trial(1) + trial(2))**2/4, 0.75_dp*(trial(2) - trial(1))**2 + 3*trial(3)**2], &
+                         [young/(3*(1 - poisson)), 2*shear], table, old(7), multiplier, q, slope, solved)
     if (.not. solved) return
     algorithmic = plane_modulus(young, poisson, shear, multiplier)
     stress = matmul(algorithmic, strain - old([1, 2, 4]))
     flow_vector = projected(stress)
-    direction = matmul(algorithmic, flow_vector)
-    ! Simo and Hughes, box 3.3, without kinematic hardening
-    beta = 2*slope*dot_product(stress, flow_vector)/(3 - 2*slope*multiplier)
-    tangent = algorithmic - outer(direction)/(dot_product(flow_vector, direction) + beta)
+    tangent = consistent(3, algorithmic, stress, flow_vector, multiplier, slope)
     new([1, 2, 4]) = old([1, 2, 4]) + multiplier*flow_vector
     new(3) = old(3) - multiplier*(flow_vector(1) + flow_vector(2))
     new(7) = old(7) + 2*multiplier*q/3
   end subroutine mises_plane_stress
 
+  !> A normal stress and a shear stress with it (n = 2), or the normal stress alone (n = 1); all others are zero. If the return does
+  !> not converge, the response is elastic.
+  pure subroutine mises_beam(young, poisson, table, n, old, strain, stress, tangent, new, solved)
+    real(dp), intent(in) :: young, poisson, table(:, :), old(7)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: strain(n)
+    real(dp), intent(out) :: stress(n), tangent(n, n), new(7)
+    logical, intent(out) :: solved
+    real(dp) :: moduli(2), rates(2), algorithmic(2, 2), flow_vector(2), flow, slope, multiplier, q
+    solved = .true.
+    new = old
+    if (n == 1) then
+      call mises_uniaxial(young, table, strain(1), new(1), new(7), stress(1), tangent(1, 1))
+      new(2:3) = old(2:3) - (new(1) - old(1))/2
+      return
+    end if
+    moduli = [young, young/(2*(1 + poisson))]
+    rates = [2*moduli(1)/3, 2*moduli(2)]
+    stress = moduli*(strain - old([1, 4]))
+    tangent = diagonal(moduli)
+    q = sqrt(stress(1)**2 + 3*stress(2)**2)
+    call yield_stress(table, old(7), flow, slope)
+    if (q <= flow) return
+    call find_multiplier([stress(1)**2, 3*stress(2)**2], rates, table, old(7), multiplier, q, slope, solved)
+    if (.not. solved) return
+    algorithmic = diagonal(moduli/(1 + rates*multiplier))
+    stress = matmul(algorithmic, strain - old([1, 4]))
+    flow_vector = [2*stress(1)/3, 2*stress(2)]
+    tangent = consistent(2, algorithmic, stress, flow_vector, multiplier, slope)
+    new([1, 4]) = old([1, 4]) + multiplier*flow_vector
+    new(2:3) = old(2:3) - multiplier*flow_vector(1)/2
+    new(7) = old(7) + 2*multiplier*q/3
+  end subroutine mises_beam
+
+  !> One stress alone; its plastic strain and the equivalent plastic strain go from the start of the increment to its end.
+  pure subroutine mises_uniaxial(young, table, strain, plastic, equivalent, stress, modulus)
+    real(dp), intent(in) :: young, table(:, :), strain
+    real(dp), intent(inout) :: plastic, equivalent
+    real(dp), intent(out) :: stress, modulus
+    real(dp) :: flow, hardening, increment
+    stress = young*(strain - plastic)
+    modulus = young
+    call yield_stress(table, equivalent, flow, hardening)
+    if (abs(stress) <= flow) return
+    call radial_return(table, equivalent, abs(stress), young, increment, hardening)
+    plastic = plastic + sign(increment, stress)
+    equivalent = equivalent + increment
+    stress = young*(strain - plastic)
+    modulus = young*hardening/(young + hardening)
+  end subroutine mises_uniaxial
+
+  !> Tangent of a return with some stresses zero (Simo and Hughes, box 3.3, without kinematic hardening).
+  pure function consistent(n, algorithmic, stress, flow_vector, multiplier, slope) result(tangent)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: algorithmic(n, n), stress(n), flow_vector(n), multiplier, slope
+    real(dp) :: tangent(n, n), direction(n), beta
+    direction = matmul(algorithmic, flow_vector)
+    beta = 2*slope*dot_product(stress, flow_vector)/(3 - 2*slope*multiplier)
+    tangent = algorithmic - spread(direction, 2, n)*spread(direction, 1, n)/(dot_product(flow_vector, direction) + beta)
+  end function consistent
+
+  pure function diagonal(values) result(matrix)
+    real(dp), intent(in) :: values(2)
+    real(dp) :: matrix(2, 2)
+    matrix = 0
+    matrix(1, 1) = values(1)
+    matrix(2, 2) = values(2)
+  end function diagonal
+
   !> Multiplier of the return: yield(plastic + 2/3 multiplier q) - q(multiplier) = 0. q falls at least as fast as with the smaller
   !> of its two rates, and is below the smallest yield stress from the upper end of the bracket on.
-  pure subroutine plane_return(young, poisson, shear, table, plastic, trial, multiplier, q, slope, solved)
-    real(dp), intent(in) :: young, poisson, shear, table(:, :), plastic, trial(3)
+  pure subroutine find_multiplier(squares, rates, table, plastic, multiplier, q, slope, solved)
+    real(dp), intent(in) :: squares(2)     !< parts of the squared Mises stress without any plastic strain in the increment
+    real(dp), intent(in) :: rates(2)       !< of their shrinking
+    real(dp), intent(in) :: table(:, :), plastic
     real(dp), intent(out) :: multiplier, q, slope
     logical, intent(out) :: solved
     type(root_search) :: search
     real(dp) :: rate, flow
-    call returned(young, poisson, shear, table, plastic, trial, 0.0_dp, q, rate, flow, slope)
-    search = search_between(0.0_dp, q/minval(table(:, 1))/min(young/(3*(1 - poisson)), 2*shear), 0.0_dp, geometric=.false.)
+    call returned(squares, rates, table, plastic, 0.0_dp, q, rate, flow, slope)
+    search = search_between(0.0_dp, q/minval(table(:, 1))/minval(rates), 0.0_dp, geometric=.false.)
     do while (searching(search))
-      call returned(young, poisson, shear, table, plastic, trial, search%x, q, rate, flow, slope)
+      call returned(squares, rates, table, plastic, search%x, q, rate, flow, slope)
       call advance(search, flow - q, slope*2*(q + search%x*rate)/3 - rate)
     end do
     multiplier = search%x
     solved = search%found
-    call returned(young, poisson, shear, table, plastic, trial, multiplier, q, rate, flow, slope)
-  end subroutine plane_return
+    call returned(squares, rates, table, plastic, multiplier, q, rate, flow, slope)
+  end subroutine find_multiplier
 
   !> Mises stress q after a return by this multiplier, its derivative, and the yield stress with its slope.
-  pure subroutine returned(young, poisson, shear, table, plastic, trial, multiplier, q, rate, flow, slope)
-    real(dp), intent(in) :: young, poisson, shear, table(:, :), plastic, trial(3), multiplier
+  pure subroutine returned(squares, rates, table, plastic, multiplier, q, rate, flow, slope)
+    real(dp), intent(in) :: squares(2), rates(2), table(:, :), plastic, multiplier
     real(dp), intent(out) :: q, rate, flow, slope
-    real(dp) :: a, b, da, db
-    da = young/(3*(1 - poisson))
-    db = 2*shear
-    a = (trial(1) + trial(2))**2/4/(1 + da*multiplier)**2
-    b = (0.75_dp*(trial(2) - trial(1))**2 + 3*trial(3)**2)/(1 + db*multiplier)**2
+    real(dp) :: a, b
+    a = squares(1)/(1 + rates(1)*multiplier)**2
+    b = squares(2)/(1 + rates(2)*multiplier)**2
     q = sqrt(a + b)
-    rate = -(a*da/(1 + da*multiplier) + b*db/(1 + db*multiplier))/q
+    rate = -(a*rates(1)/(1 + rates(1)*multiplier) + b*rates(2)/(1 + rates(2)*multiplier))/q
     call yield_stress(table, plastic + 2*multiplier*q/3, flow, slope)
   end subroutine returned
 
@@ -203,10 +272,4 @@ contains
     real(dp) :: p(3)
     p = [(2*s(1) - s(2))/3, (2*s(2) - s(1))/3, 2*s(3)]
   end function projected
-
-  pure function outer(x) result(matrix)
-    real(dp), intent(in) :: x(3)
-    real(dp) :: matrix(3, 3)
-    matrix = spread(x, 2, 3)*spread(x, 1, 3)
-  end function outer
 end module host_mises

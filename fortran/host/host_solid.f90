@@ -40,8 +40,8 @@ module host_solid
   use core_strains, only: condense
   use host_axes, only: carry_axes, turn_heat, turn_matrix, values_of_axes
   use host_context, only: added_stress, current, heat_t, initial_stresses, stress_matrix
-  use host_coupling, only: add_heat_source, add_thermal_strain, coupling_t, find_shape, interpolate_fields, set_temperature
-  use host_expansion, only: expansion_t, free_strain, free_strain_rate
+  use host_coupling, only: add_heat_source, add_thermal_strain, coupling_t, find_shape, interpolate_fields, set_temperature, &
+                           shares, thermal_strain
   use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point, add_stress_matrix
   use host_gradients, only: all_gradients, carry, find_deformation, gradient_of, gradients_of_points
   use host_hybrid, only: add_compatibility, begin_pressure, begin_smoothing, keep_point, mean_stress, mean_stress_added, &
@@ -437,7 +437,7 @@ contains
       thermal = 0
       rate = 0
       if (allocated(here%expansion)) then
-        thermal = thermal_strain(rule, p, fields, here%expansion, predef, present(by_modes), coupling, rate)
+        thermal = thermal_strain(rule, p, fields, here%expansion, predef, present(by_modes), rate, coupling)
       end if
       if (finite) then
         current%rotation = rotation_of(gradient_of(dim, direct, nodes, du, g_mid(:, :, p)))
@@ -668,48 +668,6 @@ contains
     length = sum([(volume(p)/radius_of(rule, p, direct > rule%dim, x), p=1, rule%points)])**(1.0_dp/rule%dim)
     if (is_quadratic(rule)) length = length/2
   end function size_of
-
-  !> Thermal strain at the start and at the end of the increment, and its derivative by the temperature there.
-  function thermal_strain(rule, point, fields, expansion, predef, with_modes, coupling, rate) result(strain)
-    type(rule_t), intent(in) :: rule
-    integer, intent(in) :: point, fields
-    type(expansion_t), intent(in) :: expansion
-    real(dp), intent(in) :: predef(2, fields, rule%nodes)
-    logical, intent(in) :: with_modes
-    type(coupling_t), intent(in), optional :: coupling
-    real(dp), intent(out) :: rate(6)
-    real(dp) :: strain(6, 2), initial, last, before
-    associate (share => shares(rule, point, with_modes, coupling))
-      initial = dot_product(predef(1, fields, :size(share)), share)
-      if (present(coupling)) then
-        last = dot_product(coupling%temperature, share)
-        before = last - dot_product(coupling%increment, share)
-      else
-        last = dot_product(predef(1, 1, :), share)
-        before = last - dot_product(predef(2, 1, :), share)
-      end if
-    end associate
-    strain(:, 1) = free_strain(expansion, before, initial)
-    strain(:, 2) = free_strain(expansion, last, initial)
-    rate = free_strain_rate(expansion, last)
-  end function thermal_strain
-
-  !> Shares of the temperatures of nodes, or of corners with a coupling, in that of thermal strain: the mean in elements with
-  !> straight edges without incompatible modes, so that this strain, too, is about constant in them; else those of interpolation.
-  function shares(rule, point, with_modes, coupling)
-    type(rule_t), intent(in) :: rule
-    integer, intent(in) :: point
-    logical, intent(in) :: with_modes
-    type(coupling_t), intent(in), optional :: coupling
-    real(dp), allocatable :: shares(:)
-    if (.not. (is_quadratic(rule) .or. with_modes)) then
-      allocate (shares(rule%nodes), source=1.0_dp/rule%nodes)
-    else if (present(coupling)) then
-      shares = coupling%shape(:size(coupling%temperature))
-    else
-      shares = rule%n(:, point)
-    end if
-  end function shares
 
   pure subroutine find_strain(n, m, b, u, strain)
     integer, intent(in) :: n, m

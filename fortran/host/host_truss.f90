@@ -12,7 +12,7 @@ module host_truss
   use host_inertia, only: respond
   use host_kinds, only: dp, i4
   use host_materials, only: find_material, has_fields, material_t, set_constants
-  use host_mises, only: radial_return, yield_stress
+  use host_mises, only: mises_uniaxial
   use host_shape, only: rule_of
   use host_usdfld, only: call_usdfld
   implicit none (type, external)
@@ -83,22 +83,16 @@ contains
     type(bar_t), intent(in) :: bar
     real(dp), intent(inout) :: state(states), energy(8)
     real(dp), intent(out) :: pull, slope
-    real(dp) :: strain, stress, modulus, flow, hardening, increment, volume, work
+    real(dp) :: strain, stress, modulus, volume, work
     associate (young => material%young, length => bar%length, now => bar%now)
       volume = area*length
       strain = bar%elongation/length
       if (bar%finite) strain = log(now/length)
-      stress = young*(strain - state(3))
-      modulus = young
       if (allocated(material%yield)) then
-        call yield_stress(material%yield, state(4), flow, hardening)
-        if (abs(stress) > flow) then
-          call radial_return(material%yield, state(4), abs(stress), young, increment, hardening)
-          state(3) = state(3) + sign(increment, stress)
-          state(4) = state(4) + increment
-          stress = young*(strain - state(3))
-          modulus = young*hardening/(young + hardening)
-        end if
+        call mises_uniaxial(young, material%yield, strain, state(3), state(4), stress, modulus)
+      else
+        stress = young*strain
+        modulus = young
       end if
       ! trapezoidal rule, exact where the response is linear
       work = energy(2) + energy(4) + 0.5_dp*volume*(stress + state(2))*(strain - state(1))

@@ -62,7 +62,8 @@ contains
   !> Number of direct components among ntens.
   pure integer(i4) function direct_components(ntens)
     integer, intent(in) :: ntens
-    direct_components = merge(2_i4, int(min(ntens, 3), i4), ntens == 3)
+    integer(i4), parameter :: direct(0:6) = [0, 1, 1, 2, 3, 3, 3]
+    direct_components = direct(ntens)
   end function direct_components
 
   !> Number of field variables besides temperature.

@@ -10,7 +10,15 @@ from typing import Final
 from harness.deck.blocks import Block, Row
 from harness.deck.error_report import look_up
 from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
-from harness.elements.materials import shear_modulus
+from harness.elements.beam_points import DEFAULT_POINTS
+from harness.elements.materials import (
+    refuse_hyperelastic,
+    refuse_output_variables,
+    refuse_user_hardening,
+    refuse_viscous,
+    shear_modulus,
+)
+from harness.errors import DeckError
 from harness.model.element_types import Tensor
 from harness.model.properties import BeamSection, ElasticType, Material
 
@@ -26,15 +34,6 @@ _DIMENSIONS: Final = {
 }
 """Entries of the first data line."""
 
-_POINTS: Final = {
-    "RECT": ((5,), (5, 5)),
-    "CIRC": ((5,), (3, 8)),
-    "PIPE": ((5,), (8,)),
-    "BOX": ((5,), (5, 5)),
-    "I": ((5,), (5, 5, 5)),
-}
-"""Default numbers of section points in a plane and in space."""
-
 _MAY_VANISH: Final = ("l", "I12", "I22")
 
 
@@ -44,7 +43,7 @@ def read_beam_section(block: Block, materials: Mapping[str, Material], dimension
     general, profile = block.name == "BEAM GENERAL SECTION", options.text("SECTION")
     if not rows:
         raise block.error(f"needs a data line with {', '.join(_DIMENSIONS[profile])}")
-    expected = 3 if general or profile in _POINTS else 2
+    expected = 3 if general or profile in DEFAULT_POINTS else 2
     if len(rows) > expected:
         raise rows[expected].error(f"a data line more than the {expected} of SECTION={profile}")
     dimensions = _read_dimensions(rows[0], profile)
@@ -55,9 +54,10 @@ def read_beam_section(block: Block, materials: Mapping[str, Material], dimension
         if density < 0:
             raise block.error(f"DENSITY={density:g} must not be negative")
     else:
-        material = _elastic(block, materials)
-        assert material.elastic is not None
-        young, shear = material.elastic.constants[0], shear_modulus(material.elastic, Tensor.SOLID)
+        material = _material(block, materials)
+        young, shear = 0.0, 0.0
+        if material.elastic is not None:
+            young, shear = material.elastic.constants[0], shear_modulus(material.elastic, Tensor.SOLID)
         density = material.density
         if len(rows) > 2:
             _check_points(rows[2], profile, dimension)
@@ -115,7 +115,7 @@ def _read_moduli(block: Block, row: Row | None) -> tuple[float, float]:
 
 
 def _check_points(row: Row, profile: str, dimension: int) -> None:
-    default = _POINTS[profile][dimension - 2]
+    default = DEFAULT_POINTS[profile][dimension - 2]
     row.at_most(len(default))
     given = tuple(row.integer(k, "number of section points", count) for k, count in enumerate(default))
     if given != default:
@@ -123,23 +123,24 @@ def _check_points(row: Row, profile: str, dimension: int) -> None:
         raise row.error(f"only the default numbers of section points are supported ({expected})")
 
 
-def _elastic(block: Block, materials: Mapping[str, Material]) -> Material:
-    """A material that is isotropic, linear elastic, and nothing else. Raises DeckError."""
+def _material(block: Block, materials: Mapping[str, Material]) -> Material:
+    """A material that beams take. Raises DeckError."""
     material = look_up(materials, block.options.text("MATERIAL"), "material", block.source)
-    for keyword, other in (
-        ("USER MATERIAL", material.user),
-        ("HYPERELASTIC", material.hyperelastic),
-        ("PLASTIC", material.plastic),
-        ("VISCOELASTIC", material.viscoelastic),
-        ("CREEP", material.creep),
-        ("DAMAGE INITIATION", material.damage),
-    ):
-        if other is not None:
-            message = f"material {material.name} has *{keyword}, at {other.source}"
-            raise block.error(f"{message}; beams are linear elastic here")
-    elastic = material.elastic
-    if elastic is None or elastic.type is not ElasticType.ISOTROPIC or elastic.table is not None:
-        raise block.error(f"material {material.name} needs *ELASTIC, TYPE=ISOTROPIC with constant values")
+    refuse_hyperelastic(material, "beams")
+    refuse_viscous(material, "beams")
+    refuse_user_hardening(material, "beams")
+    refuse_output_variables(material, "beams", block.source)
+    if material.damage is not None:
+        raise block.error(
+            f"material {material.name} has *DAMAGE INITIATION, at {material.damage.source}, not for beams"
+        )
+    if material.plastic is not None and len(material.plastic.backstresses):
+        message = f"beams support isotropic hardening only (material {material.name})"
+        raise DeckError(material.plastic.source, f"*PLASTIC: {message}")
+    if material.user is not None:
+        return material
+    if material.elastic is None or material.elastic.type is not ElasticType.ISOTROPIC:
+        raise block.error(f"material {material.name} needs *ELASTIC, TYPE=ISOTROPIC")
     return material
 
 
@@ -182,7 +183,9 @@ _DATA: Final = (
 KEYWORDS = (
     Keyword(
         "BEAM SECTION",
-        "Section of beams of isotropic, linear elastic material; nothing depends on TEMPERATURE.",
+        "Section of beams of isotropic, linear elastic material, or of one that is integrated over the section points: "
+        "*PLASTIC with isotropic hardening, *USER MATERIAL, *EXPANSION, *ELASTIC of temperature and fields, *USER "
+        "DEFINED FIELD. Temperatures are the same over the section, whatever TEMPERATURE is.",
         Where.MODEL,
         (
             *_COMMON,

@@ -37,7 +37,7 @@ def read_expansion(block: Block) -> Expansion:
 KEYWORDS = (
     Keyword(
         "EXPANSION",
-        "Thermal expansion of continuum elements from the initial temperature on (*INITIAL CONDITIONS): by "
+        "Thermal expansion of continuum elements and beams from the initial temperature on (*INITIAL CONDITIONS): by "
         "*TEMPERATURE, or by their own temperatures. Not beside *HYPERELASTIC.",
         Where.MODEL,
         (

@@ -79,6 +79,8 @@ def generate_elements(mesh: LocalMesh, block: Block) -> None:
     for row in block.rows():
         master = row.integer(0, "master element")
         kind, nodes = mesh.element(master, row.source)
+        if master in mesh.orienting:
+            raise row.error(f"element {master} has an additional node that gives n1, which cannot be generated here")
         labels, shifts = np.array([master]), np.array([0])
         for start in (1, 4, 7):
             count = row.integer(start, "number of elements", 1)

@@ -199,9 +199,27 @@ def _cut(elements: _Elements, made: dict[tuple[int, int], Section]) -> tuple[Ele
                     section=made[section, index],
                     definition=elements.types[index].definition,
                     source=_source(elements.flat, span.start + int(part[0])),
+                    orienting=_orienting(elements.flat, owner, owner.elements[part], span.start + part),
                 )
             )
     return tuple(groups)
+
+
+def _orienting(flat: FlatMesh, owner: Owner, labels: IntArray, positions: IntArray) -> IntArray | None:
+    """Index of the additional node that gives n1 of beams, -1 without one; None if none has it. Raises DeckError."""
+    given = owner.mesh.orienting
+    if not given or not any(label in given for label in labels.tolist()):
+        return None
+    found = np.full(len(labels), -1)
+    for row, label in enumerate(labels.tolist()):
+        node = given.get(label)
+        if node is None:
+            continue
+        found[row] = -1 - node if node < 0 else int(owner.find_nodes(np.array([node]))[0])
+        if found[row] < 0:
+            message = f"element {label} uses node {node}, which is not defined"
+            raise DeckError(_source(flat, int(positions[row])), message)
+    return found
 
 
 def _owner(flat: FlatMesh, position: int) -> Owner:

@@ -75,6 +75,8 @@ class LocalMesh:
         self.instances = instances or {}
         self.nodes: dict[int, Point] = {}
         self.normals: dict[int, Point] = {}
+        # nodes that give n1 of beams, by the elements; numbers as those of ElementRun
+        self.orienting: dict[int, int] = {}
         self.runs: list[ElementRun] = []
         self.run_of: dict[int, int] = {}
         self.nsets: dict[str, list[Members]] = {}
@@ -109,6 +111,8 @@ class LocalMesh:
         """Add elements."""
         labels = run.labels.tolist()
         last = {label: index for index, label in enumerate(labels)}
+        for label in last.keys() & self.orienting.keys():
+            del self.orienting[label]
         again = last.keys() & self.run_of.keys()
         if again or len(last) < len(labels):
             known: dict[int, tuple[ElementType, list[int]]] = {}
@@ -155,6 +159,9 @@ class LocalMesh:
         kind = find_type(block.options.text("TYPE"), self.definitions, block.source)
         labels, nodes, lines = self.connectivity(block, kind)
         self.add_elements(ElementRun(kind, labels, nodes, lambda index: block.source_of(lines[index])))
+        of_line = dict(zip(lines.tolist(), labels.tolist(), strict=True))
+        for index, text in _orienting_nodes(block, kind).items():
+            self.orienting[of_line[index]] = self._node_reference(block, text, block.source_of(index))
         self.add_to_set(self.elsets, name, [Members("", labels, block.source)])
 
     def read_set(self, block: Block) -> None:
@@ -275,12 +282,13 @@ class LocalMesh:
         nodes: list[list[int]] = []
         lines: list[int] = []
         wanted: list[int] = []
+        orienting = _orienting_nodes(block, kind)
         for index, line in enumerate(block.lines):
-            fields = split_fields(line)
-            while fields and not fields[-1]:
-                fields.pop()
+            fields = _entries(line)
             if not fields:
                 continue
+            if index in orienting:
+                fields.pop()
             source = block.source_of(index)
             if not wanted:
                 lines.append(index)
@@ -311,10 +319,24 @@ class LocalMesh:
         raise DeckError(source, f"*{block.name}: '{text}' is not a node number")
 
 
+def _entries(line: str) -> list[str]:
+    """Entries of a line without blank ones at its end."""
+    fields = split_fields(line)
+    while fields and not fields[-1]:
+        fields.pop()
+    return fields
+
+
+def _orienting_nodes(block: Block, kind: ElementType) -> dict[int, str]:
+    """The additional node that gives n1 of a beam in space, by the place of its line."""
+    if kind.name not in BEAM or BEAM[kind.name].dimension == 2:
+        return {}
+    found = ((index, _entries(line)) for index, line in enumerate(block.lines))
+    return {index: fields[-1] for index, fields in found if len(fields) == kind.nodes + 2}
+
+
 def _wrong_count(element: int, kind: ElementType, nodes: int) -> str:
-    # Abaqus takes it for a point that gives the first direction of the section
-    hint = "; one that gives n1 is not supported: give n1 with the section" if kind.name in BEAM else ""
-    return f"element {element} has {nodes} nodes, but {kind.name} needs {kind.nodes}{hint * (nodes > kind.nodes)}"
+    return f"element {element} has {nodes} nodes, but {kind.name} needs {kind.nodes}"
 
 
 def _label(text: str, source: Source) -> int:
@@ -359,7 +381,7 @@ KEYWORDS = (
         "Define nodes by coordinates.",
         Where.MODEL,
         (TAKES_NODES, one_of("SYSTEM", "R: rectangular", ("R",), refused=("C", "S")), INPUT),
-        "node, x, y, z, direction cosines of the normal (of shells; beams do not read them)",
+        "node, x, y, z, direction cosines of the normal (of shells; n2 of beams in space)",
     ),
     Keyword(
         "ELEMENT",
@@ -371,7 +393,8 @@ KEYWORDS = (
             INPUT,
             *refused("FILE", "OFFSET", "SOLID ELEMENT NUMBERING"),
         ),
-        "element, nodes; continued on further lines where a line ends before the last node",
+        "element, nodes; continued on further lines where a line ends before the last node; beams in space with "
+        "an additional node that gives n1 on one line",
     ),
     Keyword(
         "NSET",

@@ -197,8 +197,8 @@ _OPTIONS = (
             ),
             *refused("COMPRESSION FACTOR"),
         ),
-        "constants in the order of the type; those of continuum elements, trusses and shells may depend on temperature "
-        "and fields, which follow, eight values per line",
+        "constants in the order of the type; those of continuum elements, trusses, shells and beams may depend on "
+        "temperature and fields, which follow, eight values per line",
     ),
     Keyword(
         "USER MATERIAL",
@@ -227,7 +227,7 @@ _OPTIONS = (
     ),
     Keyword(
         "USER DEFINED FIELD",
-        "USDFLD gives the field variables of continuum elements, trusses and shells.",
+        "USDFLD gives the field variables of continuum elements, trusses, shells and beams.",
         Where.MODEL,
     ),
     Keyword(

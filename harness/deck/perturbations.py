@@ -152,7 +152,7 @@ PERTURBATIONS = (
         Keyword(
             "BUCKLE",
             "Loads, as factors of those of the step, at which the state at the end of the last general step becomes "
-            "unstable, by the initial stress matrix of built-in solids, shells, trusses and SPRINGA and the load "
+            "unstable, by the initial stress matrix of built-in solids, shells, beams, trusses and SPRINGA and the "
             "stiffness of pressures. The tractions of COH elements do not turn; elements with temperatures, and user "
             "elements, are refused.",
             Where.STEP,

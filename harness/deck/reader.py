@@ -32,6 +32,7 @@ from harness.deck.structure import read_heading
 from harness.deck.surfaces import Surfaces
 from harness.deck.transforms import Transforms
 from harness.deck.user_elements import dofs_of, refuse_types
+from harness.elements.beam import with_normals
 from harness.errors import DeckError, Source
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
@@ -122,7 +123,7 @@ def read_deck(
         deck=path,
         heading=read_heading(blocks),
         mesh=flat.mesh,
-        groups=groups,
+        groups=with_normals(groups, flat.mesh),
         steps=steps,
         nsets=flat.nsets,
         elsets=flat.elsets,

@@ -188,6 +188,7 @@ def _check_followers(steps: Sequence[Step], problems: Problems) -> None:
     """Loads that follow their faces in large displacements have magnitudes in the deck, and no perturbations beside."""
     nonlinear = next((step for step in steps if step.nlgeom), None)
     if nonlinear is None:
+        _check_buckling_loads(steps, problems)
         return
     linear = next((step for step in steps if step.procedure.linear), None)
     for load in (load for step in steps for load in (*step.element_loads, *step.surface_loads) if load.type.follows):
@@ -202,6 +203,14 @@ def _check_followers(steps: Sequence[Step], problems: Problems) -> None:
             problems.add(load.source, f"{message} ({nonlinear.source}) where DLOAD gives it; P with a magnitude is")
         elif linear is not None:
             problems.add(load.source, f"{message} ({nonlinear.source}) beside a perturbation step ({linear.source})")
+
+
+def _check_buckling_loads(steps: Sequence[Step], problems: Problems) -> None:
+    buckling = next((step for step in steps if step.procedure.buckles), None)
+    for load in (load for step in steps for load in step.element_loads):
+        if buckling is not None and load.type.kind is LoadKind.LOCAL_LINE:
+            message = "a force along a local direction of a beam follows it; its load stiffness for *BUCKLE"
+            problems.add(load.source, f"{message} ({buckling.source}) is not supported")
 
 
 def _read_entries(

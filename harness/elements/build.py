@@ -128,8 +128,6 @@ def _check_buckling(model: Model, group: ElementGroup) -> None:
     reason = ""
     if group.definition is not None:
         reason = "no call asks user elements for it"
-    elif isinstance(kind, BeamType):
-        reason = "they are beams"
     elif isinstance(kind, HeatType) or (isinstance(kind, ContinuumType) and kind.coupled):
         reason = "they have temperatures"
     if reason:
@@ -147,7 +145,7 @@ def _block_of(
     model: Model, group: ElementGroup, library: Library, *, strict: bool, zeros: bool, linear: Collection[str]
 ) -> ElementBlock:
     kind = group.built_in
-    expands = isinstance(kind, HeatType | ContinuumType)
+    expands = isinstance(kind, HeatType | ContinuumType | BeamType)
     material = next((material for material in materials_of(group.section) if material.expansion), None)
     if material is not None and not expands:
         message = f"*EXPANSION (material {material.name}) is not supported for elements of type {group.type}"
@@ -370,15 +368,17 @@ def _beam_block(model: Model, group: ElementGroup, kind: BeamType, library: Libr
     if not isinstance(section, BeamSection):
         raise DeckError(section.source, f"elements of type {group.type} need *BEAM SECTION")
     _check_nodes(group, kind.nodes)
+    routine = beam_routine(model, group, kind, section, library)
+    # moments in space are no derivatives by the rotation vector
+    turns = kind.dimension == 3 and any(step.nlgeom for step in model.steps)
     block = ElementBlock(
         group,
         model.mesh.coordinates,
         tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
-        beam_routine(model, group, kind, section, library),
+        routine,
         library,
-        # moments in space are no derivatives by the rotation vector
-        unsymmetric=kind.dimension == 3 and any(step.nlgeom for step in model.steps),
-        variables=beam_variables(section, kind),
+        unsymmetric=turns or any(map(has_unsymmetric_tangent, materials_of(section))),
+        variables=beam_variables(section, kind, routine),
     )
     block.set_last(start_directions(model, group, kind, section))
     return block

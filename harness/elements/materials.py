@@ -46,7 +46,13 @@ USER_HISTORY_VALUES: Final = 15
 """The same for a user material, besides STATEV (fortran/host/host_umat.f90)."""
 
 _PAIRS: Final = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
-_COMPONENTS: Final = {Tensor.PLANE_STRESS: [0, 1, 3], Tensor.PLANE_STRAIN: [0, 1, 2, 3], Tensor.SOLID: list(range(6))}
+_COMPONENTS: Final = {
+    Tensor.UNIAXIAL: [0],
+    Tensor.TORSION: [0, 3],
+    Tensor.PLANE_STRESS: [0, 1, 3],
+    Tensor.PLANE_STRAIN: [0, 1, 2, 3],
+    Tensor.SOLID: list(range(6)),
+}
 
 
 def history_values(material: Material, *, prestressed: bool = False) -> int:
@@ -193,7 +199,7 @@ def define_material(
     axes = _axes(orientation, tensor)
     compliance = _rotated(_compliance(elastic, tensor), axes)
     components = _COMPONENTS[tensor]
-    if tensor is Tensor.PLANE_STRESS:
+    if tensor <= Tensor.PLANE_STRESS:
         reduced = compliance[np.ix_(components, components)]
         stiffness = _inverse(reduced, elastic)
     else:
@@ -204,7 +210,9 @@ def define_material(
     plastic = material.plastic
     if plastic is not None and plastic.user is None:
         constants, table = _isotropic_constants(elastic), plastic.table
-    number = _binding.define_material(stiffness, reduced, compliance[2, components[:3]], axes, constants, table)
+    thickness = np.zeros(3)
+    thickness[: len(components)] = compliance[2, components[:3]]
+    number = _binding.define_material(stiffness, reduced, thickness, axes, constants, table)
     if plastic is not None and plastic.user is not None:
         address = _needed(library.uhard, "UHARD", material, "*PLASTIC, HARDENING=USER", plastic.source, library)
         moduli, statev = _isotropic_constants(elastic), state_variables(material)

@@ -22,6 +22,7 @@ from harness.elements.materials import (
     refuse_viscous,
     state_variables,
 )
+from harness.elements.node_normals import LARGEST_ANGLE, mean_normals
 from harness.elements.routine import VALUES_OF_AXES, Linearity, PointAxes, Routine
 from harness.elements.simpson import simpson
 from harness.elements.solid import HOURGLASS_FRACTION, numbered
@@ -42,9 +43,6 @@ NAMES: Final = (*("E11", "E22", "E12", "S11", "S22", "S12"), *WHOLE)
 
 SLENDERNESS: Final = 0.25e-4
 """Default slenderness factor of the transverse shear stiffness (Analysis User's Guide, Shell section behavior)."""
-
-LARGEST_ANGLE: Final = 20.0
-"""Degrees between normals at a node whose mean is taken."""
 
 OPPOSITE_ANGLE: Final = 160.0
 """Degrees between a normal of the deck and that of an element above which Abaqus turns the element over."""
@@ -155,22 +153,8 @@ def directors(model: Model, group: ElementGroup) -> FloatArray:
         if other is group:
             mine = slice(first, first + other.nodes.size)
         first += other.nodes.size
-    of_node, normal = np.concatenate(nodes), np.concatenate(normals)
-    order = np.argsort(of_node, kind="stable")
-    sorted_nodes = of_node[order]
-    begin, count = np.unique(sorted_nodes, return_index=True, return_counts=True)[1:]
-    found = np.zeros_like(normal)
-    # nodes of as many elements together
-    for k in np.unique(count).tolist():
-        rows = order[begin[count == k][:, None] + np.arange(k)]
-        here = normal[rows]
-        alike = np.einsum("nad,nbd->nab", here, here) > np.cos(np.radians(LARGEST_ANGLE))
-        found[rows] = np.einsum("nab,nbd->nad", alike, here)
-    if model.mesh.normals is not None:
-        given = model.mesh.normals[of_node]
-        found = np.where(given.any(axis=-1, keepdims=True), given, found)
-    size = np.linalg.norm(found, axis=-1, keepdims=True)
-    return np.asarray((found / np.where(size > 0, size, 1.0))[mine].reshape(*group.nodes.shape, 3))
+    found = mean_normals(np.concatenate(nodes), np.concatenate(normals), model.mesh.normals)
+    return np.asarray(found[mine].reshape(*group.nodes.shape, 3))
 
 
 def check_normals(model: Model, group: ElementGroup, kind: ShellType, library: Library) -> None:

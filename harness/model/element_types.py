@@ -104,11 +104,12 @@ FAMILIES: Final = {
 class Tensor(IntEnum):
     """State of stress, by its number of components.
 
-    These are 11 in a truss, 11, 22, 12 in plane stress, 11, 22, 33, 12 in plane strain, and 11, 22, 33, 12, 13, 23 in
-    space.
+    These are 11 in a truss or beam, 11, 12 in a beam with torsion, 11, 22, 12 in plane stress, 11, 22, 33, 12 in plane
+    strain, and 11, 22, 33, 12, 13, 23 in space.
     """
 
     UNIAXIAL = 1
+    TORSION = 2
     PLANE_STRESS = 3
     PLANE_STRAIN = 4
     SOLID = 6

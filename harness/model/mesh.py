@@ -51,6 +51,10 @@ class ElementGroup:
     labels     (m,) element numbers, ascending
     nodes      (m, nodes per element) node indices into Mesh, from 0
     definition the *USER ELEMENT, None for a built-in element
+    n2         (m, nodes per element, 3) unit normals of beams in space at their nodes, None: those that the approximate
+               n1 of their section gives
+    orienting  (m,) index of the additional node of beams in space, which lies along the approximate n1 from the first
+               one, -1 without one; None if none has it
     """
 
     type: str
@@ -60,6 +64,8 @@ class ElementGroup:
     section: Section
     definition: UserElement | None
     source: Source
+    n2: FloatArray | None = None
+    orienting: IntArray | None = None
 
     @property
     def built_in(self) -> BuiltInType | None:

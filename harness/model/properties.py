@@ -448,12 +448,12 @@ class ShellSection:
 
 @dataclass(frozen=True, slots=True)
 class BeamSection:
-    """*BEAM SECTION or *BEAM GENERAL SECTION, linear elastic.
+    """*BEAM SECTION or *BEAM GENERAL SECTION.
 
     profile        RECT, CIRC, PIPE, BOX, I or GENERAL
     dimensions     of the profile, as on the data line; GENERAL: A, I11, I12, I22, J
-    young          Young's modulus
-    shear_modulus  for torsion, and by default for transverse shear
+    young          Young's modulus; 0 with *USER MATERIAL
+    shear_modulus  for torsion, and by default for transverse shear; 0 with *USER MATERIAL
     density        per volume; 0: not given
     n1             approximate local direction 1
     material       None where the section has the moduli itself
@@ -476,6 +476,15 @@ class BeamSection:
     poisson: float = 0.0
     shear: tuple[float, ...] = ()
     slenderness: float | None = None
+
+    @property
+    def integrated(self) -> bool:
+        """Whether stresses at section points make the forces of the section, which is otherwise linear elastic."""
+        material = self.material
+        if material is None:
+            return False
+        depends = material.elastic is None or material.elastic.table is not None or material.user_field is not None
+        return depends or material.plastic is not None or material.expansion != 0.0
 
 
 @dataclass(frozen=True, slots=True)

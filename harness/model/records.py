@@ -268,7 +268,7 @@ class PointVariables:
     aliases pairs of a name in Abaqus' output and the name here, where they differ ('S22', 'TN')
     sections section points of an integration point of a shell or beam, which follow each other; `points` counts all
     whole   shells and beams only: names of what is the same at all points of a section
-    numbers beams only: of the section points
+    numbers beams only: numbers of the section points with a line in tables, and their places among all, from 0
     """
 
     kind: str
@@ -280,13 +280,13 @@ class PointVariables:
     aliases: tuple[tuple[str, str], ...] = ()
     sections: int = 1
     whole: tuple[str, ...] = ()
-    numbers: tuple[int, ...] = ()
+    numbers: tuple[tuple[int, int], ...] = ()
 
     @property
     def sides(self) -> tuple[tuple[str, int, int], ...]:
         """Section points with a line in tables: suffix in field output, number, place among all, from 0."""
         if self.numbers:
-            return tuple((f"_SP{number}", number, place) for place, number in enumerate(self.numbers))
+            return tuple((f"_SP{number}", number, place) for number, place in self.numbers)
         return (("_SNEG", 1, 0), ("_SPOS", self.sections, self.sections - 1)) if self.sections > 1 else ()
 
 

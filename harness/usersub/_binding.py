@@ -568,7 +568,7 @@ def slopes_at_nodes(family: int, nodes: int) -> FloatArray:
 
 _ELEMENTS: Final = (
     *("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric", "truss"),
-    "generalised",
+    *("generalised", "beam section"),
 )
 """In the order of host_element_address."""
 
@@ -586,11 +586,13 @@ def address_of(
         "piezoelectric",
         "truss",
         "generalised",
+        "beam section",
     ],
 ) -> int:
     """Address of built-in elements.
 
-    Cohesive ones, springs and masses, heat that enters and beams are called like UEL, the others like UELMAT.
+    Cohesive ones, springs and masses, heat that enters and linear elastic beams are called like UEL, the others like
+    UELMAT.
     """
     return int(_host.host_element_address(1 + _ELEMENTS.index(elements)))
 

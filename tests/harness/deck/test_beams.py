@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """*BEAM SECTION and *BEAM GENERAL SECTION: what they give, and what is refused."""
 
+import numpy as np
 import pytest
 
 import harness
 from harness.deck import read_deck
+from harness.elements.beam import local_axes
 from harness.errors import DeckError
 from harness.report.model_tables import property_tables
 
@@ -51,6 +53,75 @@ def deck(tmp_path):
 
 def section_of(file):
     return read_deck(file).groups[0].section
+
+
+TURNED = """\
+*NODE
+1, 0., 0., 0.{first}
+2, 1., 0., 0.{second}
+3, 2., 0., 0.
+4, 5., 1., -1.
+5, 5., 0., 0.
+*ELEMENT, TYPE=B31, ELSET=A
+1, 1, 2{node}
+*ELEMENT, TYPE=B31, ELSET=B
+2, 2, 3
+*MATERIAL, NAME=M
+*ELASTIC
+100., 0.25
+*BEAM SECTION, ELSET=A, MATERIAL=M, SECTION=RECT
+0.2, 0.3
+0., 0., -1.
+*BEAM SECTION, ELSET=B, MATERIAL=M, SECTION=RECT
+0.2, 0.3
+{n1}
+*STEP
+*STATIC
+*END STEP
+"""
+
+
+def directions(tmp_path, *, angle=0.0, first="", second="", node=""):
+    """Angle of n2 from y at the middle of both elements, in degrees; n1 of the second section is turned from -z."""
+    n1 = f"0., {np.sin(np.radians(angle))}, {-np.cos(np.radians(angle))}"
+    (tmp_path / "turned.inp").write_text(TURNED.format(n1=n1, first=first, second=second, node=node))
+    model = read_deck(tmp_path / "turned.inp")
+    found = []
+    for group in model.groups:
+        axes, _, _ = local_axes(group, group.built_in, group.section, model.mesh.coordinates, 1)
+        t, n1, n2 = axes[0, 0]
+        np.testing.assert_allclose(n1, np.cross(n2, t), atol=1e-12)
+        np.testing.assert_allclose(t, [1, 0, 0], atol=1e-12)
+        found.append(np.degrees(np.arctan2(n2[2], n2[1])))
+    return found
+
+
+@pytest.mark.parametrize(
+    ("given", "expected"),
+    [
+        # within 20 degrees the joint has the mean
+        ({"angle": 10.0}, (2.5, 7.5)),
+        ({"angle": 30.0}, (0.0, 30.0)),
+        # direction cosines of *NODE, of any length, take its place
+        ({"angle": 10.0, "second": ", 0., 0., 2."}, (45.0, 50.0)),
+        ({"first": ", 0., 0., 1.", "second": ", 0., 0., 1."}, (90.0, 45.0)),
+        # an additional node takes the place of n1 of the section; 45 degrees are too many for a mean
+        ({"node": ", 4"}, (45.0, 0.0)),
+        ({"node": ", 4", "angle": 50.0}, (46.25, 48.75)),
+    ],
+)
+def test_normals_at_nodes(tmp_path, given, expected):
+    """Analysis User's Guide, Beam element cross-section orientation; in between they are interpolated."""
+    np.testing.assert_allclose(directions(tmp_path, **given), expected, atol=1e-9)
+
+
+@pytest.mark.parametrize("given", [{"first": ", 1., 0., 0.", "second": ", 1., 0., 0."}, {"node": ", 5"}])
+def test_normal_along_the_axis(tmp_path, given):
+    values = {"first": "", "second": "", "node": ""} | given
+    (tmp_path / "turned.inp").write_text(TURNED.format(n1="0., 0., -1.", **values))
+    message = r"turned\.inp:\d+: element 1 \(type B31\) lies along n1 of its additional node, or n2 of its nodes"
+    with pytest.raises(DeckError, match=message):
+        harness.run(tmp_path / "turned.inp", output_dir=tmp_path)
 
 
 def test_section(deck):
@@ -135,10 +206,26 @@ def test_mistakes(deck, section, message):
 @pytest.mark.parametrize(
     ("material", "message"),
     [
-        ("*DENSITY\n1.", r"material M needs \*ELASTIC, TYPE=ISOTROPIC with constant values"),
-        ("*ELASTIC\n1., 0.3, 0.\n2., 0.3, 100.", r"material M needs \*ELASTIC, TYPE=ISOTROPIC with constant values"),
-        ("*ELASTIC\n1., 0.3\n*PLASTIC\n1., 0.", r"material M has \*PLASTIC, at .*; beams are linear elastic here"),
-        ("*USER MATERIAL, CONSTANTS=1\n1.", r"material M has \*USER MATERIAL, at .*; beams are linear elastic here"),
+        ("*DENSITY\n1.", r"material M needs \*ELASTIC, TYPE=ISOTROPIC"),
+        ("*ELASTIC, TYPE=LAMINA\n1., 1., 0.3, 1., 1., 1.", r"material M needs \*ELASTIC, TYPE=ISOTROPIC"),
+        ("*HYPERELASTIC, NEO HOOKE\n1., 0.", r"\*HYPERELASTIC is not supported for beams"),
+        ("*ELASTIC\n1., 0.3\n*VISCOELASTIC, TIME=PRONY\n0.5, 0.5, 1.", r"\*VISCOELASTIC is not supported for beams"),
+        (
+            "*ELASTIC\n1., 0.3\n*PLASTIC, HARDENING=USER, PROPERTIES=1\n1.",
+            r"\*PLASTIC, HARDENING=USER is not supported for beams",
+        ),
+        (
+            "*ELASTIC\n1., 0.3\n*PLASTIC, HARDENING=KINEMATIC\n1., 0.\n2., 1.",
+            r"\*PLASTIC: beams support isotropic hardening only \(material M\)",
+        ),
+        (
+            "*ELASTIC\n1., 0.3\n*USER OUTPUT VARIABLES\n1",
+            r"\*USER OUTPUT VARIABLES \(material M\) is not supported for beams",
+        ),
+        (
+            "*ELASTIC\n1., 0.3\n*DAMAGE INITIATION, CRITERION=MAXS\n1., 1., 1.",
+            r"material M has \*DAMAGE INITIATION, at .*, not for beams",
+        ),
         ("*ELASTIC\n1., 0.7", r"\*ELASTIC"),
     ],
 )
@@ -151,16 +238,16 @@ def test_materials_that_beams_do_not_take(deck, material, message):
     ("options", "message"),
     [
         (
-            {"type": "B32", "extra": ", 3", "step": ", NLGEOM"},
-            r"beam\.inp:\d+: NLGEOM is not supported for elements of type B32, whose rotations are small",
-        ),
-        (
             {"step": ", NLGEOM", "procedure": "DYNAMIC", "data": "0.1, 1.\n", "material": "*ELASTIC\n1.\n*DENSITY\n1."},
             r"\*DYNAMIC with NLGEOM is not supported for elements of type B31, whose inertia is that of small",
         ),
         (
             {"type": "B21", "step": ", NLGEOM", "data": "1., 1.\n*DLOAD\nALL, P2, 1.\n"},
             r"a force along a local direction of a beam follows it, which is not supported with NLGEOM \(.*:12\)",
+        ),
+        (
+            {"procedure": "BUCKLE", "data": "1\n*DLOAD\nALL, P1, 1.\n"},
+            r"beam\.inp:\d+: a force along a local direction of a beam follows it; its load stiffness for \*BUCKLE",
         ),
         (
             {
@@ -172,10 +259,6 @@ def test_materials_that_beams_do_not_take(deck, material, message):
                 "material": "*ELASTIC\n1., 0.3\n*DENSITY\n1.",
             },
             r"NLGEOM and elements of type B21 whose centroid is beside their nodes is not supported; ROTARY INERTIA",
-        ),
-        (
-            {"material": "*ELASTIC\n1., 0.3\n*EXPANSION\n1e-5"},
-            r"\*EXPANSION \(material M\) is not supported for elements of type B31",
         ),
         (
             {"procedure": "DYNAMIC", "data": "0.1, 1.\n"},
@@ -197,9 +280,12 @@ def test_materials_that_beams_do_not_take(deck, material, message):
             {"data": "1., 1.\n*DSLOAD\nS, P, 1.\n", "section": RECT + "\n*SURFACE, NAME=S\nALL, S1"},
             r"\*SURFACE: elements of type B31 have no face S1 \(faces: none\)",
         ),
+        ({"type": "B21", "extra": ", 3"}, r"element 1 has 3 nodes, but B21 needs 2"),
+        ({"extra": ", 9"}, r"beam\.inp:\d+: element 1 uses node 9, which is not defined"),
+        ({"extra": ", 3, 2"}, r"element 1 has 4 nodes, but B31 needs 2"),
         (
-            {"extra": ", 3"},
-            r"element 1 has 3 nodes, but B31 needs 2; one that gives n1 is not supported: give n1 with the section",
+            {"extra": ", 3\n*ELGEN, ELSET=ALL\n1, 2, 1, 1"},
+            r"\*ELGEN: element 1 has an additional node that gives n1, which cannot be generated here",
         ),
     ],
 )

@@ -75,9 +75,9 @@ class Line:
 
 @pytest.fixture
 def run(tmp_path):
-    def run(line: Line, data: str, *, step: str = STEP):
+    def run(line: Line, data: str, *, step: str = STEP, text: str = ""):
         file = tmp_path / "beam.inp"
-        file.write_text(line.text(step.format(data=data)))
+        file.write_text(text or line.text(step.format(data=data)))
         return harness.run(file, output_dir=tmp_path / "out")
 
     return run
@@ -280,7 +280,7 @@ def elastica(load: float) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize(
-    ("element_type", "count", "tolerance"), [("B21", 40, 1e-3), ("B22", 10, 1e-3), ("B31", 40, 1e-3)]
+    ("element_type", "count", "tolerance"), [("B21", 40, 1e-3), ("B22", 10, 1e-3), ("B31", 40, 1e-3), ("B32", 10, 1e-3)]
 )
 def test_elastica(run, element_type, count, tolerance):
     """P L^2/EI = 5: the elastica, with an axial and shear flexibility of EI/(EA L^2) = 8e-6."""
@@ -296,25 +296,27 @@ def test_elastica(run, element_type, count, tolerance):
 
 
 @pytest.mark.parametrize(("load", "published"), [(300, (22.14, 58.64, 40.35)), (600, (15.55, 47.04, 53.50))])
-def test_bend_of_45_degrees(run, load, published):
+@pytest.mark.parametrize(("element_type", "nodes"), [("B31", 9), ("B32", 9)])
+def test_bend_of_45_degrees(run, element_type, nodes, load, published):
     """The end of a beam with a radius of 100 and a square section of 1 under a force out of its plane.
 
     K.J. Bathe, S. Bolourchi, Int. J. for Numerical Methods in Engineering 14 (1979) 961; the figures are those of
     A. Cardona, M. Geradin, the same 26 (1988) 2403.
     """
-    angle = np.linspace(0, np.pi / 4, 9)
+    angle = np.linspace(0, np.pi / 4, nodes)
     places = 100 * np.column_stack([1 - np.cos(angle), np.sin(angle), 0 * angle])
-    line = Line("B31", places, rect(1.0, 1.0), material="*ELASTIC\n1e7, 0.")
+    line = Line(element_type, places, rect(1.0, 1.0), material="*ELASTIC\n1e7, 0.")
     history = run(line, f"{CLAMPED}*CLOAD\nEND, 3, {load}.", step=NONLINEAR).history
     end = places[-1] + [history[f"U{k}[ALL:{line.last}]"][-1] for k in (1, 2, 3)]
     # published figures differ by up to 2 %
     np.testing.assert_allclose(end, published, rtol=5e-3)
 
 
-def test_frame_turns_with_its_root(run):
+@pytest.mark.parametrize("element_type", ["B31", "B32"])
+def test_frame_turns_with_its_root(run, element_type):
     """Rotations of the root by 150 degrees about an inclined axis move a bent beam in space without a force."""
     corner = np.array([[0.0, 0, 0], [2, 0, 0], [4, 0, 0], [4, 1, 1], [4, 2, 2]])
-    line = Line("B31", corner, rect(0.3, 0.5, "0.3, 0.2, -1."))
+    line = Line(element_type, corner, rect(0.3, 0.5, "0.3, 0.2, -1."))
     vector = np.radians(150) * np.array([2.0, -1.0, 2.0]) / 3
     rows = "\n".join(f"ROOT, {k}, {k}, {value!r}" for k, value in enumerate(vector.tolist(), 4))
     history = run(line, f"*BOUNDARY\nROOT, 1, 3\n{rows}", step=NONLINEAR).history
@@ -599,3 +601,91 @@ def test_transient_keeps_the_energy(run):
     stored, moving = np.array(history["ALLSE"]), np.array(history["ALLKE"])
     assert moving.max() > 0.5 * stored[0]
     np.testing.assert_allclose((stored + moving)[1:], stored[0], rtol=1e-6)
+
+
+BUCKLE = """*STEP
+*BUCKLE
+2
+{data}
+*OUTPUT, HISTORY
+*NODE OUTPUT, NSET=ALL
+U
+*END STEP
+"""
+
+
+def eigenvalues(run, line, data, step=BUCKLE):
+    return np.array(run(line, data, step=step).history["EIGVAL"])
+
+
+@pytest.mark.sample(4)
+@pytest.mark.parametrize(("element_type", "count"), [("B21", 6), ("B22", 8), ("B31", 6), ("B32", 8)])
+@pytest.mark.parametrize(
+    ("held", "factor"),
+    [("ROOT, ENCASTRE", 0.5), ("ROOT, 1, 4\nEND, 2, 4", 1.0), ("ROOT, ENCASTRE\nEND, 2, 6", 2.0)],
+    ids=["cantilever", "pinned", "clamped"],
+)
+def test_euler_columns(run, element_type, count, held, factor):
+    """P (1 + P/K) = EI (factor pi/L)^2 about the weak axis: of a slender column Euler's load.
+
+    Z.P. Bazant, L. Cedolin, Stability of Structures, 1991, section 1.7: Haringx, for forces normal to the section.
+    """
+    length, a, b = 10.0, 1.0, 0.2
+    line = Line.straight(
+        element_type, count, (length, 0, 0), rect(a, b, more="\n*TRANSVERSE SHEAR STIFFNESS\n66.1, , 0.")
+    )
+    if BEAM[element_type].dimension == 2:
+        held = held.replace("1, 4", "1, 2").replace("2, 4", "2, 2")
+    found = eigenvalues(run, line, f"*BOUNDARY\n{held}\n*CLOAD\nEND, 1, -1.")[0]
+    wave = factor * np.pi / length
+    if BEAM[element_type].nodes == 2:
+        # rotations sin(wave x) at the nodes: those of the middles, and their differences
+        wave = 2 * np.tan(wave * length / count / 2) / (length / count)
+    euler = 1000 * a * b**3 / 12 * wave**2
+    expected = 66.1 / 2 * (np.sqrt(1 + 4 * euler / 66.1) - 1)
+    # quadratic elements converge with the fourth power of their length
+    assert found == pytest.approx(expected, rel=1e-6 if BEAM[element_type].nodes == 2 else 2e-3)
+
+
+@pytest.mark.parametrize(("element_type", "count"), [("B31", 20), ("B32", 5)])
+def test_lateral_buckling_of_a_cantilever(run, element_type, count):
+    """A narrow rectangle under an end force along its longer side: P = 4.013 sqrt(EI GJ)/L^2.
+
+    S.P. Timoshenko, Theory of Elastic Stability, lateral buckling of beams with narrow rectangular sections.
+    """
+    length, a, b = 10.0, 0.05, 1.0
+    line = Line.straight(element_type, count, (length, 0, 0), rect(a, b, more=THIN))
+    found = eigenvalues(run, line, f"{CLAMPED}*CLOAD\nEND, 2, -1.").min()
+    stiffness = np.sqrt(1000 * a**3 * b / 12 * 400 * rectangle_torsion(a, b))
+    assert abs(found) == pytest.approx(4.013 * stiffness / length**2, rel=1e-2)
+
+
+@pytest.mark.sample(2)
+@pytest.mark.parametrize(("element_type", "count"), [("B21", 10), ("B22", 4), ("B31", 10), ("B32", 4)])
+def test_preload(run, element_type, count):
+    """Under a part of the load, with NLGEOM, the rest is missing, but for the shortening of the column."""
+    line = Line.straight(element_type, count, (10, 0, 0), rect(1.0, 0.2))
+    whole = eigenvalues(run, line, f"{CLAMPED}*CLOAD\nEND, 1, -1.")[0]
+    load = float(0.4 * whole)
+    first = f"*STEP, NLGEOM\n*STATIC\n{CLAMPED}*CLOAD\nEND, 1, {-load!r}\n*END STEP\n"
+    found = eigenvalues(run, line, "*CLOAD\nEND, 1, -1.", step=first + BUCKLE)
+    # the first step has none
+    more = found[~np.isnan(found)][0]
+    # the axial strain of the preload is 3e-4
+    assert more == pytest.approx(whole - load, rel=2e-3)
+
+
+@pytest.mark.parametrize(("element_type", "count"), [("B31", 12), ("B32", 6)])
+def test_twisted_beam(run, element_type, count):
+    """MacNeal and Harder: normals of *NODE twist a cantilever by 90 degrees; 5.424e-3 and 1.754e-3 at its end."""
+    last = count * (BEAM[element_type].nodes - 1) + 1
+    line = Line.straight(element_type, count, (12.0, 0, 0), rect(0.32, 1.1), material="*ELASTIC\n29e6, 0.22")
+    text = line.text(STEP.format(data=f"{CLAMPED}*CLOAD\nEND, {{dof}}, 1."))
+    for k, angle in enumerate(np.linspace(0, np.pi / 2, last), 1):
+        plain = f"\n{k}, {line.places[k - 1, 0]}, 0.0, 0.0"
+        assert plain in text
+        text = text.replace(plain, f"{plain}, 0., {np.cos(angle)}, {np.sin(angle)}", 1)
+    for dof, expected in ((3, 5.424e-3), (2, 1.754e-3)):
+        history = run(line, "", text=text.replace("{dof}", str(dof))).history
+        # the figures are those of beam theory
+        assert history[f"U{dof}[ALL:{last}]"][-1] == pytest.approx(expected, rel=1e-2)

@@ -58,8 +58,14 @@ def beam(bound, load, call):
             report = block.evaluate(replace(call, flags=Flags(1, nlgeom, request)), whole, whole, residual, matrix.data)
             return -residual[used], matrix.toarray()[np.ix_(used, used)], report.energy
 
+        def stress(call, u, du):
+            matrix.data[:] = 0
+            block.stress_matrix(call, u, du, matrix.data)
+            return matrix.toarray()[np.ix_(used, used)]
+
         evaluate.block = block
         evaluate.unknowns = len(used)
+        evaluate.stress = stress
         return evaluate
 
     return beam
@@ -205,6 +211,41 @@ def test_large_displacements(beam, element_type):
     assert energy[1] == pytest.approx(0, abs=1e-20 * abs(k).max())
 
 
+@pytest.mark.parametrize("nlgeom", [False, True], ids=["small", "NLGEOM"])
+@pytest.mark.parametrize("element_type", ["B21", "B22", "B31", "B32"])
+def test_initial_stress_matrix(beam, call, element_type, nlgeom):
+    """A perturbation has the matrix of the state that it leads to; with NLGEOM it is a part of the tangent."""
+    x = nodes_of(element_type, bow=0.2)
+    evaluate = beam(element_type, UNEQUAL, x, large=nlgeom)
+    n = evaluate.unknowns
+    size = 6 * len(x)
+    used = np.array([6 * node + dof - 1 for node in range(len(x)) for dof in BEAM[element_type].dofs(node)])
+
+    def stress(request, u, du):
+        whole, change = np.zeros(size), np.zeros(size)
+        whole[used], change[used] = u, du
+        return evaluate.stress(replace(call, flags=Flags(1, nlgeom, request)), whole, change)
+
+    random = np.random.default_rng(4)
+    at = 0.1 * random.normal(size=n) if nlgeom else np.zeros(n)
+    du = random.normal(size=n)
+    added = stress(Request.ADDED_STRESS, at, du)
+    base = stress(Request.BASE_STRESS, at + du * 1e-5, np.zeros(n)) - stress(Request.BASE_STRESS, at, np.zeros(n))
+    if not nlgeom:
+        np.testing.assert_allclose(added, 1e5 * base, atol=1e-9 * abs(added).max())
+    translation = np.zeros(n)
+    translation[:: len(BEAM[element_type].dofs(0))] = 1.0
+    np.testing.assert_allclose(added @ translation, 0, atol=1e-9 * abs(added).max())
+    if nlgeom:
+        tangent = evaluate(at, nlgeom=True)[1]
+        part = stress(Request.BASE_STRESS, at, np.zeros(n))
+        # what is left of the tangent goes through the strains of the points alone
+        values = np.linalg.svd(tangent - part, compute_uv=False)
+        strains = BEAM[element_type].points * (6 if BEAM[element_type].dimension == 3 else 3)
+        np.testing.assert_allclose(values[strains:], 0, atol=1e-10 * values[0])
+        assert np.linalg.svd(part, compute_uv=False)[0] > 1e-3 * values[0]
+
+
 def turned_by(x, u, turn, shift):
     """Unknowns after displacements and rotation vectors u, and then a rotation and a translation of all."""
     u = u.reshape(-1, 6)
@@ -213,32 +254,36 @@ def turned_by(x, u, turn, shift):
 
 
 @pytest.mark.parametrize("turn", [[0.3, -0.2, 0.5], [2.0, 1.0, -1.5], [0.0, 3.1, 0.0]])
-def test_rotation_of_all_changes_nothing(beam, turn):
+@pytest.mark.parametrize("element_type", ["B31", "B32"])
+def test_rotation_of_all_changes_nothing(beam, element_type, turn):
     """In space, forces and moments of a bent and twisted beam turn with it, and it stores as much."""
-    evaluate, turn = beam("B31", UNEQUAL, ENDS), Rotation.from_rotvec(turn)
-    u = 0.4 * np.random.default_rng(3).normal(size=12)
+    x = nodes_of(element_type, bow=0.2)
+    evaluate, turn = beam(element_type, UNEQUAL, x), Rotation.from_rotvec(turn)
+    u = 0.4 * np.random.default_rng(3).normal(size=6 * len(x))
     force, _, energy = evaluate(u, nlgeom=True)
-    other, _, other_energy = evaluate(turned_by(ENDS, u, turn, np.array([1.0, -2.0, 3.0])), nlgeom=True)
+    other, _, other_energy = evaluate(turned_by(x, u, turn, np.array([1.0, -2.0, 3.0])), nlgeom=True)
     np.testing.assert_allclose(other, turn.apply(force.reshape(-1, 3)).ravel(), atol=1e-12 * abs(force).max())
     assert other_energy[1] == pytest.approx(energy[1], rel=1e-10)
 
 
 @pytest.mark.parametrize("size", [0.01, 0.1, 0.5])
-def test_large_rotations_in_space(beam, size):
+@pytest.mark.parametrize("element_type", ["B31", "B32"])
+def test_large_rotations_in_space(beam, element_type, size):
     """The tangent is the derivative of the forces, these do the work that is stored, and are in equilibrium."""
-    evaluate, x = beam("B31", UNEQUAL, ENDS, large=True), ENDS
-    u = size * np.random.default_rng(8).normal(size=12)
+    x = nodes_of(element_type, bow=0.2)
+    evaluate, n = beam(element_type, UNEQUAL, x, large=True), len(x)
+    u = size * np.random.default_rng(8).normal(size=6 * n)
     force, k, _ = evaluate(u, nlgeom=True)
     step = 1e-6
-    pairs = [(evaluate(u + d, nlgeom=True), evaluate(u - d, nlgeom=True)) for d in step * np.eye(12)]
+    pairs = [(evaluate(u + d, nlgeom=True), evaluate(u - d, nlgeom=True)) for d in step * np.eye(6 * n)]
     slopes = np.array([one[0] - other[0] for one, other in pairs]).T / (2 * step)
     np.testing.assert_allclose(k, slopes, atol=1e-6 * abs(k).max())
     # work of the moments: on spins about the global axes
-    for node in range(2):
+    for node in range(n):
         for axis in range(6):
             ends = []
             for sign in (1, -1):
-                moved = u.reshape(2, 6).copy()
+                moved = u.reshape(n, 6).copy()
                 if axis < 3:
                     moved[node, axis] += sign * step
                 else:
@@ -248,15 +293,15 @@ def test_large_rotations_in_space(beam, size):
             assert force[6 * node + axis] == pytest.approx(
                 (ends[0] - ends[1]) / (2 * step), abs=1e-6 * abs(force).max()
             )
-    forces, moments = force.reshape(2, 2, 3).swapaxes(0, 1)
+    forces, moments = force.reshape(n, 2, 3).swapaxes(0, 1)
     np.testing.assert_allclose(forces.sum(axis=0), 0, atol=1e-12 * abs(force).max())
-    arms = x + u.reshape(2, 6)[:, :3]
+    arms = x + u.reshape(n, 6)[:, :3]
     np.testing.assert_allclose(
         moments.sum(axis=0) + np.cross(arms, forces).sum(axis=0), 0, atol=1e-11 * abs(force).max()
     )
 
 
-@pytest.mark.parametrize("element_type", [*PLANE, "B31"])
+@pytest.mark.parametrize("element_type", [*PLANE, "B31", "B32"])
 def test_small_displacements_are_the_limit_of_large_ones(beam, element_type):
     evaluate = beam(element_type, UNEQUAL, nodes_of(element_type, bow=0.2))
     nothing = np.zeros(evaluate.unknowns)
@@ -333,7 +378,7 @@ def test_section_forces_in_space(beam, element_type):
     expected = strain + corners[:, 1] * about_1 - corners[:, 0] * about_2
     np.testing.assert_allclose(found["E11"], expected, rtol=1e-9)
     np.testing.assert_allclose(found["S11"], E * expected, rtol=1e-9)
-    assert evaluate.block.state(0).variables.numbers == (1, 5, 21, 25)
+    assert evaluate.block.state(0).variables.numbers == ((1, 0), (5, 1), (21, 2), (25, 3))
     # the axial force acts at the ends
     assert force.reshape(-1, 6)[-1, :3] @ t == pytest.approx(stiffness[0] * strain)
 
@@ -357,7 +402,7 @@ def test_section_forces_in_a_plane(beam, element_type):
     np.testing.assert_allclose(found["SM1"], E * a * b**3 / 12 * curvature, rtol=1e-9)
     np.testing.assert_allclose(found["SE2"], shear, rtol=1e-9)
     np.testing.assert_allclose(found["S11"], np.tile([-1, 1], BEAM[element_type].points) * E * curvature * b / 2)
-    assert evaluate.block.state(0).variables.numbers == (1, 5)
+    assert evaluate.block.state(0).variables.numbers == ((1, 0), (5, 1))
 
 
 def test_an_unequal_section_bends_about_its_centroid(beam):

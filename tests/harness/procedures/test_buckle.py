@@ -232,15 +232,14 @@ def test_what_is_wrong_is_named(run, old, new, message):
     [
         ("C3D8T", "*CONDUCTIVITY\n1.\n*SPECIFIC HEAT\n1.\n*DENSITY\n1.", "they have temperatures"),
         ("U1", "", "no call asks user elements for it"),
-        ("B31", "", "they are beams"),
     ],
 )
 def test_elements_without_an_initial_stress_matrix(run, element_type, material, reason):
     nodes = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]
-    count = {"C3D8T": 8, "B31": 2}.get(element_type, 4)
+    count = {"C3D8T": 8}.get(element_type, 4)
     lines = ["*USER ELEMENT, TYPE=U1, NODES=4, COORDINATES=3", "1, 2, 3"] if element_type == "U1" else []
     lines += body_lines(element_type, nodes[:count], [range(count)])
-    section = {"B31": "*BEAM SECTION, ELSET=BODY, MATERIAL=M, SECTION=CIRC\n0.1", "U1": "*UEL PROPERTY, ELSET=BODY"}
+    section = {"U1": "*UEL PROPERTY, ELSET=BODY"}
     lines += [section.get(element_type, "*SOLID SECTION, ELSET=BODY, MATERIAL=M")]
     lines += ["*MATERIAL, NAME=M", "*ELASTIC\n1., 0.", *([material] if material else []), ""]
     message = rf"buckle\.inp:\d+: elements of type {element_type} have no initial stress matrix .*: {reason}"
