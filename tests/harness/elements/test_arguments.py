@@ -486,9 +486,48 @@ def test_uel(calls, kind):
             **{"JTYPE": 5, "TIME": [1, 2], "DTIME": h, "PERIOD": 1, "JPROPS": 3, "MLVARX": 2, "MDLOAD": 1},
             **{"JDLTYP": 2, "ADLMAG": 4, "DDLMAG": 4 * part, "PREDEF": [*temperature, 6, 2 * part] * 2},
             "PARAMS": [-0.05, BETA, GAMMA] if "dynamic" in kind else [0, 0, 0],
-            "LFLAGS": [CODES.get(kind, 1), "large" in kind, 1, 0, 0],
+            "LFLAGS": [CODES.get(kind, 1), "large" in kind, 1, 0, 0, 0, 0],
         },
     )
+
+
+SPRINGS = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\n*INITIAL CONDITIONS, TYPE=FIELD\nALL, 4.\n"
+"""What the fields of the spring start from."""
+OF_SPRING = {"PROPS": 10, "COORDS": [1, 3], "JTYPE": 5, "JPROPS": 3, "MLVARX": 2, "MDLOAD": 1, "JDLTYP": 2}
+OF_SPRING |= {"V": [0, 0], "A": [0, 0], "PARAMS": [0, 0, 0]}
+REQUESTS = {
+    "static perturbation": {(1, 0): 0.0, (100, 0): 0.05},
+    "frequency": {(2, 0): 0.0, (4, 0): 0.0},
+    "harmonic": {(2, 0): 0.0, (4, 0): 0.0, (3, 1): 0.0, (3, 2): 0.0},
+}
+"""LFLAGS(3) and (7) of the calls in a linear step, with DU of node 2."""
+
+
+@pytest.mark.parametrize("large", ["", ", NLGEOM"])
+@pytest.mark.parametrize("kind", REQUESTS)
+def test_uel_in_linear_steps(calls, kind, large):
+    """The state is that of the end of step 1, where node 2 has moved by 1; a load of 0.5 moves it 0.05 further."""
+    procedure, options = LINEAR[kind]
+    pulled = "*BOUNDARY\n1, 1\n*CLOAD\n2, 1, 10.\n*DLOAD\nE, U2, 4.\n*TEMPERATURE\nALL, 60.\n*FIELD\nALL, 6.\n*END"
+    deck = SPRING.replace("*BOUNDARY\nALL, {dof}\n*END", pulled)
+    deck = deck.replace("*BOUNDARY, OP=NEW\n1, {dof}\n2, {dof}, {dof}, 0.02\n", "")
+    loads = {"static perturbation": "*CLOAD\n2, 1, 0.5\n*DLOAD\nE, U2, 3.\n", "harmonic": "*CLOAD\n2, 1, 0.5\n"}
+    found = calls(procedure, options, loads.get(kind, ""), deck=deck, first=large, initial=SPRINGS)
+    of_step = [(at, dict(given)) for name, at, given in found if name == "UEL" and at[0] == 2]
+    assert {(at[-1], int(given["LFLAGS"][6])) for at, given in of_step} == set(REQUESTS[kind])
+    added = 3.0 if kind == "static perturbation" else 0.0
+    for at, given in of_step:
+        assert at[:3] == (2, 1, 7)
+        assert given.pop("PNEWDT") > 1
+        request, damping = at[-1], given["LFLAGS"][6]
+        expected = {
+            **{"SVARS": 11, "ENERGY": [0, 11, 0, 0, 0, 0, 0, 0], "NRHS": 1, "U": [0, 1]},
+            "DU": [0, REQUESTS[kind][request, damping]],
+            **{"TIME": [0.01 if kind == "harmonic" else 0, 1], "DTIME": 0, "PERIOD": 0, "ADLMAG": 4, "DDLMAG": added},
+            "PREDEF": [60, 0, 6, 0] * 2,
+            "LFLAGS": [{"frequency": 41, "harmonic": 95}.get(kind, 1), bool(large), request, 1, 0, 0, damping],
+        }
+        check(given, OF_SPRING | expected)
 
 
 def test_the_page_names_tests_of_each_routine(load):
