@@ -27,6 +27,7 @@ from harness.model.records import (
     StepDone,
     Warned,
 )
+from harness.model.steps import Step
 from harness.procedures.step_setting import Setting, SolverTimes, choose_solver
 from harness.solver.linear import LinearSolver
 
@@ -96,7 +97,7 @@ class PerturbationStep:
         evaluation = self._pass(Request.NORMAL)
         assert evaluation.data is not None
         constraints, step = self._constraints, self._step
-        load = self._state.loads.in_perturbation(step)
+        load = self._loads(step)
         stiffness = self._system.matrix(evaluation.data)
         external = load + evaluation.residual
         change = self._response(evaluation.data, constraints.reduce(evaluation.data), external)
@@ -121,6 +122,16 @@ class PerturbationStep:
         missing = external - constraints.prescribed_residual(data, prescribed)
         self._solver.factorise(reduced)
         return constraints.expand(self._solver.solve(constraints.reduce_vector(missing)), prescribed)
+
+    def _loads(self, step: Step) -> FloatArray:
+        """Forces (n,) of the loads that the step, or a part of it, gives."""
+        time, state = (self._step_time, self._state.total_time), self._state
+        return state.loads.in_perturbation(step, self._user, self._increment, time, state.displacement)
+
+    @property
+    def _step_time(self) -> float:
+        """None passes; a frequency may stand in its place."""
+        return 0.0
 
     def _symmetric(self, data: FloatArray) -> FloatArray:
         """CSR values of the symmetric part of a matrix of the free unknowns."""
@@ -160,7 +171,7 @@ class PerturbationStep:
             flags=Flags.of(step, request),
             step=step.number,
             increment=self._increment,
-            step_time=0.0,
+            step_time=self._step_time,
             total_time=self._state.total_time,
             time_increment=period,
             period=period,

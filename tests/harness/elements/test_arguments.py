@@ -357,10 +357,39 @@ def test_ufield(calls, kind):
 
 @pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS])
 def test_dload(calls, kind):
-    """At the end of the increment; JLTYP of BX is 1."""
-    found = last(in_step(calls, kind), "DLOAD", place(kind, 7, POINT))
-    expected = {"F": 4.0, "TIME": [1.0, 2.0], "LAYER": 1, "KSPT": 1, "COORDS": PLACE, "JLTYP": 1, "SNAME": ""}
-    check(found, expected)
+    """At the end of the increment; JLTYP of BX is 1. F is that of the deck: no ramp acts on it."""
+    calls = in_step(calls, kind)
+    found = last(calls, "DLOAD", place(kind, 7, POINT))
+    check(found, OF_DLOAD | {"TIME": [1.0, 2.0], "COORDS": PLACE * stretch(kind)})
+    assert last(calls, "DLOAD", (2, 1, 7, POINT))["F"] == 4.0
+
+
+OF_DLOAD = {"F": 4.0, "LAYER": 1, "KSPT": 1, "JLTYP": 1, "SNAME": ""}
+
+
+@pytest.mark.parametrize("kind", PATHS)
+def test_dload_along_a_path(calls, kind):
+    """TIME(1) is the load factor, here the displacement over 0.02, TIME(2) the length of the path in all steps."""
+    found = calls(*STEPS[kind], BY_DECK + "*DLOAD\nE, BXNU, 4.\n")
+    increments = max(at[1] for name, at, _ in found if name == "DLOAD")
+    begun = last(found, "UEXTERNALDB", (2, increments, 0, 0))
+    given = dict(last(found, "DLOAD", (2, increments, 7, POINT)))
+    factor, total = given.pop("TIME")
+    assert factor > 0.5
+    assert total == begun["TIME"][1]
+    check(given, OF_DLOAD | {"COORDS": PLACE * [1 + 0.02 * factor * ("large" in kind), 1, 1]})
+
+
+@pytest.mark.parametrize("large", ["", ", NLGEOM"])
+@pytest.mark.parametrize("kind", ["static perturbation", "harmonic", "buckle"])
+def test_dload_in_linear_steps(calls, kind, large):
+    """About a base state in which the square is stretched by 0.02; a frequency takes the place of the step time."""
+    stretched = "*BOUNDARY\nALL, 2\n1, 1\n4, 1\nALL, 11, 11, 20.\nRIGHT, 1, 1, 0.02\n*END"
+    deck = DECK.replace("*BOUNDARY\nALL, 1, 2\nALL, 11, 11, 20.\n*END", stretched, 1)
+    found = calls(*LINEAR[kind], "*DLOAD\nE, BXNU, -4.\n", deck=deck, first=large)
+    given = last(found, "DLOAD", (2, 1, 7, POINT))
+    expected = {"F": -4.0, "TIME": [0.01 if kind == "harmonic" else 0.0, 1.0], "COORDS": PLACE * [1.02, 1, 1]}
+    check(given, OF_DLOAD | expected | ({} if large else {"COORDS": PLACE}))
 
 
 @pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS, *HEAT_STEPS])
@@ -528,6 +557,24 @@ def test_uel_in_linear_steps(calls, kind, large):
             "LFLAGS": [{"frequency": 41, "harmonic": 95}.get(kind, 1), bool(large), request, 1, 0, 0, damping],
         }
         check(given, OF_SPRING | expected)
+
+
+@pytest.mark.parametrize("kind", PATHS)
+def test_uel_along_a_path(calls, kind):
+    """All loads follow the load factor, which is the displacement of node 2 times the stiffness over the load."""
+    deck = SPRING.replace("2, {dof}, {dof}, 0.02\n", "")
+    found = calls(*STEPS[kind], "*DLOAD\nE, U2, 4.\n", deck=deck, initial=SPRINGS)
+    at, given = [(at, dict(given)) for name, at, given in found if name == "UEL" and at[0] == 2][-1]
+    begun = next(told for name, place, told in found if name == "UEXTERNALDB" and place == (*at[:2], 0, 0))
+    assert given.pop("PNEWDT") > 1
+    load, increment = 10 * given["U"][1], 10 * given["DU"][1]
+    assert load > increment > 0
+    # the length along the path takes the place of time
+    expected = {"TIME": begun["TIME"] + begun["DTIME"], "DTIME": begun["DTIME"], "PERIOD": 1}
+    expected |= {"SVARS": 10 * at[0] + at[1] - 1, "ENERGY": [0, 10 * at[0] + at[1] - 1, 0, 0, 0, 0, 0, 0]}
+    expected |= {"NRHS": 2, "U": [0, load / 10], "DU": [0, increment / 10, 0, 0], "ADLMAG": load, "DDLMAG": increment}
+    expected |= {"PREDEF": [20, 0, 4, 0] * 2, "LFLAGS": [1, "large" in kind, 1, 0, 0, 0, 0]}
+    check(given, OF_SPRING | expected)
 
 
 def test_the_page_names_tests_of_each_routine(load):

@@ -174,6 +174,7 @@ def test_what_has_no_meaning_is_named(run, step, message):
         run(SPRING, step, "\n*END STEP\n")
 
 
-def test_loads_of_dload_are_named(run):
-    with pytest.raises(DeckError, match=r"linear.inp:\d+: loads by DLOAD are not supported in a linear pert"):
-        run(SQUARE, LINEAR.format("", "*DLOAD\nBODY, P2NU"))
+def test_loads_of_dload_in_steps_by_modes_are_named(run):
+    modes = "*STEP\n*FREQUENCY\n1,\n*END STEP\n*STEP\n*MODAL DYNAMIC\n0.1, 1.\n*DLOAD\nBODY, P2NU\n*END STEP\n"
+    with pytest.raises(DeckError, match=r"linear.inp:\d+: loads by DLOAD are not supported in a step by modes"):
+        run(SQUARE, modes)
