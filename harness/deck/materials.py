@@ -225,7 +225,7 @@ _OPTIONS = (
     ),
     Keyword(
         "USER DEFINED FIELD",
-        "USDFLD gives the field variables of continuum elements, trusses and shells.",
+        "USDFLD gives the field variables of continuum elements, those with temperatures too, trusses and shells.",
         Where.MODEL,
     ),
     Keyword(
