@@ -134,8 +134,11 @@ def _check_perturbation(step: Step, problems: Problems) -> None:
     for field in step.fields:
         problems.add(field.source, "predefined fields are not supported in a linear perturbation")
     for boundary in step.boundaries:
-        if boundary.velocity or boundary.user:
-            problems.add(boundary.source, "TYPE=VELOCITY and USER have no meaning in a linear perturbation")
+        if boundary.velocity:
+            problems.add(boundary.source, "TYPE=VELOCITY has no meaning in a linear perturbation")
+        elif boundary.user and (step.procedure.harmonic or step.procedure.modal):
+            what = "a harmonic response" if step.procedure.harmonic else "a step by modes"
+            problems.add(boundary.source, f"values of DISP are not supported in {what}")
     for load in (*step.element_loads, *step.surface_loads):
         if load.type.jltyp and step.procedure.modal:
             problems.add(load.source, "loads by DLOAD are not supported in a step by modes")

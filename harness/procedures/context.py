@@ -17,7 +17,7 @@ from harness.model.user_values import UserValues
 from harness.procedures.convergence_checks import Checker, length_of_moments
 from harness.procedures.loads import fading_forces
 from harness.procedures.state import BegunStep
-from harness.procedures.step_setting import Setting, SolverTimes, choose_rank_solver, choose_solver
+from harness.procedures.step_setting import Setting, SolverTimes, choose_rank_solver, choose_solver, places
 from harness.procedures.unconstrained import tolerate
 from harness.solver.linear import LinearSolver, RankSolver
 from harness.solver.newton import Acting, Factoriser
@@ -142,12 +142,7 @@ class StepContext:
 
     def places(self, nodes: IntArray) -> FloatArray:
         """(k, 3) coordinates of nodes at the start of the increment; with NLGEOM those of the displaced nodes."""
-        dofs = self.system.dofs
-        coordinates = dofs.mesh.coordinates[nodes]
-        if not self.step.nlgeom:
-            return coordinates
-        unknowns = dofs.find(nodes[:, None], np.arange(1, 4))
-        return coordinates + np.where(unknowns >= 0, self.state.displacement[unknowns], 0.0)
+        return places(self.system.dofs, nodes, self.state.displacement if self.step.nlgeom else None)
 
     def call(self, size: float, step_time: float, total_time: float, u: FloatArray | None = None) -> Call:
         """Arguments of the passes of an increment that ends at these times; u as that of `load_at`."""

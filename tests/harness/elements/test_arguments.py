@@ -455,12 +455,21 @@ def test_linear_steps(calls, kind):
     check(given, {"FIELD": 4.0, "STATEV": 11, "CELENT": 1.0, "COORD": PLACE} | expected | AXES | SECTION)
 
 
-@pytest.mark.parametrize("kind", ["static perturbation", "harmonic"])
-def test_disp_in_linear_steps(calls, kind):
-    with pytest.raises(
-        DeckError, match=r"told.inp:\d+: TYPE=VELOCITY and USER have no meaning in a linear perturbation"
-    ):
-        calls(*LINEAR[kind], "*BOUNDARY, OP=NEW, USER\nRIGHT, 1, 1, 0.02\n")
+@pytest.mark.parametrize("large", ["", ", NLGEOM"])
+@pytest.mark.parametrize("kind", ["static perturbation", "buckle"])
+def test_disp_in_linear_steps(calls, kind, large):
+    """U is the change, COORDS those of the base state, in which the square is stretched by 0.02; no time passes."""
+    stretched = "*BOUNDARY\nALL, 2\n1, 1\n4, 1\nALL, 11, 11, 20.\nRIGHT, 1, 1, 0.02\n*END"
+    deck = DECK.replace("*BOUNDARY\nALL, 1, 2\nALL, 11, 11, 20.\n*END", stretched, 1)
+    # node 2 stays free to buckle
+    given = "*BOUNDARY, OP=NEW, USER\n3, 1, 1, -0.03\n"
+    found = last(calls(*LINEAR[kind], given, deck=deck, first=large), "DISP", (2, 1, 0, 3))
+    check(found, {"U": [-0.03, 0, 0], "TIME": [0, 1, 0], "JDOF": 1, "COORDS": [1.02 if large else 1, 1, 0]})
+
+
+def test_disp_in_a_harmonic_response(calls):
+    with pytest.raises(DeckError, match=r"told.inp:\d+: values of DISP are not supported in a harmonic response"):
+        calls(*LINEAR["harmonic"], "*BOUNDARY, OP=NEW, USER\nRIGHT, 1, 1, 0.02\n")
 
 
 def test_sdvini(calls):
