@@ -2,8 +2,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> GETVRM: values of the material point for which UVARM or USDFLD is running, in the directions of *ORIENTATION. S, E and
 !> LE (11, 22, 33, 12, 13, 23; those that the point does not have are zero, and N/A in flgray); PE (the same, then in place 7
-!> the equivalent plastic strain); SINV (Mises, Tresca, pressure, third invariant); SDV. jrcd = 1 if the point does not have
-!> the variable.
+!> the equivalent plastic strain); SINV (Mises, Tresca, pressure, third invariant); SDV; in USDFLD TEMP. jrcd = 1 if the point
+!> does not have the variable.
 subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccfla)
   use host_context, only: current
   use host_kinds, only: dp, i4
@@ -26,6 +26,7 @@ subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccf
   flgray = 'YES'
   place = places(size(current%values), current%tensor)
   n = size(place)
+  if (n == 0 .and. var /= 'SDV' .and. var /= 'TEMP') return
   strain = 0
   strain(place) = current%values(:n)
   stress = 0
@@ -51,6 +52,13 @@ subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccf
     shown = min(current%statev, 15)
     if (shown > 0) array(:shown) = current%history(current%first:current%first + shown - 1, current%column)
     if (shown == 0) jrcd = 1
+  case ('TEMP')
+    ! that at the start of the increment
+    if (allocated(current%fields)) then
+      array(1) = current%fields(1, 1)
+    else
+      jrcd = 1
+    end if
   case default
     jrcd = 1
   end select

@@ -17,9 +17,10 @@ module host_conduction
   use host_context, only: current, heat_t, initial_stresses
   use host_coupling, only: interpolate_fields
   use host_kinds, only: dp, i4
-  use host_kinematics, only: gradients, point_position
+  use host_kinematics, only: gradients, point_position, size_of
   use host_materials, only: find_material, material_t
   use host_shape, only: is_quadratic, rule_of, rule_t
+  use host_usdfld, only: call_usdfld
   use host_thermal, only: call_hetval, call_umatht, conductivity_at, energy_taken, flow_t
   implicit none (type, external)
   private
@@ -31,7 +32,7 @@ module host_conduction
     integer :: direct = 0              !< as host_kinematics has it
     real(dp) :: depth = 1              !< thickness, or 2 pi
     real(dp) :: dtime = 0              !< 0: heat is not stored
-    logical :: generates = .false.     !< HETVAL is called here
+    logical :: generates = .false.     !< HETVAL and USDFLD are called here, not with the stresses
     integer :: states = 0              !< points that have STATEV: those of the stresses, if there are any
   end type body_t
 
@@ -83,6 +84,7 @@ contains
     real(dp), intent(inout) :: heat(body%field%nodes), tangent(body%field%nodes, body%field%nodes)
     real(dp) :: g(body%field%nodes, body%geometry%dim), unused(body%geometry%nodes, body%direct), mass(body%field%nodes), &
                 gradient(body%geometry%dim), inverse(body%geometry%dim, body%geometry%dim), determinant, volume, start_volume, old
+    real(dp), target :: nothing(0)     ! strain and stress
     type(flow_t) :: flow
     integer :: dim, p
     dim = body%geometry%dim
@@ -93,11 +95,15 @@ contains
         call invert(dim, matmul(x, body%geometry%dn(:, :, p)), inverse, determinant)
         g = matmul(body%field%dn(:, :, p), inverse)
         gradient = matmul(t, g)
-        if (allocated(material%thermal%flow) .or. body%generates .and. allocated(material%thermal%source)) then
+        if (allocated(material%thermal%flow) .or. body%generates .and. asks(material)) then
           current%place = point_position(body%geometry, p, x)
           call interpolate_fields(body%geometry, p, fields, predef, material%variables)
           current%fields(1, 2) = dot_product(dt, n)
           current%fields(1, 1) = dot_product(t, n) - current%fields(1, 2)
+          if (body%generates .and. allocated(material%user_field)) then
+            current%length = length_of(body%geometry, body%direct, x)
+            call call_usdfld(material%user_field, 0, int(p, i4), material%axes, material%axes, .false., nothing)
+          end if
         end if
         old = energy(p)
         call flow_at(material, p, state_of(body, p), dot_product(t, n), gradient, flux(:, p), energy(p), flow)
@@ -129,6 +135,25 @@ contains
       call store(material, mass(p), t(p) - dt(p), t(p), unit(p, body%field%nodes), heat, tangent)
     end do
   end subroutine conduct
+
+  !> Whether HETVAL or USDFLD is called.
+  pure logical function asks(material)
+    type(material_t), intent(in) :: material
+    asks = allocated(material%thermal%source) .or. allocated(material%user_field)
+  end function asks
+
+  !> CELENT of an element.
+  real(dp) function length_of(rule, direct, x)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: direct
+    real(dp), intent(in) :: x(rule%dim, rule%nodes)
+    real(dp) :: unused(rule%nodes, direct), volume(rule%points)
+    integer :: p
+    do p = 1, rule%points
+      call gradients(rule, direct, p, x, unused, volume(p))
+    end do
+    length_of = size_of(rule, direct, x, volume)
+  end function length_of
 
   !> The point that has the STATEV of a point: itself, or the only one of the element or, in a wedge, of its layer.
   pure integer function state_of(body, point)

@@ -6,8 +6,9 @@
 !> 3  SPRING1, SPRING2: the same between the first unknown and the second, or the ground; SVARS as SPRINGA.
 !> 4  MASS: PROPS(1).
 !> 5  load on a face of an element: PROPS thickness or 2 pi, direction of a traction; JPROPS family and integration points of
-!>    the face (host_shape), 1 about an axis, outward as in add_pressure, 0 pressure, 1 traction, 2 shear traction. The loads
-!>    of the call are their magnitudes, with NLGEOM on the present face; ENERGY(8) is their work.
+!>    the face (host_shape), 1 about an axis, outward as in add_pressure, 0 pressure, 1 traction, 2 shear traction, 3 a pressure at
+!>    each point. The loads of the call are their magnitudes, with NLGEOM on the present face; ENERGY(8) is their work. Column 2 of
+!>    RHS is the force of their increments.
 !>
 !> In dynamic analyses SVARS go on with the forces of the last two increments, those of loads on faces always.
 module host_discrete
@@ -23,6 +24,7 @@ module host_discrete
   public :: discrete_uel
 
   integer(i4), parameter :: axial_spring = 2, spring = 3, mass_point = 4, face = 5
+  integer, parameter :: at_points = 3   !< JPROPS(5): a pressure at each point of the face
 
 contains
 
@@ -57,7 +59,14 @@ contains
         call dof_spring(n, int(nprops), props, u, svars, rhs, amatrx, energy)
       case (face)
         call load_face(rule_of(int(jprops(1)), int(jprops(2))), n, lflags(2) /= 0, jprops(3) /= 0, int(jprops(4:5)), &
-                       props(1:1 + mcrd), sum(adlmag(1:ndload)), coords, u, rhs, amatrx)
+                       props(1:1 + mcrd), adlmag(1:ndload), coords, u, rhs, amatrx)
+        if (nrhs == 2) then
+          call load_face(rule_of(int(jprops(1)), int(jprops(2))), n, lflags(2) /= 0, jprops(3) /= 0, int(jprops(4:5)), &
+                         props(1:1 + mcrd), ddlmag(1:ndload), coords, u, rhs(n + 1), mass)
+          ! the driver takes what holds a load, which `respond` turns around, for column 1 alone
+          rhs(n + 1:2*n) = -rhs(n + 1:2*n)
+          mass = 0
+        end if
         energy(8) = -0.5_dp*dot_product(rhs(1:n) + old(:, 1), du(1:n))
       case (mass_point)   ! has no force of its own
       case default
@@ -70,19 +79,21 @@ contains
   end subroutine discrete_uel
 
   !> Force and stiffness of a load on a face: in small displacements on the initial one.
-  pure subroutine load_face(rule, n, finite, axisymmetric, kind, props, magnitude, start, u, force, stiffness)
+  pure subroutine load_face(rule, n, finite, axisymmetric, kind, props, magnitudes, start, u, force, stiffness)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: n, kind(2)     !< n: number of displacements
     logical, intent(in) :: finite, axisymmetric
-    real(dp), intent(in) :: props(:), magnitude, start(n), u(n)
+    real(dp), intent(in) :: props(:), magnitudes(:), start(n), u(n)
     real(dp), intent(inout) :: force(n), stiffness(n, n)
-    real(dp) :: x(n)
+    real(dp) :: x(n), pressures(rule%points)
     x = start
     if (finite) x = start + u
-    if (kind(2) == 0) then
-      call add_pressure(rule, axisymmetric, kind(1), props(1), magnitude, x, force, stiffness)
+    pressures = sum(magnitudes)
+    if (kind(2) == at_points .and. size(magnitudes) > 0) pressures = magnitudes
+    if (kind(2) == 0 .or. kind(2) == at_points) then
+      call add_pressure(rule, axisymmetric, kind(1), props(1), pressures, x, force, stiffness)
     else
-      call add_traction(rule, axisymmetric, kind(2) == 2, props(1), magnitude, props(2:), start, x, force, stiffness)
+      call add_traction(rule, axisymmetric, kind(2) == 2, props(1), sum(magnitudes), props(2:), start, x, force, stiffness)
     end if
     if (.not. finite) stiffness = 0
   end subroutine load_face

@@ -20,7 +20,7 @@ contains
     integer, intent(in) :: outward
     logical, intent(in) :: axisymmetric
     real(dp), intent(in) :: depth        !< thickness, or 2 pi; 1 in space
-    real(dp), intent(in) :: pressure, x(rule%dim + 1, rule%nodes)
+    real(dp), intent(in) :: pressure(rule%points), x(rule%dim + 1, rule%nodes)
     real(dp), intent(inout) :: force(rule%dim + 1, rule%nodes)
     real(dp), intent(inout) :: stiffness(rule%dim + 1, rule%nodes, rule%dim + 1, rule%nodes)
     real(dp) :: along(rule%dim + 1, rule%dim), change(rule%dim + 1, rule%dim + 1), radius, weight
@@ -29,7 +29,7 @@ contains
     do p = 1, rule%points
       along = matmul(x, rule%dn(:, :, p))
       radius = radius_of(rule, p, axisymmetric, x)
-      weight = outward*depth*pressure*rule%weight(p)
+      weight = outward*depth*pressure(p)*rule%weight(p)
       associate (n => rule%n(:, p), dn => rule%dn(:, :, p), normal => area_of(dim, along))
         do k = 1, rule%nodes
           force(:, k) = force(:, k) + weight*radius*n(k)*normal

@@ -10,10 +10,10 @@ module host_kinematics
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_protect, only: escape
-  use host_shape, only: radius_of, rule_of, rule_t
+  use host_shape, only: is_quadratic, radius_of, rule_of, rule_t
   implicit none (type, external)
   private
-  public :: components, gradients, mean_gradients, point_position, rotation_of, rotated
+  public :: components, gradients, mean_gradients, point_position, rotation_of, rotated, size_of
 
 contains
 
@@ -167,4 +167,15 @@ contains
     turned(direct + 1) = shear*full(1, 2)
     if (n == 6) turned(5:6) = shear*[full(1, 3), full(2, 3)]
   end function rotated
+
+  !> A typical length across the element in its plane or in space, half of it if there are midside nodes.
+  pure function size_of(rule, direct, x, volume) result(length)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: direct
+    real(dp), intent(in) :: x(rule%dim, rule%nodes), volume(rule%points)
+    real(dp) :: length
+    integer :: p
+    length = sum([(volume(p)/radius_of(rule, p, direct > rule%dim, x), p=1, rule%points)])**(1.0_dp/rule%dim)
+    if (is_quadratic(rule)) length = length/2
+  end function size_of
 end module host_kinematics

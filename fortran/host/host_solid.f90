@@ -52,13 +52,13 @@ module host_solid
   use host_inertia, only: is_dynamic, mass_matrix, respond
   use host_initial_stress, only: begin_point
   use host_kinds, only: dp, i4
-  use host_kinematics, only: components, gradients, mean_gradients, point_position, rotated, rotation_of
+  use host_kinematics, only: components, gradients, mean_gradients, point_position, rotated, rotation_of, size_of
   use host_mean_volume, only: add_curvature, add_mean_volume, add_uniform_volume
   use host_protect, only: escape
   use host_planes, only: add_curvature_of_fibres, add_stress_of_fibres, planes, planes_t
   use host_materials, only: elastic_energy, elastic_volume, find_material, generates_heat, has_fields, is_viscous, material_t, &
                             needs_deformation, not_solved, set_constants, stress_update, thickness_strain
-  use host_shape, only: is_multilinear, is_quadratic, radius_of, rule_of, rule_t
+  use host_shape, only: is_multilinear, rule_of, rule_t
   use host_thermal, only: call_hetval
   use host_usdfld, only: call_usdfld
   implicit none (type, external)
@@ -657,17 +657,6 @@ contains
       moduli = [9*bulk*shear/(3*bulk + shear), (3*bulk - 2*shear)/(2*(3*bulk + shear))]
     end if
   end function isotropic_part
-
-  !> A typical length across the element in its plane or in space, half of it if there are midside nodes.
-  pure function size_of(rule, direct, x, volume) result(length)
-    type(rule_t), intent(in) :: rule
-    integer, intent(in) :: direct
-    real(dp), intent(in) :: x(rule%dim, rule%nodes), volume(rule%points)
-    real(dp) :: length
-    integer :: p
-    length = sum([(volume(p)/radius_of(rule, p, direct > rule%dim, x), p=1, rule%points)])**(1.0_dp/rule%dim)
-    if (is_quadratic(rule)) length = length/2
-  end function size_of
 
   pure subroutine find_strain(n, m, b, u, strain)
     integer, intent(in) :: n, m

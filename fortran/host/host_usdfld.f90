@@ -41,7 +41,7 @@ contains
     real(dp), intent(in) :: axes(3, 3)                !< rows: directions of the material
     real(dp), intent(in) :: basis(3, 3)               !< the same along the directions of the element
     logical, intent(in) :: local                      !< the history is in them
-    real(dp), intent(in), target :: values(:)         !< strain and stress at the start of the increment
+    real(dp), intent(in), target :: values(:)         !< strain and stress at the start of the increment; none of heat
     procedure(usdfld_procedure), pointer :: usdfld
     real(dp) :: field(size(current%fields, 1) - 1), statev(max(user%statev, 1)), direct(3, 3), t(3, 3), time(2), dtime, pnewdt, &
                 celent, coord(3)

@@ -75,6 +75,8 @@ contains
         current%column = point
         call begin_call(0_i4, current%element)
         current%values => pass%svars(:, point, e)
+        ! a point for heat has neither strain nor stress
+        if (pass%tensor == 0) current%values => pass%svars(:0, point, e)
         call call_uvarm(pass, point, pass%coords(:, :, e), &
                         pass%axes(:, :, min(int(point), size(pass%axes, 3)), min(int(e), size(pass%axes, 4))), &
                         pass%uvar(:, point, e))

@@ -231,7 +231,7 @@ class System:
             damage += report.damage
             pnewdt = min(pnewdt, report.pnewdt)
         for entered in self.loaded if call.distributed is not None else ():
-            energy += entered.evaluate(call, u, du, columns[0], data, motion).energy
+            energy += entered.evaluate(call, u, du, columns if nrhs > 1 else columns[0], data, motion).energy
         load = columns[1] if nrhs > 1 else None
         linear.passed(call, u, du, spared=spared)
         for pair in self.contacts:

@@ -227,7 +227,7 @@ _OPTIONS = (
     ),
     Keyword(
         "USER DEFINED FIELD",
-        "USDFLD gives the field variables of continuum elements, trusses, shells and beams.",
+        "USDFLD gives the field variables of continuum elements, those with temperatures too, trusses, shells and beams.",
         Where.MODEL,
     ),
     Keyword(

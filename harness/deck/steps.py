@@ -134,11 +134,14 @@ def _check_perturbation(step: Step, problems: Problems) -> None:
     for field in step.fields:
         problems.add(field.source, "predefined fields are not supported in a linear perturbation")
     for boundary in step.boundaries:
-        if boundary.velocity or boundary.user:
-            problems.add(boundary.source, "TYPE=VELOCITY and USER have no meaning in a linear perturbation")
+        if boundary.velocity:
+            problems.add(boundary.source, "TYPE=VELOCITY has no meaning in a linear perturbation")
+        elif boundary.user and (step.procedure.harmonic or step.procedure.modal):
+            what = "a harmonic response" if step.procedure.harmonic else "a step by modes"
+            problems.add(boundary.source, f"values of DISP are not supported in {what}")
     for load in (*step.element_loads, *step.surface_loads):
-        if load.type.jltyp:
-            problems.add(load.source, "loads by DLOAD are not supported in a linear perturbation")
+        if load.type.jltyp and step.procedure.modal:
+            problems.add(load.source, "loads by DLOAD are not supported in a step by modes")
         if step.procedure.buckles and load.type.follows and load.type.kind is not LoadKind.PRESSURE:
             message = f"load type {load.type.kind} follows the surface: its load stiffness is not supported in *BUCKLE"
             problems.add(load.source, f"{message}; {_not_following(load)}")
@@ -185,7 +188,7 @@ def _not_following(load: ElementLoad) -> str:
 
 
 def _check_followers(steps: Sequence[Step], problems: Problems) -> None:
-    """Loads that follow their faces in large displacements have magnitudes in the deck, and no perturbations beside."""
+    """Loads that follow their faces in large displacements have no perturbations beside."""
     nonlinear = next((step for step in steps if step.nlgeom), None)
     if nonlinear is None:
         _check_buckling_loads(steps, problems)
@@ -199,8 +202,6 @@ def _check_followers(steps: Sequence[Step], problems: Problems) -> None:
         if load.type.kind is LoadKind.LOCAL_LINE:
             message = "a force along a local direction of a beam follows it, which is not supported with NLGEOM"
             problems.add(load.source, f"{message} ({nonlinear.source})")
-        elif load.type.jltyp:
-            problems.add(load.source, f"{message} ({nonlinear.source}) where DLOAD gives it; P with a magnitude is")
         elif linear is not None:
             problems.add(load.source, f"{message} ({nonlinear.source}) beside a perturbation step ({linear.source})")
 

@@ -282,7 +282,7 @@ def local_axes(
 
 def beam_forces(
     group: ElementGroup, kind: BeamType, rows: np.ndarray, load: ElementLoad, coordinates: FloatArray
-) -> tuple[FloatArray, FloatArray]:
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """What `unit_forces` of load_vectors.py returns, for beams: the forces act on the line of the nodes."""
     section = group.section
     assert isinstance(section, BeamSection)
@@ -299,7 +299,8 @@ def beam_forces(
         check_density(section, load.source, "GRAV")
         per_length *= section.density
     force = per_length * lengths[:, :, None] * np.broadcast_to(force, places.shape)
-    return np.einsum("pk,mpd->mpkd", shapes[:, in_order], force[..., : kind.dimension]), places
+    shapes = shapes[:, in_order]
+    return np.einsum("pk,mpd->mpkd", shapes, force[..., : kind.dimension]), places, shapes
 
 
 def check_density(section: BeamSection, source: Source, what: str) -> None:

@@ -11,9 +11,23 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.elements.materials import define_thermal, refuse_fields, refuse_hyperelastic, state_variables
+from harness.elements.materials import (
+    define_thermal,
+    define_user_field,
+    directions,
+    refuse_hyperelastic,
+    state_variables,
+)
 from harness.elements.routine import Routine
-from harness.elements.solid import check_radii, history_of, numbered, section_depth, solid_of, solid_routine
+from harness.elements.solid import (
+    check_radii,
+    history_of,
+    numbered,
+    output_variables,
+    section_depth,
+    solid_of,
+    solid_routine,
+)
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray
 from harness.model.element_types import HeatType
@@ -27,7 +41,10 @@ from harness.usersub import Library, _binding
 def coupled_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
     """What the driver calls for a group of solids with temperatures. Raises DeckError."""
     material = section.material
-    refuse_fields(material, f"elements of type {group.type}")
+    if material.user_field is not None and material.user_thermal is not None:
+        # its points are others than those of the stresses, where USDFLD is called
+        message = f"with UMATHT is not supported for elements of type {group.type}"
+        raise DeckError(material.user_field, f"*USER DEFINED FIELD {message}")
     refuse_hyperelastic(material, f"elements of type {group.type}")
     for step in model.steps:
         if not (step.procedure.temperatures and step.procedure.displacements):
@@ -70,7 +87,6 @@ def _warn_of_reduced(model: Model, group: ElementGroup, library: Library) -> Non
 def heat_routine(model: Model, group: ElementGroup, kind: HeatType, section: SolidSection, library: Library) -> Routine:
     """What the driver calls for a group of heat transfer elements. Raises DeckError."""
     material = section.material
-    refuse_fields(material, f"elements of type {group.type}")
     for step in model.steps:
         if not step.procedure.temperatures:
             message = "are supported in *HEAT TRANSFER and *COUPLED TEMPERATURE-DISPLACEMENT steps only"
@@ -80,6 +96,7 @@ def heat_routine(model: Model, group: ElementGroup, kind: HeatType, section: Sol
     _check_thermal(model, group, material)
     number = _binding.define_empty_material()
     define_thermal(number, material, library)
+    define_user_field(number, material, directions(section.orientation), library)
     return Routine(
         address=_binding.address_of("heat"),
         jtype=kind.nodes,
@@ -92,13 +109,17 @@ def heat_routine(model: Model, group: ElementGroup, kind: HeatType, section: Sol
         material=number,
         history=history_of(material, kind.points),
         statev=state_variables(material),
+        uvarm=output_variables(section, kind.points, library),
     )
 
 
 def heat_variables(kind: HeatType, routine: Routine) -> PointVariables:
     """Meaning of the state variables of a group of heat transfer elements."""
     names = tuple(f"HFL{component}" for component in kind.components)
-    return PointVariables("continuum", (*names, *numbered("SDV", routine.statev)), kind.points)
+    names = *names, *numbered("SDV", routine.statev)
+    if routine.uvarm is not None:
+        names = *names, *numbered("UVARM", routine.uvarm.count)
+    return PointVariables("continuum", names, kind.points)
 
 
 def is_unsymmetric(material: Material) -> bool:

@@ -27,6 +27,8 @@ from harness.usersub import Library, _binding
 
 _TRACTIONS: Final = {LoadKind.TRACTION: 1, LoadKind.SHEAR: 2}
 """JPROPS(5) of what is no pressure."""
+_AT_POINTS: Final = 3
+"""That of a pressure that differs from point to point, as DLOAD gives it."""
 
 
 class FollowerBlock(ElementBlock):
@@ -52,7 +54,7 @@ class FollowerBlock(ElementBlock):
     ) -> None:
         nodes = parent.nodes[rows][:, list(load.face)]
         dimension, depth, face, outward, axisymmetric = _face(parent, int(rows[0]), load, coordinates)
-        traction = _TRACTIONS.get(load.kind, 0)
+        traction = _AT_POINTS if load.jltyp else _TRACTIONS.get(load.kind, 0)
         unknowns = tuple((node, dof) for node in range(nodes.shape[1]) for dof in range(1, dimension + 1))
         routine = Routine(
             address=_binding.address_of("discrete"),
@@ -65,6 +67,34 @@ class FollowerBlock(ElementBlock):
         group = replace(parent, labels=parent.labels[rows], nodes=nodes)
         super().__init__(group, coordinates, unknowns, routine, library, unsymmetric=True, variables=None)
         self.elements, self.load, self.surface, self.acts = elements, load, surface, acts
+        self._rule = face.number, face.full_points, face.nodes, face.dimension
+
+    @property
+    def points_of_face(self) -> int:
+        """Number of points of a face."""
+        return self._rule[1]
+
+    def points(self, rows: IntArray, u: FloatArray) -> FloatArray:
+        """Where the points of faces are.
+
+        Parameters
+        ----------
+        rows
+            (k,) of the block, from 0.
+        u
+            (n,) displacements, zero in small ones.
+
+        Returns
+        -------
+        FloatArray
+            (k, points, 3) coordinates.
+        """
+        _, shapes, _ = _binding.integration_rule(*self._rule)
+        x = self._coordinates[self.group.nodes[rows]].copy()
+        dimension = self._arrays.coords.shape[2]
+        x[:, :, :dimension] += u[self._arrays.equations[rows] - 1].reshape(*x.shape[:2], dimension)
+        found: FloatArray = np.einsum("pk,mkd->mpd", shapes, x)
+        return found
 
     @property
     def key(self) -> str:

@@ -25,11 +25,11 @@ SMALLEST_SINE: Final = 1e-10
 
 def unit_forces(
     group: ElementGroup, rows: IntArray, load: ElementLoad, coordinates: FloatArray
-) -> tuple[FloatArray, FloatArray]:
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Nodal forces (elements, points, nodes of the face or element, dimension) for magnitudes of one at each point.
 
-    rows are elements of the group. Also returns the coordinates of the points (elements, points, 3). Raises DeckError
-    if the load makes no sense there.
+    rows are elements of the group. Also returns the coordinates of the points (elements, points, 3), and the functions
+    (points, nodes) that they follow from. Raises DeckError if the load makes no sense there.
     """
     section, structural = group.section, group.built_in
     if isinstance(structural, ShellType):
@@ -63,12 +63,12 @@ def unit_forces(
     places = np.einsum("pk,mkd->mpd", shapes, coordinates[nodes[:, local]])
     if kind.axisymmetric:
         force = places[:, :, :1] * force
-    return scale * np.einsum("p,pk,mpd->mpkd", weights, shapes, force), places
+    return scale * np.einsum("p,pk,mpd->mpkd", weights, shapes, force), places, shapes
 
 
 def _forces_on_shells(
     group: ElementGroup, kind: ShellType, rows: IntArray, load: ElementLoad, coordinates: FloatArray
-) -> tuple[FloatArray, FloatArray]:
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     if load.type.kind in ON_EDGES:
         return _forces_on_edges(group, kind, rows, load, coordinates)
     section = group.section
@@ -85,12 +85,12 @@ def _forces_on_shells(
             check_density(section.layers, load.source, "GRAV")
             per_area = section.mass
         force = per_area * np.linalg.norm(area, axis=-1, keepdims=True) * np.array(load.type.direction)
-    return np.einsum("p,pk,mpd->mpkd", weights, shapes, force), np.einsum("pk,mkd->mpd", shapes, x)
+    return np.einsum("p,pk,mpd->mpkd", weights, shapes, force), np.einsum("pk,mkd->mpd", shapes, x), shapes
 
 
 def _forces_on_edges(
     group: ElementGroup, kind: ShellType, rows: IntArray, load: ElementLoad, coordinates: FloatArray
-) -> tuple[FloatArray, FloatArray]:
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Per length: EDSHR along the edge, EDNOR into the shell, EDTRA against its normal (Analysis User's Guide)."""
     local = list(load.type.face)
     x = coordinates[group.nodes[rows]]
@@ -111,7 +111,8 @@ def _forces_on_edges(
             force = np.cross(normal, along)
         case _:
             force = length * np.array(load.type.direction)
-    return np.einsum("p,pk,mpd->mpkd", weights, shapes, force), np.einsum("pk,mkd->mpd", shapes, x[:, local])
+    places = np.einsum("pk,mkd->mpd", shapes, x[:, local])
+    return np.einsum("p,pk,mpd->mpkd", weights, shapes, force), places, shapes
 
 
 def check_density(layers: Iterable[ShellLayer | SolidLayer], source: Source, what: str) -> None:

@@ -157,8 +157,16 @@ def define_fields(
             rows = _definite_rows(elastic, rows, tensor)
         table = np.hstack([np.array(rows), elastic.table[:, count:]])
         _binding.set_dependence(number, len(rows[0]), _turn(axes), table)
+    define_user_field(number, material, (axes, name), library, room=room)
+
+
+def define_user_field(
+    number: int, material: Material, along: tuple[FloatArray, str], library: Library, *, room: int | None = None
+) -> None:
+    """Tell the host of USDFLD, if the material asks for it. Arguments and errors as those of `define_fields`."""
     if material.user_field is not None:
         address = _needed(library.usdfld, "USDFLD", material, "*USER DEFINED FIELD", material.user_field, library)
+        axes, name = along
         statev = state_variables(material)
         _binding.set_user_field(number, address, (material.name, name), statev, statev if room is None else room, axes)
 

@@ -115,7 +115,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         history=history_of(material, kind.points, prestressed=prestressed),
         statev=state_variables(material),
         viscous=-1 if material.viscous is None else VISCOUS_CHANGE,
-        uvarm=_output_variables(section, kind.points, library),
+        uvarm=output_variables(section, kind.points, library),
         turns=True,
         linear=history_values(material) == 1 and material.hyperelastic is None,
         forces=linearity(material, prestressed=prestressed),
@@ -324,7 +324,7 @@ def _warn_of_modified(model: Model, group: ElementGroup, kind: ContinuumType, li
         library.warn(f"{group.source}: {message}; that of Abaqus is not published, and differs on coarse meshes")
 
 
-def _output_variables(section: SolidSection, points: int, library: Library) -> OutputVariables | None:
+def output_variables(section: SolidSection, points: int, library: Library) -> OutputVariables | None:
     """UVARM of a material; None if the job has none: then only its variables are left out."""
     material = section.material
     if not material.output_variables or library.uvarm is None:

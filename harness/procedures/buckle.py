@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.elements import Distributed, FollowerBlock, Request
+from harness.elements import FollowerBlock, Request
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray
 from harness.model.perturbations import Buckle
@@ -63,7 +63,7 @@ class BuckleStep(PerturbationStep):
         assert evaluation.data is not None
         data = evaluation.data.copy()
         stiffness = self._symmetric(data)
-        change = self._response(data, stiffness, self._state.loads.in_perturbation(self._step))
+        change = self._response(data, stiffness, self._loads(self._step))
         load_stiffness = self._load_stiffness()
         added = self._symmetric(system.stress_matrix(call, at, change) + load_stiffness)
         skew = self._constraints.reduce(load_stiffness) - self._symmetric(load_stiffness)
@@ -90,11 +90,7 @@ class BuckleStep(PerturbationStep):
         for block in system.loaded:
             if not isinstance(block, FollowerBlock):
                 continue
-            magnitudes = np.zeros(len(block.elements))
-            for entry in step.surface_loads if block.surface else step.element_loads:
-                if entry.type == block.load:
-                    np.add.at(magnitudes, np.searchsorted(block.elements, entry.elements), entry.magnitude)
-            places = block.first + block.rows
-            given = Distributed(places, np.ones_like(places), magnitudes, magnitudes)
+            time = self._step_time, self._state.total_time
+            given = self._state.loads.on_faces(block, step, self._user, self._increment, time, self._state.displacement)
             block.evaluate(replace(call, flags=flags, distributed=given), still, still, still.copy(), data)
         return data

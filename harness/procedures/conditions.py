@@ -185,8 +185,7 @@ class StepConditions:
     ) -> tuple[Distributed | None, Predefined | None]:
         """Loads and fields of an increment between these step and total times; places are for UTEMP and UFIELD."""
         predefined = None
-        values, before = self.loads.at(*end)[self.slots], self.loads.at(*start)[self.slots]
-        distributed = _distributed(self.elements, self.kinds, values, values - before)
+        distributed = self.distributed(start, end)
         if len(self.grid):
             shape = self.grid.fields, self.grid.nodes
             values, before = self.fields.at(*end), self.fields.at(*start)
@@ -194,6 +193,16 @@ class StepConditions:
                 values, before = self._with_user(values, before, (start, end), increment, user, places)
             predefined = Predefined(values.reshape(shape), (values - before).reshape(shape), self.initial)
         return distributed, predefined
+
+    @property
+    def loaded(self) -> bool:
+        """Whether there are loads on user elements."""
+        return bool(len(self.elements))
+
+    def distributed(self, start: Times, end: Times) -> Distributed | None:
+        """Loads of an increment between these step and total times."""
+        values, before = self.loads.at(*end)[self.slots], self.loads.at(*start)[self.slots]
+        return _distributed(self.elements, self.kinds, values, values - before)
 
     def _with_user(
         self,

@@ -17,10 +17,10 @@ from harness.model.user_values import UserValues
 from harness.procedures.convergence_checks import Checker, length_of_moments
 from harness.procedures.loads import fading_forces
 from harness.procedures.state import BegunStep
-from harness.procedures.step_setting import Setting, SolverTimes, choose_rank_solver, choose_solver
+from harness.procedures.step_setting import Setting, SolverTimes, choose_rank_solver, choose_solver, places
 from harness.procedures.unconstrained import tolerate
 from harness.solver.linear import LinearSolver, RankSolver
-from harness.solver.newton import Factoriser
+from harness.solver.newton import Acting, Factoriser
 
 
 class StepContext:
@@ -102,10 +102,29 @@ class StepContext:
         """Step and total time at the start of the increment."""
         return self.step_time, self.state.total_time
 
-    def load_at(self, step_time: float) -> FloatArray:
-        """Loads and fading forces (n,)."""
+    def load_at(self, step_time: float, u: FloatArray | None = None) -> FloatArray:
+        """Loads and fading forces (n,); those of DLOAD at displacements u (n,), by default those of the state."""
+        return self.loads_at(step_time, u) + self.released.at(step_time, self.start + step_time)
+
+    def loads_at(self, step_time: float, u: FloatArray | None = None) -> FloatArray:
+        """Loads (n,) without fading forces, as those of `load_at`."""
+        time = step_time, self.start + step_time
+        found = self.load.at(*time)
+        return found + self.load.of_user(time, self._at(u)) if self.load.by_user else found
+
+    def steady_at(self, step_time: float) -> FloatArray:
+        """Loads and fading forces (n,) without those of DLOAD."""
         total = self.start + step_time
         return self.load.at(step_time, total) + self.released.at(step_time, total)
+
+    def _at(self, u: FloatArray | None) -> FloatArray:
+        return self.state.displacement if u is None else u
+
+    def acting(self, end: float, u: FloatArray) -> Acting:
+        """What acts at a step time and displacements (n,) besides the steady loads, where DLOAD gives any."""
+        time, start = (end, self.start + end), self.times
+        on_elements = self.conditions.distributed(start, time)
+        return Acting(self.load.of_user(time, u), self.load.with_faces(on_elements, start, time, u))
 
     def prescribed_at(self, step_time: float) -> FloatArray:
         """Prescribed values (n,), those of DISP among them."""
@@ -123,15 +142,10 @@ class StepContext:
 
     def places(self, nodes: IntArray) -> FloatArray:
         """(k, 3) coordinates of nodes at the start of the increment; with NLGEOM those of the displaced nodes."""
-        dofs = self.system.dofs
-        coordinates = dofs.mesh.coordinates[nodes]
-        if not self.step.nlgeom:
-            return coordinates
-        unknowns = dofs.find(nodes[:, None], np.arange(1, 4))
-        return coordinates + np.where(unknowns >= 0, self.state.displacement[unknowns], 0.0)
+        return places(self.system.dofs, nodes, self.state.displacement if self.step.nlgeom else None)
 
-    def call(self, size: float, step_time: float, total_time: float) -> Call:
-        """Arguments of the passes of an increment that ends at these times."""
+    def call(self, size: float, step_time: float, total_time: float, u: FloatArray | None = None) -> Call:
+        """Arguments of the passes of an increment that ends at these times; u as that of `load_at`."""
         step, end = self.step, (step_time, total_time)
         distributed, predefined = self.conditions.at(self.times, end, max(self.increment, 1), self.user, self.places)
         return Call(
@@ -145,7 +159,7 @@ class StepContext:
             period=step.procedure.period,
             params=step.procedure.params,
             unsymmetric=step.procedure.unsymmetric,
-            distributed=self.load.with_faces(distributed, self.times, end),
+            distributed=self.load.with_faces(distributed, self.times, end, self._at(u)),
             predefined=predefined,
             flux_floor=self.checker.flux_floor,
         )

@@ -146,18 +146,20 @@ class ImplicitIntegration(Part):
         guess = given.guess
         if context.step.extrapolation == "VELOCITY PARABOLIC":
             guess = size * state.velocity + 0.5 * size**2 * state.acceleration
-        return replace(given, guess=guess, load=load, motion=partial(self._motion, size))
+        return replace(given, guess=guess, load=load, weight=1.0 + alpha, motion=partial(self._motion, size))
 
     def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
         """The half-increment residual: forces out of balance in the middle of the increment."""
         procedure, context = self._procedure, self._context
         if not (procedure.half_force or np.isfinite(procedure.half_increment)):
             return None
-        evaluation = self._half_increment(last, size)
+        increment = self._half(last, size)
+        evaluation = self._half_increment(last, size, increment)
         middle = context.step_time + 0.5 * size
         alpha = procedure.alpha
         start = context.load_at(context.step_time)
-        load = (1.0 + alpha) * context.load_at(middle) - 0.5 * alpha * (start + self._previous_load)
+        at_middle = context.load_at(middle, context.state.displacement + increment)
+        load = (1.0 + alpha) * at_middle - 0.5 * alpha * (start + self._previous_load)
         ratio = context.checker.largest_ratio(evaluation.residual + load, self._tolerances())
         return Accuracy(ratio, HALF_INCREMENT)
 
@@ -170,17 +172,20 @@ class ImplicitIntegration(Part):
             return dict.fromkeys(forces, procedure.half_force)
         return {name: procedure.half_increment * mean for name, mean in forces.items()}
 
-    def _half_increment(self, last: Iterate, size: float) -> Evaluation:
+    def _half(self, last: Iterate, size: float) -> FloatArray:
+        """The increment in its middle: the cubic from the state at the start to the displacements at the end."""
+        state = self._context.state
+        increment = last.increment / 8 + 0.375 * size * state.velocity + size**2 / 16 * state.acceleration
+        return np.where(self._context.system.dofs.of_nodes, increment, 0.5 * last.increment)
+
+    def _half_increment(self, last: Iterate, size: float, increment: FloatArray) -> Evaluation:
         """Pass at half the increment, over which accelerations are linear."""
         context, state, half = self._context, self._context.state, 0.5 * size
         end = self._motion(size, last.increment)
-        # the cubic from the state at the start to the displacements at the end
-        increment = last.increment / 8 + 0.375 * size * state.velocity + size**2 / 16 * state.acceleration
-        increment = np.where(context.system.dofs.of_nodes, increment, 0.5 * last.increment)
         velocity = 0.75 / size * last.increment + 0.25 * state.velocity - size / 8 * state.acceleration
         acceleration = 0.5 * (state.acceleration + end.acceleration)
-        call = context.call(size, context.step_time + half, context.start + context.step_time + half)
         motion, at = Motion(velocity, acceleration), state.displacement + increment
+        call = context.call(size, context.step_time + half, context.start + context.step_time + half, at)
         return context.system.evaluate(call.asking(Request.RESIDUAL), at, increment, matrix=False, motion=motion)
 
     def kept(self) -> Saved:

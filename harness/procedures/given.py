@@ -20,6 +20,9 @@ def given_at(step: Step, at: tuple[float, float], *, imaginary: bool = False, wi
     """
 
     def scaled(entry: Entry) -> Entry:
+        if isinstance(entry, ElementLoad) and entry.type.jltyp:
+            # no amplitude acts on what DLOAD gets
+            return entry
         if entry.amplitude is None:
             return replace(entry, magnitude=without * entry.magnitude)
         factor = entry.amplitude.value(*at)

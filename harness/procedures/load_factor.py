@@ -13,6 +13,9 @@ import math
 from abc import abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
+
+import numpy as np
 
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray
@@ -20,10 +23,11 @@ from harness.model.procedures import Riks
 from harness.model.records import FieldCheck, Noted, Record
 from harness.model.steps import Boundary, ElementLoad, Load
 from harness.procedures.context import StepContext
+from harness.procedures.element_loads import FactorTimes
 from harness.procedures.incrementation import IncrementControl
 from harness.procedures.path import Path, Reached
 from harness.solver.energy_control import Dissipation
-from harness.solver.newton import Iterate
+from harness.solver.newton import Acting, Iterate
 from harness.solver.path import Control, PathFollower, PathIncrement, PathIterate
 from harness.solver.riks import ArcLength
 
@@ -32,6 +36,9 @@ EXTRAPOLATED = 0.01
 
 ROUNDING = 1e-12
 """A load factor this close to 1 is 1."""
+
+NEARBY = 1e-4
+"""Difference of the load factor by which the change of loads of DLOAD is found: exact for those proportional to it."""
 
 REMAINDER = 1e-6
 """Of an increment: a smaller remainder of the load factor is added to it."""
@@ -55,9 +62,12 @@ class LoadFactorPath(Path):
         self._follower = PathFollower(context.system, context.constraints, context.solver)
         period = step.procedure.period
         self._prescribed_rate = (context.prescribed.at(period, 0.0) - state.displacement)[context.unknowns]
-        self._loads = state.load, context.load.at(period, 0.0)
+        # the load of the state includes what DLOAD has given
+        start = context.load.at(0.0, 0.0) if context.load.by_user else state.load
+        self._loads = start, context.load.at(period, 0.0)
         self._fading = context.released.at(0.0, 0.0), context.released.at(period, 0.0)
         self._factor, self._length = 0.0, 0.0
+        self._on_elements = context.load.by_user or context.load.turning or context.conditions.loaded
         self._last: tuple[FloatArray, float, float] | None = None
 
     @abstractmethod
@@ -71,7 +81,11 @@ class LoadFactorPath(Path):
             last, factor, length = self._last
             part = EXTRAPOLATED * size / length
             guess = part * last, part * factor
+        elif self._on_elements:
+            # their change tells the load per unit of the factor
+            guess = np.zeros_like(context.state.displacement), EXTRAPOLATED * size / context.step.procedure.period
         end = self._length + size
+        context.load.increment = context.increment
         load, released = self._loads_at(self._factor)
         given = PathIncrement(
             call=context.call(size, end, context.start + end),
@@ -80,9 +94,24 @@ class LoadFactorPath(Path):
             load=load + released,
             load_rate=self._loads[1] - self._loads[0] + self._fading[1] - self._fading[0],
             prescribed_rate=self._prescribed_rate,
+            acting=partial(self._acting, context.start + end) if self._on_elements else None,
             nrhs=self.nrhs,
         )
         return self._follower.iterates(given, self._control_of(given, size)), guess is not None
+
+    def _acting(self, total_time: float, u: FloatArray, change: float) -> Acting:
+        """Loads on elements and faces, and those of DLOAD, at displacements (n,) and a change of the load factor."""
+        context, period, load = self._context, self._context.step.procedure.period, self._context.load
+        before, after = self._factor, self._factor + change
+        times = (before * period, context.state.total_time), (after * period, total_time)
+        others = context.conditions.distributed(*times)
+        if not load.by_user:
+            return Acting(np.zeros_like(u), load.with_faces(others, *times, u))
+        # DLOAD gets the load factor in place of the step time; it need not be proportional to it
+        nearby = load.of_user((after - NEARBY, total_time), u)
+        distributed = load.with_faces(others, *times, u, FactorTimes(after, NEARBY, change))
+        forces = load.of_user((after, total_time), u)
+        return Acting(forces, distributed, change / NEARBY * (forces - nearby))
 
     def _loads_at(self, factor: float) -> tuple[FloatArray, FloatArray]:
         """Loads and fading reactions."""
@@ -99,6 +128,9 @@ class LoadFactorPath(Path):
         self._length += size
         self._context.step_time = step_time = self._factor * self.scale
         load, released = self._loads_at(self._factor)
+        if self._context.load.by_user:
+            time = self._factor, self._context.start + self._length
+            load = load + self._context.load.of_user(time, self._context.state.displacement + last.increment)
         change = last.factor * self.scale
         return Reached(load, released, step_time, self._context.start + self._length, change, self._factor)
 
@@ -111,11 +143,9 @@ def _check(context: StepContext) -> None:
     source = next((entry.source for entry in entries if entry.amplitude), step.source)
     if context.prescribed.curves or context.load.curves or context.amplitudes.courses:
         raise DeckError(source, "an amplitude has no meaning in a step whose load factor is part of the solution")
-    if context.load.turning:
-        message = "loads that follow the surface (NLGEOM) are not supported in a step whose load factor is unknown"
-        raise DeckError(step.source, message)
-    if len(context.state.boundaries.by_user) or context.load.by_user:
-        raise DeckError(step.source, "DISP and DLOAD have no meaning in a step whose load factor is unknown")
+    if len(context.state.boundaries.by_user):
+        # TIME of DISP has no load factor (User Subroutines Guide)
+        raise DeckError(step.source, "DISP has no meaning in a step whose load factor is unknown")
 
 
 class RiksPath(LoadFactorPath):
@@ -171,6 +201,9 @@ class EnergyPath(LoadFactorPath):
 
     def __init__(self, context: StepContext) -> None:
         super().__init__(context)
+        if self._on_elements:
+            message = "loads on user elements, those that follow the surface and those of DLOAD are not supported"
+            raise DeckError(context.step.source, f"{message} with --control energy")
         self.scale = context.step.procedure.period
         self._energy = Dissipation(context.constraints)
 

@@ -202,6 +202,11 @@ class Boundaries:
             values[find_unknowns(self._dofs, entry)[0]] = 0.0 if entry.fixed else entry.magnitude
         return values
 
+    def perturbed_by_user(self, step: Step) -> IntArray:
+        """Unknowns (k,) whose changes DISP gives in a perturbation step, ascending."""
+        found = [find_unknowns(self._dofs, entry)[0] for entry in step.boundaries if entry.user]
+        return np.unique(np.concatenate([np.zeros(0, dtype=np.int64), *found]))
+
     def conclude(self, step_time: float) -> None:
         """The step ends before its period."""
         self._period = step_time

@@ -104,7 +104,7 @@ class ModalDynamicStep(ModalStep):
         """Forces (n,) at a time: all of them, and loads alone."""
         at = step_time, self._state.total_time + step_time
         ramp = step_time / self._procedure.period if self._step.amplitude == "RAMP" else 1.0
-        load = self._state.loads.in_perturbation(given_at(self._step, at, without=ramp))
+        load = self._loads(given_at(self._step, at, without=ramp))
         moved = [motion.value(*at) * self._modes.rigid[motion.dof - 1] for motion in self._superposition.base]
         return load - sum(moved), load
 

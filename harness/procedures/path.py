@@ -7,6 +7,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from harness.model.arrays import FloatArray
 from harness.model.records import FieldCheck, Record
@@ -193,7 +194,8 @@ class TimePath(Path):
             displacement=displacement,
             guess=self._extrapolation.guess(size),
             prescribed=(context.prescribed_at(end) - displacement)[context.unknowns],
-            load=context.load_at(end),
+            load=context.steady_at(end),
+            acting=partial(context.acting, end) if context.load.by_user else None,
         )
         for part in self._parts:
             given = part.given(given, size)
@@ -205,5 +207,6 @@ class TimePath(Path):
         context, end = self._context, self.end(size)
         total = context.start + end
         self._extrapolation.converged(last.increment, size)
+        load = context.loads_at(end, context.state.displacement + last.increment)
         context.step_time = end
-        return Reached(context.load.at(end, total), context.released.at(end, total), end, total, size)
+        return Reached(load, context.released.at(end, total), end, total, size)

@@ -16,6 +16,7 @@ import numpy as np
 
 from harness.assembly import Constraints, Evaluation
 from harness.elements import Call, Flags, Request
+from harness.errors import DeckError
 from harness.model.arrays import FloatArray, first_largest
 from harness.model.records import (
     AttemptStarted,
@@ -27,7 +28,9 @@ from harness.model.records import (
     StepDone,
     Warned,
 )
-from harness.procedures.step_setting import Setting, SolverTimes, choose_solver
+from harness.model.steps import Step
+from harness.model.user_values import UserValues
+from harness.procedures.step_setting import Setting, SolverTimes, choose_solver, places
 from harness.solver.linear import LinearSolver
 
 BASE_FORCES = (
@@ -96,7 +99,7 @@ class PerturbationStep:
         evaluation = self._pass(Request.NORMAL)
         assert evaluation.data is not None
         constraints, step = self._constraints, self._step
-        load = self._state.loads.in_perturbation(step)
+        load = self._loads(step)
         stiffness = self._system.matrix(evaluation.data)
         external = load + evaluation.residual
         change = self._response(evaluation.data, constraints.reduce(evaluation.data), external)
@@ -117,10 +120,36 @@ class PerturbationStep:
         data, reduced: CSR values of the stiffness, of all unknowns and of the free ones, which is factorised.
         """
         constraints = self._constraints
-        prescribed = self._state.boundaries.perturbations(self._step)[constraints.prescribed]
+        prescribed = self._prescribed()[constraints.prescribed]
         missing = external - constraints.prescribed_residual(data, prescribed)
         self._solver.factorise(reduced)
         return constraints.expand(self._solver.solve(constraints.reduce_vector(missing)), prescribed)
+
+    def _loads(self, step: Step) -> FloatArray:
+        """Forces (n,) of the loads that the step, or a part of it, gives."""
+        time, state = (self._step_time, self._state.total_time), self._state
+        return state.loads.in_perturbation(step, self._user, self._increment, time, state.displacement)
+
+    @property
+    def _step_time(self) -> float:
+        """None passes; a frequency may stand in its place."""
+        return 0.0
+
+    def _prescribed(self) -> FloatArray:
+        """Prescribed changes (n,), those of DISP among them. Raises DeckError without it."""
+        step, state, user, dofs = self._step, self._state, self._user, self._system.dofs
+        values, by_user = state.boundaries.perturbations(step), state.boundaries.perturbed_by_user(step)
+        if len(by_user):
+            if user.disp is None:
+                source = next(entry.source for entry in step.boundaries if entry.user)
+                raise DeckError(source, "*BOUNDARY, USER needs DISP, which the job does not have")
+            nodes = dofs.node[by_user]
+            numbered = np.stack([dofs.mesh.labels[nodes], dofs.dof[by_user]], axis=1).astype(np.int32)
+            coords = places(dofs, nodes, state.displacement if step.nlgeom else None)
+            moment, size = (self._increment, (self._step_time, state.total_time)), step.procedure.period
+            asked = UserValues("DISP", step.number, *moment, numbered, coords, values[by_user], size=size)
+            values[by_user] = user.user_values(asked)
+        return values
 
     def _symmetric(self, data: FloatArray) -> FloatArray:
         """CSR values of the symmetric part of a matrix of the free unknowns."""
@@ -160,7 +189,7 @@ class PerturbationStep:
             flags=Flags.of(step, request),
             step=step.number,
             increment=self._increment,
-            step_time=0.0,
+            step_time=self._step_time,
             total_time=self._state.total_time,
             time_increment=period,
             period=period,

@@ -21,7 +21,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.elements import Call, Damping, Request
+from harness.elements import Damping, Request
 from harness.errors import DeckError
 from harness.model.arrays import ComplexArray, FloatArray
 from harness.model.modal import Motion
@@ -57,7 +57,7 @@ class HarmonicStep(PerturbationStep, ABC):
         """The response at the frequency of the increment."""
         frequency = self._frequency
         rate = 2j * math.pi * frequency
-        load = self._given(self._state.loads.in_perturbation)
+        load = self._given(self._loads)
         found, reaction = self._response_to(load, rate)
         response = found, rate * found, rate**2 * found, reaction, load
         real = self._part(*(np.ascontiguousarray(values.real) for values in response))
@@ -86,8 +86,9 @@ class HarmonicStep(PerturbationStep, ABC):
         assert evaluation.data is not None
         return evaluation.data.copy()
 
-    def _call(self, request: Request) -> Call:
-        return replace(super()._call(request), step_time=self._frequency)
+    @property
+    def _step_time(self) -> float:
+        return self._frequency
 
     def _given(self, read: Callable[[Step], FloatArray]) -> ComplexArray:
         """Loads or prescribed values (n,) at the frequency."""

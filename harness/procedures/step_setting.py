@@ -8,7 +8,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from harness.assembly import Constraints, System
+import numpy as np
+
+from harness.assembly import Constraints, DofMap, System
+from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.records import Noted, Record
 from harness.model.steps import Step
@@ -85,6 +88,15 @@ def choose_rank_solver(name: str, constraints: Constraints, effort: Effort) -> R
     given = constraints.reduced_indptr, constraints.reduced_indices, constraints.coordinates, constraints.dofs
     pattern = Pattern(*given)
     return RankSolver(constraints.ranks, name, pattern, constraints.name_of, effort)
+
+
+def places(dofs: DofMap, nodes: IntArray, displacement: FloatArray | None) -> FloatArray:
+    """(k, 3) coordinates of nodes, moved by the displacements (n,) if there are any."""
+    coordinates = dofs.mesh.coordinates[nodes]
+    if displacement is None:
+        return coordinates
+    unknowns = dofs.find(nodes[:, None], np.arange(1, 4))
+    return coordinates + np.where(unknowns >= 0, displacement[unknowns], 0.0)
 
 
 class SolverTimes:

@@ -193,8 +193,8 @@ class Descent(Newton):
         start = state.increment + self._lift(missing)
 
         def component(scale: float) -> float | None:
-            evaluation = self._trial(given, start + scale * direction)
-            return float(direction @ (evaluation.residual + given.load)) if evaluation.pnewdt >= 1.0 else None
+            evaluation, load = self._trial(given, start + scale * direction)
+            return float(direction @ (evaluation.residual + load)) if evaluation.pnewdt >= 1.0 else None
 
         scale, tried = descend(component, float(direction @ state.residual), self._start)
         if scale == 0.0:

@@ -11,7 +11,7 @@ from typing import Protocol
 import numpy as np
 
 from harness.assembly import Constraints, Evaluation, System
-from harness.elements import Call, Motion, Request
+from harness.elements import Call, Distributed, Motion, Request
 from harness.model.arrays import FloatArray
 from harness.model.steps import LineSearchControls
 from harness.solver.linesearch import search
@@ -34,6 +34,20 @@ class Factoriser(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
+class Acting:
+    """What acts from outside at certain displacements, where it depends on them or on a load factor.
+
+    forces       (n,) on the nodes
+    distributed  on elements and faces
+    change       (n,) of the forces in the increment
+    """
+
+    forces: FloatArray
+    distributed: Distributed | None
+    change: FloatArray | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Increment:
     """What defines an increment.
 
@@ -42,6 +56,8 @@ class Increment:
     guess         (n,) extrapolated increment; None: from the start state
     prescribed    (n_p,) increment of each prescribed unknown
     load          (n,) external load at the end
+    acting        what acts besides, at displacements (n,), in place of the loads of the call; None: nothing does
+    weight        of the forces that act besides
     damping       (nnz,) CSR values of a matrix whose product with the increment is also a force; None: no such force
     motion        velocities and accelerations at the end that go with an increment (n,); None: at rest
     """
@@ -53,6 +69,8 @@ class Increment:
     load: FloatArray
     motion: Callable[[FloatArray], Motion] | None = None
     damping: FloatArray | None = None
+    acting: Callable[[FloatArray], Acting] | None = None
+    weight: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,8 +168,8 @@ class Newton:
         self, call: Call, given: Increment, iteration: int, increment: FloatArray, correction: FloatArray
     ) -> Iterate:
         increment = self._constraints.place(given.displacement, increment)
-        evaluation = self._pass(replace(call, iteration=iteration), given, increment)
-        residual = evaluation.residual + given.load
+        evaluation, load = self._pass(replace(call, iteration=iteration), given, increment)
+        residual = evaluation.residual + load
         self._constraints.follow(given.displacement + increment, residual)
         reduced = self._constraints.reduce_vector(residual)
         return Iterate(iteration, increment, correction, residual, reduced, evaluation)
@@ -174,13 +192,18 @@ class Newton:
             )
         return self._constraints.expand(self._solver.solve(rhs), missing)
 
-    def _trial(self, given: Increment, increment: FloatArray) -> Evaluation:
-        """A pass for the residual alone."""
+    def _trial(self, given: Increment, increment: FloatArray) -> tuple[Evaluation, FloatArray]:
+        """A pass for the residual alone, and the load."""
         increment = self._constraints.place(given.displacement, increment)
         return self._pass(given.call.asking(Request.RESIDUAL), given, increment, matrix=False)
 
-    def _pass(self, call: Call, given: Increment, increment: FloatArray, *, matrix: bool = True) -> Evaluation:
-        motion = given.motion and given.motion(increment)
+    def _pass(
+        self, call: Call, given: Increment, increment: FloatArray, *, matrix: bool = True
+    ) -> tuple[Evaluation, FloatArray]:
+        motion, load = given.motion and given.motion(increment), given.load
+        if given.acting is not None:
+            acting = given.acting(given.displacement + increment)
+            call, load = replace(call, distributed=acting.distributed), load + given.weight * acting.forces
         evaluation = self._system.evaluate(
             call, given.displacement + increment, increment, matrix=matrix, motion=motion
         )
@@ -188,15 +211,15 @@ class Newton:
             evaluation.residual[:] -= self._system.product(given.damping, increment)
             if evaluation.data is not None:
                 evaluation.data[:] += given.damping
-        return evaluation
+        return evaluation, load
 
     def _searched(self, given: Increment, before: Iterate, full: Iterate) -> Iterate:
         """The state at the scale that line search finds; the last pass is a normal one at that scale."""
         direction = full.correction
 
         def component(scale: float) -> float:
-            evaluation = self._trial(given, before.increment + scale * direction)
-            return float(direction @ (evaluation.residual + given.load))
+            evaluation, load = self._trial(given, before.increment + scale * direction)
+            return float(direction @ (evaluation.residual + load))
 
         at_zero, at_one = float(direction @ before.residual), float(direction @ full.residual)
         scale, tried = search(component, at_zero, at_one, self._line_search)

@@ -9,7 +9,7 @@ grows by mu, and mu follows from one more equation, the `Control`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -18,7 +18,7 @@ import numpy as np
 from harness.assembly import Constraints, System
 from harness.elements import Call
 from harness.model.arrays import FloatArray
-from harness.solver.newton import Factoriser, Iterate
+from harness.solver.newton import Acting, Factoriser, Iterate
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +31,8 @@ class PathIncrement:
     load             (n,) external load at the start
     load_rate        (n,) its change per unit of the factor
     prescribed_rate  (n_p,) change of each prescribed unknown per unit of the factor
+    acting           what acts besides at displacements (n,) and a change of the factor, in place of the loads of the
+                     call; None: nothing does
     nrhs             NRHS of the passes
     """
 
@@ -40,14 +42,19 @@ class PathIncrement:
     load: FloatArray
     load_rate: FloatArray
     prescribed_rate: FloatArray
+    acting: Callable[[FloatArray, float], Acting] | None = None
     nrhs: int = 1
 
 
 @dataclass(frozen=True, slots=True)
 class PathIterate(Iterate):
-    """An iterate with the change of the load factor so far."""
+    """An iterate with the change of the load factor so far.
+
+    added  (n,) by how much the loads that act besides, and those that elements apply, have changed with it; None: none
+    """
 
     factor: float = 0.0
+    added: FloatArray | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,11 +125,18 @@ class PathFollower:
     ) -> PathIterate:
         call = replace(call, iteration=iteration)
         increment = self._constraints.place(given.displacement, increment)
-        evaluation = self._system.evaluate(call, given.displacement + increment, increment, nrhs=given.nrhs)
-        residual = evaluation.residual + given.load + factor * given.load_rate
-        self._constraints.follow(given.displacement + increment, residual)
+        at, load = given.displacement + increment, given.load + factor * given.load_rate
+        acting = given.acting(at, factor) if given.acting is not None else None
+        if acting is not None:
+            call, load = replace(call, distributed=acting.distributed), load + acting.forces
+        evaluation = self._system.evaluate(call, at, increment, nrhs=given.nrhs)
+        added = evaluation.load
+        if acting is not None and acting.change is not None:
+            added = acting.change if added is None else added + acting.change
+        residual = evaluation.residual + load
+        self._constraints.follow(at, residual)
         reduced = self._constraints.reduce_vector(residual)
-        return PathIterate(iteration, increment, correction, residual, reduced, evaluation, factor=factor)
+        return PathIterate(iteration, increment, correction, residual, reduced, evaluation, factor=factor, added=added)
 
     def _directions(self, given: PathIncrement, state: PathIterate) -> Directions:
         data, constraints = state.evaluation.data, self._constraints
@@ -139,10 +153,9 @@ class PathFollower:
     @staticmethod
     def _load_rate(given: PathIncrement, state: PathIterate) -> FloatArray:
         """Load per unit of the factor, including the loads that elements report."""
-        element = state.evaluation.load
-        if element is None or state.factor == 0.0:
+        if state.added is None or state.factor == 0.0:
             return given.load_rate
-        return given.load_rate + element / state.factor
+        return given.load_rate + state.added / state.factor
 
     def _reaction(self, given: PathIncrement, state: PathIterate) -> Reaction:
         data = state.evaluation.data

@@ -106,7 +106,7 @@ FIELD = "*FIELD, USER\nALL, 6.\n"
 VARY = f"*TEMPERATURE, USER\nALL, 60.\n{FIELD}"
 ELASTIC = "*ELASTIC\n1000., 0.\n*USER DEFINED FIELD\n*DEPVAR\n1\n*USER OUTPUT VARIABLES\n3"
 RUBBER = "*HYPERELASTIC, USER, TYPE=COMPRESSIBLE, PROPERTIES=2\n0.5, 0.4\n*DEPVAR\n1"
-THERMAL = "*ELASTIC\n1000., 0.\n*CONDUCTIVITY\n1.\n*SPECIFIC HEAT\n1.\n*USER OUTPUT VARIABLES\n3"
+THERMAL = f"{ELASTIC}\n*CONDUCTIVITY\n1.\n*SPECIFIC HEAT\n1."
 TISSUE = "*ANISOTROPIC HYPERELASTIC, USER, FORMULATION=INVARIANT, LOCAL DIRECTIONS=2, TYPE=COMPRESSIBLE, PROPERTIES=2\n"
 TISSUE += "0.5, 0.4\n*DEPVAR\n1"
 STEPS = {
@@ -235,7 +235,12 @@ def start(kind):
     return {"TIME": [1 - size(kind), 2 - size(kind)], "DTIME": size(kind)}
 
 
-@pytest.mark.parametrize("kind", TIMED)
+def section(kind):
+    """Points for heat have no stresses."""
+    return SECTION | ({"NDI": 0, "NSHR": 0} if kind in HEAT_STEPS else {})
+
+
+@pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS, *HEAT_STEPS])
 def test_usdfld(calls, kind):
     found = dict(last(in_step(calls, kind), "USDFLD", place(kind, 7, POINT)))
     assert found.pop("PNEWDT") > 1
@@ -245,13 +250,13 @@ def test_usdfld(calls, kind):
         "CELENT": np.sqrt(stretch(kind)[0]),
         "COORD": PLACE * stretch(kind),
     }
-    check(found, expected | AXES | SECTION | start(kind))
+    check(found, expected | AXES | section(kind) | start(kind))
 
 
-@pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS])
+@pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS, *HEAT_STEPS])
 def test_uvarm(calls, kind):
     found = last(in_step(calls, kind), "UVARM", place(kind, 7, POINT))
-    check(found, {"NUVARM": 3, "COORD": PLACE * stretch(kind)} | AXES | SECTION | start(kind))
+    check(found, {"NUVARM": 3, "COORD": PLACE * stretch(kind)} | AXES | section(kind) | start(kind))
 
 
 @pytest.mark.parametrize("kind", PATHS)
@@ -357,10 +362,39 @@ def test_ufield(calls, kind):
 
 @pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS])
 def test_dload(calls, kind):
-    """At the end of the increment; JLTYP of BX is 1."""
-    found = last(in_step(calls, kind), "DLOAD", place(kind, 7, POINT))
-    expected = {"F": 4.0, "TIME": [1.0, 2.0], "LAYER": 1, "KSPT": 1, "COORDS": PLACE, "JLTYP": 1, "SNAME": ""}
-    check(found, expected)
+    """At the end of the increment; JLTYP of BX is 1. F is that of the deck: no ramp acts on it."""
+    calls = in_step(calls, kind)
+    found = last(calls, "DLOAD", place(kind, 7, POINT))
+    check(found, OF_DLOAD | {"TIME": [1.0, 2.0], "COORDS": PLACE * stretch(kind)})
+    assert last(calls, "DLOAD", (2, 1, 7, POINT))["F"] == 4.0
+
+
+OF_DLOAD = {"F": 4.0, "LAYER": 1, "KSPT": 1, "JLTYP": 1, "SNAME": ""}
+
+
+@pytest.mark.parametrize("kind", PATHS)
+def test_dload_along_a_path(calls, kind):
+    """TIME(1) is the load factor, here the displacement over 0.02, TIME(2) the length of the path in all steps."""
+    found = calls(*STEPS[kind], BY_DECK + "*DLOAD\nE, BXNU, 4.\n")
+    increments = max(at[1] for name, at, _ in found if name == "DLOAD")
+    begun = last(found, "UEXTERNALDB", (2, increments, 0, 0))
+    given = dict(last(found, "DLOAD", (2, increments, 7, POINT)))
+    factor, total = given.pop("TIME")
+    assert factor > 0.5
+    assert total == begun["TIME"][1]
+    check(given, OF_DLOAD | {"COORDS": PLACE * [1 + 0.02 * factor * ("large" in kind), 1, 1]})
+
+
+@pytest.mark.parametrize("large", ["", ", NLGEOM"])
+@pytest.mark.parametrize("kind", ["static perturbation", "harmonic", "buckle"])
+def test_dload_in_linear_steps(calls, kind, large):
+    """About a base state in which the square is stretched by 0.02; a frequency takes the place of the step time."""
+    stretched = "*BOUNDARY\nALL, 2\n1, 1\n4, 1\nALL, 11, 11, 20.\nRIGHT, 1, 1, 0.02\n*END"
+    deck = DECK.replace("*BOUNDARY\nALL, 1, 2\nALL, 11, 11, 20.\n*END", stretched, 1)
+    found = calls(*LINEAR[kind], "*DLOAD\nE, BXNU, -4.\n", deck=deck, first=large)
+    given = last(found, "DLOAD", (2, 1, 7, POINT))
+    expected = {"F": -4.0, "TIME": [0.01 if kind == "harmonic" else 0.0, 1.0], "COORDS": PLACE * [1.02, 1, 1]}
+    check(given, OF_DLOAD | expected | ({} if large else {"COORDS": PLACE}))
 
 
 @pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS, *HEAT_STEPS])
@@ -421,12 +455,21 @@ def test_linear_steps(calls, kind):
     check(given, {"FIELD": 4.0, "STATEV": 11, "CELENT": 1.0, "COORD": PLACE} | expected | AXES | SECTION)
 
 
-@pytest.mark.parametrize("kind", ["static perturbation", "harmonic"])
-def test_disp_in_linear_steps(calls, kind):
-    with pytest.raises(
-        DeckError, match=r"told.inp:\d+: TYPE=VELOCITY and USER have no meaning in a linear perturbation"
-    ):
-        calls(*LINEAR[kind], "*BOUNDARY, OP=NEW, USER\nRIGHT, 1, 1, 0.02\n")
+@pytest.mark.parametrize("large", ["", ", NLGEOM"])
+@pytest.mark.parametrize("kind", ["static perturbation", "buckle"])
+def test_disp_in_linear_steps(calls, kind, large):
+    """U is the change, COORDS those of the base state, in which the square is stretched by 0.02; no time passes."""
+    stretched = "*BOUNDARY\nALL, 2\n1, 1\n4, 1\nALL, 11, 11, 20.\nRIGHT, 1, 1, 0.02\n*END"
+    deck = DECK.replace("*BOUNDARY\nALL, 1, 2\nALL, 11, 11, 20.\n*END", stretched, 1)
+    # node 2 stays free to buckle
+    given = "*BOUNDARY, OP=NEW, USER\n3, 1, 1, -0.03\n"
+    found = last(calls(*LINEAR[kind], given, deck=deck, first=large), "DISP", (2, 1, 0, 3))
+    check(found, {"U": [-0.03, 0, 0], "TIME": [0, 1, 0], "JDOF": 1, "COORDS": [1.02 if large else 1, 1, 0]})
+
+
+def test_disp_in_a_harmonic_response(calls):
+    with pytest.raises(DeckError, match=r"told.inp:\d+: values of DISP are not supported in a harmonic response"):
+        calls(*LINEAR["harmonic"], "*BOUNDARY, OP=NEW, USER\nRIGHT, 1, 1, 0.02\n")
 
 
 def test_sdvini(calls):
@@ -486,9 +529,66 @@ def test_uel(calls, kind):
             **{"JTYPE": 5, "TIME": [1, 2], "DTIME": h, "PERIOD": 1, "JPROPS": 3, "MLVARX": 2, "MDLOAD": 1},
             **{"JDLTYP": 2, "ADLMAG": 4, "DDLMAG": 4 * part, "PREDEF": [*temperature, 6, 2 * part] * 2},
             "PARAMS": [-0.05, BETA, GAMMA] if "dynamic" in kind else [0, 0, 0],
-            "LFLAGS": [CODES.get(kind, 1), "large" in kind, 1, 0, 0],
+            "LFLAGS": [CODES.get(kind, 1), "large" in kind, 1, 0, 0, 0, 0],
         },
     )
+
+
+SPRINGS = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\n*INITIAL CONDITIONS, TYPE=FIELD\nALL, 4.\n"
+"""What the fields of the spring start from."""
+OF_SPRING = {"PROPS": 10, "COORDS": [1, 3], "JTYPE": 5, "JPROPS": 3, "MLVARX": 2, "MDLOAD": 1, "JDLTYP": 2}
+OF_SPRING |= {"V": [0, 0], "A": [0, 0], "PARAMS": [0, 0, 0]}
+REQUESTS = {
+    "static perturbation": {(1, 0): 0.0, (100, 0): 0.05},
+    "frequency": {(2, 0): 0.0, (4, 0): 0.0},
+    "harmonic": {(2, 0): 0.0, (4, 0): 0.0, (3, 1): 0.0, (3, 2): 0.0},
+}
+"""LFLAGS(3) and (7) of the calls in a linear step, with DU of node 2."""
+
+
+@pytest.mark.parametrize("large", ["", ", NLGEOM"])
+@pytest.mark.parametrize("kind", REQUESTS)
+def test_uel_in_linear_steps(calls, kind, large):
+    """The state is that of the end of step 1, where node 2 has moved by 1; a load of 0.5 moves it 0.05 further."""
+    procedure, options = LINEAR[kind]
+    pulled = "*BOUNDARY\n1, 1\n*CLOAD\n2, 1, 10.\n*DLOAD\nE, U2, 4.\n*TEMPERATURE\nALL, 60.\n*FIELD\nALL, 6.\n*END"
+    deck = SPRING.replace("*BOUNDARY\nALL, {dof}\n*END", pulled)
+    deck = deck.replace("*BOUNDARY, OP=NEW\n1, {dof}\n2, {dof}, {dof}, 0.02\n", "")
+    loads = {"static perturbation": "*CLOAD\n2, 1, 0.5\n*DLOAD\nE, U2, 3.\n", "harmonic": "*CLOAD\n2, 1, 0.5\n"}
+    found = calls(procedure, options, loads.get(kind, ""), deck=deck, first=large, initial=SPRINGS)
+    of_step = [(at, dict(given)) for name, at, given in found if name == "UEL" and at[0] == 2]
+    assert {(at[-1], int(given["LFLAGS"][6])) for at, given in of_step} == set(REQUESTS[kind])
+    added = 3.0 if kind == "static perturbation" else 0.0
+    for at, given in of_step:
+        assert at[:3] == (2, 1, 7)
+        assert given.pop("PNEWDT") > 1
+        request, damping = at[-1], given["LFLAGS"][6]
+        expected = {
+            **{"SVARS": 11, "ENERGY": [0, 11, 0, 0, 0, 0, 0, 0], "NRHS": 1, "U": [0, 1]},
+            "DU": [0, REQUESTS[kind][request, damping]],
+            **{"TIME": [0.01 if kind == "harmonic" else 0, 1], "DTIME": 0, "PERIOD": 0, "ADLMAG": 4, "DDLMAG": added},
+            "PREDEF": [60, 0, 6, 0] * 2,
+            "LFLAGS": [{"frequency": 41, "harmonic": 95}.get(kind, 1), bool(large), request, 1, 0, 0, damping],
+        }
+        check(given, OF_SPRING | expected)
+
+
+@pytest.mark.parametrize("kind", PATHS)
+def test_uel_along_a_path(calls, kind):
+    """All loads follow the load factor, which is the displacement of node 2 times the stiffness over the load."""
+    deck = SPRING.replace("2, {dof}, {dof}, 0.02\n", "")
+    found = calls(*STEPS[kind], "*DLOAD\nE, U2, 4.\n", deck=deck, initial=SPRINGS)
+    at, given = [(at, dict(given)) for name, at, given in found if name == "UEL" and at[0] == 2][-1]
+    begun = next(told for name, place, told in found if name == "UEXTERNALDB" and place == (*at[:2], 0, 0))
+    assert given.pop("PNEWDT") > 1
+    load, increment = 10 * given["U"][1], 10 * given["DU"][1]
+    assert load > increment > 0
+    # the length along the path takes the place of time
+    expected = {"TIME": begun["TIME"] + begun["DTIME"], "DTIME": begun["DTIME"], "PERIOD": 1}
+    expected |= {"SVARS": 10 * at[0] + at[1] - 1, "ENERGY": [0, 10 * at[0] + at[1] - 1, 0, 0, 0, 0, 0, 0]}
+    expected |= {"NRHS": 2, "U": [0, load / 10], "DU": [0, increment / 10, 0, 0], "ADLMAG": load, "DDLMAG": increment}
+    expected |= {"PREDEF": [20, 0, 4, 0] * 2, "LFLAGS": [1, "large" in kind, 1, 0, 0, 0, 0]}
+    check(given, OF_SPRING | expected)
 
 
 def test_the_page_names_tests_of_each_routine(load):

@@ -4,7 +4,8 @@
 
 A square is stretched by 0.02 in two increments; values are those of the last call in the second one, in point 3 of
 element 7 (Abaqus User Subroutines Guide, UMAT); *GEOSTATIC takes one increment. In linear steps UMAT is called in the
-base state alone, where nothing changes.
+base state alone, where nothing changes. DDSDDE and what couples stress and heat are zero on entry, which the guide
+leaves open.
 """
 
 from pathlib import Path
@@ -23,7 +24,8 @@ UMAT = f"""      INCLUDE '{HERE}/umat.inc'
       CALL TELL('JSTEP', DBLE(JSTEP), 4)
       CALL TELL('STRESS', STRESS, NTENS)
       CALL TELL('STATEV', STATEV, NSTATV)
-      CALL TELL('ENERGY', (/ SSE, SPD, SCD, PNEWDT /), 4)
+      CALL TELL('ENERGY', (/ SSE, SPD, SCD /), 3)
+      CALL TELL('PNEWDT', (/ PNEWDT /), 1)
       CALL TELL('STRAN', STRAN, NTENS)
       CALL TELL('DSTRAN', DSTRAN, NTENS)
       CALL TELL('TIME', (/ TIME(1), TIME(2), DTIME /), 3)
@@ -34,6 +36,9 @@ UMAT = f"""      INCLUDE '{HERE}/umat.inc'
       CALL TELL('CELENT', (/ CELENT /), 1)
       CALL TELL('DFGRD0', DFGRD0, 9)
       CALL TELL('DFGRD1', DFGRD1, 9)
+      CALL TELL('DDSDDE', RESHAPE(DDSDDE, (/ NTENS**2 /)), NTENS**2)
+      CALL TELL('HEAT', (/ RPL, DDSDDT(1:NTENS), DRPLDE(1:NTENS), DRPLDT /),
+     1 2*NTENS + 2)
       END IF
       DDSDDE = 0
       DO I = 1, NDI
@@ -58,7 +63,7 @@ UMAT = f"""      INCLUDE '{HERE}/umat.inc'
       INTEGER COUNT
       CHARACTER*(*) NAME
       DIMENSION VALUES(COUNT)
-      WRITE(6,'(A,1X,9E24.16)') 'GOT '//NAME, VALUES
+      WRITE(6,'(A,1X,16E24.16)') 'GOT '//NAME, VALUES
       END
 """
 DECK = """*NODE, NSET=ALL
@@ -102,6 +107,7 @@ GENERAL = {
     "large": ("*STATIC\n0.5, 1., 0.5, 0.5", ", NLGEOM", RAMPED, 1),
     "damped": ("*STATIC, STABILIZE\n0.5, 1., 0.5, 0.5", "", RAMPED, 1),
     "visco": ("*VISCO\n0.5, 1., 0.5, 0.5", "", AT_ONCE, 21),
+    "large visco": ("*VISCO\n0.5, 1., 0.5, 0.5", ", NLGEOM", AT_ONCE, 21),
     "dynamic": ("*DYNAMIC, NOHAF\n0.5, 1., 0.5, 0.5", "", AT_ONCE, 11),
     "large dynamic": ("*DYNAMIC, DIRECT, NOHAF\n0.5, 1.", ", NLGEOM", AT_ONCE, 12),
 }
@@ -122,12 +128,24 @@ def told(tmp_path):
             if line.lstrip().startswith("GOT "):
                 _, name, *values = line.split()
                 found[name] = values
-        return {name: values if name == "INTEGERS" else np.array(values, dtype=float) for name, values in found.items()}
+        numbers = {name: np.array(values, dtype=float) for name, values in found.items() if name != "INTEGERS"}
+        assert numbers.pop("PNEWDT") > 1
+        return numbers | {"INTEGERS": found["INTEGERS"]}
 
     return told
 
 
-def check(found, expected):
+SOFT = ["3", "1", "4", "2", "2", "7", "3", "1", "1"]
+"""NDI, NSHR, NTENS, NSTATV, NPROPS, NOEL, NPT, LAYER, KSPT."""
+SAME = {"PROPS": [100, 5], "DROT": np.eye(3).ravel(), "DDSDDE": np.zeros(16), "HEAT": np.zeros(10)}
+LOW, HIGH = 0.5 - 0.5 / np.sqrt(3), 0.5 + 0.5 / np.sqrt(3)
+
+
+def check(found, step, increment, expected):
+    """All arguments, and no others."""
+    assert found.pop("INTEGERS") == [*SOFT, str(step), str(increment), "SOFT"]
+    expected = SAME | expected
+    assert sorted(found) == sorted(expected)
     for name, values in expected.items():
         np.testing.assert_allclose(found[name], values, rtol=1e-9, atol=1e-12, err_msg=name)
 
@@ -136,146 +154,93 @@ def gradient(stretch):
     return np.diag([stretch, 1.0, 1.0]).ravel()
 
 
+def stretched(start, change, *, large, length=None):
+    """Arguments that tell a strain along 1 and its change in the increment; length: at its start and its end."""
+    before, after = length if large else (1.0, 1.0)
+    return {
+        "STRESS": [100 * start, 0, 0, 0],
+        "STRAN": [start, 0, 0, 0],
+        "DSTRAN": [change, 0, 0, 0],
+        # the point, and the length of the element, now
+        "COORDS": [LOW * after, HIGH, 0.0],
+        "CELENT": [np.sqrt(after)],
+        "DFGRD0": gradient(before),
+        "DFGRD1": gradient(after),
+    }
+
+
+def second(large):
+    """The second of two equal increments: strains of large ones are sums over the length in the middle of each."""
+    before, change = (0.01 / 1.005, 0.01 / 1.015) if large else (0.01, 0.01)
+    found = stretched(before, change, large=large, length=(1.01, 1.02))
+    return found | {"STATEV": [1, 7], "ENERGY": [50 * before**2, 3, 4], "TIME": [0.5, 0.5, 0.5]}
+
+
 @pytest.mark.parametrize("kind", GENERAL)
 def test_in_general_steps(told, kind):
     procedure, options, fields, key = GENERAL[kind]
     found = told(2, 1, procedure=procedure, options=options)
-    assert found["INTEGERS"] == ["3", "1", "4", "2", "2", "7", "3", "1", "1", "1", "2", "SOFT"]
     large = bool(options)
-    # strains of large displacements are sums of increments over the length in the middle of each
-    before, change = (0.01 / 1.005, 0.01 / 1.015) if large else (0.01, 0.01)
-    start, end = (gradient(1.01), gradient(1.02)) if large else (gradient(1.0), gradient(1.0))
-    # the point, and the length of the element, now
-    low, high = 0.5 - 0.5 / np.sqrt(3), 0.5 + 0.5 / np.sqrt(3)
-    stretch = 1.02 if large else 1.0
-    check(
-        found,
-        {
-            "JSTEP": [1, key, large, 0],
-            "STRESS": [100 * before, 0, 0, 0],
-            "STATEV": [1, 7],
-            "STRAN": [before, 0, 0, 0],
-            "DSTRAN": [change, 0, 0, 0],
-            "TIME": [0.5, 0.5, 0.5],
-            "FIELDS": fields,
-            "PROPS": [100, 5],
-            "COORDS": [low * stretch, high, 0.0],
-            "DROT": np.eye(3).ravel(),
-            "CELENT": [np.sqrt(stretch)],
-            "DFGRD0": start,
-            "DFGRD1": end,
-        },
-    )
-    *energies, pnewdt = found["ENERGY"]
-    np.testing.assert_allclose(energies, [50 * before**2, 3, 4], rtol=1e-9)
-    assert pnewdt > 1
+    check(found, 1, 2, second(large) | {"JSTEP": [1, key, large, 0], "FIELDS": fields})
 
 
 @pytest.mark.parametrize("options", ["", ", NLGEOM"])
 def test_in_a_geostatic_step(told, options):
     """One increment from the start to the end."""
     found = told(1, 1, procedure="*GEOSTATIC", options=options)
-    assert found["INTEGERS"] == ["3", "1", "4", "2", "2", "7", "3", "1", "1", "1", "1", "SOFT"]
     large = bool(options)
-    stretch = 1.02 if large else 1.0
-    check(
-        found,
-        {
-            "JSTEP": [1, 61, large, 0],
-            "STRESS": np.zeros(4),
-            "STATEV": [0, 0],
-            "STRAN": np.zeros(4),
-            "DSTRAN": [0.02 / 1.01 if large else 0.02, 0, 0, 0],
-            "TIME": [0, 0, 1],
-            "FIELDS": [20, 40, 4, 2],
-            "COORDS": [(0.5 - 0.5 / np.sqrt(3)) * stretch, 0.5 + 0.5 / np.sqrt(3), 0],
-            "DROT": np.eye(3).ravel(),
-            "CELENT": [np.sqrt(stretch)],
-            "DFGRD0": np.eye(3).ravel(),
-            "DFGRD1": gradient(stretch),
-        },
-    )
+    expected = stretched(0.0, 0.02 / 1.01 if large else 0.02, large=large, length=(1.0, 1.02))
+    expected |= {"STATEV": [0, 0], "ENERGY": [0, 0, 0], "TIME": [0, 0, 1], "FIELDS": [20, 40, 4, 2]}
+    check(found, 1, 1, expected | {"JSTEP": [1, 61, large, 0]})
 
 
 @pytest.mark.parametrize("options", ["", ", NLGEOM"])
 def test_along_a_path(told, options):
     """In increment 2 the displacement is the load factor times 0.02: strains, gradients and place are those of it."""
     found = told(2, 1, procedure="*STATIC, RIKS\n0.25, 1., 0.25, 0.25, 1.", options=options, given="")
-    assert found["INTEGERS"] == ["3", "1", "4", "2", "2", "7", "3", "1", "1", "1", "2", "SOFT"]
     large = bool(options)
     change, before = found["DSTRAN"][0], found["STRAN"][0]
     assert change > 0
     # of e = 2 (l - 1)/(l + 1), the strain of the first increment, then of the ratio of the lengths of the second
-    length = np.cumprod([(2 + e) / (2 - e) for e in (before, change)]) if large else np.ones(2)
-    expected = {
-        "JSTEP": [1, 1, large, 0],
-        "STRESS": [100 * before, 0, 0, 0],
-        "STATEV": [1, 7],
-        "STRAN": [before, 0, 0, 0],
-        "DSTRAN": [change, 0, 0, 0],
-        "FIELDS": [20, 0, 4, 0],
-        "COORDS": [(0.5 - 0.5 / np.sqrt(3)) * length[1], 0.5 + 0.5 / np.sqrt(3), 0],
-        "DROT": np.eye(3).ravel(),
-        "CELENT": [np.sqrt(length[1])],
-        "DFGRD0": gradient(length[0]),
-        "DFGRD1": gradient(length[1]),
-    }
-    check(found, expected)
-    # the arc length is the time, in both steps and of the first step
-    assert found["TIME"][0] == found["TIME"][1] > 0
-    assert found["TIME"][2] > 0
+    length = np.cumprod([(2 + e) / (2 - e) for e in (before, change)])
+    # the arc length is the time, in the step and in all
+    time = found.pop("TIME")
+    assert time[0] == time[1] > 0
+    assert time[2] > 0
+    expected = stretched(before, change, large=large, length=length)
+    expected |= {"JSTEP": [1, 1, large, 0], "STATEV": [1, 7], "ENERGY": [50 * before**2, 3, 4]}
+    check(found, 1, 2, expected | {"FIELDS": [20, 0, 4, 0]})
 
 
-def test_in_coupled_steps(told):
-    """Temperatures are those of the nodes, here held: they go from 20 to 60 at once in a transient step."""
-    for steady, temperatures, key in ((", STEADY STATE", [40.0, 20.0], 71), ("", [60.0, 0.0], 73)):
-        found = told(
-            2,
-            1,
-            type="CPE4T",
-            procedure=f"*COUPLED TEMPERATURE-DISPLACEMENT{steady}\n0.5, 1., 0.5, 0.5",
-            given="ALL, 11, 11, 60.\n",
-        )
-        assert found["INTEGERS"][:11] == ["3", "1", "4", "2", "2", "7", "3", "1", "1", "1", "2"]
-        check(
-            found,
-            {
-                "JSTEP": [1, key, 0, 0],
-                "STRAN": [0.01, 0, 0, 0],
-                "DSTRAN": [0.01, 0, 0, 0],
-                "TIME": [0.5, 0.5, 0.5],
-                "FIELDS": [*temperatures, 4.0, 0.0],
-                "DFGRD1": np.eye(3).ravel(),
-            },
-        )
-
-
+@pytest.mark.parametrize("options", ["", ", NLGEOM"])
 @pytest.mark.parametrize(
-    ("linear", "key"),
+    ("steady", "temperatures", "key"), [(", STEADY STATE", [40.0, 20.0], 71), ("", [60.0, 0.0], 73)]
+)
+def test_in_coupled_steps(told, steady, temperatures, key, options):
+    """Temperatures are those of the nodes, here held: they go from 20 to 60 at once in a transient step."""
+    procedure = f"*COUPLED TEMPERATURE-DISPLACEMENT{steady}\n0.5, 1., 0.5, 0.5"
+    found = told(2, 1, type="CPE4T", procedure=procedure, options=options, given="ALL, 11, 11, 60.\n")
+    large = bool(options)
+    check(found, 1, 2, second(large) | {"JSTEP": [1, key, large, 0], "FIELDS": [*temperatures, 4.0, 0.0]})
+
+
+@pytest.mark.parametrize("options", ["", ", NLGEOM"])
+@pytest.mark.parametrize(
+    ("linear", "key", "time"),
     [
-        ("*STEP, PERTURBATION\n*STATIC\n{}", 1),
-        ("*STEP\n*FREQUENCY\n1,\n*BOUNDARY, OP=NEW\n1, 1, 2\n2, 2\n", 41),
-        ("*STEP\n*STEADY STATE DYNAMICS, DIRECT\n0.01\n*BOUNDARY, OP=NEW\n1, 1, 2\n2, 2\n{}", 95),
+        ("*STEP, PERTURBATION\n*STATIC\n{}", 1, 0.0),
+        ("*STEP\n*FREQUENCY\n1,\n*BOUNDARY, OP=NEW\n1, 1, 2\n2, 2\n", 41, 0.0),
+        ("*STEP\n*STEADY STATE DYNAMICS, DIRECT\n0.01\n*BOUNDARY, OP=NEW\n1, 1, 2\n2, 2\n{}", 95, 0.01),
+        ("*STEP\n*BUCKLE\n1,\n*BOUNDARY, OP=NEW\n1, 1, 2\n4, 1, 2\n2, 2\n3, 2\n{}", 1, 0.0),
     ],
 )
-def test_in_linear_steps(told, linear, key):
-    """The strain of the base state, without a change; no time passes."""
-    found = told(
-        1, 2, procedure="*STATIC\n0.5, 1., 0.5, 0.5", after=linear.format("*CLOAD\n3, 1, 1.\n") + "*END STEP\n"
-    )
-    assert found["INTEGERS"] == ["3", "1", "4", "2", "2", "7", "3", "1", "1", "2", "1", "SOFT"]
-    check(
-        found,
-        {
-            "JSTEP": [2, key, 0, 1],
-            "STRESS": [2.0, 0, 0, 0],
-            "STATEV": [2, 7],
-            "STRAN": [0.02, 0, 0, 0],
-            "DSTRAN": np.zeros(4),
-            "FIELDS": [60.0, 0.0, 6.0, 0.0],
-            "DROT": np.eye(3).ravel(),
-            "DFGRD0": np.eye(3).ravel(),
-            "DFGRD1": np.eye(3).ravel(),
-            "CELENT": [1.0],
-        },
-    )
+def test_in_linear_steps(told, linear, key, time, options):
+    """The strain of the base state, without a change; no time passes, and a frequency stands in its place."""
+    after = linear.format("*CLOAD\n3, 1, -1.\n2, 1, -1.\n") + "*END STEP\n"
+    found = told(1, 2, procedure="*STATIC\n0.5, 1., 0.5, 0.5", options=options, after=after)
+    large = bool(options)
+    strain = 0.01 / 1.005 + 0.01 / 1.015 if large else 0.02
+    expected = stretched(strain, 0.0, large=large, length=(1.02, 1.02))
+    expected |= {"JSTEP": [2, key, large, 1], "STATEV": [2, 7], "FIELDS": [60.0, 0.0, 6.0, 0.0]}
+    # of the second increment: SSE is that of the strain it ends with
+    check(found, 2, 1, expected | {"ENERGY": [50 * strain**2, 3, 4], "TIME": [time, 1.0, 0.0]})

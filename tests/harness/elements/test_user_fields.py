@@ -29,8 +29,8 @@ DECK = """*NODE, NSET=ALL
 4, 1
 {initial}
 *STEP
-*STATIC, DIRECT
-0.25, 1.
+{procedure}
+0.25, 1., 0.25, 0.25
 *BOUNDARY
 2, 1, 1, 0.04
 3, 1, 1, 0.04
@@ -67,16 +67,15 @@ STRAINS = np.array([0.01, 0.02, 0.03, 0.04])
 
 @pytest.fixture
 def run(tmp_path):
-    def run(material, body="", *, type="CPS4", orientation="", initial="", step="", user=USDFLD):
+    def run(material, body="", *, type="CPS4", user=USDFLD, **parts):
         solid = type.startswith("C3D")
+        given = {"orientation": "", "initial": "", "step": "", "procedure": "*STATIC, DIRECT"} | parts
         text = DECK.format(
             nodes=CUBE if solid else SQUARE,
             type=type,
             connectivity=", ".join(map(str, range(1, 9 if solid else 5))),
             material=material,
-            orientation=orientation,
-            initial=initial,
-            step=step,
+            **given,
         )
         (tmp_path / "field.inp").write_text(text)
         (tmp_path / "usdfld.f").write_text(user.replace("%s", "\n".join(f"      {line}" for line in body.split("\n"))))
@@ -282,7 +281,42 @@ def test_it_needs_usdfld(run):
         run(FIELD, user="      SUBROUTINE OTHER\n      END\n")
 
 
-@pytest.mark.parametrize("option", ["*USER DEFINED FIELD", "*ELASTIC\n1000., 0., 0.\n600., 0., 80."])
-def test_elements_without_fields_refuse_them(run, option):
-    with pytest.raises(DeckError, match=r"field.inp:1[24]: \*.* not supported for elements of type CPE4T"):
-        run("*ELASTIC\n1000.\n" + option, type="CPE4T")
+HEAT = "\n*CONDUCTIVITY\n1.\n*SPECIFIC HEAT\n1.\n*DENSITY\n1."
+WARMED = {"initial": "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.", "step": "ALL, 11, 11, 100."}
+COUPLED = WARMED | {"procedure": "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE"}
+
+
+@pytest.mark.parametrize("element_type", ["CPE4T", "CPS4T"])
+@pytest.mark.parametrize(
+    ("elastic", "body"), [(FIELD, "FIELD(1) = TIME(1)+DTIME"), ("*ELASTIC\n1000., 0., 20.\n500., 0., 100.", "")]
+)
+def test_coupled_elements_have_fields(run, element_type, elastic, body):
+    """The modulus falls from 1000 to 500 as the field goes to 1, or the temperature from 20 to 100."""
+    result = run(elastic + HEAT, body, type=element_type, **COUPLED)
+    np.testing.assert_allclose(along(result, "S11"), [875, 750, 625, 500] * STRAINS)
+
+
+def test_fields_reach_hetval_in_heat_elements(run):
+    """Field = temperature at the start of the increment, which is the heat per volume: reactions take it up."""
+    hetval = """      SUBROUTINE HETVAL(CMNAME,TEMP,TIME,DTIME,STATEV,FLUX,PREDEF,DPRED)
+      INCLUDE 'ABA_PARAM.INC'
+      CHARACTER*80 CMNAME
+      DIMENSION TEMP(2),STATEV(*),PREDEF(*),TIME(2),FLUX(2),DPRED(*)
+      FLUX(1) = PREDEF(1)
+      END
+"""
+    getvrm = "CALL GETVRM('{}',ARRAY,JARRAY,FLGRAY,JRCD,JMAC,JMATYP,MATLAYO,LACCFLA)"
+    body = f"{getvrm.format('S')}\nIF (JRCD .NE. 1) CALL XIT\n{getvrm.format('TEMP')}\nIF (JRCD .NE. 0) CALL XIT"
+    output = "\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nRFL"
+    given = WARMED | {"procedure": "*HEAT TRANSFER, STEADY STATE", "step": WARMED["step"] + output}
+    material = f"*USER DEFINED FIELD\n*HEAT GENERATION{HEAT}"
+    result = run(material, f"{body}\nFIELD(1) = ARRAY(1)", type="DC2D4", user=USDFLD + hetval, **given)
+    taken = -sum(result.history[f"RFL11[ALL:{node}]"] for node in range(1, 5))
+    np.testing.assert_allclose(taken, [20, 40, 60, 80])
+
+
+def test_umatht_beside_usdfld_is_refused_in_coupled_elements(run):
+    material = f"*ELASTIC\n1000.\n*USER DEFINED FIELD{HEAT}\n*USER MATERIAL, TYPE=THERMAL, CONSTANTS=1\n1."
+    message = r"field.inp:\d+: \*USER DEFINED FIELD with UMATHT is not supported for elements of type CPE4T"
+    with pytest.raises(DeckError, match=message):
+        run(material, type="CPE4T", **COUPLED)

@@ -1,7 +1,8 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 ! User routines that print each of their arguments on entry, by its name; what they return keeps the values of the deck. STATEV and
-! SVARS take 10 KSTEP + KINC where the routine has them. UEL is a spring of stiffness PROPS(1) with a mass, or a conductor.
+! SVARS take 10 KSTEP + KINC where the routine has them. UEL is a spring of stiffness PROPS(1) with a mass, or a conductor; with
+! NRHS = 2 the load of type U2 acts on its node 2.
       subroutine uel(rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,kstep,
      1 kinc,jelem,params,ndload,jdltyp,adlmag,predef,npredf,lflags,mlvarx,ddlmag,mdload,pnewdt,jprops,njprop,period)
       include 'aba_param.inc'
@@ -26,7 +27,7 @@
       call told('ADLMAG',adlmag,ndload)
       call told('DDLMAG',ddlmag,ndload)
       call told('PREDEF',predef,2*npredf*nnode)
-      call told('LFLAGS',dble(lflags(1:5)),5)
+      call told('LFLAGS',dble(lflags(1:7)),7)
       call counted('MLVARX',mlvarx)
       call counted('MDLOAD',mdload)
       call told('PNEWDT',(/pnewdt/),1)
@@ -42,8 +43,13 @@
           amatrx(3-i,i)=-props(1)
           if (lflags(1).eq.11.or.lflags(1).eq.12) amatrx(i,i)=props(1)+1/(params(2)*dtime**2)
           rhs(i,1)=-props(1)*(u(i)-u(3-i))-a(i)
+          if (lflags(4).eq.1) rhs(i,1)=-props(1)*(du(i,1)-du(3-i,1))
         end if
       end do
+      if (nrhs.eq.2) then
+        rhs(2,1)=rhs(2,1)+adlmag(1,1)
+        rhs(2,2)=ddlmag(1,1)
+      end if
       svars(1)=10*kstep+kinc
       energy(2)=svars(1)
       end

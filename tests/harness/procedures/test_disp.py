@@ -135,7 +135,7 @@ def test_values_of_disp_need_disp(run):
             "*BOUNDARY, USER\n1, 1\n*STEP\n",
             r"USER before the first \*STEP, where only zero can be prescribed",
         ),
-        ("*STATIC, DIRECT", "*STATIC, RIKS", r"square.inp:13: DISP and DLOAD have no meaning in a step whose load"),
+        ("*STATIC, DIRECT", "*STATIC, RIKS", r"square.inp:13: DISP has no meaning in a step whose load"),
     ],
 )
 def test_values_of_disp_need_a_step_and_a_known_load_factor(run, monkeypatch, old, new, message):

@@ -56,13 +56,24 @@ def all_faces(element_type, pressure):
     return "*DLOAD\n" + "\n".join(f"BODY, P{k + 1}, {pressure}" for k in range(FACES[element_type]))
 
 
+DLOAD = """      SUBROUTINE DLOAD(F,KSTEP,KINC,TIME,NOEL,NPT,LAYER,KSPT,
+     1     COORDS,JLTYP,SNAME)
+      INCLUDE 'ABA_PARAM.INC'
+      DIMENSION TIME(2),COORDS(3)
+      {}
+      END
+"""
+
+
 @pytest.fixture
 def run(tmp_path):
-    def run(text):
+    def run(text, user=None, **options):
         folder = tmp_path / str(len(list(tmp_path.iterdir())))
         folder.mkdir()
         (folder / "press.inp").write_text(text)
-        return harness.run(folder / "press.inp", output_dir=folder)
+        if user is not None:
+            (folder / "dload.f").write_text(DLOAD.format(user))
+        return harness.run(folder / "press.inp", user and folder / "dload.f", output_dir=folder, **options)
 
     return run
 
@@ -77,6 +88,7 @@ TRACTIONS = {
     "pressure": None,
     "TRVEC": "*DSLOAD\nSIDE, TRVEC, 1., 0.6, 0.64, 0.48",
     "TRSHR": "*DSLOAD\nSIDE, TRSHR, 1., 0.6, 0.64, 0.48",
+    "by points": "*DLOAD\nBODY, P2NU",
 }
 
 
@@ -91,7 +103,8 @@ def test_stiffness_of_loads(tmp_path, element_type, load):
     model = read_deck(tmp_path / "press.inp")
     library = usersub.load(None, job="job", output_dir=tmp_path)
     system = System(model.mesh, build_blocks(model, library), model.equations)
-    faces = np.array([block.first for block in system.loaded])
+    counts = [block.points_of_face if block.load.jltyp else 1 for block in system.loaded]
+    faces = np.repeat([block.first for block in system.loaded], counts)
     magnitudes = np.linspace(3, 5, len(faces))
     call = Call(
         Flags(1, nlgeom=True), step=1, increment=1, step_time=1.0, total_time=1.0, time_increment=1.0, period=1.0
@@ -215,25 +228,68 @@ def test_dynamic_pressure_is_a_dead_traction_where_nothing_turns(run):
     np.testing.assert_allclose(ends, 4 * 0.1**2 / (2 * DENSITY), rtol=1e-6)
 
 
+HELD = "*BOUNDARY\nALL, 2\n1, 1\n4, 1\n"
+"""A bar of length 1, whose area does not change."""
+EXACT = "*CONTROLS, PARAMETERS=FIELD\n1e-9, 1e-9\n"
+MODULUS = YOUNG * (1 - NU) / ((1 + NU) * (1 - 2 * NU))
+RIKS = "*STATIC, RIKS\n0.25, 1., 0.25, 0.25, 1."
+
+
+def stress_along(result):
+    """Stress and length of the bar at the ends of increments: it sums strains over the length in the middle of each."""
+    length = 1 + result.history["U1[ALL:2]"]
+    before = np.concatenate([[1.0], length[:-1]])
+    return MODULUS * np.cumsum(2 * (length - before) / (length + before)), length
+
+
+@pytest.mark.parametrize("procedure", ["*STATIC\n0.5, 1.", "*STATIC, STABILIZE\n0.5, 1."])
+def test_pressure_of_dload_at_the_present_place(run, procedure):
+    """A pressure of 200 x on the end, which is at x: that of the deck is 200, and no amplitude acts on it."""
+    text = deck("CPE4", [static(HELD + EXACT + "*DLOAD\nBODY, P2NU, 200.", procedure=procedure)])
+    stress, length = stress_along(run(text, "F = F*COORDS(1)"))
+    # the damping is small, not zero
+    np.testing.assert_allclose(stress, -200 * length, rtol=1e-3 if "STABILIZE" in procedure else 1e-6)
+
+
+@pytest.mark.parametrize("load", ["*DLOAD\nBODY, P2, 200.", "*DSLOAD\nSIDE, P, 200."])
+def test_pressure_along_a_path(run, load):
+    """Riks' method: the pressure on the present face is the load factor times that of the deck."""
+    result = run(deck("CPE4", [static(HELD + EXACT + load, procedure=RIKS)]))
+    factors = result.history["LPF"]
+    assert len(factors) > 3
+    np.testing.assert_allclose(stress_along(result)[0], -200 * factors, rtol=1e-6)
+
+
+@pytest.mark.parametrize("load", ["P2NU, 200.", "BXNU, -400."])
+def test_loads_of_dload_along_a_path(run, load):
+    """F is a function of the load factor, which is TIME(1), and here not proportional to it.
+
+    A body force acts on the initial volume; one half of it on the two nodes at the end.
+    """
+    result = run(
+        deck("CPE4", [static(HELD + EXACT + f"*DLOAD\nBODY, {load}", procedure=RIKS)]), "F = F*TIME(1)*(1+TIME(1))/2"
+    )
+    factors = result.history["LPF"]
+    assert factors[-1] >= 1
+    np.testing.assert_allclose(stress_along(result)[0], -100 * factors * (1 + factors), rtol=1e-6)
+
+
+@pytest.mark.parametrize("load", ["*DLOAD\nBODY, P2, 200.", "*DLOAD\nBODY, BXNU, 200."])
+def test_energy_control_refuses_loads_on_elements(run, load):
+    message = (
+        "loads on user elements, those that follow the surface and those of DLOAD are not supported with --control"
+    )
+    with pytest.raises(DeckError, match=message):
+        run(deck("CPE4", [static(HELD + load)]), "F = F", energy_control=True)
+
+
 @pytest.mark.parametrize(
     ("steps", "message"),
     [
-        (
-            [static("*DLOAD\nBODY, P2NU")],
-            r"load type P follows the surface.* NLGEOM \(.*\) where DLOAD gives it",
-        ),
         ([static("*DSLOAD\nSIDE, TRSHR, 1., 1.")], r"press.inp:\d+: TRSHR: the direction is normal to the surface"),
         (
             [static("*DLOAD\nBODY, P2, 1."), "*STEP\n*FREQUENCY\n1"],
             r"load type P follows .* beside a perturbation step \(.*press.inp:\d+\)",
-        ),
-        (
-            [
-                static(
-                    "*BOUNDARY\nBODY, 1\n*DLOAD\nBODY, P2, 1.".replace("BODY, 1", "ALL, 1"), procedure="*STATIC, RIKS"
-                )
-            ],
-            r"loads that follow the surface \(NLGEOM\) are not supported in a step whose load factor is unknown",
         ),
     ],
 )

@@ -107,6 +107,20 @@ def test_prescribed_values_are_changes(run):
     assert history["RF1[ALL:2]"][-1] == pytest.approx(5 * 0.2, rel=CLOSE)
 
 
+def test_disp_gives_changes(run):
+    """It adds 0.1 to the 0.2 of the deck."""
+    disp = """      SUBROUTINE DISP(U,KSTEP,KINC,TIME,NODE,NOEL,JDOF,COORDS)
+      INCLUDE 'ABA_PARAM.INC'
+      DIMENSION U(3),TIME(3),COORDS(3)
+      U(1) = U(1) + 0.1D0
+      END
+"""
+    given = PULL.format(OUTPUT), LINEAR.format("", "*BOUNDARY, USER\n2, 1, 1, 0.2")
+    assert run(SPRING, *given, user=UEL + disp).history["U1[ALL:2]"][-1] == pytest.approx(0.3)
+    with pytest.raises(DeckError, match=r"linear.inp:\d+: \*BOUNDARY, USER needs DISP, which the job does not have"):
+        run(SPRING, *given)
+
+
 def test_checks_are_made_at_states_of_general_steps(run, tmp_path):
     """In the linear step RHS is none of U, and AMATRX not its derivative."""
     run(SPRING, PULL.format(OUTPUT), LINEAR.format("", "*CLOAD\n2, 1, 0.5"))
@@ -162,7 +176,7 @@ def test_energies_of_general_steps_after_it_are_there(run):
         ("*STEP, PERTURBATION\n*DYNAMIC\n0.1, 1.", r":12: \*DYNAMIC: not supported in a step with PERTURBATION"),
         ("*STEP, PERTURBATION\n*STATIC, RIKS", r":12: \*STATIC: DIRECT, RIKS and STABILIZE have no meaning in a step"),
         ("*STEP, PERTURBATION\n*STATIC\n*TEMPERATURE\nALL, 1.", ":14: predefined fields are not supported in a linear"),
-        ("*STEP, PERTURBATION\n*STATIC\n*BOUNDARY, TYPE=VELOCITY\n2, 1, 1, 1.", ":14: TYPE=VELOCITY and USER have no"),
+        ("*STEP, PERTURBATION\n*STATIC\n*BOUNDARY, TYPE=VELOCITY\n2, 1, 1, 1.", ":14: TYPE=VELOCITY has no"),
         (
             "*STEP, PERTURBATION\n*STATIC\n*CLOAD, AMPLITUDE=A\n2, 1, 1.\n*AMPLITUDE, NAME=A\n0., 1.",
             ":14: an amplitude has no meaning in a step with PERTURBATION",
@@ -174,6 +188,7 @@ def test_what_has_no_meaning_is_named(run, step, message):
         run(SPRING, step, "\n*END STEP\n")
 
 
-def test_loads_of_dload_are_named(run):
-    with pytest.raises(DeckError, match=r"linear.inp:\d+: loads by DLOAD are not supported in a linear pert"):
-        run(SQUARE, LINEAR.format("", "*DLOAD\nBODY, P2NU"))
+def test_loads_of_dload_in_steps_by_modes_are_named(run):
+    modes = "*STEP\n*FREQUENCY\n1,\n*END STEP\n*STEP\n*MODAL DYNAMIC\n0.1, 1.\n*DLOAD\nBODY, P2NU\n*END STEP\n"
+    with pytest.raises(DeckError, match=r"linear.inp:\d+: loads by DLOAD are not supported in a step by modes"):
+        run(SQUARE, modes)
