@@ -41,6 +41,7 @@ _MIXED_SIGN: Final = _error(r"'b' argument of 'sign' intrinsic at \(1\) must be 
 _CAPITAL_DIRECTIVE: Final = _error(
     r"invalid preprocessing directive #(?P<name>(?i:include|define|undef|ifn?def|if|elif|else|endif))$"
 )
+_SINGLE_QUOTES: Final = _error(r"#include expects \"FILENAME\" or <FILENAME>$")
 _SIGN: Final = re.compile(r"\bsign\s*\(", re.IGNORECASE)
 _END_OF_FUNCTION: Final = re.compile(r"^\s*end\s*(?:function\b.*)?(?:!.*)?$", re.IGNORECASE)
 _BARE_PARAMETER: Final = re.compile(r"^(\s*)parameter\s+([a-z]\w*\s*=[^!]*?)\s*$", re.IGNORECASE)
@@ -100,6 +101,21 @@ def repairs(errors: str) -> Iterator[Repair]:
         line, name = int(found["line"]), found["name"]
         note = f"#{name} in capitals; the copy has #{name.lower()}"
         yield Repair(Path(found["file"]).name, line, partial(lower_directive, line=line, name=name), note)
+    for found in _SINGLE_QUOTES.finditer(errors):
+        line = int(found["line"])
+        note = "#include with single quotes; the copy has double ones"
+        yield Repair(Path(found["file"]).name, line, partial(double_quotes, line=line), note)
+
+
+def double_quotes(text: str, line: int) -> str | None:
+    """The text in which an #include has double quotes around its file; None without single ones in the line."""
+    lines = text.splitlines(keepends=True)
+    row = lines[line - 1] if 1 <= line <= len(lines) else ""
+    changed = re.sub(r"^(\s*#\s*include\s*)'([^'\"]+)'", r'\1"\2"', row)
+    if changed == row:
+        return None
+    lines[line - 1] = changed
+    return "".join(lines)
 
 
 def lower_directive(text: str, line: int, name: str) -> str | None:
