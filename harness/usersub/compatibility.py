@@ -52,7 +52,8 @@ _TYPES: Final = {"whole": "integer", "single": "real", "double": "double precisi
 _NAME: Final = re.compile(r"(?<![\w.])[a-z]\w*", re.IGNORECASE)
 _REAL_NUMBER: Final = re.compile(r"(?<!\w)\d+\.\d*(?:[de][-+]?\d+)?|(?<!\w)\d+[de][-+]?\d+", re.IGNORECASE)
 _DECLARED: Final = re.compile(r"\w\s*(?=\()")
-_LONGEST: Final = 132
+LONGEST: Final = 132
+"""Columns of a line that is compiled."""
 _SPELLINGS: Final = {".eq.": (".eq.", "=="), "==": (".eq.", "=="), ".ne.": (".ne.", "/="), "/=": (".ne.", "/=")}
 _STANDARD: Final = {".eq.": ".eqv.", "==": ".eqv.", ".ne.": ".neqv.", "/=": ".neqv."}
 _WEAKER: Final = re.compile(r"\.(and|or|eqv|neqv)\.", re.IGNORECASE)
@@ -243,7 +244,7 @@ def type_constants(text: str, line: int) -> str | None:
     typed = "; ".join(f"{kind} {', '.join(names)}" for kind, names in kinds.items())
     values = ", ".join(f"{name}={value}" for name, _, value in constants)
     changed = f"{row[: len(row) - len(row.lstrip())]}{typed}; parameter ({values})"
-    if len(changed) > _LONGEST:
+    if len(changed) > LONGEST:
         return None
     lines[line - 1] = f"{changed}\n"
     return "".join(lines)
