@@ -238,9 +238,9 @@ _OPTIONS = (
     Keyword(
         "EXPANSION",
         "Thermal expansion from the initial temperature on (*INITIAL CONDITIONS, *TEMPERATURE), of continuum elements "
-        "without temperatures of their own.",
+        "without temperatures of their own. The coefficient is constant, so that ZERO has no effect.",
         Where.MODEL,
-        (ISOTROPIC, *refused("DEPENDENCIES", "FIELD", "PORE FLUID", "USER", "ZERO")),
+        (ISOTROPIC, *refused("DEPENDENCIES", "FIELD", "PORE FLUID", "USER"), *ignored("ZERO")),
         "expansion coefficient",
     ),
 )
