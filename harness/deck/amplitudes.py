@@ -111,11 +111,12 @@ def _read_periodic(block: Block) -> FloatArray:
     values = [value for row in rows[1:] for value in row.reals("coefficient")]
     if len(values) % 2:
         values.append(0.0)
-    if len(values) != 2 * terms:
+    # terms beyond the number are nothing if they are zero
+    if len(values) < 2 * terms or any(values[2 * terms :]):
         raise rows[0].error(
             f"expected the coefficients of {terms} terms, as this line says, found {len(values) / 2:g} A, B"
         )
-    return np.array([head[0], head[1], head[2], 0.0, *values]).reshape(-1, 2)
+    return np.array([head[0], head[1], head[2], 0.0, *values[: 2 * terms]]).reshape(-1, 2)
 
 
 KEYWORDS = (

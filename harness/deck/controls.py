@@ -12,7 +12,7 @@ from harness.deck.table import Keyword, Option, Where, one_of, refused
 from harness.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
 
 EPS_D, DEFAULT_EPS_D = "eps_d", 1e-8
-"""Displacements that count as zero, over the characteristic element length."""
+"""Displacement increments that count as zero, over the characteristic element length; here none does."""
 
 FIELD_LINES = (("r_n", "c_n", "q_0", "q_u", "r_p", "eps", "c_eps", "r_l"), ("c_f", "eps_l", EPS_D))
 TIME_LINES = (
@@ -91,8 +91,8 @@ def _update(group: Group, lines: tuple[tuple[str, ...], ...], block: Block) -> G
         for index, name in enumerate(lines[number]):
             if not row.blank(index):
                 value = _entry(row, index, name, name in whole)
-                if name == EPS_D and value != DEFAULT_EPS_D:
-                    message = f"{EPS_D.upper()} = {value:g}: only the default {DEFAULT_EPS_D:g} is supported"
+                if name == EPS_D and value > DEFAULT_EPS_D:
+                    message = f"{EPS_D.upper()} = {value:g}: only up to the default {DEFAULT_EPS_D:g} is supported"
                     raise row.error(f"{message}, as Abaqus does not document the element length that it is relative to")
                 values |= {name: value} if name and name != EPS_D else {}
     return replace(group, **values)  # type: ignore[arg-type]  # int fields get what row.integer returns
@@ -112,7 +112,8 @@ KEYWORDS = (
         "Solution controls; blank entries keep their value, later steps keep the controls. Of CONSTRAINTS the "
         "volumetric strain compatibility tolerance of hybrid solids, the tolerance of contact, the contact force error "
         "tolerance and those of distributing couplings count; what the others limit holds exactly here. Creep is "
-        "integrated implicitly and increments do not end at output times: what controls these has no effect.",
+        "integrated implicitly, increments do not end at output times, and no displacement increment counts as zero: "
+        "what controls these has no effect.",
         Where.STEP,
         (
             one_of("ANALYSIS", "I_0 = 8, I_R = 10", ("DISCONTINUOUS",)),

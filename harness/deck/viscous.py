@@ -71,7 +71,7 @@ KEYWORDS = (
                 refused=("CREEP TEST DATA", "FREQUENCY DATA", "RELAXATION TEST DATA"),
             ),
             one_of("TYPE", "symmetry", ("ISOTROPIC",), default="ISOTROPIC", refused=("TRACTION",)),
-            *refused("ERRTOL", "FREQUENCY", "NMAX", "PRELOAD"),
+            *refused("ERRTOL", "FREQUENCY", "LAW", "NETWORKID", "NMAX", "NONLINEAR", "PRELOAD", "PROPERTIES", "SRATIO"),
         ),
         "g, k, tau",
     ),

@@ -202,10 +202,12 @@ class GeneralStep:
                 yield Warned(f"EXCESSIVE DISTORTION IN SOLID (CONTINUUM) ELEMENTS: {error}")
                 cutback = Cutback(self._step.controls.time.d_h, DISTORTED, str(error))
                 break
-            except SingularMatrixError:
-                if not self._control.in_parts:
+            except SingularMatrixError as error:
+                # of an extrapolation or in later iterations it is the guess that has no stiffness, not the model
+                astray = (extrapolated or spent.total) and not self._step.procedure.direct
+                if not (self._control.in_parts or astray):
                     raise
-                cutback = Cutback(self._step.controls.time.d_f, SINGULAR)
+                cutback = Cutback(self._step.controls.time.d_f, SINGULAR, str(error))
                 break
             passes += 1
             yield from self._warn_unconstrained()

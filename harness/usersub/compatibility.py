@@ -41,6 +41,7 @@ _MIXED_SIGN: Final = _error(r"'b' argument of 'sign' intrinsic at \(1\) must be 
 _CAPITAL_DIRECTIVE: Final = _error(
     r"invalid preprocessing directive #(?P<name>(?i:include|define|undef|ifn?def|if|elif|else|endif))$"
 )
+_SINGLE_QUOTES: Final = _error(r"#include expects \"FILENAME\" or <FILENAME>$")
 _SIGN: Final = re.compile(r"\bsign\s*\(", re.IGNORECASE)
 _END_OF_FUNCTION: Final = re.compile(r"^\s*end\s*(?:function\b.*)?(?:!.*)?$", re.IGNORECASE)
 _BARE_PARAMETER: Final = re.compile(r"^(\s*)parameter\s+([a-z]\w*\s*=[^!]*?)\s*$", re.IGNORECASE)
@@ -51,7 +52,8 @@ _TYPES: Final = {"whole": "integer", "single": "real", "double": "double precisi
 _NAME: Final = re.compile(r"(?<![\w.])[a-z]\w*", re.IGNORECASE)
 _REAL_NUMBER: Final = re.compile(r"(?<!\w)\d+\.\d*(?:[de][-+]?\d+)?|(?<!\w)\d+[de][-+]?\d+", re.IGNORECASE)
 _DECLARED: Final = re.compile(r"\w\s*(?=\()")
-_LONGEST: Final = 132
+LONGEST: Final = 132
+"""Columns of a line that is compiled."""
 _SPELLINGS: Final = {".eq.": (".eq.", "=="), "==": (".eq.", "=="), ".ne.": (".ne.", "/="), "/=": (".ne.", "/=")}
 _STANDARD: Final = {".eq.": ".eqv.", "==": ".eqv.", ".ne.": ".neqv.", "/=": ".neqv."}
 _WEAKER: Final = re.compile(r"\.(and|or|eqv|neqv)\.", re.IGNORECASE)
@@ -100,6 +102,21 @@ def repairs(errors: str) -> Iterator[Repair]:
         line, name = int(found["line"]), found["name"]
         note = f"#{name} in capitals; the copy has #{name.lower()}"
         yield Repair(Path(found["file"]).name, line, partial(lower_directive, line=line, name=name), note)
+    for found in _SINGLE_QUOTES.finditer(errors):
+        line = int(found["line"])
+        note = "#include with single quotes; the copy has double ones"
+        yield Repair(Path(found["file"]).name, line, partial(double_quotes, line=line), note)
+
+
+def double_quotes(text: str, line: int) -> str | None:
+    """The text in which an #include has double quotes around its file; None without single ones in the line."""
+    lines = text.splitlines(keepends=True)
+    row = lines[line - 1] if 1 <= line <= len(lines) else ""
+    changed = re.sub(r"^(\s*#\s*include\s*)'([^'\"]+)'", r'\1"\2"', row)
+    if changed == row:
+        return None
+    lines[line - 1] = changed
+    return "".join(lines)
 
 
 def lower_directive(text: str, line: int, name: str) -> str | None:
@@ -227,7 +244,7 @@ def type_constants(text: str, line: int) -> str | None:
     typed = "; ".join(f"{kind} {', '.join(names)}" for kind, names in kinds.items())
     values = ", ".join(f"{name}={value}" for name, _, value in constants)
     changed = f"{row[: len(row) - len(row.lstrip())]}{typed}; parameter ({values})"
-    if len(changed) > _LONGEST:
+    if len(changed) > LONGEST:
         return None
     lines[line - 1] = f"{changed}\n"
     return "".join(lines)

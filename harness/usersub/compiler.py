@@ -345,6 +345,7 @@ def _compile_one(
     """
     copies = dict(changed_texts or {})
     notes: list[str] = []
+    said = ""
     if language_of(file) is FORTRAN:
         for repair in hidden_types(_read(file), file.name):
             _repair(repair, sources, copies, notes)
@@ -358,8 +359,12 @@ def _compile_one(
         compiled = _run([*command, f"-I{folder}", str(source)], folder.parent)
         errors = compiled.stderr
         if not compiled.returncode:
-            return notes, errors
-        changed = [_repair(repair, sources, copies, notes) for repair in repairs(errors)]
+            # what the compiler says of the user's text counts
+            said = said or errors
+        found = repairs(errors) if compiled.returncode else argument_ranks.zeros_for_arrays(errors)
+        changed = [_repair(repair, sources, copies, notes) for repair in found]
+        if not compiled.returncode and not any(changed):
+            return notes, said
         if not any(changed):
             raise CompileError(file, first_error(errors, _texts(sources)))
 

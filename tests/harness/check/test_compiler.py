@@ -211,7 +211,7 @@ def test_first_call_that_fails_has_the_warnings_before_it(tmp_path, capsys):
     """A constant for an array is what gfortran warns of; the NaN that the routine makes of it says nothing of that."""
     deck, user = tmp_path / "spring.inp", tmp_path / "spring.f"
     deck.write_text(DECK)
-    text = SPRING.format(head=TESTS / "uel.inc", statement="call clear(w,0.d0,4)\n      w(1) = sqrt(-1 - u(1)**2)")
+    text = SPRING.format(head=TESTS / "uel.inc", statement="call clear(w,1.d0,4)\n      w(1) = sqrt(-1 - u(1)**2)")
     user.write_text(text + "      subroutine clear(x,y,n)\n      real*8 x(n),y(n)\n      x=0\n      end\n")
     assert main(["check", str(user), str(deck)]) == 2
     said = capsys.readouterr().err

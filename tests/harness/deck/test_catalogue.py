@@ -90,6 +90,11 @@ def test_viscoelastic(read: Read) -> None:
     assert_array_equal(found.viscoelastic.terms, [[0.2, 0, 3], [0.1, 0.5, 7]])
 
 
+def test_reference_temperature_of_expansion(read: Read) -> None:
+    """alpha (T - T0) - alpha (TI - T0) is alpha (T - TI)."""
+    assert material(read, "*EXPANSION, ZERO=20.\n1e-5").expansion == 1e-5
+
+
 def test_creep(read: Read) -> None:
     creep = material(read, "*ELASTIC\n9., .3\n*CREEP, LAW=TIME\n1e-5, 4., -.5").creep
     assert creep is not None
@@ -173,6 +178,10 @@ def test_other_size_in_cyclic_hardening(read: Read) -> None:
             r"deck.inp:30: \*USER MATERIAL: 4 values, but CONSTANTS=2",
         ),
         ("*VISCOELASTIC, TIME=PRONY", r"30: \*VISCOELASTIC: needs a data line with g, k and tau"),
+        (
+            "*VISCOELASTIC, NONLINEAR, NETWORKID=1, SRATIO=.3, LAW=STRAIN\n1., 1., 0.",
+            r"30: \*VISCOELASTIC: option NONLINEAR is not supported",
+        ),
         (
             "*VISCOELASTIC, TIME=PRONY\n.2, , 0.",
             r"31: .*: g = 0.2, k = 0, tau = 0: expected g >= 0, k >= 0 and tau > 0",
@@ -291,6 +300,8 @@ def test_periodic(read: Read) -> None:
     phase = 3 * 0.2
     expected = 0.25 + math.cos(phase) + 2 * math.sin(phase) + 4 * math.cos(2 * phase) + 8 * math.sin(2 * phase)
     assert_allclose([curve.value(0.7, 0.0), curve.value(0.4, 0.0)], [expected, 0.25])
+    surplus = amplitude(read, ", DEFINITION=PERIODIC", "2, 3., 0.5, 0.25\n1., 2., 4., 8., 0., 0., 0., 0.")
+    assert_allclose(surplus.value(0.7, 0.0), expected)
 
 
 def test_decay(read: Read) -> None:

@@ -184,6 +184,7 @@ CONSTRAINTS = "*CONTROLS, PARAMETERS=CONSTRAINTS"
             Controls(contact=1e-2, coupling=1e-6, coupling_rotation=1e-4, contact_force=0.5),
         ),
         (f"{FIELD}\n\n, , 1e-8\n", Controls()),
+        (f"{FIELD}\n\n, , 1e-14\n", Controls()),
         (f"{TIME}\n8, 10\n*CONTROLS, RESET\n", Controls()),
     ],
 )
@@ -205,7 +206,7 @@ def test_controls_stay_in_later_steps(read: Read) -> None:
         (f"{FIELD}\n{'1,' * 9}", r"deck.inp:44: \*CONTROLS: 9 entries, expected at most 8"),
         (f"{FIELD}\n1\n2\n3", r"deck.inp:46: \*CONTROLS: data line 3 is not supported"),
         (f"{FIELD}\n1\n1., 1e-5, 1e-8, 1", r"deck.inp:45: \*CONTROLS: 4 entries, expected at most 3"),
-        (f"{FIELD}\n1\n1., 1e-5, 1e-7", r"deck.inp:45: \*CONTROLS: EPS_D = 1e-07: only the default 1e-08 is supported"),
+        (f"{FIELD}\n1\n1., 1e-5, 1e-7", r"deck.inp:45: \*CONTROLS: EPS_D = 1e-07: only up to the default 1e-08"),
         (f"{CONSTRAINTS}\n{'1,' * 9}", r"deck.inp:44: \*CONTROLS: 9 entries, expected at most 8"),
         (f"{TIME}\n1\n1\n1\n1.5\n1", r"deck.inp:48: \*CONTROLS: data line 5 is not supported"),
         ("*CONTROLS, RESET\n1", r"deck.inp:43: \*CONTROLS: RESET takes no data lines"),

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from harness.errors import ConvergenceError, SingularMatrixError
+from harness.model.amplitude import Amplitude, AmplitudeType
 from harness.model.procedures import Static
 from harness.model.records import SearchHelped
 from harness.procedures.incrementation import DIVERGING, TOO_SLOW
@@ -68,11 +69,27 @@ def test_singular_matrix_is_passed(bench):
     soft = 1.25
     damage = (1, 2, 6, (12.5, 0.1, 1.1))
     step = bench.step(static=STATIC, boundaries=(bench.fix(0), bench.fix(2, 3.15)))
-    assert isinstance(bench.run([(0, 1, 1, (soft, 0.0)), damage], [step]).error, SingularMatrixError)
+    without = bench.run([(0, 1, 1, (soft, 0.0)), damage], [step])
+    assert isinstance(without.error, ConvergenceError)
+    assert "singular system matrix at node 2, dof 1" in str(without.error)
+    assert {record.reason for record in without.abandoned} == {SINGULAR}
     result = bench.run([(0, 1, 1, (soft, 0.0)), damage], [step], fallback=True)
     assert result.error is None
     assert SINGULAR in [helped.reason for helped in result.of(SearchHelped)]
     assert result.last.reaction[2] == pytest.approx(0.0, abs=1e-6)
+
+
+def test_singular_matrix_of_a_guess_is_a_cutback(bench):
+    """The springs are extrapolated to 1.8, where both are as soft, but only get to 1.0: the peak is at 1.1."""
+    slow = Amplitude("A", AmplitudeType.TABULAR, np.array([[0.0, 0.0], [0.5, 0.9], [1.0, 1.0]]), None)
+    pull = (bench.fix(0), bench.fix(2, 1.0, slow))
+    springs = [(0, 1, 1, (1.25, 0.0)), (1, 2, 6, (12.5, 0.1, 1.1))]
+    result = bench.run(springs, [bench.step(static=Static(0.5, 1.0, 1e-5, 0.5), boundaries=pull)])
+    assert result.error is None
+    assert [record.reason for record in result.abandoned] == [SINGULAR] * 2
+    assert result.last.reaction[2] == pytest.approx(1.25 / 1.1)
+    fixed = bench.run(springs, [bench.step(static=Static(0.5, 1.0, direct=True), boundaries=pull)])
+    assert isinstance(fixed.error, SingularMatrixError)
 
 
 def test_slow_convergence_is_hastened(bench):

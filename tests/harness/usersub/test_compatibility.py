@@ -130,6 +130,15 @@ def test_directives_in_capitals_compile_in_a_copy(load):
     assert said(library) == ["6"]
 
 
+def test_include_with_single_quotes_compiles_in_a_copy(load, tmp_path):
+    """Public codes that run in Abaqus have it."""
+    (tmp_path / "six.inc").write_text("      i = 6\n")
+    library = load(database("# include 'six.inc'\n" + note("%I", "i")))
+    (message,) = library.messages()
+    assert message.text.endswith("user.f, line 5: #include with single quotes; the copy has double ones")
+    assert said(library) == ["6"]
+
+
 def test_sign_of_two_kinds_over_two_lines_is_shown(load):
     with pytest.raises(CompileError, match=r"must be the same type and kind as 'a' \(user.f, line 7"):
         load(database("      x = -2d0\n      y = sign(1.0,\n     1 x)"))
