@@ -43,8 +43,8 @@ module host_solid
   use host_coupling, only: add_heat_source, coupling_t, interpolate_fields, set_temperature
   use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point, add_stress_matrix
   use host_gradients, only: all_gradients, carry, find_deformation, gradient_of, gradients_of_points
-  use host_hybrid, only: add_compatibility, begin_pressure, begin_smoothing, keep_point, mean_stress, mean_stress_added, &
-                         pressure_t, smooth, smoothing_change, smoothing_t
+  use host_hybrid, only: add_compatibility, begin_pressure, begin_smoothing, keep_point, keep_temperature, mean_stress, &
+                         mean_stress_added, pressure_t, smooth, smooth_by_temperature, smoothing_change, smoothing_t
   use host_hourglass, only: resist_hourglass
   use host_hyperelastic, only: volume_of
   use host_incompatible, only: mode_strains
@@ -138,7 +138,7 @@ contains
       if (modes > 0) then
         call integrate_with_modes(rule, direct + 2*dim - 3, modes, lflags(3), lflags(2) /= 0, material, props(1), coords, &
                                   int(npredf), predef, u, change, du, rhs, amatrx, svars, &
-                                  svars(nsvars - modes + 1:nsvars), energy, axes, layers)
+                                  svars(nsvars - modes + 1:nsvars), energy, axes, int(jprops(7)), layers)
       else if (present(bounds)) then
         moved = bounds
         moved%w = u(of_nodes + 1:n)
@@ -168,7 +168,7 @@ contains
   !> The same with incompatible modes: they are sought at the displacements of the nodes. With large displacements (finite)
   !> strains are small in axes that turn with the middle of the element (core_solid_rotation).
   subroutine integrate_with_modes(rule, strains, modes, request, finite, material, thickness, x, fields, predef, u, du, added, &
-                                  force, stiffness, svars, alpha, energy, axes, layers)
+                                  force, stiffness, svars, alpha, energy, axes, functions, layers)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: strains, modes, fields
     integer(i4), intent(in) :: request   !< LFLAGS(3)
@@ -179,6 +179,7 @@ contains
     real(dp), intent(inout) :: force(rule%dim*rule%nodes), stiffness(rule%dim*rule%nodes, rule%dim*rule%nodes)
     real(dp), intent(inout) :: svars(values_of_point(rule%dim)*rule%points), alpha(modes), energy(8)
     real(dp), intent(inout), optional :: axes(3, 3, 2, rule%points)
+    integer, intent(in) :: functions     !< of the pressure, on which the mean stress is projected
     integer(i4), intent(in), optional :: layers(:, :)
     real(dp), dimension(rule%dim*rule%nodes + modes) :: all_force
     real(dp), dimension(rule%dim*rule%nodes + modes, rule%dim*rule%nodes + modes) :: all_stiffness
@@ -206,7 +207,7 @@ contains
       all_stiffness = 0
       call integrate(rule, rule%dim, strains, modes, merge(request, 1_i4, request == initial_stresses), .false., material, &
                      thickness, 0.0_dp, .false., x, fields, predef, moved, du, all_force, all_stiffness, svars, energy, &
-                     alpha=alpha, by_modes=b, axes=axes, layers=layers)
+                     alpha=alpha, by_modes=b, axes=axes, functions=functions, layers=layers)
       if (request == initial_stresses) then
         force = all_force(:size(force))
         return
@@ -478,6 +479,8 @@ contains
         if (.not. allocated(here%user)) current%heat = heat_t()
         if (allocated(here%thermal%source)) call call_hetval(here%thermal%source, int(p, i4))
         call add_heat_source(coupling, weight, b(:, :, p), components(strains, here%ntens))
+        if (smoothed) call keep_temperature(smoothing, p, coupling%shape(:size(coupling%heat)), &
+                                            sum(current%heat%stress_by_temperature(:3))/3)
       end if
       by_unknowns(:n, :) = b(:, :, p)
       if (present(by_modes)) by_unknowns(n + 1:, :) = by_modes(:, :, p)
@@ -539,6 +542,7 @@ contains
       unit = 0
       unit(:3) = 1
       call smooth(smoothing, force, stiffness)
+      if (present(coupling)) call smooth_by_temperature(smoothing, coupling%tangent(:n, n + 1:))
       do p = 1, rule%points
         associate (change => smoothing%change(p))
           if (finite .and. present(bounds)) then
