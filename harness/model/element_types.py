@@ -291,21 +291,16 @@ class CohesiveType:
 
 
 @dataclass(frozen=True, slots=True)
-class ShellType:
-    """A conventional shell: displacements and rotations at each node.
+class SurfaceType:
+    """A surface in space.
 
-    family  of its surface
+    family  of the surface
     points  integration points of the surface
     """
 
     name: str
     family: Family
     points: int
-
-    @property
-    def section(self) -> str:
-        """Keyword that gives its properties."""
-        return "SHELL SECTION"
 
     @property
     def nodes(self) -> int:
@@ -342,18 +337,48 @@ class ShellType:
 
     @property
     def edges(self) -> dict[str, Face]:
-        """Local nodes of its edges, from 0."""
-        return {f"E{k}": edge for k, edge in enumerate(self.family.faces, 1)}
+        """Local nodes of the edges that loads act on, from 0."""
+        return {}
 
     @property
     def hourglass_control(self) -> bool:
         """True where displacements other than rigid ones leave its only point without strain."""
         return self.points == 1 and self.family is QUAD4
 
+
+@dataclass(frozen=True, slots=True)
+class ShellType(SurfaceType):
+    """A conventional shell: displacements and rotations at each node."""
+
+    @property
+    def section(self) -> str:
+        """Keyword that gives its properties."""
+        return "SHELL SECTION"
+
+    @property
+    def edges(self) -> dict[str, Face]:
+        """Local nodes of its edges, from 0."""
+        return {f"E{k}": edge for k, edge in enumerate(self.family.faces, 1)}
+
     def dofs(self, node: int) -> tuple[int, ...]:
         """Dofs of a local node, from 0."""
         del node
         return (1, 2, 3, 4, 5, 6)
+
+
+@dataclass(frozen=True, slots=True)
+class MembraneType(SurfaceType):
+    """A membrane: a surface in plane stress, with displacements at each node."""
+
+    @property
+    def section(self) -> str:
+        """Keyword that gives its properties."""
+        return "MEMBRANE SECTION"
+
+    def dofs(self, node: int) -> tuple[int, ...]:
+        """Dofs of a local node, from 0."""
+        del node
+        return (1, 2, 3)
 
 
 @dataclass(frozen=True, slots=True)
@@ -477,7 +502,7 @@ class DiscreteType:
         return tuple(range(1, self.dimension + 1))
 
 
-BuiltInType = ContinuumType | HeatType | CohesiveType | ShellType | BeamType | RigidType | DiscreteType
+BuiltInType = ContinuumType | HeatType | CohesiveType | ShellType | MembraneType | BeamType | RigidType | DiscreteType
 
 _PLANE: Final = {"3": (TRI3, 1), "4": (QUAD4, 4), "4R": (QUAD4, 1), "6": (TRI6, 3), "8": (QUAD8, 9), "8R": (QUAD8, 4)}
 _SPACE: Final = {
@@ -582,6 +607,19 @@ SHELL: Final = {
 }
 """Conventional shells by their names."""
 
+MEMBRANE: Final = {
+    kind.name: kind
+    for kind in (
+        MembraneType("M3D3", TRI3, 1),
+        MembraneType("M3D4", QUAD4, 4),
+        MembraneType("M3D4R", QUAD4, 1),
+        MembraneType("M3D6", TRI6, 3),
+        MembraneType("M3D8", QUAD8, 9),
+        MembraneType("M3D8R", QUAD8, 4),
+    )
+}
+"""Membranes by their names."""
+
 _BEAMS: Final = (
     BeamType("B21", LINE2, 1, 2),
     BeamType("B22", LINE3, 2, 2),
@@ -620,6 +658,7 @@ BUILT_IN: Final[dict[str, BuiltInType]] = {
     **HEAT,
     **COHESIVE,
     **SHELL,
+    **MEMBRANE,
     **BEAM,
     **RIGID,
     **DISCRETE,

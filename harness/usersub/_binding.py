@@ -564,7 +564,7 @@ def slopes_at_nodes(family: int, nodes: int) -> FloatArray:
 
 _ELEMENTS: Final = (
     *("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric", "truss"),
-    "generalised",
+    *("generalised", "membrane"),
 )
 """In the order of host_element_address."""
 
@@ -582,6 +582,7 @@ def address_of(
         "piezoelectric",
         "truss",
         "generalised",
+        "membrane",
     ],
 ) -> int:
     """Address of built-in elements.
