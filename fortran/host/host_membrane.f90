@@ -28,9 +28,10 @@ module host_membrane
   use core_rotation, only: cross, surface_frame
   use core_small_matrix, only: invert
   use host_axes, only: values_of_axes
-  use host_context, only: added_stress, current, stress_matrix
+  use host_context, only: added_stress, current, initial_stresses, stress_matrix
   use host_coupling, only: interpolate_fields
   use host_inertia, only: respond
+  use host_initial_stress, only: begin_point
   use host_kinds, only: dp, i4
   use host_materials, only: elastic_energy, find_material, has_fields, material_t, set_constants, stress_update
   use host_messages, only: add_message
@@ -43,6 +44,7 @@ module host_membrane
   public :: membrane_uelmat
 
   integer, parameter :: values = 6        !< of SVARS for a point
+  real(dp), parameter :: smallest_area = 1.0e-8_dp   !< over that before any displacement
   real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
 
   !> A point before any displacement.
@@ -194,7 +196,7 @@ contains
     real(dp), intent(inout) :: force(3, rule%nodes), stiffness(3, rule%nodes, 3, rule%nodes), energy(8)
     type(response_t) :: at
     real(dp) :: linear(3, 6), strain(3), stress(3), f(3, 2), f_before(3, 2), nominal(3, 2), rate(3, 2, 3, 2)
-    real(dp) :: volume, elastic, work
+    real(dp) :: volume, elastic, work, state(8)
     integer(i4) :: point
     integer :: p
     logical :: valid
@@ -211,6 +213,14 @@ contains
       associate (g => places(p)%gradient(:rule%nodes, :), frame => places(p)%frame)
         at%volume = places(p)%area*props(1)
         linear = strain_matrix(transpose(frame(:2, :)))
+        if (request == initial_stresses) then
+          ! as plane elements keep it, with E33 and S33
+          state = 0
+          state([5, 6, 8]) = svars(4:, p)
+          call begin_point(material, point, at%volume, state, stress, elastic)
+          force = force + matmul(reshape(at%volume*matmul(stress, linear), [3, 2]), transpose(g))
+          cycle
+        end if
         f = transpose(frame(:2, :))
         f_before = f
         if (finite) then
@@ -251,11 +261,12 @@ contains
       end associate
     end do
     if (allocated(current%fields)) deallocate (current%fields)
+    energy(2) = elastic
+    if (request == initial_stresses) return
+    energy(4) = work - elastic
     if (rule%reduced .and. .not. stress_matrix(request)) then
       call resist(places(1), props(1)*places(1)%area*props(3), finite, x, u, force, stiffness, energy(6))
     end if
-    energy(2) = elastic
-    energy(4) = work - elastic
   end subroutine integrate
 
   !> Strain of an increment, stretches and thickness at both ends for UMAT, and the volume at its end. Leaves the pass if the
@@ -268,7 +279,7 @@ contains
     real(dp) :: stretch(2, 2)
     at%before = real(stretch_of(cmplx(before, kind=dp)), dp)
     stretch = real(stretch_of(cmplx(f, kind=dp)), dp)
-    if (.not. min(determinant(stretch), determinant(at%before)) > 0) then
+    if (.not. (determinant(stretch) > smallest_area .and. determinant(at%before) > smallest_area)) then
       current%distorted = int(point)
       call escape()
     end if

@@ -12,7 +12,6 @@ from harness.elements.load_vectors import check_density
 from harness.elements.materials import (
     define_fields,
     define_material,
-    history_values,
     linearity,
     refuse_hyperelastic,
     refuse_output_variables,
@@ -22,7 +21,7 @@ from harness.elements.materials import (
     state_variables,
 )
 from harness.elements.routine import VALUES_OF_AXES, PointAxes, Routine
-from harness.elements.solid import HOURGLASS_FRACTION, numbered
+from harness.elements.solid import HOURGLASS_FRACTION, history_of, is_prestressed, numbered
 from harness.errors import DeckError
 from harness.model.element_types import MembraneType, Tensor
 from harness.model.mesh import ElementGroup
@@ -47,11 +46,14 @@ def membrane_routine(
     # the axes are those of each point
     along = np.eye(3), orientation.name if orientation else ""
     define_fields(number, material, along, Tensor.PLANE_STRESS, library)
+    prestressed = is_prestressed(model, group, material)
+    if prestressed:
+        _binding.set_prestressed(number)
     of_points = kind.points * len(NAMES)
     forces = 6 * kind.nodes if dynamic else 0
     axes = PointAxes(of_points + forces, kind.points, False, orientation) if orientation else None
     hidden = forces + (VALUES_OF_AXES * kind.points if axes else 0)
-    values = history_values(material)
+    history = history_of(material, kind.points, prestressed=prestressed)
     return Routine(
         address=_binding.address_of("membrane"),
         jtype=kind.nodes,
@@ -61,16 +63,18 @@ def membrane_routine(
         density=1,
         props=np.array([section.thickness, material.density, hourglass, section.poisson]),
         jprops=np.array([kind.family.number, kind.points, kind.family.full_points, axes is not None]),
+        family=kind.family.number,
         material=number,
         tensor=int(Tensor.PLANE_STRESS),
-        history=(values, kind.points if values > 1 else 1),
+        history=history,
         statev=state_variables(material),
-        linear=values == 1,
-        forces=linearity(material),
+        linear=history[0] == 1,
+        forces=linearity(material, prestressed=prestressed),
         # the energy of hourglass control is another one
         stores=not kind.hourglass_control,
         free=(1, 2, 3),
         axes=axes,
+        stress=(3, 4, 5),
         turns=True,
     )
 
@@ -101,9 +105,6 @@ def _check(model: Model, group: ElementGroup, section: MembraneSection) -> None:
     elements, material = f"elements of type {group.type}", section.material
     if any(step.procedure.inertia for step in model.steps):
         check_density((material,), section.source, f"*DYNAMIC with {elements}")
-    initial = next((entry for entry in model.initial_solutions if entry.elements is None), None)
-    if initial is not None and state_variables(material):
-        raise DeckError(initial.source, f"SDVINI is not supported for {elements}")
     refuse_hyperelastic(material, elements)
     refuse_viscous(material, elements)
     refuse_user_hardening(material, elements)

@@ -82,7 +82,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     warn_of_enhanced(model, group, kind, library, tangent)
     _warn_of_unpublished(model, group, kind, library)
     number = define_material(material, orientation, kind.tensor, section.source, library, hybrid=kind.pressures > 0)
-    prestressed = _is_prestressed(model, group, material)
+    prestressed = is_prestressed(model, group, material)
     if prestressed:
         _binding.set_prestressed(number)
     define_fields(number, material, directions(orientation), kind.tensor, library)
@@ -182,7 +182,7 @@ def _places_of_stress(kind: ContinuumType) -> tuple[int, ...]:
     )
 
 
-def _is_prestressed(model: Model, group: ElementGroup, material: Material) -> bool:
+def is_prestressed(model: Model, group: ElementGroup, material: Material) -> bool:
     """Whether elements of the group have an initial stress that a built-in material must store. Raises DeckError."""
     first = first_element(model, group)
     last = first + len(group.labels)

@@ -230,6 +230,7 @@ def test_balloon_of_rubber(run):
     np.testing.assert_allclose(result.field("SDV2"), 12.0)
 
 
+STRESSED = f"*USER MATERIAL, CONSTANTS=2\n{YOUNG}, {NU}"
 AXES = "*ORIENTATION, NAME=O\n0., 0., 1., 1., 0., 0.\n3, 0.\n*STEP"
 """Direction 1 is normal to the sheet, though 3 is said to be."""
 SHEET = """*NODE, NSET=ALL
@@ -302,6 +303,57 @@ def test_thickness_follows_the_area(run, type, poisson):
     expected = YOUNG * np.log(2) * width * thickness
     # strains of 20 increments, each at its middle
     assert sum(result.history[f"RF1[ALL:{k}]"][-1] for k in (2, 3)) == pytest.approx(expected, rel=1e-3)
+
+
+@pytest.mark.parametrize("material", ["elastic", "plastic", "umat"])
+def test_initial_stress(run, material):
+    """A sheet of 2 x 2 elements that is stretched by an initial stress s, whose middle is pushed along the normal by a
+    force F: it deflects by w = F/(4 k), k from the gradients, t s N,1 N,1 in 4 elements of side a: 4 t s (2/3) in all.
+
+    The deflection is small: there is no more tension by it.
+    """
+    stress, force, side = 5.0, 1e-4, 0.5
+    elastic = f"*ELASTIC\n{YOUNG}, {NU}"
+    given = {"elastic": elastic, "plastic": f"{elastic}\n*PLASTIC\n10., 0.", "umat": STRESSED}
+    nodes = [[side * i, side * j, 0.0] for j in range(3) for i in range(3)]
+    elements = [[k, k + 1, k + 4, k + 3] for k in (0, 1, 3, 4)]
+    lines = body_lines("M3D4", nodes, elements)
+    lines += ["*NSET, NSET=EDGE\n1, 2, 3, 4, 6, 7, 8, 9"]
+    lines += [f"*MEMBRANE SECTION, ELSET=BODY, MATERIAL=M\n{THICKNESS}", f"*MATERIAL, NAME=M\n{given[material]}"]
+    lines += [f"*INITIAL CONDITIONS, TYPE=STRESS\nBODY, {stress}, {stress}, 0.", "*STEP, NLGEOM\n*STATIC"]
+    lines += ["*BOUNDARY\nEDGE, 1, 3", f"*CLOAD\n5, 3, {force}", "*OUTPUT, FIELD\n*NODE OUTPUT\nU"]
+    lines += ["*ELEMENT OUTPUT\nS", "*END STEP\n"]
+    result = run("\n".join(lines), user=HERE / "keeps.f" if material == "umat" else None)
+    # integrals of N,1^2 + N,2^2 over a square element: 2/3 for each corner, whatever its side
+    stiffness = 4 * THICKNESS * stress * 2 / 3
+    np.testing.assert_allclose(result.field("U")[4], [0, 0, force / stiffness], rtol=1e-3, atol=1e-9)
+    np.testing.assert_allclose(result.field("S11"), stress, rtol=1e-4)
+
+
+def test_initial_state_by_user(run, tmp_path):
+    """SIGINI and SDVINI at the four points: NTENS 3, three coordinates, which UMAT keeps."""
+    source = tmp_path / "user.f"
+    source.write_text(
+        (HERE / "keeps.f").read_text()
+        + """      SUBROUTINE SIGINI(SIGMA,COORDS,NTENS,NCRDS,NOEL,NPT,LAYER,KSPT,LREBAR,NAMES)
+      INCLUDE 'ABA_PARAM.INC'
+      DIMENSION SIGMA(NTENS),COORDS(NCRDS)
+      CHARACTER*80 NAMES(2)
+      SIGMA = (/NTENS, NCRDS, NPT/)
+      END
+      SUBROUTINE SDVINI(STATEV,COORDS,NSTATV,NCRDS,NOEL,NPT,LAYER,KSPT)
+      INCLUDE 'ABA_PARAM.INC'
+      DIMENSION STATEV(NSTATV),COORDS(NCRDS)
+      STATEV(1) = COORDS(1) + 10*COORDS(2)
+      END
+"""
+    )
+    initial = "*INITIAL CONDITIONS, TYPE=STRESS, USER\n*INITIAL CONDITIONS, TYPE=SOLUTION, USER"
+    text = sheet(material=f"{STRESSED}\n*DEPVAR\n1\n{initial}", load="ALL, 1, 3").replace("S, E", "S, E, SDV")
+    result = run(text, user=source)
+    # means over the points
+    found = [float(result.field(name)[0]) for name in ("S11", "S22", "S12", "SDV1")]
+    np.testing.assert_allclose(found, [3.0, 3.0, 2.5, 0.5 + 10.0], rtol=1e-6)
 
 
 def test_plastic_sheet(run):
@@ -416,10 +468,6 @@ def test_drum(run, element_type, count, error):
         (
             sheet(material=f"*ELASTIC\n{YOUNG}, {NU}\n*USER OUTPUT VARIABLES\n1"),
             r"\*USER OUTPUT VARIABLES \(material M\) is not supported for elements of type M3D4",
-        ),
-        (
-            sheet(material="*USER MATERIAL, CONSTANTS=1\n1.\n*DEPVAR\n2\n*INITIAL CONDITIONS, TYPE=SOLUTION, USER"),
-            r"SDVINI is not supported for elements of type M3D4",
         ),
         (
             sheet(material=f"*ELASTIC\n{YOUNG}, {NU}\n*EXPANSION\n1e-5"),
