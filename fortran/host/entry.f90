@@ -812,7 +812,7 @@ end subroutine host_uamp_call
 
 !> Address of built-in elements: 1 continuum, 2 coupled temperature-displacement, 3 cohesive, 4 springs and masses, 5 heat
 !> transfer, 6 heat that enters, 7 shells, 8 beams, 9 piezoelectric, 10 trusses, 11 generalised plane strain, 12 beams whose
-!> material is integrated over the section.
+!> material is integrated over the section, 13 membranes.
 subroutine host_element_address(elements, address)
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_intptr_t
   use host_beam, only: beam_uel, beam_uelmat
@@ -823,6 +823,7 @@ subroutine host_element_address(elements, address)
   use host_generalised, only: generalised_uelmat
   use host_heat_loads, only: heat_load_uel
   use host_kinds, only: i4, i8
+  use host_membrane, only: membrane_uelmat
   use host_piezoelectric, only: piezoelectric_uelmat
   use host_shell, only: shell_uelmat
   use host_solid, only: solid_uelmat
@@ -830,9 +831,9 @@ subroutine host_element_address(elements, address)
   implicit none (type, external)
   integer(i4), intent(in) :: elements
   integer(i8), intent(out) :: address
-  type(c_funptr) :: all(12)
+  type(c_funptr) :: all(13)
   all = [c_funloc(solid_uelmat), c_funloc(coupled_uelmat), c_funloc(cohesive_uel), c_funloc(discrete_uel), c_funloc(heat_uelmat), &
          c_funloc(heat_load_uel), c_funloc(shell_uelmat), c_funloc(beam_uel), c_funloc(piezoelectric_uelmat), &
-         c_funloc(truss_uelmat), c_funloc(generalised_uelmat), c_funloc(beam_uelmat)]
+         c_funloc(truss_uelmat), c_funloc(generalised_uelmat), c_funloc(beam_uelmat), c_funloc(membrane_uelmat)]
   address = int(transfer(all(elements), 1_c_intptr_t), i8)
 end subroutine host_element_address

@@ -21,8 +21,8 @@ module host_hybrid
   use host_shape, only: rule_t
   implicit none (type, external)
   private
-  public :: pressure_t, begin_pressure, mean_stress, add_compatibility, smoothing_t, begin_smoothing, keep_point, smooth, &
-            mean_stress_added, smoothing_change
+  public :: pressure_t, begin_pressure, mean_stress, add_compatibility, smoothing_t, begin_smoothing, keep_point, &
+            keep_temperature, smooth, smooth_by_temperature, mean_stress_added, smoothing_change
 
   type :: pressure_t
     real(dp) :: volume = 0                         !< of the element before any displacement
@@ -39,6 +39,7 @@ module host_hybrid
     real(dp), allocatable :: mean(:), weight(:), strain(:)    !< of the points: mean stresses, volumes now, volume strains
     real(dp), allocatable :: change(:)             !< of the mean stresses by the projection
     real(dp), allocatable :: by_displacements(:, :), rate(:, :)   !< derivatives of volume strains and mean stresses
+    real(dp), allocatable :: by_temperatures(:, :)   !< (corners, points) derivatives of the mean stresses, if they have any
   end type smoothing_t
 
 contains
@@ -131,6 +132,17 @@ contains
     if (finite) this%rate(:, point) = this%rate(:, point) - of_point(1)*this%by_displacements(:, point)
   end subroutine keep_point
 
+  !> Keep how the mean stress of a point changes with its temperature, which is that of the corners by their shape functions.
+  pure subroutine keep_temperature(this, point, mean_by_temperatures)
+    type(smoothing_t), intent(inout) :: this
+    integer, intent(in) :: point
+    real(dp), intent(in) :: mean_by_temperatures(:)   !< (corners)
+    if (.not. allocated(this%by_temperatures)) then
+      allocate (this%by_temperatures(size(mean_by_temperatures), size(this%mean)), source=0.0_dp)
+    end if
+    this%by_temperatures(:, point) = mean_by_temperatures
+  end subroutine keep_temperature
+
   !> What the projection changes of the mean stresses of all points.
   pure function smoothing_change(this) result(change)
     type(smoothing_t), intent(in) :: this
@@ -149,4 +161,16 @@ contains
     force = force + matmul(weighted, this%change)
     stiffness = stiffness + matmul(weighted, matmul(this%projection, transpose(this%rate)) - transpose(this%rate))
   end subroutine smooth
+
+  !> Add what the projection changes of the derivatives of the forces by the temperatures of the corners.
+  pure subroutine smooth_by_temperature(this, tangent)
+    type(smoothing_t), intent(in) :: this
+    real(dp), intent(inout) :: tangent(:, :)     !< (displacements, corners)
+    real(dp) :: weighted(size(this%rate, 1), size(this%rate, 2))
+    if (.not. allocated(this%by_temperatures)) return
+    weighted = this%by_displacements*spread(this%weight, 1, size(weighted, 1))
+    associate (rate => transpose(this%by_temperatures))
+      tangent = tangent + matmul(weighted, matmul(this%projection, rate) - rate)
+    end associate
+  end subroutine smooth_by_temperature
 end module host_hybrid

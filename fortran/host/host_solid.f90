@@ -44,8 +44,8 @@ module host_solid
                            shares, thermal_strain
   use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point, add_stress_matrix
   use host_gradients, only: all_gradients, carry, find_deformation, gradient_of, gradients_of_points
-  use host_hybrid, only: add_compatibility, begin_pressure, begin_smoothing, keep_point, mean_stress, mean_stress_added, &
-                         pressure_t, smooth, smoothing_change, smoothing_t
+  use host_hybrid, only: add_compatibility, begin_pressure, begin_smoothing, keep_point, keep_temperature, mean_stress, &
+                         mean_stress_added, pressure_t, smooth, smooth_by_temperature, smoothing_change, smoothing_t
   use host_hourglass, only: resist_hourglass
   use host_hyperelastic, only: volume_of
   use host_incompatible, only: mode_strains
@@ -139,7 +139,7 @@ contains
       if (modes > 0) then
         call integrate_with_modes(rule, direct + 2*dim - 3, modes, lflags(3), lflags(2) /= 0, material, props(1), coords, &
                                   int(npredf), predef, u, change, du, rhs, amatrx, svars, &
-                                  svars(nsvars - modes + 1:nsvars), energy, axes, layers)
+                                  svars(nsvars - modes + 1:nsvars), energy, axes, int(jprops(7)), layers)
       else if (present(bounds)) then
         moved = bounds
         moved%w = u(of_nodes + 1:n)
@@ -169,7 +169,7 @@ contains
   !> The same with incompatible modes: they are sought at the displacements of the nodes. With large displacements (finite)
   !> strains are small in axes that turn with the middle of the element (core_solid_rotation).
   subroutine integrate_with_modes(rule, strains, modes, request, finite, material, thickness, x, fields, predef, u, du, added, &
-                                  force, stiffness, svars, alpha, energy, axes, layers)
+                                  force, stiffness, svars, alpha, energy, axes, functions, layers)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: strains, modes, fields
     integer(i4), intent(in) :: request   !< LFLAGS(3)
@@ -180,6 +180,7 @@ contains
     real(dp), intent(inout) :: force(rule%dim*rule%nodes), stiffness(rule%dim*rule%nodes, rule%dim*rule%nodes)
     real(dp), intent(inout) :: svars(values_of_point(rule%dim)*rule%points), alpha(modes), energy(8)
     real(dp), intent(inout), optional :: axes(3, 3, 2, rule%points)
+    integer, intent(in) :: functions     !< of the pressure, on which the mean stress is projected
     integer(i4), intent(in), optional :: layers(:, :)
     real(dp), dimension(rule%dim*rule%nodes + modes) :: all_force
     real(dp), dimension(rule%dim*rule%nodes + modes, rule%dim*rule%nodes + modes) :: all_stiffness
@@ -207,7 +208,7 @@ contains
       all_stiffness = 0
       call integrate(rule, rule%dim, strains, modes, merge(request, 1_i4, request == initial_stresses), .false., material, &
                      thickness, 0.0_dp, .false., x, fields, predef, moved, du, all_force, all_stiffness, svars, energy, &
-                     alpha=alpha, by_modes=b, axes=axes, layers=layers)
+                     alpha=alpha, by_modes=b, axes=axes, functions=functions, layers=layers)
       if (request == initial_stresses) then
         force = all_force(:size(force))
         return
@@ -344,7 +345,8 @@ contains
     real(dp) :: first_tangent(strains, strains)    !< of all points
     real(dp) :: now(rule%dim, rule%nodes), g_start(rule%nodes, direct), volume_start, deformation(3, 3, 2, rule%points)
     real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(6, 2), weight, elastic, work
-    real(dp) :: now_axes(3, 3), middle(3, 3), rate(6), by_temperature(strains)
+    real(dp) :: now_axes(3, 3), middle(3, 3), rate(6), by_temperature(strains + 1)
+    real(dp), allocatable :: by_corners(:)
     real(dp) :: weights(rule%points)
     logical :: averaged, begins, of_stress, smoothed
     real(dp) :: unit(material%ntens)    !< stress
@@ -488,10 +490,15 @@ contains
         if (allocated(here%expansion)) then
           if (present(axes)) then
             rate = rotated(6, rate, transpose(axes(:, :, 2, p)), 2.0_dp)
-            by_temperature = rotated(strains, by_temperature, transpose(axes(:, :, 2, p)), 1.0_dp)
+            by_temperature(:strains) = rotated(strains, by_temperature(:strains), transpose(axes(:, :, 2, p)), 1.0_dp)
           end if
-          call add_thermal_strain(coupling, weight, b(:, :, p), by_temperature, rate(components(here%ntens, 6)), &
+          call add_thermal_strain(coupling, weight, b(:, :, p), by_temperature(:strains), rate(components(here%ntens, 6)), &
                                   shares(rule, p, .false., coupling))
+        end if
+        if (smoothed) then
+          by_corners = coupling%shape(:size(coupling%heat))*sum(current%heat%stress_by_temperature(:3))/3
+          if (allocated(here%expansion)) by_corners = by_corners + shares(rule, p, .false., coupling)*by_temperature(strains + 1)
+          call keep_temperature(smoothing, p, by_corners)
         end if
       end if
       by_unknowns(:n, :) = b(:, :, p)
@@ -554,6 +561,7 @@ contains
       unit = 0
       unit(:3) = 1
       call smooth(smoothing, force, stiffness)
+      if (present(coupling)) call smooth_by_temperature(smoothing, coupling%tangent(:n, n + 1:))
       do p = 1, rule%points
         associate (change => smoothing%change(p))
           if (finite .and. present(bounds)) then
@@ -707,11 +715,11 @@ contains
     real(dp), intent(in) :: volume, strain(m), thermal(6, 2), rate(6)
     real(dp), intent(inout) :: state(values_of_point(dim)), elastic, work
     real(dp), intent(out) :: stress(m), modulus(m, m)
-    real(dp), intent(out) :: by_temperature(m)   !< derivative of the stress, by thermal strain
+    real(dp), intent(out) :: by_temperature(m + 1)   !< derivatives of the stress and of the mean stress, by thermal strain
     !> Mean stress, its elastic volume strain, and derivatives of the mean stress by the strains.
     real(dp), intent(out) :: of_point(m + 2)
     integer :: j, k, n, of_material(m), of_state(m), direct
-    real(dp) :: total(material%ntens), t(material%ntens), tangent(material%ntens, material%ntens)
+    real(dp) :: total(material%ntens), t(material%ntens), t_rate(material%ntens), tangent(material%ntens, material%ntens)
     real(dp) :: e_old(values_of_point(dim)/2), t_old(values_of_point(dim)/2), e_new(values_of_point(dim)/2), &
                 t_new(values_of_point(dim)/2), free(values_of_point(dim)/2)
     logical :: valid
@@ -745,7 +753,8 @@ contains
     end do
     by_temperature = 0
     if (allocated(material%expansion)) then
-      by_temperature = -matmul(tangent(of_material, :), rate(components(material%ntens, 6)))
+      t_rate = matmul(tangent, rate(components(material%ntens, 6)))
+      by_temperature = -[t_rate(of_material), sum(t_rate(:direct))/3]
     end if
     of_point = [sum(t(:direct))/3, elastic_volume(material, t), sum(tangent(:direct, of_material), 1)/3]
     elastic = elastic + volume*elastic_energy(material, point, t)

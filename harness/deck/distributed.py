@@ -13,7 +13,7 @@ from harness.deck.initial import FIELD_NUMBER, field_number
 from harness.deck.prescribed import HARMONIC, LOAD, Prescription
 from harness.deck.surfaces import face_nodes
 from harness.deck.table import Keyword, Kind, Option, Where, refused
-from harness.model.element_types import BODY_FORCES, BeamType, ContinuumType, Direction, ShellType
+from harness.model.element_types import BODY_FORCES, BeamType, ContinuumType, Direction, SurfaceType
 from harness.model.mesh import ElementGroup
 from harness.model.steps import ON_EDGES, DistributedLoad, ElementLoad, Load, LoadKind, LoadType
 
@@ -43,7 +43,7 @@ def read_distributed(block: Block, prescription: Prescription) -> list[Distribut
                     found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source, imaginary))
                     continue
                 kind, face, direction = _volume_load(row, given)
-                if given == "P" and not isinstance(solid, ShellType):
+                if given == "P" and not isinstance(solid, SurfaceType):
                     message = f"load type P on elements of type {group.type}"
                     raise row.error(f"{message}; expected Pn with the number of a face")
                 if kind is LoadKind.BODY:
@@ -72,7 +72,7 @@ def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
     """Kind, face ('' for a volume) and direction of a load type of *DLOAD; body forces have it by element."""
     match = re.fullmatch(r"P(\d)", label)
     if label == "P":
-        # along the normal of a shell, as on its other side
+        # along the normal of a surface, as on its other side
         row.at_most(3)
         return LoadKind.PRESSURE, "SNEG", _NO_DIRECTION
     if (edge := _ON_EDGE.fullmatch(label)) is not None:
@@ -82,8 +82,8 @@ def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
     if match is None and label != "GRAV" and label not in BODY_FORCES:
         forces, edges = ", ".join(BODY_FORCES), ", ".join(f"{kind}n" for kind in ON_EDGES)
         supported = (
-            f"Un and UnNU on user elements; Pn (P on shells), {forces}, those with NU, and GRAV on built-in elements; "
-            f"{edges} on shells"
+            f"Un and UnNU on user elements; Pn (P on shells and membranes), {forces}, those with NU, and GRAV on "
+            f"built-in elements; {edges} on shells"
         )
         raise row.error(f"load type {label} is not supported (supported: {supported})")
     row.at_most(6 if label == "GRAV" else 3)
@@ -109,7 +109,7 @@ def _beam_load(row: Row, label: str, beam: BeamType) -> LoadType:
     raise row.error(f"load type {label} on elements of type {beam.name} is not supported (supported: {supported})")
 
 
-def _body_direction(row: Row, label: str, solid: ContinuumType | ShellType) -> Direction:
+def _body_direction(row: Row, label: str, solid: ContinuumType | SurfaceType) -> Direction:
     known = solid.body_forces
     if label not in known:
         raise row.error(f"load type {label} on elements of type {solid.name}, whose body forces are {', '.join(known)}")
@@ -132,8 +132,8 @@ def read_surface_loads(block: Block, prescription: Prescription) -> list[Element
         magnitude = row.real(2, "magnitude", 0.0)
         for elements, face, place in prescription.surfaces.faces(row.name(0, "surface"), row.source):
             for group, positions in prescription.surfaces.by_group(elements):
-                shell = _loaded(row, label, group)
-                on_edge = isinstance(shell, ShellType) and face in shell.edges
+                kind_of_element = _loaded(row, label, group)
+                on_edge = isinstance(kind_of_element, SurfaceType) and face in kind_of_element.edges
                 if on_edge != (kind in ON_EDGES):
                     expected = ", ".join(ON_EDGES if on_edge else _SURFACE)
                     raise row.error(f"load type {label} on face {face} of {group.type}; expected {expected}")
@@ -154,14 +154,14 @@ def _direction(row: Row, label: str) -> Direction:
     return x, y, z
 
 
-def _loaded(row: Row, label: str, group: ElementGroup) -> ContinuumType | ShellType | BeamType:
-    """The type of a group of continuum elements, shells or beams. Raises DeckError for others."""
+def _loaded(row: Row, label: str, group: ElementGroup) -> ContinuumType | SurfaceType | BeamType:
+    """The type of a group of continuum elements, shells, membranes or beams. Raises DeckError for others."""
     kind = group.built_in
-    if isinstance(kind, ShellType) and label.endswith("NU"):
+    if isinstance(kind, SurfaceType) and label.endswith("NU"):
         raise row.error(f"load type {label} on elements of type {group.type}; loads by DLOAD are not supported there")
-    if not isinstance(kind, ContinuumType | ShellType | BeamType):
+    if not isinstance(kind, ContinuumType | SurfaceType | BeamType):
         message = f"load type {label} on elements of type {group.type}"
-        raise row.error(f"{message}, which are not built-in continuum elements, shells or beams")
+        raise row.error(f"{message}, which are not built-in continuum elements, shells, membranes or beams")
     return kind
 
 
@@ -192,15 +192,15 @@ KEYWORDS = (
             ),
         ),
         "element or set, Un or UnNU (user elements), Pn, BX, BY, BZ, BR (CAX) or GRAV (built-in continuum elements; "
-        "with NU, as in P2NU, by DLOAD), P (shells: along their normal), BX, BY, BZ or GRAV (shells), EDLDn, EDNORn, "
-        "EDSHRn, EDTRAn (per length of edge n of shells), magnitude; GRAV, EDLDn: direction; beams: PX, PY, PZ "
-        "(force per length), P1, P2 (along the local directions), BX, BY, BZ or GRAV",
+        "with NU, as in P2NU, by DLOAD), P (shells and membranes: along their normal), BX, BY, BZ or GRAV (on them), "
+        "EDLDn, EDNORn, EDSHRn, EDTRAn (per length of edge n of shells), magnitude; GRAV, EDLDn: direction; beams: PX, "
+        "PY, PZ (force per length), P1, P2 (along the local directions), BX, BY, BZ or GRAV",
     ),
     Keyword(
         "DSLOAD",
-        "Distributed loads on surfaces of built-in continuum elements and shells. Like those of *DLOAD they are nodal "
-        "forces, which CF in the output includes, except with NLGEOM pressures and tractions that follow the surface: "
-        "they act on the current area, and tractions turn by the rotation in the polar decomposition of its "
+        "Distributed loads on surfaces of built-in continuum elements, shells and membranes. Like those of *DLOAD they "
+        "are nodal forces, which CF in the output includes, except with NLGEOM pressures and tractions that follow the "
+        "surface: they act on the current area, and tractions turn by the rotation in the polar decomposition of its "
         "deformation.",
         Where.STEP,
         (

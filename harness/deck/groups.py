@@ -15,6 +15,7 @@ from harness.deck.blocks import Block
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.local_mesh import ElementRun
+from harness.deck.membranes import MEMBRANE_KEYWORD
 from harness.deck.orientations import read_orientations
 from harness.deck.sections import SECTION_KEYWORDS, make_section, reference_node
 from harness.deck.shells import SHELL_KEYWORDS, read_shear_stiffness
@@ -28,6 +29,7 @@ from harness.model.properties import (
     BeamSection,
     CompositeSection,
     Material,
+    MembraneSection,
     Section,
     SectionControls,
     ShellSection,
@@ -93,7 +95,7 @@ def make_groups(
                 if block.name in SECTION_KEYWORDS:
                     _assign(elements, sections, block, owner)
                 elif block.name == "HOURGLASS STIFFNESS":
-                    place = _last_section(block, sections, "SOLID SECTION", *SHELL_KEYWORDS)
+                    place = _last_section(block, sections, "SOLID SECTION", *SHELL_KEYWORDS, MEMBRANE_KEYWORD)
                     hourglass[place] = _hourglass_stiffness(block)
                 elif block.name == "TRANSVERSE SHEAR STIFFNESS":
                     place = _last_section(block, sections, *SHELL_KEYWORDS, *BEAM_KEYWORDS)
@@ -105,7 +107,8 @@ def make_groups(
     made = _make_sections(elements, sections, materials, controls, problems)
     problems.check()
     for (section, kind), found in made.items():
-        if section in hourglass and isinstance(found, SolidSection | CompositeSection | ShellSection):
+        controlled = SolidSection | CompositeSection | ShellSection | MembraneSection
+        if section in hourglass and isinstance(found, controlled):
             made[section, kind] = replace(found, hourglass=hourglass[section])
     for (section, kind), found in made.items():
         if section in shear and isinstance(found, ShellSection | BeamSection):
@@ -247,7 +250,8 @@ KEYWORDS = (
         "sum(B_i^2); with NLGEOM F^T q takes the place of q, F the mean deformation gradient. Results of Abaqus R2018x "
         "and 2024 show it for square CPS4R, skewed CAX4RT and skewed C3D8RT; for CPE4R and skewed CPS4R it is inferred "
         "from CAX4RT. After *SHELL SECTION, the hourglass modes of S4R have the stiffness of an elastic shell with the "
-        "shear modulus r/0.005 and a Poisson's ratio of zero.",
+        "shear modulus r/0.005 and a Poisson's ratio of zero. After *MEMBRANE SECTION it is that of M3D4R: that of "
+        "CPS4R in its plane and, which is inferred, along its normal.",
         Where.MODEL,
         data="stiffness parameter in place of 0.005 times the shear modulus; further entries are not read",
     ),

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """*SOLID SECTION, *COHESIVE SECTION, *SPRING and *MASS, made for the element type they are used with.
 
-*UEL PROPERTY is in user_elements.py, *SHELL SECTION in shells.py, *BEAM SECTION in beams.py.
+*UEL PROPERTY is in user_elements.py, *SHELL SECTION in shells.py, *MEMBRANE SECTION in membranes.py, *BEAM SECTION in
+beams.py.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import numpy as np
 from harness.deck.beams import BEAM_KEYWORDS, read_beam_section
 from harness.deck.blocks import Block, Row
 from harness.deck.error_report import Problems, look_up
+from harness.deck.membranes import MEMBRANE_KEYWORD, read_membrane_section
 from harness.deck.shells import MOST_POINTS, SHELL_KEYWORDS, read_shell_section
 from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF, ElementType, read_user_property
@@ -55,8 +57,9 @@ def make_section(
         return _without_material(block, kind)
     if kind.name in BEAM:
         return read_beam_section(block, materials, BEAM[kind.name].dimension)
-    if block.name in SHELL_KEYWORDS:
-        return read_shell_section(block, materials, orientations, _controls(block, controls))
+    if block.name in (*SHELL_KEYWORDS, MEMBRANE_KEYWORD):
+        read = read_membrane_section if block.name == MEMBRANE_KEYWORD else read_shell_section
+        return read(block, materials, orientations, _controls(block, controls))
     name = options.text("MATERIAL")
     material = look_up(materials, name, "material", block.source) if name else None
     if material is not None and kind.name not in HEAT:
@@ -374,6 +377,7 @@ SECTION_KEYWORDS = {
     "UEL PROPERTY",
     "RIGID BODY",
     *SHELL_KEYWORDS,
+    MEMBRANE_KEYWORD,
     *BEAM_KEYWORDS,
     *(keyword.name for keyword in KEYWORDS),
 }

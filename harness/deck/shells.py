@@ -86,16 +86,19 @@ def _read_layer(block: Block, row: Row, materials: Mapping[str, Material], defau
         raise row.error(f"{points} section points: expected {expected}")
     if not block.options.flag("COMPOSITE"):
         row.at_most(2)
-        return ShellLayer(thickness, points, _material(block, block.options.text("MATERIAL"), materials))
+        return ShellLayer(thickness, points, surface_material(block, block.options.text("MATERIAL"), materials))
     # the fifth is the name of the layer
     row.at_most(5)
     return ShellLayer(
-        thickness, points, _material(block, row.name(2, "material"), materials), row.real(3, "orientation angle", 0.0)
+        thickness,
+        points,
+        surface_material(block, row.name(2, "material"), materials),
+        row.real(3, "orientation angle", 0.0),
     )
 
 
-def _material(block: Block, name: str, materials: Mapping[str, Material]) -> Material:
-    """A material with elasticity or of UMAT. Raises DeckError."""
+def surface_material(block: Block, name: str, materials: Mapping[str, Material]) -> Material:
+    """A material of shells or membranes: with elasticity or of UMAT. Raises DeckError."""
     material = look_up(materials, name, "material", block.source)
     depends = material.user_field or (material.elastic is not None and material.elastic.table is not None)
     if block.name == "SHELL GENERAL SECTION" and (material.user or material.plastic or depends):
@@ -108,7 +111,9 @@ def _material(block: Block, name: str, materials: Mapping[str, Material]) -> Mat
         raise block.error(f"material {material.name} has no *ELASTIC or *USER MATERIAL")
     if material.elastic.type is ElasticType.TRACTION:
         place = material.elastic.source
-        raise block.error(f"material {material.name} ({place}) has *ELASTIC, TYPE=TRACTION, which is not for shells")
+        raise block.error(
+            f"material {material.name} ({place}) has *ELASTIC, TYPE=TRACTION, which needs *COHESIVE SECTION"
+        )
     return material
 
 

@@ -25,8 +25,8 @@ from harness.model.element_types import (
     Face,
     Family,
     RigidType,
-    ShellType,
     SolidType,
+    SurfaceType,
 )
 from harness.model.mesh import ElementGroup
 
@@ -169,7 +169,7 @@ class Surfaces:
         group = self._groups[k]
         local = face_nodes(group, face, source, "SURFACE")
         kind = group.built_in
-        assert isinstance(kind, SolidType | ShellType | RigidType)
+        assert isinstance(kind, SolidType | SurfaceType | RigidType)
         nodes: IntArray = group.nodes[element - self._starts[k]][list(local)]
         whole = not isinstance(kind, SolidType) and len(local) == kind.nodes
         return kind.family if whole else kind.family.face_family(local), nodes
@@ -214,7 +214,7 @@ def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> 
     faces = {}
     if isinstance(kind, SolidType):
         faces = {f"S{number}": nodes for number, nodes in enumerate(kind.family.faces, start=1)}
-    elif isinstance(kind, ShellType):
+    elif isinstance(kind, SurfaceType):
         faces = kind.sides | kind.edges
     elif isinstance(kind, RigidType):
         faces = kind.sides

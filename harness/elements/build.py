@@ -30,6 +30,7 @@ from harness.elements.materials import (
     refuse_fields,
     refuse_hyperelastic,
 )
+from harness.elements.membrane import membrane_routine, membrane_variables
 from harness.elements.piezoelectric import piezoelectric_routine, piezoelectric_variables
 from harness.elements.routine import Linearity, Routine
 from harness.elements.shell import check_normals, directors, shell_routine, shell_variables
@@ -44,8 +45,10 @@ from harness.model.element_types import (
     ContinuumType,
     DiscreteType,
     HeatType,
+    MembraneType,
     RigidType,
     ShellType,
+    SurfaceType,
     Tensor,
 )
 from harness.model.mesh import ElementGroup
@@ -55,6 +58,7 @@ from harness.model.properties import (
     CohesiveSection,
     CompositeSection,
     Material,
+    MembraneSection,
     ShellSection,
     SolidSection,
     UserElement,
@@ -161,7 +165,7 @@ def _block_of(
             return _solid_block(model, group, kind, library)
         case CohesiveType():
             return _cohesive_block(model, group, kind, library)
-        case ShellType() | BeamType():
+        case ShellType() | MembraneType() | BeamType():
             return _structural_block(model, group, kind, library)
         case DiscreteType() | RigidType():
             return _discrete_block(model, group, library)
@@ -330,9 +334,13 @@ def _cohesive_block(model: Model, group: ElementGroup, kind: CohesiveType, libra
     )
 
 
-def _structural_block(model: Model, group: ElementGroup, kind: ShellType | BeamType, library: Library) -> ElementBlock:
+def _structural_block(
+    model: Model, group: ElementGroup, kind: ShellType | MembraneType | BeamType, library: Library
+) -> ElementBlock:
     if isinstance(kind, BeamType):
         return _beam_block(model, group, kind, library)
+    if isinstance(kind, MembraneType):
+        return _membrane_block(model, group, kind, library)
     return _shell_block(model, group, kind, library)
 
 
@@ -356,11 +364,37 @@ def _shell_block(model: Model, group: ElementGroup, kind: ShellType, library: Li
     )
     check_normals(model, group, kind, library)
     block.set_last(directors(model, group).reshape(len(group.labels), -1))
+    _begin_surface_axes(model, group, kind, block, routine, library)
+    return block
+
+
+def _membrane_block(model: Model, group: ElementGroup, kind: MembraneType, library: Library) -> ElementBlock:
+    section = group.section
+    if not isinstance(section, MembraneSection):
+        raise DeckError(section.source, f"elements of type {group.type} need *MEMBRANE SECTION")
+    _check_nodes(group, kind.nodes)
+    routine = membrane_routine(model, group, kind, section, library)
+    block = ElementBlock(
+        group,
+        model.mesh.coordinates,
+        tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
+        routine,
+        library,
+        unsymmetric=has_unsymmetric_tangent(section.material),
+        variables=membrane_variables(kind, routine),
+    )
+    _begin_surface_axes(model, group, kind, block, routine, library)
+    return block
+
+
+def _begin_surface_axes(
+    model: Model, group: ElementGroup, kind: SurfaceType, block: ElementBlock, routine: Routine, library: Library
+) -> None:
+    """Set the directions of *ORIENTATION at the points of shells or membranes. Raises DeckError."""
     if routine.axes is not None:
         axes = start_axes(model, group, kind, routine.axes.orientation, library)
         # the direction that is projected, the next one, and that closest to the normal
         block.begin_axes(np.roll(axes, -routine.axes.orientation.normal, axis=-2))
-    return block
 
 
 def _beam_block(model: Model, group: ElementGroup, kind: BeamType, library: Library) -> ElementBlock:

@@ -249,7 +249,7 @@ def _check(model: Model, group: ElementGroup, kind: ContinuumType, section: Comp
     """Raise DeckError for what layers do not support."""
     elements = f"elements of type {group.type} with layers"
     if any(step.procedure.inertia for step in model.steps):
-        check_density(section.layers, section.source, f"*DYNAMIC with {elements}")
+        check_density(materials_of(section), section.source, f"*DYNAMIC with {elements}")
     if len({material.density for material in materials_of(section)}) > 1:
         raise DeckError(
             section.source, f"layers of different *DENSITY are not supported for elements of type {group.type}"

@@ -8,7 +8,7 @@ import numpy as np
 
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray
-from harness.model.element_types import ContinuumType, ShellType
+from harness.model.element_types import ContinuumType, SurfaceType
 from harness.model.local_systems import SystemKind, UndefinedDirectionsError
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
@@ -32,7 +32,7 @@ def first_element(model: Model, group: ElementGroup) -> int:
 
 
 def start_axes(
-    model: Model, group: ElementGroup, kind: ContinuumType | ShellType, orientation: Orientation, library: Library
+    model: Model, group: ElementGroup, kind: ContinuumType | SurfaceType, orientation: Orientation, library: Library
 ) -> FloatArray:
     """Directions (m, points, 3, 3), in rows; global ones where ORIENT is to give them. Raises DeckError."""
     m, system = len(group.labels), orientation.system

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pressures on faces of continuum elements and shells with NLGEOM: they act on the current face, in each iteration.
+"""Pressures on faces of solids, shells and membranes with NLGEOM: they act on the current face, in each iteration.
 
 A block of faces is called as elements are, with its pressures as distributed loads (fortran/host/host_pressure.f90).
 """
@@ -17,7 +17,7 @@ from harness.elements.load_vectors import outward_sign, unit_forces
 from harness.elements.routine import Routine
 from harness.elements.solid import section_depth, solid_of
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import DiscreteKind, Family, ShellType
+from harness.model.element_types import DiscreteKind, Family, SurfaceType
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import CompositeSection, SolidSection
@@ -126,10 +126,10 @@ def _face(
     parent: ElementGroup, row: int, load: LoadType, coordinates: FloatArray
 ) -> tuple[int, float, Family, int, bool]:
     """Dimension, depth, family of the face, sign of the outward normal, and whether it is axisymmetric."""
-    section, shell = parent.section, parent.built_in
-    if isinstance(shell, ShellType):
+    section, surface = parent.section, parent.built_in
+    if isinstance(surface, SurfaceType):
         # the order of the nodes of a side gives the outward normal
-        return shell.dimension, 1.0, shell.family, 1, False
+        return surface.dimension, 1.0, surface.family, 1, False
     assert isinstance(section, SolidSection | CompositeSection)
     kind = solid_of(parent)
     depth = section_depth(kind, section)

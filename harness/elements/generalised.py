@@ -8,7 +8,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.elements.hybrid import pressure_unknowns
 from harness.elements.materials import refuse_hyperelastic
 from harness.elements.routine import Routine
 from harness.elements.solid import solid_of, solid_routine
@@ -29,9 +28,6 @@ def generalised_routine(model: Model, group: ElementGroup, section: SolidSection
             message = "are not supported in steps that need a mass: that of their bounding planes is not documented"
             raise DeckError(step.source, f"{elements} {message}")
     refuse_hyperelastic(material, elements)
-    if pressure_unknowns(kind, material):
-        message = f"incompressible materials (material {material.name}) are not supported for {elements}"
-        raise DeckError(section.source, message)
     solid = solid_routine(model, group, section, library)
     origin = model.mesh.coordinates[section.reference, : kind.dimension]
     return replace(solid, address=_binding.address_of("generalised"), props=np.concatenate([solid.props, origin]))

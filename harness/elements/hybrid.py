@@ -4,6 +4,7 @@
 
 The pressure of hyperelastic and of incompressible materials is an unknown (fortran/host/host_hybrid.f90). That of
 others, which have a finite bulk modulus, follows from the mean stresses of the points of the element: it is eliminated.
+Elements with further unknowns of their own have only that: incompatible modes, temperatures or bounding planes.
 """
 
 from __future__ import annotations
@@ -29,6 +30,9 @@ def check_hybrid(name: str, kind: ContinuumType, material: Material) -> None:
         what = f"*{user.keyword}: USER without TYPE=COMPRESSIBLE" if isinstance(user, UserPotential) else umat
         message = f"is an incompressible material, which elements of type {name} cannot have; expected hybrid ones"
         raise DeckError(user.source, f"{what} {message}: {', '.join(HYBRID)}")
+    if pressure_unknowns(kind, material) and (kind.incompatible or kind.coupled or kind.generalised):
+        message = f"incompressible materials (material {material.name}) are not supported for elements of type {name}"
+        raise DeckError(material.source, message)
     if material.elastic is None or not (kind.pressures and is_incompressible(material)):
         return
     unsupported = {

@@ -13,9 +13,16 @@ from harness.elements.beam import beam_forces
 from harness.elements.solid import section_depth, solid_of
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import BeamType, ContinuumType, Face, Family, ShellType
+from harness.model.element_types import BeamType, ContinuumType, Face, Family, ShellType, SurfaceType
 from harness.model.mesh import ElementGroup
-from harness.model.properties import CompositeSection, ShellLayer, ShellSection, SolidLayer, SolidSection, materials_of
+from harness.model.properties import (
+    CompositeSection,
+    Material,
+    MembraneSection,
+    ShellSection,
+    SolidSection,
+    materials_of,
+)
 from harness.model.steps import ON_EDGES, ElementLoad, LoadKind
 from harness.usersub import _binding
 
@@ -32,8 +39,8 @@ def unit_forces(
     (points, nodes) that they follow from. Raises DeckError if the load makes no sense there.
     """
     section, structural = group.section, group.built_in
-    if isinstance(structural, ShellType):
-        return _forces_on_shells(group, structural, rows, load, coordinates)
+    if isinstance(structural, SurfaceType):
+        return _forces_on_surfaces(group, structural, rows, load, coordinates)
     if isinstance(structural, BeamType):
         return beam_forces(group, structural, rows, load, coordinates)
     assert isinstance(section, SolidSection | CompositeSection)
@@ -66,13 +73,14 @@ def unit_forces(
     return scale * np.einsum("p,pk,mpd->mpkd", weights, shapes, force), places, shapes
 
 
-def _forces_on_shells(
-    group: ElementGroup, kind: ShellType, rows: IntArray, load: ElementLoad, coordinates: FloatArray
+def _forces_on_surfaces(
+    group: ElementGroup, kind: SurfaceType, rows: IntArray, load: ElementLoad, coordinates: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     if load.type.kind in ON_EDGES:
+        assert isinstance(kind, ShellType)
         return _forces_on_edges(group, kind, rows, load, coordinates)
     section = group.section
-    assert isinstance(section, ShellSection)
+    assert isinstance(section, ShellSection | MembraneSection)
     local = list(load.type.face) or list(range(kind.nodes))
     x = coordinates[group.nodes[rows][:, local]]
     weights, shapes, derivatives = _rule(kind.family, kind.full_points)
@@ -82,7 +90,7 @@ def _forces_on_shells(
     else:
         per_area = section.thickness
         if load.type.kind is LoadKind.GRAVITY:
-            check_density(section.layers, load.source, "GRAV")
+            check_density(materials_of(section), load.source, "GRAV")
             per_area = section.mass
         force = per_area * np.linalg.norm(area, axis=-1, keepdims=True) * np.array(load.type.direction)
     return np.einsum("p,pk,mpd->mpkd", weights, shapes, force), np.einsum("pk,mkd->mpd", shapes, x), shapes
@@ -115,11 +123,11 @@ def _forces_on_edges(
     return np.einsum("p,pk,mpd->mpkd", weights, shapes, force), places, shapes
 
 
-def check_density(layers: Iterable[ShellLayer | SolidLayer], source: Source, what: str) -> None:
-    """Raise DeckError if a layer has no density."""
-    for layer in layers:
-        if not layer.material.density:
-            raise DeckError(source, f"{what} needs *DENSITY, which material {layer.material.name} does not have")
+def check_density(materials: Iterable[Material], source: Source, what: str) -> None:
+    """Raise DeckError if a material has no density."""
+    for material in materials:
+        if not material.density:
+            raise DeckError(source, f"{what} needs *DENSITY, which material {material.name} does not have")
 
 
 def outward_sign(group: ElementGroup, row: int, face: tuple[int, ...], coordinates: FloatArray) -> int:

@@ -31,7 +31,7 @@ from harness.model.arrays import FloatArray
 from harness.model.element_types import ShellType, Tensor
 from harness.model.mesh import ElementGroup, full_name
 from harness.model.model import Model
-from harness.model.properties import ShellLayer, ShellSection
+from harness.model.properties import ShellLayer, ShellSection, materials_of
 from harness.model.records import PointVariables
 from harness.usersub import Library, _binding
 
@@ -284,7 +284,7 @@ def _check(model: Model, group: ElementGroup, section: ShellSection) -> None:
         if nonlinear is not None:
             message = f"*DYNAMIC with NLGEOM is not supported for {elements}, whose inertia is that of small rotations"
             raise DeckError(nonlinear.source, message)
-        check_density(section.layers, section.source, f"*DYNAMIC with {elements}")
+        check_density(materials_of(section), section.source, f"*DYNAMIC with {elements}")
     initial = next((entry for entry in model.initial_solutions if entry.elements is None), None)
     if initial is not None and any(state_variables(layer.material) for layer in section.layers):
         raise DeckError(initial.source, f"SDVINI is not supported for {elements}")

@@ -28,7 +28,7 @@ from harness.elements.materials import (
 )
 from harness.elements.routine import VALUES_OF_AXES, OutputVariables, PointAxes, Routine
 from harness.errors import DeckError
-from harness.model.element_types import ContinuumType, SolidType, Tensor
+from harness.model.element_types import HYBRID, ContinuumType, SolidType, Tensor
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import CompositeSection, ElasticType, Hyperelastic, Material, Orientation, SolidSection
@@ -81,9 +81,9 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     hourglass = _hourglass_stiffness(group, kind, section)
     tangent = f"DDSDDE of UMAT (material {material.name})" if _of_tangent(kind, section) else ""
     warn_of_enhanced(model, group, kind, library, tangent)
-    _warn_of_modified(model, group, kind, library)
+    _warn_of_unpublished(model, group, kind, library)
     number = define_material(material, orientation, kind.tensor, section.source, library, hybrid=kind.pressures > 0)
-    prestressed = _is_prestressed(model, group, material)
+    prestressed = is_prestressed(model, group, material)
     if prestressed:
         _binding.set_prestressed(number)
     define_fields(number, material, directions(orientation), kind.tensor, library)
@@ -182,7 +182,7 @@ def _places_of_stress(kind: ContinuumType) -> tuple[int, ...]:
     )
 
 
-def _is_prestressed(model: Model, group: ElementGroup, material: Material) -> bool:
+def is_prestressed(model: Model, group: ElementGroup, material: Material) -> bool:
     """Whether elements of the group have an initial stress that a built-in material must store. Raises DeckError."""
     first = first_element(model, group)
     last = first + len(group.labels)
@@ -315,13 +315,20 @@ def warn_of_enhanced(
         library.warn(f"{section.source}: {message}; there are no results of Abaqus to compare with")
 
 
-def _warn_of_modified(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> None:
-    """Say, once per type, what modified elements are here."""
-    if kind.modified and group is next(other for other in model.groups if other.type == group.type):
-        message = (
-            f"elements of type {kind.name} have the interpolation and the mass of {kind.name.removesuffix('M')} here"
-        )
-        library.warn(f"{group.source}: {message}; that of Abaqus is not published, and differs on coarse meshes")
+def _warn_of_unpublished(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> None:
+    """Say, once per type, what elements are here whose formulation in Abaqus is not published."""
+    if group is not next(other for other in model.groups if other.type == group.type):
+        return
+    if kind.modified:
+        plain = kind.name.replace("M", "")
+        same = "the interpolation, the pressure and the mass" if kind.pressures else "the interpolation and the mass"
+        difference = f"have {same} of {plain} here; that of Abaqus is not published, and differs on coarse meshes"
+    elif kind is HYBRID["C3D4H"]:
+        linear = "how Abaqus has a linear one is not published"
+        difference = f"have a constant pressure here, so that a mesh of them alone is too stiff; {linear}"
+    else:
+        return
+    library.warn(f"{group.source}: elements of type {kind.name} {difference}")
 
 
 def output_variables(section: SolidSection, points: int, library: Library) -> OutputVariables | None:

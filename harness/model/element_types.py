@@ -231,10 +231,13 @@ class ContinuumType(SolidType):
 
     @property
     def modes(self) -> int:
-        """Incompatible modes: one of each displacement along each direction, and those of the volume."""
+        """Incompatible modes: one of each displacement along each direction, and those of the volume.
+
+        A linear pressure in space does not resist those of the volume, which change no shape.
+        """
         if not self.incompatible:
             return 0
-        of_volume = {Tensor.PLANE_STRESS: 0, Tensor.PLANE_STRAIN: 1, Tensor.SOLID: 4}
+        of_volume = {Tensor.PLANE_STRESS: 0, Tensor.PLANE_STRAIN: 1, Tensor.SOLID: 0 if self.pressures else 4}
         return self.dimension**2 + of_volume[self.tensor]
 
     @property
@@ -289,21 +292,16 @@ class CohesiveType:
 
 
 @dataclass(frozen=True, slots=True)
-class ShellType:
-    """A conventional shell: displacements and rotations at each node.
+class SurfaceType:
+    """A surface in space.
 
-    family  of its surface
+    family  of the surface
     points  integration points of the surface
     """
 
     name: str
     family: Family
     points: int
-
-    @property
-    def section(self) -> str:
-        """Keyword that gives its properties."""
-        return "SHELL SECTION"
 
     @property
     def nodes(self) -> int:
@@ -340,18 +338,48 @@ class ShellType:
 
     @property
     def edges(self) -> dict[str, Face]:
-        """Local nodes of its edges, from 0."""
-        return {f"E{k}": edge for k, edge in enumerate(self.family.faces, 1)}
+        """Local nodes of the edges that loads act on, from 0."""
+        return {}
 
     @property
     def hourglass_control(self) -> bool:
         """True where displacements other than rigid ones leave its only point without strain."""
         return self.points == 1 and self.family is QUAD4
 
+
+@dataclass(frozen=True, slots=True)
+class ShellType(SurfaceType):
+    """A conventional shell: displacements and rotations at each node."""
+
+    @property
+    def section(self) -> str:
+        """Keyword that gives its properties."""
+        return "SHELL SECTION"
+
+    @property
+    def edges(self) -> dict[str, Face]:
+        """Local nodes of its edges, from 0."""
+        return {f"E{k}": edge for k, edge in enumerate(self.family.faces, 1)}
+
     def dofs(self, node: int) -> tuple[int, ...]:
         """Dofs of a local node, from 0."""
         del node
         return (1, 2, 3, 4, 5, 6)
+
+
+@dataclass(frozen=True, slots=True)
+class MembraneType(SurfaceType):
+    """A membrane: a surface in plane stress, with displacements at each node."""
+
+    @property
+    def section(self) -> str:
+        """Keyword that gives its properties."""
+        return "MEMBRANE SECTION"
+
+    def dofs(self, node: int) -> tuple[int, ...]:
+        """Dofs of a local node, from 0."""
+        del node
+        return (1, 2, 3)
 
 
 @dataclass(frozen=True, slots=True)
@@ -475,17 +503,20 @@ class DiscreteType:
         return tuple(range(1, self.dimension + 1))
 
 
-BuiltInType = ContinuumType | HeatType | CohesiveType | ShellType | BeamType | RigidType | DiscreteType
+BuiltInType = ContinuumType | HeatType | CohesiveType | ShellType | MembraneType | BeamType | RigidType | DiscreteType
 
 _PLANE: Final = {"3": (TRI3, 1), "4": (QUAD4, 4), "4R": (QUAD4, 1), "6": (TRI6, 3), "8": (QUAD8, 9), "8R": (QUAD8, 4)}
 _SPACE: Final = {
     **{"4": (TET4, 1), "6": (WEDGE6, 2), "8": (HEX8, 8), "8R": (HEX8, 1)},
     **{"10": (TET10, 4), "15": (WEDGE15, 9), "20": (HEX20, 27), "20R": (HEX20, 8)},
 }
-_CONSTANT: Final = ("CPE3", "CPE4", "CPE4R", "CAX3", "CAX4", "CAX4R", "C3D6", "C3D8", "C3D8R", "C3D10")
+_CONSTANT: Final = ("CPE3", "CPE4", "CPE4R", "CAX3", "CAX4", "CAX4R", "C3D4", "C3D6", "C3D8", "C3D8R", "C3D10")
 _LINEAR: Final = ("CPE6", "CPE8", "CPE8R", "CAX6", "CAX8", "CAX8R", "C3D15", "C3D20", "C3D20R")
-_UNCOUPLED: Final = ("CPS4I", "CPE4I", "C3D8I", "CPS6", "CPE6", "CAX6", "C3D15")
-"""Those without a counterpart with temperatures here."""
+_UNCOUPLED: Final = (
+    *("CPS4I", "CPE4I", "C3D8I", "CPS6", "CPE6", "CAX6", "C3D15"),
+    *("CPE3H", "CPE6H", "CAX3H", "CAX6H", "C3D4H", "C3D15H"),
+)
+"""Those without a counterpart with temperatures, in Abaqus or here."""
 
 _SOLIDS: Final = {
     kind.name: kind
@@ -504,27 +535,40 @@ HYBRID: Final = {
     for name, kind in _SOLIDS.items()
     if name in (*_CONSTANT, *_LINEAR)
 }
-"""Hybrid elements by their names, with the pressures of Abaqus' element library."""
+"""Hybrid elements by their names, with the pressures of Abaqus' element library; that of C3D4H is linear in Abaqus."""
 
+HYBRID_MODES: Final = {
+    f"{name}H": replace(_SOLIDS[name], name=f"{name}H", pressures=1 + _SOLIDS[name].dimension)
+    for name in ("CPE4I", "C3D8I")
+}
+"""Hybrid elements with incompatible modes by their names."""
+
+_QUADRATIC_TRIANGLES: Final = ("CPS6", "CPE6", "CAX6", "C3D10")
 MODIFIED: Final = {
-    f"{name}M": replace(_SOLIDS[name], name=f"{name}M", modified=True) for name in ("CPS6", "CPE6", "CAX6", "C3D10")
+    name: replace(kind, name=name, modified=True)
+    for plain in _QUADRATIC_TRIANGLES
+    for suffix, kinds in (("", _SOLIDS), ("H", HYBRID))
+    if (kind := kinds.get(f"{plain}{suffix}"))
+    for name in (f"{plain}M{suffix}",)
 }
 """Modified elements by their names."""
 
-CONTINUUM: Final = _SOLIDS | HYBRID | MODIFIED
+CONTINUUM: Final = _SOLIDS | HYBRID | HYBRID_MODES | MODIFIED
 """Continuum elements by their names."""
 
 LAYERED: Final = tuple(name for name, kind in CONTINUUM.items() if kind.layered)
 """Names of those that may have layers."""
 
 COUPLED: Final = {
-    f"{name}T": replace(kind, name=f"{name}T", coupled=True) for name, kind in _SOLIDS.items() if name not in _UNCOUPLED
+    f"{name}T": replace(kind, name=f"{name}T", coupled=True)
+    for name, kind in (_SOLIDS | HYBRID).items()
+    if name not in _UNCOUPLED
 }
 """The same with temperatures at their corners."""
 
 GENERALISED: Final = {
     name: replace(kind, name=name, generalised=True)
-    for kind in (*_SOLIDS.values(), *HYBRID.values())
+    for kind in (*_SOLIDS.values(), *HYBRID.values(), *MODIFIED.values())
     if kind.name.startswith("CPE") and not kind.incompatible
     for name in (kind.name.replace("CPE", "CPEG"),)
 }
@@ -564,6 +608,19 @@ SHELL: Final = {
 }
 """Conventional shells by their names."""
 
+MEMBRANE: Final = {
+    kind.name: kind
+    for kind in (
+        MembraneType("M3D3", TRI3, 1),
+        MembraneType("M3D4", QUAD4, 4),
+        MembraneType("M3D4R", QUAD4, 1),
+        MembraneType("M3D6", TRI6, 3),
+        MembraneType("M3D8", QUAD8, 9),
+        MembraneType("M3D8R", QUAD8, 4),
+    )
+}
+"""Membranes by their names."""
+
 _BEAMS: Final = (
     BeamType("B21", LINE2, 1, 2),
     BeamType("B22", LINE3, 2, 2),
@@ -602,6 +659,7 @@ BUILT_IN: Final[dict[str, BuiltInType]] = {
     **HEAT,
     **COHESIVE,
     **SHELL,
+    **MEMBRANE,
     **BEAM,
     **RIGID,
     **DISCRETE,

@@ -11,7 +11,7 @@ import numpy as np
 
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import BUILT_IN, BeamType, BuiltInType, ContinuumType, ShellType
+from harness.model.element_types import BUILT_IN, BeamType, BuiltInType, ContinuumType, SurfaceType
 from harness.model.properties import Section, SolidSection, UserElement
 
 
@@ -85,8 +85,8 @@ class ElementGroup:
 
 
 def is_in_space(coordinates: FloatArray, groups: Iterable[ElementGroup]) -> bool:
-    """False where all nodes lie in one plane z = constant, and no shells, or beams in space, can leave it."""
+    """False where all nodes are in one plane z = constant, and no shells, membranes or beams in space can leave it."""
     if np.ptp(coordinates[:, 2]) > 0.0:
         return True
     kinds = (group.built_in for group in groups)
-    return any(isinstance(kind, ShellType | BeamType) and kind.dimension == 3 for kind in kinds)
+    return any(isinstance(kind, SurfaceType | BeamType) and kind.dimension == 3 for kind in kinds)

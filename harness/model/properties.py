@@ -447,6 +447,29 @@ class ShellSection:
 
 
 @dataclass(frozen=True, slots=True)
+class MembraneSection:
+    """*MEMBRANE SECTION.
+
+    poisson    by which the thickness changes with large strains
+    hourglass  *HOURGLASS STIFFNESS; 0: not given
+    """
+
+    elset: str
+    material: Material
+    orientation: Orientation | None
+    thickness: float
+    poisson: float
+    source: Source
+    controls: SectionControls = SectionControls()
+    hourglass: float = 0.0
+
+    @property
+    def mass(self) -> float:
+        """Mass per area."""
+        return self.thickness * self.material.density
+
+
+@dataclass(frozen=True, slots=True)
 class BeamSection:
     """*BEAM SECTION or *BEAM GENERAL SECTION.
 
@@ -586,6 +609,7 @@ Section = (
     | CompositeSection
     | CohesiveSection
     | ShellSection
+    | MembraneSection
     | BeamSection
     | SpringSection
     | MassSection

@@ -18,7 +18,7 @@ from typing import Final
 
 from harness.model.contact import CONTACT, ContactChanges
 from harness.model.couplings import COUPLING
-from harness.model.element_types import HYBRID
+from harness.model.element_types import ContinuumType
 from harness.model.model import Model
 from harness.model.records import (
     AttemptAbandoned,
@@ -47,7 +47,8 @@ class MessageFile:
         self._model = model
         self._file = TextFile(path)
         self._fields = fields_of(model)
-        self._hybrid = any(group.type in HYBRID for group in model.groups)
+        kinds = [group.built_in for group in model.groups]
+        self._hybrid = any(isinstance(kind, ContinuumType) and kind.pressures for kind in kinds)
         self._touches, self._coupled = bool(model.contacts), bool(model.couplings)
         self._started = (time.perf_counter(), time.process_time())
         self.warnings: list[str] = []

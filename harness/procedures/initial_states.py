@@ -19,7 +19,7 @@ from harness.model.element_types import (
     ContinuumType,
     DiscreteKind,
     DiscreteType,
-    ShellType,
+    SurfaceType,
 )
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
@@ -140,4 +140,4 @@ def _has_stress(group: ElementGroup) -> bool:
     kind = BUILT_IN.get(group.type)
     if isinstance(kind, DiscreteType):
         return kind.kind is DiscreteKind.TRUSS
-    return isinstance(kind, ContinuumType | CohesiveType | ShellType)
+    return isinstance(kind, ContinuumType | CohesiveType | SurfaceType)

@@ -19,6 +19,7 @@ from harness.model.properties import (
     ElasticType,
     Holzapfel,
     Material,
+    MembraneSection,
     ShellSection,
     SolidSection,
     UserElement,
@@ -38,6 +39,7 @@ _CONSTANTS: Final = {
 """Names of the constants of *ELASTIC in their order."""
 
 Row = tuple[str, ...]
+_WithMaterial = SolidSection | CompositeSection | CohesiveSection | ShellSection | MembraneSection | BeamSection
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +88,7 @@ def property_tables(model: Model) -> Iterator[Table]:
         seen.add(section.source)
         if isinstance(section, UserProperty):
             yield _user_table(group, section)
-        elif isinstance(section, SolidSection | CompositeSection | CohesiveSection | ShellSection | BeamSection):
+        elif isinstance(section, _WithMaterial):
             rows = _said_once(_section_rows(section, group.built_in))
             yield Table(f"{section.elset}: {group.type}", ("property", "value", ""), rows, section.source)
 
@@ -136,9 +138,7 @@ def _said_once(rows: Sequence[Row]) -> list[Row]:
     return [(*row[:-1], "" if row[-1] == last else row[-1]) for row, last in zip(rows, above, strict=False)]
 
 
-def _section_rows(
-    section: SolidSection | CompositeSection | CohesiveSection | ShellSection | BeamSection, kind: BuiltInType | None
-) -> list[Row]:
+def _section_rows(section: _WithMaterial, kind: BuiltInType | None) -> list[Row]:
     if isinstance(section, BeamSection):
         return [*_beam_rows(section)]
     if isinstance(section, ShellSection | CompositeSection):
@@ -146,7 +146,7 @@ def _section_rows(
         return [*layers, *(row for material in _materials(section) for row in _material_rows(material))]
     rows: list[Row] = [("material", section.material.name, "")]
     # of a solid in space it is no more than the default
-    if isinstance(section, CohesiveSection) or kind is None or kind.dimension == 2:
+    if isinstance(section, CohesiveSection | MembraneSection) or kind is None or kind.dimension == 2:
         rows.append(("thickness", f"{section.thickness:g}", ""))
     if isinstance(section, CohesiveSection):
         rows.append(("width", f"{section.width:g}", ""))

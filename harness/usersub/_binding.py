@@ -568,7 +568,7 @@ def slopes_at_nodes(family: int, nodes: int) -> FloatArray:
 
 _ELEMENTS: Final = (
     *("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric", "truss"),
-    *("generalised", "beam section"),
+    *("generalised", "beam section", "membrane"),
 )
 """In the order of host_element_address."""
 
@@ -587,6 +587,7 @@ def address_of(
         "truss",
         "generalised",
         "beam section",
+        "membrane",
     ],
 ) -> int:
     """Address of built-in elements.

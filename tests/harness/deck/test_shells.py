@@ -165,7 +165,7 @@ def test_mistakes(deck, section, message):
     ("material", "message"),
     [
         ("*DENSITY\n1.", r"material M has no \*ELASTIC or \*USER MATERIAL"),
-        ("*ELASTIC, TYPE=TRACTION\n1., 1., 1.", r"material M .* has \*ELASTIC, TYPE=TRACTION, which is not for shells"),
+        ("*ELASTIC, TYPE=TRACTION\n1., 1., 1.", r"material M .* has \*ELASTIC, TYPE=TRACTION, which needs \*COHESIVE"),
     ],
 )
 def test_materials_that_shells_do_not_take(deck, material, message):

@@ -173,6 +173,7 @@ def test_temperatures_without_a_coupled_element_do_nothing(run):
 
 TANGENTS = ["CPE3T", "CPE4T", "CPE4RT", "CPE8T", "CPS4T", "CPS8RT", "CAX4T", "CAX8RT"]
 TANGENTS += ["C3D4T", "C3D6T", "C3D8T", "C3D10T", "C3D20RT"]
+TANGENTS += ["CPE8HT", "CAX4HT", "C3D8HT", "C3D20RHT"]
 
 
 @pytest.mark.parametrize("element_type", TANGENTS)

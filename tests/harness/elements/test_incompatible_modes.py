@@ -8,6 +8,7 @@ import pytest
 import harness
 from harness.errors import DeckError
 from harness.model.element_types import CONTINUUM
+from harness.usersub import _binding
 
 SQUARE = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
 CUBE = np.vstack([np.pad(SQUARE, ((0, 0), (0, 1))), np.pad(SQUARE, ((0, 0), (0, 1)), constant_values=1)])
@@ -25,12 +26,16 @@ def grid(*axes):
 
 
 def test_as_many_modes_as_abaqus_has():
-    """Internal variables that the Abaqus Elements Guide lists: four, five and thirteen."""
-    assert {name: kind.modes for name, kind in CONTINUUM.items() if kind.modes} == {"CPS4I": 4, "CPE4I": 5, "C3D8I": 13}
+    """Internal variables that the Abaqus Elements Guide lists: four, five and thirteen.
+
+    Without a pressure for them, the four of the volume would be singular in C3D8IH.
+    """
+    found = {name: kind.modes for name, kind in CONTINUUM.items() if kind.modes}
+    assert found == {"CPS4I": 4, "CPE4I": 5, "C3D8I": 13, "CPE4IH": 5, "C3D8IH": 9}
 
 
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.4999])
-@pytest.mark.parametrize("element_type", ["CPS4I", "CPE4I"])
+@pytest.mark.parametrize("element_type", ["CPS4I", "CPE4I", "CPE4IH"])
 def test_rectangles_bend_exactly(forces_of, element_type, nu):
     """u = (xy, -x^2/2 - m y^2/2) is bending by E11 = y alone, with m = nu and E, in plane strain nu/(1 - nu) and
     E/(1 - nu^2): no force within, and the energy of the beam."""
@@ -46,14 +51,14 @@ def test_rectangles_bend_exactly(forces_of, element_type, nu):
 
 
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.4999])
-@pytest.mark.parametrize("axis", [0, 1, 2])
-def test_bricks_bend_exactly(forces_of, axis, nu):
+@pytest.mark.parametrize(("axis", "element_type"), [(0, "C3D8I"), (1, "C3D8I"), (2, "C3D8I"), (0, "C3D8IH")])
+def test_bricks_bend_exactly(forces_of, axis, element_type, nu):
     """Bending by E11 = y alone, the section bent as well: u = (xy, -x^2/2 - nu (y^2 - z^2)/2, -nu y z)."""
     young = 1000.0
     nodes, elements = grid(np.array([0.0, 1.0, 4.0]), np.array([-0.3, 0.1, 0.4]), np.array([-0.2, 0.3, 0.5]))
     x, y, z = nodes[:, np.roll([0, 1, 2], -axis)].T
     u = np.column_stack([x * y, -(x**2 + nu * (y**2 - z**2)) / 2, -nu * y * z])[:, np.roll([0, 1, 2], axis)]
-    force, _, energy = forces_of("C3D8I", nodes, elements=elements, young=young, nu=nu)(u)
+    force, _, energy = forces_of(element_type, nodes, elements=elements, young=young, nu=nu)(u)
     second_moment = np.ptp(z) * (y.max() ** 3 - y.min() ** 3) / 3
     assert energy[1] == pytest.approx(young / 2 * np.ptp(x) * second_moment, rel=1e-8)
     inside = (x > x.min()) & (x < x.max())
@@ -348,3 +353,37 @@ def test_large_displacements_with_umat_are_refused(tmp_path):
     )
     with pytest.raises(DeckError, match=r"large.inp:\d+: NLGEOM is not supported for elements of type CPS4I with UMAT"):
         harness.run(deck, output_dir=tmp_path)
+
+
+@pytest.mark.parametrize("element_type", ["CPE4IH", "C3D8IH"])
+def test_pressure_beside_the_modes(forces_of, element_type):
+    """The mixed matrix of displacements, modes and a linear pressure, the last two eliminated: in parallelograms, where
+    the modes are xi_a grad xi_a along each direction, and in plane strain xi eta of the volume."""
+    kind, bulk, shear = CONTINUUM[element_type], 800.0, 300.0
+    d = kind.dimension
+    slopes = np.array([[1.0, 0.2, 0.1], [-0.3, 0.8, 0.1], [0.2, 0.1, 1.2]])[:d, :d] / 2
+    parent = 2.0 * CORNERS[d] - 1
+    nodes = parent @ slopes.T
+    gradient = np.linalg.inv(slopes)
+    weights, shapes, by_parent = _binding.integration_rule(kind.family.number, kind.points, kind.nodes, d)
+    unit = np.eye(3)[:d]
+    stiffness, across, compliance = 0.0, 0.0, 0.0
+    for weight, shape, slope in zip(weights * np.linalg.det(slopes), shapes, by_parent, strict=True):
+        xi = shape @ parent
+        found = [np.outer(e, np.pad(row @ gradient, (0, 3 - d))) for row in slope for e in unit]
+        found += [np.outer(e, xi[a] * np.pad(gradient[a], (0, 3 - d))) for a in range(d) for e in unit]
+        found += [xi.prod() / 2 * np.diag([1.0, 1.0, 0.0])] if d == 2 else []
+        strains = np.array([(h + h.T) / 2 for h in found])
+        volume = np.trace(strains, axis1=1, axis2=2)
+        shapely = strains - volume[:, None, None] * np.eye(3) / 3
+        functions = np.array([1.0, *(shape @ nodes)])
+        stiffness = stiffness + 2 * shear * weight * np.einsum("iab,jab->ij", shapely, shapely)
+        across = across + weight * np.outer(volume, functions)
+        compliance = compliance + weight / bulk * np.outer(functions, functions)
+    mixed = stiffness + across @ np.linalg.solve(compliance, across.T)
+    n = nodes.size
+    expected = mixed[:n, :n] - mixed[:n, n:] @ np.linalg.solve(mixed[n:, n:], mixed[n:, :n])
+    young = 9 * bulk * shear / (3 * bulk + shear)
+    places = np.pad(nodes, ((0, 0), (0, 3 - d)))
+    _, matrix, _ = forces_of(element_type, places, young=young, nu=young / (2 * shear) - 1)(np.zeros_like(places))
+    np.testing.assert_allclose(matrix, expected, atol=1e-10 * abs(expected).max())
