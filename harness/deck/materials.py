@@ -12,6 +12,8 @@ import numpy as np
 from harness.deck.blocks import PER_LINE, Block, Row
 from harness.deck.damage import KEYWORDS as DAMAGE_OPTIONS
 from harness.deck.damage import extend_damage
+from harness.deck.diffusion import OPTIONS as DIFFUSION_OPTIONS
+from harness.deck.diffusion import extend_diffusion
 from harness.deck.error_report import Problems
 from harness.deck.heat import ISOTROPIC, extend_heat
 from harness.deck.heat import KEYWORDS as HEAT_OPTIONS
@@ -71,17 +73,24 @@ def _extend(material: Material, block: Block, problems: Problems) -> Material:
             extended = replace(material, user_field=block.source)
         case "DEPVAR" | "USER OUTPUT VARIABLES":
             extended = _extend_counts(material, block)
-        case "DENSITY":
-            extended = replace(material, density=_read_constant(block, "density"))
+        case "DENSITY" | "EXPANSION":
+            extended = _extend_constant(material, block)
         case "CONDUCTIVITY" | "HEAT GENERATION" | "LATENT HEAT" | "SPECIFIC HEAT":
             extended = extend_heat(material, block)
+        case "DIFFUSIVITY" | "KAPPA" | "SOLUBILITY":
+            extended = extend_diffusion(material, block)
         case "PIEZOELECTRIC" | "DIELECTRIC":
             extended = extend_electrical(material, block)
-        case "EXPANSION":
-            extended = replace(material, expansion=_read_constant(block, "expansion coefficient", positive=False))
         case _:
             extended = replace(material, damage=extend_damage(material.damage, block))
     return extended
+
+
+def _extend_constant(material: Material, block: Block) -> Material:
+    """The material with one number."""
+    if block.name == "DENSITY":
+        return replace(material, density=_read_constant(block, "density"))
+    return replace(material, expansion=_read_constant(block, "expansion coefficient", positive=False))
 
 
 def _extend_counts(material: Material, block: Block) -> Material:
@@ -244,7 +253,10 @@ _OPTIONS = (
         "expansion coefficient",
     ),
 )
-_OTHERS = (*PLASTIC_OPTIONS, *VISCOUS_OPTIONS, *HYPERELASTIC_OPTIONS, *DAMAGE_OPTIONS, *HEAT_OPTIONS, *PIEZO_OPTIONS)
+_OTHERS = (
+    *(*PLASTIC_OPTIONS, *VISCOUS_OPTIONS, *HYPERELASTIC_OPTIONS, *DAMAGE_OPTIONS),
+    *(*HEAT_OPTIONS, *DIFFUSION_OPTIONS, *PIEZO_OPTIONS),
+)
 MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *_OTHERS)}
 
 KEYWORDS = (
