@@ -491,10 +491,10 @@ class BeamSection:
 
 @dataclass(frozen=True, slots=True)
 class SpringSection:
-    """*SPRING.
+    """*SPRING or *DASHPOT.
 
-    dofs   dof at each node of SPRING1 and SPRING2; none for SPRINGA
-    table  stiffness alone, or force and elongation in turn
+    dofs   dof at each node of SPRING1 and SPRING2, DASHPOT1 and DASHPOT2; none for SPRINGA and DASHPOTA
+    table  stiffness or damping coefficient alone, or force and elongation, or its rate, in turn
     """
 
     elset: str
