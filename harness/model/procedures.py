@@ -273,7 +273,6 @@ class Diffusive(Procedure):
 
     unknown         whose changes are limited: a field of FIELD_NAMES
     limit           the option that limits them
-    flags           LFLAGS(1) before the steady state
     steady          STEADY STATE: time is a scale for loads
     largest_change  largest change of a temperature or concentration in an increment; inf: not limited
     end_change      END=SS: the step ends where none changes faster than this; 0: with the period
@@ -282,16 +281,15 @@ class Diffusive(Procedure):
     growth: ClassVar = "d_m_diff"
     unknown: ClassVar[str]
     limit: ClassVar[str]
-    flags: ClassVar[int]
 
     steady: bool = False
     largest_change: float = math.inf
     end_change: float = 0.0
 
     @property
-    def lflag(self) -> int:
-        """Steady, transient and with fixed increments 1, 2 and 3 more than `flags`."""
-        return self.flags + (1 if self.steady else 3 if self.direct else 2)
+    def _kind(self) -> int:
+        """Steady, transient and with fixed increments 1, 2 and 3: the last digit of LFLAGS(1)."""
+        return 1 if self.steady else 3 if self.direct else 2
 
     @property
     def default_amplitude(self) -> str:
@@ -317,7 +315,7 @@ class Diffusive(Procedure):
 
 @dataclass(frozen=True, slots=True)
 class HeatTransfer(Diffusive):
-    """*HEAT TRANSFER: LFLAGS(1) is 31 to 33."""
+    """*HEAT TRANSFER."""
 
     keyword: ClassVar = "HEAT TRANSFER"
     title: ClassVar = "HEAT TRANSFER"
@@ -325,7 +323,11 @@ class HeatTransfer(Diffusive):
     temperatures: ClassVar = True
     unknown: ClassVar = "temperature"
     limit: ClassVar = "DELTMX"
-    flags: ClassVar = 30
+
+    @property
+    def lflag(self) -> int:
+        """31 steady, 32 transient, 33 with fixed increments."""
+        return 30 + self._kind
 
     @property
     def stores_heat(self) -> bool:
@@ -335,18 +337,22 @@ class HeatTransfer(Diffusive):
 
 @dataclass(frozen=True, slots=True)
 class CoupledTemperatureDisplacement(HeatTransfer):
-    """*COUPLED TEMPERATURE-DISPLACEMENT: LFLAGS(1) is 71 to 73."""
+    """*COUPLED TEMPERATURE-DISPLACEMENT."""
 
     keyword: ClassVar = "COUPLED TEMPERATURE-DISPLACEMENT"
     title: ClassVar = "COUPLED TEMPERATURE-DISPLACEMENT"
     displacements: ClassVar = True
     unsymmetric: ClassVar = True
-    flags: ClassVar = 70
+
+    @property
+    def lflag(self) -> int:
+        """71 steady, 72 transient, 73 with fixed increments."""
+        return 70 + self._kind
 
 
 @dataclass(frozen=True, slots=True)
 class MassDiffusion(Diffusive):
-    """*MASS DIFFUSION, for which Abaqus lists no LFLAGS(1): only built-in elements are called with 131 to 133."""
+    """*MASS DIFFUSION."""
 
     keyword: ClassVar = "MASS DIFFUSION"
     title: ClassVar = "MASS DIFFUSION"
@@ -354,4 +360,8 @@ class MassDiffusion(Diffusive):
     concentrations: ClassVar = True
     unknown: ClassVar = "concentration"
     limit: ClassVar = "DCMAX"
-    flags: ClassVar = 130
+
+    @property
+    def lflag(self) -> int:
+        """131 to 133, which only built-in elements are told: Abaqus lists none for *MASS DIFFUSION."""
+        return 130 + self._kind
