@@ -562,6 +562,29 @@ subroutine host_set_thermal(number, density, counts, conductivity, specific_heat
   material%thermal%latent_heat = latent_heat(:, :counts(3))
 end subroutine host_set_thermal
 
+!> Give a material the constants of the diffusion of another one through it.
+subroutine host_set_diffusion(number, fick, absolute_zero, axes, counts, diffusivity, solubility, soret, pressure, n, m, k, j)
+  use host_kinds, only: dp, i4
+  use host_materials, only: find_material, material_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: number, fick, n, m, k, j
+  real(dp), intent(in) :: absolute_zero, axes(3, 3)
+  integer(i4), intent(in) :: counts(4)        !< rows of the tables: f2py passes no empty arrays
+  real(dp), intent(in) :: diffusivity(8, n), solubility(2, m), soret(3, k), pressure(3, j)   !< as diffusion_t has them
+  type(material_t), pointer :: material
+  material => find_material(number)
+  allocate (material%diffusion)
+  associate (law => material%diffusion)
+    law%fick = fick /= 0
+    law%absolute_zero = absolute_zero
+    law%axes = axes
+    law%diffusivity = diffusivity(:, :counts(1))
+    law%solubility = solubility(:, :counts(2))
+    law%soret = soret(:, :counts(3))
+    law%pressure = pressure(:, :counts(4))
+  end associate
+end subroutine host_set_diffusion
+
 !> Let HETVAL (flows = 0) generate heat in a material with thermal constants, or UMATHT (1) conduct and store it.
 subroutine host_set_user_thermal(number, flows, address, name, statev, constants, count, n)
   use, intrinsic :: iso_c_binding, only: c_intptr_t
@@ -812,7 +835,7 @@ end subroutine host_uamp_call
 
 !> Address of built-in elements: 1 continuum, 2 coupled temperature-displacement, 3 cohesive, 4 springs and masses, 5 heat
 !> transfer, 6 heat that enters, 7 shells, 8 beams, 9 piezoelectric, 10 trusses, 11 generalised plane strain, 12 beams whose
-!> material is integrated over the section, 13 membranes.
+!> material is integrated over the section, 13 membranes, 14 mass diffusion.
 subroutine host_element_address(elements, address)
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_intptr_t
   use host_beam, only: beam_uel, beam_uelmat
@@ -823,6 +846,7 @@ subroutine host_element_address(elements, address)
   use host_generalised, only: generalised_uelmat
   use host_heat_loads, only: heat_load_uel
   use host_kinds, only: i4, i8
+  use host_mass_diffusion, only: mass_diffusion_uelmat
   use host_membrane, only: membrane_uelmat
   use host_piezoelectric, only: piezoelectric_uelmat
   use host_shell, only: shell_uelmat
@@ -831,9 +855,10 @@ subroutine host_element_address(elements, address)
   implicit none (type, external)
   integer(i4), intent(in) :: elements
   integer(i8), intent(out) :: address
-  type(c_funptr) :: all(13)
+  type(c_funptr) :: all(14)
   all = [c_funloc(solid_uelmat), c_funloc(coupled_uelmat), c_funloc(cohesive_uel), c_funloc(discrete_uel), c_funloc(heat_uelmat), &
          c_funloc(heat_load_uel), c_funloc(shell_uelmat), c_funloc(beam_uel), c_funloc(piezoelectric_uelmat), &
-         c_funloc(truss_uelmat), c_funloc(generalised_uelmat), c_funloc(beam_uelmat), c_funloc(membrane_uelmat)]
+         c_funloc(truss_uelmat), c_funloc(generalised_uelmat), c_funloc(beam_uelmat), c_funloc(membrane_uelmat), &
+         c_funloc(mass_diffusion_uelmat)]
   address = int(transfer(all(elements), 1_c_intptr_t), i8)
 end subroutine host_element_address

@@ -24,7 +24,7 @@ module host_conduction
   use host_thermal, only: call_hetval, call_umatht, conductivity_at, energy_taken, flow_t
   implicit none (type, external)
   private
-  public :: body_t, conduct, heat_uelmat, is_steady
+  public :: body_t, conduct, heat_uelmat, is_steady, add_flow, add_product, unit
 
   !> An element whose corners, or nodes, have temperatures.
   type :: body_t
@@ -65,10 +65,10 @@ contains
                  amatrx)
   end subroutine heat_uelmat
 
-  !> LFLAGS(1) of a step without storage of heat.
+  !> LFLAGS(1) of a step without storage of heat, or of a diffusing material.
   elemental logical function is_steady(procedure_code)
     integer(i4), intent(in) :: procedure_code
-    is_steady = procedure_code == 31 .or. procedure_code == 71
+    is_steady = any(procedure_code == [31_i4, 71_i4, 131_i4])
   end function is_steady
 
   !> Add the heat that flows into the corners, or nodes, and minus its derivative by their temperatures.

@@ -1,12 +1,10 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Elastic constants that depend on temperature and field variables (*ELASTIC, DEPENDENCIES=).
-!>
-!> They are linear in each variable between the values of the table and constant beyond them (Abaqus Analysis User's Guide,
-!> Material data definition).
+!> Elastic constants that depend on temperature and field variables (*ELASTIC, DEPENDENCIES=), by tables (host_tables).
 module host_dependence
   use core_symmetric, only: invert_definite
   use host_kinds, only: dp
+  use host_tables, only: interpolate
   implicit none (type, external)
   private
   public :: dependence_t, elastic_matrices, compliance_of
@@ -27,11 +25,12 @@ contains
     real(dp), intent(out) :: stiffness(ntens, ntens), compliance(ntens, ntens), thickness(3)
     real(dp), intent(out) :: constants(dependence%constants)
     logical, intent(out) :: definite                  !< false: they are not positive definite, and the stiffness is zero
-    real(dp) :: full(6, 6), rigid(6, 6)
+    real(dp) :: full(6, 6), rigid(6, 6), slopes(dependence%constants)
     logical :: good
     integer :: kept(min(ntens, 3))
     integer, parameter :: plane(3) = [1, 2, 4]
-    call interpolate(dependence%constants, size(dependence%table, 1) - dependence%constants, dependence%table, variables, constants)
+    call interpolate(dependence%constants, size(dependence%table, 1) - dependence%constants, dependence%table, variables, &
+                     constants, slopes)
     full = matmul(transpose(dependence%turn), matmul(compliance_of(constants), dependence%turn))
     thickness = full(3, plane)
     if (ntens <= 3) then
@@ -45,30 +44,6 @@ contains
       call invert_definite(stiffness, compliance, good)
     end if
   end subroutine elastic_matrices
-
-  !> Constants where the variables have these values, the last variable first.
-  recursive subroutine interpolate(constants, variables, table, at, values)
-    integer, intent(in) :: constants, variables
-    real(dp), intent(in) :: table(:, :), at(:)
-    real(dp), intent(out) :: values(constants)
-    real(dp) :: x(size(table, 2)), below, above, upper(constants)
-    integer :: k
-    integer :: rows(size(table, 2))
-    if (variables == 0) then
-      values = table(:constants, 1)
-      return
-    end if
-    x = table(constants + variables, :)
-    rows = [(k, k=1, size(rows))]
-    below = minval(x)
-    if (any(x <= at(variables))) below = maxval(x, x <= at(variables))
-    above = maxval(x)
-    if (any(x >= at(variables))) above = minval(x, x >= at(variables))
-    call interpolate(constants, variables - 1, table(:, pack(rows, abs(x - below) <= 0)), at, values)
-    if (above <= below) return
-    call interpolate(constants, variables - 1, table(:, pack(rows, abs(x - above) <= 0)), at, upper)
-    values = values + (at(variables) - below)/(above - below)*(upper - values)
-  end subroutine interpolate
 
   !> Compliance (11, 22, 33, 12, 13, 23) of E and nu, or of E1, E2, E3, nu12, nu13, nu23, G12, G13, G23.
   pure function compliance_of(constants) result(s)

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in springs, masses and loads that follow their faces, as a procedure with the arguments of UEL. JTYPE tells which:
+!> Built-in springs, dashpots, masses and loads that follow their faces, as a procedure with the arguments of UEL. JTYPE:
 !>
 !> 2  SPRINGA: PROPS hold force and elongation in turn, ascending; SVARS elongation, force.
 !> 3  SPRING1, SPRING2: the same between the first unknown and the second, or the ground; SVARS as SPRINGA.
@@ -9,11 +9,14 @@
 !>    the face (host_shape), 1 about an axis, outward as in add_pressure, 0 pressure, 1 traction, 2 shear traction, 3 a pressure at
 !>    each point. The loads of the call are their magnitudes, with NLGEOM on the present face; ENERGY(8) is their work. Column 2 of
 !>    RHS is the force of their increments.
+!> 6  DASHPOTA, 7  DASHPOT1 and DASHPOT2: as springs, but with the rate of the elongation in place of the elongation in PROPS. In
+!>    static steps it is the increment of the elongation over that of the time, in linear ones there is none; then the damping
+!>    matrix that LFLAGS(7) asks for is the slope at rest.
 !>
 !> In dynamic analyses SVARS go on with the forces of the last two increments, those of loads on faces always.
 module host_discrete
   use host_bar, only: bar_forces, bar_of, bar_t
-  use host_inertia, only: respond
+  use host_inertia, only: is_dynamic, respond
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_followers, only: add_pressure, add_traction
@@ -23,7 +26,7 @@ module host_discrete
   private
   public :: discrete_uel
 
-  integer(i4), parameter :: axial_spring = 2, spring = 3, mass_point = 4, face = 5
+  integer(i4), parameter :: axial_spring = 2, spring = 3, mass_point = 4, face = 5, axial_dashpot = 6, dashpot = 7
   integer, parameter :: at_points = 3   !< JPROPS(5): a pressure at each point of the face
 
 contains
@@ -36,9 +39,10 @@ contains
     real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
                 params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
     real(dp) :: mass(ndofel, ndofel), old(ndofel, 2)
-    real(dp) :: pull, slope
+    real(dp) :: pull, slope, rates(ndofel), by_change, damping(ndofel**2)
     type(bar_t) :: bar
     integer :: i, n, states
+    logical :: resists
     n = ndofel
     states = merge(0, 2, jtype == face)
     rhs(1:n*nrhs) = 0
@@ -53,10 +57,16 @@ contains
       select case (jtype)
       case (axial_spring)
         bar = bar_of(int(mcrd), lflags(2) /= 0, coords, u)
-        call spring_force(int(nprops), props, bar%elongation, svars, pull, slope, energy)
+        call look_up(int(nprops), props, bar%elongation, pull, slope)
+        call keep_state(bar%elongation, pull, svars, energy(2))
         call bar_forces(int(mcrd), bar, lflags(3), pull, slope, du, rhs, amatrx)
       case (spring)
-        call dof_spring(n, int(nprops), props, u, svars, rhs, amatrx, energy)
+        call look_up(int(nprops), props, difference(n, u), pull, slope)
+        call keep_state(difference(n, u), pull, svars, energy(2))
+        call dof_forces(n, pull, slope, rhs, amatrx)
+      case (axial_dashpot, dashpot)
+        call rates_of(n, lflags, params, dtime, v, du, rates, by_change)
+        call resist(by_change)
       case (face)
         call load_face(rule_of(int(jprops(1)), int(jprops(2))), n, lflags(2) /= 0, jprops(3) /= 0, int(jprops(4:5)), &
                        props(1:1 + mcrd), adlmag(1:ndload), coords, u, rhs, amatrx)
@@ -74,9 +84,51 @@ contains
         call escape()
       end select
     end if
+    resists = any(jtype == [axial_dashpot, dashpot]) .and. lflags(3) == 3
+    if (resists) resists = lflags(7) == 1
+    if (resists) then
+      rates = 0
+      call resist(1.0_dp)
+      damping = amatrx(1:n**2)
+    end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
+    if (resists) amatrx(1:n**2) = damping
     if (nsvars >= states + 2*n) svars(states + 1:states + 2*n) = reshape(old, [2*n])
+  contains
+
+    !> Forces of a dashpot at its rates, and their derivatives: by_change is that of a rate.
+    subroutine resist(by_change)
+      real(dp), intent(in) :: by_change
+      if (jtype == axial_dashpot) then
+        bar = bar_of(int(mcrd), lflags(2) /= 0, coords, u)
+        call look_up(int(nprops), props, dot_product(bar%along(:mcrd), rates(mcrd + 1:) - rates(:mcrd)), pull, slope)
+        call keep_state(bar%elongation, pull, svars, energy(5))
+        call bar_forces(int(mcrd), bar, lflags(3), pull, slope*by_change, du, rhs, amatrx)
+      else
+        call look_up(int(nprops), props, difference(n, rates), pull, slope)
+        call keep_state(difference(n, u), pull, svars, energy(5))
+        call dof_forces(n, pull, slope*by_change, rhs, amatrx)
+      end if
+    end subroutine resist
   end subroutine discrete_uel
+
+  !> Rates of the unknowns, and their derivative by these.
+  pure subroutine rates_of(n, lflags, params, dtime, v, du, rates, by_change)
+    integer, intent(in) :: n
+    integer(i4), intent(in) :: lflags(4)
+    real(dp), intent(in) :: params(3), dtime, v(n), du(n)
+    real(dp), intent(out) :: rates(n), by_change
+    rates = 0
+    by_change = 0
+    if (lflags(4) /= 0) return
+    if (is_dynamic(lflags(1))) then
+      rates = v
+      if (dtime > 0) by_change = params(3)/(params(2)*dtime)
+    else if (dtime > 0) then
+      rates = du/dtime
+      by_change = 1/dtime
+    end if
+  end subroutine rates_of
 
   !> Force and stiffness of a load on a face: in small displacements on the initial one.
   pure subroutine load_face(rule, n, finite, axisymmetric, kind, props, magnitudes, start, u, force, stiffness)
@@ -98,12 +150,11 @@ contains
     if (.not. finite) stiffness = 0
   end subroutine load_face
 
-  !> Force of a spring and its derivative by the elongation: proportional where PROPS is one number, else along the table
-  !> of force and elongation, constant outside it.
-  pure subroutine spring_force(n, props, elongation, state, pull, slope, energy)
+  !> Force and its derivative by the elongation, or the rate: proportional where PROPS is one number, else along the table of force
+  !> and elongation, constant outside it.
+  pure subroutine look_up(n, props, elongation, pull, slope)
     integer, intent(in) :: n
     real(dp), intent(in) :: props(n), elongation
-    real(dp), intent(inout) :: state(2), energy(8)
     real(dp), intent(out) :: pull, slope
     integer :: k
     slope = 0
@@ -121,19 +172,29 @@ contains
         exit
       end do
     end if
-    energy(2) = energy(2) + 0.5_dp*(pull + state(2))*(elongation - state(1))
-    state = [elongation, pull]
-  end subroutine spring_force
+  end subroutine look_up
 
-  !> A spring between a dof and another, or the ground.
-  pure subroutine dof_spring(n, count, props, u, state, force, stiffness, energy)
-    integer, intent(in) :: n, count
-    real(dp), intent(in) :: props(count), u(n)
-    real(dp), intent(inout) :: state(2), force(n), stiffness(n, n), energy(8)
-    real(dp) :: elongation, pull, slope
-    elongation = u(1)
-    if (n == 2) elongation = u(1) - u(2)
-    call spring_force(count, props, elongation, state, pull, slope, energy)
+  !> Keep elongation and force, and add their work to an energy.
+  pure subroutine keep_state(elongation, pull, state, energy)
+    real(dp), intent(in) :: elongation, pull
+    real(dp), intent(inout) :: state(2), energy
+    energy = energy + 0.5_dp*(pull + state(2))*(elongation - state(1))
+    state = [elongation, pull]
+  end subroutine keep_state
+
+  !> The first value less the second, or that of the ground.
+  pure real(dp) function difference(n, values)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: values(n)
+    difference = values(1)
+    if (n == 2) difference = values(1) - values(2)
+  end function difference
+
+  !> Of a spring or a dashpot between a dof and another, or the ground.
+  pure subroutine dof_forces(n, pull, slope, force, stiffness)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: pull, slope
+    real(dp), intent(inout) :: force(n), stiffness(n, n)
     force(1) = pull
     stiffness(1, 1) = slope
     if (n == 1) return
@@ -141,5 +202,5 @@ contains
     stiffness(2, 2) = slope
     stiffness(1, 2) = -slope
     stiffness(2, 1) = -slope
-  end subroutine dof_spring
+  end subroutine dof_forces
 end module host_discrete

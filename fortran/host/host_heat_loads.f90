@@ -1,12 +1,12 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Heat that enters through faces, into volumes and at nodes, as a procedure with the arguments of UEL: fluxes, by the deck or by
-!> DFLUX, and films, by the deck or by FILM (User Subroutines Guide, DFLUX, FILM).
+!> DFLUX, and films, by the deck or by FILM (User Subroutines Guide, DFLUX, FILM). In mass diffusion solute enters as heat does.
 !>
 !> JTYPE: 1 a face, 2 a volume, 3 a node. JPROPS: family and integration points of the shape, family of the temperatures, 1 about an
-!> axis, number of the load (define_heat_load). PROPS(1): thickness or 2 pi, at a node its area. Loads of the call: of kind 1 the
-!> flux or the sink temperature, of kind 2 the film coefficient. The unknowns are the temperatures, in quadratic coupled elements
-!> those of the corners.
+!> axis, number of the load (define_heat_load), 1 in mass diffusion (host_mass_diffusion). PROPS(1): thickness or 2 pi, at a node
+!> its area. Loads of the call: of kind 1 the flux or the sink temperature, of kind 2 the film coefficient. The unknowns are the
+!> temperatures or concentrations, in quadratic coupled elements those of the corners.
 !>
 !> Faces of linear elements have their points at the corners, as in Abaqus (Analysis User's Guide, Solid elements), each with the
 !> integral of its function as weight, so that a uniform flux makes a linear temperature on any mesh; the others, and volumes,
@@ -77,7 +77,7 @@ contains
     type(rule_t), pointer :: shape, field
     logical :: corners
     integer :: p, points
-    real(dp) :: n(nnode), of_field(ndofel), weight, given(2), heat, slope
+    real(dp) :: n(nnode), of_field(ndofel), weight, given(2), driving(2), heat, slope
     rhs = 0
     amatrx = 0
     if (ndload == 0 .or. any(lflags(3) == [3_i4, 4_i4])) return
@@ -105,8 +105,11 @@ contains
         of_field = field%n(:, p)
         weight = props(1)*shape%weight(p)*area(matmul(coords, shape%dn(:, :, p)))*radius_of(shape, p, jprops(4) /= 0, coords)
       end if
+      driving = 0
+      if (jprops(6) /= 0) driving(1) = dot_product(predef(1, 1, :), n)
+      if (jprops(6) /= 0 .and. npredf > 2) driving(2) = dot_product(predef(1, npredf - 1, :), n)
       call heat_at(loads(jprops(5)), int(p, i4), merge(jelem, 0_i4, jtype == node), matmul(coords, n), dot_product(u, of_field), &
-                   time, weight, given, matmul(predef(1, 2:npredf - 1, :), n), heat, slope)
+                   time, weight, given, matmul(predef(1, 2:npredf - 1, :), n), driving, heat, slope)
       rhs(:, 1) = rhs(:, 1) + weight*heat*of_field
       amatrx = amatrx - weight*slope*spread(of_field, 2, int(ndofel))*spread(of_field, 1, int(ndofel))
     end do
@@ -139,15 +142,16 @@ contains
   end function corner_area
 
   !> Heat that enters at a point per area, or volume, and its derivative by the temperature there.
-  subroutine heat_at(load, point, label, place, temperature, time, area, given, fields, heat, slope)
+  subroutine heat_at(load, point, label, place, temperature, time, area, given, fields, driving, heat, slope)
     type(heat_load_t), intent(in) :: load
     integer(i4), intent(in) :: point, label         !< label: of the node of a film at a node, else 0
     real(dp), intent(in) :: place(:), temperature, time(2), area, given(2), fields(:)
+    real(dp), intent(in) :: driving(2)              !< TEMP and PRESS of DFLUX, which are those of mass diffusion alone
     real(dp), intent(out) :: heat, slope
     real(dp) :: values(2), sink
     sink = given(1)
     values = [merge(given(2), given(1), load%film), 0.0_dp]
-    if (load%by_user) call call_user(load, point, label, place, temperature, time, area, fields, values, sink)
+    if (load%by_user) call call_user(load, point, label, place, temperature, time, area, fields, driving, values, sink)
     heat = values(1)
     slope = values(2)
     if (.not. load%film) return
@@ -156,10 +160,10 @@ contains
   end subroutine heat_at
 
   !> DFLUX or FILM at a point: FLUX or H, and SINK. Their TIME is that at the end of the increment.
-  subroutine call_user(load, point, label, place, temperature, time, area, fields, values, sink)
+  subroutine call_user(load, point, label, place, temperature, time, area, fields, driving, values, sink)
     type(heat_load_t), intent(in) :: load
     integer(i4), intent(in) :: point, label
-    real(dp), intent(in) :: place(:), temperature, time(2), area, fields(:)
+    real(dp), intent(in) :: place(:), temperature, time(2), area, fields(:), driving(2)
     real(dp), intent(inout) :: values(2), sink
     procedure(dflux_procedure), pointer :: dflux
     procedure(film_procedure), pointer :: film
@@ -181,8 +185,8 @@ contains
     coords = 0
     coords(:size(place)) = place
     jltyp = load%jltyp
-    temp = 0
-    press = 0
+    temp = driving(1)
+    press = driving(2)
     field = 0
     field(:size(fields)) = fields
     nfield = size(fields, kind=i4)

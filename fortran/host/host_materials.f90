@@ -11,6 +11,7 @@ module host_materials
   use host_context, only: current
   use host_creep, only: creep_solid, creep_t, creep_values
   use host_dependence, only: dependence_t, elastic_matrices
+  use host_diffusion, only: diffusion_t
   use host_hyperelastic, only: calls_user, hyperelastic_stress, hyperelastic_t, state_variables
   use host_inertia, only: is_dynamic
   use host_kinds, only: dp, i4
@@ -63,6 +64,7 @@ module host_materials
     type(dependence_t), allocatable :: dependence  !< constants above are those of the point that set_constants was called for
     type(user_field_t), allocatable :: user_field  !< of USDFLD
     type(thermal_t), allocatable :: thermal        !< in elements with temperatures
+    type(diffusion_t), allocatable :: diffusion    !< in elements with concentrations
   end type material_t
 
   type :: shelf_t

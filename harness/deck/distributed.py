@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*DLOAD, *DSLOAD, *TEMPERATURE and *FIELD."""
+"""*DLOAD, *DSLOAD, *TEMPERATURE, *FIELD and *PRESSURE STRESS."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from harness.deck.surfaces import face_nodes
 from harness.deck.table import Keyword, Kind, Option, Where, refused
 from harness.model.element_types import BODY_FORCES, BeamType, ContinuumType, Direction, SurfaceType
 from harness.model.mesh import ElementGroup
-from harness.model.steps import ON_EDGES, DistributedLoad, ElementLoad, Load, LoadKind, LoadType
+from harness.model.steps import ON_EDGES, PRESSURE_STRESS, DistributedLoad, ElementLoad, Load, LoadKind, LoadType
 
 _USER_LOAD = re.compile(r"U([1-9]\d{0,3})(NU)?")
 _BY_DLOAD = re.compile(r"(P\d|B[XYZR])NU")
@@ -166,15 +166,16 @@ def _loaded(row: Row, label: str, group: ElementGroup) -> ContinuumType | Surfac
 
 
 def read_fields(block: Block, prescription: Prescription) -> list[Load]:
-    """Entries of one *TEMPERATURE or *FIELD; their dof is the number of the field, 0 for temperature."""
+    """Entries of one of these keywords; their dof is the number of the field, 0 for temperature."""
     amplitude = prescription.amplitude(block)
-    number = field_number(block) if block.name == "FIELD" else 0
+    number = field_number(block) if block.name == "FIELD" else {"TEMPERATURE": 0}.get(block.name, PRESSURE_STRESS)
+    by_user = block.options.known("USER") and block.options.flag("USER")
     found = []
     for row in block.rows():
         row.at_most(2)
         nodes = prescription.flat.nodes(row.name(0, "node or node set"), row.source)
         given = nodes, number, row.real(1, "value", 0.0), amplitude, row.source
-        found.append(Load(*given, user=block.options.flag("USER")))
+        found.append(Load(*given, user=by_user))
     return found
 
 
@@ -222,6 +223,13 @@ KEYWORDS = (
             *refused("ABSOLUTE EXTERIOR TOLERANCE", "BSTEP", "DRIVING ELSETS", "ESTEP", "FILE"),
         ),
         "node or set, temperature",
+    ),
+    Keyword(
+        "PRESSURE STRESS",
+        "Equivalent pressure stress, minus the mean of the direct stresses, as a predefined field in *MASS DIFFUSION.",
+        Where.STEP,
+        (*LOAD, *refused("BSTEP", "BINC", "ESTEP", "EINC", "FILE", "USER")),
+        "node or set, equivalent pressure stress",
     ),
     Keyword(
         "FIELD",

@@ -18,17 +18,17 @@ def extend_heat(material: Material, block: Block) -> Material:
     """The material with one of these options. Raises DeckError."""
     match block.name:
         case "CONDUCTIVITY":
-            return replace(material, conductivity=_read_by_temperature(block, "conductivity"))
+            return replace(material, conductivity=read_by_temperature(block, "conductivity"))
         case "SPECIFIC HEAT":
-            return replace(material, specific_heat=_read_by_temperature(block, "specific heat"))
+            return replace(material, specific_heat=read_by_temperature(block, "specific heat"))
         case "LATENT HEAT":
             return replace(material, latent_heat=_read_latent_heat(block))
         case _:
             return replace(material, heat_generation=block.source)
 
 
-def _read_by_temperature(block: Block, what: str) -> FloatArray:
-    """Rows (k, 2) of a positive value and the temperature, which ascends."""
+def read_by_temperature(block: Block, what: str) -> FloatArray:
+    """Rows (k, 2) of a positive value and the temperature, which ascends. Raises DeckError."""
     table: list[tuple[float, float]] = []
     for row in block.rows():
         row.at_most(2)

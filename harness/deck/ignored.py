@@ -34,7 +34,6 @@ _IGNORED = {
     "SECTION PRINT": "Section forces in .dat.",
     "FAIL STRESS": "Limits of the failure measures CFAILURE, which are output.",
     "FAIL STRAIN": "Limits of the failure measures CFAILURE, which are output.",
-    "PHYSICAL CONSTANTS": "Absolute zero and the like: nothing that uses them is supported.",
     **dict.fromkeys(
         ("GAP CONDUCTANCE", "GAP HEAT GENERATION"),
         "Contact property for heat, which contact pairs here do not conduct.",

@@ -16,13 +16,13 @@ from harness.deck.imperfection import EarlierResults, same_nodes
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF
 from harness.errors import UelError
-from harness.model.steps import InitialSolution, InitialStress, InitialValue, VerticalStress
-
-TEMPERATURE = 11
-"""First of the dofs that are temperatures."""
-
+from harness.model.model import CONCENTRATION, TEMPERATURE
+from harness.model.steps import PRESSURE_STRESS, InitialSolution, InitialStress, InitialValue, VerticalStress
 
 MOST_FIELDS = 1000
+
+_ONE_VALUE = {"CONCENTRATION": CONCENTRATION, "PRESSURE STRESS": PRESSURE_STRESS}
+"""Dof of each TYPE= that gives nodes one value."""
 
 MOST_COMPONENTS = 6
 """Components of a stress."""
@@ -39,7 +39,7 @@ def field_number(block: Block) -> int:
 def read_initial_values(
     blocks: Iterable[Block], kind: str, flat: FlatMesh, problems: Problems, earlier: EarlierResults | None
 ) -> list[InitialValue]:
-    """Entries of all *INITIAL CONDITIONS of a TYPE=: VELOCITY (node, dof, value), TEMPERATURE or FIELD (node, value).
+    """Entries of all *INITIAL CONDITIONS of a TYPE=: VELOCITY (node, dof, value), and those with node and value.
 
     The dof of a field is its number, VARIABLE=. Further temperatures of a node are those of dofs 12 and up. Without
     what reads results of earlier jobs, theirs are left out.
@@ -67,6 +67,9 @@ def read_initial_values(
                 elif kind == "FIELD":
                     row.at_most(2)
                     values = {field_number(block): row.real(1, "value", 0.0)}
+                elif kind in _ONE_VALUE:
+                    row.at_most(2)
+                    values = {_ONE_VALUE[kind]: row.real(1, "value", 0.0)}
                 else:
                     row.at_most(1 + LARGEST_DOF - TEMPERATURE + 1)
                     count = max(len(row) - 1, 1)
@@ -77,7 +80,7 @@ def read_initial_values(
 
 def _read_earlier(block: Block, kind: str, flat: FlatMesh, earlier: EarlierResults | None) -> Iterator[InitialValue]:
     """Temperatures of an earlier job, for temperatures or a field."""
-    if kind == "VELOCITY":
+    if kind not in ("TEMPERATURE", "FIELD"):
         raise block.error("FILE is for TYPE=TEMPERATURE and TYPE=FIELD")
     if any(block.rows()):
         raise block.error("FILE: values are those of that job; expected no data lines")
@@ -196,11 +199,12 @@ KEYWORDS = (
         (
             one_of(
                 "TYPE",
-                "what is given; TEMPERATURE is for dof 11 and a predefined field",
-                ("VELOCITY", "TEMPERATURE", "FIELD", "SOLUTION", "STRESS"),
+                "what is given; TEMPERATURE is for dof 11 and a predefined field, CONCENTRATION (normalized) and "
+                "PRESSURE STRESS are for *MASS DIFFUSION",
+                ("VELOCITY", "TEMPERATURE", "FIELD", "SOLUTION", "STRESS", "CONCENTRATION", "PRESSURE STRESS"),
                 required=True,
                 refused=(
-                    *("ACOUSTIC STATIC PRESSURE", "CONCENTRATION", "HARDENING", "PLASTIC STRAIN"),
+                    *("ACOUSTIC STATIC PRESSURE", "HARDENING", "PLASTIC STRAIN"),
                     *("PORE PRESSURE", "RATIO", "REF COORDINATE", "ROTATING VELOCITY", "SATURATION"),
                     "SPECIFIC ENERGY",
                 ),
@@ -224,7 +228,7 @@ KEYWORDS = (
             Option("INC", Kind.INTEGER, "increment of the step (the last one written)"),
             *refused("REBAR", "SECTION POINTS", "INTERPOLATE", "MIDSIDE", "DRIVING ELSETS", "OUTPUT VARIABLE"),
         ),
-        "node or set, dof, velocity; or node or set, temperatures of dofs 11, 12, ...; or node or set, value of field; "
+        "node or set, dof, velocity; or node or set, temperatures of dofs 11, 12, ...; or node or set, value; "
         "or element or set, state variables; or element or set, stress components of a built-in continuum element (11, "
         "22, 33, 12, 13, 23; 11, 22, 12 in plane stress), in the directions of *ORIENTATION; with GEOSTATIC element or "
         "set, vertical stress, elevation, vertical stress, elevation, coefficients of the lateral stresses along 1 and "

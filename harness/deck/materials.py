@@ -12,6 +12,8 @@ import numpy as np
 from harness.deck.blocks import PER_LINE, Block, Row
 from harness.deck.damage import KEYWORDS as DAMAGE_OPTIONS
 from harness.deck.damage import extend_damage
+from harness.deck.diffusion import OPTIONS as DIFFUSION_OPTIONS
+from harness.deck.diffusion import extend_diffusion
 from harness.deck.error_report import Problems
 from harness.deck.expansion import KEYWORDS as EXPANSION_OPTIONS
 from harness.deck.expansion import read_expansion
@@ -77,6 +79,8 @@ def _extend(material: Material, block: Block, problems: Problems) -> Material:
             extended = replace(material, density=_read_constant(block, "density"))
         case "CONDUCTIVITY" | "HEAT GENERATION" | "LATENT HEAT" | "SPECIFIC HEAT":
             extended = extend_heat(material, block)
+        case "DIFFUSIVITY" | "KAPPA" | "SOLUBILITY":
+            extended = extend_diffusion(material, block)
         case "PIEZOELECTRIC" | "DIELECTRIC":
             extended = extend_electrical(material, block)
         case "EXPANSION":
@@ -239,7 +243,7 @@ _OPTIONS = (
     Keyword("DENSITY", "Mass density.", Where.MODEL, refused("DEPENDENCIES", "PORE FLUID"), "density"),
 )
 _OTHERS = (*PLASTIC_OPTIONS, *VISCOUS_OPTIONS, *HYPERELASTIC_OPTIONS, *DAMAGE_OPTIONS)
-_FIELDS = (*EXPANSION_OPTIONS, *HEAT_OPTIONS, *PIEZO_OPTIONS)
+_FIELDS = (*EXPANSION_OPTIONS, *HEAT_OPTIONS, *DIFFUSION_OPTIONS, *PIEZO_OPTIONS)
 MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *_OTHERS, *_FIELDS)}
 
 KEYWORDS = (

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The procedure of a step: *STATIC, *VISCO, *GEOSTATIC, *DYNAMIC, *HEAT TRANSFER and *COUPLED
-TEMPERATURE-DISPLACEMENT, and the table of all procedures, with the linear ones of `perturbations`.
+"""The procedure of a step: *STATIC, *VISCO, *GEOSTATIC, *DYNAMIC, *HEAT TRANSFER, *COUPLED
+TEMPERATURE-DISPLACEMENT and *MASS DIFFUSION, and the table of all procedures, with the linear ones of `perturbations`.
 
 Defaults are those of the Abaqus Keywords Guide; zero or blank stands for the default everywhere.
 """
@@ -20,10 +20,12 @@ from harness.deck.structure import Scope
 from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.model.procedures import (
     CoupledTemperatureDisplacement,
+    Diffusive,
     Dynamic,
     Geostatic,
     HeatTransfer,
     Integrator,
+    MassDiffusion,
     Procedure,
     Riks,
     Stabilize,
@@ -167,20 +169,23 @@ def _read_dynamic(block: Block, _: Prescription) -> Dynamic:
     return replace(common, alpha=alpha, beta=beta, gamma=gamma)
 
 
-def _read_heat_transfer(block: Block, _: Prescription) -> HeatTransfer:
+_DIFFUSIVE: tuple[type[Diffusive], ...] = (HeatTransfer, CoupledTemperatureDisplacement, MassDiffusion)
+
+
+def _read_diffusive(block: Block, _: Prescription) -> Diffusive:
     options = block.options
+    kind = next(kind for kind in _DIFFUSIVE if kind.keyword == block.name)
     steady = options.flag("STEADY STATE")
-    largest_change = options.real("DELTMX", 0.0)
+    largest_change = options.real(kind.limit, 0.0)
     if largest_change < 0:
-        raise block.error(f"DELTMX={largest_change:g} must not be negative")
-    # without a largest change of temperature a transient step has fixed increments
+        raise block.error(f"{kind.limit}={largest_change:g} must not be negative")
+    # without a largest change a transient step has fixed increments
     fixed = not steady and not largest_change
     end_change, row = 0.0, block.only_row()
     if options.known("END") and options.text("END") == "SS":
-        end_change = row.real(4, "rate of temperature change", 0.0) if row is not None else 0.0
+        end_change = row.real(4, f"rate of {kind.unknown} change", 0.0) if row is not None else 0.0
         if end_change <= 0:
-            raise block.error("END=SS needs a positive rate of temperature change, entry 5 of the data line")
-    kind = HeatTransfer if block.name == HeatTransfer.keyword else CoupledTemperatureDisplacement
+            raise block.error(f"END=SS needs a positive rate of {kind.unknown} change, entry 5 of the data line")
     return kind(
         *_read_times(block, direct=fixed),
         steady=steady,
@@ -294,7 +299,26 @@ PROCEDURES: tuple[tuple[Keyword, Callable[[Block, Prescription], Procedure]], ..
             (*_HEAT, one_of("END", "end of a transient step", ("PERIOD", "SS")), *refused("MXDEM")),
             f"{_TIMES}; rate of temperature change that ends a step with END=SS",
         ),
-        _read_heat_transfer,
+        _read_diffusive,
+    ),
+    (
+        Keyword(
+            "MASS DIFFUSION",
+            "Diffusion of one material through another, in heat transfer elements: dof 11 is the normalized "
+            "concentration.",
+            Where.STEP,
+            (
+                Option("STEADY STATE", doc="nothing is stored: time is a scale for loads"),
+                Option(
+                    "DCMAX",
+                    Kind.REAL,
+                    "largest change of a normalized concentration in an increment; without it increments are fixed",
+                ),
+                one_of("END", "end of a transient step", ("PERIOD", "SS")),
+            ),
+            f"{_TIMES}; rate of change of normalized concentrations that ends a step with END=SS",
+        ),
+        _read_diffusive,
     ),
     (
         Keyword(
@@ -310,7 +334,7 @@ PROCEDURES: tuple[tuple[Keyword, Callable[[Block, Prescription], Procedure]], ..
             ),
             _TIMES,
         ),
-        _read_heat_transfer,
+        _read_diffusive,
     ),
     *PERTURBATIONS,
 )

@@ -13,6 +13,7 @@ import numpy as np
 from harness.deck.amplitudes import read_amplitudes
 from harness.deck.constraints import ConstraintReader, read_equations
 from harness.deck.contact import ContactReader, check_contact
+from harness.deck.diffusion import read_absolute_zero, with_concentrations
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh
 from harness.deck.groups import make_groups
@@ -104,8 +105,8 @@ def read_deck(
         if block.name == "BOUNDARY":
             with problems.gather():
                 boundaries += prescription.read_boundary(block, in_step=False)
-    kinds = ("VELOCITY", "TEMPERATURE", "FIELD")
-    velocities, temperatures, fields = (
+    kinds = ("VELOCITY", "TEMPERATURE", "FIELD", "CONCENTRATION", "PRESSURE STRESS")
+    velocities, temperatures, fields, concentrations, pressures = (
         tuple(read_initial_values(structure.root, kind, flat, problems, earlier)) for kind in kinds
     )
     solutions = read_initial_solutions(structure.root, flat, problems)
@@ -119,7 +120,7 @@ def read_deck(
     check_contact(contacts, steps, problems)
     transforms.check(equations, related, in_steps)
     problems.check()
-    return Model(
+    model = Model(
         deck=path,
         heading=read_heading(blocks),
         mesh=flat.mesh,
@@ -134,14 +135,19 @@ def read_deck(
         couplings=tuple(constraints.couplings),
         initial_velocities=velocities,
         initial_temperatures=temperatures,
-        initial_fields=fields,
+        initial_concentrations=concentrations,
+        initial_fields=(*fields, *pressures),
         initial_solutions=tuple(solutions),
         initial_stresses=tuple(stresses),
+        absolute_zero=read_absolute_zero(structure.root),
         given=dict(given or {}),
         ignored=(*interactions.unused, *structure.ignored),
         warnings=problems.warnings,
         differences=problems.differences,
     )
+    found = with_concentrations(model, problems)
+    problems.check()
+    return found
 
 
 def survey_deck(path: Path, given: Mapping[str, float] | None = None) -> Survey:

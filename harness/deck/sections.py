@@ -53,7 +53,7 @@ def make_section(
     alike = any({block.name, kind.section}.issubset(names) for names in (BEAM_KEYWORDS, SHELL_KEYWORDS))
     if block.name != kind.section and not alike:
         raise block.error(f"element set {elset} holds elements of type {kind.name}, which take *{kind.section}")
-    if block.name in ("MASS", "RIGID BODY", "SPRING"):
+    if block.name in ("MASS", "RIGID BODY", "SPRING", "DASHPOT"):
         return _without_material(block, kind)
     if kind.name in BEAM:
         return read_beam_section(block, materials, BEAM[kind.name].dimension)
@@ -193,20 +193,27 @@ def _mass(block: Block) -> float:
 
 
 def _spring(block: Block, kind: ElementType) -> SpringSection:
-    """A first line with the dofs, blank for SPRINGA, then the stiffness, or force and elongation."""
+    """A first line with the dofs, blank for SPRINGA and DASHPOTA, then the stiffness, or force and elongation.
+
+    Of dashpots these are the damping coefficient, or force and velocity.
+    """
+    constant, variable = ("stiffness", "elongation") if block.name == "SPRING" else ("coefficient", "velocity")
     rows = list(block.all_rows())
     if len(rows) < 2:
-        raise block.error("needs a line with dofs, blank for SPRINGA, and the stiffness on the next")
-    # SPRING1 and SPRING2; SPRINGA acts along its line
-    count = kind.nodes if DISCRETE[kind.name].kind is DiscreteKind.SPRING else 0
+        raise block.error(f"needs a line with dofs, blank for {block.name}A, and the {constant} on the next")
+    # SPRINGA and DASHPOTA act along their line
+    count = kind.nodes if DISCRETE[kind.name].kind in (DiscreteKind.SPRING, DiscreteKind.DASHPOT) else 0
     dofs = tuple(rows[0].integer(k, "dof") for k in range(count))
     if any(not 1 <= dof <= LARGEST_DOF for dof in dofs):
         raise rows[0].error(f"a dof is a number from 1 to {LARGEST_DOF}")
-    table = [rows[1].real(0, "stiffness")]
+    table = [rows[1].real(0, constant)]
     if block.options.flag("NONLINEAR"):
-        table = [row.real(k, what) for row in rows[1:] for k, what in enumerate(("force", "elongation"))]
+        table = [row.real(k, what) for row in rows[1:] for k, what in enumerate(("force", variable))]
         if len(table) < 4 or any(later <= earlier for earlier, later in pairwise(table[1::2])):
-            raise rows[1].error("NONLINEAR needs two or more lines of force and elongation, elongations ascending")
+            raise rows[1].error(f"NONLINEAR needs two or more lines of force and {variable}, which ascends")
+    elif block.name == "DASHPOT":
+        # a frequency would follow
+        rows[1].at_most(1)
     return SpringSection(block.options.text("ELSET"), dofs, np.array(table), block.source)
 
 
@@ -370,6 +377,20 @@ KEYWORDS = (
             *refused("COMPLEX STIFFNESS", "DEPENDENCIES", "ORIENTATION", "RTOL"),
         ),
         "dof at the first node, dof at the second (SPRING2), blank for SPRINGA; then stiffness, or force, elongation",
+    ),
+    Keyword(
+        "DASHPOT",
+        "Viscous forces of DASHPOT1, DASHPOT2 and DASHPOTA: in *DYNAMIC by the velocities, in static steps by the "
+        "increment of the elongation over that of the time, in *STEADY STATE DYNAMICS, DIRECT or SUBSPACE PROJECTION "
+        "by the damping matrix; none in other linear steps.",
+        Where.MODEL,
+        (
+            _ELSET,
+            Option("NONLINEAR", doc="force and velocity in place of the coefficient; constant outside the table"),
+            *refused("DEPENDENCIES", "ORIENTATION", "RTOL"),
+        ),
+        "dof at the first node, dof at the second (DASHPOT2), blank for DASHPOTA; then force per velocity, or force, "
+        "velocity",
     ),
     Keyword("MASS", "Point masses.", Where.MODEL, (_ELSET, *refused("ALPHA", "ORIENTATION", "TYPE")), "mass"),
 )

@@ -64,7 +64,10 @@ def read_steps(
         )
         heat = {name: _read_entries(scope, (name,), read_heat, problems) for name in HEAT_LOADS}
         fields, new_fields = _read_entries(
-            scope, ("TEMPERATURE", "FIELD"), partial(read_fields, prescription=prescription), problems
+            scope,
+            ("TEMPERATURE", "FIELD", "PRESSURE STRESS"),
+            partial(read_fields, prescription=prescription),
+            problems,
         )
         with problems.gather():
             procedure = read_procedure(scope, prescription)

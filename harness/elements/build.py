@@ -23,6 +23,11 @@ from harness.elements.followers import follower_blocks
 from harness.elements.generalised import generalised_routine
 from harness.elements.heat_loads import heat_load_blocks
 from harness.elements.hybrid import pressure_unknowns
+from harness.elements.mass_diffusion import (
+    depends_on_concentration,
+    mass_diffusion_routine,
+    mass_diffusion_variables,
+)
 from harness.elements.materials import (
     define_material,
     has_unsymmetric_tangent,
@@ -52,7 +57,7 @@ from harness.model.element_types import (
     Tensor,
 )
 from harness.model.mesh import ElementGroup
-from harness.model.model import Model
+from harness.model.model import CONCENTRATION, TEMPERATURE, Model
 from harness.model.properties import (
     BeamSection,
     CohesiveSection,
@@ -299,15 +304,21 @@ def _interacts(material: Material) -> bool:
 def _heat_block(model: Model, group: ElementGroup, kind: HeatType, library: Library) -> ElementBlock:
     section = _solid_section(group)
     _check_nodes(group, kind.nodes)
-    routine = heat_routine(model, group, kind, section, library)
+    diffusive = model.diffusive
+    if diffusive:
+        routine, variables = mass_diffusion_routine(model, group, kind, section), mass_diffusion_variables(kind)
+    else:
+        routine = heat_routine(model, group, kind, section, library)
+        variables = heat_variables(kind, routine)
+    dof = CONCENTRATION if diffusive else TEMPERATURE
     return ElementBlock(
         group,
         model.mesh.coordinates,
-        tuple((node, 11) for node in range(kind.nodes)),
+        tuple((node, dof) for node in range(kind.nodes)),
         routine,
         library,
-        unsymmetric=is_unsymmetric(section.material),
-        variables=heat_variables(kind, routine),
+        unsymmetric=(depends_on_concentration if diffusive else is_unsymmetric)(section.material),
+        variables=variables,
     )
 
 

@@ -89,8 +89,8 @@ def heat_routine(model: Model, group: ElementGroup, kind: HeatType, section: Sol
     material = section.material
     for step in model.steps:
         if not step.procedure.temperatures:
-            message = "are supported in *HEAT TRANSFER and *COUPLED TEMPERATURE-DISPLACEMENT steps only"
-            raise DeckError(step.source, f"elements of type {group.type} {message}")
+            steps = "*HEAT TRANSFER, *COUPLED TEMPERATURE-DISPLACEMENT and *MASS DIFFUSION steps"
+            raise DeckError(step.source, f"elements of type {group.type} are supported in {steps} only")
     if kind.axisymmetric:
         check_radii(model, group)
     _check_thermal(model, group, material)

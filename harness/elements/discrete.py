@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Built-in trusses, springs, masses and rigid elements: what the driver calls for them.
+"""Built-in trusses, springs, dashpots, masses and rigid elements: what the driver calls for them.
 
 In fortran/host trusses are in host_truss.f90, the others in host_discrete.f90.
 """
@@ -28,12 +28,16 @@ from harness.model.properties import ElasticType, MassSection, RigidSection, Sol
 from harness.model.records import PointVariables
 from harness.usersub import Library, _binding
 
-_STATES: Final = {DiscreteKind.TRUSS: 4, DiscreteKind.AXIAL_SPRING: 2, DiscreteKind.SPRING: 2, DiscreteKind.MASS: 2}
-"""SVARS of an element."""
+_TRUSS_STATES: Final = 4
+"""SVARS of a truss."""
+_STATES: Final = 2
+"""SVARS of another element."""
+_AXIAL: Final = (DiscreteKind.AXIAL_SPRING, DiscreteKind.AXIAL_DASHPOT)
+_DASHPOTS: Final = (DiscreteKind.DASHPOT, DiscreteKind.AXIAL_DASHPOT)
 
 
 def discrete_unknowns(model: Model, group: ElementGroup) -> tuple[tuple[int, int], ...]:
-    """(local node, dof) of each unknown; a mass and SPRINGA have the displacements of the model's dimension."""
+    """(local node, dof) of each unknown; masses, SPRINGA, DASHPOTA have the displacements of the model's dimension."""
     section = group.section
     if isinstance(section, SpringSection) and section.dofs:
         return tuple(enumerate(section.dofs))
@@ -55,12 +59,16 @@ def discrete_routine(model: Model, group: ElementGroup, unknowns: int, library: 
         return _truss_routine(group, unknowns, hidden, library, dynamic=dynamic)
     section = group.section
     assert isinstance(section, MassSection | RigidSection | SpringSection)
+    along = next((step for step in model.steps if step.procedure.riks), None)
+    if kind in _DASHPOTS and along is not None:
+        message = f"elements of type {group.type} are not supported with RIKS, where no time passes"
+        raise DeckError(along.source, message)
     mass = section.mass if isinstance(section, MassSection) else 0.0
     return Routine(
         address=_binding.address_of("discrete"),
         jtype=kind,
-        mcrd=unknowns // 2 if kind is DiscreteKind.AXIAL_SPRING else 3,
-        svars=_STATES[kind] + hidden,
+        mcrd=unknowns // 2 if kind in _AXIAL else 3,
+        svars=_STATES + hidden,
         hidden=hidden,
         props=section.table if isinstance(section, SpringSection) else np.array([mass]),
         turns=kind is DiscreteKind.AXIAL_SPRING,
@@ -85,7 +93,7 @@ def _truss_routine(group: ElementGroup, unknowns: int, hidden: int, library: Lib
         address=_binding.address_of("truss"),
         jtype=2,
         mcrd=unknowns // 2,
-        svars=_STATES[DiscreteKind.TRUSS] + hidden,
+        svars=_TRUSS_STATES + hidden,
         hidden=hidden,
         density=1,
         props=np.array([section.thickness, material.density]),
@@ -100,7 +108,7 @@ def _truss_routine(group: ElementGroup, unknowns: int, hidden: int, library: Lib
 
 
 def discrete_variables(group: ElementGroup, routine: Routine) -> PointVariables | None:
-    """Meaning of the state variables: strain and stress of a truss; those of springs have no name in Abaqus' output."""
+    """Meaning of the state variables: strain and stress of a truss; those of others have no name in Abaqus' output."""
     if _kind_of(group) is not DiscreteKind.TRUSS:
         return None
     return PointVariables("continuum", ("E11", "S11", "PE11", "PEEQ", *numbered("SDV", routine.statev)), 1)

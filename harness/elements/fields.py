@@ -8,9 +8,12 @@ from typing import Final
 
 from harness.model.contact import CONTACT
 from harness.model.couplings import COUPLING
-from harness.model.model import dof_in_deck
+from harness.model.model import CONCENTRATION, dof_in_deck
 
-FIELD_NAMES: Final = ("force", "moment", "pore", "electrical", "temperature", VOLUME := "volume", CONTACT, COUPLING)
+FIELD_NAMES: Final = (
+    *("force", "moment", "pore", "electrical", "temperature", "concentration"),
+    *(VOLUME := "volume", CONTACT, COUPLING),
+)
 """Names of the fields; their numbers index the arrays by field."""
 
 PRESSURE: Final = 101
@@ -27,9 +30,9 @@ COUPLED: Final = 301
 
 
 def field_of(dof: int) -> int:
-    """Field of a degree of freedom: 1-3 force, 4-7 moment, 8 pore pressure, 9 electrical, 11 to 30 temperature;
-    of those that are of no node, pressures of hybrid elements volume, multipliers of contact points contact, those of
-    distributing couplings coupling.
+    """Field of a degree of freedom: 1-3 force, 4-7 moment, 8 pore pressure, 9 electrical, 11 to 30 temperature,
+    CONCENTRATION concentration; of those that are of no node, pressures of hybrid elements volume, multipliers of
+    contact points contact, those of distributing couplings coupling.
 
     Parameters
     ----------
@@ -41,8 +44,10 @@ def field_of(dof: int) -> int:
     int
         Index into FIELD_NAMES.
     """
+    if dof == CONCENTRATION:
+        return 5
     dof = dof_in_deck(dof)
-    for last, field in ((3, 0), (7, 1), (8, 2), (9, 3), (PRESSURE - 1, 4), (MULTIPLIER - 1, 5), (COUPLED - 1, 6)):
+    for last, field in ((3, 0), (7, 1), (8, 2), (9, 3), (PRESSURE - 1, 4), (MULTIPLIER - 1, 6), (COUPLED - 1, 7)):
         if dof <= last:
             return field
-    return 7
+    return 8

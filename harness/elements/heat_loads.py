@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Heat that enters through faces, into volumes and at nodes: blocks that are called as elements are.
+"""Heat, or a diffusing material, that enters through faces, into volumes and at nodes: blocks that are called as
+elements are.
 
 They are in fortran/host/host_heat_loads.f90. Their loads are of kind 1, the flux or the sink temperature, and 2, the
 film coefficient.
@@ -10,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Final
 
 import numpy as np
 
@@ -21,14 +21,13 @@ from harness.errors import DeckError
 from harness.model.arrays import IntArray
 from harness.model.element_types import Family, HeatType, SolidType
 from harness.model.mesh import ElementGroup
-from harness.model.model import Model
+from harness.model.model import CONCENTRATION, TEMPERATURE, Model
 from harness.model.properties import SolidSection
 from harness.model.steps import HeatLoad, HeatLoadType
 from harness.usersub import Library, _binding
 
 FACE, VOLUME, NODE = 1, 2, 3
 """JTYPE in fortran/host/host_heat_loads.f90."""
-TEMPERATURE: Final = 11
 
 
 class HeatLoadBlock(ElementBlock):
@@ -104,7 +103,7 @@ def _on_elements(
     # coupled elements have temperatures at their corners
     field = family if isinstance(kind, HeatType) else family.linear
     depth = section_depth(kind, section)
-    integers = [family.number, points, field.number, kind.axisymmetric, number]
+    integers = [family.number, points, field.number, kind.axisymmetric, number, model.diffusive]
     group = replace(parent, labels=parent.labels[rows], nodes=nodes)
     jtype = FACE if load.face else VOLUME
     routine = _routine(jtype, kind.dimension, depth, integers)
@@ -130,7 +129,7 @@ def _check_nodes(model: Model, entries: list[HeatLoad]) -> None:
 def _at_nodes(model: Model, nodes: IntArray, load: HeatLoadType, number: int, library: Library) -> HeatLoadBlock:
     labels = model.mesh.labels[nodes]
     group = replace(model.groups[0], type=load.keyword, labels=labels, nodes=nodes[:, None])
-    routine = _routine(NODE, 3, load.area, [0, 0, 0, 0, number])
+    routine = _routine(NODE, 3, load.area, [0, 0, 0, 0, number, False])
     return _block(model, group, routine, library, None, nodes, load)
 
 
@@ -155,7 +154,8 @@ def _block(
     load: HeatLoadType,
 ) -> HeatLoadBlock:
     count = 1 if field is None else field.nodes
-    unknowns = tuple((node, TEMPERATURE) for node in range(count))
+    dof = CONCENTRATION if model.diffusive else TEMPERATURE
+    unknowns = tuple((node, dof) for node in range(count))
     block = HeatLoadBlock(group, model.mesh.coordinates, unknowns, routine, library, unsymmetric=False, variables=None)
     block.places, block.load = places, load
     return block

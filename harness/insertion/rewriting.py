@@ -34,7 +34,7 @@ from harness.insertion.topology import Cut
 from harness.model.arrays import IntArray
 from harness.model.mesh import full_name
 
-_NODAL = ("BOUNDARY", "INITIAL CONDITIONS", "TEMPERATURE", "FIELD", "KINEMATIC COUPLING")
+_NODAL = ("BOUNDARY", "INITIAL CONDITIONS", "TEMPERATURE", "FIELD", "PRESSURE STRESS", "KINEMATIC COUPLING")
 """Keywords whose data lines begin with a node or node set, and hold for its doubles."""
 _LOADS = ("CLOAD", "CFLUX", "CECHARGE", "CFILM")
 _NODE_BLOCKS = ("NODE", *(entry.name for entry in GENERATING if entry.name != "ELGEN"))

@@ -482,11 +482,15 @@ class DiscreteKind(IntEnum):
     SPRING = 3
     MASS = 4
     FACE = 5
+    AXIAL_DASHPOT = 6
+    DASHPOT = 7
 
 
 @dataclass(frozen=True, slots=True)
 class DiscreteType:
-    """A truss, spring or mass; its nodes have the displacements 1 to `dimension`, those of springs one dof of these.
+    """A truss, spring, dashpot or mass.
+
+    Its nodes have the displacements 1 to `dimension`, those of springs and dashpots one dof of these.
 
     section  keyword that gives its properties
     """
@@ -649,10 +653,13 @@ DISCRETE: Final = {
         DiscreteType("SPRING1", DiscreteKind.SPRING, 1, 3, "SPRING"),
         DiscreteType("SPRING2", DiscreteKind.SPRING, 2, 3, "SPRING"),
         DiscreteType("SPRINGA", DiscreteKind.AXIAL_SPRING, 2, 3, "SPRING"),
+        DiscreteType("DASHPOT1", DiscreteKind.DASHPOT, 1, 3, "DASHPOT"),
+        DiscreteType("DASHPOT2", DiscreteKind.DASHPOT, 2, 3, "DASHPOT"),
+        DiscreteType("DASHPOTA", DiscreteKind.AXIAL_DASHPOT, 2, 3, "DASHPOT"),
         DiscreteType("MASS", DiscreteKind.MASS, 1, 3, "MASS"),
     )
 }
-"""Trusses, springs and masses by their names."""
+"""Trusses, springs, dashpots and masses by their names."""
 
 BUILT_IN: Final[dict[str, BuiltInType]] = {
     **(CONTINUUM | COUPLED | PIEZOELECTRIC | GENERALISED),

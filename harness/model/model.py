@@ -18,6 +18,10 @@ FIRST_LOCAL = 40
 """Local displacements and rotations of nodes with *TRANSFORM are the dofs FIRST_LOCAL + 1 to FIRST_LOCAL + 6."""
 _MOTION = 6
 """Dofs of the motion of a node."""
+CONCENTRATION = 31
+"""Normalized concentration, in a deck dof 11, which is a temperature elsewhere."""
+TEMPERATURE = 11
+"""First of the dofs that are temperatures."""
 
 
 def is_local(dof: int) -> bool:
@@ -27,6 +31,8 @@ def is_local(dof: int) -> bool:
 
 def dof_in_deck(dof: int) -> int:
     """The dof as the deck numbers it."""
+    if dof == CONCENTRATION:
+        return TEMPERATURE
     return dof - FIRST_LOCAL if is_local(dof) else dof
 
 
@@ -58,9 +64,11 @@ class Model:
     couplings  distributing ones that are no equations, as a step has NLGEOM
     initial_velocities    *INITIAL CONDITIONS, TYPE=VELOCITY
     initial_temperatures  TYPE=TEMPERATURE, for unknowns that are temperatures, and as a predefined field
-    initial_fields        TYPE=FIELD; their dof is the number of the field
+    initial_concentrations  TYPE=CONCENTRATION
+    initial_fields        TYPE=FIELD and TYPE=PRESSURE STRESS; their dof is the number of the field
     initial_solutions     TYPE=SOLUTION
     initial_stresses      TYPE=STRESS
+    absolute_zero  of *PHYSICAL CONSTANTS, on the scale of the temperatures
     given      values of parameters that replace those in the deck: listed in .dat
     ignored    keywords that cannot change the solution, with their places: listed once in .dat
     warnings   places where the deck is odd but understood
@@ -81,13 +89,20 @@ class Model:
     couplings: tuple[Distributing, ...] = ()
     initial_velocities: tuple[InitialValue, ...] = ()
     initial_temperatures: tuple[InitialValue, ...] = ()
+    initial_concentrations: tuple[InitialValue, ...] = ()
     initial_fields: tuple[InitialValue, ...] = ()
     initial_solutions: tuple[InitialSolution, ...] = ()
     initial_stresses: tuple[InitialStress, ...] = ()
+    absolute_zero: float = 0.0
     given: dict[str, float] = field(default_factory=dict)
     ignored: tuple[tuple[str, Source], ...] = ()
     warnings: tuple[str, ...] = ()
     differences: tuple[str, ...] = ()
+
+    @property
+    def diffusive(self) -> bool:
+        """Whether its steps are *MASS DIFFUSION, so that nodes have concentrations."""
+        return any(step.procedure.concentrations for step in self.steps)
 
 
 def constraints_with_multipliers(model: Model) -> list[tuple[str, Source]]:

@@ -13,13 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.model import CONCENTRATION, TEMPERATURE, dof_in_deck
 from harness.model.records import Solution
 
 PHASE = "P"
 
 LARGEST_DOF = 30
 
-# name of the component of each degree of freedom, by quantity; 11 and up are temperatures
+# name of the component of each degree of freedom, by quantity; 11 and up are temperatures, then the concentration
 _NAMES: dict[str, dict[int, str]] = {
     "displacement": {1: "U1", 2: "U2", 3: "U3", 4: "UR1", 5: "UR2", 6: "UR3", 7: "WARP", 8: "POR", 9: "EPOT"},
     "reaction": {1: "RF1", 2: "RF2", 3: "RF3", 4: "RM1", 5: "RM2", 6: "RM3", 7: "RWM", 8: "RVF", 9: "RECUR"},
@@ -31,6 +32,7 @@ for _dof in range(11, LARGEST_DOF + 1):
     _NAMES["displacement"][_dof] = f"NT{_dof}"
     _NAMES["reaction"][_dof] = f"RFL{_dof}"
     _NAMES["load"][_dof] = f"CFL{_dof}"
+_NAMES["displacement"][CONCENTRATION] = "NNC11"
 
 _CHARGES = {"RCHG": ("reaction", 9), "CECHG": ("load", 9)}
 """Charges of piezoelectric elements, minus what the array has."""
@@ -42,6 +44,7 @@ _GROUPS = {
     "UT": ("displacement", range(1, 4)),
     "UR": ("displacement", range(4, 7)),
     "NT": ("displacement", range(11, LARGEST_DOF + 1)),
+    "NNC": ("displacement", (CONCENTRATION,)),
     "V": ("velocity", range(1, 7)),
     "VT": ("velocity", range(1, 4)),
     "VR": ("velocity", range(4, 7)),
@@ -51,10 +54,10 @@ _GROUPS = {
     "RF": ("reaction", range(1, 8)),
     "RT": ("reaction", range(1, 4)),
     "RM": ("reaction", range(4, 7)),
-    "RFL": ("reaction", range(11, LARGEST_DOF + 1)),
+    "RFL": ("reaction", range(11, CONCENTRATION + 1)),
     "CF": ("load", range(1, 8)),
     "CM": ("load", range(4, 7)),
-    "CFL": ("load", range(11, LARGEST_DOF + 1)),
+    "CFL": ("load", range(11, CONCENTRATION + 1)),
 }
 
 
@@ -86,9 +89,9 @@ class NodalIndex:
     """Where the unknown of a node and dof is in the arrays of a solution."""
 
     def __init__(self, nodes: int, solution: Solution) -> None:
-        self._position = np.full((nodes, LARGEST_DOF + 1), -1, dtype=np.int64)
+        self._position = np.full((nodes, CONCENTRATION + 1), -1, dtype=np.int64)
         # not the unknowns of elements, and not along directions of *TRANSFORM
-        of_nodes = np.flatnonzero((solution.node < nodes) & (solution.dof <= LARGEST_DOF))
+        of_nodes = np.flatnonzero((solution.node < nodes) & (solution.dof <= CONCENTRATION))
         self._position[solution.node[of_nodes], solution.dof[of_nodes]] = of_nodes
 
     def find(self, nodes: IntArray, dof: int) -> IntArray:
@@ -109,9 +112,14 @@ class NodalIndex:
             quantity, dofs = _meant(bare)
             for dof in dofs:
                 if dof in present:
-                    name = PHASE * phase + (bare if bare in _CHARGES else _NAMES[quantity][dof])
+                    name = PHASE * phase + (bare if bare in _CHARGES else _name(quantity, dof))
                     found.setdefault(name, Component(name, quantity, dof, phase, -1 if bare in _CHARGES else 1))
         return list(found.values())
+
+
+def _name(quantity: str, dof: int) -> str:
+    """Name of a component; fluxes are those of dof 11, of heat or of a concentration."""
+    return _NAMES[quantity].get(dof) or _NAMES[quantity][dof_in_deck(dof)]
 
 
 def _known(variable: str) -> bool:
@@ -122,5 +130,5 @@ def _meant(variable: str) -> tuple[str, Iterable[int]]:
     """Array of `Solution` and dofs of a variable; no dofs of one that is not known."""
     if variable in COMPONENTS:
         quantity, dof = COMPONENTS[variable]
-        return quantity, (dof,)
+        return quantity, ((dof,) if quantity == "displacement" or dof != TEMPERATURE else (dof, CONCENTRATION))
     return _GROUPS.get(variable, ("", ()))

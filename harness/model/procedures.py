@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Procedures of a step: *STATIC, *VISCO, *GEOSTATIC, *DYNAMIC, *HEAT TRANSFER; `perturbations` has the linear ones.
+"""Procedures of a step: *STATIC, *VISCO, *GEOSTATIC, *DYNAMIC, *HEAT TRANSFER, *MASS DIFFUSION; `perturbations` has the
+linear ones.
 
 A procedure answers all that others ask of it, so that nobody asks which one it is: whether there is inertia, which
 fields have equations, whether it is linear or harmonic, LFLAGS(1), how its progress counts, and its head in .msg and
@@ -59,7 +60,7 @@ class Procedure(ABC):
     keyword       that gives the procedure
     title         what .msg and .dat call it
     inertia       V and A go with U: elements need a mass, and loads work against it
-    displacements, temperatures  which of the two have equations of their own
+    displacements, temperatures, concentrations  which of them have equations of their own
     linear        a linear perturbation of the state at the end of the last general step, without passage of time
     harmonic      loads and results are complex amplitudes, over frequency
     modal         modes of an earlier *FREQUENCY respond, and nothing is prescribed but the motion of their supports
@@ -77,6 +78,7 @@ class Procedure(ABC):
     inertia: ClassVar[bool] = False
     displacements: ClassVar[bool] = True
     temperatures: ClassVar[bool] = False
+    concentrations: ClassVar[bool] = False
     linear: ClassVar[bool] = False
     harmonic: ClassVar[bool] = False
     modal: ClassVar[bool] = False
@@ -266,29 +268,28 @@ class Dynamic(Procedure):
 
 
 @dataclass(frozen=True, slots=True)
-class HeatTransfer(Procedure):
-    """*HEAT TRANSFER.
+class Diffusive(Procedure):
+    """*HEAT TRANSFER, *MASS DIFFUSION and the like: temperatures or concentrations, with transient and steady steps.
 
+    unknown         whose changes are limited: a field of FIELD_NAMES
+    limit           the option that limits them
     steady          STEADY STATE: time is a scale for loads
-    largest_change  DELTMX, largest change of temperature in an increment; inf: not limited
-    end_change      END=SS: the step ends where no temperature changes faster than this; 0: with the period
+    largest_change  largest change of a temperature or concentration in an increment; inf: not limited
+    end_change      END=SS: the step ends where none changes faster than this; 0: with the period
     """
 
-    keyword: ClassVar = "HEAT TRANSFER"
-    title: ClassVar = "HEAT TRANSFER"
-    displacements: ClassVar = False
-    temperatures: ClassVar = True
     growth: ClassVar = "d_m_diff"
-    flags: ClassVar = 30
+    unknown: ClassVar[str]
+    limit: ClassVar[str]
 
     steady: bool = False
     largest_change: float = math.inf
     end_change: float = 0.0
 
     @property
-    def lflag(self) -> int:
-        """31 steady, 32 transient, 33 with fixed increments; 71 to 73 with displacements."""
-        return self.flags + (1 if self.steady else 3 if self.direct else 2)
+    def _kind(self) -> int:
+        """Steady, transient and with fixed increments 1, 2 and 3: the last digit of LFLAGS(1)."""
+        return 1 if self.steady else 3 if self.direct else 2
 
     @property
     def default_amplitude(self) -> str:
@@ -301,15 +302,37 @@ class HeatTransfer(Procedure):
         return f"{'STEADY STATE' if self.steady else 'TRANSIENT'} {self.title}"
 
     @property
-    def stores_heat(self) -> bool:
-        """Unless it is steady."""
-        return not self.steady
+    def complaint(self) -> str:
+        """What .msg says where the change in an increment is too large."""
+        return f"THE {self.unknown.upper()} CHANGES BY MORE THAN {self.limit} IN THE INCREMENT."
 
     def head(self) -> Iterator[HeadLine]:
         """Increments, and how accurate they have to be."""
         yield from Procedure.head(self)
         if math.isfinite(self.largest_change):
-            yield "MAXIMUM TEMPERATURE CHANGE IN AN INCREMENT IS", self.largest_change
+            yield f"MAXIMUM {self.unknown.upper()} CHANGE IN AN INCREMENT IS", self.largest_change
+
+
+@dataclass(frozen=True, slots=True)
+class HeatTransfer(Diffusive):
+    """*HEAT TRANSFER."""
+
+    keyword: ClassVar = "HEAT TRANSFER"
+    title: ClassVar = "HEAT TRANSFER"
+    displacements: ClassVar = False
+    temperatures: ClassVar = True
+    unknown: ClassVar = "temperature"
+    limit: ClassVar = "DELTMX"
+
+    @property
+    def lflag(self) -> int:
+        """31 steady, 32 transient, 33 with fixed increments."""
+        return 30 + self._kind
+
+    @property
+    def stores_heat(self) -> bool:
+        """Unless it is steady."""
+        return not self.steady
 
 
 @dataclass(frozen=True, slots=True)
@@ -320,4 +343,25 @@ class CoupledTemperatureDisplacement(HeatTransfer):
     title: ClassVar = "COUPLED TEMPERATURE-DISPLACEMENT"
     displacements: ClassVar = True
     unsymmetric: ClassVar = True
-    flags: ClassVar = 70
+
+    @property
+    def lflag(self) -> int:
+        """71 steady, 72 transient, 73 with fixed increments."""
+        return 70 + self._kind
+
+
+@dataclass(frozen=True, slots=True)
+class MassDiffusion(Diffusive):
+    """*MASS DIFFUSION."""
+
+    keyword: ClassVar = "MASS DIFFUSION"
+    title: ClassVar = "MASS DIFFUSION"
+    displacements: ClassVar = False
+    concentrations: ClassVar = True
+    unknown: ClassVar = "concentration"
+    limit: ClassVar = "DCMAX"
+
+    @property
+    def lflag(self) -> int:
+        """131 to 133, which only built-in elements are told: Abaqus lists none for *MASS DIFFUSION."""
+        return 130 + self._kind

@@ -252,11 +252,33 @@ class Expansion:
 
 
 @dataclass(frozen=True, slots=True)
+class Diffusivity:
+    """*DIFFUSIVITY, with the *KAPPA that follow.
+
+    tensors   (k, 3, 3) D in the directions of the material
+    points    (k, 2) concentration and temperature of each
+    fick      LAW=FICK, else GENERAL
+    isotropic whether D is a multiple of the unit matrix
+    soret, pressure  (k, 3) kappa_s and kappa_p, concentration, temperature; k = 0: none
+    """
+
+    tensors: FloatArray
+    points: FloatArray
+    fick: bool
+    isotropic: bool
+    source: Source
+    soret: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+    pressure: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+
+
+@dataclass(frozen=True, slots=True)
 class Material:
     """*MATERIAL; state_variables is *DEPVAR, output_variables *USER OUTPUT VARIABLES.
 
     conductivity, specific_heat  (k, 2) value and temperature, ascending; k = 0: not given
     latent_heat  (k, 3) heat per mass, solidus and liquidus temperature
+    diffusivity  None without it
+    solubility   (k, 2) value and temperature; k = 0: not given
     heat_generation  place of *HEAT GENERATION, None without it
     user, user_thermal  *USER MATERIAL, TYPE=MECHANICAL and TYPE=THERMAL
     user_field   place of *USER DEFINED FIELD, None without it
@@ -276,6 +298,8 @@ class Material:
     conductivity: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
     specific_heat: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
     latent_heat: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+    diffusivity: Diffusivity | None = None
+    solubility: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
     heat_generation: Source | None = None
     expansion: Expansion | None = None
     user: UserMaterial | None = None
@@ -512,10 +536,10 @@ class BeamSection:
 
 @dataclass(frozen=True, slots=True)
 class SpringSection:
-    """*SPRING.
+    """*SPRING or *DASHPOT.
 
-    dofs   dof at each node of SPRING1 and SPRING2; none for SPRINGA
-    table  stiffness alone, or force and elongation in turn
+    dofs   dof at each node of SPRING1 and SPRING2, DASHPOT1 and DASHPOT2; none for SPRINGA and DASHPOTA
+    table  stiffness or damping coefficient alone, or force and elongation, or its rate, in turn
     """
 
     elset: str

@@ -143,6 +143,10 @@ class Load:
     user: bool = False
 
 
+PRESSURE_STRESS: Final = -1
+"""Number of the equivalent pressure stress among the predefined fields; temperature is 0, field variables follow."""
+
+
 @dataclass(frozen=True, slots=True)
 class DistributedLoad:
     """One *DLOAD entry on user elements: their positions in the model, n of type Un or -n of UnNU, magnitude."""

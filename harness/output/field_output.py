@@ -102,7 +102,7 @@ class FieldFiles:
         ]
         self._nodal += [
             _PointArray(component.name, component.quantity, [index.find(everywhere, component.dof)])
-            for component in index.components(("UR", "POR", "EPOT", "NT"), everywhere)
+            for component in index.components(("UR", "POR", "EPOT", "NT", "NNC"), everywhere)
         ]
 
     def _mesh(self, solution: Solution) -> meshio.Mesh:

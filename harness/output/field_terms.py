@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from harness.model.model import Model
+from harness.model.model import CONCENTRATION, Model
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,11 +24,14 @@ FIELDS = {
     "pore": FieldTerms("VOL. FLUX", "P. PRESS.", range(8, 9)),
     "electrical": FieldTerms("CURRENT", "ELEC.POT.", range(9, 10)),
     "temperature": FieldTerms("HEAT FLUX", "TEMP.", range(11, 31)),
+    "concentration": FieldTerms("CONC. FLUX", "CONC.", range(CONCENTRATION, CONCENTRATION + 1)),
 }
 
 
 def fields_of(model: Model) -> list[str]:
-    """Fields that the elements of a model have; built-in elements have displacements only."""
+    """Fields that the elements of a model have; built-in elements have displacements, or concentrations, only."""
+    if model.diffusive:
+        return ["concentration"]
     dofs: set[int] = set()
     for group in model.groups:
         dofs |= {1} if group.definition is None else {dof for _, dof in group.definition.dofs}

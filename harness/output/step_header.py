@@ -19,6 +19,7 @@ CONTROL_NAMES = {
     "pore": "PORE FLUID PRESSURE",
     "electrical": "ELECTRICAL POTENTIAL",
     "temperature": "TEMPERATURE",
+    "concentration": "CONCENTRATION",
 }
 
 

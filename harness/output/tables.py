@@ -28,7 +28,7 @@ from harness.output.points import point_values
 
 COLUMNS = 9  # of a table of Abaqus
 _SUFFIXES = ("11", "22", "33", "12", "13", "23")
-_NUMBERED = ("SDV", "UVARM", "SF", "SE")
+_NUMBERED = ("SDV", "UVARM", "SF", "SE", "HFL", "MFL", "EPG", "EFLX")
 _COORDINATES = ("COOR1", "COOR2", "COOR3")
 
 

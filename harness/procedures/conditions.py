@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 from harness.elements import Distributed, Predefined
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import Mesh
-from harness.model.model import Model
+from harness.model.model import TEMPERATURE, Model
 from harness.model.restart import Saved
-from harness.model.steps import Load, Step
+from harness.model.steps import PRESSURE_STRESS, Load, Step
 from harness.model.user_values import GivesValues, UserValues
 from harness.procedures.loads import Loads, Slots, Variation
 
@@ -29,8 +29,6 @@ Times = tuple[float, float]
 """Step and total time."""
 Places = Callable[[IntArray], FloatArray]
 """Coordinates (k, 3) of nodes at the start of the increment."""
-FIRST_TEMPERATURE = 11
-"""The dof whose initial value is also that of the predefined field."""
 
 
 class Conditions:
@@ -44,34 +42,42 @@ class Conditions:
         numbers = [entry.dof for step in model.steps for entry in step.fields]
         starts = list(model.initial_fields)
         if model.steps and not model.steps[0].procedure.temperatures:
-            temperatures = [entry for entry in model.initial_temperatures if entry.dof == FIRST_TEMPERATURE]
+            temperatures = [entry for entry in model.initial_temperatures if entry.dof == TEMPERATURE]
             starts += [replace(entry, dof=0) for entry in temperatures]
         count = max([*numbers, *(start.dof for start in starts)], default=-1) + 1
+        if model.diffusive:
+            # temperature first, equivalent pressure stress last
+            count = max(count, 1) + 1
         self._initial = np.zeros(count * len(model.mesh.labels))
         self._nodes = _Grid(len(model.mesh.labels), count)
         for start in starts:
-            self._initial[self._nodes.find(start.nodes, start.dof)] = start.value
+            self._initial[self._nodes.find(start.nodes, self._row(start.dof))] = start.value
         self._fields = Loads(self._nodes, self._initial)
         self._by_user = np.zeros(len(self._nodes), dtype=bool)
         self._mesh = model.mesh
         self._reached: list[tuple[float, FloatArray]] = [(0.0, self._initial)]
 
+    def _row(self, number: int) -> int:
+        """Place of a field: that of the equivalent pressure stress is the last one."""
+        return self._nodes.fields - 1 if number == PRESSURE_STRESS else number
+
     def start_step(self, step: Step, total_time: float) -> StepConditions:
         """Take over a step's entries; total_time is that at the end of the previous step."""
+        fields = [replace(entry, dof=self._row(entry.dof)) for entry in step.fields]
         if step.new_distributed:
             self._active[:] = False
         for entry in step.distributed:
             self._active[self._slots.find(entry.elements, entry.kind)] = True
         if step.new_fields:
             self._by_user[:] = False
-        for field in step.fields:
+        for field in fields:
             self._by_user[self._nodes.find(field.nodes, field.dof)] = field.user
         return StepConditions(
             self._slots.places[self._active],
             self._slots.kinds[self._active],
             np.flatnonzero(self._active),
             self._loads.take(_as_loads(step), step.new_distributed, step, total_time),
-            self._fields.take(step.fields, step.new_fields, step, total_time),
+            self._fields.take(fields, step.new_fields, step, total_time),
             self._nodes,
             # temperature is the first field
             self._initial[: self._nodes.nodes],

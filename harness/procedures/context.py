@@ -13,6 +13,7 @@ from harness.assembly import Constraints, TurningConstraints
 from harness.elements import Call, Flags
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.model import dof_in_deck
 from harness.model.user_values import UserValues
 from harness.procedures.convergence_checks import Checker, length_of_moments
 from harness.procedures.loads import fading_forces
@@ -133,7 +134,8 @@ class StepContext:
         if len(by_user):
             dofs = self.system.dofs
             nodes = dofs.node[by_user]
-            places = np.stack([dofs.mesh.labels[nodes], dofs.dof[by_user]], axis=1).astype(np.int32)
+            numbers = [dof_in_deck(dof) for dof in dofs.dof[by_user].tolist()]
+            places = np.stack([dofs.mesh.labels[nodes], numbers], axis=1).astype(np.int32)
             moment = self.step.number, self.increment, time
             size = step_time - self.step_time
             asked = UserValues("DISP", *moment, places, self.places(nodes), values[by_user], size=size)

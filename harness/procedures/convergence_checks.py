@@ -28,7 +28,7 @@ from harness.solver.newton import Iterate
 CONTROLLED_AS = dict(
     zip(
         (name for name in FIELD_NAMES if name not in (VOLUME, CONTACT, COUPLING)),
-        ("DISPLACEMENT", "ROTATION", "PORE FLUID PRESSURE", "ELECTRICAL POTENTIAL", "TEMPERATURE"),
+        ("DISPLACEMENT", "ROTATION", "PORE FLUID PRESSURE", "ELECTRICAL POTENTIAL", "TEMPERATURE", "CONCENTRATION"),
         strict=True,
     )
 )

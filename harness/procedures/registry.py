@@ -18,13 +18,13 @@ from harness.model.perturbations import (
     SteadyState,
     SubspaceSteadyState,
 )
-from harness.model.procedures import Dynamic, Geostatic, HeatTransfer, Procedure, Static, Visco
+from harness.model.procedures import Diffusive, Dynamic, Geostatic, Procedure, Static, Visco
 from harness.procedures.buckle import BuckleStep
 from harness.procedures.context import StepContext
+from harness.procedures.diffusive import LimitedChange
 from harness.procedures.dynamic import ImplicitIntegration
 from harness.procedures.frequency import FrequencyStep
 from harness.procedures.general import GeneralStep
-from harness.procedures.heat_transfer import TemperatureChange
 from harness.procedures.load_factor import EnergyPath, RiksPath
 from harness.procedures.modal import ModalDynamicStep
 from harness.procedures.path import TimePath
@@ -82,9 +82,9 @@ def _(procedure: Dynamic, setting: Setting) -> StepRun:
 
 
 @run_of.register
-def _(procedure: HeatTransfer, setting: Setting) -> StepRun:
+def _(procedure: Diffusive, setting: Setting) -> StepRun:
     context = StepContext(setting, fallback=setting.fallback)
-    return _in_time(context, TemperatureChange(context, procedure), fallback=setting.fallback)
+    return _in_time(context, LimitedChange(context, procedure), fallback=setting.fallback)
 
 
 @run_of.register

@@ -94,7 +94,8 @@ class ConvergedState:
         zero = np.zeros(len(system))
         boundaries = Boundaries(system.dofs, model.boundaries)
         velocity = initial_values(system.dofs, model.initial_velocities)
-        temperature = initial_values(system.dofs, model.initial_temperatures)
+        unknown = model.initial_concentrations if model.diffusive else model.initial_temperatures
+        start = initial_values(system.dofs, unknown)
         loads = AllLoads(system, model)
         conditions = Conditions(model)
         given = boundaries, loads, conditions, UserAmplitudes(model)
@@ -103,7 +104,7 @@ class ConvergedState:
         for nodes in charged:
             signs[system.dofs.find(nodes.ravel(), POTENTIAL)] = -1.0
         fields = conditions.initial()
-        return cls(temperature, zero, zero, zero, *given, velocity, zero, zero, predefined=fields, signs=signs)
+        return cls(start, zero, zero, zero, *given, velocity, zero, zero, predefined=fields, signs=signs)
 
     def come_to_rest(self) -> None:
         """Set velocities and accelerations to zero: the step that begins has none."""

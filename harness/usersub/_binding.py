@@ -421,6 +421,42 @@ def set_thermal(
     _host.host_set_thermal(number, density, counts, *(table.T for table in tables))
 
 
+def set_diffusion(
+    number: int,
+    *,
+    fick: bool,
+    absolute_zero: float,
+    axes: FloatArray,
+    diffusivity: FloatArray,
+    solubility: FloatArray,
+    soret: FloatArray,
+    pressure: FloatArray,
+) -> None:
+    """Give a material the constants of diffusion.
+
+    Parameters
+    ----------
+    number
+        Of the material.
+    fick
+        Fick's law, else the general one.
+    absolute_zero
+        On the scale of the temperatures.
+    axes
+        (3, 3) directions, in rows, in which fluxes are put out.
+    diffusivity
+        (k, 8) D11, D12, D22, D13, D23, D33 in global directions, concentration, temperature.
+    solubility
+        (k, 2) solubility, temperature.
+    soret, pressure
+        (k, 3) kappa_s and kappa_p, concentration, temperature; k = 0: none.
+    """
+    tables = diffusivity, solubility, soret, pressure
+    padded = [np.vstack([table, np.zeros((1, table.shape[1]))]).T for table in tables]
+    counts = tuple(map(len, tables))
+    _host.host_set_diffusion(number, int(fick), absolute_zero, axes, counts, *padded)
+
+
 def set_hetval(number: int, address: int, name: str, statev: int) -> None:
     """Let HETVAL generate heat in a material with `set_thermal`; its name and number of STATEV."""
     _host.host_set_user_thermal(number, 0, address, name, statev, np.zeros(1), 0)
@@ -568,7 +604,7 @@ def slopes_at_nodes(family: int, nodes: int) -> FloatArray:
 
 _ELEMENTS: Final = (
     *("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric", "truss"),
-    *("generalised", "beam section", "membrane"),
+    *("generalised", "beam section", "membrane", "mass diffusion"),
 )
 """In the order of host_element_address."""
 
@@ -588,6 +624,7 @@ def address_of(
         "generalised",
         "beam section",
         "membrane",
+        "mass diffusion",
     ],
 ) -> int:
     """Address of built-in elements.

@@ -154,6 +154,17 @@ def host_set_thermal(
     specific_heat: NDArray[np.float64],
     latent_heat: NDArray[np.float64],
 ) -> None: ...
+def host_set_diffusion(
+    number: int,
+    fick: int,
+    absolute_zero: float,
+    axes: NDArray[np.float64],
+    counts: Sequence[int] | NDArray[np.int32],
+    diffusivity: NDArray[np.float64],
+    solubility: NDArray[np.float64],
+    soret: NDArray[np.float64],
+    pressure: NDArray[np.float64],
+) -> None: ...
 def host_set_user_thermal(
     number: int, flows: int, address: int, name: str | bytes, statev: int, constants: NDArray[np.float64], count: int
 ) -> None: ...

@@ -129,7 +129,7 @@ def test_every_type_has_its_rules():
             weights, _, _ = rule_of(kind.family.cell, points)
             assert len(weights) == points
     assert len({family.number for family in KNOWN}) == len(KNOWN)
-    assert sorted(DiscreteKind) == [1, 2, 3, 4, 5]
+    assert sorted(DiscreteKind) == [1, 2, 3, 4, 5, 6, 7]
 
 
 @pytest.mark.parametrize("element_type", MODIFIED)

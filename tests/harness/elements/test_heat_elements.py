@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bars import bar, column, held
 from differences import differences
 from reference_cells import patch_of
 from small_decks import body_lines
@@ -46,31 +47,6 @@ def run(tmp_path):
         return harness.run(tmp_path / "heat.inp", user and HERE / user, output_dir=tmp_path)
 
     return run
-
-
-def held(nodes, values, dof=11):
-    return "*BOUNDARY\n" + "".join(f"{k + 1}, {dof}, {dof}, {float(v)!r}\n" for k, v in zip(nodes, values, strict=True))
-
-
-def column(history, name, count):
-    """(rows, nodes) of a nodal variable."""
-    return np.array([history[f"{name}[ALL:{k}]"] for k in range(1, count + 1)]).T
-
-
-def bar(element_type, count):
-    """Nodes and elements of a bar of length 1 and sides 0.4 in cells of four or eight nodes, and places along it."""
-    kind = BUILT_IN[element_type]
-    x = np.linspace(0.0, 1.0, count + 1)
-    section = np.array([[0, 0.0], [0, 0.4]])
-    if kind.dimension == 3:
-        section = np.array([[0, 0, 0], [0, 0.4, 0], [0, 0.4, 0.4], [0, 0, 0.4]])
-    n = len(section)
-    nodes = np.vstack([section + place * np.eye(kind.dimension)[0] for place in x])
-    cell = [0, n, n + 1, 1] if n == 2 else [0, n, n + 1, 1, 3, n + 3, n + 2, 2]
-    elements = np.array([np.array(cell) + n * k for k in range(count)])
-    if kind.axisymmetric:
-        nodes = np.stack([0.4 - nodes[:, 1], nodes[:, 0]], axis=1)
-    return nodes, elements, np.repeat(x, n)
 
 
 @pytest.mark.parametrize("element_type", PATCHES)
@@ -386,7 +362,7 @@ def one(element_type="DC2D4", material=CONDUCTIVITY, **options):
         (
             one(procedure="*STATIC\n1., 1."),
             None,
-            r"type DC2D4 are supported in \*HEAT TRANSFER and \*COUPLED TEMPERATURE-DISPLACEMENT steps only",
+            r"DC2D4 are supported in \*HEAT TRANSFER, \*COUPLED TEMPERATURE-DISPLACEMENT and \*MASS DIFFUSION steps",
         ),
     ],
 )

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*HEAT TRANSFER and *COUPLED TEMPERATURE-DISPLACEMENT.
+"""*HEAT TRANSFER, *COUPLED TEMPERATURE-DISPLACEMENT and *MASS DIFFUSION.
 
-Elements integrate over time themselves; the step limits the change of temperature in an increment.
+Elements integrate over time themselves; the step limits the change of temperatures or concentrations in an increment.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from harness.elements import FIELD_NAMES
-from harness.model.procedures import HeatTransfer
+from harness.model.procedures import Diffusive
 from harness.model.records import Record
 from harness.model.restart import Saved
 from harness.procedures.context import StepContext
@@ -21,33 +21,29 @@ from harness.procedures.incrementation import Accuracy
 from harness.procedures.step_parts import Part
 from harness.solver.newton import Iterate
 
-CHANGES_TOO_FAST = "THE TEMPERATURE CHANGES BY MORE THAN DELTMX IN THE INCREMENT."
 
-_TEMPERATURE = FIELD_NAMES.index("temperature")
+class LimitedChange(Part):
+    """Limits of the change of temperatures or concentrations: in an increment, and at the end of the step."""
 
-
-class TemperatureChange(Part):
-    """Limits of the change of temperature: in an increment, and at the end of the step."""
-
-    def __init__(self, context: StepContext, procedure: HeatTransfer) -> None:
+    def __init__(self, context: StepContext, procedure: Diffusive) -> None:
         self._procedure = procedure
         free = context.constraints.free
-        self._temperatures = free[context.system.dofs.field[free] == _TEMPERATURE]
+        self._limited = free[context.system.dofs.field[free] == FIELD_NAMES.index(procedure.unknown)]
         self._rate = math.inf
 
-    def _warming(self, last: Iterate) -> float:
-        """Largest change of a temperature that is not prescribed."""
-        return float(np.abs(last.increment[self._temperatures]).max(initial=0.0))
+    def _change(self, last: Iterate) -> float:
+        """Largest change of a value that is not prescribed."""
+        return float(np.abs(last.increment[self._limited]).max(initial=0.0))
 
     def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
-        """The change over DELTMX."""
+        """The change over the largest one."""
         if self._procedure.steady or math.isinf(self._procedure.largest_change):
             return None
-        return Accuracy(self._warming(last) / self._procedure.largest_change, CHANGES_TOO_FAST)
+        return Accuracy(self._change(last) / self._procedure.largest_change, self._procedure.complaint)
 
     def converged(self, last: Iterate, size: float) -> Iterable[Record]:
         """The rate that END=SS looks at."""
-        self._rate = self._warming(last) / size
+        self._rate = self._change(last) / size
         return ()
 
     def kept(self) -> Saved:
@@ -60,5 +56,5 @@ class TemperatureChange(Part):
 
     @property
     def finished(self) -> bool:
-        """With END=SS: whether the temperatures are steady."""
+        """With END=SS: whether the state is steady."""
         return self._rate < self._procedure.end_change
