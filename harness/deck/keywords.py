@@ -14,6 +14,7 @@ from harness.deck import (
     controls,
     damage,
     distributed,
+    general_contact,
     generation,
     groups,
     heat,
@@ -50,7 +51,7 @@ from harness.deck.table import Keyword, Kind, Option, Support, compact
 
 _FILES = (
     *(structure, lexer, placement, orientations, local_mesh, generation, user_elements, surfaces, constraints, ties),
-    *(contact, interactions),
+    *(contact, general_contact, interactions),
     *(
         materials,
         plastic,

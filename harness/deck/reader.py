@@ -15,6 +15,7 @@ from harness.deck.constraints import ConstraintReader, read_equations
 from harness.deck.contact import ContactReader, check_contact
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh
+from harness.deck.general_contact import GeneralContact
 from harness.deck.groups import make_groups
 from harness.deck.imperfection import EarlierResults, displace
 from harness.deck.initial import read_initial_solutions, read_initial_stresses, read_initial_values
@@ -33,6 +34,7 @@ from harness.deck.surfaces import Surfaces
 from harness.deck.transforms import Transforms
 from harness.deck.user_elements import dofs_of, refuse_types
 from harness.errors import DeckError, Source
+from harness.model.contact import ContactPair, SlidingPair
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.restart import DeckPart, RestartRead
@@ -92,7 +94,8 @@ def read_deck(
         raise DeckError(Source(str(path), 1), "the deck has no *STEP")
     interactions = Interactions(structure.root, problems)
     # first, since it may move nodes
-    contacts = ContactReader(flat, groups, interactions, problems).read()
+    contacts: tuple[ContactPair | SlidingPair, ...] = ContactReader(flat, groups, interactions, problems).read()
+    contacts += GeneralContact(flat, groups, interactions, problems).read(structure.root)
     built_in = np.concatenate([np.full(len(group.labels), group.definition is None) for group in groups])
     transforms = Transforms(flat, groups, problems)
     active = _active_dofs(groups) | reference_dofs(flat)

@@ -145,7 +145,8 @@ class Opposites:
         at, tangents = self.surface.by_unknowns(*given)
         loaded, sliding, twice = self.surface.loaded(*given)
         m, dimension, _ = at.shape
-        own = np.einsum("pk,de->pdke", self._shapes[chosen], np.eye(dimension)).reshape(m, dimension, -1)
+        own = np.einsum("pk,de->pdke", self._shapes[chosen], np.eye(dimension))
+        own = own.reshape(m, dimension, own.shape[2] * dimension)
         unmoved = np.zeros((m, dimension - 1, *own.shape[1:]))
         against = np.concatenate([own, -at], axis=2)
         turning = np.concatenate([unmoved, tangents], axis=3)

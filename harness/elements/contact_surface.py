@@ -168,10 +168,11 @@ class FaceSurface:
         return *self._spread(self.pieces.loads[piece], natural), None
 
     def _spread(self, shapes: FloatArray, natural: FloatArray) -> tuple[FloatArray, FloatArray]:
-        m, eye = len(natural), np.eye(self._dimension)
+        m, dimension, eye = len(natural), self._dimension, np.eye(self._dimension)
         values, first, _ = weights_of(shapes, natural)
-        at = np.einsum("mk,de->mdke", values, eye).reshape(m, self._dimension, -1)
-        return at, np.einsum("mka,de->madke", first, eye).reshape(m, first.shape[2], self._dimension, -1)
+        unknowns = shapes.shape[1] * dimension
+        at = np.einsum("mk,de->mdke", values, eye).reshape(m, dimension, unknowns)
+        return at, np.einsum("mka,de->madke", first, eye).reshape(m, first.shape[2], dimension, unknowns)
 
     def track(
         self, points: FloatArray, looks: FloatArray, moved: FloatArray, before: IntArray, *, everywhere: bool

@@ -424,11 +424,6 @@ B.SEC, W.TOOL
         ),
         ("INTERACTION=TOUCH", "INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE", "40: .*expected NODE TO SURFACE"),
         ("SEC, TOOL", "POINTS, TOOL", "41: .*POINTS has no faces whose length gives the elastic slip"),
-        (
-            "*CONTACT PAIR",
-            "*CONTACT\n*CONTACT PAIR",
-            "40: .CONTACT is not supported: general contact is finite sliding of",
-        ),
     ],
     ids=lambda mistake: mistake[2][:40],
 )
