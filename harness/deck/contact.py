@@ -9,25 +9,22 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from harness.deck.anchors import EQUAL, Anchors, find_anchors, nodal_normals
+from harness.deck.anchors import EQUAL, Anchors, find_anchors
 from harness.deck.averages import average
 from harness.deck.blocks import Block, Row
+from harness.deck.contact_sides import Side, Sides, check_corners, surface_pair
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.interactions import Interactions
 from harness.deck.numbers import read_real
 from harness.deck.pieces import make_pieces, wound
 from harness.deck.profiles import find_profile
-from harness.deck.surfaces import Surfaces, linear_face, tributary_areas
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import dofs_by_node
-from harness.elements import FiniteSliding
-from harness.errors import DeckError
+from harness.elements import FiniteSliding, SurfaceSliding
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.contact import ContactPair, ContactProperty, Pieces, RigidProfile, SlidingPair
-from harness.model.element_types import LINE2, ContinuumType, RigidType
-from harness.model.mesh import ElementGroup, full_name
-from harness.model.properties import SolidSection
+from harness.model.contact import ContactPair, ContactProperty, Pieces, RigidProfile, SlidingPair, SurfacePair
+from harness.model.mesh import ElementGroup
 from harness.model.steps import Step
 
 PROCEDURES = ("STATIC", "VISCO")
@@ -37,24 +34,6 @@ SMOOTH = 0.2
 
 EXTENSION = 0.1
 """Default EXTENSION ZONE (Abaqus Keywords Guide)."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Side:
-    """A surface of m nodes.
-
-    faces    by their corners, with outward normals; none of a surface of nodes
-    normals  (m, 3) of the nodes, with areas (m,)
-    depth    factor from the length or area of faces to area, at all nodes of the model
-    size     mean length of a face
-    """
-
-    faces: list[tuple[IntArray, FloatArray]]
-    nodes: IntArray
-    normals: FloatArray
-    areas: FloatArray
-    depth: FloatArray
-    size: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +60,7 @@ class ContactReader:
         problems: Problems,
     ) -> None:
         self._flat = flat
-        self._surfaces = Surfaces(flat, groups)
+        self._sides = Sides(flat, groups)
         self._groups = groups
         self._interactions = interactions
         self._problems = problems
@@ -107,14 +86,14 @@ class ContactReader:
     def _pair(self, block: Block, row: Row, owner: Owner) -> ContactPair | SlidingPair:
         surface = self._interactions.find(block.options.text("INTERACTION"), block.source)
         secondary, main = row.name(0, "secondary surface"), row.name(1, "main surface")
-        rigid = find_profile(main, row.source, owner.name, self._flat, self._surfaces)
+        rigid = find_profile(main, row.source, owner.name, self._flat, self._sides.surfaces)
         if rigid is not None:
             return self._against_rigid(block, row, owner, rigid, surface)
-        if self._surfaces.of_nodes(main, row.source, owner.name) is not None:
+        if self._sides.surfaces.of_nodes(main, row.source, owner.name) is not None:
             raise row.error(f"the main surface {main} is made of nodes; expected faces of elements")
-        self._check_secondary(secondary, row, owner)
-        target = self._side(main, row, owner, None)
-        side = self._side(secondary, row, owner, target)
+        self._sides.check_secondary(secondary, row, owner)
+        target = self._sides.side(main, row, owner, None)
+        side = self._sides.side(secondary, row, owner, target)
         shared = np.intersect1d(side.nodes, target.nodes)
         if len(shared):
             name = self._flat.mesh.name(int(shared[0]))
@@ -123,14 +102,10 @@ class ContactReader:
         averaged = block.options.text("TYPE") == "SURFACE TO SURFACE" and bool(side.faces)
         if not block.options.flag("SMALL SLIDING"):
             if averaged:
-                raise block.error(
-                    "finite sliding of surface to surface is not supported: its means would have to be taken again as "
-                    "the faces move; expected SMALL SLIDING, or TYPE=NODE TO SURFACE"
-                )
+                return self._surface_sliding(block, row, owner, (side, target), (surface, slip))
             smooth, zone = _smoothing(block)
-            faces = wound(target.faces, self._points)
-            self._check_corners(faces, row)
-            pieces = make_pieces(faces, self._points, smooth, zone)
+            check_corners(target, self._flat.mesh, row)
+            pieces = make_pieces(wound(target.faces, self._points), self._points, smooth, zone)
             return self._sliding(block, row, owner, side, pieces, (surface, slip))
         anchors = find_anchors(self._points[side.nodes], side.normals, target.faces, self._points)
         moved = self._adjust(block, side.nodes, (anchors.found, anchors.clearances, anchors.normals), owner)
@@ -168,8 +143,8 @@ class ContactReader:
                 f"TYPE=SURFACE TO SURFACE is not supported on the analytical rigid surface {main}; expected NODE TO "
                 "SURFACE"
             )
-        self._check_secondary(secondary, row, owner)
-        side = self._side(secondary, row, owner, None)
+        self._sides.check_secondary(secondary, row, owner)
+        side = self._sides.side(secondary, row, owner, None)
         active = dofs_by_node(len(self._points), self._groups)
         if any(3 in active[node] for node in side.nodes.tolist()):
             raise row.error(f"the analytical rigid surface {main} is in the plane, {secondary} is not")
@@ -178,12 +153,22 @@ class ContactReader:
         slip = surface.elastic_slip or surface.slip_tolerance * side.size
         return self._sliding(block, row, owner, side, rigid, (surface, slip))
 
+    def _surface_sliding(
+        self, block: Block, row: Row, owner: Owner, sides: tuple[Side, Side], given: tuple[ContactProperty, float]
+    ) -> SurfacePair:
+        """A pair of surface to surface in finite sliding."""
+        check_corners(sides[1], self._flat.mesh, row)
+        name = f"({row.name(0, 'secondary surface')},{row.name(1, 'main surface')})"
+        pair = surface_pair(name, (block.name, row.source), sides, self._points, given, everywhere=False)
+        self._adjust_sliding(block, pair, SurfaceSliding(pair, self._points).at_nodes(), owner)
+        return pair
+
     def _sliding(
         self,
         block: Block,
         row: Row,
         owner: Owner,
-        side: _Side,
+        side: Side,
         main: Pieces | RigidProfile,
         given: tuple[ContactProperty, float],
     ) -> SlidingPair:
@@ -195,93 +180,24 @@ class ContactReader:
             source=row.source,
             dimension=3 if isinstance(main, Pieces) and main.low.shape[1] == 2 else 2,
             secondary=side.nodes,
-            faces=tuple(wound(side.faces, self._points)),
+            faces=tuple(np.searchsorted(side.nodes, faces) for faces in wound(side.faces, self._points)),
             main=main,
             areas=side.areas,
             slip=slip,
         )
-        at_start = FiniteSliding(pair, self._points)
-        normals = np.pad(at_start.start_normals, ((0, 0), (0, 3 - pair.dimension)))
-        self._adjust(block, side.nodes, (at_start.above, at_start.start(), normals), owner)
+        start = FiniteSliding(pair, self._points)
+        self._adjust_sliding(block, pair, (start.above, start.start(), start.start_normals), owner)
         return pair
 
-    def _check_secondary(self, name: str, row: Row, owner: Owner) -> None:
-        """Raise DeckError if a secondary surface is rigid."""
-        if self._surfaces.of_nodes(name, row.source, owner.name) is not None:
-            return
-        for group, _, _, _ in self._surfaces.facets(name, row.source, owner.name):
-            if isinstance(group.built_in, RigidType):
-                raise row.error(f"surface {name} is rigid ({group.type}); expected it as the main surface")
+    def _adjust_sliding(
+        self, block: Block, pair: SlidingPair, start: tuple[np.ndarray, FloatArray, FloatArray], owner: Owner
+    ) -> None:
+        """Move nodes by ADJUST; start: which of them can touch, clearances, and normals."""
+        found, clearances, normals = start
+        normals = np.pad(normals, ((0, 0), (0, 3 - pair.dimension)))
+        self._adjust(block, pair.secondary, (found, clearances, normals), owner)
 
-    def _side(self, name: str, row: Row, owner: Owner, main: _Side | None) -> _Side:
-        """A surface of a pair; main: the other one of a secondary surface, if it has faces, whose length one of nodes
-        has.
-        """
-        given = self._surfaces.of_nodes(name, row.source, owner.name)
-        if given is not None:
-            return self._of_nodes(name, row, given, 0.0 if main is None else main.size)
-        by_corners: dict[int, list[tuple[IntArray, FloatArray]]] = {}
-        areas, depth, lengths = np.zeros(len(self._points)), np.zeros(len(self._points)), [np.zeros(0)]
-        for group, rows, local, place in self._surfaces.facets(name, row.source, owner.name):
-            family = linear_face(group, local)
-            if family is None:
-                kinds = ", ".join(f"those of {count} nodes" for count in (2, 3, 4))
-                message = f"faces of elements of type {group.type} are not supported in contact pairs"
-                raise DeckError(
-                    place, f"*CONTACT PAIR: {message}; expected linear ones of solids, or rigid ones: {kinds}"
-                )
-            nodes = group.nodes[rows]
-            faces = nodes[:, list(local)]
-            corners = self._points[faces]
-            with np.errstate(over="ignore", invalid="ignore"):
-                own, outward = tributary_areas(family, corners), _normals(corners)
-                if not isinstance(group.built_in, RigidType):
-                    outward = _away(outward, corners, self._points[nodes].mean(axis=1))
-                size = np.linalg.norm(outward, axis=1)
-                flat = ~(np.isfinite(own).all(axis=1) & np.isfinite(size) & (own.sum(axis=1) > 0.0) & (size > 0.0))
-            if flat.any():
-                label = full_name(group.instance, int(group.labels[rows[flat][0]]))
-                raise DeckError(place, f"*CONTACT PAIR: the face of element {label} in surface {name} has no area")
-            lengths.append(own.sum(axis=1) if family is LINE2 else np.sqrt(own.sum(axis=1)))
-            depth[faces] = across = self._depth(group, faces)
-            if family is LINE2:
-                # the integral of a shape function, over the radius too
-                across = (across + across.sum(axis=1, keepdims=True)) / 3.0
-            np.add.at(areas, faces, own * across)
-            outward /= size[:, None]
-            by_corners.setdefault(family.corners, []).append((faces, outward))
-        if not by_corners:
-            raise row.error(f"surface {name} has no faces")
-        all_faces = [
-            (np.concatenate([faces for faces, _ in parts]), np.concatenate([normals for _, normals in parts]))
-            for parts in by_corners.values()
-        ]
-        nodes = np.unique(np.concatenate([faces.ravel() for faces, _ in all_faces]))
-        normals = nodal_normals(all_faces, self._points)[nodes]
-        return _Side(all_faces, nodes, normals, areas[nodes], depth, float(np.concatenate(lengths).mean()))
-
-    def _depth(self, group: ElementGroup, faces: IntArray) -> FloatArray:
-        """Thickness at the nodes of faces (f, n); about an axis, the circumference."""
-        kind, section = group.built_in, group.section
-        assert isinstance(kind, ContinuumType | RigidType)
-        if kind.axisymmetric:
-            return np.asarray(2 * np.pi * self._points[faces, 0])
-        thickness = section.thickness if isinstance(section, SolidSection) and kind.dimension == 2 else 1.0
-        return np.full(faces.shape, thickness)
-
-    def _of_nodes(self, name: str, row: Row, given: list[tuple[IntArray, float]], size: float) -> _Side:
-        areas = np.zeros(len(self._points))
-        for nodes, area in given:
-            areas[nodes] = area
-        nodes = np.unique(np.concatenate([nodes for nodes, _ in given]))
-        active = dofs_by_node(len(self._points), self._groups)
-        for node in nodes.tolist():
-            if not active[node] >= {1, 2}:
-                label = self._flat.mesh.name(node)
-                raise row.error(f"node {label} of surface {name} belongs to no element with displacements")
-        return _Side([], nodes, np.zeros((len(nodes), 3)), areas[nodes], areas, size)
-
-    def _averages(self, side: _Side, target: _Side) -> _Points:
+    def _averages(self, side: Side, target: Side) -> _Points:
         found, areas = average(side.faces, target.faces, side.depth, self._points)
         apart = np.einsum("mn,mnd->md", found.shares, self._points[found.nodes])
         clearances = np.einsum("md,md->m", apart, found.normals)
@@ -300,20 +216,6 @@ class ContactReader:
             raise row.error(
                 f"the surface has no tangent plane for node {label}; faces with coincident corners cannot touch"
             )
-
-    def _check_corners(self, faces: Sequence[IntArray], row: Row) -> None:
-        """Raise DeckError where a face of a main surface has no tangent plane at a corner."""
-        for nodes in faces:
-            corners = self._points[nodes]
-            sides = np.roll(corners, -1, axis=1) - corners
-            size = np.linalg.norm(sides, axis=2).max(axis=1, keepdims=True)
-            area = np.linalg.norm(np.cross(sides, np.roll(sides, 1, axis=1)), axis=2)
-            wrong = area <= EQUAL * size**2
-            if nodes.shape[1] > 2 and wrong.any():
-                label = self._flat.mesh.name(int(nodes[wrong][0]))
-                raise row.error(
-                    f"the main surface has no tangent plane at node {label}; faces with coincident corners cannot touch"
-                )
 
     def _warn_beside(self, nodes: IntArray, secondary: str, main: str, row: Row) -> None:
         if len(nodes):
@@ -339,7 +241,7 @@ class ContactReader:
                 raise block.error(f"ADJUST={depth:g} must not be negative")
             chosen = clearances <= depth
         chosen &= found & (clearances != 0.0)
-        self._points[nodes[chosen]] -= (clearances[:, None] * normals)[chosen]
+        np.subtract.at(self._points, nodes[chosen], (clearances[:, None] * normals)[chosen])
         return chosen
 
 
@@ -353,7 +255,7 @@ def _smoothing(block: Block) -> tuple[float, float]:
     return smooth, zone
 
 
-def _at_nodes(side: _Side, anchors: Anchors) -> _Points:
+def _at_nodes(side: Side, anchors: Anchors) -> _Points:
     """Points of node to surface contact."""
     count = len(side.nodes)
     return _Points(
@@ -372,7 +274,7 @@ def check_contact(pairs: Sequence[ContactPair | SlidingPair], steps: Sequence[St
     if not pairs:
         return
     for step in steps:
-        given, place = step.procedure, f"*CONTACT PAIR ({pairs[0].source})"
+        given, place = step.procedure, f"*{pairs[0].keyword} ({pairs[0].source})"
         obstacles = {
             "*STATIC, RIKS": given.riks is not None,
             "*STEP, PERTURBATION": given.linear and given.keyword in PROCEDURES,
@@ -381,22 +283,6 @@ def check_contact(pairs: Sequence[ContactPair | SlidingPair], steps: Sequence[St
         for what, there in obstacles.items():
             if there:
                 problems.add(step.source, f"{place} is not supported with {what}")
-
-
-def _normals(corners: FloatArray) -> FloatArray:
-    """Normals (f, 3) of faces (f, corners, 3) by the order of their corners, not of length one."""
-    if corners.shape[1] == 2:
-        along = corners[:, 1] - corners[:, 0]
-        return np.stack([along[:, 1], -along[:, 0], np.zeros(len(along))], axis=1)
-    # the diagonals of a quadrilateral, two edges of a triangle
-    last = corners.shape[1] - 1
-    return np.cross(corners[:, 2] - corners[:, 0], corners[:, last] - corners[:, 1])
-
-
-def _away(normals: FloatArray, corners: FloatArray, centres: FloatArray) -> FloatArray:
-    """The normals, or those on the other side, that point away from the centres (f, 3) of the elements of faces."""
-    inward = np.einsum("fd,fd->f", normals, corners.mean(axis=1) - centres) < 0.0
-    return np.where(inward[:, None], -normals, normals)
 
 
 KEYWORDS = (
@@ -421,11 +307,11 @@ KEYWORDS = (
                 "nodes of a set, or those with at most this clearance (0), begin on the main surface, without strain",
                 bare="0",
             ),
-            Option("SMOOTH", Kind.REAL, f"part of faces that is rounded in finite sliding, in the plane ({SMOOTH})"),
+            Option("SMOOTH", Kind.REAL, f"part of faces that is rounded for sliding nodes, in the plane ({SMOOTH})"),
             Option(
                 "EXTENSION ZONE",
                 Kind.REAL,
-                f"of the main surface beyond its edges in finite sliding, over the length of a face ({EXTENSION})",
+                f"of the main surface beyond its edges for sliding nodes, over the length of a face ({EXTENSION})",
             ),
             *ignored("HCRIT", "MINIMUM DISTANCE", "NO THICKNESS", "TRACKING"),
             *ignored("MIDFACE NODES", "SUPPLEMENTARY CONSTRAINTS", "SLIDING TRANSITION"),

@@ -16,6 +16,7 @@ from harness.deck import (
     diffusion,
     distributed,
     expansion,
+    general_contact,
     generation,
     groups,
     heat,
@@ -53,7 +54,7 @@ from harness.deck.table import Keyword, Kind, Option, Support, compact
 
 _FILES = (
     *(structure, lexer, placement, orientations, local_mesh, generation, user_elements, surfaces, constraints, ties),
-    *(contact, interactions),
+    *(contact, general_contact, interactions),
     *(
         materials,
         expansion,

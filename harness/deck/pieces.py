@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from scipy import sparse
 
-from harness.elements import monomials
+from harness.elements import monomials, normals_of
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.contact import Pieces
 from harness.model.element_types import Family
@@ -30,18 +30,26 @@ def wound(faces: Faces, coordinates: FloatArray) -> list[IntArray]:
     """Faces of each kind by their corners, in the order in which their outward normals follow from their tangents."""
     found = []
     for nodes, normals in faces:
-        corners = coordinates[nodes]
-        first = corners[:, 1] - corners[:, 0]
-        if nodes.shape[1] == 2:
-            own = np.stack([first[:, 1], -first[:, 0], np.zeros(len(first))], axis=1)
-        else:
-            own = np.cross(corners[:, 2] - corners[:, 0], corners[:, -1] - corners[:, 1])
+        own = face_normals(coordinates[nodes])
         turned = np.einsum("fd,fd->f", own, normals) < 0.0
         found.append(np.where(turned[:, None], nodes[:, ::-1], nodes))
     return found
 
 
-def make_pieces(faces: Sequence[IntArray], coordinates: FloatArray, smooth: float, zone: float) -> Pieces:
+def face_normals(corners: FloatArray) -> FloatArray:
+    """Normals (f, 3) of faces (f, corners, 3) by the order of their corners, not of length one."""
+    if corners.shape[1] == 2:
+        return np.pad(normals_of(corners[..., :2]), ((0, 0), (0, 1)))
+    return normals_of(corners)
+
+
+def make_pieces(
+    faces: Sequence[IntArray],
+    coordinates: FloatArray,
+    smooth: float,
+    zone: float,
+    corners: Sequence[IntArray] | None = None,
+) -> Pieces:
     """Pieces of a surface.
 
     Parameters
@@ -54,9 +62,13 @@ def make_pieces(faces: Sequence[IntArray], coordinates: FloatArray, smooth: floa
         Fraction of a line that a parabola replaces at each end, less than a half.
     zone
         Extension zone beyond free edges, over the length of a face.
+    corners
+        Of the faces, by numbers that two faces share where they continue each other; None: those of their nodes.
     """
-    in_plane = faces[0].shape[1] == 2
-    return _of_lines(faces[0], coordinates, smooth, zone) if in_plane else _of_areas(faces, zone)
+    numbers = faces if corners is None else corners
+    if faces[0].shape[1] == 2:
+        return _of_lines(faces[0], numbers[0], coordinates, smooth, zone)
+    return _of_areas(faces, numbers, zone)
 
 
 def whole_pieces(faces: Mapping[Family, IntArray]) -> Pieces:
@@ -96,16 +108,15 @@ def _coefficients(family: Family, count: int) -> FloatArray:
     return np.asarray(np.linalg.inv(monomials(places, count)[0][:, : family.nodes]).T, dtype=np.float64)
 
 
-def _of_lines(lines: IntArray, coordinates: FloatArray, smooth: float, zone: float) -> Pieces:
+def _of_lines(lines: IntArray, ends: IntArray, coordinates: FloatArray, smooth: float, zone: float) -> Pieces:
     p, size = len(lines), int(lines.max()) + 1
-    starts, ends = (np.bincount(column, minlength=size) for column in lines.T)
-    touched = starts + ends
-    middle = np.flatnonzero((starts == 1) & (ends == 1) & (smooth > 0.0))
+    first, last = (np.bincount(column, minlength=size) for column in lines.T)
+    middle = np.flatnonzero((first == 1) & (last == 1) & (smooth > 0.0))
     rounded, count = np.isin(lines, middle), len(middle)
     into, out = np.zeros(size, dtype=np.int64), np.zeros(size, dtype=np.int64)
     into[lines[:, 1]], out[lines[:, 0]] = lines[:, 0], lines[:, 1]
     corners = np.stack([middle, into[middle], out[middle]], axis=1)
-    nodes = np.concatenate([lines[:, [0, 1, 1]], corners, corners])
+    nodes = np.concatenate([filled([lines]), corners, corners])
     shapes, loads = np.zeros((len(nodes), 3, 3)), np.zeros((len(nodes), 3, 3))
     shapes[:p, 0, :2], shapes[:p, 1, :2] = (0.5, -0.5), (0.5, 0.5)
     before, after, one = smooth * np.array([1.0, -2.0, 1.0]), smooth * np.array([0.0, 0.0, 1.0]), np.array([1.0, 0, 0])
@@ -120,7 +131,7 @@ def _of_lines(lines: IntArray, coordinates: FloatArray, smooth: float, zone: flo
     low, high = np.zeros(len(nodes)), np.ones(len(nodes))
     low[:p], high[:p] = -1.0 + 2.0 * smooth * rounded[:, 0], 1.0 - 2.0 * smooth * rounded[:, 1]
     high[p : p + count] = low[p + count :] = 1.0 / (1.0 + np.sqrt(ratio))
-    free = touched[lines] == 1
+    free = np.bincount(ends.ravel())[ends] == 1
     reach_low, reach_high = np.full(len(nodes), -np.inf), np.full(len(nodes), np.inf)
     reach_low[:p] = np.where(free[:, 0], -1.0 - 2.0 * zone, -np.inf)
     reach_high[:p] = np.where(free[:, 1], 1.0 + 2.0 * zone, np.inf)
@@ -129,14 +140,21 @@ def _of_lines(lines: IntArray, coordinates: FloatArray, smooth: float, zone: flo
     return Pieces(nodes, shapes, loads, *bounds, _ring(nodes))
 
 
-def _of_areas(faces: Sequence[IntArray], zone: float) -> Pieces:
-    nodes = np.concatenate([np.pad(part, ((0, 0), (0, 4 - part.shape[1])), mode="edge") for part in faces])
+def filled(faces: Sequence[IntArray]) -> IntArray:
+    """Corners (p, 4) of triangles and quadrilaterals, or (p, 3) of lines, as `Pieces` has the nodes of them."""
+    if faces[0].shape[1] == 2:
+        return np.asarray(faces[0][:, [0, 1, 1]])
+    return np.concatenate([np.pad(part, ((0, 0), (0, 4 - part.shape[1])), mode="edge") for part in faces])
+
+
+def _of_areas(faces: Sequence[IntArray], corners: Sequence[IntArray], zone: float) -> Pieces:
+    nodes, numbers = filled(faces), filled(corners)
     four = np.concatenate([np.full(len(part), part.shape[1] == 4) for part in faces])
     # edges in the order of the ends: low eta, high xi, high eta, low xi; of a triangle low eta, the total, low xi
     edges = np.sort(
-        np.stack([nodes, np.where(four[:, None], np.roll(nodes, -1, axis=1), nodes[:, [1, 2, 0, 0]])]), axis=0
+        np.stack([numbers, np.where(four[:, None], np.roll(numbers, -1, axis=1), numbers[:, [1, 2, 0, 0]])]), axis=0
     )
-    keys = edges[0] * (int(nodes.max()) + 1) + edges[1]
+    keys = edges[0] * (int(numbers.max()) + 1) + edges[1]
     own = np.where(four[:, None] | (np.arange(4) < 3), keys, -1)
     _, place, count = np.unique(own, return_inverse=True, return_counts=True)
     free = (count[place.reshape(own.shape)] == 1) & (own >= 0)

@@ -16,6 +16,7 @@ from harness.deck.contact import ContactReader, check_contact
 from harness.deck.diffusion import read_absolute_zero, with_concentrations
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh
+from harness.deck.general_contact import GeneralContact
 from harness.deck.groups import make_groups
 from harness.deck.imperfection import EarlierResults, displace
 from harness.deck.initial import read_initial_solutions, read_initial_stresses, read_initial_values
@@ -35,6 +36,7 @@ from harness.deck.transforms import Transforms
 from harness.deck.user_elements import dofs_of, refuse_types
 from harness.elements.beam import with_normals
 from harness.errors import DeckError, Source
+from harness.model.contact import ContactPair, SlidingPair
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.restart import DeckPart, RestartRead
@@ -94,7 +96,8 @@ def read_deck(
         raise DeckError(Source(str(path), 1), "the deck has no *STEP")
     interactions = Interactions(structure.root, problems)
     # first, since it may move nodes
-    contacts = ContactReader(flat, groups, interactions, problems).read()
+    contacts: tuple[ContactPair | SlidingPair, ...] = ContactReader(flat, groups, interactions, problems).read()
+    contacts += GeneralContact(flat, groups, interactions, problems).read(structure.root)
     built_in = np.concatenate([np.full(len(group.labels), group.definition is None) for group in groups])
     transforms = Transforms(flat, groups, problems)
     active = _active_dofs(groups) | reference_dofs(flat)

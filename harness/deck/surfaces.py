@@ -64,6 +64,10 @@ class Surfaces:
             raise DeckError(source, f"unknown surface {name}{nearest(name, self._blocks)}")
         return self._blocks[key]
 
+    def kind(self, name: str, source: Source, owner: str = "") -> str:
+        """TYPE of a surface. Raises DeckError."""
+        return self.locate(name, source, owner)[1].options.text("TYPE")
+
     def profile(self, name: str, source: Source, owner: str) -> tuple[str, Block, float] | None:
         """Level, keyword and fillet radius of an analytical rigid surface in the plane, None for another one.
 

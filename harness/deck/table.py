@@ -185,8 +185,7 @@ def unquote(name: str) -> str:
 
 
 _REASONS = {
-    "CONTACT": ": general contact is finite sliding of surface to surface, with a stiffness that Abaqus does not "
-    "describe; expected *CONTACT PAIR",
+    "CONTACT STABILIZATION": ": it is damping that depends on sizes of the surfaces which Abaqus does not describe",
 }
 """Why keywords of Abaqus are not supported, and what is, where a deck can say it otherwise."""
 

@@ -229,7 +229,7 @@ class TieReader:
         """The nearest points of the main surface: of its faces, in these places of all nodes, turned by this matrix."""
         faces, places, turn = main
         dimension = next(iter(faces)).dimension + 1
-        surface = FaceSurface(whole_pieces(faces), places[:, :dimension], dimension)
+        surface = FaceSurface(whole_pieces(faces), places[:, :dimension])
         nodes, shares = surface.nearest(self._points[second, :dimension])
         at = np.einsum("mk,mkd->md", shares, places[nodes])
         apart = second[np.linalg.norm(self._points[second] - at, axis=1) > tolerance]

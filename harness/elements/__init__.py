@@ -6,8 +6,9 @@ from harness.elements.block import ElementBlock
 from harness.elements.build import build_blocks
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.contact import ContactBlock, contact_blocks
-from harness.elements.contact_sliding import FiniteSliding
+from harness.elements.contact_sliding import FiniteSliding, normals_of
 from harness.elements.contact_surface import FaceSurface, monomials
+from harness.elements.contact_surfaces import FACING, SurfaceSliding
 from harness.elements.distributing import DistributingBlock, distributing_blocks
 from harness.elements.fields import COUPLED, FIELD_NAMES, MULTIPLIER, PRESSURE, REFERENCE, VOLUME, field_of
 from harness.elements.followers import FollowerBlock
@@ -18,6 +19,7 @@ from harness.elements.rotations import PERMUTATION, rotation_matrices, spin_matr
 
 __all__ = [
     "COUPLED",
+    "FACING",
     "FIELD_NAMES",
     "MULTIPLIER",
     "PERMUTATION",
@@ -40,11 +42,13 @@ __all__ = [
     "Predefined",
     "Request",
     "RigidSurface",
+    "SurfaceSliding",
     "build_blocks",
     "contact_blocks",
     "distributing_blocks",
     "field_of",
     "monomials",
+    "normals_of",
     "rotation_matrices",
     "spin_matrices",
 ]

@@ -21,11 +21,12 @@ from harness.elements.block import ElementBlock
 from harness.elements.call import Call
 from harness.elements.contact_kinematics import Clearances, Find, Motion, Slips, SmallSliding
 from harness.elements.contact_sliding import FiniteSliding
+from harness.elements.contact_surfaces import SurfaceSliding
 from harness.elements.fields import MULTIPLIER
 from harness.elements.lflags import Request
 from harness.elements.multipliers import scale_of_multipliers
 from harness.model.arrays import FloatArray, IntArray, first_largest
-from harness.model.contact import ContactChanges, ContactPair, SlidingPair
+from harness.model.contact import ContactChanges, ContactPair, SlidingPair, SurfacePair
 from harness.model.model import Model
 from harness.model.restart import Saved
 from harness.usersub import _binding
@@ -40,7 +41,7 @@ ROUNDING: Final = 1e-12
 class ContactBlock:
     """The points of a contact pair: their committed and trial status and elastic slip.
 
-    unknowns  (local node, dof) of each unknown: displacements, then the multiplier of the point where there is one
+    unknowns  (local node, dof) of each unknown at the start: displacements, then the multiplier of the point, if any
     secondary (m,) secondary nodes
     names     of them
     direct    a multiplier enforces the constraints, else a stiffness
@@ -51,7 +52,9 @@ class ContactBlock:
     def __init__(self, model: Model, pair: ContactPair | SlidingPair) -> None:
         self.pair, self.first = pair, 0
         self._motion: Motion
-        if isinstance(pair, SlidingPair):
+        if isinstance(pair, SurfacePair):
+            self._motion = SurfaceSliding(pair, model.mesh.coordinates)
+        elif isinstance(pair, SlidingPair):
             self._motion = FiniteSliding(pair, model.mesh.coordinates)
         else:
             self._motion = SmallSliding(pair, model.mesh.coordinates)
@@ -68,17 +71,17 @@ class ContactBlock:
             source=pair.source,
         )
         self.direct = pair.property.stiffness is None
-        self._count = len(self._motion.unknowns)
-        self.unknowns = self._motion.unknowns + (((self._motion.nodes.shape[1], MULTIPLIER),) if self.direct else ())
+        count = self._motion.nodes.shape[1]
+        self.unknowns = self._motion.unknowns_of(count) + (((count, MULTIPLIER),) if self.direct else ())
         start = self._motion.start()
-        self._status = np.where(start <= pair.property.clearance, STICKING, OPEN)
+        self._status = np.where((start <= pair.property.clearance) & self._motion.above, STICKING, OPEN)
         self._slip = np.zeros((m, self._motion.components))
         self._status_trial, self._slip_trial = self._status, self._slip
         self._before, self._iteration = self._status, 0
         self._scale = 0.0
         self._output = (start, np.zeros(m), np.zeros((m, pair.dimension - 1)))
         self._penetration = self._force = np.zeros(m)
-        self._equations = self._scatter = np.zeros((m, 0), dtype=np.int32)
+        self._equations = self._own_places = np.zeros((m, 0), dtype=np.int32)
         self._find: Find | None = None
         self._multipliers = np.zeros(m, dtype=np.int32)
         self._pattern = (self._equations, self._equations)
@@ -124,14 +127,15 @@ class ContactBlock:
 
     def _equations_of(self, points: IntArray, nodes: IntArray) -> NDArray[np.int32]:
         assert self._find is not None
-        columns = [self._find(nodes[:, local], dof) for local, dof in self._motion.unknowns]
+        columns = [self._find(nodes[:, local], dof) for local, dof in self._motion.unknowns_of(nodes.shape[1])]
         multipliers = [self._multipliers[points].astype(np.int64)] if self.direct else []
         return np.stack([*columns, *multipliers], axis=1).astype(np.int32)
 
     def bind(self, indptr: NDArray[np.int32], indices: NDArray[np.int32]) -> None:
         """Take the CSR pattern of the matrix, which has the couplings."""
         self._pattern = indptr, indices
-        self._scatter = _binding.scatter_map(self._equations, indptr, indices)
+        own = np.concatenate([self._equations[:, : self.pair.dimension], self._equations[:, -1:]], axis=1)
+        self._own_places = _binding.scatter_map(own, indptr, indices)
 
     def evaluate(
         self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, data: FloatArray | None
@@ -156,8 +160,8 @@ class ContactBlock:
         if request not in (Request.NORMAL, Request.RESIDUAL) or not len(self.rows):
             return
         if data is not None and not self._scale:
-            self._scale = scale_of_multipliers(data, self._scatter, self.pair.dimension)
-        count = self._count
+            self._scale = scale_of_multipliers(data, self._own_places, self.pair.dimension)
+        count = self._equations.shape[1] - self.direct
         moved, change = u[self._equations[:, :count]], du[self._equations[:, :count]]
         found = self._motion.clearances(moved, nlgeom=call.flags.nlgeom)
         clearance, before = found.value, self._status_before(call)
@@ -188,7 +192,7 @@ class ContactBlock:
         """(m,) contact force over overclosure."""
         stiffness = self.pair.property.stiffness
         assert stiffness is not None
-        return stiffness * self.pair.areas
+        return stiffness * self._motion.areas
 
     def _status_before(self, call: Call) -> IntArray:
         """Status at the end of the iteration before, that at the start of the increment in the first pass."""
@@ -218,29 +222,34 @@ class ContactBlock:
         normal, pushed = clearances.gradient, clearances.pushed
         tangents, scale = slips.carried, self._scale
         count = normal.shape[1]
-        right = np.zeros((len(closed), len(self.unknowns)))
+        right = np.zeros(self._equations.shape)
         right[:, :count] = force[:, None] * pushed - np.einsum("mt,mtu->mu", friction.force, tangents)
         if self.direct:
             right[:, count] = np.where(closed, scale * clearances.value, -multiplier)
         np.add.at(residual, self._equations, right)
         if data is None:
             return
-        matrix = np.zeros((len(closed), len(self.unknowns), len(self.unknowns)))
-        matrix[:, :count, :count] = np.einsum("mtu,mts,msv->muv", tangents, friction.by_slip, slips.by)
+        if self.direct:
+            data[self._own_places[~closed, -1, -1]] += scale
+        # those that are open have no other entries
+        points = np.flatnonzero(closed)
+        equations = self._equations[points]
+        matrix = np.zeros((len(points), equations.shape[1], equations.shape[1]))
+        along, by_slip = tangents[points], friction.by_slip[points]
+        matrix[:, :count, :count] = np.einsum("mtu,mts,msv->muv", along, by_slip, slips.by[points])
         if slips.turned is not None:
-            matrix[:, :count, :count] += np.einsum("mt,mtuv->muv", friction.force, slips.turned)
+            matrix[:, :count, :count] += slips.turned(points, friction.force[points])
         if clearances.curvature is not None:
-            matrix[:, :count, :count] -= force[:, None, None] * clearances.curvature
+            matrix[:, :count, :count] -= clearances.curvature(points, force[points])
         # what the contact force does, by the contact force
-        by_force = closed[:, None] * (np.einsum("mt,mtu->mu", friction.by_force, tangents) - pushed)
+        by_force = np.einsum("mt,mtu->mu", friction.by_force[points], along) - pushed[points]
         if self.direct:
             matrix[:, :count, count] = scale * by_force
-            matrix[:, count, :count] = -scale * closed[:, None] * normal
-            matrix[:, count, count] = np.where(closed, 0.0, scale)
+            matrix[:, count, :count] = -scale * normal[points]
         else:
-            stiffness = self._penalty_stiffness[:, None, None]
-            matrix -= stiffness * by_force[:, :, None] * normal[:, None]
-        np.add.at(data, self._scatter, matrix)
+            stiffness = self._penalty_stiffness[points, None, None]
+            matrix -= stiffness * by_force[:, :, None] * normal[points, None]
+        np.add.at(data, _binding.scatter_map(equations, *self._pattern), matrix)
 
     @property
     def trial_changes(self) -> ContactChanges:
@@ -265,7 +274,8 @@ class ContactBlock:
     def output(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Clearances (m,), pressures (m,) and friction stresses (m, directions) after the last iteration."""
         clearance, force, friction = self._output
-        return clearance, force / self.pair.areas, friction / self.pair.areas[:, None]
+        areas = self._motion.areas
+        return clearance, force / areas, friction / areas[:, None]
 
     def commit(self) -> None:
         """End of a converged increment."""

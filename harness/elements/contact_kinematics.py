@@ -36,14 +36,14 @@ class Clearances:
     value     (m,)
     gradient  (m, u)
     pushed    (m, u) forces on the unknowns for a contact force of one
-    curvature (m, u, u) their derivatives; None: zero
+    curvature gives their derivatives (r, u, u) for some points (r,) and their contact forces (r,); None: zero
     rounding  error that the arithmetic makes
     """
 
     value: FloatArray
     gradient: FloatArray
     pushed: FloatArray
-    curvature: FloatArray | None
+    curvature: Callable[[IntArray, FloatArray], FloatArray] | None
     rounding: float
 
 
@@ -54,30 +54,37 @@ class Slips:
     value    (m, t)
     by       (m, t, u) derivatives by the unknowns
     carried  (m, t, u) the motions along which a friction force does work
-    turned   (m, t, u, u) derivatives of `carried`; None: zero
+    turned   gives the derivatives (r, u, u) of what friction forces (r, t) on some points (r,) do; None: zero
     axes     (m, directions, t) local tangent directions
     """
 
     value: FloatArray
     by: FloatArray
     carried: FloatArray
-    turned: FloatArray | None
+    turned: Callable[[IntArray, FloatArray], FloatArray] | None
     axes: FloatArray
 
 
 class Motion(Protocol):
     """How the points of a pair move.
 
-    nodes      (m, n) secondary node of each point, then those of the main surface that move it, which may change
-    unknowns   (local node, dof) of each unknown of a point
+    nodes      (m, n) secondary node of each point, then those that move it, which may change
     components of the slip
-    above      (m,) whether the main surface is there
     """
 
     nodes: IntArray
-    unknowns: tuple[tuple[int, int], ...]
     components: int
-    above: NDArray[np.bool_]
+
+    @property
+    def above(self) -> NDArray[np.bool_]:
+        """(m,) whether the main surface is there."""
+
+    @property
+    def areas(self) -> FloatArray:
+        """(m,) of the secondary surface that belong to the points."""
+
+    def unknowns_of(self, count: int) -> tuple[tuple[int, int], ...]:
+        """(local node, dof) of each unknown of a point that has this number of nodes."""
 
     def start(self) -> FloatArray:
         """(m,) clearances before the analysis."""
@@ -114,6 +121,11 @@ class Motion(Protocol):
         """Begin with what `kept` returned."""
 
 
+def displacements(count: int, dimension: int) -> tuple[tuple[int, int], ...]:
+    """(local node, dof) of the displacements of some nodes, one after the other."""
+    return tuple((node, dof) for node in range(count) for dof in range(1, dimension + 1))
+
+
 class SmallSliding:
     """The points of a pair move with the same nodes all the time; displacements (m, u) are those of one node after the
     other.
@@ -125,8 +137,7 @@ class SmallSliding:
         """Coordinates (nodes, 3) are those of all nodes of the model."""
         dimension = pair.dimension
         self.nodes = pair.nodes
-        self.unknowns = tuple((node, dof) for node in range(pair.nodes.shape[1]) for dof in range(1, dimension + 1))
-        self.components = dimension - 1
+        self.components, self.areas = dimension - 1, pair.areas
         self.above = np.ones(len(pair.nodes), dtype=np.bool_)
         self._shape = *pair.nodes.shape, dimension
         self._clearances = pair.clearances
@@ -137,6 +148,10 @@ class SmallSliding:
         # derivatives of the slips by the displacements, those at the start of the increment
         self._tangents = self._directions(None)
         self._moved: FloatArray | None = None
+
+    def unknowns_of(self, count: int) -> tuple[tuple[int, int], ...]:
+        """Displacements of one node after the other."""
+        return displacements(count, self._shape[2])
 
     def start(self) -> FloatArray:
         """(m,) clearances before the analysis."""
@@ -209,7 +224,12 @@ class SmallSliding:
             second = np.einsum("mnk,md,dpq->mnpkq", twist, beside, PERMUTATION)
             curvature += second.reshape(m, n * dimension, -1)
         eps = float(np.finfo(float).eps)
-        return Clearances(value, gradient, gradient, curvature, eps * float(np.abs(places).max()))
+        rounding = eps * float(np.abs(places).max())
+
+        def bent(points: IntArray, force: FloatArray) -> FloatArray:
+            return np.asarray(force[:, None, None] * curvature[points])
+
+        return Clearances(value, gradient, gradient, bent, rounding)
 
     def _directions(self, moved: FloatArray | None) -> FloatArray:
         """(m, directions, u) derivatives of the slips along tangents of the face; moved: None where it is in its mesh

@@ -46,6 +46,10 @@ class Place:
         size = np.trace(found, axis1=1, axis2=2)[:, None, None]
         return np.asarray(found + EQUAL**2 * size * np.eye(found.shape[1]))
 
+    def take(self, points: IntArray) -> Place:
+        """Some of the points."""
+        return Place(self.at[points], self.tangents[points], self.second[points])
+
     @property
     def normal(self) -> FloatArray:
         """(m, d) outward, of length one."""
@@ -100,7 +104,7 @@ class Surface(Protocol):
         points
             (m, d) places of the secondary nodes.
         looks
-            (m, d) normals of their own surface: pieces that look the same way are left out; zero: none.
+            (m, d) normals of their own surface: pieces that do not look the other way are left out; zero: none.
         moved
             (nodes, dofs).
         before
@@ -113,9 +117,12 @@ class Surface(Protocol):
 class FaceSurface:
     """A main surface of faces of elements."""
 
-    def __init__(self, pieces: Pieces, coordinates: FloatArray, dimension: int) -> None:
-        """Coordinates (nodes, d) are those of all nodes of the model."""
-        self.pieces, self._coordinates, self._dimension = pieces, coordinates, dimension
+    def __init__(self, pieces: Pieces, coordinates: FloatArray, facing: float = EQUAL) -> None:
+        """Coordinates (nodes, d) are those of all nodes of the model; pieces with a normal whose cosine with that of a
+        point exceeds `facing` are not opposite it.
+        """
+        dimension = coordinates.shape[1]
+        self.pieces, self._coordinates, self._dimension, self._facing = pieces, coordinates, dimension, facing
         self.dofs = tuple(range(1, dimension + 1))
         self.unknowns = tuple((node, dof) for node in range(1, 1 + pieces.nodes.shape[1]) for dof in self.dofs)
         self._own = np.unique(pieces.nodes)
@@ -139,7 +146,7 @@ class FaceSurface:
         """As of `Surface`."""
         nodes = self.pieces.nodes[piece]
         places = self._coordinates[nodes] + moved[nodes]
-        found = [np.einsum("mk...,mkd->m...d", one, places) for one in _weights(self.pieces.shapes[piece], natural)]
+        found = [np.einsum("mk...,mkd->m...d", one, places) for one in weights_of(self.pieces.shapes[piece], natural)]
         return Place(*found)
 
     def sizes(self, piece: IntArray, moved: FloatArray) -> FloatArray:
@@ -161,10 +168,11 @@ class FaceSurface:
         return *self._spread(self.pieces.loads[piece], natural), None
 
     def _spread(self, shapes: FloatArray, natural: FloatArray) -> tuple[FloatArray, FloatArray]:
-        m, eye = len(natural), np.eye(self._dimension)
-        values, first, _ = _weights(shapes, natural)
-        at = np.einsum("mk,de->mdke", values, eye).reshape(m, self._dimension, -1)
-        return at, np.einsum("mka,de->madke", first, eye).reshape(m, first.shape[2], self._dimension, -1)
+        m, dimension, eye = len(natural), self._dimension, np.eye(self._dimension)
+        values, first, _ = weights_of(shapes, natural)
+        unknowns = shapes.shape[1] * dimension
+        at = np.einsum("mk,de->mdke", values, eye).reshape(m, dimension, unknowns)
+        return at, np.einsum("mka,de->madke", first, eye).reshape(m, first.shape[2], dimension, unknowns)
 
     def track(
         self, points: FloatArray, looks: FloatArray, moved: FloatArray, before: IntArray, *, everywhere: bool
@@ -185,6 +193,12 @@ class FaceSurface:
                 break
         return found, natural, above
 
+    def distances(self, points: FloatArray, moved: FloatArray) -> FloatArray:
+        """(m,) of points (m, d) from the nearest piece, whatever its normal."""
+        before, looks = np.zeros(len(points), dtype=np.int64), np.zeros_like(points)
+        piece, natural, _ = self.track(points, looks, moved, before, everywhere=True)
+        return np.asarray(np.linalg.norm(points - self.at(piece, self._inside(piece, natural), moved).at, axis=1))
+
     def nearest(self, points: FloatArray) -> tuple[IntArray, FloatArray]:
         """Nodes (m, k) of the pieces, before any displacement, that are nearest to points (m, d), and their shares
         there: those that are rounding are zero.
@@ -192,7 +206,7 @@ class FaceSurface:
         still = np.zeros_like(self._coordinates)
         before = np.zeros(len(points), dtype=np.int64)
         piece, natural, _ = self.track(points, np.zeros_like(points), still, before, everywhere=True)
-        shares = _weights(self.pieces.shapes[piece], self._inside(piece, natural))[0]
+        shares = weights_of(self.pieces.shapes[piece], self._inside(piece, natural))[0]
         shares = np.where(np.abs(shares) <= EQUAL, 0.0, shares)
         return self.nodes_of(piece), shares / shares.sum(axis=1, keepdims=True)
 
@@ -208,7 +222,7 @@ class FaceSurface:
         every = self._project(piece, point, moved)
         end = self._inside(piece, every)
         place = self.at(piece, end, moved)
-        away = np.einsum("md,md->m", place.normal, looks[row]) > EQUAL
+        away = np.einsum("md,md->m", place.normal, looks[row]) > np.where(looks[row].any(axis=1), self._facing, np.inf)
         apart = np.where(away, np.inf, np.linalg.norm(point - place.at, axis=1))
         place_of = place_of.reshape(candidates.shape)
         distance, size, natural = apart[place_of], self.sizes(piece, moved)[place_of], every[place_of]
@@ -252,7 +266,7 @@ class FaceSurface:
         return natural
 
 
-def _weights(shapes: FloatArray, natural: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def weights_of(shapes: FloatArray, natural: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """N (m, k) of coefficients (m, k, p), and their first (m, k, a) and second derivatives (m, k, a, a)."""
     values, first, second = monomials(natural, shapes.shape[2])
     return (

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
@@ -55,6 +55,7 @@ class ContactPair:
     clearances  (m,) at the start, negative where the surfaces overlap
     areas       (m,) of the secondary surface that belong to the nodes
     slip        largest elastic slip
+    keyword     from which it comes
     """
 
     name: str
@@ -68,6 +69,7 @@ class ContactPair:
     clearances: FloatArray
     areas: FloatArray
     slip: float
+    keyword: str = "CONTACT PAIR"
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,15 +125,17 @@ class RigidProfile:
 
 @dataclass(frozen=True, slots=True)
 class SlidingPair:
-    """*CONTACT PAIR in finite sliding: a point at each secondary node.
+    """*CONTACT PAIR or *CONTACT in finite sliding: a point at each secondary node.
 
     name        both surfaces, '(SECONDARY,MAIN)'
     dimension   displacements of a node: 2 or 3
     secondary   (m,) nodes
-    faces       of the secondary surface by their corners, wound like those of `Pieces`; none of a surface of nodes
+    faces       of the secondary surface by their corners, which are rows of `secondary`, wound like those of `Pieces`;
+                none of a surface of nodes
     main        the main surface
     areas       (m,) of the secondary surface that belong to the nodes
     slip        largest elastic slip
+    keyword     from which it comes
     """
 
     name: str
@@ -143,6 +147,23 @@ class SlidingPair:
     main: Pieces | RigidProfile
     areas: FloatArray
     slip: float
+    keyword: str = field(default="CONTACT PAIR", kw_only=True)
+
+
+@dataclass(frozen=True, slots=True)
+class SurfacePair(SlidingPair):
+    """Surface to surface in finite sliding: a point at each secondary node of each smooth part of its surface.
+
+    own      the secondary surface, a piece for each face
+    corners  (p, k) rows of `secondary` that the nodes of the pieces of `own` are
+    depths   (p, k) factor from length or area to area at these nodes
+    deepest  (p,) overlap of these pieces at the start of an increment that is none, but the far side of the body
+    """
+
+    own: Pieces
+    corners: IntArray
+    depths: FloatArray
+    deepest: FloatArray
 
 
 @dataclass(frozen=True, slots=True)

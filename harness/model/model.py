@@ -107,5 +107,5 @@ class Model:
 
 def constraints_with_multipliers(model: Model) -> list[tuple[str, Source]]:
     """Keywords, with their places, that Lagrange multipliers or stiffnesses between nodes enforce."""
-    contacts = [("*CONTACT PAIR", pair.source) for pair in model.contacts]
+    contacts = [(f"*{pair.keyword}", pair.source) for pair in model.contacts]
     return contacts + [("*DISTRIBUTING with NLGEOM", coupling.source) for coupling in model.couplings]

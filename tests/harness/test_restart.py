@@ -134,6 +134,7 @@ TURNING = "\n".join(
 DECKS = {
     **{"dynamic": DYNAMIC, "rubber": RUBBER, "heat": HEAT, "umat": UMAT, "steps": STEPS, "delamination": DELAMINATION},
     **{"contact": CONTACT, "sliding": SLIDING, "turning": TURNING},
+    "surfaces": SLIDING.replace("NODE TO", "SURFACE TO"),
 }
 
 

@@ -185,11 +185,6 @@ def test_convert_sdi_goes_on(read):
 @pytest.mark.parametrize(
     "mistake",
     [
-        (
-            "SMALL SLIDING",
-            "TYPE=SURFACE TO SURFACE",
-            "35: finite sliding of surface to surface is not supported: its means would have to be taken again",
-        ),
         (", SMALL SLIDING", ", SMOOTH=0.5", "35: SMOOTH=0.5 must be at least 0 and less than 0.5"),
         (", SMALL SLIDING", ", EXTENSION ZONE=0.3", "35: EXTENSION ZONE=0.3 must be from 0 to 0.2"),
         (", SMALL SLIDING", ", SMALL SLIDING, TIED", "35: .*option TIED is not supported"),
@@ -429,11 +424,6 @@ B.SEC, W.TOOL
         ),
         ("INTERACTION=TOUCH", "INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE", "40: .*expected NODE TO SURFACE"),
         ("SEC, TOOL", "POINTS, TOOL", "41: .*POINTS has no faces whose length gives the elastic slip"),
-        (
-            "*CONTACT PAIR",
-            "*CONTACT\n*CONTACT PAIR",
-            "40: .CONTACT is not supported: general contact is finite sliding of",
-        ),
     ],
     ids=lambda mistake: mistake[2][:40],
 )

@@ -25,7 +25,10 @@ SOURCE = Source("test.inp", 1)
 THICKNESS = 1.5
 SURFACES = "SMALL SLIDING, TYPE=SURFACE TO SURFACE"
 SLIDING = "TYPE=NODE TO SURFACE"
-PAIRS = pytest.mark.parametrize("pair", ["SMALL SLIDING", SURFACES, SLIDING], ids=["nodes", "surfaces", "sliding"])
+SLIDING_SURFACES = "TYPE=SURFACE TO SURFACE"
+PAIRS = pytest.mark.parametrize(
+    "pair", ["SMALL SLIDING", SURFACES, SLIDING, SLIDING_SURFACES], ids=["nodes", "surfaces", "sliding", "both"]
+)
 HELD = "*BOUNDARY\nLOWER_BOTTOM, 2\nLOWER_LEFT, 1\nUPPER_LEFT, 1"
 
 
@@ -37,7 +40,10 @@ def pressed(by, options=""):
 
 
 @pytest.mark.parametrize("element_type", ["CPE4", "CPS4", "CAX4"])
-@pytest.mark.parametrize(("pair", "lower"), [("SMALL SLIDING", 3), (SLIDING, 3), (SURFACES, 3), (SURFACES, 2)])
+@pytest.mark.parametrize(
+    ("pair", "lower"),
+    [("SMALL SLIDING", 3), (SLIDING, 3), (SURFACES, 3), (SURFACES, 2), (SLIDING_SURFACES, 3), (SLIDING_SURFACES, 2)],
+)
 def test_patch_test(run, element_type, pair, lower):
     """Uniaxial stress: E strain, E / (1 - nu^2) strain in plane strain; between surfaces on any meshes."""
     boxes = plane(lower=lower, upper=3, element_type=element_type)
@@ -54,7 +60,14 @@ def test_patch_test(run, element_type, pair, lower):
 
 @pytest.mark.parametrize(
     ("pair", "along", "error"),
-    [("SMALL SLIDING", 2, 1e-10), (SLIDING, 2, 1e-10), (SURFACES, 2, 1e-10), (SURFACES, 3, 0.01)],
+    [
+        ("SMALL SLIDING", 2, 1e-10),
+        (SLIDING, 2, 1e-10),
+        (SURFACES, 2, 1e-10),
+        (SURFACES, 3, 0.01),
+        (SLIDING_SURFACES, 2, 1e-10),
+        (SLIDING_SURFACES, 3, 0.01),
+    ],
 )
 def test_patch_of_bricks(run, pair, along, error):
     """Between surfaces on matching meshes, and on others as well as the points of a face integrate."""
@@ -340,7 +353,7 @@ def test_block_sticks_and_slips(run, pair):
 # ------------------------------------------------------------ curved surfaces
 
 
-@pytest.mark.parametrize(("pair", "faces"), [("SMALL SLIDING", 1), (SLIDING, 1), (SURFACES, 2)])
+@pytest.mark.parametrize(("pair", "faces"), [("SMALL SLIDING", 1), (SLIDING, 1), (SURFACES, 2), (SLIDING_SURFACES, 2)])
 def test_hertz_line_contact(run, pair, faces):
     """A cylinder on a rigid plane: half-width b = sqrt(4 P R / (pi E*)), largest pressure 2 P / (pi b).
 
