@@ -73,10 +73,8 @@ def _extend(material: Material, block: Block, problems: Problems) -> Material:
             extended = replace(material, user_thermal=given) if thermal else replace(material, user=given)
         case "USER DEFINED FIELD":
             extended = replace(material, user_field=block.source)
-        case "DEPVAR" | "USER OUTPUT VARIABLES":
-            extended = _extend_counts(material, block)
-        case "DENSITY":
-            extended = replace(material, density=_read_constant(block, "density"))
+        case "DENSITY" | "DEPVAR" | "USER OUTPUT VARIABLES":
+            extended = _extend_number(material, block)
         case "CONDUCTIVITY" | "HEAT GENERATION" | "LATENT HEAT" | "SPECIFIC HEAT":
             extended = extend_heat(material, block)
         case "DIFFUSIVITY" | "KAPPA" | "SOLUBILITY":
@@ -90,12 +88,15 @@ def _extend(material: Material, block: Block, problems: Problems) -> Material:
     return extended
 
 
-def _extend_counts(material: Material, block: Block) -> Material:
-    """The material with numbers of variables."""
-    count = _read_count(block)
-    if block.name == "DEPVAR":
-        return replace(material, state_variables=count)
-    return replace(material, output_variables=count)
+def _extend_number(material: Material, block: Block) -> Material:
+    """The material with what takes one number."""
+    match block.name:
+        case "DENSITY":
+            return replace(material, density=_read_constant(block, "density"))
+        case "DEPVAR":
+            return replace(material, state_variables=_read_count(block))
+        case _:
+            return replace(material, output_variables=_read_count(block))
 
 
 def _read_constant(block: Block, what: str) -> float:
@@ -231,7 +232,8 @@ _OPTIONS = (
     ),
     Keyword(
         "USER DEFINED FIELD",
-        "USDFLD gives the field variables of continuum elements, those with temperatures too, trusses, shells and beams.",
+        "USDFLD gives the field variables of continuum elements (those with temperatures too), trusses, shells, "
+        "membranes and beams.",
         Where.MODEL,
     ),
     Keyword(
