@@ -63,7 +63,7 @@ def coupled_routine(model: Model, group: ElementGroup, section: SolidSection, li
         svars=solid.svars + hidden,
         hidden=solid.hidden + hidden,
         jprops=np.concatenate([solid.jprops, [kind.thermal_points, kind.family.linear.number]]),
-        initial_temperatures=_initial_temperatures(model) if material.expansion else None,
+        initial_temperatures=_initial_temperatures(model) if material.expansion is not None else None,
     )
 
 

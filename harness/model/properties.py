@@ -531,7 +531,7 @@ class BeamSection:
         if material is None:
             return False
         depends = material.elastic is None or material.elastic.table is not None or material.user_field is not None
-        return depends or material.plastic is not None or material.expansion != 0.0
+        return depends or material.plastic is not None or material.expansion is not None
 
 
 @dataclass(frozen=True, slots=True)
