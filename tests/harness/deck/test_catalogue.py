@@ -91,8 +91,10 @@ def test_viscoelastic(read: Read) -> None:
 
 
 def test_reference_temperature_of_expansion(read: Read) -> None:
-    """alpha (T - T0) - alpha (TI - T0) is alpha (T - TI)."""
-    assert material(read, "*EXPANSION, ZERO=20.\n1e-5").expansion == 1e-5
+    expansion = material(read, "*EXPANSION, ZERO=20.\n1e-5").expansion
+    assert expansion is not None
+    assert expansion.zero == 20.0
+    assert_array_equal(expansion.table, [[0.0, 1e-5, 1e-5, 1e-5, 0.0, 0.0, 0.0]])
 
 
 def test_creep(read: Read) -> None:
