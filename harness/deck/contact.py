@@ -160,7 +160,8 @@ class ContactReader:
         check_corners(sides[1], self._flat.mesh, row)
         name = f"({row.name(0, 'secondary surface')},{row.name(1, 'main surface')})"
         pair = surface_pair(name, (block.name, row.source), sides, self._points, given, everywhere=False)
-        self._adjust_sliding(block, pair, SurfaceSliding(pair, self._points).at_nodes(), owner)
+        if block.options.given("ADJUST"):
+            self._adjust_sliding(block, pair, SurfaceSliding(pair, self._points).at_nodes(), owner)
         return pair
 
     def _sliding(
@@ -185,8 +186,9 @@ class ContactReader:
             areas=side.areas,
             slip=slip,
         )
-        start = FiniteSliding(pair, self._points)
-        self._adjust_sliding(block, pair, (start.above, start.start(), start.start_normals), owner)
+        if block.options.given("ADJUST"):
+            start = FiniteSliding(pair, self._points)
+            self._adjust_sliding(block, pair, (start.above, start.start(), start.start_normals), owner)
         return pair
 
     def _adjust_sliding(

@@ -25,6 +25,14 @@ NEAREST: Final = 4
 WALK: Final = 50
 """Pieces that a node may pass in one iteration."""
 
+BEYOND: Final = {3: 0.125, 4: 0.0, 8: 1.0}
+"""How far a piece may leave the box of its nodes, over the size of the box, by the number of its monomials: the largest
+sum of the negative shape functions. Those of a line with a middle node are -1/8 in the middle of a half, those of the
+corners of a quadrilateral with middle nodes -1/4 in its middle."""
+
+ROUNDED: Final = 1e-6
+"""Error of angles that is rounding."""
+
 
 @dataclass(frozen=True, slots=True)
 class Place:
@@ -114,6 +122,57 @@ class Surface(Protocol):
         """
 
 
+@dataclass(frozen=True, slots=True)
+class _Present:
+    """All pieces of a surface in a present place, and bounds that spare most projections.
+
+    polynomials  (p, q, d) coefficients of the monomials
+    sizes        (p,) as of `Surface`
+    low, high    (p, d) corners of boxes that hold the pieces
+    axes         (p, d) around which the normals of a piece are, within angles (p,)
+    """
+
+    polynomials: FloatArray
+    sizes: FloatArray
+    low: FloatArray
+    high: FloatArray
+    axes: FloatArray
+    angles: FloatArray
+
+    @classmethod
+    def of(cls, pieces: Pieces, places: FloatArray) -> _Present:
+        """By the places (nodes, d) of all nodes of the model."""
+        corners = places[pieces.nodes]
+        polynomials = _polynomials(pieces.shapes, corners)
+        count = polynomials.shape[1]
+        low, high = corners.min(axis=1), corners.max(axis=1)
+        beyond = BEYOND[count] * (high - low)
+        ends = np.stack(np.meshgrid(*[[0, 1]] * pieces.low.shape[1]), axis=-1).reshape(-1, pieces.low.shape[1])
+        normals = np.stack([_place(polynomials, np.where(end, pieces.high, pieces.low)).normal for end in ends], axis=1)
+        axes = normals.sum(axis=1)
+        axes /= np.maximum(np.linalg.norm(axes, axis=1), EQUAL)[:, None]
+        cosine = np.einsum("ped,pd->pe", normals, axes).min(axis=1)
+        # normals of curved faces may be outside those of their corners
+        bounded = (cosine > EQUAL) & (count <= 4)
+        angles = np.where(bounded, np.arccos(np.clip(cosine, -1.0, 1.0)), np.inf)
+        return cls(polynomials, _sizes(corners), low - beyond, high + beyond, axes, angles)
+
+    def at(self, piece: IntArray, natural: FloatArray) -> Place:
+        """As of `Surface`."""
+        return _place(self.polynomials[piece], natural)
+
+    def least(self, points: FloatArray, looks: FloatArray, candidates: IntArray, facing: float) -> FloatArray:
+        """(m, c) lower bounds of the distances of points from candidates; infinite where none of the normals looks the
+        other way.
+        """
+        beside = np.maximum(self.low[candidates] - points[:, None], points[:, None] - self.high[candidates])
+        beside = np.maximum(beside, 0.0)
+        least = np.sqrt(np.einsum("mcd,mcd->mc", beside, beside))
+        cosine = np.einsum("mcd,md->mc", self.axes[candidates], looks)
+        away = np.arccos(np.clip(cosine, -1.0, 1.0)) + self.angles[candidates] < np.arccos(facing) - ROUNDED
+        return np.where(away & np.asarray(looks.any(axis=1))[:, None], np.inf, least)
+
+
 class FaceSurface:
     """A main surface of faces of elements."""
 
@@ -145,15 +204,12 @@ class FaceSurface:
     def at(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> Place:
         """As of `Surface`."""
         nodes = self.pieces.nodes[piece]
-        places = self._coordinates[nodes] + moved[nodes]
-        found = [np.einsum("mk...,mkd->m...d", one, places) for one in weights_of(self.pieces.shapes[piece], natural)]
-        return Place(*found)
+        return _place(_polynomials(self.pieces.shapes[piece], self._coordinates[nodes] + moved[nodes]), natural)
 
     def sizes(self, piece: IntArray, moved: FloatArray) -> FloatArray:
         """As of `Surface`: largest distances of nodes from their middle."""
         nodes = self.pieces.nodes[piece]
-        places = self._coordinates[nodes] + moved[nodes]
-        return np.asarray(np.linalg.norm(places - places.mean(axis=1, keepdims=True), axis=2).max(axis=1))
+        return _sizes(self._coordinates[nodes] + moved[nodes])
 
     def by_unknowns(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
         """As of `Surface`."""
@@ -178,18 +234,23 @@ class FaceSurface:
         self, points: FloatArray, looks: FloatArray, moved: FloatArray, before: IntArray, *, everywhere: bool
     ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
         """As of `Surface`."""
-        found = before
+        present, found = _Present.of(self.pieces, self._coordinates + moved), before.copy()
         if everywhere:
             places = self._coordinates[self._own] + moved[self._own]
             from scipy.spatial import KDTree  # noqa: PLC0415 (takes 0.1 s, and few decks have contact)
 
             _, near = KDTree(places).query(points, k=min(NEAREST, len(places)))
             near = self._of_node[near.reshape(len(points), -1)].reshape(len(points), -1)
-            found = self._nearest(points, looks, moved, np.concatenate([before[:, None], near], axis=1))[0]
+            found = self._nearest(present, points, looks, np.concatenate([before[:, None], near], axis=1))[0]
+        natural, above = np.zeros((len(points), self._dimension - 1)), np.zeros(len(points), dtype=np.bool_)
+        rows = np.arange(len(points))
         for _ in range(WALK):
-            candidates = np.concatenate([found[:, None], self.pieces.ring[found]], axis=1)
-            last, (found, natural, above) = found, self._nearest(points, looks, moved, candidates)
-            if np.array_equal(last, found):
+            last = found[rows]
+            candidates = np.concatenate([last[:, None], self.pieces.ring[last]], axis=1)
+            nearest = self._nearest(present, points[rows], looks[rows], candidates)
+            found[rows], natural[rows], above[rows] = nearest
+            rows = rows[nearest[0] != last]
+            if not len(rows):
                 break
         return found, natural, above
 
@@ -211,29 +272,47 @@ class FaceSurface:
         return self.nodes_of(piece), shares / shares.sum(axis=1, keepdims=True)
 
     def _nearest(
-        self, points: FloatArray, looks: FloatArray, moved: FloatArray, candidates: IntArray
+        self, present: _Present, points: FloatArray, looks: FloatArray, candidates: IntArray
     ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
-        """Of candidates (m, c) the nearest piece: as in `track`. Of some that are as near it is the first one."""
-        m, total = len(candidates), len(self.pieces.nodes)
+        """Of candidates (m, c) the nearest piece: as in `track`. Of some that are as near it is the first one.
+
+        The one whose box is nearest comes first; others only if their boxes are not further away than it is.
+        """
+        pieces, rows = self.pieces, np.arange(len(candidates))
+        least = present.least(points, looks, candidates, self._facing)
+        first = least.argmin(axis=1)
+        distance, natural = np.full(least.shape, np.inf), np.zeros((*least.shape, self._dimension - 1))
+        closest, natural[rows, first] = self._reach(present, points, looks, candidates[rows, first])
+        distance[rows, first] = closest
+        margin = EQUAL * present.sizes[candidates]
+        # twice: rounding
+        near = np.isfinite(least) & (least <= closest[:, None] + 2.0 * margin)
+        # where all of them look the same way, it is the first one
+        near[:, 0] |= np.isinf(closest)
+        row, column = np.nonzero(near & (candidates != candidates[rows, first][:, None]))
         # candidates may be repeated
-        pairs, place_of = np.unique(np.arange(m)[:, None] * total + candidates, return_inverse=True)
-        row, piece = pairs // total, pairs % total
-        point = points[row]
-        every = self._project(piece, point, moved)
-        end = self._inside(piece, every)
-        place = self.at(piece, end, moved)
-        away = np.einsum("md,md->m", place.normal, looks[row]) > np.where(looks[row].any(axis=1), self._facing, np.inf)
-        apart = np.where(away, np.inf, np.linalg.norm(point - place.at, axis=1))
-        place_of = place_of.reshape(candidates.shape)
-        distance, size, natural = apart[place_of], self.sizes(piece, moved)[place_of], every[place_of]
-        chosen = np.argmax(distance <= distance.min(axis=1, keepdims=True) + EQUAL * size, axis=1)
-        rows = np.arange(m), chosen
-        piece, natural = candidates[rows], natural[rows]
-        pieces = self.pieces
-        above = (natural >= pieces.reach_low[piece] - EQUAL).all(axis=1)
-        above &= (natural <= pieces.reach_high[piece] + EQUAL).all(axis=1)
-        above &= (natural.sum(axis=1) <= pieces.reach_total[piece] + EQUAL) & np.isfinite(distance[rows])
-        return piece, natural, above
+        total = len(pieces.nodes)
+        pairs, place_of = np.unique(row * total + candidates[row, column], return_inverse=True)
+        others, other = pairs // total, pairs % total
+        apart, places = self._reach(present, points[others], looks[others], other)
+        distance[row, column], natural[row, column] = apart[place_of], places[place_of]
+        chosen = np.argmax(distance <= distance.min(axis=1, keepdims=True) + margin, axis=1)
+        piece, place = candidates[rows, chosen], natural[rows, chosen]
+        above = (place >= pieces.reach_low[piece] - EQUAL).all(axis=1)
+        above &= (place <= pieces.reach_high[piece] + EQUAL).all(axis=1)
+        above &= (place.sum(axis=1) <= pieces.reach_total[piece] + EQUAL) & np.isfinite(distance[rows, chosen])
+        return piece, place, above
+
+    def _reach(
+        self, present: _Present, points: FloatArray, looks: FloatArray, piece: IntArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Distances (m,) of points from pieces (m,), infinite from those that do not look the other way, and natural
+        coordinates (m, a).
+        """
+        natural = self._project(present, piece, points)
+        place = present.at(piece, self._inside(piece, natural))
+        away = np.einsum("md,md->m", place.normal, looks) > np.where(looks.any(axis=1), self._facing, np.inf)
+        return np.where(away, np.inf, np.linalg.norm(points - place.at, axis=1)), natural
 
     def _inside(self, piece: IntArray, natural: FloatArray) -> FloatArray:
         """Natural coordinates of the nearest point that belongs to the piece."""
@@ -242,13 +321,13 @@ class FaceSurface:
         over = np.maximum(end.sum(axis=1) - pieces.total[piece], 0.0)[:, None]
         return np.asarray(np.clip(end - over / end.shape[1], pieces.low[piece], pieces.high[piece]))
 
-    def _project(self, piece: IntArray, points: FloatArray, moved: FloatArray) -> FloatArray:
+    def _project(self, present: _Present, piece: IntArray, points: FloatArray) -> FloatArray:
         """Natural coordinates where pieces, extended, are perpendicular to the way to points, by Newton's method."""
         low, high = self.pieces.low[piece], self.pieces.high[piece]
         natural, reach = 0.5 * (low + high), 2.0 * (high - low)
         rows = np.arange(len(piece))
         for _ in range(STEPS):
-            place = self.at(piece[rows], natural[rows], moved)
+            place = present.at(piece[rows], natural[rows])
             apart = points[rows] - place.at
             metric = place.metric
             matrix = metric - np.einsum("mabd,md->mab", place.second, apart)
@@ -264,6 +343,26 @@ class FaceSurface:
             if not len(rows):
                 break
         return natural
+
+
+def _polynomials(shapes: FloatArray, places: FloatArray) -> FloatArray:
+    """(m, p, d) coefficients of the monomials, of nodes at places (m, k, d) with shapes (m, k, p)."""
+    return np.asarray(np.einsum("mkp,mkd->mpd", shapes, places))
+
+
+def _sizes(places: FloatArray) -> FloatArray:
+    """(m,) largest distances of nodes, at places (m, k, d), from their middle."""
+    return np.asarray(np.linalg.norm(places - places.mean(axis=1, keepdims=True), axis=2).max(axis=1))
+
+
+def _place(polynomials: FloatArray, natural: FloatArray) -> Place:
+    """Where polynomials (m, p, d) are."""
+    values, first, second = monomials(natural, polynomials.shape[1])
+    return Place(
+        np.einsum("mp,mpd->md", values, polynomials),
+        np.einsum("mpa,mpd->mad", first, polynomials),
+        np.einsum("mpab,mpd->mabd", second, polynomials),
+    )
 
 
 def weights_of(shapes: FloatArray, natural: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -50,6 +50,7 @@ class SurfaceSliding:
         self._pair, self._main, self._dimension = pair, pair.main, pair.dimension
         self._coordinates = coordinates[:, : pair.dimension]
         self._own = FaceSurface(pair.own, self._coordinates)
+        self._all = FaceSurface(pair.main, self._coordinates)
         self._slip = FiniteSliding(pair, coordinates, -FACING)
         self.components = pair.dimension
         self._base = len(coordinates) + 1
@@ -57,6 +58,8 @@ class SurfaceSliding:
         self._keys = self._linked
         self.nodes = pair.secondary[:, None]
         self._moved = np.zeros_like(self._coordinates)
+        # displacements at which the samples are new
+        self._sampled: FloatArray | None = self._moved
         self._sample()
         self.reach()
         start, size = self._clearances, self._own.sizes(np.zeros(1, dtype=np.int64), self._moved)[0]
@@ -78,11 +81,12 @@ class SurfaceSliding:
         """Find the pieces that are opposite: in the first pass of an increment of new samples."""
         self._slip.track(u, du, find, first=first)
         self._moved = self._slip.moved
-        if first:
-            self._sample()
-        else:
+        if not first:
             self._opposite.search(self._moved, self._looks(), everywhere=False)
             self._average()
+        elif self._sampled is None or not np.array_equal(self._sampled, self._moved):
+            self._sample()
+        self._sampled = self._moved if first else None
 
     def _looks(self) -> FloatArray:
         """(q, d) normals of the secondary surface at the samples."""
@@ -112,8 +116,7 @@ class SurfaceSliding:
         there = values >= -self._pair.deepest[self._face]
         behind = np.flatnonzero(there & (values < 0.0) & self._opposite.above)
         if len(behind):
-            surface = FaceSurface(self._main, self._coordinates)
-            nearest = surface.distances(self._opposite.points(self._moved)[behind], self._moved)
+            nearest = self._all.distances(self._opposite.points(self._moved)[behind], self._moved)
             there[behind] = nearest >= -values[behind] * (1.0 - NEARER)
         return there
 
@@ -283,7 +286,7 @@ class SurfaceSliding:
     def resume(self, saved: Saved) -> None:
         """Begin with what `kept` returned."""
         self._slip.resume(saved["slip"])
-        self._linked = saved["linked"]
+        self._linked, self._sampled = saved["linked"], None
 
 
 def _sums(places: IntArray, values: FloatArray, count: int) -> FloatArray:
