@@ -273,7 +273,7 @@ def test_resonance_without_damping(run):
         ("*STEADY STATE DYNAMICS, DIRECT\n0.1, 0.5, 5", "*STATIC", r"\*CLOAD: REAL and IMAGINARY are for \*STEADY"),
         ("*BOUNDARY\n1, 1\n", "*BOUNDARY, REAL\n1, 1\n", r"\*BOUNDARY: REAL and IMAGINARY are for \*STEADY STATE"),
         ("*CLOAD\n", "*DLOAD\nE, U1, 1.\n*CLOAD\n", "harmonic loads on user elements are not supported"),
-        ("*CLOAD\n", "*BOUNDARY, TYPE=VELOCITY\n1, 1, 1, 1.\n*CLOAD\n", "TYPE=VELOCITY has no meaning in a linear perturbation"),
+        ("*CLOAD\n", "*BOUNDARY, TYPE=VELOCITY\n1, 1, 1, 1.\n*CLOAD\n", "has no meaning in a linear perturbation"),
         (
             *("*CLOAD\n", "*CLOAD, AMPLITUDE=A\n"),
             "an amplitude is a function of frequency here, which UAMP cannot give",
