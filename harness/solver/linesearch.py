@@ -68,12 +68,10 @@ REFINEMENTS, CLOSEST = 5, 0.02
 """Evaluations inside a bracket at most, and the relative change of the scale below which they end."""
 
 
-def descend(
-    component: Callable[[float], float | None], at_zero: float, start: float = 1.0
-) -> tuple[float, tuple[float, ...]]:
+def descend(component: Callable[[float], float | None], at_zero: float) -> tuple[float, tuple[float, ...]]:
     """Scale s of a direction d that goes downhill at which g(s) = d . r(u + s d) is small.
 
-    Four times as large from `start` on while g > 0.25 g(0), then regula falsi (Illinois) until |g| <= 0.25 g(0).
+    Four times as large from 1 on while g > 0.25 g(0), then regula falsi (Illinois variant) until |g| <= 0.25 g(0).
 
     Parameters
     ----------
@@ -81,8 +79,6 @@ def descend(
         Evaluates g; None if an element refuses the scale, which then is too large.
     at_zero
         g(0) > 0.
-    start
-        The first scale that is tried.
 
     Returns
     -------
@@ -93,7 +89,7 @@ def descend(
     best, smallest, downhill = 0.0, at_zero, 0.0
     lower, upper = (0.0, at_zero), (math.inf, 0.0)
     tried: list[float] = []
-    scale, refinements, last = start, 0, 0
+    scale, refinements, last = 1.0, 0, 0
     while True:
         value = component(scale)
         tried.append(scale)

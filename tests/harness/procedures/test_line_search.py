@@ -59,12 +59,6 @@ def test_descent_takes_a_good_scale_at_once():
     assert descend(lambda s: 1.0 - 0.8 * s, 1.0) == (1.0, (1.0,))
 
 
-def test_descent_begins_with_the_scale_that_it_is_given():
-    """g = 1 - 2 s has its root at 1/2; from 1 on it takes an evaluation more to find it."""
-    assert descend(lambda s: 1.0 - 2.0 * s, 1.0, 0.5) == (0.5, (0.5,))
-    assert descend(lambda s: 1.0 - 2.0 * s, 1.0) == (0.5, (1.0, 0.5))
-
-
 def test_descent_lengthens_the_step_and_then_finds_the_root():
     """g = 1 - s/10: 1 and 4 are still downhill, 16 is too far, the secant through 4 and 16 meets the root."""
     assert descend(lambda s: 1.0 - 0.1 * s, 1.0) == (pytest.approx(10.0), (1.0, 4.0, 16.0, pytest.approx(10.0)))
