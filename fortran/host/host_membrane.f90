@@ -277,12 +277,13 @@ contains
     type(response_t), intent(inout) :: at
     real(dp), intent(out) :: volume
     real(dp) :: stretch(2, 2)
-    at%before = real(stretch_of(cmplx(before, kind=dp)), dp)
-    stretch = real(stretch_of(cmplx(f, kind=dp)), dp)
-    if (.not. (determinant(stretch) > smallest_area .and. determinant(at%before) > smallest_area)) then
+    ! of a surface without area there are no stretches
+    if (.not. (norm2(cross(f(:, 1), f(:, 2))) > smallest_area .and. norm2(cross(before(:, 1), before(:, 2))) > smallest_area)) then
       current%distorted = int(point)
       call escape()
     end if
+    at%before = real(stretch_of(cmplx(before, kind=dp)), dp)
+    stretch = real(stretch_of(cmplx(f, kind=dp)), dp)
     at%increment = real(increment_of(at%before, cmplx(stretch, kind=dp)), dp)
     volume = at%volume*determinant(stretch)**(1 - at%thinning)
     current%deformation = 0
