@@ -19,6 +19,8 @@ HERE: Final = Path(__file__).parent
 STUB: Final = HERE.parents[1] / "harness" / "usersub" / "_host.pyi"
 SOURCES: Final = (
     "entry.f90",
+    "entry_materials.f90",
+    "entry_points.f90",
     "entry_shape.f90",
     "entry_watch.f90",
     "bare_loop.f90",

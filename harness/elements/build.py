@@ -276,7 +276,7 @@ def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library
         routine = solid_routine(model, group, section, library)
     # displacements of all nodes, then temperatures of the corners, or potentials of all, or those of the reference node
     unknowns = tuple((node, dof) for node in range(kind.nodes) for dof in range(1, kind.dimension + 1))
-    unknowns += tuple((node, 11) for node in range(kind.corners) if coupled)
+    unknowns += tuple((node, TEMPERATURE) for node in range(kind.corners) if coupled)
     unknowns += tuple((node, POTENTIAL) for node in range(kind.nodes) if kind.electrical)
     unknowns += tuple((REFERENCE, dof) for dof in PLANES if kind.generalised)
     unknowns += tuple((kind.nodes, PRESSURE + k) for k in range(pressure_unknowns(kind, section.material)))

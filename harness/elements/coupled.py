@@ -32,7 +32,7 @@ from harness.errors import DeckError
 from harness.model.arrays import FloatArray
 from harness.model.element_types import HeatType
 from harness.model.mesh import ElementGroup
-from harness.model.model import Model
+from harness.model.model import TEMPERATURE, Model
 from harness.model.properties import Material, SolidSection
 from harness.model.records import PointVariables
 from harness.usersub import Library, _binding
@@ -71,7 +71,7 @@ def _initial_temperatures(model: Model) -> FloatArray:
     """Of all nodes (nodes,), zero where none is given."""
     temperatures = np.zeros(len(model.mesh.labels))
     for entry in model.initial_temperatures:
-        if entry.dof == 11:
+        if entry.dof == TEMPERATURE:
             temperatures[entry.nodes] = entry.value
     return temperatures
 

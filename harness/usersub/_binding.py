@@ -283,7 +283,7 @@ def define_material(
     constants: tuple[float, float],
     table: FloatArray,
 ) -> int:
-    """Add a material to the host's library; arguments as host_define_material in fortran/host/entry.f90 names them."""
+    """Add a material to the host's library; arguments as in fortran/host/entry_materials.f90."""
     return int(_host.host_define_material(stiffness.T, compliance.T, thickness, axes, constants, table.T))
 
 

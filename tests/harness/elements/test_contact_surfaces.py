@@ -125,40 +125,6 @@ def test_bodies_that_turn(call, dimension, friction):
 # ------------------------------------------------------------ bodies that slide
 
 
-def of_step(result, number, values):
-    """Values at the ends of the increments of a step."""
-    return values[result.history["step"] == number]
-
-
-@pytest.mark.sample(2)
-@pytest.mark.parametrize("nlgeom", ["", ", NLGEOM"])
-@pytest.mark.parametrize("behavior", ["*FRICTION\n0.3,", "", "*SURFACE BEHAVIOR, PENALTY\n1e5\n*FRICTION\n0.3,"])
-def test_block_slides_over_many_faces(run, behavior, nlgeom):
-    """Under a load N over 16 faces of a body whose nodes are all held: mu N where it slips, and back."""
-    lower, upper = (
-        Box("LOWER", "CPE4", (0, 0), (10, 1), (20, 1)),
-        Box("UPPER", "CPE4", (0.3, 1), (1.3, 2), (2, 1), 1001),
-    )
-    loads = "*CLOAD\n" + "\n".join(f"{number}, 2, -10." for number in upper.numbers[:, -1])
-    press = step("1., 1.", loads, "*BOUNDARY\nUPPER_LEFT, 1", options=nlgeom)
-    output = "*NODE OUTPUT, NSET=UPPER_LEFT\nU, RF1\n*NODE OUTPUT, NSET=LOWER_TOP\nRF2"
-    slide = [
-        step("0.05, 1., 1e-6, 0.05", f"*BOUNDARY\nUPPER_LEFT, 1, 1, {to}", options=", INC=200", output=output)
-        for to in (8.0, 0.0)
-    ]
-    held = "*BOUNDARY\nLOWER_BOTTOM, 1, 2\nLOWER_TOP, 1, 2"
-    result = run(two_boxes(lower, upper, [held, press, *slide], pair=SURFACES, behavior=behavior))
-    friction = 0.3 * 30.0 if "FRICTION" in behavior else 0.0
-    found = total(result, "RF1", "UPPER_LEFT")
-    np.testing.assert_allclose(of_step(result, 2, found), friction, atol=2e-3 * 9)
-    # the first increments back may still stick
-    np.testing.assert_allclose(of_step(result, 3, found)[2:], -friction, atol=2e-3 * 9)
-    # what is held holds all of it
-    np.testing.assert_allclose(
-        of_step(result, 2, total(result, "RF2", "LOWER_BOTTOM", "LOWER_TOP"))[-1], 30.0, rtol=1e-3
-    )
-
-
 def test_stress_stays_constant_while_a_body_slides(run):
     """A block, pressed by 0.01 without friction, slides over faces of another size: always -E 0.01 with nu = 0.
 
