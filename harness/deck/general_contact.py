@@ -20,7 +20,7 @@ from harness.deck.contact_sides import Sides, check_corners, surface_pair
 from harness.deck.error_report import Problems, look_up
 from harness.deck.flatten import FlatMesh
 from harness.deck.interactions import Interactions
-from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
+from harness.deck.table import INPUT, NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.elements import SurfaceSliding
 from harness.errors import DeckError, Source
 from harness.model.arrays import IntArray
@@ -298,7 +298,7 @@ KEYWORDS = (
         "Contact properties of general contact; the last line about two surfaces counts. Without any: hard contact "
         "without friction.",
         Where.MODEL,
-        ignored("INPUT"),
+        (INPUT,),
         f"{_SURFACES}; surface interaction",
     ),
     Keyword(

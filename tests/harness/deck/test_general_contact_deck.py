@@ -78,6 +78,12 @@ def pairs(read, domain):
     ]
 
 
+def test_properties_from_a_file(read, tmp_path):
+    (tmp_path / "properties.inp").write_text(" , , DRY\n")
+    given = f"*CONTACT PROPERTY ASSIGNMENT, INPUT={tmp_path / 'properties.inp'}\n"
+    assert pairs(read, DOMAIN.replace("*CONTACT PROPERTY ASSIGNMENT\n , , DRY\n", given)) == pairs(read, DOMAIN)
+
+
 def test_all_exterior(read):
     """A body is secondary to all whose elements come before; a body that is alone with itself is not."""
     model = read(DECK)
