@@ -210,18 +210,22 @@ subroutine host_external_database(address, lop, lrestart, time, dtime, kstep, ki
   call call_external_database(address, lop, lrestart, time, dtime, kstep, kinc, left)
 end subroutine host_external_database
 
-!> Make a flux (film = 0) or a film known; returns the number that stands for it.
-subroutine host_define_heat_load(film, address, surface, jltyp, number)
+!> Make a flux, a film or radiation known; returns the number that stands for it.
+subroutine host_define_heat_load(law, address, surface, jltyp, absolute_zero, stefan_boltzmann, number)
   use, intrinsic :: iso_c_binding, only: c_intptr_t
   use host_heat_loads, only: define_heat_load, heat_load_t
-  use host_kinds, only: i4, i8
+  use host_kinds, only: dp, i4, i8
   implicit none (type, external)
-  integer(i4), intent(in) :: film, jltyp
+  integer(i4), intent(in) :: law              !< as in host_heat_loads
+  integer(i4), intent(in) :: jltyp
   integer(i8), intent(in) :: address          !< of DFLUX or FILM; 0: the deck gives the magnitudes
   character(len=80), intent(in) :: surface
+  real(dp), intent(in) :: absolute_zero, stefan_boltzmann
   integer(i4), intent(out) :: number
   type(heat_load_t) :: load
-  load%film = film /= 0
+  load%law = law
+  load%absolute_zero = absolute_zero
+  load%stefan_boltzmann = stefan_boltzmann
   load%by_user = address /= 0
   load%address = transfer(int(address, c_intptr_t), load%address)
   load%surface = surface

@@ -1,12 +1,14 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Heat that enters through faces, into volumes and at nodes, as a procedure with the arguments of UEL: fluxes, by the deck or by
-!> DFLUX, and films, by the deck or by FILM (User Subroutines Guide, DFLUX, FILM). In mass diffusion solute enters as heat does.
+!> DFLUX, films, by the deck or by FILM (User Subroutines Guide, DFLUX, FILM), and radiation (Analysis User's Guide, Thermal loads).
+!> In mass diffusion solute enters as heat does.
 !>
 !> JTYPE: 1 a face, 2 a volume, 3 a node. JPROPS: family and integration points of the shape, family of the temperatures, 1 about an
 !> axis, number of the load (define_heat_load), 1 in mass diffusion (host_mass_diffusion). PROPS(1): thickness or 2 pi, at a node
-!> its area. Loads of the call: of kind 1 the flux or the sink temperature, of kind 2 the film coefficient. The unknowns are the
-!> temperatures or concentrations, in quadratic coupled elements those of the corners.
+!> its area. Loads of the call: of kind 1 the flux or the temperature of the sink or the surroundings, of kind 2 the film
+!> coefficient or the emissivity. The unknowns are the temperatures or concentrations, in quadratic coupled elements those of the
+!> corners.
 !>
 !> Faces of linear elements have their points at the corners, as in Abaqus (Analysis User's Guide, Solid elements), each with the
 !> integral of its function as weight, so that a uniform flux makes a linear temperature on any mesh; the others, and volumes,
@@ -25,9 +27,13 @@ module host_heat_loads
 
   integer(i4), parameter :: volume = 2, node = 3   !< JTYPE
 
+  integer(i4), parameter :: film = 1, radiation = 2   !< law; 0: a flux
+
   !> A load of one type on one surface.
   type :: heat_load_t
-    logical :: film = .false.
+    integer(i4) :: law = 0
+    real(dp) :: absolute_zero = 0
+    real(dp) :: stefan_boltzmann = 0
     logical :: by_user = .false.                !< DFLUX or FILM is called
     type(c_funptr) :: address
     character(len=80) :: surface = ' '          !< SNAME
@@ -150,13 +156,21 @@ contains
     real(dp), intent(out) :: heat, slope
     real(dp) :: values(2), sink
     sink = given(1)
-    values = [merge(given(2), given(1), load%film), 0.0_dp]
+    values = [merge(given(1), given(2), load%law == 0), 0.0_dp]
     if (load%by_user) call call_user(load, point, label, place, temperature, time, area, fields, driving, values, sink)
-    heat = values(1)
-    slope = values(2)
-    if (.not. load%film) return
-    heat = values(1)*(sink - temperature)
-    slope = values(2)*(sink - temperature) - values(1)
+    select case (load%law)
+    case (film)
+      heat = values(1)*(sink - temperature)
+      slope = values(2)*(sink - temperature) - values(1)
+    case (radiation)
+      associate (factor => load%stefan_boltzmann*values(1), zero => load%absolute_zero)
+        heat = factor*((sink - zero)**4 - (temperature - zero)**4)
+        slope = -4*factor*(temperature - zero)**3
+      end associate
+    case default
+      heat = values(1)
+      slope = values(2)
+    end select
   end subroutine heat_at
 
   !> DFLUX or FILM at a point: FLUX or H, and SINK. Their TIME is that at the end of the increment.
@@ -166,7 +180,7 @@ contains
     real(dp), intent(in) :: place(:), temperature, time(2), area, fields(:), driving(2)
     real(dp), intent(inout) :: values(2), sink
     procedure(dflux_procedure), pointer :: dflux
-    procedure(film_procedure), pointer :: film
+    procedure(film_procedure), pointer :: film_at
     integer(i4) :: kstep, kinc, noel, npt, jltyp, nfield, node_label
     real(dp) :: sol, now(2), coords(3), temp, press, field(max(size(fields), 1)), own_area
     character(len=80) :: sname
@@ -174,7 +188,7 @@ contains
     character(len=len(current%routine)) :: routine
     call lay_out_guarded(work, [2])
     routine = current%routine
-    current%routine = merge('FILM ', 'DFLUX', load%film)
+    current%routine = merge('FILM ', 'DFLUX', load%law == film)
     current%point = point
     sol = temperature
     kstep = current%step
@@ -193,12 +207,12 @@ contains
     sname = load%surface
     node_label = label
     own_area = area
-    name = merge('H   ', 'FLUX', load%film)
+    name = merge('H   ', 'FLUX', load%law == film)
     associate (x => work%memory, s => work%start)
       x(s(1):s(1) + 1) = values
-      if (load%film) then
-        call c_f_procpointer(load%address, film)
-        call film(x(s(1)), sink, sol, kstep, kinc, now, noel, npt, coords, jltyp, field, nfield, sname, node_label, own_area)
+      if (load%law == film) then
+        call c_f_procpointer(load%address, film_at)
+        call film_at(x(s(1)), sink, sol, kstep, kinc, now, noel, npt, coords, jltyp, field, nfield, sname, node_label, own_area)
       else
         call c_f_procpointer(load%address, dflux)
         call dflux(x(s(1)), sol, kstep, kinc, now, noel, npt, coords, jltyp, temp, press, sname)

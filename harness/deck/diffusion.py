@@ -1,11 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The diffusion of one material through another: *DIFFUSIVITY, *SOLUBILITY, *KAPPA and *PHYSICAL CONSTANTS, and what a
+"""The diffusion of one material through another: *DIFFUSIVITY, *SOLUBILITY and *KAPPA, and what a
 deck with *MASS DIFFUSION has instead of temperatures."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import replace
 from typing import Final
 
@@ -14,7 +13,7 @@ import numpy as np
 from harness.deck.blocks import Block, Row
 from harness.deck.error_report import Problems
 from harness.deck.heat import read_by_temperature
-from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
+from harness.deck.table import Keyword, Where, one_of, refused
 from harness.model.element_types import HEAT, HeatType
 from harness.model.model import CONCENTRATION, TEMPERATURE, Equation, Model
 from harness.model.properties import Diffusivity, Material
@@ -78,12 +77,6 @@ def _read_rows(block: Block, constants: int, what: str) -> list[tuple[Row, list[
     return found
 
 
-def read_absolute_zero(blocks: Iterable[Block]) -> float:
-    """ABSOLUTE ZERO of *PHYSICAL CONSTANTS; 0 without it."""
-    zeros = [block.options.real("ABSOLUTE ZERO", 0.0) for block in blocks if block.name == "PHYSICAL CONSTANTS"]
-    return zeros[-1] if zeros else 0.0
-
-
 def with_concentrations(model: Model, problems: Problems) -> Model:
     """The model whose dof 11 is the concentration, if its steps are *MASS DIFFUSION; adds what does not fit there."""
     if not model.diffusive:
@@ -121,7 +114,7 @@ def _check(model: Model, problems: Problems) -> None:
             message = "is not supported in a job with *MASS DIFFUSION, where dof 11 is a concentration"
             problems.add(step.source, f"*{step.procedure.keyword} {message}; expected a job of its own")
         for heat in step.heat_loads:
-            if heat.type.film:
+            if heat.type.exchanges:
                 problems.add(heat.source, f"*{heat.type.keyword} exchanges heat, which *MASS DIFFUSION has none of")
     for group in model.groups:
         if not isinstance(group.built_in, HeatType):
@@ -186,15 +179,4 @@ OPTIONS = (
 )
 """Those of *MATERIAL."""
 
-KEYWORDS = (
-    *OPTIONS,
-    Keyword(
-        "PHYSICAL CONSTANTS",
-        "Absolute zero, for *KAPPA.",
-        Where.MODEL,
-        (
-            Option("ABSOLUTE ZERO", Kind.REAL, "on the scale of the temperatures (0)"),
-            *ignored("STEFAN BOLTZMANN", "UNIVERSAL GAS CONSTANT", "LIGHT SPEED"),
-        ),
-    ),
-)
+KEYWORDS = OPTIONS

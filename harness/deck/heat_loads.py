@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*DFLUX, *DSFLUX, *FILM, *SFILM and *CFILM: heat that enters elements with temperatures."""
+"""Heat that enters elements with temperatures: fluxes, films and radiation."""
 
 from __future__ import annotations
 
@@ -17,10 +17,17 @@ from harness.model.amplitude import Amplitude
 from harness.model.arrays import IntArray
 from harness.model.element_types import SolidType
 from harness.model.mesh import ElementGroup
-from harness.model.steps import HeatLoad, HeatLoadType
+from harness.model.steps import HeatLaw, HeatLoad, HeatLoadType
 
-HEAT_LOADS: Final = ("DFLUX", "DSFLUX", "FILM", "SFILM", "CFILM")
-_LABEL: Final = re.compile(r"(BF|[SF]\d?)(NU)?")
+HEAT_LOADS: Final = ("DFLUX", "DSFLUX", "FILM", "SFILM", "CFILM", "RADIATE", "SRADIATE", "CRADIATE")
+_ENDS: Final = {"FLUX": HeatLaw.FLUX, "FILM": HeatLaw.FILM, "RADIATE": HeatLaw.RADIATION}
+"""How heat enters, by the end of the keyword."""
+_LETTERS: Final = {HeatLaw.FLUX: "S", HeatLaw.FILM: "F", HeatLaw.RADIATION: "R"}
+_WORDS: Final = {
+    HeatLaw.FILM: ("sink temperature", "film coefficient"),
+    HeatLaw.RADIATION: ("ambient temperature", "emissivity"),
+}
+_LABEL: Final = re.compile(r"(BF|[SFR]\d?)(NU)?")
 _BODY, _FIRST_FACE = 1, 11
 """JLTYP of BFNU, and of the first face, S1NU or F1NU (User Subroutines Guide, DFLUX and FILM)."""
 
@@ -28,70 +35,79 @@ _BODY, _FIRST_FACE = 1, 11
 def read_heat_loads(block: Block, prescription: Prescription) -> list[HeatLoad]:
     """Entries of one of these keywords. Raises DeckError."""
     amplitude, film_amplitude = prescription.amplitude(block), None
-    film = block.name.endswith("FILM")
-    if film and (name := block.options.text("FILM AMPLITUDE")):
+    law = _law(block.name)
+    if law is HeatLaw.FILM and (name := block.options.text("FILM AMPLITUDE")):
         film_amplitude = look_up(prescription.amplitudes, name, "amplitude", block.source)
     found = []
     for row in block.rows():
-        row.at_most(4 if film else 3)
+        row.at_most(3 if law is HeatLaw.FLUX else 4)
         for places, kind in _places(block, row, prescription):
             found.append(_load(row, places, kind, (amplitude, film_amplitude)))
     return found
+
+
+def _law(keyword: str) -> HeatLaw:
+    (law,) = (law for end, law in _ENDS.items() if keyword.endswith(end))
+    return law
 
 
 def _load(
     row: Row, places: IntArray, kind: HeatLoadType, amplitudes: tuple[Amplitude | None, Amplitude | None]
 ) -> HeatLoad:
     amplitude, film_amplitude = amplitudes
-    if not kind.film:
+    if not kind.exchanges:
         return HeatLoad(places, kind, row.real(2, "flux", 0.0), amplitude, row.source)
-    sink, coefficient = row.real(2, "sink temperature", 0.0), row.real(3, "film coefficient", 0.0)
-    return HeatLoad(places, kind, sink, amplitude, row.source, coefficient, film_amplitude)
+    temperature, coefficient = (row.real(k, what, 0.0) for k, what in enumerate(_WORDS[kind.law], start=2))
+    if kind.law is HeatLaw.RADIATION and coefficient < 0:
+        raise row.error(f"emissivity {coefficient:g} must not be negative")
+    return HeatLoad(places, kind, temperature, amplitude, row.source, coefficient, film_amplitude)
 
 
 def _places(block: Block, row: Row, prescription: Prescription) -> Iterator[tuple[IntArray, HeatLoadType]]:
     """Elements or nodes of a line, group by group, with the type of the load there."""
-    name = block.name
-    if name == "CFILM":
+    name, law = block.name, _law(block.name)
+    if name in ("CFILM", "CRADIATE"):
         nodes = prescription.flat.nodes(row.name(0, "node or node set"), row.source)
         area = row.real(1, "area", 1.0)
         if area <= 0:
             raise row.error(f"area {area:g} must be positive")
-        yield nodes, HeatLoadType(name, film=True, area=area, by_user=block.options.flag("USER"))
+        by_user = law is HeatLaw.FILM and block.options.flag("USER")
+        yield nodes, HeatLoadType(name, law, area=area, by_user=by_user)
         return
-    film = name.endswith("FILM")
-    on_surface = name in ("DSFLUX", "SFILM")
-    label, by_user = _label(row, film=film, on_surface=on_surface)
+    on_surface = name in ("DSFLUX", "SFILM", "SRADIATE")
+    label, by_user = _label(row, law, on_surface=on_surface)
     if on_surface:
         surface = row.name(0, "surface")
         for elements, face, source in prescription.surfaces.faces(surface, row.source):
             for group, positions in prescription.surfaces.by_group(elements):
                 _check_temperatures(row, label, group)
                 local = face_nodes(group, face, source, "SURFACE")
-                yield positions, HeatLoadType(name, film, local, 0, surface, by_user)
+                yield positions, HeatLoadType(name, law, local, 0, surface, by_user)
         return
     elements = prescription.flat.elements(row.name(0, "element or element set"), row.source)
     for group, positions in prescription.surfaces.by_group(elements):
         _check_temperatures(row, label, group)
         if label == "BF":
-            yield positions, HeatLoadType(name, film, (), _BODY, "", by_user)
+            yield positions, HeatLoadType(name, law, (), _BODY, "", by_user)
         else:
             local = face_nodes(group, f"S{label[1:]}", row.source, name)
-            yield positions, HeatLoadType(name, film, local, _FIRST_FACE + int(label[1:]) - 1, "", by_user)
+            yield positions, HeatLoadType(name, law, local, _FIRST_FACE + int(label[1:]) - 1, "", by_user)
 
 
-def _label(row: Row, *, film: bool, on_surface: bool) -> tuple[str, bool]:
+def _label(row: Row, law: HeatLaw, *, on_surface: bool) -> tuple[str, bool]:
     """The label of a load without NU, and whether it has it."""
     given = row.name(1, "load type")
     match = _LABEL.fullmatch(given)
-    letter = "F" if film else "S"
-    known = (letter,) if on_surface else (f"{letter}n",) if film else ("BF", f"{letter}n")
+    letter, flux = _LETTERS[law], law is HeatLaw.FLUX
+    known = (letter,) if on_surface else ("BF", f"{letter}n") if flux else (f"{letter}n",)
     fits = match is not None and (match[1] == letter if on_surface else match[1] != letter)
-    if match is None or not fits or (match[1][0] != letter and (film or match[1] != "BF")):
-        raise row.error(
-            f"load type {given} is not supported (supported: {', '.join(known)}; with NU, as in {letter}NU)"
-        )
-    return match[1], match[2] is not None
+    by_user = match is not None and match[2] is not None
+    if law is HeatLaw.RADIATION and by_user:
+        fits = False
+    if match is None or not fits or (match[1][0] != letter and not (flux and match[1] == "BF")):
+        more = "" if law is HeatLaw.RADIATION else f"; with NU, as in {letter}NU"
+        raise row.error(f"load type {given} is not supported (supported: {', '.join(known)}{more})")
+    return match[1], by_user
 
 
 def _check_temperatures(row: Row, label: str, group: ElementGroup) -> None:
@@ -142,5 +158,26 @@ KEYWORDS = (
         Where.STEP,
         (*LOAD, *_FILM, Option("USER", doc="by FILM")),
         "node or set, area (1), sink temperature, film coefficient",
+    ),
+    Keyword(
+        "RADIATE",
+        "Heat that faces of elements radiate into surroundings, and get from there.",
+        Where.STEP,
+        (*LOAD, *ignored("REGION TYPE")),
+        "element or set, Rn, ambient temperature, emissivity",
+    ),
+    Keyword(
+        "SRADIATE",
+        "Heat that surfaces radiate into surroundings, and get from there.",
+        Where.STEP,
+        LOAD,
+        "surface, R, ambient temperature, emissivity",
+    ),
+    Keyword(
+        "CRADIATE",
+        "Heat that nodes radiate into surroundings, and get from there.",
+        Where.STEP,
+        LOAD,
+        "node or set, area (1), ambient temperature, emissivity",
     ),
 )

@@ -13,7 +13,7 @@ import numpy as np
 from harness.deck.amplitudes import read_amplitudes
 from harness.deck.constraints import ConstraintReader, read_equations
 from harness.deck.contact import ContactReader, check_contact
-from harness.deck.diffusion import read_absolute_zero, with_concentrations
+from harness.deck.diffusion import with_concentrations
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh
 from harness.deck.general_contact import GeneralContact
@@ -24,6 +24,7 @@ from harness.deck.interactions import Interactions
 from harness.deck.keywords import KEYWORDS
 from harness.deck.lexer import Survey, read_blocks, survey_blocks
 from harness.deck.materials import read_materials
+from harness.deck.physical_constants import read_physical_constants
 from harness.deck.prescribed import Prescription
 from harness.deck.profiles import reference_dofs
 from harness.deck.requests import RequestReader
@@ -142,7 +143,7 @@ def read_deck(
         initial_fields=(*fields, *pressures),
         initial_solutions=tuple(solutions),
         initial_stresses=tuple(stresses),
-        absolute_zero=read_absolute_zero(structure.root),
+        constants=read_physical_constants(structure.root),
         given=dict(given or {}),
         ignored=(*interactions.unused, *structure.ignored),
         warnings=problems.warnings,

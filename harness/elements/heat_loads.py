@@ -3,8 +3,8 @@
 """Heat, or a diffusing material, that enters through faces, into volumes and at nodes: blocks that are called as
 elements are.
 
-They are in fortran/host/host_heat_loads.f90. Their loads are of kind 1, the flux or the sink temperature, and 2, the
-film coefficient.
+They are in fortran/host/host_heat_loads.f90. Their loads are of kind 1, the flux or the temperature of the other side,
+and 2, the film coefficient or emissivity.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from harness.model.element_types import Family, HeatType, SolidType
 from harness.model.mesh import ElementGroup
 from harness.model.model import CONCENTRATION, TEMPERATURE, Model
 from harness.model.properties import SolidSection
-from harness.model.steps import HeatLoad, HeatLoadType
+from harness.model.steps import HeatLaw, HeatLoad, HeatLoadType
 from harness.usersub import Library, _binding
 
 FACE, VOLUME, NODE = 1, 2, 3
@@ -59,7 +59,7 @@ def heat_load_blocks(model: Model, library: Library) -> Iterator[HeatLoadBlock]:
             under.setdefault(entry.type, []).append(entry)
     starts = np.cumsum([0, *(len(group.labels) for group in model.groups)])
     for load, entries in under.items():
-        number = _define(load, entries[0], library)
+        number = _define(model, load, entries[0], library)
         places = np.unique(np.concatenate([entry.places for entry in entries]))
         if load.area:
             _check_nodes(model, entries)
@@ -71,16 +71,23 @@ def heat_load_blocks(model: Model, library: Library) -> Iterator[HeatLoadBlock]:
                 yield _on_elements(model, parent, mine - start, mine, load, number, library)
 
 
-def _define(load: HeatLoadType, entry: HeatLoad, library: Library) -> int:
-    """Make a load known to the host; returns its number there. Raises DeckError without the user routine."""
-    routine, address = ("FILM", library.film) if load.film else ("DFLUX", library.dflux)
+def _define(model: Model, load: HeatLoadType, entry: HeatLoad, library: Library) -> int:
+    """Make a load known to the host; returns its number there. Raises DeckError without what it needs."""
+    if load.law is HeatLaw.RADIATION and not model.constants.stefan_boltzmann:
+        raise DeckError(entry.source, f"*{load.keyword} needs *PHYSICAL CONSTANTS, STEFAN BOLTZMANN=")
+    routine, address = ("FILM", library.film) if load.law is HeatLaw.FILM else ("DFLUX", library.dflux)
     if load.by_user and address is None:
         message = (
             f"*{load.keyword}: nonuniform loads need {routine}; {library.name or 'the job'} has {library.contents}"
         )
         raise DeckError(entry.source, message)
     return _binding.define_heat_load(
-        film=load.film, address=address if load.by_user else None, surface=load.surface, jltyp=load.jltyp
+        law=load.law,
+        address=address if load.by_user else None,
+        surface=load.surface,
+        jltyp=load.jltyp,
+        absolute_zero=model.constants.absolute_zero,
+        stefan_boltzmann=model.constants.stefan_boltzmann,
     )
 
 

@@ -34,7 +34,7 @@ def mass_diffusion_routine(model: Model, group: ElementGroup, kind: HeatType, se
     _binding.set_diffusion(
         number,
         fick=law.fick,
-        absolute_zero=model.absolute_zero,
+        absolute_zero=model.constants.absolute_zero,
         axes=axes,
         diffusivity=np.hstack([tensors[:, _ROWS, _COLUMNS], law.points]),
         solubility=material.solubility,

@@ -36,7 +36,7 @@ from harness.model.mesh import full_name
 
 _NODAL = ("BOUNDARY", "INITIAL CONDITIONS", "TEMPERATURE", "FIELD", "PRESSURE STRESS", "KINEMATIC COUPLING")
 """Keywords whose data lines begin with a node or node set, and hold for its doubles."""
-_LOADS = ("CLOAD", "CFLUX", "CECHARGE", "CFILM")
+_LOADS = ("CLOAD", "CFLUX", "CECHARGE", "CFILM", "CRADIATE")
 _NODE_BLOCKS = ("NODE", *(entry.name for entry in GENERATING if entry.name != "ELGEN"))
 _LOADED = "-OLD"
 """Ends the name of a set of the old nodes alone."""

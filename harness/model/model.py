@@ -37,6 +37,18 @@ def dof_in_deck(dof: int) -> int:
 
 
 @dataclass(frozen=True, slots=True)
+class PhysicalConstants:
+    """*PHYSICAL CONSTANTS.
+
+    absolute_zero     on the scale of the temperatures
+    stefan_boltzmann  constant of radiation, 0 where it is not given
+    """
+
+    absolute_zero: float = 0.0
+    stefan_boltzmann: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class Equation:
     """*EQUATION: sum of coefficient x u(node, dof) = 0; the first term is eliminated unless it is prescribed."""
 
@@ -68,7 +80,7 @@ class Model:
     initial_fields        TYPE=FIELD and TYPE=PRESSURE STRESS; their dof is the number of the field
     initial_solutions     TYPE=SOLUTION
     initial_stresses      TYPE=STRESS
-    absolute_zero  of *PHYSICAL CONSTANTS, on the scale of the temperatures
+    constants  *PHYSICAL CONSTANTS
     given      values of parameters that replace those in the deck: listed in .dat
     ignored    keywords that cannot change the solution, with their places: listed once in .dat
     warnings   places where the deck is odd but understood
@@ -93,7 +105,7 @@ class Model:
     initial_fields: tuple[InitialValue, ...] = ()
     initial_solutions: tuple[InitialSolution, ...] = ()
     initial_stresses: tuple[InitialStress, ...] = ()
-    absolute_zero: float = 0.0
+    constants: PhysicalConstants = PhysicalConstants()
     given: dict[str, float] = field(default_factory=dict)
     ignored: tuple[tuple[str, Source], ...] = ()
     warnings: tuple[str, ...] = ()

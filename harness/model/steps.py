@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from enum import StrEnum
+from enum import IntEnum, StrEnum
 from typing import Final
 
 import numpy as np
@@ -214,12 +214,23 @@ class ElementLoad:
     imaginary: bool = False
 
 
+class HeatLaw(IntEnum):
+    """How heat enters: as a flux, or by exchange with a sink through a film or with the surroundings by radiation.
+
+    The numbers are those of fortran/host/host_heat_loads.f90.
+    """
+
+    FLUX = 0
+    FILM = 1
+    RADIATION = 2
+
+
 @dataclass(frozen=True, slots=True)
 class HeatLoadType:
     """Type of a heat load.
 
-    keyword  'DFLUX', 'DSFLUX', 'FILM', 'SFILM' or 'CFILM'
-    film     heat is exchanged with a sink, else it is a flux
+    keyword  that gives it, as 'DFLUX'
+    law      how heat enters
     face     local nodes of the face; none: the volume, or nodes
     jltyp    JLTYP of DFLUX or FILM, 0 on surfaces and at nodes
     surface  its name, '' for none
@@ -228,20 +239,25 @@ class HeatLoadType:
     """
 
     keyword: str
-    film: bool
+    law: HeatLaw
     face: tuple[int, ...] = ()
     jltyp: int = 0
     surface: str = ""
     by_user: bool = False
     area: float = 0.0
 
+    @property
+    def exchanges(self) -> bool:
+        """Whether heat is exchanged, so that there is a coefficient beside the temperature of the other side."""
+        return self.law is not HeatLaw.FLUX
+
 
 @dataclass(frozen=True, slots=True)
 class HeatLoad:
     """One entry of a heat load: positions of elements of one type in the model, or nodes.
 
-    magnitude, amplitude         flux, or sink temperature
-    coefficient, film_amplitude  film coefficient, which is constant without an amplitude
+    magnitude, amplitude         flux, or temperature of the sink or the surroundings
+    coefficient, film_amplitude  film coefficient or emissivity, which is constant without an amplitude
     """
 
     places: IntArray

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Heat that enters faces, volumes and nodes, through the steps.
 
-Fluxes and sink temperatures vary as *CLOAD does; a film coefficient without FILM AMPLITUDE is constant from the start
-of the step on (Abaqus Keywords Guide, *FILM).
+Fluxes and temperatures of the other side vary as *CLOAD does; a film coefficient without FILM AMPLITUDE, and an
+emissivity, are constant from the start of the step on (Abaqus Keywords Guide, *FILM, *RADIATE).
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ class StepHeat:
     """Heat loads of one step that are active.
 
     elements    (k,) positions among the elements, after those of the model
-    values      (k,) numbers of the flux or sink temperature, among all magnitudes, and (k,) of the film coefficient, -1
-                for a flux
+    values      (k,) numbers of the flux or of the temperature of the other side, among all magnitudes, and
+                (k,) of the film coefficient or emissivity, -1 for a flux
     variations  of the magnitudes of each keyword, which follow each other
     """
 
@@ -40,10 +40,10 @@ class StepHeat:
         """The loads of an increment between these step and total times, as elements get them; None without any."""
         if not len(self.elements):
             return None
-        film = self.coefficients >= 0
-        elements = np.concatenate([self.elements, self.elements[film]])
-        slots = np.concatenate([self.values, self.coefficients[film]])
-        kinds = np.concatenate([np.ones(len(film), dtype=np.int64), np.full(film.sum(), 2)])
+        both = self.coefficients >= 0
+        elements = np.concatenate([self.elements, self.elements[both]])
+        slots = np.concatenate([self.values, self.coefficients[both]])
+        kinds = np.concatenate([np.ones(len(both), dtype=np.int64), np.full(both.sum(), 2)])
         after, before = self._at(end)[slots], self._at(start)[slots]
         order = np.argsort(elements, kind="stable")
         return Distributed(elements[order], kinds[order], after[order], (after - before)[order])
@@ -72,10 +72,12 @@ class HeatLoads:
         for block in self._blocks:
             k = self._keywords.index(block.load.keyword)
             slots, active = self._all[k].find(block.places, block.load, 0)
-            films = self._all[k].find(block.places, block.load, 1)[0] if block.load.film else np.full(len(slots), -1)
+            second = np.full(len(slots), -1)
+            if block.load.exchanges:
+                second = first[k] + self._all[k].find(block.places, block.load, 1)[0]
             elements.append((block.first + block.rows)[active])
             values.append(first[k] + slots[active])
-            coefficients.append(np.where(films < 0, -1, first[k] + films)[active])
+            coefficients.append(second[active])
         none = np.zeros(0, dtype=np.int64)
         return StepHeat(
             np.concatenate([none, *elements]),
@@ -91,11 +93,11 @@ class HeatLoads:
 
 
 class _OfKeyword:
-    """Loads of one keyword: a magnitude for each place and type, two for those of a film."""
+    """Loads of one keyword: a magnitude for each place and type, two where heat is exchanged."""
 
     def __init__(self, entries: Sequence[HeatLoad]) -> None:
         self._types = list(dict.fromkeys(entry.type for entry in entries))
-        pairs = [(e.places, self._kind(e.type, part)) for e in entries for part in range(1 + e.type.film)]
+        pairs = [(e.places, self._kind(e.type, part)) for e in entries for part in range(1 + e.type.exchanges)]
         self.slots = Slots(pairs)
         self.magnitudes = Loads(self.slots)
         self._active = np.zeros(len(self.slots), dtype=bool)
@@ -114,20 +116,20 @@ class _OfKeyword:
             self._active[:] = False
         loads: list[Load] = []
         for entry in entries:
-            for part in range(1 + entry.type.film):
+            for part in range(1 + entry.type.exchanges):
                 self._active[self.slots.find(entry.places, self._kind(entry.type, part))] = True
             loads.append(Load(entry.places, self._kind(entry.type, 0), entry.magnitude, entry.amplitude, entry.source))
-        varying = self.magnitudes.take([*loads, *self._films(entries)], new, step, total_time)
+        varying = self.magnitudes.take([*loads, *self._coefficients(entries)], new, step, total_time)
         return self._at_once(varying, entries)
 
-    def _films(self, entries: Sequence[HeatLoad]) -> list[Load]:
-        films = [entry for entry in entries if entry.type.film]
-        return [Load(e.places, self._kind(e.type, 1), e.coefficient, e.film_amplitude, e.source) for e in films]
+    def _coefficients(self, entries: Sequence[HeatLoad]) -> list[Load]:
+        given = [entry for entry in entries if entry.type.exchanges]
+        return [Load(e.places, self._kind(e.type, 1), e.coefficient, e.film_amplitude, e.source) for e in given]
 
     def _at_once(self, varying: Variation, entries: Sequence[HeatLoad]) -> Variation:
-        """Film coefficients without an amplitude do not ramp."""
+        """Coefficients without an amplitude do not ramp."""
         base, slope = varying.base.copy(), varying.slope.copy()
-        for load in self._films(entries):
+        for load in self._coefficients(entries):
             if load.amplitude is None:
                 slots = self.slots.find(load.nodes, load.dof)
                 base[slots], slope[slots] = base[slots] + slope[slots], 0.0

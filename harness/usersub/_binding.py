@@ -467,9 +467,24 @@ def set_umatht(number: int, address: int, name: str, statev: int, constants: Flo
     _host.host_set_user_thermal(number, 1, address, name, statev, np.append(constants, 0.0), len(constants))
 
 
-def define_heat_load(*, film: bool, address: int | None, surface: str, jltyp: int) -> int:
-    """Add a flux or a film to those the host knows; address: of DFLUX or FILM, None where the deck gives magnitudes."""
-    return int(_host.host_define_heat_load(int(film), address or 0, surface, jltyp))
+def define_heat_load(
+    *, law: int, address: int | None, surface: str, jltyp: int, absolute_zero: float, stefan_boltzmann: float
+) -> int:
+    """Add a flux, a film or radiation to those the host knows; returns its number there.
+
+    Parameters
+    ----------
+    law
+        0 a flux, 1 a film, 2 radiation.
+    address
+        Of DFLUX or FILM; None where the deck gives the magnitudes.
+    surface, jltyp
+        SNAME and JLTYP of the routine.
+    absolute_zero, stefan_boltzmann
+        Constants of radiation.
+    """
+    constants = absolute_zero, stefan_boltzmann
+    return int(_host.host_define_heat_load(law, address or 0, surface, jltyp, *constants))
 
 
 def uvarm(

@@ -1,12 +1,13 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*DFLUX, *DSFLUX, *FILM, *SFILM and *CFILM, with DFLUX and FILM, by theory."""
+"""Fluxes, films and radiation on elements, surfaces and nodes, with DFLUX and FILM, by theory."""
 
 from pathlib import Path
 
 import numpy as np
 import pytest
 from reference_cells import patch_of
+from scipy.optimize import brentq, newton
 from small_decks import body_lines
 
 import harness
@@ -113,6 +114,62 @@ def test_heat_into_the_volume(run, element_type):
     body = Body(element_type)
     result = run(body.deck("*DFLUX\nBODY, BF, 4."))
     assert last(body, result, "RFL11").sum() == pytest.approx(-4.0 * body.area, rel=1e-9)
+
+
+ZERO, BOLTZMANN, EMISSIVITY, AMBIENT = -273.15, 5.67e-8, 0.8, 500.0
+CONSTANTS = f"*PHYSICAL CONSTANTS, ABSOLUTE ZERO={ZERO}, STEFAN BOLTZMANN={BOLTZMANN}\n*STEP"
+TIGHT = "\n*CONTROLS, PARAMETERS=FIELD, FIELD=GLOBAL\n1e-9"
+
+
+def radiated(temperature):
+    """Heat that enters an area by radiation (J. Stefan, L. Boltzmann)."""
+    return EMISSIVITY * BOLTZMANN * ((AMBIENT - ZERO) ** 4 - (temperature - ZERO) ** 4)
+
+
+def slope_of_radiation(temperature):
+    """Derivative of what enters and is conducted away."""
+    return -4 * EMISSIVITY * BOLTZMANN * (temperature - ZERO) ** 3 - K
+
+
+@pytest.mark.parametrize("element_type", TYPES)
+@pytest.mark.parametrize("form", ["element", "surface"])
+def test_radiation_makes_the_temperature_linear(run, element_type, form):
+    """k T(1) is what the end gets; all of it leaves at the other one. Newton's method needs as many iterations as for
+    this equation alone."""
+    body = Body(element_type)
+    values = f"{AMBIENT}, {EMISSIVITY}"
+    text = f"*SRADIATE\nEND, R, {values}" if form == "surface" else "*RADIATE\n" + body.by_element("R", values)
+    result = run(body.deck(text + TIGHT).replace("*STEP", CONSTANTS, 1))
+    hot = brentq(lambda t: radiated(t) - K * t, 0.0, AMBIENT, xtol=1e-12)
+    np.testing.assert_allclose(last(body, result), hot * body.along[body.corners], rtol=1e-8, atol=1e-8)
+    assert last(body, result, "RFL11").sum() == pytest.approx(-K * hot * body.area, rel=1e-8)
+    _, alone = newton(lambda t: radiated(t) - K * t, 0.0, full_output=True, rtol=1e-9, fprime=slope_of_radiation)
+    assert sum(line.total_iterations for line in result.status) <= alone.iterations
+
+
+def test_a_body_that_nodes_warm_by_radiation(run):
+    """All nodes alike: density x specific heat x volume x the change is the heat of the end of each increment."""
+    lines = [*body_lines("DC2D4", np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), [range(4)])]
+    lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", f"{THICKNESS}", "*MATERIAL, NAME=M", f"*CONDUCTIVITY\n{K}"]
+    lines += ["*DENSITY\n2.", "*SPECIFIC HEAT\n7.", "*AMPLITUDE, NAME=ON\n0., 1., 1., 1."]
+    lines += [CONSTANTS, "*HEAT TRANSFER\n0.25, 0.75, 0.25, 0.25", f"*CRADIATE, AMPLITUDE=ON\nALL, 0.3, {AMBIENT}"]
+    lines[-1] += f", {EMISSIVITY}{TIGHT}\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nNT\n*END STEP\n"
+    history = run("\n".join(lines)).history
+    stored, temperature = 2.0 * 7.0 * THICKNESS, 0.0
+    for k in range(3):
+        before = temperature
+        temperature = brentq(lambda t: 4 * 0.3 * radiated(t) - stored * (t - before) / 0.25, before, AMBIENT)  # noqa: B023
+        for node in range(1, 5):
+            assert history[f"NT11[ALL:{node}]"][k] == pytest.approx(temperature, rel=1e-8)
+
+
+def test_radiation_without_its_constant(run):
+    body = Body("DC2D4")
+    text = body.deck("*SRADIATE\nEND, R, 500., 0.8")
+    with pytest.raises(DeckError, match=r"heat.inp:\d+: \*SRADIATE needs \*PHYSICAL CONSTANTS, STEFAN BOLTZMANN="):
+        run(text)
+    with pytest.raises(DeckError, match=r"\*PHYSICAL CONSTANTS: STEFAN BOLTZMANN=-1 must not be negative"):
+        run(text.replace("*STEP", "*PHYSICAL CONSTANTS, STEFAN BOLTZMANN=-1\n*STEP", 1))
 
 
 def test_films_at_nodes(run):
@@ -252,6 +309,10 @@ def test_what_film_is_given(run, tmp_path, element_type, procedure, form):
         ("DC2D4", "*SFILM\nEND, F1, 2., 1.", r"load type F1 is not supported \(supported: F; with NU, as in FNU\)"),
         ("DC2D4", "*DSFLUX\nEND, BF, 2.", r"load type BF is not supported \(supported: S; with NU, as in SNU\)"),
         ("DC2D4", "*CFILM\n1, -1., 2., 3.", r"area -1 must be positive"),
+        ("DC2D4", "*SRADIATE\nEND, AVG, , 0.8", r"load type AVG is not supported \(supported: R\)"),
+        ("DC2D4", "*SRADIATE\nEND, RNU, 500., 0.8", r"load type RNU is not supported \(supported: R\)"),
+        ("DC2D4", "*RADIATE\nBODY, F2, 500., 0.8", r"load type F2 is not supported \(supported: Rn\)"),
+        ("DC2D4", "*SRADIATE\nEND, R, 500., -0.8", r"emissivity -0.8 must not be negative"),
         ("CPE8T", "*CFILM\nALL, 1., 2., 3.", r"heat.inp:\d+: \*CFILM: node \d+ has no temperature"),
     ],
 )
