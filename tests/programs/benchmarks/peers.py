@@ -11,7 +11,7 @@ the reason. Times are those of the processor, without reading the mesh and writi
 Akantu has the same bilinear law; its Newton iteration ends where the crack begins to grow, so the increments up to
 there are compared, and those to the end with a search that peer_akantu.py writes around its forces and matrices.
 PyFEM's bilinear law ends as early; its runs to the end are with the potential of Xu and Needleman and isotropic quads,
-for it has no orthotropic plane stress.
+for it has no orthotropic plane stress, and are ended when they have taken as long as the bound of its ratio allows.
 """
 
 from __future__ import annotations
@@ -118,8 +118,10 @@ def run_akantu(model: Model, folder: Path, environment: Path, python: str) -> di
     return {name: rows_of([*command, *words]) for name, words in names.items()}
 
 
-def run_pyfem(model: Model, folder: Path, checkout: Path | None, environment: Path, python: str) -> Peer:
-    """Run PyFEM from a checkout."""
+def run_pyfem(
+    model: Model, folder: Path, checkout: Path | None, environment: Path, python: str, seconds: float
+) -> Peer:
+    """Run PyFEM from a checkout for so many seconds."""
     if checkout is None:
         return Peer([], "--pyfem FOLDER is not given")
     if not (checkout / "pyfem").is_dir():
@@ -151,7 +153,7 @@ def run_pyfem(model: Model, folder: Path, checkout: Path | None, environment: Pa
     ]
     (folder / "dcb.dat").write_text("\n".join(lines) + "\n", encoding="utf-8")
     (folder / "dcb.pro").write_text(PYFEM_PROBLEM, encoding="utf-8")
-    command = [environment / "bin" / "python", HERE / "peer_pyfem.py", folder, str(top)]
+    command = [environment / "bin" / "python", HERE / "peer_pyfem.py", folder, str(top), str(seconds)]
     return rows_of(command, PYTHONPATH=str(checkout.resolve()))
 
 
@@ -203,7 +205,9 @@ def main() -> int:
         folder, homes = Path(temporary), options.environments
         peers = {
             **run_akantu(model, folder, homes / "akantu", options.python),
-            "PyFEM": run_pyfem(model, folder, options.pyfem, homes / "pyfem", options.python),
+            "PyFEM": run_pyfem(
+                model, folder, options.pyfem, homes / "pyfem", options.python, LEAST_RATIOS["PyFEM"] * seconds
+            ),
         }
     for name, peer in peers.items():
         if not peer.rows:
