@@ -105,8 +105,8 @@ KEYWORDS = (
         "HYPERELASTIC",
         "Isotropic hyperelasticity by coefficients or UHYPER, of plane strain, axisymmetric and solid elements without "
         "incompatible modes or temperatures in steps with NLGEOM. Incompressible materials, with D = 0 or USER without "
-        "TYPE=COMPRESSIBLE, need hybrid elements; a term with a later D of zero is left out. One-point elements need "
-        "*SECTION CONTROLS, HOURGLASS=ENHANCED or *HOURGLASS STIFFNESS.",
+        "TYPE=COMPRESSIBLE, need hybrid elements; a term with a later D of zero is left out. One-point elements "
+        "have *SECTION CONTROLS, HOURGLASS=ENHANCED by default; with USER they need *HOURGLASS STIFFNESS.",
         Where.MODEL,
         (
             Option("ARRUDA-BOYCE", doc="strain energy potential of Arruda and Boyce"),

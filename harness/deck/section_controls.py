@@ -26,7 +26,7 @@ def _read_controls(block: Block) -> SectionControls:
     if viscosity is not None and viscosity < 0:
         raise block.error(f"VISCOSITY={viscosity:g} must not be negative")
     deletion = options.flag("ELEMENT DELETION") or not options.given("ELEMENT DELETION")
-    enhanced = options.text("HOURGLASS") == "ENHANCED"
+    enhanced = options.text("HOURGLASS") == "ENHANCED" if options.given("HOURGLASS") else None
     row = next(block.rows(), None)
     # "any data given on the data line will be ignored" where it is enhanced (Abaqus Keywords Guide)
     factor = 1.0 if row is None or enhanced else row.real(0, "factor of the hourglass stiffness", 1.0)
@@ -54,9 +54,8 @@ KEYWORDS = (
             Option("VISCOSITY", Kind.REAL, "relaxation time of the damage (0)"),
             one_of(
                 "HOURGLASS",
-                "hourglass control",
+                "hourglass control; ENHANCED by default with *HYPERELASTIC by coefficients, else STIFFNESS",
                 ("STIFFNESS", "ENHANCED"),
-                default="STIFFNESS",
                 refused=("COMBINED", "RELAX STIFFNESS", "VISCOUS"),
             ),
             *ignored("DISTORTION CONTROL", "KINEMATIC SPLIT", "LENGTH RATIO", "SECOND ORDER ACCURACY"),

@@ -36,6 +36,7 @@ from harness.elements.solid import (
     OF_FIRST_TANGENT,
     check_modes,
     check_one_control,
+    is_enhanced,
     numbered,
     section_depth,
     warn_of_enhanced,
@@ -98,7 +99,7 @@ def composite_routine(
     """What the driver calls for a group of bricks with layers. Raises DeckError."""
     _check(model, group, kind, section)
     reduced, dynamic = kind.hourglass_control, any(step.procedure.inertia for step in model.steps)
-    hourglass, enhanced = _hourglass_stiffness(group, kind, section), reduced and section.controls.enhanced
+    hourglass, enhanced = _hourglass_stiffness(group, kind, section), reduced and is_enhanced(section)
     warn_of_enhanced(model, group, kind, library, "tangents of the layers")
     materials = materials_of(section)
     statev = max(map(state_variables, materials))

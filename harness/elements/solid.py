@@ -253,19 +253,29 @@ def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: Soli
     if not kind.hourglass_control:
         return 0.0
     check_one_control(section)
-    if controls.enhanced:
+    if is_enhanced(section):
         _check_enhanced(kind, section)
         return 0.0
     if section.hourglass:
         return section.hourglass
     if section.material.hyperelastic is not None:
-        message = f"elements of type {group.type} with *HYPERELASTIC need *SECTION CONTROLS, HOURGLASS=ENHANCED or"
-        small = "the stiffness of small strains is too soft for large ones"
-        raise DeckError(section.source, f"{message} *HOURGLASS STIFFNESS after *SOLID SECTION; {small}")
+        law = section.material.hyperelastic
+        message = f"elements of type {group.type} with *{law.keyword} need *HOURGLASS STIFFNESS after *SOLID SECTION"
+        if isinstance(law, Hyperelastic):
+            message = message.replace("need", "need HOURGLASS=ENHANCED of *SECTION CONTROLS, or")
+        raise DeckError(section.source, f"{message}; the stiffness of small strains is too soft for large ones")
     if elastic is None:
         message = f"elements of type {group.type} with *USER MATERIAL need *HOURGLASS STIFFNESS after *SOLID SECTION"
         raise DeckError(section.source, message)
     return controls.hourglass * HOURGLASS_FRACTION * shear_modulus(elastic, kind.tensor)
+
+
+def is_enhanced(section: SolidSection | CompositeSection) -> bool:
+    """Whether the hourglass control is ENHANCED, the default with *HYPERELASTIC (Keywords Guide, *SECTION CONTROLS)."""
+    if section.controls.enhanced is not None:
+        return section.controls.enhanced
+    by_default = isinstance(section, SolidSection) and isinstance(section.material.hyperelastic, Hyperelastic)
+    return by_default and not section.hourglass
 
 
 def check_one_control(section: SolidSection | CompositeSection) -> None:
@@ -290,7 +300,7 @@ def _check_enhanced(kind: ContinuumType, section: SolidSection) -> None:
 
 def _enhanced_moduli(kind: ContinuumType, section: SolidSection) -> int:
     """JPROPS(4) of the element: 0 without the enhanced hourglass control, else where it has its moduli from."""
-    if not (kind.hourglass_control and section.controls.enhanced):
+    if not (kind.hourglass_control and is_enhanced(section)):
         return 0
     return OF_FIRST_TANGENT if _of_tangent(kind, section) else OF_MATERIAL
 
@@ -306,7 +316,7 @@ def warn_of_enhanced(
     """Say, once per section, what the enhanced hourglass control is based on; tangent: what its moduli are from."""
     section = group.section
     assert isinstance(section, SolidSection | CompositeSection)
-    if not (section.controls.enhanced and kind.hourglass_control):
+    if not (is_enhanced(section) and kind.hourglass_control):
         return
     if group is next(other for other in model.groups if other.section is section):
         message = "*SECTION CONTROLS, HOURGLASS=ENHANCED: the published method that Abaqus' manual names"

@@ -343,14 +343,14 @@ class SectionControls:
 
     and of continuum elements with one integration point
 
-    enhanced     HOURGLASS=ENHANCED, else STIFFNESS
+    enhanced     HOURGLASS=ENHANCED, else STIFFNESS; None if not given
     hourglass    factor of the hourglass stiffness
     """
 
     deletion: bool = True
     degradation: float = 1.0
     viscosity: float | None = None
-    enhanced: bool = False
+    enhanced: bool | None = None
     hourglass: float = 1.0
 
 

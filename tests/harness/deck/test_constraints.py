@@ -328,7 +328,7 @@ CONTROLLED = SQUARES.replace("MATERIAL=M", "MATERIAL=M, CONTROLS=C", 1) % ""
     ("line", "expected"),
     [
         ("*SECTION CONTROLS, NAME=C", SectionControls()),
-        ("*SECTION CONTROLS, NAME=C, HOURGLASS=STIFFNESS\n2.5, 1., 1.", SectionControls(hourglass=2.5)),
+        ("*SECTION CONTROLS, NAME=C, HOURGLASS=STIFFNESS\n2.5, 1., 1.", SectionControls(enhanced=False, hourglass=2.5)),
         # the data line is not read, as in Abaqus
         ("*SECTION CONTROLS, NAME=C, HOURGLASS=ENHANCED\n2.5, 1., 1.", SectionControls(enhanced=True)),
     ],

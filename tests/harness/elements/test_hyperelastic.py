@@ -259,6 +259,9 @@ def test_enhanced_hourglass_control_has_the_initial_moduli(element, element_type
     expected, _ = element(None, element_type, **options).evaluate(mode.ravel())
     assert abs(expected).max() > 0
     np.testing.assert_allclose(found, expected, rtol=1e-5, atol=1e-5 * abs(expected).max())
+    # the default with these materials (Abaqus Keywords Guide, *SECTION CONTROLS)
+    by_default, _ = element(MOONEY, element_type, hourglass=0.0).evaluate(mode.ravel())
+    np.testing.assert_array_equal(by_default, found)
 
 
 def test_initial_moduli_of_arruda_and_boyce():
@@ -391,7 +394,11 @@ ERRORS = [
         {"more": "*CONDUCTIVITY\n1.", "element_type": "C3D8T", "step": "*STEP, NLGEOM"},
         r"\*HYPERELASTIC is not supported for elements of type C3D8T",
     ),
-    (RUBBER, {"element_type": "C3D8R"}, r"C3D8R with \*HYPERELASTIC need \*SECTION CONTROLS, HOURGLASS=ENHANCED or"),
+    (
+        RUBBER,
+        {"element_type": "C3D8R", "section": ", CONTROLS=C", "more": "*SECTION CONTROLS, NAME=C, HOURGLASS=STIFFNESS"},
+        r"C3D8R with \*HYPERELASTIC need HOURGLASS=ENHANCED of \*SECTION CONTROLS, or \*HOURGLASS STIFFNESS",
+    ),
     (RUBBER, {"element_type": "CPE4I"}, r"\*HYPERELASTIC is not supported for elements of type CPE4I"),
     (
         RUBBER,
