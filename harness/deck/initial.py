@@ -58,7 +58,12 @@ def read_initial_values(
             continue
         for row in block.rows():
             with problems.gather():
-                nodes = flat.nodes(row.name(0, "node or node set"), row.source)
+                everywhere = block.options.given("SECTION SPECIFICATION") and not row.fields[0]
+                nodes = (
+                    np.arange(len(flat.mesh.labels))
+                    if everywhere
+                    else flat.nodes(row.name(0, "node or node set"), row.source)
+                )
                 if kind == "VELOCITY":
                     dof, value = row.integer(1, "dof"), row.real(2, "velocity", 0.0)
                     if not 1 <= dof <= 6:
@@ -226,6 +231,11 @@ KEYWORDS = (
             ),
             Option("STEP", Kind.INTEGER, "its step (the last one)"),
             Option("INC", Kind.INTEGER, "increment of the step (the last one written)"),
+            one_of(
+                "SECTION SPECIFICATION",
+                "one temperature in a section; that it is one of all nodes where none is named is inferred",
+                ("UNIFORM",),
+            ),
             *refused("REBAR", "SECTION POINTS", "INTERPOLATE", "MIDSIDE", "DRIVING ELSETS", "OUTPUT VARIABLE"),
         ),
         "node or set, dof, velocity; or node or set, temperatures of dofs 11, 12, ...; or node or set, value; "

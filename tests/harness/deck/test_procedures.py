@@ -158,6 +158,16 @@ def test_initial_temperatures_of_further_dofs(read):
     assert [(entry.dof, entry.value) for entry in model.initial_temperatures] == [(11, 1.0), (12, 2.0), (13, 3.0)]
 
 
+def test_initial_temperature_of_all_nodes(read):
+    """As the public deck OlafHesebeck/UTRSNETWORK, simpletest.inp, has it."""
+    option = "*INITIAL CONDITIONS, TYPE=TEMPERATURE, SECTION SPECIFICATION=UNIFORM"
+    model = read(f"{HEAD}{option}\n, 20.\n*STEP\n*STATIC\n*END STEP\n")
+    (found,) = model.initial_temperatures
+    assert (found.nodes.tolist(), found.value) == (list(range(len(model.mesh.labels))), 20.0)
+    with pytest.raises(DeckError, match="INITIAL CONDITIONS"):
+        read(f"{HEAD}*INITIAL CONDITIONS, TYPE=TEMPERATURE\n, 20.\n*STEP\n*STATIC\n*END STEP\n")
+
+
 @pytest.mark.parametrize(
     "lines, message",
     [
