@@ -223,6 +223,60 @@ subroutine host_define_hyperelastic(ntens, polynomial, ogden, volumetric, logari
   number = define(material)
 end subroutine host_define_hyperelastic
 
+!> Give a hyperelastic material networks that creep.
+subroutine host_set_networks(number, ratios, laws, constants, statev, count)
+  use host_kinds, only: dp, i4
+  use host_materials, only: find_material, material_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: number, count, statev
+  real(dp), intent(in) :: ratios(count)
+  integer(i4), intent(in) :: laws(count)
+  real(dp), intent(in) :: constants(5, count)   !< laws, constants: as network_t has them
+  type(material_t), pointer :: material
+  integer :: k
+  material => find_material(number)
+  allocate (material%networks)
+  allocate (material%networks%items(count))
+  material%networks%statev = statev
+  ! up to rounding of ratios whose sum is one
+  material%networks%equilibrium = max(1 - sum(ratios), 0.0_dp)
+  do k = 1, count
+    material%networks%items(k)%ratio = ratios(k)
+    material%networks%items(k)%law = laws(k)
+    material%networks%items(k)%constants = constants(:, k)
+  end do
+end subroutine host_set_networks
+
+!> Let UCREEPNETWORK give the creep of a network, or UTRSNETWORK its reduced time.
+subroutine host_set_network_routine(number, network, address, name, shifts, constants, count, n)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_kinds, only: dp, i4, i8
+  use host_materials, only: find_material, material_t
+  use host_network_routines, only: network_routine_t, outputs
+  implicit none (type, external)
+  integer(i4), intent(in) :: number, n
+  integer(i4), intent(in) :: network          !< NETWORKID
+  integer(i8), intent(in) :: address
+  character(len=80), intent(in) :: name       !< of the material
+  integer(i4), intent(in) :: shifts           !< 1: UTRSNETWORK
+  real(dp), intent(in) :: constants(n)
+  integer(i4), intent(in) :: count            !< of the constants: f2py passes no empty arrays
+  type(material_t), pointer :: material
+  type(network_routine_t) :: routine
+  material => find_material(number)
+  routine%address = transfer(int(address, c_intptr_t), routine%address)
+  routine%routine = merge('UTRSNETWORK  ', 'UCREEPNETWORK', shifts == 1)
+  routine%material = name
+  routine%network = network
+  routine%constants = constants(:count)
+  allocate (routine%reported(outputs), routine%spoilt(outputs), source=.false.)
+  if (shifts == 1) then
+    material%networks%items(network)%shift = routine
+  else
+    material%networks%items(network)%user = routine
+  end if
+end subroutine host_set_network_routine
+
 !> Make a hyperelastic material of UHYPER known; returns the number that stands for it.
 subroutine host_define_user_potential(uhyper, name, ntens, statev, constants, count, number, n)
   use, intrinsic :: iso_c_binding, only: c_intptr_t

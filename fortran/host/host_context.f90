@@ -50,6 +50,7 @@ module host_context
     real(dp) :: deformation(3, 3, 2) = 0   !< deformation gradients at its start and end
     real(dp) :: turn(3, 3) = 0    !< from the directions of the material at the start of the job to those of these gradients
     real(dp) :: energy = 0        !< strain energy per volume now of a hyperelastic point
+    real(dp) :: dissipated = 0    !< energy per volume now that its networks dissipate in the increment
     logical :: hybrid = .false.   !< the mean stress of the point is given: the next one
     real(dp) :: mean_stress = 0
     real(dp), pointer, contiguous :: history(:, :) => null()        !< (values, npt) committed material history

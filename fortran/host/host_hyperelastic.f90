@@ -15,7 +15,8 @@ module host_hyperelastic
   use host_uhyper, only: call_uhyper, user_potential_t
   implicit none (type, external)
   private
-  public :: hyperelastic_t, calls_user, hyperelastic_stress, highest_order, state_variables, volume_of
+  public :: hyperelastic_t, add_principal, calls_user, energy_at, hyperelastic_stress, highest_order, outer, principal, &
+            shape_energy, state_variables, symmetric_dyad, volume_energy, volume_of
 
   integer, parameter :: highest_order = 6
 
@@ -69,9 +70,7 @@ contains
     real(dp), intent(out) :: tangent(n, n), energy
     logical, intent(out) :: good
     real(dp), intent(in), optional :: mean_stress
-    real(dp) :: e(3), directions(3, 3), j, w, h(3), hh(3, 3), kirchhoff(3), slope(3, 3), u(0:2), mixed(3), modulus
-    real(dp) :: dyad(6, 3), between(6)
-    integer :: a, b
+    real(dp) :: e(3), directions(3, 3), j, w, h(3), hh(3, 3), kirchhoff(3), slope(3, 3), u(0:2), mixed(3)
     stress = 0
     tangent = 0
     energy = 0
@@ -107,6 +106,17 @@ contains
     ! P H P, of the symmetric H
     slope = hh - spread(sum(hh, 1), 1, 3)/3 - spread(sum(hh, 2), 2, 3)/3 + sum(hh)/9 + j*u(1) + j**2*u(2) &
             + spread(mixed, 1, 3) + spread(mixed, 2, 3)
+    call add_principal(n, j, e, directions, kirchhoff, slope, stress, tangent)
+  end subroutine hyperelastic_stress
+
+  !> Add the Cauchy stress and the tangent by principal Kirchhoff stresses and their derivatives by the logarithmic stretches.
+  pure subroutine add_principal(n, j, e, directions, kirchhoff, slope, stress, tangent)
+    integer, intent(in) :: n                      !< 4 or 6
+    real(dp), intent(in) :: j, e(3), directions(3, 3)   !< directions: rows
+    real(dp), intent(in) :: kirchhoff(3), slope(3, 3)
+    real(dp), intent(inout) :: stress(n), tangent(n, n)
+    real(dp) :: dyad(6, 3), between(6), modulus
+    integer :: a, b
     do a = 1, 3
       dyad(:, a) = symmetric_dyad(directions(a, :), directions(a, :))
       stress = stress + kirchhoff(a)/j*dyad(:n, a)
@@ -120,12 +130,12 @@ contains
         if (abs(e(a) - e(b)) > equal) then
           modulus = (kirchhoff(a) - kirchhoff(b))/(2*tanh(e(a) - e(b)))
         else
-          modulus = (0.5_dp*(slope(a, a) + slope(b, b)) - slope(a, b))/2
+          modulus = (slope(a, a) + slope(b, b) - slope(a, b) - slope(b, a))/4
         end if
         tangent = tangent + modulus/j*outer(between(:n), between(:n))
       end do
     end do
-  end subroutine hyperelastic_stress
+  end subroutine add_principal
 
   !> Logarithms of the principal stretches, their directions (rows) now, and the change of volume; good: the energy has a value.
   pure subroutine principal(law, f, e, directions, j, good)

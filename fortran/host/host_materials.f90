@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The material library behind MATERIAL_LIB_MECH and the built-in elements: linear elasticity, Mises plasticity with isotropic,
-!> kinematic and combined hardening, viscoelasticity, creep, hyperelasticity, UMAT.
+!> kinematic and combined hardening, viscoelasticity, creep, hyperelasticity, viscoelastic networks, UMAT.
 !>
 !> Stress components: one direction (11), beams with torsion (11, 12), plane stress (11, 22, 12), plane strain (11, 22, 33, 12),
 !> three-dimensional (11, 22, 33, 12, 13, 23); shear strains are engineering strains.
@@ -18,6 +18,7 @@ module host_materials
   use host_kinematics, only: components, rotated
   use host_messages, only: add_message
   use host_mises, only: mises_beam, mises_plane_stress, mises_solid
+  use host_networks, only: calls_routine, network_stress, networks_t
   use host_prony, only: prony_solid, prony_t, prony_values
   use host_protect, only: escape
   use host_expansion, only: expansion_t
@@ -59,6 +60,7 @@ module host_materials
     logical :: prestressed = .false.               !< it has a history for initial stresses
     type(expansion_t), allocatable :: expansion    !< in global directions, or in those of each point if it is local
     type(hyperelastic_t), allocatable :: hyperelastic   !< then nothing above counts but ntens, axes and local
+    type(networks_t), allocatable :: networks      !< beside hyperelastic
     type(user_material_t), allocatable :: user     !< of UMAT; then nothing above counts but ntens
     integer :: variables = 0                       !< field variables, at least
     type(dependence_t), allocatable :: dependence  !< constants above are those of the point that set_constants was called for
@@ -107,6 +109,7 @@ contains
     has_fields = allocated(material%user) .or. allocated(material%dependence) .or. allocated(material%user_field) .or. &
                  generates_heat(material) .or. allocated(material%hardening)
     if (allocated(material%hyperelastic)) has_fields = has_fields .or. calls_user(material%hyperelastic)
+    if (allocated(material%networks)) has_fields = has_fields .or. calls_routine(material%networks)
   end function has_fields
 
   !> Whether UMAT or HETVAL generate heat in elements with temperatures.
@@ -119,7 +122,7 @@ contains
   !> Whether stresses depend on time: what they dissipate is ENERGY(3).
   pure logical function is_viscous(material)
     type(material_t), intent(in) :: material
-    is_viscous = allocated(material%prony) .or. allocated(material%creep)
+    is_viscous = allocated(material%prony) .or. allocated(material%creep) .or. allocated(material%networks)
   end function is_viscous
 
   !> Whether the history has plastic strains.
@@ -170,6 +173,10 @@ contains
     character(len=120) :: text
     valid = .true.
     n = material%ntens
+    if (allocated(material%networks)) then
+      call networks(material%networks, material%hyperelastic, allocated(material%user_field), n, point, stress, tangent)
+      return
+    end if
     if (allocated(material%hyperelastic)) then
       call hyperelastic(material%hyperelastic, allocated(material%user_field), n, point, stress, tangent)
       return
@@ -295,7 +302,7 @@ contains
     real(dp) :: start, elapsed
     solved = .true.
     if (allocated(material%prony)) then
-      elapsed = merge(current%dtime, 0.0_dp, current%procedure == visco .or. is_dynamic(current%procedure))
+      elapsed = viscous_time()
       call prony_solid(material%prony, elapsed, n, old, strain, stress, tangent, new)
     else if (allocated(material%creep)) then
       start = max(current%time(2), 0.0_dp)
@@ -310,6 +317,41 @@ contains
                           tangent, new, solved)
     end if
   end subroutine solid_law
+
+  !> Time of the increment in which stresses relax.
+  real(dp) function viscous_time()
+    viscous_time = merge(current%dtime, 0.0_dp, current%procedure == visco .or. is_dynamic(current%procedure))
+  end function viscous_time
+
+  !> Networks; the history of the point goes from committed to trial, but for STATEV that USDFLD had before.
+  subroutine networks(items, law, had_them, n, point, stress, tangent)
+    type(networks_t), intent(in) :: items
+    type(hyperelastic_t), intent(in) :: law
+    logical, intent(in) :: had_them
+    integer, intent(in) :: n
+    integer(i4), intent(in) :: point
+    real(dp), intent(out) :: stress(n), tangent(n, n)
+    real(dp) :: statev(items%statev)
+    logical :: solved
+    integer :: last
+    character(len=120) :: text
+    last = size(current%history, 1) - items%statev
+    associate (old => current%history(:, point), new => current%history_trial(:, point))
+      statev = old(last + 1:)
+      if (had_them) statev = new(last + 1:)
+      if (current%hybrid) then
+        call network_stress(items, law, n, point, current%deformation(:, :, 2), current%turn, viscous_time(), old(:last), statev, &
+                            stress, tangent, current%energy, current%dissipated, new(:last), solved, current%mean_stress)
+      else
+        call network_stress(items, law, n, point, current%deformation(:, :, 2), current%turn, viscous_time(), old(:last), statev, &
+                            stress, tangent, current%energy, current%dissipated, new(:last), solved)
+      end if
+      new(last + 1:) = statev
+    end associate
+    if (solved) return
+    write (text, '(a,i0)') '*VISCOELASTIC, NONLINEAR: the stress is not found at integration point ', point
+    call not_solved(text)
+  end subroutine networks
 
   !> Hyperelasticity; the STATEV of UHYPER and UANISOHYPER_INV go from committed to trial, unless USDFLD had them before.
   subroutine hyperelastic(law, had_them, n, point, stress, tangent)

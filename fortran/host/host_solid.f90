@@ -344,7 +344,7 @@ contains
     real(dp) :: by_unknowns(rule%dim*rule%nodes + others, strains)
     real(dp) :: first_tangent(strains, strains)    !< of all points
     real(dp) :: now(rule%dim, rule%nodes), g_start(rule%nodes, direct), volume_start, deformation(3, 3, 2, rule%points)
-    real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(6, 2), weight, elastic, work
+    real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(6, 2), weight, elastic, work, flowed
     real(dp) :: now_axes(3, 3), middle(3, 3), rate(6), by_temperature(strains + 1)
     real(dp), allocatable :: by_corners(:)
     real(dp) :: weights(rule%points)
@@ -396,6 +396,7 @@ contains
     end if
     if (rule%reduced .and. rule%points > 1) call mean_gradients(rule%family, direct, x, g_start, volume_start)
     elastic = 0
+    flowed = 0
     dissipated = merge(3, 4, is_viscous(material))
     work = energy(2) + energy(dissipated)
     volume_strain = sum(svars(:3, :), 1)
@@ -476,6 +477,7 @@ contains
         if (present(axes)) call turn_strain(dim, strains, middle, strain)
         call point_update(dim, strains, here, int(p, i4), weight, finite, strain, thermal, rate, svars(:, p), stress, modulus, &
                           by_temperature, elastic, work, of_point)
+        if (allocated(here%networks)) flowed = flowed + weight*current%dissipated
         if (present(moduli)) first_tangent = first_tangent + volume(p)*modulus
         if (present(axes)) of_point(3:) = matmul(of_point(3:), turn_matrix(strains, axes(:, :, 2, p)))
         if (present(axes)) call turn_response(here, strains, axes(:, :, 2, p), stress, modulus)
@@ -581,8 +583,8 @@ contains
     end if
     if (allocated(current%fields)) deallocate (current%fields)
     current%hybrid = .false.
-    ! it dissipates nothing, and the trapezoidal rule is not exact
-    if (allocated(material%hyperelastic)) work = elastic
+    ! its networks alone dissipate, and the trapezoidal rule is not exact
+    if (allocated(material%hyperelastic)) work = elastic + energy(dissipated) + flowed
     energy(2) = elastic
     energy(dissipated) = work - elastic
     if (present(moduli)) then

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from harness.deck.blocks import Block
 from harness.deck.error_report import Problems
-from harness.deck.table import Keyword, Kind, Option, Where, ignored, refused
+from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_constants import read_constants
 from harness.deck.user_elements import read_count
 from harness.model.properties import HIGHEST_ORDER, Holzapfel, Hyperelastic, Potential, UserPotential
@@ -51,7 +51,14 @@ def _read_isotropic(block: Block, problems: Problems) -> Hyperelastic | UserPote
         raise block.error(f"{message}; dependence on temperature is not supported")
     # entries that are not given are zero; a temperature after the only set of coefficients is not a dependence
     values += [0.0] * (count + order - len(values))
-    return Hyperelastic(potential, order, tuple(values[:count]), tuple(values[count : count + order]), block.source)
+    return Hyperelastic(
+        potential,
+        order,
+        tuple(values[:count]),
+        tuple(values[count : count + order]),
+        block.source,
+        block.options.text("MODULI") == "INSTANTANEOUS",
+    )
 
 
 def _read_anisotropic(block: Block, problems: Problems) -> Holzapfel | UserPotential:
@@ -120,7 +127,12 @@ KEYWORDS = (
             Option("USER", doc="strain energy potential of UHYPER"),
             Option("TYPE", Kind.CHOICE, "of USER", choices=("COMPRESSIBLE", "INCOMPRESSIBLE")),
             Option("PROPERTIES", Kind.INTEGER, "number of constants of USER"),
-            *ignored("MODULI"),
+            one_of(
+                "MODULI",
+                "which ones the coefficients give, with *VISCOELASTIC",
+                ("LONG TERM", "INSTANTANEOUS"),
+                default="LONG TERM",
+            ),
             *refused("BETA", "MARLOW", "POISSON", "TEST DATA INPUT", "VAN DER WAALS"),
         ),
         "coefficients, then D, eight per line: mu, lambda_m, D (ARRUDA-BOYCE); mu1, alpha1, ... D1, ... (OGDEN); "

@@ -66,8 +66,8 @@ def _extend(material: Material, block: Block, problems: Problems) -> Material:
             extended = replace(material, hyperelastic=read_hyperelastic(block, problems))
         case "PLASTIC" | "CYCLIC HARDENING":
             extended = replace(material, plastic=extend_plastic(material.plastic, block, problems))
-        case "VISCOELASTIC" | "CREEP":
-            extended = extend_viscous(material, block)
+        case "VISCOELASTIC" | "CREEP" | "TRS":
+            extended = extend_viscous(material, block, problems)
         case "USER MATERIAL":
             given, thermal = _read_user_material(block, problems), block.options.text("TYPE") == "THERMAL"
             extended = replace(material, user_thermal=given) if thermal else replace(material, user=given)

@@ -20,6 +20,7 @@ from harness.deck.membranes import MEMBRANE_KEYWORD, read_membrane_section
 from harness.deck.shells import MOST_POINTS, SHELL_KEYWORDS, read_shell_section
 from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF, ElementType, read_user_property
+from harness.deck.viscous import check_networks
 from harness.errors import DeckError, Source
 from harness.model.arrays import IntArray
 from harness.model.element_types import BEAM, DISCRETE, GENERALISED, HEAT, LAYERED, DiscreteKind
@@ -221,6 +222,7 @@ def _check_material(block: Block, material: Material) -> None:
     """A material has elasticity of the kind that the section is for, and nothing else that it has no use for."""
     cohesive = block.name == "COHESIVE SECTION"
     _check_viscous(block, material, cohesive=cohesive)
+    check_networks(block, material)
     if material.hyperelastic is not None:
         _check_hyperelastic(block, material)
         return

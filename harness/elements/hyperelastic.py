@@ -25,12 +25,15 @@ CHAIN: Final = (1 / 2, 1 / 20, 11 / 1050, 19 / 7000, 519 / 673750)
 Mechanics and Physics of Solids 41 (1993) 389), equation (13)."""
 
 
-def define_hyperelastic(law: Hyperelastic, ntens: int, library: Library, *, hybrid: bool = False) -> int:
+def define_hyperelastic(
+    law: Hyperelastic, ntens: int, library: Library, *, hybrid: bool = False, long_term: float = 1.0
+) -> int:
     """Define a hyperelastic material in the host; returns its number there. Raises DeckError.
 
-    hybrid: its elements are, so that it may be incompressible.
+    hybrid: its elements are, so that it may be incompressible; long_term: the energy of the coefficients over the
+    instantaneous one.
     """
-    polynomial, ogden = _polynomial(law), _ogden(law)
+    polynomial, ogden = _polynomial(law) / long_term, _ogden(law) / (long_term, 1.0)
     shear, bulk = initial_moduli(law)
     if bulk == inf and not hybrid:
         raise _error(law, "D1 = 0 is an incompressible material, which needs hybrid elements, as C3D8H")
@@ -42,9 +45,9 @@ def define_hyperelastic(law: Hyperelastic, ntens: int, library: Library, *, hybr
         )
         library.warn(f"{law.source}: *HYPERELASTIC: {message} with elements that are not hybrid")
     volumetric = np.zeros(HIGHEST_ORDER)
-    volumetric[: len(law.compliances)] = [1 / d if d else 0.0 for d in law.compliances]
+    volumetric[: len(law.compliances)] = [1 / (long_term * d) if d else 0.0 for d in law.compliances]
     ratio = shear / bulk
-    moduli = 9 * shear / (3 + ratio), (3 - 2 * ratio) / (6 + 2 * ratio)
+    moduli = 9 * shear / (3 + ratio) / long_term, (3 - 2 * ratio) / (6 + 2 * ratio)
     logarithmic = law.potential is Potential.ARRUDA_BOYCE
     return _binding.define_hyperelastic(ntens, polynomial, ogden, volumetric, logarithmic=logarithmic, moduli=moduli)
 

@@ -19,12 +19,14 @@ from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray
 from harness.model.element_types import Tensor
 from harness.model.properties import (
+    CreepLaw,
     Elastic,
     ElasticType,
     Holzapfel,
     HybridFormulation,
     Hyperelastic,
     Material,
+    Network,
     Orientation,
     UserMaterial,
     UserPotential,
@@ -40,8 +42,10 @@ PRONY_VALUES: Final = 8
 """Of a viscoelastic material, before stresses of six values for each term (fortran/host/host_prony.f90)."""
 CREEP_VALUES: Final = 9
 """Of a material that creeps (fortran/host/host_creep.f90)."""
-VISCOUS_CHANGE: Final = 7
-"""Of both, the place of the change of the viscous strain rate in the increment, times its length."""
+COMMON_VALUES: Final = 5
+"""Of a material with networks, before those of each (fortran/host/host_networks.f90)."""
+NETWORK_VALUES: Final = 10
+"""Of each network."""
 USER_HISTORY_VALUES: Final = 15
 """The same for a user material, besides STATEV (fortran/host/host_umat.f90)."""
 
@@ -64,8 +68,17 @@ def history_values(material: Material, *, prestressed: bool = False) -> int:
         return PRONY_VALUES + 6 * len(material.viscoelastic.terms) + state_variables(material)
     if material.creep is not None:
         return CREEP_VALUES + state_variables(material)
+    if material.networks:
+        return COMMON_VALUES + NETWORK_VALUES * len(material.networks) + state_variables(material)
     backstresses = 0 if material.plastic is None else len(material.plastic.backstresses)
     return (HISTORY_VALUES + 6 * backstresses if kept else 1) + state_variables(material)
+
+
+def viscous_change(material: Material) -> int:
+    """Place in the history of the largest change of a viscous strain rate in the increment, times its length; or -1."""
+    if material.viscous is None:
+        return -1
+    return COMMON_VALUES - 1 if material.networks else PRONY_VALUES - 1
 
 
 def linearity(material: Material, *, prestressed: bool = False) -> Linearity:
@@ -78,7 +91,8 @@ def linearity(material: Material, *, prestressed: bool = False) -> Linearity:
 def state_variables(material: Material) -> int:
     """Number of STATEV of a point; 0 without a routine that uses them."""
     hardening = None if material.plastic is None else material.plastic.user
-    uses = (material.user, material.user_field, material.user_thermal, material.heat_generation, hardening)
+    uses = [material.user, material.user_field, material.user_thermal, material.heat_generation, hardening]
+    uses += [given for network in material.networks for given in (network.user, network.shift)]
     used = isinstance(material.hyperelastic, UserPotential) or any(use is not None for use in uses)
     return material.state_variables if used else 0
 
@@ -96,7 +110,15 @@ def has_unsymmetric_tangent(material: Material) -> bool:
     """Whether the derivatives of the stresses by the strains are unsymmetric."""
     if material.user is not None:
         return material.user.unsymmetric
+    if material.networks:
+        return any(map(_creeps_by_more, material.networks))
     return material.plastic is not None and bool(material.plastic.backstresses[:, 1].any())
+
+
+def _creeps_by_more(network: Network) -> bool:
+    """Whether the creep of a network depends on other stretches than those of its stress."""
+    depends_on_pressure = network.law is CreepLaw.POWER and network.constants[3] > 0
+    return network.law in (CreepLaw.BERGSTROM_BOYCE, CreepLaw.USER) or depends_on_pressure
 
 
 def refuse_viscous(material: Material, elements: str) -> None:
@@ -256,7 +278,7 @@ def _check_laws(elastic: Elastic, material: Material) -> None:
 
 
 def _viscous_keyword(material: Material) -> str:
-    return "*VISCOELASTIC" if material.viscoelastic is not None else "*CREEP"
+    return "*CREEP" if material.creep is not None else "*VISCOELASTIC"
 
 
 def _moduli(elastic: Elastic, viscoelastic: Viscoelastic) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -284,7 +306,10 @@ def _define_hyperelastic(
     ntens = int(tensor)
     match material.hyperelastic:
         case Hyperelastic() as law:
-            return define_hyperelastic(law, ntens, library, hybrid=hybrid)
+            long_term = 1.0 if law.instantaneous else material.equilibrium
+            number = define_hyperelastic(law, ntens, library, hybrid=hybrid, long_term=long_term)
+            _define_networks(number, material, library)
+            return number
         case Holzapfel() as law:
             return define_holzapfel(law, orientation, ntens, hybrid=hybrid)
         case UserPotential() as law:
@@ -295,6 +320,22 @@ def _define_hyperelastic(
                 return _binding.define_user_potential(address, material.name, ntens, statev, law.constants)
             return define_user_invariants(law, orientation, material.name, ntens, statev, address)
     raise AssertionError
+
+
+def _define_networks(number: int, material: Material, library: Library) -> None:
+    if not material.networks:
+        return
+    laws = [(network.ratio, network.law, network.constants) for network in material.networks]
+    _binding.set_networks(number, laws, state_variables(material))
+    for place, network in enumerate(material.networks, 1):
+        if network.user is not None:
+            what = "*VISCOELASTIC, NONLINEAR, LAW=USER"
+            creep = _needed(library.ucreepnetwork, "UCREEPNETWORK", material, what, network.source, library)
+            _binding.set_network_routine(number, place, creep, material.name, network.user, shifts=False)
+        if network.shift is not None:
+            what = "*TRS, DEFINITION=USER"
+            shift = _needed(library.utrsnetwork, "UTRSNETWORK", material, what, network.source, library)
+            _binding.set_network_routine(number, place, shift, material.name, network.shift, shifts=True)
 
 
 def is_incompressible(material: Material) -> bool:

@@ -12,7 +12,6 @@ import numpy as np
 from harness.elements.directions import first_element
 from harness.elements.hybrid import check_hybrid, pressure_unknowns
 from harness.elements.materials import (
-    VISCOUS_CHANGE,
     define_expansion,
     define_fields,
     define_material,
@@ -25,6 +24,7 @@ from harness.elements.materials import (
     refuse_viscous,
     shear_modulus,
     state_variables,
+    viscous_change,
 )
 from harness.elements.routine import VALUES_OF_AXES, OutputVariables, PointAxes, Routine
 from harness.errors import DeckError
@@ -114,7 +114,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         tensor=int(kind.tensor),
         history=history_of(material, kind.points, prestressed=prestressed),
         statev=state_variables(material),
-        viscous=-1 if material.viscous is None else VISCOUS_CHANGE,
+        viscous=viscous_change(material),
         uvarm=output_variables(section, kind.points, library),
         turns=True,
         linear=history_values(material) == 1 and material.hyperelastic is None,
@@ -153,7 +153,7 @@ def _check_viscous(model: Model, group: ElementGroup, kind: ContinuumType, mater
     """Raise DeckError if stresses depend on time, and the elements or the steps are not for that."""
     if material.viscous is None:
         return
-    if kind.coupled or kind.pressures:
+    if kind.coupled or (kind.pressures and not material.networks):
         refuse_viscous(material, f"elements of type {group.type}")
     perturbation = next((step for step in model.steps if step.procedure.linear), None)
     if perturbation is not None:

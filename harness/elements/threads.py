@@ -101,6 +101,10 @@ def _called(group: ElementGroup) -> set[str]:
         routines |= {"UMATHT": material.user_thermal, "HETVAL": material.heat_generation}
         if isinstance(material.hyperelastic, UserPotential):
             routines[material.hyperelastic.routine] = material.hyperelastic
+        if any(network.user is not None for network in material.networks):
+            routines["UCREEPNETWORK"] = material.networks
+        if any(network.shift is not None for network in material.networks):
+            routines["UTRSNETWORK"] = material.networks
         if material.plastic is not None:
             routines["UHARD"] = material.plastic.user
         found |= {name for name, given in routines.items() if given is not None}

@@ -105,6 +105,33 @@ class Creep:
     source: Source
 
 
+class CreepLaw(IntEnum):
+    """Of a network; values are those of fortran/host/host_networks.f90."""
+
+    POWER = 1
+    HYPERBOLIC = 2
+    BERGSTROM_BOYCE = 3
+    USER = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Network:
+    """*VISCOELASTIC, NONLINEAR: a viscoelastic network.
+
+    ratio      SRATIO
+    constants  of the law, as the host has them: q0, n, m, a, rate; A, B, n; A, m, C, E
+    user       PROPS of UCREEPNETWORK, of LAW=USER
+    shift      PROPS of UTRSNETWORK, of *TRS
+    """
+
+    ratio: float
+    law: CreepLaw
+    constants: tuple[float, ...]
+    source: Source
+    user: FloatArray | None = None
+    shift: FloatArray | None = None
+
+
 class Potential(StrEnum):
     """Strain energy potential of *HYPERELASTIC."""
 
@@ -128,6 +155,7 @@ class Hyperelastic:
     order         N; 1, 1 and 3 of Mooney-Rivlin, neo-Hooke and Yeoh
     coefficients  of the change of shape, in the order of the data line; mu and lambda_m of Arruda-Boyce
     compliances   D, one per order, but one of Arruda-Boyce
+    instantaneous MODULI=INSTANTANEOUS, beside networks
     """
 
     potential: Potential
@@ -135,6 +163,7 @@ class Hyperelastic:
     coefficients: tuple[float, ...]
     compliances: tuple[float, ...]
     source: Source
+    instantaneous: bool = False
     keyword: ClassVar[str] = "HYPERELASTIC"
 
 
@@ -293,6 +322,7 @@ class Material:
     hyperelastic: Hyperelastic | Holzapfel | UserPotential | None = None
     viscoelastic: Viscoelastic | None = None
     creep: Creep | None = None
+    networks: tuple[Network, ...] = ()
     damage: Damage | None = None
     density: float = 0.0
     conductivity: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
@@ -311,9 +341,14 @@ class Material:
     output_variables: int = 0
 
     @property
-    def viscous(self) -> Viscoelastic | Creep | None:
+    def viscous(self) -> Viscoelastic | Creep | Network | None:
         """What lets stresses depend on time."""
-        return self.viscoelastic or self.creep
+        return self.viscoelastic or self.creep or next(iter(self.networks), None)
+
+    @property
+    def equilibrium(self) -> float:
+        """Stiffness ratio of the network that does not creep."""
+        return 1 - sum(network.ratio for network in self.networks)
 
 
 @dataclass(frozen=True, slots=True)

@@ -47,6 +47,8 @@ POINT_ROUTINES: Final = (
     "UHYPER",
     "UANISOHYPER_INV",
     "UHARD",
+    "UCREEPNETWORK",
+    "UTRSNETWORK",
 )
 """Routines of points, in the order of fortran/host/host_driver.f90."""
 
@@ -303,6 +305,21 @@ def define_hyperelastic(
     for the enhanced hourglass control.
     """
     return int(_host.host_define_hyperelastic(ntens, polynomial, ogden.T, volumetric, logarithmic, moduli))
+
+
+def set_networks(number: int, networks: Sequence[tuple[float, int, Sequence[float]]], statev: int) -> None:
+    """Give a hyperelastic material networks that creep: ratio, law and constants of each, as the host has them."""
+    ratios, laws, constants = zip(*networks, strict=True)
+    padded = np.array([[*given, *[0.0] * (5 - len(given))] for given in constants])
+    _host.host_set_networks(number, np.array(ratios), np.array(laws, np.int32), padded.T, statev)
+
+
+def set_network_routine(
+    number: int, network: int, address: int, name: str, constants: FloatArray, *, shifts: bool
+) -> None:
+    """Let UCREEPNETWORK give the creep of a network, from 1, or, if it shifts, UTRSNETWORK its reduced time."""
+    given = np.append(constants, 0.0)
+    _host.host_set_network_routine(number, network, address, name, shifts, given, len(constants))
 
 
 def define_user_potential(uhyper: int, name: str, ntens: int, statev: int, constants: FloatArray) -> int:

@@ -31,7 +31,7 @@ ENTRY_POINTS: Final = (
     *("UEL", "UELMAT", "UEXTERNALDB", "UMAT", "UVARM", "SDVINI", "DLOAD", "DISP", "UAMP", "USDFLD", "UTRACLOAD"),
     *("UFIELD", "URDFIL", "UMATHT", "UHARD", "UEXPAN", "CREEP", "FRIC", "UINTER", "MPC", "ORIENT", "SIGINI", "HETVAL"),
     *("DFLUX", "FILM", "UTEMP", "UHYPER", "UANISOHYPER_INV", "UMESHMOTION", "VUEL", "VUMAT", "VDLOAD", "VUSDFLD"),
-    "VEXTERNALDB",
+    *("VEXTERNALDB", "UCREEPNETWORK", "UTRSNETWORK"),
 )
 """Names by which Abaqus calls user routines; looked up in a user's file to say what it contains."""
 
@@ -42,8 +42,8 @@ _STOP_ANALYSIS, _CONCLUDE_STEP = 4, 5
 class Library:
     """User routines of a job, and the job's messages from them.
 
-    uel, uelmat, umat, umatht, uhyper, uanisohyper_inv, uhard, hetval, uvarm, sdvini, sigini, orient, disp, dload,
-    dflux, film, utemp, ufield, uamp, usdfld, uexternaldb   addresses, None without the routine
+    uel, uelmat, umat, umatht, uhyper, uanisohyper_inv, uhard, ucreepnetwork, utrsnetwork, hetval, uvarm, sdvini,
+    sigini, orient, disp, dload, dflux, film, utemp, ufield, uamp, usdfld, uexternaldb   addresses, None without it
     name                      the file as the user named it, for messages
     file                      the shared library
     entry_points              names of all user routines found
@@ -66,6 +66,8 @@ class Library:
         self.uhyper = addresses["UHYPER"]
         self.uanisohyper_inv = addresses["UANISOHYPER_INV"]
         self.uhard = addresses["UHARD"]
+        self.ucreepnetwork = addresses["UCREEPNETWORK"]
+        self.utrsnetwork = addresses["UTRSNETWORK"]
         self.hetval = addresses["HETVAL"]
         self.uvarm = addresses["UVARM"]
         self.sdvini = addresses["SDVINI"]

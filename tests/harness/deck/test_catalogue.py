@@ -181,10 +181,6 @@ def test_other_size_in_cyclic_hardening(read: Read) -> None:
         ),
         ("*VISCOELASTIC, TIME=PRONY", r"30: \*VISCOELASTIC: needs a data line with g, k and tau"),
         (
-            "*VISCOELASTIC, NONLINEAR, NETWORKID=1, SRATIO=.3, LAW=STRAIN\n1., 1., 0.",
-            r"30: \*VISCOELASTIC: option NONLINEAR is not supported",
-        ),
-        (
             "*VISCOELASTIC, TIME=PRONY\n.2, , 0.",
             r"31: .*: g = 0.2, k = 0, tau = 0: expected g >= 0, k >= 0 and tau > 0",
         ),

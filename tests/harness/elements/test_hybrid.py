@@ -24,11 +24,13 @@ from harness.model.element_types import CONTINUUM, HYBRID
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
 from harness.model.properties import (
+    CreepLaw,
     Elastic,
     ElasticType,
     HybridFormulation,
     Hyperelastic,
     Material,
+    Network,
     Plastic,
     Potential,
     SolidSection,
@@ -138,6 +140,27 @@ def test_matrix_is_the_derivative_of_the_residual(element, element_type, name):
     step = 1e-6
     for d in random.standard_normal((4, u.size)):
         slope = (solid.evaluate(u + step * d)[0] - solid.evaluate(u - step * d)[0]) / (2 * step)
+        np.testing.assert_allclose(slope, matrix @ d, atol=2e-7 * abs(matrix).max())
+
+
+@pytest.mark.parametrize("compliance", [0.0, 0.4])
+@pytest.mark.parametrize("element_type", ["CPE4H", "CAX8H", "C3D8H", "C3D10H"])
+def test_matrix_with_networks(element, element_type, compliance):
+    """In an increment after another, in which they have flowed."""
+    laws = CreepLaw.HYPERBOLIC, CreepLaw.BERGSTROM_BOYCE
+    constants = (0.3, 2.0, 1.2), (0.5, 2.0, -0.7, 0.05)
+    networks = tuple(Network(0.3, law, of, SOURCE) for law, of in zip(laws, constants, strict=True))
+    soft = rubber(Potential.NEO_HOOKE, 0.7, compliances=(compliance,))
+    solid = element(element_type, replace(soft, networks=networks))
+    solid.call = replace(solid.call, flags=Flags(21, nlgeom=True))
+    random = np.random.default_rng(3)
+    before = 0.05 * random.standard_normal(solid.size)
+    solid.evaluate(before)
+    solid.block.commit()
+    u = before + 0.05 * random.standard_normal(solid.size)
+    _, matrix, _ = solid.evaluate(u, before)
+    for d in random.standard_normal((3, u.size)):
+        slope = (solid.evaluate(u + 1e-6 * d, before)[0] - solid.evaluate(u - 1e-6 * d, before)[0]) / 2e-6
         np.testing.assert_allclose(slope, matrix @ d, atol=2e-7 * abs(matrix).max())
 
 
