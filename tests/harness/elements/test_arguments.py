@@ -293,50 +293,53 @@ def committed(kind):
 
 
 J = 1.02
-INVARIANTS = (2 + J**2) * J ** (-2 / 3), (1 + 2 * J**2) * J ** (-4 / 3), J
 HYPERELASTIC = {"TEMP": 60.0, "CMNAME": "STUFF", "INCMPFLAG": 0, "PROPS": [0.5, 0.4]}
 
 
-@pytest.mark.parametrize("kind", LARGE)
-def test_uhyper(calls, kind):
-    """The first two invariants are without the change of volume."""
-    found = last(in_step(calls, kind, RUBBER), "UHYPER")
-    expected = dict(zip(("BI1", "BI2", "AJ"), INVARIANTS, strict=True)) | {"STATEV": committed(kind)}
-    check(found, expected | HYPERELASTIC | field(kind))
+def of_stretch(routine, j):
+    """What tells of the deformation, diag(j, 1, 1): invariants of C, without the change of volume, and of the fibers.
 
-
-@pytest.mark.parametrize("kind", LARGE)
-def test_uanisohyper_inv(calls, kind):
-    """Invariants of C, without the change of volume, and the directions A1, A2 of the fibers; ZETA is A1 A2."""
-    found = last(in_step(calls, kind, TISSUE), "UANISOHYPER_INV")
+    ZETA is A1 A2, of the directions of the fibers before the deformation.
+    """
+    invariants = (2 + j**2) * j ** (-2 / 3), (1 + 2 * j**2) * j ** (-4 / 3), j
+    if routine == "UHYPER":
+        return dict(zip(("BI1", "BI2", "AJ"), invariants, strict=True))
     first = np.array([0.8, 0.6, 0.0])
     second = 0.6 * first + 0.8 * np.array([-0.6, 0.8, 0.0])
-    c = np.diag([J**2, 1, 1]) * J ** (-2 / 3)
+    c = np.diag([j**2, 1, 1]) * j ** (-2 / 3)
     pairs = ((first, first), (first, second), (second, second))
     of_fibers = [value for a, b in pairs for value in (a @ c @ b, a @ c @ c @ b)]
-    expected = {"AINV": [*INVARIANTS, *of_fibers], "ZETA": first @ second, "NFIBERS": 2, "IHYBFLAG": 0}
-    check(found, expected | {"STATEV": committed(kind)} | HYPERELASTIC | field(kind))
+    return {"AINV": [*invariants, *of_fibers], "ZETA": first @ second, "NFIBERS": 2, "IHYBFLAG": 0}
+
+
+@pytest.mark.parametrize("kind", LARGE)
+@pytest.mark.parametrize("routine", ["UHYPER", "UANISOHYPER_INV"])
+def test_hyperelasticity(calls, routine, kind):
+    found = last(in_step(calls, kind, {"UHYPER": RUBBER}.get(routine, TISSUE)), routine)
+    check(found, of_stretch(routine, J) | {"STATEV": committed(kind)} | HYPERELASTIC | field(kind))
 
 
 @pytest.mark.parametrize("kind", LINEAR)
-def test_uhyper_in_linear_steps(calls, kind):
+@pytest.mark.parametrize("routine", ["UHYPER", "UANISOHYPER_INV"])
+def test_hyperelasticity_in_linear_steps(calls, routine, kind):
     """In the base state, the end of step 1, in which nothing is strained."""
     loads = "*CLOAD\nRIGHT, 1, -1.\n" * (kind != "frequency")
-    found = calls(*LINEAR[kind], loads, RUBBER, first=", NLGEOM")
+    found = calls(*LINEAR[kind], loads, {"UHYPER": RUBBER}.get(routine, TISSUE), first=", NLGEOM")
     begun = next(k for k, (name, at, _) in enumerate(found) if name == "UEXTERNALDB" and at == (2, 1, 0, 0))
-    expected = {"BI1": 3.0, "BI2": 3.0, "AJ": 1.0, "STATEV": 1} | HYPERELASTIC
-    check(last(found[begun:], "UHYPER"), expected | {"TEMP": 20.0, "FIELDV": 4.0, "FIELDVINC": 0.0})
+    expected = {"STATEV": 1} | HYPERELASTIC | {"TEMP": 20.0, "FIELDV": 4.0, "FIELDVINC": 0.0}
+    check(last(found[begun:], routine), expected | of_stretch(routine, 1.0))
 
 
-def test_uhyper_along_a_path(calls):
+@pytest.mark.parametrize("routine", ["UHYPER", "UANISOHYPER_INV"])
+def test_hyperelasticity_along_a_path(calls, routine):
     """The stretch is that of the load factor; fields stay."""
-    found = last(in_step(calls, "large path", RUBBER), "UHYPER")
-    j = found["AJ"][0]
+    calls_of_path = in_step(calls, "large path", {"UHYPER": RUBBER}.get(routine, TISSUE))
+    found = last(calls_of_path, routine)
+    j = (found["AJ"] if routine == "UHYPER" else found["AINV"][2:3])[0]
     assert j > 1
-    increments = [at[1] for name, at, _ in in_step(calls, "large path", RUBBER) if name == "UEXTERNALDB" and at[0] == 2]
-    expected = {"BI1": (2 + j**2) * j ** (-2 / 3), "BI2": (1 + 2 * j**2) * j ** (-4 / 3), "AJ": j}
-    expected |= HYPERELASTIC | {"TEMP": 20.0, "FIELDV": 4.0, "FIELDVINC": 0.0, "STATEV": max(increments)}
-    check(found, expected)
+    increments = [at[1] for name, at, _ in calls_of_path if name == "UEXTERNALDB" and at[0] == 2]
+    expected = {"TEMP": 20.0, "FIELDV": 4.0, "FIELDVINC": 0.0, "STATEV": max(increments)}
+    check(found, of_stretch(routine, j) | HYPERELASTIC | expected)
 
 
 def moved(kind):
@@ -424,21 +427,48 @@ def test_uamp(calls, kind):
     check(found, expected | {"SENSORVALUES": sensor})
 
 
-@pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS, *HEAT_STEPS])
-def test_uexternaldb(calls, kind):
-    """LOP, TIME, DTIME, KSTEP and KINC of all calls; LOP is the one of the guide."""
-    rows = [
+def calls_of_uexternaldb(found):
+    """LOP, TIME, DTIME, KSTEP and KINC of all calls."""
+    return [
         (int(given["LOP"][0]), *given["TIME"].tolist(), float(given["DTIME"][0]), *place[:2])
-        for name, place, given in in_step(calls, kind)
+        for name, place, given in found
         if name == "UEXTERNALDB"
     ]
+
+
+BEFORE_STEP_2 = [
+    *[(0, 0, 0, 0, 1, 0), (5, 0, 0, 0, 1, 0), (1, 0, 0, 1, 1, 1), (2, 1, 1, 1, 1, 1), (6, 1, 1, 0, 1, 1)],
+    (5, 0, 1, 0, 2, 0),
+]
+
+
+@pytest.mark.parametrize("kind", [*TIMED, *COUPLED_STEPS, *HEAT_STEPS])
+def test_uexternaldb(calls, kind):
+    """LOP is the one of the guide."""
     h, ends = size(kind), []
     for k in range(1, round(1 / h) + 1):
         ends += [(1, k * h - h, 1 + k * h - h, h, 2, k), (2, k * h, 1 + k * h, h, 2, k)]
-    assert rows == [
-        *[(0, 0, 0, 0, 1, 0), (5, 0, 0, 0, 1, 0), (1, 0, 0, 1, 1, 1), (2, 1, 1, 1, 1, 1), (6, 1, 1, 0, 1, 1)],
-        *[(5, 0, 1, 0, 2, 0), *ends, (6, 1, 2, 0, *place(kind)), (3, 1, 2, 0, *place(kind))],
-    ]
+    rows = calls_of_uexternaldb(in_step(calls, kind))
+    assert rows == [*BEFORE_STEP_2, *ends, (6, 1, 2, 0, *place(kind)), (3, 1, 2, 0, *place(kind))]
+
+
+@pytest.mark.parametrize("kind", LINEAR)
+def test_uexternaldb_in_linear_steps(calls, kind):
+    """One increment, in which no time passes."""
+    loads = {"frequency": "", "buckle": "*CLOAD\nRIGHT, 1, -1.\n"}.get(kind, "*CLOAD\nRIGHT, 1, 1.\n")
+    rows = calls_of_uexternaldb(calls(*LINEAR[kind], loads))
+    # DTIME is the time increment that Abaqus prints for linear perturbation steps
+    ends = [(1, 0, 1, 1e-36, 2, 1), (2, 0, 1, 1e-36, 2, 1)]
+    assert rows == [*BEFORE_STEP_2, *ends, (6, 0, 1, 0, 2, 1), (3, 0, 1, 0, 2, 1)]
+
+
+@pytest.mark.parametrize("kind", PATHS)
+def test_uexternaldb_along_a_path(calls, kind):
+    """TIME and DTIME are the arc length; the step ends where the load factor is one."""
+    rows = calls_of_uexternaldb(in_step(calls, kind))
+    assert rows[:6] == BEFORE_STEP_2
+    ends = [(1, 0, 1, 0.5, 2, 1), (2, 0.5, 1.5, 0.5, 2, 1), (1, 0.5, 1.5, 0.5, 2, 2), (2, 1, 2, 0.5, 2, 2)]
+    assert np.array(rows[6:]) == pytest.approx(np.array([*ends, (6, 1, 2, 0, 2, 2), (3, 1, 2, 0, 2, 2)]), rel=1e-6)
 
 
 @pytest.mark.parametrize("kind", LINEAR)
