@@ -236,12 +236,13 @@ end subroutine host_define_heat_load
 
 !> Address of built-in elements: 1 continuum, 2 coupled temperature-displacement, 3 cohesive, 4 springs and masses, 5 heat
 !> transfer, 6 heat that enters, 7 shells, 8 beams, 9 piezoelectric, 10 trusses, 11 generalised plane strain, 12 beams whose
-!> material is integrated over the section, 13 membranes, 14 mass diffusion.
+!> material is integrated over the section, 13 membranes, 14 mass diffusion, 15 continuum shells.
 subroutine host_element_address(elements, address)
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_intptr_t
   use host_beam, only: beam_uel, beam_uelmat
   use host_cohesive, only: cohesive_uel
   use host_conduction, only: heat_uelmat
+  use host_continuum_shell, only: continuum_shell_uelmat
   use host_coupled, only: coupled_uelmat
   use host_discrete, only: discrete_uel
   use host_generalised, only: generalised_uelmat
@@ -256,10 +257,10 @@ subroutine host_element_address(elements, address)
   implicit none (type, external)
   integer(i4), intent(in) :: elements
   integer(i8), intent(out) :: address
-  type(c_funptr) :: all(14)
+  type(c_funptr) :: all(15)
   all = [c_funloc(solid_uelmat), c_funloc(coupled_uelmat), c_funloc(cohesive_uel), c_funloc(discrete_uel), c_funloc(heat_uelmat), &
          c_funloc(heat_load_uel), c_funloc(shell_uelmat), c_funloc(beam_uel), c_funloc(piezoelectric_uelmat), &
          c_funloc(truss_uelmat), c_funloc(generalised_uelmat), c_funloc(beam_uelmat), c_funloc(membrane_uelmat), &
-         c_funloc(mass_diffusion_uelmat)]
+         c_funloc(mass_diffusion_uelmat), c_funloc(continuum_shell_uelmat)]
   address = int(transfer(all(elements), 1_c_intptr_t), i8)
 end subroutine host_element_address

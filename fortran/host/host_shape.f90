@@ -325,14 +325,14 @@ contains
     end select
   end subroutine tetrahedron_points
 
-  !> Points of a wedge: those of a triangle, one layer after the other at two or three Gauss points across.
+  !> Points of a wedge: its middle, or those of a triangle, one layer after the other at two or three Gauss points across.
   pure subroutine wedge_points(points, parent, weight, known)
     integer, intent(in) :: points
     real(dp), intent(out) :: parent(:, :), weight(:)
     logical, intent(out) :: known
     real(dp), allocatable :: triangle(:, :), area(:), across(:, :), height(:)
     integer :: first, k, layers
-    layers = 2
+    layers = merge(1, 2, points == 1)
     if (mod(points, 3) == 0 .and. points > 6) layers = 3
     allocate (triangle(2, points/layers), area(points/layers), across(1, layers), height(layers))
     call gauss_points(across, height, known)

@@ -1,9 +1,9 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Strains of shells of three, four and eight nodes with six dofs a node, by their displacements and rotations.
+!> Strains of shells of three, four and eight nodes, by the displacements of the nodes and what their directors change by.
 !>
 !> The shell is x(r,s) + z v(r,s): the surface between the nodes, and the director between those of the nodes. A point moves by
-!> u + z w with w = rotation x director, and its strains, linear in z, are
+!> u + z w, in conventional shells with w = rotation x director, and its strains, linear in z, are
 !>
 !>     e = sym(x,a . u,b),    k = sym(x,a . w,b + v,a . u,b),    shear = x,a . w + v . u,a
 !>
@@ -23,7 +23,8 @@ module host_shell_strains
   use host_kinds, only: dp
   implicit none (type, external)
   private
-  public :: shell_point, shell_middle, shell_strains, drilling_strain, enhance, tensor_turn
+  public :: shell_point, shell_middle, shell_place, shell_strains, assumed_shear, by_rotations, drilling_strain, enhance
+  public :: tensor_turn
 
   !> A point of the surface.
   type :: shell_point
@@ -98,7 +99,7 @@ contains
   end function shell_place
 
   !> Strains 11, 22, 12 of the surface, curvatures 11, 22, 12 and shear strains 13, 23 (engineering) along the axes of a point, by
-  !> displacements and rotations of the nodes.
+  !> displacements of the nodes and changes of their directors.
   pure subroutine shell_strains(nodes, x, v, parent, weight, point, b)
     integer, intent(in) :: nodes
     real(dp), intent(in) :: x(3, nodes), v(3, nodes)   !< v: directors
@@ -106,8 +107,8 @@ contains
     type(shell_point), intent(out) :: point
     real(dp), intent(out) :: b(8, 6, nodes)
     integer, parameter :: first(3) = [1, 2, 1], second(3) = [1, 2, 2]
-    real(dp) :: slope(3, 2), inverse(2, 2), determinant, shear(2, 6, nodes)
-    integer :: i, j, k, m
+    real(dp) :: slope(3, 2), inverse(2, 2), determinant, shear(2, nodes, nodes), along(2, 6)
+    integer :: a, i, j, k, m
     b = 0
     point = shell_place(nodes, x, parent, weight)
     if (.not. point%good) return
@@ -120,58 +121,69 @@ contains
           ! e_i . u,j, and the other way round of the shear
           b(m, :3, k) = g(k, j)*e(i, :)
           b(m + 3, :3, k) = g(k, j)*slope(:, i)
-          b(m + 3, 4:, k) = g(k, j)*cross(v(:, k), e(i, :))
+          b(m + 3, 4:, k) = g(k, j)*e(i, :)
           if (i == j) cycle
           b(m, :3, k) = b(m, :3, k) + g(k, i)*e(j, :)
           b(m + 3, :3, k) = b(m + 3, :3, k) + g(k, i)*slope(:, j)
-          b(m + 3, 4:, k) = b(m + 3, 4:, k) + g(k, i)*cross(v(:, k), e(j, :))
+          b(m + 3, 4:, k) = b(m + 3, 4:, k) + g(k, i)*e(j, :)
         end do
       end do
     end associate
     call invert(2, point%jacobian, inverse, determinant)
-    shear = assumed_shear(nodes, x, v, parent)
+    shear = assumed_shear(nodes, parent)
     do k = 1, nodes
-      b(7:, :, k) = matmul(inverse, shear(:, :, k))
+      do a = 1, 2
+        along(a, :) = [matmul(v, shear(a, k, :)), matmul(x, shear(a, :, k))]
+      end do
+      b(7:, :, k) = matmul(inverse, along)
     end do
   end subroutine shell_strains
 
-  !> Shear strains along the parent coordinates, of three and four nodes from those in the middles of the edges.
-  pure function assumed_shear(nodes, x, v, parent) result(shear)
+  !> The same by displacements and rotations, which change directors by rotation x director.
+  pure function by_rotations(nodes, v, b) result(found)
     integer, intent(in) :: nodes
-    real(dp), intent(in) :: x(3, nodes), v(3, nodes), parent(2)
-    real(dp) :: shear(2, 6, nodes), third(6, nodes)
+    real(dp), intent(in) :: v(3, nodes), b(8, 6, nodes)
+    real(dp) :: found(8, 6, nodes)
+    integer :: k, m
+    found(:, :3, :) = b(:, :3, :)
+    do k = 1, nodes
+      do m = 1, 8
+        found(m, 4:, k) = cross(v(:, k), b(m, 4:, k))
+      end do
+    end do
+  end function by_rotations
+
+  !> Shear strains x,a . v along the parent coordinates a, of three and four nodes from those in the middles of the edges: (a, k, l)
+  !> is the factor of the place of node k times the director of node l.
+  pure function assumed_shear(nodes, parent) result(shear)
+    integer, intent(in) :: nodes
+    real(dp), intent(in) :: parent(2)
+    real(dp) :: shear(2, nodes, nodes), third(nodes, nodes)
     select case (nodes)
     case (8)
-      shear(1, :, :) = shear_along(nodes, x, v, parent, 1)
-      shear(2, :, :) = shear_along(nodes, x, v, parent, 2)
+      shear(1, :, :) = shear_along(nodes, parent, 1)
+      shear(2, :, :) = shear_along(nodes, parent, 2)
     case (4)
-      shear(1, :, :) = 0.5_dp*(1 - parent(2))*shear_along(nodes, x, v, [0.0_dp, -1.0_dp], 1) &
-                       + 0.5_dp*(1 + parent(2))*shear_along(nodes, x, v, [0.0_dp, 1.0_dp], 1)
-      shear(2, :, :) = 0.5_dp*(1 - parent(1))*shear_along(nodes, x, v, [-1.0_dp, 0.0_dp], 2) &
-                       + 0.5_dp*(1 + parent(1))*shear_along(nodes, x, v, [1.0_dp, 0.0_dp], 2)
+      shear(1, :, :) = 0.5_dp*(1 - parent(2))*shear_along(nodes, [0.0_dp, -1.0_dp], 1) &
+                       + 0.5_dp*(1 + parent(2))*shear_along(nodes, [0.0_dp, 1.0_dp], 1)
+      shear(2, :, :) = 0.5_dp*(1 - parent(1))*shear_along(nodes, [-1.0_dp, 0.0_dp], 2) &
+                       + 0.5_dp*(1 + parent(1))*shear_along(nodes, [1.0_dp, 0.0_dp], 2)
     case default
-      shear(1, :, :) = shear_along(nodes, x, v, [0.5_dp, 0.0_dp], 1)
-      shear(2, :, :) = shear_along(nodes, x, v, [0.0_dp, 0.5_dp], 2)
-      third = shear(2, :, :) - shear(1, :, :) - shear_along(nodes, x, v, [0.5_dp, 0.5_dp], 2) &
-              + shear_along(nodes, x, v, [0.5_dp, 0.5_dp], 1)
+      shear(1, :, :) = shear_along(nodes, [0.5_dp, 0.0_dp], 1)
+      shear(2, :, :) = shear_along(nodes, [0.0_dp, 0.5_dp], 2)
+      third = shear(2, :, :) - shear(1, :, :) - shear_along(nodes, [0.5_dp, 0.5_dp], 2) + shear_along(nodes, [0.5_dp, 0.5_dp], 1)
       shear(1, :, :) = shear(1, :, :) + parent(2)*third
       shear(2, :, :) = shear(2, :, :) - parent(1)*third
     end select
   end function assumed_shear
 
-  !> Shear strain x,a . w + v . u,a along parent coordinate a at a place.
-  pure function shear_along(nodes, x, v, parent, a) result(shear)
+  !> The one along parent coordinate a at a place.
+  pure function shear_along(nodes, parent, a) result(shear)
     integer, intent(in) :: nodes, a
-    real(dp), intent(in) :: x(3, nodes), v(3, nodes), parent(2)
-    real(dp) :: shear(6, nodes), n(nodes), dn(nodes, 2), along(3), director(3)
-    integer :: k
+    real(dp), intent(in) :: parent(2)
+    real(dp) :: shear(nodes, nodes), n(nodes), dn(nodes, 2)
     call interpolate(nodes, parent, n, dn)
-    along = matmul(x, dn(:, a))
-    director = matmul(v, n)
-    do k = 1, nodes
-      shear(:3, k) = dn(k, a)*director
-      shear(4:, k) = n(k)*cross(v(:, k), along)
-    end do
+    shear = spread(dn(:, a), 2, nodes)*spread(n, 1, nodes)
   end function shear_along
 
   !> Rotation of the nodes about the normal less that of the surface, by displacements and rotations.

@@ -249,9 +249,9 @@ KEYWORDS = (
         "squared hourglass displacement q is r V sum(B^2)/16 in the plane, in direction i of space 0.2357 r V "
         "sum(B_i^2); with NLGEOM F^T q takes the place of q, F the mean deformation gradient. Results of Abaqus R2018x "
         "and 2024 show it for square CPS4R, skewed CAX4RT and skewed C3D8RT; for CPE4R and skewed CPS4R it is inferred "
-        "from CAX4RT. After *SHELL SECTION, the hourglass modes of S4R have the stiffness of an elastic shell with the "
-        "shear modulus r/0.005 and a Poisson's ratio of zero. After *MEMBRANE SECTION it is that of M3D4R: that of "
-        "CPS4R in its plane and, which is inferred, along its normal.",
+        "from CAX4RT. After *SHELL SECTION, the hourglass modes of S4R and SC8R have the stiffness of an elastic shell "
+        "with the shear modulus r/0.005 and a Poisson's ratio of zero. After *MEMBRANE SECTION it is that of M3D4R: "
+        "that of CPS4R in its plane and, which is inferred, along its normal.",
         Where.MODEL,
         data="stiffness parameter in place of 0.005 times the shear modulus; further entries are not read",
     ),

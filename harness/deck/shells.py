@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from typing import Final
+from typing import Final, Literal
 
 from harness.deck.blocks import Block, Row
 from harness.deck.error_report import look_up
@@ -46,6 +47,9 @@ def read_shell_section(
     layers = [_read_layer(block, row, materials, default) for row in rows]
     if options.flag("SYMMETRIC"):
         layers += layers[::-1]
+    stack = options.text("STACK DIRECTION")
+    if stack == "ORIENTATION" and orientation is None:
+        raise block.error("STACK DIRECTION=ORIENTATION needs ORIENTATION=")
     return ShellSection(
         options.text("ELSET"),
         tuple(layers),
@@ -54,7 +58,34 @@ def read_shell_section(
         _rule(block) == "GAUSS",
         block.source,
         controls,
+        stack=None if stack == "ORIENTATION" else int(stack),
+        poisson=_poisson(block),
+        modulus=_thickness_modulus(block),
     )
+
+
+def _poisson(block: Block) -> float | Literal["ELASTIC"] | None:
+    """Poisson's ratio of the section, None for the default."""
+    text = block.options.text("POISSON")
+    if not text:
+        return None
+    if text == "ELASTIC":
+        return "ELASTIC"
+    try:
+        value = read_real(text)
+    except ValueError:
+        value = math.nan
+    if not -1 < value <= 0.5:
+        raise block.error(f"POISSON={text}: expected a number from -1 to 0.5, or ELASTIC")
+    return value
+
+
+def _thickness_modulus(block: Block) -> float:
+    """Of continuum shells; 0 for the default."""
+    value = block.options.real("THICKNESS MODULUS", 0.0)
+    if block.options.given("THICKNESS MODULUS") and value <= 0:
+        raise block.error(f"THICKNESS MODULUS={value:g} must be positive")
+    return value
 
 
 def _rule(block: Block) -> str:
@@ -141,34 +172,50 @@ _SECTION = (
     Option("CONTROLS", Kind.NAME, "section controls"),
     Option("OFFSET", Kind.NAME, "from the middle surface to the nodes over the thickness, or SPOS or SNEG (0)"),
     Option("ORIENTATION", Kind.NAME, "orientation of the section"),
+    one_of(
+        "STACK DIRECTION",
+        "continuum shells: parent coordinate from SNEG to SPOS, or ORIENTATION: the closest to the axis of the "
+        "additional rotation",
+        ("3", "1", "2", "ORIENTATION"),
+        default="3",
+    ),
+    Option(
+        "POISSON",
+        Kind.NAME,
+        "continuum shells: nu; the strain across is -nu/(1 - nu) times that of the area where there is no stress "
+        "across; ELASTIC: that of *ELASTIC (0.5)",
+    ),
+    Option("THICKNESS MODULUS", Kind.REAL, "continuum shells: stress across by strain across"),
     Option("SYMMETRIC", doc="the layers again, in reverse"),
-    *ignored("LAYUP", "POISSON", "THICKNESS MODULUS"),
+    *ignored("LAYUP"),
 )
 KEYWORDS = (
     Keyword(
         "SHELL SECTION",
-        "Section of conventional shells, integrated in the analysis. Without ORIENTATION direction 1 is the projection "
-        "of the global x axis, or of z where x is within 0.1 degrees of the normal. With it, the axis of its "
-        "additional rotation is the one closest to the normal, and the next one of 1, 2, 3, 1 is projected. "
-        "The thickness stays with NLGEOM, where POISSON changes that of Abaqus.",
+        "Section of conventional and continuum shells, integrated in the analysis. Without ORIENTATION direction 1 is "
+        "the projection of the global x axis, or of z where x is within 0.1 degrees of the normal. With it, the axis "
+        "of its additional rotation is the one closest to the normal, and the next one of 1, 2, 3, 1 is projected. "
+        "The thickness of conventional shells stays with NLGEOM, where POISSON changes that of Abaqus. That of "
+        "continuum shells is the distance of their faces: places and thicknesses of layers change in proportion, and "
+        "OFFSET has no meaning.",
         Where.MODEL,
         (
             *_SECTION,
             one_of("SECTION INTEGRATION", "rule through the thickness", ("SIMPSON", "GAUSS"), default="SIMPSON"),
-            *refused("DENSITY", "NODAL THICKNESS", "SHELL THICKNESS", "STACK DIRECTION", "TEMPERATURE"),
+            *refused("DENSITY", "NODAL THICKNESS", "SHELL THICKNESS", "TEMPERATURE"),
         ),
         "thickness, section points (5; Gauss 3); COMPOSITE: thickness, section points (3; Gauss 2), material, angle of "
         "the layer in degrees, name",
     ),
     Keyword(
         "SHELL GENERAL SECTION",
-        "Section of conventional shells whose stiffness is that of linear elastic materials. It is *SHELL SECTION with "
-        "them, of which the default section points have stresses in the output.",
+        "Section of conventional and continuum shells whose stiffness is that of linear elastic materials. It is "
+        "*SHELL SECTION with them, of which the default section points have stresses in the output.",
         Where.MODEL,
         (
             *_SECTION,
             *refused("BENDING ONLY", "DENSITY", "DEPENDENCIES", "I PROPERTIES", "MEMBRANE ONLY", "NODAL THICKNESS"),
-            *refused("PROPERTIES", "SHELL THICKNESS", "SMEAR ALL LAYERS", "STACK DIRECTION", "TEMPERATURE", "UNSYMM"),
+            *refused("PROPERTIES", "SHELL THICKNESS", "SMEAR ALL LAYERS", "TEMPERATURE", "UNSYMM"),
             *refused("USER", "VARIABLES", "ZERO"),
         ),
         "thickness; COMPOSITE: thickness, an entry without meaning, material, angle of the layer in degrees",

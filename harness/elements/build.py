@@ -15,6 +15,7 @@ from harness.elements.beam import beam_routine, beam_variables, start_directions
 from harness.elements.block import ElementBlock
 from harness.elements.cohesive import cohesive_routine, cohesive_variables
 from harness.elements.composite import composite_routine, composite_variables, layer_axes
+from harness.elements.continuum_shell import continuum_shell_routine, stack_directions
 from harness.elements.coupled import coupled_routine, heat_routine, heat_variables, is_unsymmetric
 from harness.elements.directions import start_axes
 from harness.elements.discrete import discrete_routine, discrete_unknowns, discrete_variables
@@ -47,6 +48,7 @@ from harness.model.element_types import (
     POTENTIAL,
     BeamType,
     CohesiveType,
+    ContinuumShellType,
     ContinuumType,
     DiscreteType,
     HeatType,
@@ -154,7 +156,7 @@ def _block_of(
     model: Model, group: ElementGroup, library: Library, *, strict: bool, zeros: bool, linear: Collection[str]
 ) -> ElementBlock:
     kind = group.built_in
-    expands = isinstance(kind, HeatType | ContinuumType | BeamType)
+    expands = isinstance(kind, HeatType | ContinuumType | BeamType) and not isinstance(kind, ContinuumShellType)
     material = next((material for material in materials_of(group.section) if material.expansion), None)
     if material is not None and not expands:
         message = f"*EXPANSION (material {material.name}) is not supported for elements of type {group.type}"
@@ -166,12 +168,12 @@ def _block_of(
     match kind:
         case HeatType():
             return _heat_block(model, group, kind, library)
+        case ShellType() | ContinuumShellType() | MembraneType() | BeamType():
+            return _structural_block(model, group, kind, library)
         case ContinuumType():
             return _solid_block(model, group, kind, library)
         case CohesiveType():
             return _cohesive_block(model, group, kind, library)
-        case ShellType() | MembraneType() | BeamType():
-            return _structural_block(model, group, kind, library)
         case DiscreteType() | RigidType():
             return _discrete_block(model, group, library)
     near = get_close_matches(group.type.upper(), BUILT_IN, n=1)
@@ -346,12 +348,17 @@ def _cohesive_block(model: Model, group: ElementGroup, kind: CohesiveType, libra
 
 
 def _structural_block(
-    model: Model, group: ElementGroup, kind: ShellType | MembraneType | BeamType, library: Library
+    model: Model,
+    group: ElementGroup,
+    kind: ShellType | ContinuumShellType | MembraneType | BeamType,
+    library: Library,
 ) -> ElementBlock:
     if isinstance(kind, BeamType):
         return _beam_block(model, group, kind, library)
     if isinstance(kind, MembraneType):
         return _membrane_block(model, group, kind, library)
+    if isinstance(kind, ContinuumShellType):
+        return _continuum_shell_block(model, group, kind, library)
     return _shell_block(model, group, kind, library)
 
 
@@ -379,6 +386,28 @@ def _shell_block(model: Model, group: ElementGroup, kind: ShellType, library: Li
     return block
 
 
+def _continuum_shell_block(
+    model: Model, group: ElementGroup, kind: ContinuumShellType, library: Library
+) -> ElementBlock:
+    section = group.section
+    if not isinstance(section, ShellSection):
+        raise DeckError(section.source, f"elements of type {group.type} need *SHELL SECTION")
+    _check_nodes(group, kind.nodes)
+    routine = continuum_shell_routine(model, group, kind, section, library)
+    block = ElementBlock(
+        group,
+        model.mesh.coordinates,
+        tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
+        routine,
+        library,
+        unsymmetric=any(map(has_unsymmetric_tangent, materials_of(section))),
+        variables=shell_variables(section, kind, routine),
+    )
+    block.set_last(stack_directions(model, group, kind, section, library))
+    _begin_surface_axes(model, group, kind, block, routine, library)
+    return block
+
+
 def _membrane_block(model: Model, group: ElementGroup, kind: MembraneType, library: Library) -> ElementBlock:
     section = group.section
     if not isinstance(section, MembraneSection):
@@ -399,7 +428,12 @@ def _membrane_block(model: Model, group: ElementGroup, kind: MembraneType, libra
 
 
 def _begin_surface_axes(
-    model: Model, group: ElementGroup, kind: SurfaceType, block: ElementBlock, routine: Routine, library: Library
+    model: Model,
+    group: ElementGroup,
+    kind: SurfaceType | ContinuumShellType,
+    block: ElementBlock,
+    routine: Routine,
+    library: Library,
 ) -> None:
     """Set the directions of *ORIENTATION at the points of shells or membranes. Raises DeckError."""
     if routine.axes is not None:

@@ -20,7 +20,7 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import DiscreteKind, Family, SurfaceType
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.properties import CompositeSection, SolidSection
+from harness.model.properties import CompositeSection, ShellSection, SolidSection
 from harness.model.restart import Saved
 from harness.model.steps import ElementLoad, LoadKind, LoadType
 from harness.usersub import Library, _binding
@@ -130,7 +130,7 @@ def _face(
     if isinstance(surface, SurfaceType):
         # the order of the nodes of a side gives the outward normal
         return surface.dimension, 1.0, surface.family, 1, False
-    assert isinstance(section, SolidSection | CompositeSection)
+    assert isinstance(section, SolidSection | CompositeSection | ShellSection)
     kind = solid_of(parent)
     depth = section_depth(kind, section)
     outward = outward_sign(parent, row, load.face, coordinates)

@@ -43,7 +43,7 @@ def unit_forces(
         return _forces_on_surfaces(group, structural, rows, load, coordinates)
     if isinstance(structural, BeamType):
         return beam_forces(group, structural, rows, load, coordinates)
-    assert isinstance(section, SolidSection | CompositeSection)
+    assert isinstance(section, SolidSection | CompositeSection | ShellSection)
     kind = solid_of(group)
     dimension = kind.dimension
     local = list(load.type.face) or list(range(group.nodes.shape[1]))
@@ -57,11 +57,9 @@ def unit_forces(
     tangents = np.einsum("mkd,pka->mpda", x, derivatives)
     scale = section_depth(kind, section)
     if load.type.kind is LoadKind.GRAVITY:
-        # layers have the same density
-        material = materials_of(section)[0]
-        if not material.density:
-            raise DeckError(load.source, f"GRAV needs *DENSITY, which material {material.name} does not have")
-        scale *= material.density
+        check_density(materials_of(section), load.source, "GRAV")
+        # layers of solids have the same density
+        scale *= section.density if isinstance(section, ShellSection) else materials_of(section)[0].density
     if not load.type.face:
         force = np.linalg.det(tangents)[:, :, None] * np.array(load.type.direction)[:dimension]
     else:

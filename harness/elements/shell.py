@@ -1,10 +1,13 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Built-in conventional shells: what the driver calls for them (fortran/host/host_shell.f90), and their sections."""
+"""Built-in conventional shells: what the driver calls for them (fortran/host/host_shell.f90).
+
+Sections of shells, which continuum shells have too.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -27,8 +30,8 @@ from harness.elements.routine import VALUES_OF_AXES, Linearity, PointAxes, Routi
 from harness.elements.simpson import simpson
 from harness.elements.solid import HOURGLASS_FRACTION, numbered
 from harness.errors import DeckError
-from harness.model.arrays import FloatArray
-from harness.model.element_types import ShellType, Tensor
+from harness.model.arrays import FloatArray, IntArray
+from harness.model.element_types import ContinuumShellType, ShellType, Tensor
 from harness.model.mesh import ElementGroup, full_name
 from harness.model.model import Model
 from harness.model.properties import ShellLayer, ShellSection, materials_of
@@ -65,68 +68,92 @@ def shell_routine(
     model: Model, group: ElementGroup, kind: ShellType, section: ShellSection, library: Library
 ) -> Routine:
     """What the driver calls for a group of shells. Raises DeckError."""
-    _check(model, group, section)
+    check_section(model, group, section)
+    _check_inertia(model, group, section)
     dynamic = any(step.procedure.inertia for step in model.steps)
-    points, materials = section_points(section), {layer.material.name: layer.material for layer in section.layers}
+    points = section_points(section)
+    forces = 12 * kind.nodes if dynamic else 0
+    of_points = kind.points * len(points.place) * len(NAMES)
+    axes = PointAxes(of_points + forces, kind.points, False, section.orientation) if section.orientation else None
+    hidden = forces + (VALUES_OF_AXES * kind.points if axes else 0) + 3 * kind.nodes
+    stiffness = section_stiffness(section, points)
+    shear = section.shear or shear_stiffness(section, stiffness)
+    layers, common = define_section(section, points, kind.points, library)
+    return replace(
+        common,
+        address=_binding.address_of("shell"),
+        jtype=kind.nodes,
+        svars=of_points + hidden,
+        hidden=hidden,
+        props=section_properties(
+            section,
+            points,
+            (DRILLING * (shear[0] + shear[1]) / 2, -section.offset * section.thickness),
+            shear,
+            hourglass_modulus(kind, section, stiffness),
+        ),
+        jprops=np.array([kind.family.number, kind.points, len(points.place), axes is not None, *layers]),
+        axes=axes,
+    )
+
+
+def define_section(
+    section: ShellSection, points: SectionPoints, along: int, library: Library
+) -> tuple[IntArray, Routine]:
+    """Material, layer and section point of the layer of each section point, and what they make of a routine.
+
+    along: integration points of the surface.
+    """
+    materials = {layer.material.name: layer.material for layer in section.layers}
     statev = max(map(state_variables, materials.values()))
     numbers = {}
     for name, material in materials.items():
         number = define_material(material, None, Tensor.PLANE_STRESS, section.source, library, room=statev)
         # the axes are those of each section point
-        along = np.eye(3), section.orientation.name if section.orientation else ""
-        define_fields(number, material, along, Tensor.PLANE_STRESS, library, room=statev)
+        axes = np.eye(3), section.orientation.name if section.orientation else ""
+        define_fields(number, material, axes, Tensor.PLANE_STRESS, library, room=statev)
         numbers[name] = number
-    layers = [section.layers[k] for k in points.layer.tolist()]
-    forces = 12 * kind.nodes if dynamic else 0
-    of_points = kind.points * len(points.place) * len(NAMES)
-    axes = PointAxes(of_points + forces, kind.points, False, section.orientation) if section.orientation else None
-    hidden = forces + (VALUES_OF_AXES * kind.points if axes else 0) + 3 * kind.nodes
-    user = any(material.user is not None for material in materials.values())
-    stiffness = section_stiffness(section, points)
-    shear = section.shear or shear_stiffness(section, stiffness)
+    of_layers = np.array([numbers[layer.material.name] for layer in section.layers])
     # STATEV are behind what any of the materials has of other values
     values = statev + max(history_values(material) - state_variables(material) for material in materials.values())
-    of_layers = zip(layers, points.layer.tolist(), points.number.tolist(), strict=True)
     known = all(linearity(material) is Linearity.KNOWN for material in materials.values())
-    return Routine(
-        address=_binding.address_of("shell"),
-        jtype=kind.nodes,
+    common = Routine(
+        address=0,
+        jtype=0,
         mcrd=3,
-        svars=of_points + hidden,
-        hidden=hidden,
+        svars=0,
         density=1,
-        props=np.array(
-            [
-                section.thickness,
-                section.mass / section.thickness,
-                DRILLING * (shear[0] + shear[1]) / 2,
-                *shear,
-                SLENDERNESS if section.slenderness is None else section.slenderness,
-                -section.offset * section.thickness,
-                *(hourglass_modulus(kind, section, stiffness, user=user)).ravel(),
-                *np.column_stack([points.place, points.weight, np.radians([layer.angle for layer in layers])]).ravel(),
-            ]
-        ),
-        jprops=np.array(
-            [
-                *(kind.family.number, kind.points, len(points.place), axes is not None),
-                *(value for layer, k, n in of_layers for value in (numbers[layer.material.name], k + 1, n)),
-            ]
-        ),
+        props=np.zeros(0),
+        jprops=np.zeros(0, dtype=np.int64),
         material=next(iter(numbers.values())),
         tensor=int(Tensor.PLANE_STRESS),
-        history=(values, kind.points * len(points.place) if values > 1 else 1),
+        history=(values, along * len(points.place) if values > 1 else 1),
         statev=statev,
         linear=values == 1,
         forces=Linearity.KNOWN if known else Linearity.UNKNOWN,
         free=(1, 2, 3),
-        axes=axes,
         turns=True,
     )
+    return np.column_stack([of_layers[points.layer], points.layer + 1, points.number]).ravel(), common
 
 
-def shell_variables(section: ShellSection, kind: ShellType, routine: Routine) -> PointVariables:
-    """Meaning of the state variables of a group of shells."""
+def section_properties(
+    section: ShellSection,
+    points: SectionPoints,
+    of_element: tuple[float, float],
+    shear: tuple[float, ...],
+    hourglass: FloatArray,
+) -> FloatArray:
+    """PROPS of fortran/host/host_shell_section.f90; of_element: the two values of the element."""
+    slenderness = SLENDERNESS if section.slenderness is None else section.slenderness
+    angles = np.radians([section.layers[k].angle for k in points.layer.tolist()])
+    first = [section.thickness, section.density, of_element[0], *shear, slenderness, of_element[1]]
+    of_points = np.column_stack([points.place, points.weight, angles])
+    return np.concatenate([first, hourglass.ravel(), of_points.ravel()])
+
+
+def shell_variables(section: ShellSection, kind: ShellType | ContinuumShellType, routine: Routine) -> PointVariables:
+    """Meaning of the state variables of a group of shells, conventional or continuum shells."""
     sections = sum(layer.points for layer in section.layers)
     names = *NAMES, *numbered("SDV", routine.statev)
     return PointVariables("continuum", names, kind.points * sections, sections=sections, whole=WHOLE)
@@ -237,8 +264,9 @@ def _bending_force(modulus: FloatArray, strains: FloatArray, start: float, end: 
     return np.array([[forces[0, 0], forces[2, 1]], [forces[2, 0], forces[1, 1]]])
 
 
-def hourglass_modulus(kind: ShellType, section: ShellSection, stiffness: FloatArray, *, user: bool) -> FloatArray:
+def hourglass_modulus(kind: ShellType | ContinuumShellType, section: ShellSection, stiffness: FloatArray) -> FloatArray:
     """(6, 6) elastic stiffness of the section that hourglass modes and enhanced modes have. Raises DeckError."""
+    user = any(layer.material.user is not None for layer in section.layers)
     if kind.hourglass_control and user and not section.hourglass:
         message = f"elements of type {kind.name} with *USER MATERIAL need *HOURGLASS STIFFNESS after *SHELL SECTION"
         raise DeckError(section.source, message)
@@ -276,15 +304,21 @@ def _strain_turn(degrees: float) -> FloatArray:
     return np.array([[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]])
 
 
-def _check(model: Model, group: ElementGroup, section: ShellSection) -> None:
-    """Raise DeckError for what shells do not support."""
+def _check_inertia(model: Model, group: ElementGroup, section: ShellSection) -> None:
+    """Raise DeckError for steps whose inertia is not supported."""
+    if not any(step.procedure.inertia for step in model.steps):
+        return
     elements = f"elements of type {group.type}"
-    if any(step.procedure.inertia for step in model.steps):
-        nonlinear = next((step for step in model.steps if step.nlgeom), None)
-        if nonlinear is not None:
-            message = f"*DYNAMIC with NLGEOM is not supported for {elements}, whose inertia is that of small rotations"
-            raise DeckError(nonlinear.source, message)
-        check_density(materials_of(section), section.source, f"*DYNAMIC with {elements}")
+    nonlinear = next((step for step in model.steps if step.nlgeom), None)
+    if nonlinear is not None:
+        message = f"*DYNAMIC with NLGEOM is not supported for {elements}, whose inertia is that of small rotations"
+        raise DeckError(nonlinear.source, message)
+    check_density(materials_of(section), section.source, f"*DYNAMIC with {elements}")
+
+
+def check_section(model: Model, group: ElementGroup, section: ShellSection) -> None:
+    """Raise DeckError for what sections of shells do not support."""
+    elements = f"elements of type {group.type}"
     initial = next((entry for entry in model.initial_solutions if entry.elements is None), None)
     if initial is not None and any(state_variables(layer.material) for layer in section.layers):
         raise DeckError(initial.source, f"SDVINI is not supported for {elements}")

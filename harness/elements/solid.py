@@ -31,7 +31,15 @@ from harness.errors import DeckError
 from harness.model.element_types import HYBRID, ContinuumType, SolidType, Tensor
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.properties import CompositeSection, ElasticType, Hyperelastic, Material, Orientation, SolidSection
+from harness.model.properties import (
+    CompositeSection,
+    ElasticType,
+    Hyperelastic,
+    Material,
+    Orientation,
+    ShellSection,
+    SolidSection,
+)
 from harness.model.records import PointVariables
 from harness.usersub import Library, _binding
 
@@ -53,7 +61,7 @@ def solid_of(group: ElementGroup) -> ContinuumType:
     return kind
 
 
-def section_depth(kind: SolidType, section: SolidSection | CompositeSection) -> float:
+def section_depth(kind: SolidType, section: SolidSection | CompositeSection | ShellSection) -> float:
     """Factor from area to volume: the thickness in the plane, 2 pi about an axis, to be multiplied by the radius."""
     if kind.axisymmetric:
         return 2 * np.pi

@@ -259,6 +259,29 @@ class ContinuumType(SolidType):
 
 
 @dataclass(frozen=True, slots=True)
+class ContinuumShellType(ContinuumType):
+    """A continuum shell: a solid with the section of a shell, whose section points are in plane stress.
+
+    points        integration points of its surface
+    """
+
+    @property
+    def section(self) -> str:
+        """Keyword that gives its properties."""
+        return "SHELL SECTION"
+
+    @property
+    def surface(self) -> Family:
+        """The family of its surface: its faces at the bottom and the top are alike."""
+        return FAMILIES[2, self.nodes // 2]
+
+    @property
+    def layered(self) -> bool:
+        """Its layers are those of *SHELL SECTION."""
+        return False
+
+
+@dataclass(frozen=True, slots=True)
 class CohesiveType:
     """A cohesive element between two faces of a family.
 
@@ -612,6 +635,15 @@ SHELL: Final = {
 }
 """Conventional shells by their names."""
 
+CONTINUUM_SHELL: Final = {
+    kind.name: kind
+    for kind in (
+        ContinuumShellType("SC6R", WEDGE6, 1, Tensor.SOLID),
+        ContinuumShellType("SC8R", HEX8, 1, Tensor.SOLID),
+    )
+}
+"""Continuum shells by their names."""
+
 MEMBRANE: Final = {
     kind.name: kind
     for kind in (
@@ -666,6 +698,7 @@ BUILT_IN: Final[dict[str, BuiltInType]] = {
     **HEAT,
     **COHESIVE,
     **SHELL,
+    **CONTINUUM_SHELL,
     **MEMBRANE,
     **BEAM,
     **RIGID,

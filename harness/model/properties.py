@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
-from typing import ClassVar, Final
+from typing import ClassVar, Final, Literal
 
 import numpy as np
 
@@ -481,6 +481,11 @@ class ShellSection:
     shear        K11, K22 and K12 of *TRANSVERSE SHEAR STIFFNESS; none: those of the elastic layers
     slenderness  its factor; None: the default
     hourglass    *HOURGLASS STIFFNESS; 0: not given
+
+    Of continuum shells:
+    stack        parent coordinate from SNEG to SPOS, 1 to 3; None: STACK DIRECTION=ORIENTATION
+    poisson      POISSON; None: the default
+    modulus      THICKNESS MODULUS; 0: not given
     """
 
     elset: str
@@ -493,6 +498,9 @@ class ShellSection:
     shear: tuple[float, ...] = ()
     slenderness: float | None = None
     hourglass: float = 0.0
+    stack: int | None = 3
+    poisson: float | Literal["ELASTIC"] | None = None
+    modulus: float = 0.0
 
     @property
     def thickness(self) -> float:
@@ -503,6 +511,11 @@ class ShellSection:
     def mass(self) -> float:
         """Mass per area."""
         return sum(layer.thickness * layer.material.density for layer in self.layers)
+
+    @property
+    def density(self) -> float:
+        """Mean density of the layers."""
+        return self.mass / self.thickness
 
 
 @dataclass(frozen=True, slots=True)

@@ -636,7 +636,7 @@ def slopes_at_nodes(family: int, nodes: int) -> FloatArray:
 
 _ELEMENTS: Final = (
     *("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric", "truss"),
-    *("generalised", "beam section", "membrane", "mass diffusion"),
+    *("generalised", "beam section", "membrane", "mass diffusion", "continuum shell"),
 )
 """In the order of host_element_address."""
 
@@ -657,6 +657,7 @@ def address_of(
         "beam section",
         "membrane",
         "mass diffusion",
+        "continuum shell",
     ],
 ) -> int:
     """Address of built-in elements.

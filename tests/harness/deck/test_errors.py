@@ -339,14 +339,14 @@ def test_all_places_are_reported_at_once(read: Read) -> None:
 
 
 def test_elements_of_abaqus_are_refused_beside_options(read: Read) -> None:
-    """A continuum shell is refused for its type, not only for an option of its section."""
-    shells = "*ELEMENT, TYPE=SC8R, ELSET=PLIES\n8, 1, 2, 3, 4, 5, 6, 7, 8\n" * 2
-    section = "*SHELL SECTION, ELSET=PLIES, MATERIAL=PLY, STACK DIRECTION=3\n1.\n"
+    """A shell with temperatures is refused for its type, not only for an option of its section."""
+    shells = "*ELEMENT, TYPE=SC8RT, ELSET=PLIES\n8, 1, 2, 3, 4, 5, 6, 7, 8\n" * 2
+    section = "*SHELL SECTION, ELSET=PLIES, MATERIAL=PLY, DENSITY=3.\n1.\n"
     with pytest.raises(DeckError) as caught:
         read(FLAT.replace("*MATERIAL", shells + section + "*MATERIAL", 1))
     option, element = str(caught.value).splitlines()
-    assert option == "deck.inp:33: *SHELL SECTION: option STACK DIRECTION is not supported"
-    assert element.startswith("deck.inp:29: element type SC8R of Abaqus is not supported here (supported: ")
+    assert option == "deck.inp:33: *SHELL SECTION: option DENSITY is not supported"
+    assert element.startswith("deck.inp:29: element type SC8RT of Abaqus is not supported here (supported: ")
 
 
 def test_one_wrong_line_gives_one_message(read: Read) -> None:

@@ -98,3 +98,65 @@ class ShellDeck:
         for name, nodes in (sets or {}).items():
             lines += [f"*NSET, NSET={name}", *(f"{node}," for node in nodes)]
         return "\n".join([*lines, self.before + f"*MATERIAL, NAME=M\n{self.material.strip()}", self.section, step, ""])
+
+
+@dataclass
+class ThickDeck:
+    """A mesh of n x m cells on the unit square with one or more elements across, of hexahedra or wedges.
+
+    place     of a point of the unit square at a height from 0 to 1
+    kind      element type
+    across    elements across
+    moved     displacements of inner pairs of nodes in the unit square, by their indices
+    """
+
+    kind: str
+    n: int
+    m: int
+    place: Callable[[float, float, float], tuple[float, float, float]]
+    section: str
+    material: str
+    across: int = 1
+    moved: dict[tuple[int, int], tuple[float, float]] = field(default_factory=dict)
+
+    def node(self, i: int, j: int, k: int) -> int:
+        """Number of a node."""
+        return 1 + i + (self.n + 1) * (j + (self.m + 1) * k)
+
+    def line(self, *, i: int | None = None, j: int | None = None) -> list[int]:
+        """Nodes at one index of the mesh, those at the bottom first."""
+        first = range(self.n + 1) if i is None else (i,)
+        second = range(self.m + 1) if j is None else (j,)
+        return [self.node(a, b, k) for k in range(self.across + 1) for b in second for a in first]
+
+    @property
+    def coordinates(self) -> np.ndarray:
+        """(nodes, 3), in the order of the numbers."""
+        places = []
+        for k in range(self.across + 1):
+            for j in range(self.m + 1):
+                for i in range(self.n + 1):
+                    a, b = self.moved.get((i, j), (0.0, 0.0))
+                    places.append(self.place(i / self.n + a, j / self.m + b, k / self.across))
+        return np.array(places, dtype=float)
+
+    def elements(self) -> list[tuple[int, ...]]:
+        """Nodes of the elements."""
+        cells = []
+        for k in range(self.across):
+            for j in range(self.m):
+                for i in range(self.n):
+                    around = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
+                    for part in ((0, 1, 2), (0, 2, 3)) if self.kind.startswith("SC6") else ((0, 1, 2, 3),):
+                        cells.append(tuple(self.node(*around[p], k + side) for side in (0, 1) for p in part))
+        return cells
+
+    def text(self, step: str, sets: dict[str, Iterable[int]] | None = None) -> str:
+        """The deck, with a step and node sets."""
+        lines = ["*NODE, NSET=ALL"]
+        lines += [f"{k}, {x!r}, {y!r}, {z!r}" for k, (x, y, z) in enumerate(self.coordinates.tolist(), 1)]
+        lines += [f"*ELEMENT, TYPE={self.kind}, ELSET=SHELL"]
+        lines += [f"{k}, {', '.join(map(str, nodes))}" for k, nodes in enumerate(self.elements(), 1)]
+        for name, nodes in (sets or {}).items():
+            lines += [f"*NSET, NSET={name}", *(f"{node}," for node in nodes)]
+        return "\n".join([*lines, f"*MATERIAL, NAME=M\n{self.material.strip()}", self.section, step, ""])

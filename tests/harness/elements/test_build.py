@@ -95,7 +95,7 @@ def test_user_elements_have_one_orientation_of_built_in_materials(build, user_gr
         build(group, (HERE / "point.f").read_text() + components)
 
 
-@pytest.mark.parametrize("element_type, hint", [("CPS5", "did you mean CPS8"), ("SC8R", "")])
+@pytest.mark.parametrize("element_type, hint", [("CPS5", "did you mean CPS8"), ("SAX1", "")])
 def test_unsupported_element_type(build, solid_group, element_type, hint):
     message = rf"test.inp:7: element type {element_type} is not supported; built-in types: CPS3, .*, MASS.*{hint}"
     with pytest.raises(DeckError, match=message):
@@ -140,7 +140,7 @@ def test_fields():
 
 def test_all_places_are_named_at_once(solid_group, load):
     """One error for each section, not one after the other."""
-    groups = [solid_group(kind, np.array([[0, 1, 2]]), 1.0) for kind in ("SC8R", "CPS4", "PIPE21")]
+    groups = [solid_group(kind, np.array([[0, 1, 2]]), 1.0) for kind in ("SAX1", "CPS4", "PIPE21")]
     mesh = Mesh(np.arange(1, 5), np.eye(4, 3), ("",) * 4)
-    with pytest.raises(DeckError, match=r"(?s)type SC8R is not.*\n.*type CPS4 have 4 nodes.*\n.*type PIPE21 is not"):
+    with pytest.raises(DeckError, match=r"(?s)type SAX1 is not.*\n.*type CPS4 have 4 nodes.*\n.*type PIPE21 is not"):
         build_blocks(Model(Path("test.inp"), "", mesh, tuple(groups), ()), load(None))

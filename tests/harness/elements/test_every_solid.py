@@ -19,7 +19,7 @@ from harness.deck import read_deck
 from harness.elements import Request, build_blocks
 from harness.model.element_types import BUILT_IN, ContinuumType, Tensor
 
-SOLIDS = {name: kind for name, kind in BUILT_IN.items() if isinstance(kind, ContinuumType)}
+SOLIDS = {name: kind for name, kind in BUILT_IN.items() if type(kind) is ContinuumType}
 YOUNG, POISSON, DENSITY, THICKNESS = 1000.0, 0.3, 2.0, 0.7
 STRETCH = np.array([[1.10, 0.04, -0.03], [0.04, 0.93, 0.05], [-0.03, 0.05, 1.06]])
 ANGLE = np.radians(50.0)
