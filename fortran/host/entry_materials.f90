@@ -171,6 +171,29 @@ subroutine host_set_user_field(number, address, names, statev, room, axes)
   material%variables = max(material%variables, 1)
 end subroutine host_set_user_field
 
+!> Let UVARM give output variables of a material in elements that call it themselves.
+subroutine host_set_user_output(number, address, names, counts)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_kinds, only: i4, i8
+  use host_materials, only: find_material, material_t
+  implicit none (type, external)
+  integer(i4), intent(in) :: number
+  integer(i8), intent(in) :: address
+  character(len=80), intent(in) :: names(2)   !< of the material and its orientation
+  integer(i4), intent(in) :: counts(4)        !< count, width, statev and room of user_output_t
+  type(material_t), pointer :: material
+  material => find_material(number)
+  allocate (material%user_output)
+  material%user_output%address = transfer(int(address, c_intptr_t), material%user_output%address)
+  material%user_output%material = names(1)
+  material%user_output%orientation = names(2)
+  material%user_output%count = counts(1)
+  material%user_output%width = counts(2)
+  material%user_output%statev = counts(3)
+  material%user_output%room = counts(4)
+  material%user_output%plastic = allocated(material%yield) .or. allocated(material%hardening)
+end subroutine host_set_user_output
+
 !> Make a material of UMAT known; returns the number that stands for it.
 subroutine host_define_user_material(umat, name, ntens, hybrid, statev, room, constants, count, number, n)
   use, intrinsic :: iso_c_binding, only: c_intptr_t

@@ -9,13 +9,14 @@ subroutine host_uvarm_pass(address, names, axes, counts, place, clock, labels, c
   use, intrinsic :: iso_c_binding, only: c_intptr_t
   use host_context, only: current
   use host_kinds, only: dp, i4, i8
-  use host_uvarm, only: run_uvarm, uvarm_pass_t
+  use host_uvarm_pass, only: run_uvarm, uvarm_pass_t
   implicit none (type, external)
   integer(i8), intent(in) :: address
   character(len=80), intent(in) :: names(2)   !< of the material and its orientation
   integer(i4), intent(in) :: each, every      !< points and m, or 1 if all have the same directions
   real(dp), intent(in), target :: axes(3, 3, each, every)   !< rows: material directions
-  integer(i4), intent(in) :: counts(4)        !< stress components, STATEV, family of the elements, 1: material in the directions
+  integer(i4), intent(in) :: counts(5)        !< stress components, STATEV, family of the elements, 1: the history begins with a
+                                              !< plastic strain, 1: material in the directions
   integer(i4), intent(in) :: place(2)         !< step, increment
   real(dp), intent(in) :: clock(3)            !< step time, total time at the start of the increment, time increment
   integer(i4), intent(in) :: mcrd, nnode, variables, points, values, nuvarm, m
@@ -25,13 +26,15 @@ subroutine host_uvarm_pass(address, names, axes, counts, place, clock, labels, c
   integer(i4), intent(out) :: left            !< 1 if the routine ended the analysis
   integer(i4), intent(out) :: element, point  !< of the last call
   type(uvarm_pass_t) :: pass
-  pass%address = transfer(int(address, c_intptr_t), pass%address)
-  pass%material = names(1)
-  pass%orientation = names(2)
+  pass%user%address = transfer(int(address, c_intptr_t), pass%user%address)
+  pass%user%material = names(1)
+  pass%user%orientation = names(2)
+  pass%user%statev = counts(2)
+  pass%user%room = counts(2)
+  pass%user%plastic = counts(4) /= 0
   pass%axes => axes
-  pass%local = counts(4) /= 0
+  pass%local = counts(5) /= 0
   pass%tensor = counts(1)
-  pass%statev = counts(2)
   pass%family = counts(3)
   pass%kstep = place(1)
   pass%kinc = place(2)

@@ -6,12 +6,13 @@
 !> there, less thermal expansion, its shear strain the twist times the lever of the point (harness/elements/beam_points.py). All
 !> other stresses are zero. Transverse shear, and torsion where the material has one stress, are elastic and not in here.
 module host_beam_section
-  use host_context, only: current
+  use host_context, only: current, output_variables
   use host_coupling, only: interpolate_fields, thermal_strain
   use host_kinds, only: dp, i4
   use host_materials, only: elastic_energy, has_fields, material_t, set_constants, stress_update
   use host_shape, only: rule_t
   use host_usdfld, only: call_usdfld
+  use host_uvarm, only: keep_uvar
   implicit none (type, external)
   private
   public :: place_t, energies_t, section_response, values_of_point
@@ -79,6 +80,10 @@ contains
         current%length = place%length
         current%place = place%line + matmul(place%axes(:, 2:), points(:2, k))
         call interpolate_fields(rule, place%point, fields, predef, material%variables)
+      end if
+      if (current%flags(3) == output_variables) then
+        call keep_uvar(material%user_output, n, column, transpose(place%axes), identity, state(:2*n, k))
+        cycle
       end if
       if (allocated(material%user_field)) then
         call call_usdfld(material%user_field, n, column, transpose(place%axes), identity, .true., state(:2*n, k))

@@ -6,13 +6,17 @@ module host_context
   implicit none (type, external)
   private
   public :: added_stress, base_stress, call_context, current, heat_t, initial_stresses, job_name, names_cut, output_directory, &
-            rank, ranks, stress_matrix, threads
+            output_variables, rank, ranks, stress_matrix, threads
 
   !> LFLAGS(3) of the host's own pass before an analysis, in which built-in elements take their stresses from SVARS.
   integer(i4), parameter :: initial_stresses = -1
 
   !> And of those for the matrix of a stress: that of U, and that which the displacements DU add to it.
   integer(i4), parameter :: base_stress = -2, added_stress = -3
+
+  !> And of that after an increment, in which elements whose points have places and directions of their own call UVARM: DU is zero,
+  !> no material is called, and all that is kept is UVAR, in the history.
+  integer(i4), parameter :: output_variables = -4
 
   !> The heat terms of UMAT at the end of the increment; directions of the stresses, engineering shear strains.
   type :: heat_t

@@ -3,7 +3,7 @@
 !> A call of a user element: arguments gathered between guards, results checked, its trial state kept.
 module host_element
   use, intrinsic :: iso_c_binding, only: c_funptr
-  use host_context, only: call_context, current, initial_stresses
+  use host_context, only: call_context, current, initial_stresses, output_variables
   use host_interfaces, only: uel_procedure, uelmat_procedure
   use host_kinds, only: dp, i4, i8
   use host_protect, only: begin_call
@@ -154,7 +154,7 @@ contains
     now%kspt = 1
     if (associated(block%history)) then
       now%history => block%history(:, :, e)
-      if (block%keeps_state) then
+      if (block%keeps_state .or. block%scalars%lflags(3) == output_variables) then
         now%history_trial => block%history_trial(:, :, e)
       else
         now%history_trial => discarded

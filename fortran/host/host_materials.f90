@@ -27,6 +27,7 @@ module host_materials
   use host_uhard, only: user_hardening_t, user_solid
   use host_umat, only: call_umat, incompressible, strain_energy, total, user_material_t
   use host_usdfld, only: user_field_t
+  use host_uvarm, only: user_output_t
   implicit none (type, external)
   private
   public :: material_t, define, find_material, stress_update, not_solved, elastic_energy, elastic_volume, thickness_strain, &
@@ -65,6 +66,7 @@ module host_materials
     integer :: variables = 0                       !< field variables, at least
     type(dependence_t), allocatable :: dependence  !< constants above are those of the point that set_constants was called for
     type(user_field_t), allocatable :: user_field  !< of USDFLD
+    type(user_output_t), allocatable :: user_output    !< of UVARM, in elements that call it themselves
     type(thermal_t), allocatable :: thermal        !< in elements with temperatures
     type(diffusion_t), allocatable :: diffusion    !< in elements with concentrations
   end type material_t
@@ -103,11 +105,11 @@ contains
     if (number >= 1 .and. number <= materials) material => library(number)%material
   end function find_material
 
-  !> Whether it depends on temperature and field variables.
+  !> Whether it depends on temperature and field variables, or on the place of its points.
   pure logical function has_fields(material)
     type(material_t), intent(in) :: material
     has_fields = allocated(material%user) .or. allocated(material%dependence) .or. allocated(material%user_field) .or. &
-                 generates_heat(material) .or. allocated(material%hardening)
+                 generates_heat(material) .or. allocated(material%hardening) .or. allocated(material%user_output)
     if (allocated(material%hyperelastic)) has_fields = has_fields .or. calls_user(material%hyperelastic)
     if (allocated(material%networks)) has_fields = has_fields .or. calls_routine(material%networks)
   end function has_fields

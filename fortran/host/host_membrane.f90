@@ -28,7 +28,7 @@ module host_membrane
   use core_rotation, only: cross, surface_frame
   use core_small_matrix, only: invert
   use host_axes, only: values_of_axes
-  use host_context, only: added_stress, current, initial_stresses, stress_matrix
+  use host_context, only: added_stress, current, initial_stresses, output_variables, stress_matrix
   use host_coupling, only: interpolate_fields
   use host_inertia, only: respond
   use host_initial_stress, only: begin_point
@@ -39,6 +39,7 @@ module host_membrane
   use host_protect, only: escape
   use host_shape, only: hourglass_shapes, is_quadratic, rule_of, rule_t
   use host_usdfld, only: call_usdfld
+  use host_uvarm, only: keep_uvar
   implicit none (type, external)
   private
   public :: membrane_uelmat
@@ -236,6 +237,10 @@ contains
           current%place = matmul(x, rule%n(:, p))
           if (finite) current%place = matmul(x + u, rule%n(:, p))
           call interpolate_fields(rule, p, fields, predef, material%variables)
+        end if
+        if (request == output_variables) then
+          call keep_uvar(material%user_output, 3, point, transpose(directions_of(f)), places(p)%basis, svars(:, p))
+          cycle
         end if
         if (allocated(material%user_field)) then
           call call_usdfld(material%user_field, 3, point, transpose(directions_of(f_before)), places(p)%basis, .true., svars(:, p))

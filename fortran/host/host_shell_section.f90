@@ -10,7 +10,7 @@
 !> SVARS hold, for each section point of each integration point, E11 E22 E12 S11 S22 S12 in the directions of its layer, and SF1 to
 !> SF5, SM1 to SM3 of the section.
 module host_shell_section
-  use host_context, only: current
+  use host_context, only: current, output_variables
   use host_coupling, only: interpolate_fields
   use host_kinds, only: dp, i4
   use host_materials, only: elastic_energy, find_material, has_fields, material_t, set_constants, stress_update
@@ -20,6 +20,7 @@ module host_shell_section
   use host_shell_directors, only: shell_stress
   use host_shell_strains, only: shell_point, tensor_turn
   use host_usdfld, only: call_usdfld
+  use host_uvarm, only: keep_uvar
   implicit none (type, external)
   private
   public :: operators_t, motion_t, values_of_section_point, section_head, identity
@@ -203,7 +204,7 @@ contains
     real(dp), intent(inout) :: energy(8)
     type(material_t), pointer :: material
     real(dp) :: axes(8, 8), strain(8), resultant(8), tangent(8, 8), turn(3, 3), layer(3), stress(3), modulus(3, 3)
-    real(dp) :: elastic, work, volume, z
+    real(dp) :: directions(3, 3), basis(3, 3), elastic, work, volume, z
     integer(i4) :: column
     integer :: k, p
     logical :: valid
@@ -230,9 +231,16 @@ contains
         current%layer = of_section(2, k)
         current%kspt = of_section(3, k)
         column = int((p - 1)*sections + k, i4)
+        directions = turned(at%angle(p) + section(3, k), motion%frame(:, :, p))
+        basis = turned(at%angle(p) - at%default(p) + section(3, k), identity)
+        if (current%flags(3) == output_variables) then
+          if (allocated(material%user_output)) then
+            call keep_uvar(material%user_output, 3, column, directions, basis, svars(:6, k, p))
+          end if
+          cycle
+        end if
         if (allocated(material%user_field)) then
-          call call_usdfld(material%user_field, 3, column, turned(at%angle(p) + section(3, k), motion%frame(:, :, p)), &
-                           turned(at%angle(p) - at%default(p) + section(3, k), identity), .true., svars(:6, k, p))
+          call call_usdfld(material%user_field, 3, column, directions, basis, .true., svars(:6, k, p))
         end if
         if (allocated(material%dependence)) call set_constants(material, p)
         turn = tensor_turn(section(3, k))

@@ -1,18 +1,24 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> UVARM at every material point of a block of built-in elements, at the end of an increment.
+!> UVARM (User Subroutines Guide) at a material point of built-in elements, at the end of an increment.
 module host_uvarm
-  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funloc, c_funptr, c_loc, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
   use host_context, only: current
   use host_kinds, only: dp, i4
-  use host_materials, only: history_values
-  use host_protect, only: begin_call, protect
-  use host_kinematics, only: point_position
-  use host_shape, only: rule_of
   use host_umat, only: direct_components
   implicit none (type, external)
   private
-  public :: uvarm_pass_t, run_uvarm
+  public :: user_output_t, call_uvarm, keep_uvar
+
+  type :: user_output_t
+    type(c_funptr) :: address
+    character(len=80) :: material = ' ', orientation = ' '
+    integer :: count = 0                 !< NUVARM
+    integer :: width = 0                 !< values of the history for UVAR, if they are there: they come before those of room
+    integer :: statev = 0                !< number of STATEV
+    integer :: room = 0                  !< values at the end of the history of which STATEV are the first
+    logical :: plastic = .false.         !< points have a plastic strain
+  end type user_output_t
 
   abstract interface
     subroutine uvarm_procedure(uvar, direct, t, time, dtime, cmname, orname, nuvarm, noel, npt, layer, kspt, kstep, kinc, ndi, &
@@ -24,99 +30,69 @@ module host_uvarm
     end subroutine uvarm_procedure
   end interface
 
-  !> One pass over a block. Arrays belong to the caller.
-  type :: uvarm_pass_t
-    type(c_funptr) :: address
-    character(len=80) :: material = ' ', orientation = ' '
-    integer(i4) :: tensor = 0, statev = 0, kstep = 0, kinc = 0
-    integer :: family = 0                 !< of the elements (host_shape)
-    real(dp) :: time(2) = 0, dtime = 0    !< start of the increment
-    integer(i4), pointer, contiguous :: labels(:) => null()
-    real(dp), pointer, contiguous :: coords(:, :, :) => null()     !< (mcrd, nnode, m)
-    logical :: local = .false.            !< the history is in the directions of the points
-    real(dp), pointer, contiguous :: axes(:, :, :, :) => null()    !< (3, 3, points or 1, m or 1) rows: directions of the material
-    real(dp), pointer, contiguous :: svars(:, :, :) => null()      !< (variables, points, m)
-    real(dp), pointer, contiguous :: history(:, :, :) => null()    !< (values, points, m)
-    real(dp), pointer, contiguous :: uvar(:, :, :) => null()       !< (NUVARM, points, m)
-  end type uvarm_pass_t
-
 contains
 
-  !> left = 1 if the routine ended the analysis, at current%element.
-  subroutine run_uvarm(pass, left)
-    type(uvarm_pass_t), intent(in), target :: pass
-    integer(i4), intent(out) :: left
-    current%routine = 'UVARM'
-    current%step = pass%kstep
-    current%increment = pass%kinc
-    current%time = pass%time
-    current%dtime = pass%dtime
-    ! backstresses may follow the plastic strain
-    associate (head => size(pass%history, 1) - pass%statev)
-      current%first = head + 1
-      current%plastic = head >= history_values .and. mod(head - history_values, 6) == 0
-    end associate
-    current%statev = pass%statev
-    left = int(protect(c_funloc(all_points), c_loc(pass)), i4)
-    nullify (current%values, current%history)
-    if (left == 0) current%element = 0
-  end subroutine run_uvarm
-
-  subroutine all_points(context) bind(c, name='uel_host_uvarm_points')
-    type(c_ptr), value :: context
-    type(uvarm_pass_t), pointer :: pass
-    integer(i4) :: e, point
-    call c_f_pointer(context, pass)
-    do e = 1, size(pass%labels, kind=i4)
-      current%element = pass%labels(e)
-      current%history => pass%history(:, :, e)
-      do point = 1, size(pass%uvar, 2, kind=i4)
-        current%point = point
-        current%column = point
-        call begin_call(0_i4, current%element)
-        current%values => pass%svars(:, point, e)
-        ! a point for heat has neither strain nor stress
-        if (pass%tensor == 0) current%values => pass%svars(:0, point, e)
-        call call_uvarm(pass, point, pass%coords(:, :, e), &
-                        pass%axes(:, :, min(int(point), size(pass%axes, 3)), min(int(e), size(pass%axes, 4))), &
-                        pass%uvar(:, point, e))
-      end do
-    end do
-  end subroutine all_points
-
-  subroutine call_uvarm(pass, point, x, axes, uvar)
-    type(uvarm_pass_t), intent(in) :: pass
-    integer(i4), intent(in) :: point
-    real(dp), intent(in) :: x(:, :), axes(3, 3)
+  !> UVAR of a point, with GETVRM for the values of the history; current has the place and the point of the section.
+  subroutine call_uvarm(user, ntens, point, axes, basis, local, values, uvar)
+    type(user_output_t), intent(in) :: user
+    integer, intent(in) :: ntens
+    integer(i4), intent(in) :: point                  !< from 1
+    real(dp), intent(in) :: axes(3, 3)                !< rows: directions of the material
+    real(dp), intent(in) :: basis(3, 3)               !< the same along the directions of the element
+    logical, intent(in) :: local                      !< the history is in them
+    real(dp), intent(in), target :: values(:)         !< strain and stress; none of heat
     real(dp), intent(inout) :: uvar(:)
     procedure(uvarm_procedure), pointer :: uvarm
     real(dp) :: direct(3, 3), t(3, 3), time(2), dtime, coord(3)
     integer(i4) :: nuvarm, noel, npt, layer, kspt, kstep, kinc, ndi, nshr, jmac(1), jmatyp(1), matlayo, laccfla
     character(len=80) :: cmname, orname
-    call c_f_procpointer(pass%address, uvarm)
+    character(len=len(current%routine)) :: routine
+    call c_f_procpointer(user%address, uvarm)
     direct = transpose(axes)
-    current%axes = axes
-    if (pass%local) current%axes = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
-    t = direct
-    time = pass%time
-    dtime = pass%dtime
-    coord = point_position(rule_of(pass%family, size(pass%uvar, 2)), int(point), x)
-    cmname = pass%material
-    orname = pass%orientation
+    t = transpose(basis)
+    time = current%time
+    dtime = current%dtime
+    coord = current%place
+    cmname = user%material
+    orname = user%orientation
     nuvarm = size(uvar, kind=i4)
     noel = current%element
-    npt = point
-    layer = 1
-    kspt = 1
-    kstep = pass%kstep
-    kinc = pass%kinc
-    ndi = direct_components(int(pass%tensor))
-    nshr = pass%tensor - ndi
+    npt = merge(current%npt, point, current%npt > 0)
+    layer = current%layer
+    kspt = current%kspt
+    kstep = current%step
+    kinc = current%increment
+    ndi = direct_components(ntens)
+    nshr = int(ntens, i4) - ndi
     jmac = 0
     jmatyp = 0
     matlayo = 0
     laccfla = 0
+    routine = current%routine
+    current%routine = 'UVARM'
+    current%point = npt
+    current%column = point
+    current%first = size(current%history, 1) - user%room + 1
+    current%statev = user%statev
+    current%plastic = user%plastic
+    current%values => values
+    current%axes = axes
+    if (local) current%axes = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
     call uvarm(uvar, direct, t, time, dtime, cmname, orname, nuvarm, noel, npt, layer, kspt, kstep, kinc, ndi, nshr, coord, jmac, &
                jmatyp, matlayo, laccfla)
+    nullify (current%values)
+    current%routine = routine
   end subroutine call_uvarm
+
+  !> The same with UVAR in the history, whose tensors are in the directions of the point.
+  subroutine keep_uvar(user, ntens, point, axes, basis, values)
+    type(user_output_t), intent(in) :: user
+    integer, intent(in) :: ntens
+    integer(i4), intent(in) :: point
+    real(dp), intent(in) :: axes(3, 3), basis(3, 3)
+    real(dp), intent(in), target :: values(:)
+    associate (first => size(current%history_trial, 1) - user%room - user%width + 1)
+      call call_uvarm(user, ntens, point, axes, basis, .true., values, current%history_trial(first:first + user%count - 1, point))
+    end associate
+  end subroutine keep_uvar
 end module host_uvarm

@@ -13,7 +13,6 @@ from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, re
 from harness.elements.beam_points import DEFAULT_POINTS
 from harness.elements.materials import (
     refuse_hyperelastic,
-    refuse_output_variables,
     refuse_user_hardening,
     refuse_viscous,
     shear_modulus,
@@ -129,7 +128,6 @@ def _material(block: Block, materials: Mapping[str, Material]) -> Material:
     refuse_hyperelastic(material, "beams")
     refuse_viscous(material, "beams")
     refuse_user_hardening(material, "beams")
-    refuse_output_variables(material, "beams", block.source)
     if material.damage is not None:
         raise block.error(
             f"material {material.name} has *DAMAGE INITIATION, at {material.damage.source}, not for beams"

@@ -15,13 +15,14 @@ from harness.elements.materials import (
     define_expansion,
     define_fields,
     define_material,
+    define_user_output,
     directions,
-    history_values,
     state_variables,
+    user_outputs,
 )
 from harness.elements.node_normals import mean_normals
 from harness.elements.routine import PARALLEL, Linearity, Routine
-from harness.elements.solid import numbered
+from harness.elements.solid import history_names, history_of
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray
 from harness.model.element_types import LINE2, BeamType, Tensor
@@ -107,13 +108,15 @@ def _with_material(found: Routine, kind: BeamType, section: BeamSection, section
     number = define_material(material, None, tensor, section.source, library)
     define_expansion(number, material, None)
     define_fields(number, material, directions(None), tensor, library)
-    values = history_values(material)
+    outputs = user_outputs(material, library)
+    define_user_output(number, material, "", library, room=state_variables(material), width=outputs)
     return replace(
         found,
         material=number,
         tensor=int(tensor),
-        history=(values, kind.points * sections if values > 1 else 1),
+        history=history_of(material, kind.points * sections, outputs=outputs),
         statev=state_variables(material),
+        outputs=outputs,
         linear=False,
         forces=Linearity.UNKNOWN,
         stores=False,
@@ -129,7 +132,7 @@ def beam_variables(section: BeamSection, kind: BeamType, routine: Routine) -> Po
     sections = max(1, int(routine.jprops[2]))
     return PointVariables(
         "continuum",
-        (*_names(section, profile, kind), *numbered("SDV", routine.statev)),
+        (*_names(section, profile, kind), *history_names(routine)),
         kind.points * sections,
         sections=sections,
         whole=_WHOLE[kind.dimension],

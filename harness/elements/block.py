@@ -106,6 +106,7 @@ class ElementBlock:
         self._uvar = np.zeros((m, routine.uvarm.points, routine.uvarm.count)) if routine.uvarm else None
         self._last: Call | None = None
         self._places = self._arrays.coords
+        self._end = np.zeros(0)
         self._watch = Watch(group, library)
         of = np.array([0 if routine.forceless else field_of(dof) + 1 for _, dof in unknowns], dtype=np.int32)
         self._unknown_fields = UnknownFields(of, len(FIELD_NAMES))
@@ -292,9 +293,13 @@ class ElementBlock:
             residual if residual.ndim == 2 else residual[np.newaxis],
             _NO_MATRIX if matrix is None else matrix,
         )
-        self._last = call
-        if self._uvar is not None:
-            self._places = self._coordinates_at(call, u)
+        if call.flags.request is not Request.RESIDUAL:
+            # that may be of half the increment, or a trial
+            self._last = call
+            if self._uvar is not None:
+                self._places = self._coordinates_at(call, u)
+            if self._routine.outputs:
+                self._end = u.copy()
         self._count_interrupted(outcome)
         if outcome.fault is Fault.UNSET and self._entries is not Entries.STOP:
             self._entries = Entries.ZERO
@@ -515,7 +520,7 @@ class ElementBlock:
             "entries": self._entries,
             "iteration": call.iteration,
             # in their first calls routines, and the host, set up what they keep
-            "parallel": self.parallel and self._last is not None,
+            "parallel": self.parallel and self._last is not None and call.flags.request is not Request.OUTPUT_VARIABLES,
             "params": call.params,
         }
 
@@ -721,6 +726,10 @@ class ElementBlock:
         self._watch.state(self._last, arrays.svars, arrays.energy)
         if self._uvar is not None and self._last is not None:
             self._call_uvarm(self._last, self._uvar)
+        elif self._routine.outputs and self._last is not None:
+            still = np.zeros_like(self._end)
+            self.evaluate(self._last.asking(Request.OUTPUT_VARIABLES), self._end, still, still, None)
+            arrays.history[:] = arrays.history_trial
 
     def _keep_trial(self) -> None:
         """The state of the last pass that keeps one becomes the committed one."""
@@ -776,8 +785,8 @@ class ElementBlock:
     def _extended(self, svars: FloatArray, history: FloatArray) -> FloatArray:
         """Copy of SVARS without the hidden ones, with STATEV and UVAR after those of each point."""
         svars = svars[:, : svars.shape[1] - self._routine.hidden]
-        statev, points = self._routine.statev, self._routine.history[1]
-        parts = [history[:, :, history.shape[2] - statev :]] if statev else []
+        kept, points = self._routine.outputs + self._routine.statev, self._routine.history[1]
+        parts = [history[:, :, history.shape[2] - kept :]] if kept else []
         if self._uvar is not None:
             parts.append(self._uvar)
             points = self._uvar.shape[1]
@@ -795,7 +804,7 @@ class ElementBlock:
             given.address,
             given.names,
             given.axes[None, None] if self._routine.axes is None else self._axes_now(self._routine.axes),
-            (self._routine.tensor, self._routine.statev, self._routine.family),
+            (self._routine.tensor, self._routine.statev, self._routine.family, int(given.plastic)),
             place,
             start,
             replace(self._arrays, coords=self._places),

@@ -7,19 +7,19 @@ In fortran/host trusses are in host_truss.f90, the others in host_discrete.f90.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
 from harness.elements.materials import (
     define_truss_material,
-    refuse_output_variables,
     refuse_user_hardening,
     refuse_viscous,
     state_variables,
 )
-from harness.elements.routine import Routine
-from harness.elements.solid import numbered
+from harness.elements.routine import OutputVariables, Routine
+from harness.elements.solid import numbered, output_variables
 from harness.errors import DeckError
 from harness.model.element_types import DISCRETE, LINE2, DiscreteKind, RigidType, Tensor
 from harness.model.mesh import ElementGroup, is_in_space
@@ -101,17 +101,26 @@ def _truss_routine(group: ElementGroup, unknowns: int, hidden: int, library: Lib
         jprops=np.array([LINE2.number]),
         material=define_truss_material(material, library),
         tensor=int(Tensor.UNIAXIAL),
-        # one value stands for no history
+        # one value stands for no history: plastic strains are in SVARS
         history=(1 + statev, 1),
         statev=statev,
+        family=LINE2.number,
+        uvarm=_output_variables(section, library),
     )
+
+
+def _output_variables(section: SolidSection, library: Library) -> OutputVariables | None:
+    """Of trusses, which have no directions of a material."""
+    found = output_variables(section, 1, library)
+    return found and replace(found, axes=np.zeros((3, 3)))
 
 
 def discrete_variables(group: ElementGroup, routine: Routine) -> PointVariables | None:
     """Meaning of the state variables: strain and stress of a truss; those of others have no name in Abaqus' output."""
     if _kind_of(group) is not DiscreteKind.TRUSS:
         return None
-    return PointVariables("continuum", ("E11", "S11", "PE11", "PEEQ", *numbered("SDV", routine.statev)), 1)
+    outputs = () if routine.uvarm is None else numbered("UVARM", routine.uvarm.count)
+    return PointVariables("continuum", ("E11", "S11", "PE11", "PEEQ", *numbered("SDV", routine.statev), *outputs), 1)
 
 
 def _check_truss(group: ElementGroup, section: SolidSection, *, dynamic: bool) -> None:
@@ -119,7 +128,6 @@ def _check_truss(group: ElementGroup, section: SolidSection, *, dynamic: bool) -
     material = section.material
     refuse_viscous(material, f"elements of type {group.type}")
     refuse_user_hardening(material, f"elements of type {group.type}")
-    refuse_output_variables(material, f"elements of type {group.type}", section.source)
     if material.elastic is None or material.elastic.type is not ElasticType.ISOTROPIC:
         message = f"elements of type {group.type} need *ELASTIC, TYPE=ISOTROPIC (material {material.name})"
         raise DeckError(section.source, message)

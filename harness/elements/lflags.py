@@ -22,6 +22,7 @@ class Request(IntEnum):
     INITIAL_STRESSES      the host's own, for built-in elements only: RHS and the state for the given stresses
     BASE_STRESS, ADDED_STRESS  the host's own: AMATRX only, the initial stress matrix of the stresses at U, or of those
                           that a perturbation DU adds to them
+    OUTPUT_VARIABLES      the host's own: UVARM at the points, after an increment, in whose end U is and DU is zero
     """
 
     NORMAL = 1
@@ -34,6 +35,7 @@ class Request(IntEnum):
     INITIAL_STRESSES = -1
     BASE_STRESS = -2
     ADDED_STRESS = -3
+    OUTPUT_VARIABLES = -4
 
 
 class Damping(IntEnum):

@@ -193,6 +193,23 @@ def define_user_field(
         _binding.set_user_field(number, address, (material.name, name), statev, statev if room is None else room, axes)
 
 
+def define_user_output(
+    number: int, material: Material, orientation: str, library: Library, *, room: int, width: int
+) -> None:
+    """Tell the host of UVARM, if the material asks for its variables and the job has it.
+
+    orientation: its name; room: as `define_material` has it; width: values of the history for UVAR, before them.
+    """
+    if material.output_variables and library.uvarm is not None:
+        counts = material.output_variables, width, state_variables(material), room
+        _binding.set_user_output(number, library.uvarm, (material.name, orientation), counts)
+
+
+def user_outputs(material: Material, library: Library) -> int:
+    """Number of variables of UVARM; 0 if the job has none: then they are left out of the output."""
+    return 0 if library.uvarm is None else material.output_variables
+
+
 def _definite_rows(elastic: Elastic, rows: list[tuple[float, ...]], tensor: Tensor) -> list[tuple[float, ...]]:
     """Constants as the host takes them, of rows of a table that are positive definite. Raises DeckError."""
     found = [_engineering(elastic, row, tensor) for row in rows]

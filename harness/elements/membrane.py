@@ -12,16 +12,17 @@ from harness.elements.load_vectors import check_density
 from harness.elements.materials import (
     define_fields,
     define_material,
+    define_user_output,
     linearity,
     refuse_hyperelastic,
-    refuse_output_variables,
     refuse_user_hardening,
     refuse_viscous,
     shear_modulus,
     state_variables,
+    user_outputs,
 )
 from harness.elements.routine import VALUES_OF_AXES, PointAxes, Routine
-from harness.elements.solid import HOURGLASS_FRACTION, history_of, is_prestressed, numbered
+from harness.elements.solid import HOURGLASS_FRACTION, history_names, history_of, is_prestressed
 from harness.errors import DeckError
 from harness.model.element_types import MembraneType, Tensor
 from harness.model.mesh import ElementGroup
@@ -44,8 +45,10 @@ def membrane_routine(
     hourglass = _hourglass_stiffness(kind, section)
     number = define_material(material, None, Tensor.PLANE_STRESS, section.source, library)
     # the axes are those of each point
-    along = np.eye(3), orientation.name if orientation else ""
-    define_fields(number, material, along, Tensor.PLANE_STRESS, library)
+    name = orientation.name if orientation else ""
+    statev, outputs = state_variables(material), user_outputs(material, library)
+    define_fields(number, material, (np.eye(3), name), Tensor.PLANE_STRESS, library)
+    define_user_output(number, material, name, library, room=statev, width=outputs)
     prestressed = is_prestressed(model, group, material)
     if prestressed:
         _binding.set_prestressed(number)
@@ -53,7 +56,7 @@ def membrane_routine(
     forces = 6 * kind.nodes if dynamic else 0
     axes = PointAxes(of_points + forces, kind.points, False, orientation) if orientation else None
     hidden = forces + (VALUES_OF_AXES * kind.points if axes else 0)
-    history = history_of(material, kind.points, prestressed=prestressed)
+    history = history_of(material, kind.points, prestressed=prestressed, outputs=outputs)
     return Routine(
         address=_binding.address_of("membrane"),
         jtype=kind.nodes,
@@ -67,7 +70,8 @@ def membrane_routine(
         material=number,
         tensor=int(Tensor.PLANE_STRESS),
         history=history,
-        statev=state_variables(material),
+        statev=statev,
+        outputs=outputs,
         linear=history[0] == 1,
         forces=linearity(material, prestressed=prestressed),
         # the energy of hourglass control is another one
@@ -81,7 +85,7 @@ def membrane_routine(
 
 def membrane_variables(kind: MembraneType, routine: Routine) -> PointVariables:
     """Meaning of the state variables of a group of membranes."""
-    return PointVariables("continuum", (*NAMES, *numbered("SDV", routine.statev)), kind.points)
+    return PointVariables("continuum", (*NAMES, *history_names(routine)), kind.points)
 
 
 def _hourglass_stiffness(kind: MembraneType, section: MembraneSection) -> float:
@@ -108,4 +112,3 @@ def _check(model: Model, group: ElementGroup, section: MembraneSection) -> None:
     refuse_hyperelastic(material, elements)
     refuse_viscous(material, elements)
     refuse_user_hardening(material, elements)
-    refuse_output_variables(material, elements, section.source)

@@ -40,7 +40,8 @@ class Routine:
     material  number of the material in the host, 0 without one (then UEL is called, else UELMAT)
     history   values per point and points of the material history; (1, 1) without one
     statev    number of STATEV, which are the last values of the history
-    uvarm     UVARM to call after each increment, None for none
+    uvarm     UVARM to call after each increment, None for none, or if the elements call it themselves
+    outputs   number of UVAR that elements which call UVARM themselves keep in the history, before STATEV
     density   place of the density in PROPS, from 0; -1 without one
     hidden    number of SVARS at the end that do not belong to a point, which output leaves out
     tensor    stress components of the material: 3 plane stress, 4 plane strain, 6 three-dimensional; 0 without one
@@ -76,6 +77,7 @@ class Routine:
     hidden: int = 0
     density: int = -1
     uvarm: OutputVariables | None = None
+    outputs: int = 0
     family: int = 0
     damages: bool = False
     linear: bool = False
@@ -153,7 +155,8 @@ class PointAxes:
 class OutputVariables:
     """*USER OUTPUT VARIABLES of a material: the address of UVARM, points and variables of each.
 
-    names  of the material and its orientation; axes (3, 3), rows are its directions, if they are the same everywhere
+    names    of the material and its orientation; axes (3, 3), rows are its directions, if they are the same everywhere
+    plastic  the history of a point begins with its plastic strain
     """
 
     address: int
@@ -161,3 +164,4 @@ class OutputVariables:
     axes: FloatArray
     points: int
     count: int
+    plastic: bool

@@ -16,19 +16,20 @@ from harness.elements.load_vectors import check_density
 from harness.elements.materials import (
     define_fields,
     define_material,
+    define_user_output,
     global_compliance,
     history_values,
     linearity,
     refuse_hyperelastic,
-    refuse_output_variables,
     refuse_user_hardening,
     refuse_viscous,
     state_variables,
+    user_outputs,
 )
 from harness.elements.node_normals import LARGEST_ANGLE, mean_normals
 from harness.elements.routine import VALUES_OF_AXES, Linearity, PointAxes, Routine
 from harness.elements.simpson import simpson
-from harness.elements.solid import HOURGLASS_FRACTION, numbered
+from harness.elements.solid import HOURGLASS_FRACTION, history_names
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import ContinuumShellType, ShellType, Tensor
@@ -106,16 +107,20 @@ def define_section(
     """
     materials = {layer.material.name: layer.material for layer in section.layers}
     statev = max(map(state_variables, materials.values()))
+    outputs = max(user_outputs(material, library) for material in materials.values())
     numbers = {}
     for name, material in materials.items():
         number = define_material(material, None, Tensor.PLANE_STRESS, section.source, library, room=statev)
         # the axes are those of each section point
-        axes = np.eye(3), section.orientation.name if section.orientation else ""
-        define_fields(number, material, axes, Tensor.PLANE_STRESS, library, room=statev)
+        orientation = section.orientation.name if section.orientation else ""
+        define_fields(number, material, (np.eye(3), orientation), Tensor.PLANE_STRESS, library, room=statev)
+        define_user_output(number, material, orientation, library, room=statev, width=outputs)
         numbers[name] = number
     of_layers = np.array([numbers[layer.material.name] for layer in section.layers])
-    # STATEV are behind what any of the materials has of other values
-    values = statev + max(history_values(material) - state_variables(material) for material in materials.values())
+    # UVAR and STATEV are behind what any of the materials has of other values
+    values = (
+        outputs + statev + max(history_values(material) - state_variables(material) for material in materials.values())
+    )
     known = all(linearity(material) is Linearity.KNOWN for material in materials.values())
     common = Routine(
         address=0,
@@ -129,6 +134,7 @@ def define_section(
         tensor=int(Tensor.PLANE_STRESS),
         history=(values, along * len(points.place) if values > 1 else 1),
         statev=statev,
+        outputs=outputs,
         linear=values == 1,
         forces=Linearity.KNOWN if known else Linearity.UNKNOWN,
         free=(1, 2, 3),
@@ -155,7 +161,7 @@ def section_properties(
 def shell_variables(section: ShellSection, kind: ShellType | ContinuumShellType, routine: Routine) -> PointVariables:
     """Meaning of the state variables of a group of shells, conventional or continuum shells."""
     sections = sum(layer.points for layer in section.layers)
-    names = *NAMES, *numbered("SDV", routine.statev)
+    names = *NAMES, *history_names(routine)
     return PointVariables("continuum", names, kind.points * sections, sections=sections, whole=WHOLE)
 
 
@@ -331,4 +337,3 @@ def check_section(model: Model, group: ElementGroup, section: ShellSection) -> N
         refuse_hyperelastic(material, elements)
         refuse_viscous(material, elements)
         refuse_user_hardening(material, elements)
-        refuse_output_variables(material, elements, section.source)

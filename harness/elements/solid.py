@@ -249,9 +249,9 @@ def check_radii(model: Model, group: ElementGroup) -> None:
         raise DeckError(group.source, f"{message}; coordinate 1 of axisymmetric elements must not be negative")
 
 
-def history_of(material: Material, points: int, *, prestressed: bool = False) -> tuple[int, int]:
-    """Values and points of the material history of an element, which may have an initial stress."""
-    values = history_values(material, prestressed=prestressed)
+def history_of(material: Material, points: int, *, prestressed: bool = False, outputs: int = 0) -> tuple[int, int]:
+    """Values and points of the material history of an element, which may have an initial stress, and UVAR there."""
+    values = history_values(material, prestressed=prestressed) + outputs
     return values, points if values > 1 else 1
 
 
@@ -355,7 +355,14 @@ def output_variables(section: SolidSection, points: int, library: Library) -> Ou
     if not material.output_variables or library.uvarm is None:
         return None
     axes, name = directions(section.orientation)
-    return OutputVariables(library.uvarm, (material.name, name), axes, points, material.output_variables)
+    return OutputVariables(
+        library.uvarm, (material.name, name), axes, points, material.output_variables, material.plastic is not None
+    )
+
+
+def history_names(routine: Routine) -> tuple[str, ...]:
+    """Names of what the history of a point keeps for output."""
+    return *numbered("UVARM", routine.outputs), *numbered("SDV", routine.statev)
 
 
 def numbered(name: str, count: int) -> tuple[str, ...]:

@@ -579,6 +579,8 @@ class BeamSection:
         if material is None:
             return False
         depends = material.elastic is None or material.elastic.table is not None or material.user_field is not None
+        # points whose UVAR are asked for are called
+        depends = depends or bool(material.output_variables)
         return depends or material.plastic is not None or material.expansion is not None
 
 

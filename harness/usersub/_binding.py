@@ -49,6 +49,7 @@ POINT_ROUTINES: Final = (
     "UHARD",
     "UCREEPNETWORK",
     "UTRSNETWORK",
+    "UVARM",
 )
 """Routines of points, in the order of fortran/host/host_driver.f90."""
 
@@ -412,6 +413,14 @@ def set_user_field(number: int, address: int, names: tuple[str, str], statev: in
     _host.host_set_user_field(number, address, _padded(names), statev, room, axes)
 
 
+def set_user_output(number: int, address: int, names: tuple[str, str], counts: tuple[int, int, int, int]) -> None:
+    """Let UVARM give output variables of a material in elements that call it themselves; names as set_user_field.
+
+    counts: NUVARM and the values of the history for UVAR, then NSTATV and the values at its end for STATEV.
+    """
+    _host.host_set_user_output(number, address, _padded(names), counts)
+
+
 def define_user_material(
     umat: int, name: str, ntens: int, constants: FloatArray, hybrid: int, statev: int, room: int
 ) -> int:
@@ -508,7 +517,7 @@ def uvarm(
     address: int,
     names: tuple[str, str],
     axes: FloatArray,
-    counts: tuple[int, int, int],
+    counts: tuple[int, int, int, int],
     place: tuple[int, int],
     clock: tuple[float, float, float],
     arrays: BlockArrays,
@@ -520,9 +529,9 @@ def uvarm(
     """Call UVARM at the points of a block; returns element and point at which it ended the analysis, 0 if it did not.
 
     names are of the material and its orientation, axes (m or 1, points or 1, 3, 3) its directions in rows, counts the
-    stress components, NSTATV and the number of the family, place step and increment, clock the times at the start and
-    the time increment; the last `hidden` SVARS belong to no point; uvar (m, points, NUVARM); local: the history is in
-    these directions.
+    stress components, NSTATV, the number of the family, and 1 if the history begins with a plastic strain, place step
+    and increment, clock the times at the start and the time increment; the last `hidden` SVARS belong to no point;
+    uvar (m, points, NUVARM); local: the history is in these directions.
     """
     m, points, _ = uvar.shape
     svars = np.ascontiguousarray(arrays.svars[:, : arrays.svars.shape[1] - hidden]).reshape(m, points, -1)

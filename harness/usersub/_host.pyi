@@ -108,6 +108,9 @@ def host_set_user_field(
     room: int,
     axes: NDArray[np.float64],
 ) -> None: ...
+def host_set_user_output(
+    number: int, address: int, names: Sequence[str] | NDArray[np.bytes_], counts: Sequence[int] | NDArray[np.int32]
+) -> None: ...
 def host_define_user_material(
     umat: int,
     name: str | bytes,

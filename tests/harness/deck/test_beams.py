@@ -219,10 +219,6 @@ def test_mistakes(deck, section, message):
             r"\*PLASTIC: beams support isotropic hardening only \(material M\)",
         ),
         (
-            "*ELASTIC\n1., 0.3\n*USER OUTPUT VARIABLES\n1",
-            r"\*USER OUTPUT VARIABLES \(material M\) is not supported for beams",
-        ),
-        (
             "*ELASTIC\n1., 0.3\n*DAMAGE INITIATION, CRITERION=MAXS\n1., 1., 1.",
             r"material M has \*DAMAGE INITIATION, at .*, not for beams",
         ),

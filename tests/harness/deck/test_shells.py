@@ -195,10 +195,6 @@ SHEAR = HOMOGENEOUS + "\n*TRANSVERSE SHEAR STIFFNESS\n1., 1."
             r"\*EXPANSION \(material M\) is not supported for elements of type S4R",
         ),
         (
-            {"material": "*ELASTIC\n1., 0.3\n*USER OUTPUT VARIABLES\n1"},
-            r"\*USER OUTPUT VARIABLES \(material M\) is not supported for elements of type S4R",
-        ),
-        (
             {"material": "*ELASTIC\n1., 0.3\n*VISCOELASTIC, TIME=PRONY\n0.5, 0., 1."},
             r"\*VISCOELASTIC is not supported for elements of type S4R",
         ),

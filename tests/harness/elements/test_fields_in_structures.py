@@ -9,7 +9,6 @@ import pytest
 from shell_decks import ShellDeck
 
 import harness
-from harness.errors import DeckError
 from harness.model.element_types import SHELL
 
 HERE = Path(__file__).parents[1]
@@ -166,12 +165,6 @@ def test_sdvini_in_trusses(run):
     text = truss().replace("*STEP", "*INITIAL CONDITIONS, TYPE=SOLUTION, USER\n*STEP")
     found = run(text, "STATEV(2) = STATEV(1)", sdvini)
     np.testing.assert_allclose(along(found, "SDV2"), 2.5 + 20 + 100)
-
-
-def test_output_variables_in_trusses_are_refused(run):
-    message = r"job.inp:6: \*USER OUTPUT VARIABLES \(material STUFF\) is not supported for elements of type T2D2"
-    with pytest.raises(DeckError, match=message):
-        run(truss(FIELD + "\n*USER OUTPUT VARIABLES\n1"))
 
 
 TYPES = tuple(SHELL)

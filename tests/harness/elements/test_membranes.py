@@ -466,10 +466,6 @@ def test_drum(run, element_type, count, error):
             r"\*ORIENTATION, NAME=O: SYSTEM=USER is not supported for membranes",
         ),
         (
-            sheet(material=f"*ELASTIC\n{YOUNG}, {NU}\n*USER OUTPUT VARIABLES\n1"),
-            r"\*USER OUTPUT VARIABLES \(material M\) is not supported for elements of type M3D4",
-        ),
-        (
             sheet(material=f"*ELASTIC\n{YOUNG}, {NU}\n*EXPANSION\n1e-5"),
             r"\*EXPANSION \(material M\) is not supported for elements of type M3D4",
         ),
