@@ -4,14 +4,15 @@
 !>
 !> PROPS hold area and density, JPROPS the family of the line (host_shape). SVARS hold strain, stress, plastic strain and
 !> equivalent plastic strain, in dynamic analyses then the forces of the last two increments; the material history, if there is
-!> one, STATEV. With NLGEOM the strain is the logarithm of the stretch and the volume stays (Abaqus Theory Guide, Truss elements).
+!> one, STATEV, and of UMAT what host_umat says. With NLGEOM the strain is the logarithm of the stretch and the volume stays (Abaqus
+!> Theory Guide, Truss elements).
 module host_truss
   use host_bar, only: bar_forces, bar_of, bar_t, initial_length
   use host_context, only: current
   use host_coupling, only: interpolate_fields
   use host_inertia, only: respond
   use host_kinds, only: dp, i4
-  use host_materials, only: find_material, has_fields, material_t, set_constants
+  use host_materials, only: elastic_energy, find_material, has_fields, material_t, set_constants, stress_update
   use host_mises, only: mises_uniaxial
   use host_shape, only: rule_of
   use host_usdfld, only: call_usdfld
@@ -50,6 +51,7 @@ contains
         call set_fields(material, int(jprops(1)), int(mcrd), bar, coords, u, int(npredf), predef, svars)
       end if
       call truss_force(material, props(1), bar, svars, pull, slope, energy)
+      if (allocated(current%fields)) deallocate (current%fields)
       call bar_forces(int(mcrd), bar, lflags(3), pull, slope, du, rhs, amatrx)
     end if
     call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
@@ -73,31 +75,40 @@ contains
       call call_usdfld(material%user_field, material%ntens, 1_i4, no_directions, no_directions, .true., state)
     end if
     if (allocated(material%dependence)) call set_constants(material, 1)
-    deallocate (current%fields)
   end subroutine set_fields
 
-  !> Force of a truss and its derivative by the elongation; Mises plasticity in one direction where there is a table.
-  pure subroutine truss_force(material, area, bar, state, pull, slope, energy)
+  !> Force of a truss and its derivative by the elongation; UMAT, or Mises plasticity in one direction where there is a table.
+  subroutine truss_force(material, area, bar, state, pull, slope, energy)
     type(material_t), intent(in) :: material
     real(dp), intent(in) :: area
     type(bar_t), intent(in) :: bar
     real(dp), intent(inout) :: state(states), energy(8)
     real(dp), intent(out) :: pull, slope
-    real(dp) :: strain, stress, modulus, volume, work
+    real(dp) :: strain, stress, modulus, volume, work, elastic, found(1), tangent(1, 1)
+    logical :: valid
     associate (young => material%young, length => bar%length, now => bar%now)
       volume = area*length
       strain = bar%elongation/length
       if (bar%finite) strain = log(now/length)
-      if (allocated(material%yield)) then
-        call mises_uniaxial(young, material%yield, strain, state(3), state(4), stress, modulus)
+      if (allocated(material%user)) then
+        ! without deformation gradients (User Subroutines Guide, UMAT), and nothing turns along the line
+        current%finite = .false.
+        call stress_update(material, 1_i4, [strain], found, tangent, valid)
+        stress = found(1)
+        modulus = tangent(1, 1)
+        elastic = elastic_energy(material, 1_i4, found)
       else
         stress = young*strain
         modulus = young
+        if (allocated(material%yield)) then
+          call mises_uniaxial(young, material%yield, strain, state(3), state(4), stress, modulus)
+        end if
+        elastic = 0.5_dp*stress**2/young
       end if
       ! trapezoidal rule, exact where the response is linear
       work = energy(2) + energy(4) + 0.5_dp*volume*(stress + state(2))*(strain - state(1))
       state(1:2) = [strain, stress]
-      energy(2) = 0.5_dp*volume*stress**2/young
+      energy(2) = volume*elastic
       energy(4) = work - energy(2)
       pull = area*stress
       slope = area*modulus/length

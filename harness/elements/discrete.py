@@ -14,6 +14,7 @@ import numpy as np
 
 from harness.elements.materials import (
     define_truss_material,
+    history_values,
     refuse_user_hardening,
     refuse_viscous,
     state_variables,
@@ -102,7 +103,7 @@ def _truss_routine(group: ElementGroup, unknowns: int, hidden: int, library: Lib
         material=define_truss_material(material, library),
         tensor=int(Tensor.UNIAXIAL),
         # one value stands for no history: plastic strains are in SVARS
-        history=(1 + statev, 1),
+        history=(history_values(material) if material.user else 1 + statev, 1),
         statev=statev,
         family=LINE2.number,
         uvarm=_output_variables(section, library),
@@ -128,8 +129,8 @@ def _check_truss(group: ElementGroup, section: SolidSection, *, dynamic: bool) -
     material = section.material
     refuse_viscous(material, f"elements of type {group.type}")
     refuse_user_hardening(material, f"elements of type {group.type}")
-    if material.elastic is None or material.elastic.type is not ElasticType.ISOTROPIC:
-        message = f"elements of type {group.type} need *ELASTIC, TYPE=ISOTROPIC (material {material.name})"
+    if material.user is None and (material.elastic is None or material.elastic.type is not ElasticType.ISOTROPIC):
+        message = f"elements of type {group.type} need *ELASTIC, TYPE=ISOTROPIC, or UMAT (material {material.name})"
         raise DeckError(section.source, message)
     if dynamic and not material.density:
         message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"

@@ -387,13 +387,16 @@ def _define_incompressible(elastic: Elastic, tensor: Tensor) -> int:
 
 
 def define_truss_material(material: Material, library: Library) -> int:
-    """Define an isotropic material of trusses in the host; returns its number there. Raises DeckError."""
+    """Define an isotropic or user material of trusses in the host; returns its number there. Raises DeckError."""
     elastic = material.elastic
-    assert elastic is not None
-    young, poisson = _isotropic_constants(elastic)
-    table = np.zeros((1, 2)) if material.plastic is None else material.plastic.table
-    one = np.eye(1)
-    number = _binding.define_material(one * young, one / young, np.zeros(3), np.eye(3), (young, poisson), table)
+    if material.user is not None:
+        number = _define_user_material(material, material.user, None, Tensor.UNIAXIAL, library, hybrid=False, room=None)
+    else:
+        assert elastic is not None
+        young, poisson = _isotropic_constants(elastic)
+        table = np.zeros((1, 2)) if material.plastic is None else material.plastic.table
+        one = np.eye(1)
+        number = _binding.define_material(one * young, one / young, np.zeros(3), np.eye(3), (young, poisson), table)
     define_fields(number, material, directions(None), Tensor.UNIAXIAL, library)
     return number
 
