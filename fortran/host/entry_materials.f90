@@ -84,6 +84,28 @@ subroutine host_set_creep(number, constants, by_time, power_law)
   material%creep%time_power = power_law(3)
 end subroutine host_set_creep
 
+!> Let CREEP give the creep law of an isotropic material.
+subroutine host_set_user_creep(number, address, name, constants, statev)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_kinds, only: dp, i4, i8
+  use host_materials, only: find_material, material_t
+  use host_user_creep, only: outputs
+  implicit none (type, external)
+  integer(i4), intent(in) :: number, statev
+  integer(i8), intent(in) :: address
+  character(len=80), intent(in) :: name       !< of the material
+  real(dp), intent(in) :: constants(2)        !< Young's modulus and Poisson's ratio
+  type(material_t), pointer :: material
+  material => find_material(number)
+  material%young = constants(1)
+  material%poisson = constants(2)
+  allocate (material%user_creep)
+  material%user_creep%address = transfer(int(address, c_intptr_t), material%user_creep%address)
+  material%user_creep%name = name
+  material%user_creep%statev = statev
+  allocate (material%user_creep%reported(outputs + 1), source=.false.)
+end subroutine host_set_user_creep
+
 !> Give a material thermal expansion.
 subroutine host_set_expansion(number, table, zero, n)
   use host_kinds, only: dp, i4

@@ -18,9 +18,9 @@ module host_driver
   public :: run_block, set_guard_values, set_guard_room
 
   !> Routines of points, in the order of POINT_ROUTINES in harness/usersub/_binding.py.
-  character(len=16), parameter :: point_routines(12) = &
+  character(len=16), parameter :: point_routines(13) = &
     [character(len=16) :: 'UMAT', 'USDFLD', 'UMATHT', 'HETVAL', 'DFLUX', 'FILM', 'UHYPER', 'UANISOHYPER_INV', 'UHARD', &
-     'UCREEPNETWORK', 'UTRSNETWORK', 'UVARM']
+     'UCREEPNETWORK', 'UTRSNETWORK', 'UVARM', 'CREEP']
 
   !> A pass of this thread. The places of its own variables are looked up once, not for each element.
   type :: pass_t

@@ -27,6 +27,7 @@ module host_materials
   use host_uhard, only: user_hardening_t, user_solid
   use host_umat, only: call_umat, incompressible, strain_energy, total, user_material_t
   use host_usdfld, only: user_field_t
+  use host_user_creep, only: user_creep_solid, user_creep_t, user_creep_values
   use host_uvarm, only: user_output_t
   implicit none (type, external)
   private
@@ -56,6 +57,7 @@ module host_materials
     type(backstress_t), allocatable :: backstress  !< kinematic or combined hardening, beside yield
     type(prony_t), allocatable :: prony            !< viscoelasticity
     type(creep_t), allocatable :: creep
+    type(user_creep_t), allocatable :: user_creep      !< of CREEP
     type(user_hardening_t), allocatable :: hardening   !< of UHARD
     real(dp) :: young = 0, poisson = 0             !< of a material with plasticity, viscoelasticity or creep, which is isotropic
     logical :: prestressed = .false.               !< it has a history for initial stresses
@@ -109,7 +111,8 @@ contains
   pure logical function has_fields(material)
     type(material_t), intent(in) :: material
     has_fields = allocated(material%user) .or. allocated(material%dependence) .or. allocated(material%user_field) .or. &
-                 generates_heat(material) .or. allocated(material%hardening) .or. allocated(material%user_output)
+                 generates_heat(material) .or. allocated(material%hardening) .or. allocated(material%user_creep) .or. &
+                 allocated(material%user_output)
     if (allocated(material%hyperelastic)) has_fields = has_fields .or. calls_user(material%hyperelastic)
     if (allocated(material%networks)) has_fields = has_fields .or. calls_routine(material%networks)
   end function has_fields
@@ -124,7 +127,8 @@ contains
   !> Whether stresses depend on time: what they dissipate is ENERGY(3).
   pure logical function is_viscous(material)
     type(material_t), intent(in) :: material
-    is_viscous = allocated(material%prony) .or. allocated(material%creep) .or. allocated(material%networks)
+    is_viscous = allocated(material%prony) .or. allocated(material%creep) .or. allocated(material%user_creep) .or. &
+                 allocated(material%networks)
   end function is_viscous
 
   !> Whether the history has plastic strains.
@@ -244,6 +248,9 @@ contains
     else if (allocated(material%creep)) then
       first = creep_values + 1
       last = creep_values
+    else if (allocated(material%user_creep)) then
+      first = user_creep_values + 1
+      last = user_creep_values
     end if
   end subroutine places_of_tensors
 
@@ -259,7 +266,7 @@ contains
     real(dp) :: solid(4), modulus(4, 4), scale
     real(dp), allocatable :: statev(:)
     integer :: first, last
-    statev = hardening_states(material, point)
+    statev = states_of_law(material, point)
     if (n > 3) then
       call solid_law(material, point, statev, n, strain, old, stress, tangent, new, solved)
       return
@@ -279,24 +286,25 @@ contains
     tangent = reduced_tangent(modulus)
   end subroutine inelastic
 
-  !> STATEV of UHARD at the start of the increment, or as USDFLD has left them.
-  function hardening_states(material, point) result(statev)
+  !> STATEV of UHARD or CREEP at the start of the increment, or as USDFLD has left them.
+  function states_of_law(material, point) result(statev)
     type(material_t), intent(in) :: material
     integer(i4), intent(in) :: point
     real(dp), allocatable :: statev(:)
-    integer :: first
-    allocate (statev(0))
-    if (.not. allocated(material%hardening)) return
-    first = size(current%history, 1) - material%hardening%statev + 1
+    integer :: count, first
+    count = 0
+    if (allocated(material%hardening)) count = material%hardening%statev
+    if (allocated(material%user_creep)) count = material%user_creep%statev
+    first = size(current%history, 1) - count + 1
     statev = current%history(first:, point)
     if (allocated(material%user_field)) statev = current%history_trial(first:, point)
-  end function hardening_states
+  end function states_of_law
 
   !> Plane strain (n = 4) and three dimensions (n = 6).
   subroutine solid_law(material, point, statev, n, strain, old, stress, tangent, new, solved)
     type(material_t), intent(in) :: material
     integer(i4), intent(in) :: point
-    real(dp), intent(in) :: statev(:)      !< of UHARD
+    real(dp), intent(in) :: statev(:)      !< of UHARD or CREEP
     integer, intent(in) :: n
     real(dp), intent(in) :: strain(n), old(:)
     real(dp), intent(out) :: stress(n), tangent(n, n), new(:)
@@ -311,6 +319,10 @@ contains
       elapsed = merge(current%dtime, 0.0_dp, current%procedure == visco)
       call creep_solid(material%creep, material%young, material%poisson, [start, start + elapsed], n, old, strain, stress, &
                        tangent, new, solved)
+    else if (allocated(material%user_creep)) then
+      elapsed = merge(current%dtime, 0.0_dp, current%procedure == visco)
+      call user_creep_solid(material%user_creep, material%young, material%poisson, elapsed, point, statev, n, old, strain, stress, &
+                            tangent, new, solved)
     else if (allocated(material%hardening)) then
       call user_solid(material%hardening, material%young, material%poisson, point, statev, n, old, strain, stress, tangent, &
                       new, solved)

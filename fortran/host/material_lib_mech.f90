@@ -6,6 +6,7 @@
 !> used, nor is any predefined field.
 subroutine material_lib_mech(materiallib, stress, ddsdde, stran, dstran, npt, dvdv0, dvmat, dfgrd, predef, dpredef, npredf, &
                              celent, coords)
+  use host_context, only: current
   use host_kinds, only: dp, i4
   use host_materials, only: find_material, material_t, stress_update
   use host_messages, only: add_message
@@ -28,6 +29,7 @@ subroutine material_lib_mech(materiallib, stress, ddsdde, stran, dstran, npt, dv
     call escape()
   end if
   n = material%ntens
+  current%place = coords
   call stress_update(material, npt, stran(1:n) + dstran(1:n), stress(1:n), ddsdde(1:n*n), valid)
   if (valid) return
   write (text, '(a,i0,a)') 'MATERIAL_LIB_MECH: NPT = ', npt, ' is outside the points that INTEGRATION= declares'

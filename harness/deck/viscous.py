@@ -51,8 +51,12 @@ def _read_viscoelastic(block: Block) -> Viscoelastic:
 
 
 def _read_creep(block: Block) -> Creep:
-    """A power law."""
+    """A power law, or that of CREEP."""
     row = block.only_row()
+    if block.options.text("LAW") == "USER":
+        if row is not None:
+            raise row.error("LAW=USER has no data line: CREEP gives the law")
+        return Creep(False, 0.0, 0.0, 0.0, block.source, user=True)
     if row is None:
         raise block.error("needs a data line with A, n and m")
     if len(row) > 3:
@@ -191,21 +195,21 @@ KEYWORDS = (
     ),
     Keyword(
         "CREEP",
-        "Creep by a power law of the Mises stress beside *ELASTIC in continuum elements without temperatures, and "
-        "UELMAT; in *VISCO only. Integration is implicit.",
+        "Creep by a power law of the Mises stress, or by the law of CREEP, beside *ELASTIC in continuum elements "
+        "without temperatures, and UELMAT; in *VISCO only. Integration is implicit.",
         Where.MODEL,
         (
             one_of(
                 "LAW",
-                "strain or time hardening",
-                ("STRAIN", "TIME"),
+                "strain or time hardening, or user subroutine CREEP",
+                ("STRAIN", "TIME", "USER"),
                 default="STRAIN",
-                refused=("ANAND", "DARVEAUX", "DOUBLE POWER", "HYPERB", "POWER LAW", "TIME POWER LAW", "USER"),
+                refused=("ANAND", "DARVEAUX", "DOUBLE POWER", "HYPERB", "POWER LAW", "TIME POWER LAW"),
             ),
             one_of("TIME", "of LAW=TIME: the total time", ("TOTAL",), default="TOTAL", refused=("CREEP",)),
             *refused("DEPENDENCIES"),
         ),
-        "A, n, m",
+        "A, n, m; none of LAW=USER",
     ),
     Keyword(
         "TRS",

@@ -42,8 +42,12 @@ PRONY_VALUES: Final = 8
 """Of a viscoelastic material, before stresses of six values for each term (fortran/host/host_prony.f90)."""
 CREEP_VALUES: Final = 9
 """Of a material that creeps (fortran/host/host_creep.f90)."""
+USER_CREEP_VALUES: Final = 11
+"""Of one that creeps by CREEP (fortran/host/host_user_creep.f90)."""
+VISCOUS_CHANGE: Final = 7
+"""Of these three, the place of the change of the viscous strain rate in the increment, times its length."""
 COMMON_VALUES: Final = 5
-"""Of a material with networks, before those of each (fortran/host/host_networks.f90)."""
+"""Of a material with networks, before those of each (fortran/host/host_networks.f90); that change is the last one."""
 NETWORK_VALUES: Final = 10
 """Of each network."""
 USER_HISTORY_VALUES: Final = 15
@@ -67,7 +71,7 @@ def history_values(material: Material, *, prestressed: bool = False) -> int:
     if material.viscoelastic is not None:
         return PRONY_VALUES + 6 * len(material.viscoelastic.terms) + state_variables(material)
     if material.creep is not None:
-        return CREEP_VALUES + state_variables(material)
+        return (USER_CREEP_VALUES if material.creep.user else CREEP_VALUES) + state_variables(material)
     if material.networks:
         return COMMON_VALUES + NETWORK_VALUES * len(material.networks) + state_variables(material)
     backstresses = 0 if material.plastic is None else len(material.plastic.backstresses)
@@ -78,7 +82,7 @@ def viscous_change(material: Material) -> int:
     """Place in the history of the largest change of a viscous strain rate in the increment, times its length; or -1."""
     if material.viscous is None:
         return -1
-    return COMMON_VALUES - 1 if material.networks else PRONY_VALUES - 1
+    return COMMON_VALUES - 1 if material.networks else VISCOUS_CHANGE
 
 
 def linearity(material: Material, *, prestressed: bool = False) -> Linearity:
@@ -94,6 +98,7 @@ def state_variables(material: Material) -> int:
     uses = [material.user, material.user_field, material.user_thermal, material.heat_generation, hardening]
     uses += [given for network in material.networks for given in (network.user, network.shift)]
     used = isinstance(material.hyperelastic, UserPotential) or any(use is not None for use in uses)
+    used = used or (material.creep is not None and material.creep.user)
     return material.state_variables if used else 0
 
 
@@ -268,7 +273,11 @@ def define_material(
         _binding.set_backstresses(number, plastic.backstresses, plastic.growth)
     if material.viscoelastic is not None:
         _binding.set_prony(number, *_moduli(elastic, material.viscoelastic), material.viscoelastic.terms)
-    if (creep := material.creep) is not None:
+    if (creep := material.creep) is not None and creep.user:
+        address = _needed(library.creep, "CREEP", material, "*CREEP, LAW=USER", creep.source, library)
+        constants = _isotropic_constants(elastic)
+        _binding.set_user_creep(number, address, material.name, constants, state_variables(material))
+    elif creep is not None:
         law = creep.factor, creep.stress_power, creep.time_power
         _binding.set_creep(number, _isotropic_constants(elastic), law, by_time=creep.by_time)
     return number

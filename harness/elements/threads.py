@@ -107,6 +107,8 @@ def _called(group: ElementGroup) -> set[str]:
             routines["UTRSNETWORK"] = material.networks
         if material.plastic is not None:
             routines["UHARD"] = material.plastic.user
+        if material.creep is not None and material.creep.user:
+            routines["CREEP"] = material.creep
         found |= {name for name, given in routines.items() if given is not None}
     return found
 

@@ -96,13 +96,14 @@ class Viscoelastic:
 
 @dataclass(frozen=True, slots=True)
 class Creep:
-    """*CREEP: A, n and m of a power law; by_time: time hardening, else strain hardening."""
+    """*CREEP: A, n and m of a power law; by_time: time hardening, else strain hardening; user: CREEP gives the law."""
 
     by_time: bool
     factor: float
     stress_power: float
     time_power: float
     source: Source
+    user: bool = False
 
 
 class CreepLaw(IntEnum):

@@ -50,6 +50,7 @@ POINT_ROUTINES: Final = (
     "UCREEPNETWORK",
     "UTRSNETWORK",
     "UVARM",
+    "CREEP",
 )
 """Routines of points, in the order of fortran/host/host_driver.f90."""
 
@@ -390,6 +391,14 @@ def set_prony(number: int, constants: tuple[float, float], moduli: tuple[float, 
 def set_creep(number: int, constants: tuple[float, float], law: tuple[float, float, float], *, by_time: bool) -> None:
     """Let an isotropic material creep: Young's modulus and Poisson's ratio; A, n and m of time or strain hardening."""
     _host.host_set_creep(number, constants, by_time, law)
+
+
+def set_user_creep(number: int, creep: int, name: str, constants: tuple[float, float], statev: int) -> None:
+    """Let CREEP, whose address is given, give the creep law of an isotropic material.
+
+    constants: Young's modulus and Poisson's ratio.
+    """
+    _host.host_set_user_creep(number, creep, name, constants, statev)
 
 
 def set_dependence(number: int, constants: int, turn: FloatArray, table: FloatArray) -> None:

@@ -42,7 +42,7 @@ _STOP_ANALYSIS, _CONCLUDE_STEP = 4, 5
 class Library:
     """User routines of a job, and the job's messages from them.
 
-    uel, uelmat, umat, umatht, uhyper, uanisohyper_inv, uhard, ucreepnetwork, utrsnetwork, hetval, uvarm, sdvini,
+    uel, uelmat, umat, umatht, uhyper, uanisohyper_inv, uhard, creep, ucreepnetwork, utrsnetwork, hetval, uvarm, sdvini,
     sigini, orient, disp, dload, dflux, film, utemp, ufield, uamp, usdfld, uexternaldb   addresses, None without it
     name                      the file as the user named it, for messages
     file                      the shared library
@@ -68,6 +68,7 @@ class Library:
         self.uhard = addresses["UHARD"]
         self.ucreepnetwork = addresses["UCREEPNETWORK"]
         self.utrsnetwork = addresses["UTRSNETWORK"]
+        self.creep = addresses["CREEP"]
         self.hetval = addresses["HETVAL"]
         self.uvarm = addresses["UVARM"]
         self.sdvini = addresses["SDVINI"]

@@ -192,6 +192,7 @@ def test_other_size_in_cyclic_hardening(read: Read) -> None:
             r"31: \*CREEP: expected only A, n and m; dependence on temperature is not supported",
         ),
         ("*CREEP\n1., 2., -1.", r"31: \*CREEP: A = 1, n = 2, m = -1: expected A > 0, n > 0 and -1 < m <= 0"),
+        ("*CREEP, LAW=USER\n1., 2.", r"31: \*CREEP: LAW=USER has no data line: CREEP gives the law"),
         ("*CREEP, LAW=HYPERB\n1., 2.", r"30: \*CREEP, LAW=HYPERB is not supported"),
         ("*LATENT HEAT", r"deck.inp:30: \*LATENT HEAT: needs a data line with the latent heat, the solidus and the"),
         ("*LATENT HEAT\n0., 1., 2.", r"deck.inp:31: \*LATENT HEAT: latent heat 0 must be positive"),

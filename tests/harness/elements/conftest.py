@@ -120,7 +120,7 @@ def bound():
 def material_point(load, user_group, bound, call):
     """A point of a material, in a user element of its own."""
 
-    def material_point(material, tensor, *, orientation=None, integers=(1, 0), **definition):
+    def material_point(material, tensor, *, orientation=None, integers=(1, 0), user="point.f", **definition):
         group = user_group(
             np.array([[0]]),
             tuple((0, dof + 1) for dof in range(len(COMPONENTS.get(tensor, range(3))))),
@@ -130,7 +130,7 @@ def material_point(load, user_group, bound, call):
             tensor=tensor,
             **definition,
         )
-        library = load("point.f")
+        library = load(user)
         return MaterialPoint(library, *bound(group, np.zeros((1, 3)), library), call)
 
     return material_point
