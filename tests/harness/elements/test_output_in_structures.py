@@ -131,6 +131,34 @@ def test_arguments_in_shells(run, element_type, options):
             np.testing.assert_allclose(values, value, rtol=SINGLE, atol=SINGLE, err_msg=expression)
 
 
+def test_arguments_in_continuum_shells(run):
+    """A plate of thickness 0.4 of two layers, turned about its normal, that is stretched: place, directions, stress."""
+    corners = [(x, y, z) for z in (0.0, 0.4) for x, y in ((0, 0), (2, 0), (2, 2), (0, 2))]
+    nodes = "\n".join(f"{k}, {x}, {y}, {z}" for k, (x, y, z) in enumerate(corners, 1))
+    for side, layer, number, degrees, height in (("SNEG", 1, 1, 30, 0.0), ("SPOS", 2, 5, -10, 0.4)):
+        axes = plane(FROM_X + degrees)
+        expressions = {
+            "LAYER + 100*KSPT + 1000*NDI + 10000*NSHR": layer + 100 * number + 12000,
+            "COORD(3)": height,
+            **matrix_entries("T", axes),
+        }
+        expressions |= arguments(len(expressions) + 3 + 1 + 100)
+        own = lines(expressions).replace("END IF", f"{getvrm('S')}\nUVAR(NUVARM) = ARRAY(1)\nEND IF")
+        text = f"*NODE, NSET=ALL\n{nodes}\n*ELEMENT, TYPE=SC8R, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n{TURN}"
+        text += (
+            "*SHELL SECTION, ELSET=E, COMPOSITE, ORIENTATION=O\n0.1, 3, M, 30.\n0.3, 5, M, -10.\n*MATERIAL, NAME=M\n"
+        )
+        text += ELASTIC.format(nu=0.25, count=len(expressions) + 1) + "\n"
+        held = "*BOUNDARY\nALL, 2, 3\n" + "".join(f"{k}, 1, 1, {1e-3 * x}\n" for k, (x, *_) in enumerate(corners, 1))
+        found = run(text + STEP.format(options="", data=held, output="S, UVARM"), own)
+        for k, (expression, value) in enumerate(expressions.items(), 1):
+            np.testing.assert_allclose(
+                found.field(f"UVARM{k}_{side}"), value, rtol=SINGLE, atol=SINGLE, err_msg=expression
+            )
+        stress = found.field(f"UVARM{len(expressions) + 1}_{side}")
+        np.testing.assert_allclose(stress, found.field(f"S11_{side}"), rtol=SINGLE)
+
+
 SQUARE = np.array([[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1, 0, 0], [2, 1, 0], [1, 2, 0], [0, 1, 0]], dtype=float)
 SHEET = """*NODE, NSET=ALL
 {nodes}
