@@ -98,15 +98,14 @@ class ContactReader:
         if len(shared):
             name = self._flat.mesh.name(int(shared[0]))
             raise row.error(f"node {name} is on both surfaces, {secondary} and {main}")
-        slip = surface.elastic_slip or surface.slip_tolerance * side.size
         averaged = block.options.text("TYPE") == "SURFACE TO SURFACE" and bool(side.faces)
         if not block.options.flag("SMALL SLIDING"):
             if averaged:
-                return self._surface_sliding(block, row, owner, (side, target), (surface, slip))
+                return self._surface_sliding(block, row, owner, (side, target), surface)
             smooth, zone = _smoothing(block)
             check_corners(target, self._flat.mesh, row)
             pieces = make_pieces(wound(target.faces, self._points), self._points, smooth, zone)
-            return self._sliding(block, row, owner, side, pieces, (surface, slip))
+            return self._sliding(block, row, owner, side, pieces, surface)
         anchors = find_anchors(self._points[side.nodes], side.normals, target.faces, self._points)
         moved = self._adjust(block, side.nodes, (anchors.found, anchors.clearances, anchors.normals), owner)
         anchors = replace(anchors, clearances=np.where(moved, 0.0, anchors.clearances))
@@ -128,7 +127,7 @@ class ContactReader:
             normals=points.normals[here],
             clearances=points.clearances[here],
             areas=points.areas[here],
-            slip=slip,
+            length=side.size,
         )
 
     def _against_rigid(
@@ -150,16 +149,15 @@ class ContactReader:
             raise row.error(f"the analytical rigid surface {main} is in the plane, {secondary} is not")
         if surface.friction > 0.0 and not side.faces and not surface.elastic_slip:
             raise row.error(f"{secondary} has no faces whose length gives the elastic slip; expected ELASTIC SLIP")
-        slip = surface.elastic_slip or surface.slip_tolerance * side.size
-        return self._sliding(block, row, owner, side, rigid, (surface, slip))
+        return self._sliding(block, row, owner, side, rigid, surface)
 
     def _surface_sliding(
-        self, block: Block, row: Row, owner: Owner, sides: tuple[Side, Side], given: tuple[ContactProperty, float]
+        self, block: Block, row: Row, owner: Owner, sides: tuple[Side, Side], surface: ContactProperty
     ) -> SurfacePair:
         """A pair of surface to surface in finite sliding."""
         check_corners(sides[1], self._flat.mesh, row)
         name = f"({row.name(0, 'secondary surface')},{row.name(1, 'main surface')})"
-        pair = surface_pair(name, (block.name, row.source), sides, self._points, given, everywhere=False)
+        pair = surface_pair(name, (block.name, row.source), sides, self._points, surface, everywhere=False)
         if block.options.given("ADJUST"):
             self._adjust_sliding(block, pair, SurfaceSliding(pair, self._points).at_nodes(), owner)
         return pair
@@ -171,10 +169,9 @@ class ContactReader:
         owner: Owner,
         side: Side,
         main: Pieces | RigidProfile,
-        given: tuple[ContactProperty, float],
+        surface: ContactProperty,
     ) -> SlidingPair:
         """A pair in finite sliding."""
-        surface, slip = given
         pair = SlidingPair(
             name=f"({row.name(0, 'secondary surface')},{row.name(1, 'main surface')})",
             property=surface,
@@ -184,7 +181,7 @@ class ContactReader:
             faces=tuple(np.searchsorted(side.nodes, faces) for faces in wound(side.faces, self._points)),
             main=main,
             areas=side.areas,
-            slip=slip,
+            length=side.size,
         )
         if block.options.given("ADJUST"):
             start = FiniteSliding(pair, self._points)

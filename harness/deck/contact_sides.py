@@ -150,7 +150,7 @@ def surface_pair(
     place: tuple[str, Source],
     sides: tuple[Side, Side],
     coordinates: FloatArray,
-    given: tuple[ContactProperty, float],
+    surface: ContactProperty,
     *,
     everywhere: bool,
 ) -> SurfacePair:
@@ -164,8 +164,8 @@ def surface_pair(
         The secondary and the main one.
     coordinates
         (n, 3) of all nodes.
-    given
-        The contact property and the largest elastic slip.
+    surface
+        The contact property.
     everywhere
         The surfaces may have all sides of their bodies: an overlap of half of the height of an element is none.
     """
@@ -175,7 +175,7 @@ def surface_pair(
     own = make_pieces(faces, coordinates, 0.0, 0.0, parts.corners)
     return SurfacePair(
         name=name,
-        property=given[0],
+        property=surface,
         keyword=place[0],
         source=place[1],
         dimension=own.low.shape[1] + 1,
@@ -183,7 +183,7 @@ def surface_pair(
         faces=parts.corners,
         main=make_pieces(opposite, coordinates, 0.0, 0.0, smooth_parts(opposite, coordinates).corners),
         areas=secondary.areas[np.searchsorted(secondary.nodes, parts.nodes)],
-        slip=given[1],
+        length=secondary.size,
         own=own,
         corners=filled(parts.corners),
         depths=secondary.depth[own.nodes],

@@ -193,10 +193,9 @@ class GeneralContact:
             for side, name in zip(classes, names, strict=True)
         )
         check_corners(main, self._flat.mesh, row)
-        slip = given.elastic_slip or given.slip_tolerance * secondary.size
         name = "({},{})".format(*(f"General_Contact_Faces_{part}" for part in names))
         place = head.name, head.source
-        pair = surface_pair(name, place, (secondary, main), points, (given, slip), everywhere=True)
+        pair = surface_pair(name, place, (secondary, main), points, given, everywhere=True)
         chosen, clearances, normals = SurfaceSliding(pair, points).at_nodes()
         chosen &= (clearances != 0.0) & (clearances >= -start.below) & (clearances <= start.above)
         normals = np.pad(normals, ((0, 0), (0, 3 - pair.dimension)))

@@ -11,13 +11,14 @@ from harness.deck.blocks import Block
 from harness.deck.error_report import Problems, nearest
 from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of
 from harness.errors import DeckError, Source
-from harness.model.contact import SLIP_TOLERANCE, ContactProperty
+from harness.model.contact import INITIAL, SLIP_TOLERANCE, ContactProperty
 
 
 class Interactions:
     """Contact properties by name; `unused` lists the places of those that nothing has asked for."""
 
     def __init__(self, blocks: Iterable[Block], problems: Problems) -> None:
+        self._problems = problems
         self._given: dict[str, list[Block]] = {}
         self._read: dict[str, ContactProperty] = {}
         current: list[Block] | None = None
@@ -45,7 +46,7 @@ class Interactions:
             for block in others:
                 match block.name:
                     case "SURFACE BEHAVIOR":
-                        found = _read_behavior(found, block)
+                        found = _read_behavior(found, block, self._problems)
                     case "FRICTION":
                         found = _read_friction(found, block)
                     case _:
@@ -66,7 +67,7 @@ def _refuse(block: Block, *names: str) -> None:
             raise block.error(f"option {name} is not supported")
 
 
-def _read_behavior(found: ContactProperty, block: Block) -> ContactProperty:
+def _read_behavior(found: ContactProperty, block: Block, problems: Problems) -> ContactProperty:
     options = block.options
     _refuse(block, "AUGMENTED LAGRANGE", "NO SEPARATION")
     kind, row = options.text("PRESSURE-OVERCLOSURE"), block.only_row()
@@ -76,14 +77,20 @@ def _read_behavior(found: ContactProperty, block: Block) -> ContactProperty:
         return replace(found, stiffness=None)
     if options.given("DIRECT"):
         raise block.error("DIRECT and a stiffness exclude each other")
-    if options.text("PENALTY") == "NONLINEAR":
-        raise block.error("PENALTY=NONLINEAR is not supported (supported: LINEAR)")
+    unknown = "that of Abaqus depends on the elements in a way that it does not describe"
+    if row is None and kind == "HARD":
+        problems.warn(block.source, f"*{block.name}: PENALTY without a stiffness is enforced exactly; {unknown}")
+        return replace(found, stiffness=None)
     if row is None or row.blank(0):
-        why = "" if kind == "LINEAR" else "; that of Abaqus depends on the elements in a way that it does not describe"
+        why = "" if kind == "LINEAR" else f"; {unknown}"
         raise block.error(f"expected the stiffness, pressure per overclosure, on the data line{why}")
     slope = row.real(0, "stiffness")
-    clearance, factor = 0.0, 1.0
+    clearance, factor, initial = 0.0, 1.0, 1.0
     if kind == "HARD":
+        if options.text("PENALTY") == "NONLINEAR":
+            initial = INITIAL
+            if len(row) > 3:
+                raise row.error("other ratios of PENALTY=NONLINEAR than the default ones are not supported")
         row.at_most(3)
         clearance, factor = row.real(1, "clearance at zero pressure", 0.0), row.real(2, "scale factor", 1.0)
     else:
@@ -93,7 +100,7 @@ def _read_behavior(found: ContactProperty, block: Block) -> ContactProperty:
             raise row.error(f"{what} {value:g} must be positive")
     if clearance < 0:
         raise row.error(f"clearance at zero pressure {clearance:g} must not be negative")
-    return replace(found, stiffness=slope * factor, clearance=clearance)
+    return replace(found, stiffness=slope * factor, clearance=clearance, initial=initial)
 
 
 def _read_friction(found: ContactProperty, block: Block) -> ContactProperty:
@@ -152,10 +159,15 @@ KEYWORDS = (
                 default="HARD",
             ),
             Option("DIRECT", doc="the constraint is enforced directly, the default of hard contact"),
-            one_of("PENALTY", "a stiffness enforces it", ("LINEAR", "NONLINEAR"), bare="LINEAR"),
+            one_of(
+                "PENALTY",
+                "a stiffness enforces it, constant or growing with the overclosure; without a data line it is exact",
+                ("LINEAR", "NONLINEAR"),
+                bare="LINEAR",
+            ),
             *_flags("AUGMENTED LAGRANGE", "NO SEPARATION"),
         ),
-        "PENALTY: stiffness, clearance at zero pressure (0), scale factor (1); LINEAR: slope",
+        "PENALTY: (final) stiffness, clearance at zero pressure (0), scale factor (1); LINEAR: slope",
     ),
     Keyword(
         "FRICTION",

@@ -26,7 +26,7 @@ from harness.elements.fields import MULTIPLIER
 from harness.elements.lflags import Request
 from harness.elements.multipliers import scale_of_multipliers
 from harness.model.arrays import FloatArray, IntArray, first_largest
-from harness.model.contact import ContactChanges, ContactPair, SlidingPair, SurfacePair
+from harness.model.contact import STIFFENED, STIFFENING, ContactChanges, ContactPair, SlidingPair, SurfacePair
 from harness.model.model import Model
 from harness.model.restart import Saved
 from harness.usersub import _binding
@@ -80,7 +80,7 @@ class ContactBlock:
         self._before, self._iteration = self._status, 0
         self._scale = 0.0
         self._output = (start, np.zeros(m), np.zeros((m, pair.dimension - 1)))
-        self._penetration = self._force = np.zeros(m)
+        self._penetration = self._force = self._stiffness = np.zeros(m)
         self._equations = self._own_places = np.zeros((m, 0), dtype=np.int32)
         self._find: Find | None = None
         self._multipliers = np.zeros(m, dtype=np.int32)
@@ -170,7 +170,7 @@ class ContactBlock:
             multiplier = u[self._equations[:, count]] * self._scale
             closed = self._closed(before, clearance, multiplier, small)
         else:
-            multiplier = self._penalty_stiffness * (self.pair.property.clearance - clearance)
+            multiplier, self._stiffness = self._penalty(clearance)
             closed = multiplier > 0.0
         if call.iteration == 0:
             closed = before != OPEN
@@ -187,12 +187,21 @@ class ContactBlock:
             missed = closed & self.direct & (np.abs(clearance) > small)
             self._penetration = np.where(missed, clearance, 0.0)
 
-    @property
-    def _penalty_stiffness(self) -> FloatArray:
-        """(m,) contact force over overclosure."""
-        stiffness = self.pair.property.stiffness
-        assert stiffness is not None
-        return stiffness * self._motion.areas
+    def _penalty(self, clearance: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Contact forces (m,) of a stiffness, negative without contact, and their derivatives by the overclosure.
+
+        PENALTY=NONLINEAR: the stiffness grows linearly with the overclosure between two of its values (Abaqus Analysis
+        User's Guide, "Contact constraint enforcement methods in Abaqus/Standard").
+        """
+        given = self.pair.property
+        assert given.stiffness is not None
+        deep = given.clearance - clearance
+        upper = given.clearance + STIFFENED * self.pair.length
+        range_ = (1.0 - STIFFENING) * upper
+        share = np.clip((deep - STIFFENING * upper) / range_, 0.0, 1.0)
+        grown = 0.5 * range_ * share**2 + np.maximum(deep - upper, 0.0)
+        stiffness, later = given.stiffness * self._motion.areas, 1.0 - given.initial
+        return stiffness * (given.initial * deep + later * grown), stiffness * (given.initial + later * share)
 
     def _status_before(self, call: Call) -> IntArray:
         """Status at the end of the iteration before, that at the start of the increment in the first pass."""
@@ -247,7 +256,7 @@ class ContactBlock:
             matrix[:, :count, count] = scale * by_force
             matrix[:, count, :count] = -scale * normal[points]
         else:
-            stiffness = self._penalty_stiffness[points, None, None]
+            stiffness = self._stiffness[points, None, None]
             matrix -= stiffness * by_force[:, :, None] * normal[points, None]
         np.add.at(data, _binding.scatter_map(equations, *self._pattern), matrix)
 
@@ -312,7 +321,8 @@ class _Friction:
     def __init__(
         self, pair: ContactPair | SlidingPair, force: FloatArray, slip: FloatArray, closed: NDArray[np.bool_]
     ) -> None:
-        coefficient, most, directions = pair.property.friction, pair.slip, slip.shape[1]
+        given, directions = pair.property, slip.shape[1]
+        coefficient, most = given.friction, given.elastic_slip or given.slip_tolerance * pair.length
         size = np.linalg.norm(slip, axis=1)
         self.slips = closed & (coefficient > 0.0) & (size > most)
         # length of the slip at which the force would reach its limit

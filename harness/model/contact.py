@@ -19,6 +19,16 @@ CONTACT: Final = "contact"
 SLIP_TOLERANCE: Final = 0.005
 """Default SLIP TOLERANCE of *FRICTION: largest elastic slip over the length of a face (Abaqus Keywords Guide)."""
 
+INITIAL: Final = 0.01
+"""Of PENALTY=NONLINEAR: initial over final stiffness, the default of Abaqus (Scripting Reference, NormalBehavior)."""
+
+STIFFENED: Final = 0.03
+"""Of PENALTY=NONLINEAR: overclosure of the final stiffness over the length of a face, the default likewise."""
+
+STIFFENING: Final = 1 / 3
+"""Of PENALTY=NONLINEAR: overclosure up to which there is the initial stiffness over that of the final one, both from the
+clearance of zero pressure on, the default likewise."""
+
 
 @dataclass(frozen=True, slots=True)
 class ContactProperty:
@@ -26,6 +36,7 @@ class ContactProperty:
 
     stiffness       pressure per overclosure (force/length^3); None: the constraint is enforced directly
     clearance       at which there is no pressure yet, where there is a stiffness
+    initial         part of the stiffness with which the pressure begins (PENALTY=NONLINEAR); 1: it is constant
     friction        coefficient; 0: none
     slip_tolerance  largest elastic slip over the length of a face
     elastic_slip    largest elastic slip itself, which replaces the tolerance; 0: not given
@@ -35,6 +46,7 @@ class ContactProperty:
     source: Source
     stiffness: float | None = None
     clearance: float = 0.0
+    initial: float = 1.0
     friction: float = 0.0
     slip_tolerance: float = SLIP_TOLERANCE
     elastic_slip: float = 0.0
@@ -54,7 +66,7 @@ class ContactPair:
     normals     (m, 3) unit vectors from the main surface towards the secondary node
     clearances  (m,) at the start, negative where the surfaces overlap
     areas       (m,) of the secondary surface that belong to the nodes
-    slip        largest elastic slip
+    length      mean length of the faces of the secondary surface
     keyword     from which it comes
     """
 
@@ -68,7 +80,7 @@ class ContactPair:
     normals: FloatArray
     clearances: FloatArray
     areas: FloatArray
-    slip: float
+    length: float
     keyword: str = "CONTACT PAIR"
 
 
@@ -134,7 +146,7 @@ class SlidingPair:
                 none of a surface of nodes
     main        the main surface
     areas       (m,) of the secondary surface that belong to the nodes
-    slip        largest elastic slip
+    length      mean length of the faces of the secondary surface
     keyword     from which it comes
     """
 
@@ -146,7 +158,7 @@ class SlidingPair:
     faces: tuple[IntArray, ...]
     main: Pieces | RigidProfile
     areas: FloatArray
-    slip: float
+    length: float
     keyword: str = field(default="CONTACT PAIR", kw_only=True)
 
 

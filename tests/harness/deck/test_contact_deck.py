@@ -70,15 +70,16 @@ def test_pair(read):
     for row, shares, x in zip(pair.nodes, pair.shares, (0.0, 1.0), strict=True):
         places = read(DECK).mesh.coordinates[row[1:]]
         np.testing.assert_allclose(-shares[1:] @ places, [x, 1, 0], atol=1e-15)
-    assert pair.slip == pytest.approx(0.005)
+    assert pair.length == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize(
-    ("friction", "slip"), [("SLIP TOLERANCE=0.01", 0.01), ("ELASTIC SLIP=0.02", 0.02), ("SLIP TOL=0.1", 0.1)]
+    ("friction", "tolerance", "slip"),
+    [("", 0.005, 0.0), (", SLIP TOL=0.1", 0.1, 0.0), (", ELASTIC SLIP=0.02", 0.005, 0.02)],
 )
-def test_elastic_slip(read, friction, slip):
-    (pair,) = read(DECK.replace("*FRICTION\n", f"*FRICTION, {friction}\n")).contacts
-    assert pair.slip == pytest.approx(slip)
+def test_elastic_slip(read, friction, tolerance, slip):
+    (pair,) = read(DECK.replace("*FRICTION\n", f"*FRICTION{friction}\n")).contacts
+    assert (pair.property.slip_tolerance, pair.property.elastic_slip) == (tolerance, slip)
 
 
 @pytest.mark.parametrize(
@@ -88,6 +89,7 @@ def test_elastic_slip(read, friction, slip):
         ("*SURFACE BEHAVIOR, DIRECT", None, 0.0),
         ("*SURFACE BEHAVIOR, PENALTY\n100.", 100.0, 0.0),
         ("*SURFACE BEHAVIOR, PENALTY=LINEAR\n100., 0.01, 0.5", 50.0, 0.01),
+        ("*SURFACE BEHAVIOR, PENALTY=NONLINEAR\n100., 0.01, 0.5", 50.0, 0.01),
         ("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n70.", 70.0, 0.0),
     ],
 )
@@ -95,13 +97,21 @@ def test_behavior(read, behavior, stiffness, clearance):
     (pair,) = read(DECK.replace("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD", behavior)).contacts
     assert pair.property.stiffness == stiffness
     assert pair.property.clearance == clearance
+    assert pair.property.initial == (0.01 if "NONLINEAR" in behavior else 1.0)
+
+
+@pytest.mark.parametrize("kind", ["", "=NONLINEAR"])
+def test_penalty_without_a_stiffness_is_exact_with_a_warning(read, kind):
+    model = read(DECK.replace("PRESSURE-OVERCLOSURE=HARD", f"PENALTY{kind}"))
+    assert model.contacts[0].property.stiffness is None
+    assert any("deck.inp:32: *SURFACE BEHAVIOR: PENALTY without a stiffness is enforced" in w for w in model.warnings)
 
 
 def test_surface_of_nodes(read):
     """Areas are given, 1 unless they are; the elastic slip is that of the faces of the main surface."""
     (pair,) = read(DECK.replace("SEC, MAIN", "POINTS, MAIN")).contacts
     np.testing.assert_allclose(pair.areas, [0.5, 1.0])
-    assert pair.slip == pytest.approx(0.005)
+    assert pair.length == pytest.approx(1.0)
 
 
 def test_nodes_without_elements(read):
@@ -201,8 +211,8 @@ def test_convert_sdi_goes_on(read):
         ("=HARD", "=TABULAR", "32: PRESSURE-OVERCLOSURE=TABULAR is not supported .supported: HARD, LINEAR"),
         ("=HARD", "=HARD, NO SEPARATION", "32: option NO SEPARATION is not supported"),
         ("=HARD", "=HARD, AUGMENTED LAGRANGE", "32: option AUGMENTED LAGRANGE is not supported"),
-        ("=HARD", "=HARD, PENALTY", "32: expected the stiffness, .*that of Abaqus depends on the elements"),
-        ("=HARD", "=HARD, PENALTY=NONLINEAR", "32: PENALTY=NONLINEAR is not supported"),
+        ("=HARD", "=HARD, PENALTY\n, 0.1", "32: expected the stiffness, .*that of Abaqus depends on the elements"),
+        ("=HARD", "=HARD, PENALTY=NONLINEAR\n1., 0., 1., 0.1", "33: other ratios of PENALTY=NONLINEAR than the default"),
         ("=HARD", "=LINEAR", "32: expected the stiffness, pressure per overclosure, on the data line$"),
         ("=HARD", "=LINEAR, DIRECT\n1.", "32: DIRECT and a stiffness exclude each other"),
         ("=HARD", "=LINEAR\n-1.", "33: stiffness -1 must be positive"),
@@ -295,7 +305,7 @@ def test_finite_sliding_is_the_default(read):
     np.testing.assert_allclose(pair.areas, 2.0 / 2)
     # outward is up, from the right to the left
     np.testing.assert_array_equal(pair.main.nodes[0, :2], [2, 3])
-    assert pair.slip == pytest.approx(0.005)
+    assert pair.length == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize(("adjust", "height"), [("ADJUST", 1.1), ("ADJUST=0.2", 1.0), ("ADJUST=TWO", 1.0)])

@@ -93,7 +93,7 @@ def test_all_exterior(read):
     np.testing.assert_array_equal(np.bincount(first.secondary)[4:8], 2)
     assert first.own.nodes.shape == (4, 3)
     np.testing.assert_allclose(first.deepest, 0.5)
-    assert first.slip == pytest.approx(0.005)
+    assert first.length == pytest.approx(1.0)
     # of both bodies the four sides
     assert second.main.nodes.shape == (8, 3)
     assert first.keyword == "CONTACT"

@@ -115,6 +115,20 @@ def test_stiffness_in_series_with_the_bodies(run, behavior, stiffness, clearance
     assert [(row.severe_discontinuity_iterations, row.iterations) for row in result.status] == [(1, 1)]
 
 
+@pytest.mark.parametrize("deep", [0.005, 0.02, 0.05])
+def test_stiffness_that_grows(run, deep):
+    """PENALTY=NONLINEAR, default ratios: K/100 up to 1 % of the length of a face, 1 here, K from 3 % on; between them
+    the stiffness is linear and the pressure its integral. The columns of height 1 are E/2 in series.
+    """
+    final = 5000.0
+    pressure = final / 100 * deep + 0.99 * final * (max(min(deep, 0.03) - 0.01, 0.0) ** 2 / 0.04 + max(deep - 0.03, 0.0))
+    behavior = f"*SURFACE BEHAVIOR, PENALTY=NONLINEAR\n{final}"
+    moved = f"*BOUNDARY\nUPPER_TOP, 2, 2, {-(deep + 2 * pressure / YOUNG)}"
+    moved = step("1., 1.", moved, "*CONTROLS, PARAMETERS=FIELD\n1e-9, 1e-6")
+    result = run(two_boxes(*plane(), [HELD, moved], nu=0.0, behavior=behavior))
+    assert total(result, "RF2", "UPPER_TOP")[-1] == pytest.approx(-pressure * 2 * THICKNESS, rel=1e-8)
+
+
 @PAIRS
 def test_interference_is_resolved_at_once_unless_nodes_are_adjusted(run, pair):
     """Overlap h of two columns of height 1: p = E h / 2, in the first increment; ADJUST leaves no stress."""
@@ -402,9 +416,10 @@ def pair_of(dimension, stiffness, friction, rng):
     shares, slopes = np.ones((2, count)), rng.normal(size=(2, count, dimension - 1))
     shares[:, 1:] = -rng.dirichlet(np.ones(count - 1), size=2)
     slopes -= slopes.mean(axis=1, keepdims=True)
-    surface = ContactProperty("P", SOURCE, stiffness=stiffness, friction=friction)
+    # the stiffness grows from overclosures of 0.2 to 0.6
+    surface = ContactProperty("P", SOURCE, stiffness=stiffness, friction=friction, initial=0.1)
     clearances, areas = np.array([0.01, -0.02]), np.array([1.5, 0.7])
-    pair = ContactPair("(A,B)", surface, SOURCE, dimension, nodes, shares, slopes, normals, clearances, areas, 0.1)
+    pair = ContactPair("(A,B)", surface, SOURCE, dimension, nodes, shares, slopes, normals, clearances, areas, 20.0)
     mesh = Mesh(np.arange(1, nodes.size + 1), rng.normal(size=(nodes.size, 3)), ("",) * nodes.size)
     group = ElementGroup("U1", np.array([1]), nodes[:1], "", UserProperty("ALL", SOURCE), None, SOURCE)
     block = ContactBlock(Model(Path("test.inp"), "", mesh, (group,), ()), pair)

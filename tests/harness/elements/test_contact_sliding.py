@@ -42,7 +42,7 @@ def pair_of(dimension, rng, *, stiffness=None, friction=0.0, smooth=0.2, height=
     surface = ContactProperty("P", SOURCE, stiffness=stiffness, friction=friction)
     secondary = len(main) + np.arange(count)
     pieces = make_pieces(faces, main, smooth, 0.1)
-    pair = SlidingPair("(A,B)", surface, SOURCE, dimension, secondary, (), pieces, rng.uniform(0.5, 1.5, count), 0.05)
+    pair = SlidingPair("(A,B)", surface, SOURCE, dimension, secondary, (), pieces, rng.uniform(0.5, 1.5, count), 10.0)
     return pair, np.concatenate([main, points])
 
 

@@ -50,7 +50,7 @@ def pair_of(dimension, rng, *, stiffness=None, friction=0.0, overlap=0.1):
         faces=parts.corners,
         main=make_pieces(main_faces, coordinates, 0.0, 0.0),
         areas=np.ones(len(parts.nodes)),
-        slip=0.05,
+        length=10.0,
         own=own,
         corners=filled(parts.corners),
         depths=np.ones(own.nodes.shape),

@@ -32,7 +32,7 @@ def test_matrix_by_differences(call, stiffness, friction, moved):
     rng = np.random.default_rng(5)
     coordinates = np.array([[0.3, -0.4, 0], [-2.2, 0.8, 0], [-0.2, 0.8, 0], [0.3, 0.75, 0], [1.9, 0.8, 0]])
     surface = ContactProperty("P", SOURCE, stiffness=stiffness, friction=friction)
-    pair = SlidingPair("(A,B)", surface, SOURCE, 2, np.arange(1, 5), (), PROFILE, np.linspace(0.5, 1.5, 4), 0.05)
+    pair = SlidingPair("(A,B)", surface, SOURCE, 2, np.arange(1, 5), (), PROFILE, np.linspace(0.5, 1.5, 4), 10.0)
     points = Points(call, pair, coordinates, (1, 2, 6))
     start = 0.02 * rng.normal(size=points.size)
     # the reference node turns
@@ -53,7 +53,7 @@ def test_node_at_the_centre_of_an_arc(call):
         free=np.ones((1, 2), dtype=bool),
     )
     surface = ContactProperty("P", SOURCE)
-    pair = SlidingPair("(A,B)", surface, SOURCE, 2, np.array([1]), (), hollow, np.ones(1), 0.05)
+    pair = SlidingPair("(A,B)", surface, SOURCE, 2, np.array([1]), (), hollow, np.ones(1), 10.0)
     points = Points(call, pair, np.array([[0.0, 5.0, 0.0], [0.0, 0.0, 0.0]]), (1, 2, 6))
     still = np.zeros(points.size)
     residual, matrix = points.evaluate(points.first, still, still)
