@@ -1,7 +1,36 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Procedures Python calls (through f2py) to call user routines outside of the element loop: those of points, nodes and amplitudes;
-!> entry.f90 has the others.
+!> Procedures Python calls (through f2py) outside of the element loop: for user routines of points, nodes and amplitudes, and for
+!> points of contact; entry.f90 has the others.
+
+!> Traction-separation response of m points. A state is a cohesive_point, its components one after the other.
+subroutine host_traction_separation(reals, integers, dtime, separation, before, after, tangent, brittle, fault, n, k, j, m)
+  use host_kinds, only: dp, i4
+  use host_traction_separation, only: cohesive_law, cohesive_point, fine, read_law, update_point
+  implicit none (type, external)
+  integer(i4), intent(in) :: n, k, j, m
+  real(dp), intent(in) :: reals(n), dtime, separation(3, m)
+  integer(i4), intent(in) :: integers(k)
+  real(dp), intent(in) :: before(j, m)
+  real(dp), intent(inout) :: after(j, m), tangent(3, 3, m)
+  integer(i4), intent(out) :: brittle         !< the first point whose fracture energy is too small, 0 without any
+  real(dp), intent(out) :: fault              !< by how much
+  type(cohesive_law) :: law
+  type(cohesive_point) :: old, new
+  integer :: p, status
+  law = read_law(reals, integers)
+  brittle = 0
+  do p = 1, m
+    old = cohesive_point(before(1:3, p), before(4:6, p), before(7, p), before(8:10, p), before(11, p), before(12, p), &
+                         before(13, p))
+    call update_point(law, 1.0_dp, dtime, separation(:, p), old, new, tangent(:, :, p), status, fault)
+    if (status /= fine) then
+      brittle = int(p, i4)
+      return
+    end if
+    after(:, p) = [new%separation, new%traction, new%damage, new%dissipated, new%viscous, new%largest, new%criterion]
+  end do
+end subroutine host_traction_separation
 
 !> Call UVARM at all material points of a block of built-in elements.
 subroutine host_uvarm_pass(address, names, axes, counts, place, clock, labels, coords, svars, history, uvar, left, element, &

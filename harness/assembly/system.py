@@ -236,6 +236,8 @@ class System:
         linear.passed(call, u, du, spared=spared)
         for pair in self.contacts:
             pair.evaluate(call, u, du, columns[0], data)
+            energy += pair.energies[0]
+            damage += pair.energies[1]
         for coupled in self.coupled:
             coupled.evaluate(call, u, du, columns[0], data)
         contact = tuple(pair.trial_changes for pair in self.contacts)
@@ -423,6 +425,10 @@ class System:
         ):
             found[name] = np.full(len(self.dofs.mesh.labels), np.nan)
             found[name][nodes[order]] = values[order]
+        for block in self.contacts:
+            for name, values in block.bonds.items():
+                of_nodes = found.setdefault(name, np.full(len(self.dofs.mesh.labels), np.nan))
+                of_nodes[block.secondary] = np.fmax(of_nodes[block.secondary], values)
         return found
 
     def kept(self) -> Saved:

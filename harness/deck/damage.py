@@ -1,28 +1,38 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Damage of traction-separation materials."""
+"""Damage of traction-separation responses, of materials and in contact."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Final
 
 from harness.deck.blocks import Block, Row
 from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
-from harness.model.properties import Damage, DamageEvolution
+from harness.model.damage import Damage, DamageEvolution
+
+OF_MATERIALS: Final = ("MAXS", "QUADS", "MAXE", "QUADE")
+"""Criteria of materials: stresses or strains."""
+
+OF_SURFACES: Final = ("MAXS", "QUADS", "MAXU", "QUADU")
+"""Criteria of contact properties: stresses or separations."""
 
 
-def extend_damage(damage: Damage | None, block: Block) -> Damage:
-    """The damage of a material with what one more keyword says of it."""
+def extend_damage(damage: Damage | None, block: Block, criteria: tuple[str, ...]) -> Damage:
+    """The damage of a material or contact property, which has these criteria, with what one more keyword says of it."""
     if block.name == "DAMAGE INITIATION":
         if damage is not None:
-            raise block.error(f"one criterion is supported; the material has one already, at {damage.source}")
+            raise block.error(f"one criterion is supported; there is one already, at {damage.source}")
+        criterion = block.options.text("CRITERION")
+        if criterion not in criteria:
+            raise block.error(f"CRITERION={criterion} is not one of what it follows; expected {', '.join(criteria)}")
         first, second, third = _values(block, 2, 3, "onset value")
-        return Damage(block.options.text("CRITERION"), (first, second, third), block.source)
+        return Damage(criterion, (first, second, third), block.source)
     if damage is None:
         raise block.error("does not follow *DAMAGE INITIATION")
     if block.name == "DAMAGE EVOLUTION":
         if damage.evolution is not None:
-            raise block.error(f"the material has one already, at {damage.evolution.source}")
+            raise block.error(f"there is one already, at {damage.evolution.source}")
         return replace(damage, evolution=_read_evolution(block))
     if damage.evolution is None:
         raise block.error("does not follow *DAMAGE EVOLUTION")
@@ -107,13 +117,13 @@ def _values(block: Block, least: int, most: int, what: str) -> tuple[float, ...]
 KEYWORDS = (
     Keyword(
         "DAMAGE INITIATION",
-        "Onset of damage in a traction-separation response.",
+        "Onset of damage in a traction-separation response, of a material or in contact.",
         Where.MODEL,
         (
             one_of(
                 "CRITERION",
                 "criterion",
-                ("MAXS", "QUADS", "MAXE", "QUADE"),
+                (*OF_MATERIALS, *OF_SURFACES[2:]),
                 required=True,
                 refused=(
                     *("DUCTILE", "FLD", "FLSD", "HASHIN", "HASHIN-ROTEM", "HYSTERESIS ENERGY", "JOHNSON COOK"),
@@ -123,7 +133,7 @@ KEYWORDS = (
             *ignored("TOLERANCE"),
             *refused("ALPHA", "DEPENDENCIES", "NAME", "PROPERTIES"),
         ),
-        "normal, first shear and second shear stress or strain at the onset",
+        "normal, first shear and second shear stress, or strain (MAXE, QUADE), or separation in contact (MAXU, QUADU)",
     ),
     Keyword(
         "DAMAGE EVOLUTION",

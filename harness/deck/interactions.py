@@ -8,10 +8,12 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from harness.deck.blocks import Block
+from harness.deck.damage import KEYWORDS as DAMAGE_OPTIONS
+from harness.deck.damage import OF_SURFACES, extend_damage
 from harness.deck.error_report import Problems, nearest
 from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of
 from harness.errors import DeckError, Source
-from harness.model.contact import INITIAL, SLIP_TOLERANCE, ContactProperty
+from harness.model.contact import INITIAL, SLIP_TOLERANCE, Cohesion, ContactProperty
 
 
 class Interactions:
@@ -19,6 +21,7 @@ class Interactions:
 
     def __init__(self, blocks: Iterable[Block], problems: Problems) -> None:
         self._problems = problems
+        self._damages: set[Source] = set()
         self._given: dict[str, list[Block]] = {}
         self._read: dict[str, ContactProperty] = {}
         current: list[Block] | None = None
@@ -31,10 +34,12 @@ class Interactions:
                     self._given[name] = current = [block]
                 elif block.name not in _OPTIONS:
                     current = None
-                elif current is None:
-                    raise block.error("does not follow *SURFACE INTERACTION")
-                else:
+                elif current is not None:
                     current.append(block)
+                    if block.name in DAMAGE:
+                        self._damages.add(block.source)
+                elif block.name not in DAMAGE:
+                    raise block.error("does not follow *SURFACE INTERACTION")
 
     def find(self, name: str, source: Source) -> ContactProperty:
         """The property of this name. Raises DeckError where there is none, or something in it is not supported."""
@@ -49,10 +54,18 @@ class Interactions:
                         found = _read_behavior(found, block, self._problems)
                     case "FRICTION":
                         found = _read_friction(found, block)
+                    case "COHESIVE BEHAVIOR":
+                        found = replace(found, cohesion=_read_cohesion(block))
+                    case _ if block.name in DAMAGE:
+                        found = replace(found, cohesion=_extend_cohesion(found.cohesion, block))
                     case _:
                         raise block.error(f"is not supported, but a contact pair uses {name} ({source})")
             self._read[name] = found
         return self._read[name]
+
+    def without_damage(self, blocks: Iterable[Block]) -> list[Block]:
+        """Blocks but those of the damage of contact properties: keywords that follow *MATERIAL too."""
+        return [block for block in blocks if block.source not in self._damages]
 
     @property
     def unused(self) -> tuple[tuple[str, Source], ...]:
@@ -126,7 +139,32 @@ def _read_friction(found: ContactProperty, block: Block) -> ContactProperty:
     return replace(found, friction=coefficient, slip_tolerance=tolerance, elastic_slip=elastic)
 
 
-_OPTIONS = ("SURFACE BEHAVIOR", "FRICTION", "CONTACT DAMPING")
+def _read_cohesion(block: Block) -> Cohesion:
+    _refuse(block, "DEPENDENCIES", "REPEATED CONTACTS")
+    row = block.only_row()
+    if row is None:
+        raise block.error(
+            "expected the stiffnesses, traction per separation, on the data line; those of Abaqus depend on the "
+            "elements in a way that it does not describe"
+        )
+    if len(row) not in (2, 3):
+        raise row.error(f"{len(row)} values, expected 2 or 3; dependence on temperature is not supported")
+    values = tuple(row.real(k, "stiffness") for k in range(len(row)))
+    if min(values) <= 0:
+        raise row.error(f"stiffness {min(values):g} must be positive")
+    return Cohesion(values, block.source)
+
+
+def _extend_cohesion(found: Cohesion | None, block: Block) -> Cohesion:
+    """With what a keyword of the damage says."""
+    if found is None:
+        raise block.error("does not follow *COHESIVE BEHAVIOR")
+    return replace(found, damage=extend_damage(found.damage, block, OF_SURFACES))
+
+
+DAMAGE = tuple(keyword.name for keyword in DAMAGE_OPTIONS)
+
+_OPTIONS = ("SURFACE BEHAVIOR", "FRICTION", "COHESIVE BEHAVIOR", "CONTACT DAMPING", *DAMAGE)
 
 
 def _flags(*names: str) -> tuple[Option, ...]:
@@ -180,6 +218,32 @@ KEYWORDS = (
             *_values("DEPENDENCIES", "DEPVAR", "PROPERTIES", "SHEAR TRACTION SLOPE", "TAUMAX", "USER"),
         ),
         "friction coefficient",
+    ),
+    Keyword(
+        "COHESIVE BEHAVIOR",
+        "Bond of the points of a contact pair that are in contact at the start, until it fails where *DAMAGE "
+        "INITIATION and *DAMAGE EVOLUTION follow. See harness/elements/contact.md.",
+        Where.MODEL,
+        (
+            one_of("TYPE", "tractions by the separations", ("UNCOUPLED",), default="UNCOUPLED", refused=("COUPLED",)),
+            one_of(
+                "ELIGIBILITY",
+                "points that are bonded",
+                ("ORIGINAL CONTACTS",),
+                default="ORIGINAL CONTACTS",
+                refused=("CURRENT CONTACTS", "SPECIFIED CONTACTS"),
+            ),
+            one_of(
+                "COHERE",
+                "points that are bonded",
+                ("ORIGINAL CONTACTS",),
+                default="ORIGINAL CONTACTS",
+                refused=("FIRST CONTACTS", "REPEATED CONTACTS"),
+            ),
+            *_flags("REPEATED CONTACTS"),
+            *_values("DEPENDENCIES"),
+        ),
+        "stiffness, traction per separation, of the normal, first shear and second shear direction",
     ),
     Keyword(
         "CONTACT DAMPING",

@@ -11,7 +11,7 @@ import numpy as np
 
 from harness.deck.blocks import PER_LINE, Block, Row
 from harness.deck.damage import KEYWORDS as DAMAGE_OPTIONS
-from harness.deck.damage import extend_damage
+from harness.deck.damage import OF_MATERIALS, extend_damage
 from harness.deck.diffusion import OPTIONS as DIFFUSION_OPTIONS
 from harness.deck.diffusion import extend_diffusion
 from harness.deck.error_report import Problems
@@ -84,7 +84,7 @@ def _extend(material: Material, block: Block, problems: Problems) -> Material:
         case "EXPANSION":
             extended = replace(material, expansion=read_expansion(block))
         case _:
-            extended = replace(material, damage=extend_damage(material.damage, block))
+            extended = replace(material, damage=extend_damage(material.damage, block, OF_MATERIALS))
     return extended
 
 

@@ -85,7 +85,8 @@ def read_deck(
     if problems.found:
         refuse_types(blocks, problems)
     problems.check()
-    materials = read_materials(structure.root, problems)
+    interactions = Interactions(structure.root, problems)
+    materials = read_materials(interactions.without_damage(structure.root), problems)
     in_steps = [block for scope in structure.steps for block in scope.blocks]
     amplitudes = read_amplitudes([*structure.root, *in_steps], problems)
     flat = FlatMesh(structure, problems)
@@ -95,7 +96,6 @@ def read_deck(
     groups = make_groups(flat, materials, read_section_controls(structure.root, problems), problems)
     if not structure.steps:
         raise DeckError(Source(str(path), 1), "the deck has no *STEP")
-    interactions = Interactions(structure.root, problems)
     # first, since it may move nodes
     contacts: tuple[ContactPair | SlidingPair, ...] = ContactReader(flat, groups, interactions, problems).read()
     contacts += GeneralContact(flat, groups, interactions, problems).read(structure.root)

@@ -11,15 +11,16 @@ import numpy as np
 from harness.elements.materials import refuse_fields
 from harness.elements.routine import Routine
 from harness.errors import DeckError
+from harness.model.damage import Damage, DamageEvolution
 from harness.model.element_types import COHESIVE, CohesiveType
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
-from harness.model.properties import CohesiveSection, Damage, DamageEvolution
+from harness.model.properties import CohesiveSection
 from harness.model.records import PointVariables
 from harness.usersub import _binding
 
 # in the order of the cases of fortran/host/host_traction_separation.f90
-_CRITERIA: Final = ("", "MAXS", "QUADS", "MAXE", "QUADE")
+_CRITERIA: Final = {"MAXS": 1, "QUADS": 2, "MAXE": 3, "QUADE": 4, "MAXU": 3, "QUADU": 4}
 _EVOLUTIONS: Final = ("", "DISPLACEMENT", "ENERGY")
 _SOFTENINGS: Final = ("", "LINEAR", "EXPONENTIAL", "TABULAR")
 _MIXED_MODES: Final = ("", "BK", "POWER LAW")
@@ -74,43 +75,73 @@ def cohesive_variables(section: CohesiveSection, kind: CohesiveType) -> PointVar
 def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[float], list[int]]:
     """PROPS, and JPROPS after the family of the faces.
 
-    PROPS: constitutive thickness (0: from the nodes), width, Enn, Ess, Ett, onset (3), evolution (3), exponent,
-    viscosity, largest damage; with SOFTENING=TABULAR then pairs of displacement and damage. JPROPS: deletion, then
-    criterion, evolution, softening and mixed mode behaviour, each as its place in a table.
+    PROPS: constitutive thickness (0: from the nodes), width, then those of the law. JPROPS: deletion, then those of the
+    law.
     """
     material, controls = section.material, section.controls
     elastic, damage = material.elastic, material.damage
     refuse_fields(material, "cohesive elements")
     assert elastic is not None
-    moduli = _directions(elastic.constants, dimension)
+    moduli = directions(elastic.constants, dimension)
     if min(moduli) <= 0:
         message = f"*ELASTIC, TYPE=TRACTION: moduli must be positive, found {min(moduli):g}"
         raise DeckError(elastic.source, message)
-    onset, values, power, viscosity = (1.0,) * 3, (1.0,) * 3, 1.0, 0.0
+    # the width has a meaning only in the plane
+    width = section.width if dimension == 2 else 1.0
+    viscosity = (damage.viscosity if damage else 0.0) if controls.viscosity is None else controls.viscosity
+    reals, codes = law_properties(moduli, damage, dimension, section.thickness, (viscosity, controls.degradation))
+    return [section.thickness, width, *reals], [int(controls.deletion), *codes]
+
+
+def law_properties(
+    moduli: Triple, damage: Damage | None, dimension: int, thickness: float, limits: tuple[float, float]
+) -> tuple[list[float], list[int]]:
+    """A traction-separation law as `read_law` in fortran/host/host_traction_separation.f90 has it.
+
+    Reals: Enn, Ess, Ett, onset (3), evolution (3), exponent, viscosity, largest damage; with SOFTENING=TABULAR then
+    pairs of displacement and damage. Integers: criterion, evolution, softening and mixed mode behaviour, each as its
+    place in a table.
+
+    Parameters
+    ----------
+    moduli
+        Enn, Ess, Ett.
+    damage
+        Of the law, if any.
+    dimension
+        Directions that there are.
+    thickness
+        Separation over strain; 0: not known.
+    limits
+        Viscosity, largest damage.
+
+    Raises
+    ------
+    DeckError
+        Values are not positive, or a fracture energy is too small.
+    """
+    onset, values, power = (1.0,) * 3, (1.0,) * 3, 1.0
     codes = [0, 0, 0, 0]
+    table: tuple[float, ...] = ()
     if damage is not None:
-        onset = _directions(damage.onset, dimension)
+        onset = directions(damage.onset, dimension)
         if min(onset) <= 0:
             raise DeckError(damage.source, f"*DAMAGE INITIATION: onset values must be positive, found {min(onset):g}")
-        codes[0] = _CRITERIA.index(damage.criterion)
-        viscosity = damage.viscosity if controls.viscosity is None else controls.viscosity
+        codes[0] = _CRITERIA[damage.criterion]
         evolution = damage.evolution
         if evolution is not None:
             values, power = _evolution_values(evolution, dimension), evolution.power
             codes[1] = _EVOLUTIONS.index(evolution.type)
             codes[2] = _SOFTENINGS.index(evolution.softening)
             codes[3] = _MIXED_MODES.index(evolution.mixed_mode)
-            if evolution.type == "ENERGY" and section.thickness > 0:
-                _check_toughness(damage, evolution, moduli, onset, values, section.thickness, dimension)
-    # the width has a meaning only in the plane
-    width = section.width if dimension == 2 else 1.0
-    reals = [section.thickness, width, *moduli, *onset, *values, power, viscosity, controls.degradation]
-    if damage is not None and damage.evolution is not None and damage.evolution.softening == "TABULAR":
-        reals += damage.evolution.values
-    return reals, [int(controls.deletion), *codes]
+            if evolution.softening == "TABULAR":
+                table = evolution.values
+            if evolution.type == "ENERGY" and thickness > 0:
+                _check_toughness(damage, evolution, moduli, onset, values, thickness, dimension)
+    return [*moduli, *onset, *values, power, *limits, *table], codes
 
 
-def _directions(values: tuple[float, ...], dimension: int) -> Triple:
+def directions(values: tuple[float, ...], dimension: int) -> Triple:
     """Values of the normal and both shear directions; in the plane the third is not used and may be left out."""
     normal, first, second = (*values, 0.0, 0.0)[:3]
     return normal, first, first if dimension == 2 else second
@@ -120,7 +151,7 @@ def _evolution_values(evolution: DamageEvolution, dimension: int) -> Triple:
     if not evolution.mixed_mode:
         first, second = (*evolution.values, 0.0)[:2]
         return first, second, 0.0
-    values = _directions(evolution.values, dimension)
+    values = directions(evolution.values, dimension)
     if evolution.mixed_mode == "BK":
         # one fracture energy for both shear directions
         values = values[0], values[1], values[1]
@@ -142,7 +173,7 @@ def _check_toughness(
     """In each pure mode the fracture energy has to exceed the elastic energy at the onset of damage."""
     names = ("normal", "first shear", "second shear")
     for k in range(dimension):
-        strength = onset[k] * (moduli[k] if damage.criterion in ("MAXE", "QUADE") else 1.0)
+        strength = onset[k] * (moduli[k] if damage.criterion not in ("MAXS", "QUADS") else 1.0)
         stored = 0.5 * strength**2 * thickness / moduli[k]
         energy = values[k] if evolution.mixed_mode else values[0]
         if energy <= stored:

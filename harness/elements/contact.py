@@ -5,7 +5,7 @@
 With g the clearance of a point and f its contact force, a Lagrange multiplier enforces g = 0 where the point is closed
 and f = 0 where it is open; with a stiffness f follows from g. Friction is that of Coulomb with an elastic slip: the
 friction force is mu f gamma / gamma_crit up to the largest elastic slip gamma_crit, and mu f beyond it (Abaqus Analysis
-User's Guide, "Frictional behavior"). See contact.md.
+User's Guide, "Frictional behavior"). Bonds (`contact_cohesion`) are in parallel. See contact.md.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from harness.elements.block import ElementBlock
 from harness.elements.call import Call
+from harness.elements.contact_cohesion import Bonding, Bonds
 from harness.elements.contact_kinematics import Clearances, Find, Motion, Slips, SmallSliding
 from harness.elements.contact_sliding import FiniteSliding
 from harness.elements.contact_surfaces import SurfaceSliding
@@ -36,6 +37,9 @@ OPEN, STICKING, SLIPPING = 0, 1, 2
 
 ROUNDING: Final = 1e-12
 """Relative error of clearances and contact forces that does not change a status."""
+
+NONE: Final = 1e-200
+"""Part of a stiffness that is none."""
 
 
 class ContactBlock:
@@ -78,6 +82,9 @@ class ContactBlock:
         self._slip = np.zeros((m, self._motion.components))
         self._status_trial, self._slip_trial = self._status, self._slip
         self._before, self._iteration = self._status, 0
+        self._bonds: Bonds | None = None
+        if pair.property.cohesion is not None:
+            self._bonds = Bonds(pair, self._status != OPEN, self._motion.components)
         self._scale = 0.0
         self._output = (start, np.zeros(m), np.zeros((m, pair.dimension - 1)))
         self._penetration = self._force = self._stiffness = np.zeros(m)
@@ -177,13 +184,21 @@ class ContactBlock:
         closed &= self._motion.above
         force = np.where(closed, multiplier, 0.0)
         slips = self._motion.slips(moved, change, self._slip)
-        friction = _Friction(self.pair, force, np.where(closed[:, None], slips.value, 0.0), closed)
+        sticks = np.ones(len(force)) if self._bonds is None else self._bonds.damage
+        friction = _Friction(self.pair, force, np.where(closed[:, None], slips.value, 0.0), closed, sticks)
         self._add(residual, data, (found, slips), (multiplier, force, closed), friction)
+        normal, shear = force, friction.force
+        if self._bonds is not None:
+            since = self._motion.slips(moved, change, self._bonds.slip)
+            pulled = self._bonds.bonded & self._motion.above & (~closed if self.direct else clearance >= 0.0)
+            bonding = self._bonds.respond(call.time_increment, clearance, since, self._motion.areas, pulled)
+            self._add_bonds(residual, data, found, bonding)
+            normal, shear = normal - bonding.normal, shear + bonding.shear
         if request is Request.NORMAL:
             after = np.where(closed, np.where(friction.slips, SLIPPING, STICKING), OPEN)
             self._status_trial = before if call.iteration == 0 else after
             self._slip_trial, self._force = friction.elastic, multiplier
-            self._output = (clearance, force, np.einsum("mat,mt->ma", slips.axes, friction.force))
+            self._output = (clearance, normal, np.einsum("mat,mt->ma", slips.axes, shear))
             missed = closed & self.direct & (np.abs(clearance) > small)
             self._penetration = np.where(missed, clearance, 0.0)
 
@@ -260,6 +275,27 @@ class ContactBlock:
             matrix -= stiffness * by_force[:, :, None] * normal[points, None]
         np.add.at(data, _binding.scatter_map(equations, *self._pattern), matrix)
 
+    def _add_bonds(
+        self, residual: FloatArray, data: FloatArray | None, clearances: Clearances, bonding: Bonding
+    ) -> None:
+        """Add what bonds contribute."""
+        assert self._bonds is not None
+        points = np.flatnonzero(self._bonds.bonded & self._motion.above)
+        normal, shear, slips = bonding.normal[points], bonding.shear[points], bonding.slips
+        moved = np.concatenate([clearances.pushed[points, None], slips.carried[points]], axis=1)
+        forces = np.concatenate([normal[:, None], shear], axis=1)
+        equations = self._equations[points, : moved.shape[2]]
+        np.add.at(residual, equations, -np.einsum("mt,mtu->mu", forces, moved))
+        if data is None:
+            return
+        change = np.concatenate([clearances.gradient[points, None], slips.by[points]], axis=1)
+        matrix = np.einsum("mtu,mts,msv->muv", moved, bonding.by[points], change)
+        if slips.turned is not None:
+            matrix += slips.turned(points, shear)
+        if clearances.curvature is not None:
+            matrix += clearances.curvature(points, normal)
+        np.add.at(data, _binding.scatter_map(equations, *self._pattern), matrix)
+
     @property
     def trial_changes(self) -> ContactChanges:
         """What the last iteration changed, and how well the constraints are fulfilled at its end."""
@@ -281,19 +317,34 @@ class ContactBlock:
 
     @property
     def output(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Clearances (m,), pressures (m,) and friction stresses (m, directions) after the last iteration."""
-        clearance, force, friction = self._output
+        """Clearances (m,), pressures (m,), negative where a bond is pulled, and shear stresses (m, directions), after
+        the last iteration.
+        """
+        clearance, force, shear = self._output
         areas = self._motion.areas
-        return clearance, force / areas, friction / areas[:, None]
+        return clearance, force / areas, shear / areas[:, None]
+
+    @property
+    def bonds(self) -> dict[str, FloatArray]:
+        """Variables of the bonds (m,), by their names in Abaqus."""
+        return {} if self._bonds is None else self._bonds.output
+
+    @property
+    def energies(self) -> tuple[FloatArray, float]:
+        """Of the bonds after the last iteration: ENERGY (8,) and what damage dissipates."""
+        return (np.zeros(8), 0.0) if self._bonds is None else self._bonds.energies
 
     def commit(self) -> None:
         """End of a converged increment."""
         self._status, self._slip = self._status_trial, self._slip_trial
         self._motion.commit()
+        if self._bonds is not None:
+            self._bonds.commit()
 
     def kept(self) -> Saved:
         """Committed state, not copied."""
-        return {"status": self._status, "slip": self._slip, "scale": self._scale, "motion": self._motion.kept()}
+        kept: Saved = {"status": self._status, "slip": self._slip, "scale": self._scale, "motion": self._motion.kept()}
+        return kept if self._bonds is None else {**kept, "bonds": self._bonds.kept()}
 
     def resume(self, saved: Saved) -> None:
         """Begin with what `kept` returned. Raises ValueError if it is not of these points."""
@@ -301,6 +352,8 @@ class ContactBlock:
             raise ValueError(f"contact pair {self.pair.name}")
         self._status, self._slip, self._scale = saved["status"], saved["slip"], saved["scale"]
         self._motion.resume(saved["motion"])
+        if self._bonds is not None:
+            self._bonds.resume(saved["bonds"])
         self._equations = self._equations_of(self.rows, self._motion.nodes)
         self._status_trial, self._slip_trial = self._status, self._slip
 
@@ -319,10 +372,17 @@ class _Friction:
     """Friction of closed points: forces (m, directions), their derivatives, elastic slip, and which points slip."""
 
     def __init__(
-        self, pair: ContactPair | SlidingPair, force: FloatArray, slip: FloatArray, closed: NDArray[np.bool_]
+        self,
+        pair: ContactPair | SlidingPair,
+        force: FloatArray,
+        slip: FloatArray,
+        closed: NDArray[np.bool_],
+        sticks: FloatArray,
     ) -> None:
+        """sticks: (m,) part of the stiffness of sticking points."""
         given, directions = pair.property, slip.shape[1]
-        coefficient, most = given.friction, given.elastic_slip or given.slip_tolerance * pair.length
+        coefficient = given.friction
+        most = (given.elastic_slip or given.slip_tolerance * pair.length) / np.maximum(sticks, NONE)
         size = np.linalg.norm(slip, axis=1)
         self.slips = closed & (coefficient > 0.0) & (size > most)
         # length of the slip at which the force would reach its limit
@@ -332,4 +392,4 @@ class _Friction:
         self.force, self.by_force = limit * along, coefficient * closed[:, None] * along
         across = np.eye(directions) - np.where(self.slips, 1.0, 0.0)[:, None, None] * along[:, :, None] * along[:, None]
         self.by_slip = (limit / reach)[:, :, None] * across
-        self.elastic = np.where(self.slips[:, None], most * along, slip)
+        self.elastic = np.where(self.slips[:, None], most[:, None] * along, slip)

@@ -145,6 +145,7 @@ class SmallSliding:
         self._shares, self._slopes = pair.shares, pair.slopes
         self._normals = pair.normals[:, :dimension]
         self._parts = np.linalg.solve(self._base(self._tangents_of(self._places)), self._normals[..., None])[..., 0]
+        self._first = self._first_direction() if dimension == 3 else np.zeros(0)
         # derivatives of the slips by the displacements, those at the start of the increment
         self._tangents = self._directions(None)
         self._moved: FloatArray | None = None
@@ -241,9 +242,18 @@ class SmallSliding:
         normal = turned / np.linalg.norm(turned, axis=1)[:, None]
         if self._shape[2] == 2:
             return self._along(normal @ _TURN.T)[:, None]
-        first = tangents[:, 0] - np.einsum("md,md->m", normal, tangents[:, 0])[:, None] * normal
-        first /= np.linalg.norm(first, axis=1)[:, None]
+        first = _across(np.einsum("mde,me->md", self._base(tangents), self._first), normal)
         return np.stack([self._along(first), self._along(np.cross(normal, first))], axis=1)
+
+    def _first_direction(self) -> FloatArray:
+        """(m, 3) constant components of the first direction of slips along the tangents and their product.
+
+        Before the analysis it is the projection of the global 1-axis, or of the 3-axis where the 1-axis is within 0.1
+        degrees of the normal (Abaqus Analysis User's Guide, "Conventions").
+        """
+        steep = np.abs(self._normals[:, 0]) > np.cos(np.radians(0.1))
+        first = _across(np.where(steep[:, None], np.eye(3)[2], np.eye(3)[0]), self._normals)
+        return np.asarray(np.linalg.solve(self._base(self._tangents_of(self._places)), first[..., None])[..., 0])
 
     def _along(self, direction: FloatArray) -> FloatArray:
         """(m, u) derivative of d along a direction (m, dimension)."""
@@ -276,3 +286,9 @@ class SmallSliding:
         )
         by_tangents = parts[:, :2, None, None] * np.eye(3) + cross
         return turned, np.einsum("mna,made->mdne", self._slopes, by_tangents).reshape(m, 3, -1)
+
+
+def _across(vectors: FloatArray, normals: FloatArray) -> FloatArray:
+    """Parts of vectors (m, 3) across normals (m, 3), of length one."""
+    found = vectors - np.einsum("md,md->m", normals, vectors)[:, None] * normals
+    return np.asarray(found / np.linalg.norm(found, axis=1)[:, None])

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.damage import Damage
 
 CONTACT: Final = "contact"
 """Name of the field of contact pressures, and of the check of penetrations."""
@@ -26,13 +27,25 @@ STIFFENED: Final = 0.03
 """Of PENALTY=NONLINEAR: overclosure of the final stiffness over the length of a face, the default likewise."""
 
 STIFFENING: Final = 1 / 3
-"""Of PENALTY=NONLINEAR: overclosure up to which there is the initial stiffness over that of the final one, both from the
-clearance of zero pressure on, the default likewise."""
+"""Of PENALTY=NONLINEAR: overclosure up to which there is the initial stiffness over that of the final one, both from
+the clearance of zero pressure on, the default likewise."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cohesion:
+    """*COHESIVE BEHAVIOR of a contact property, with what its *DAMAGE INITIATION and so on say.
+
+    stiffness  tractions per separation (force/length^3): normal, first and second shear direction
+    """
+
+    stiffness: tuple[float, ...]
+    source: Source
+    damage: Damage | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class ContactProperty:
-    """*SURFACE INTERACTION with its *SURFACE BEHAVIOR and *FRICTION.
+    """*SURFACE INTERACTION with its *SURFACE BEHAVIOR, *FRICTION and *COHESIVE BEHAVIOR.
 
     stiffness       pressure per overclosure (force/length^3); None: the constraint is enforced directly
     clearance       at which there is no pressure yet, where there is a stiffness
@@ -40,6 +53,7 @@ class ContactProperty:
     friction        coefficient; 0: none
     slip_tolerance  largest elastic slip over the length of a face
     elastic_slip    largest elastic slip itself, which replaces the tolerance; 0: not given
+    cohesion        of points that are in contact at the start
     """
 
     name: str
@@ -50,6 +64,7 @@ class ContactProperty:
     friction: float = 0.0
     slip_tolerance: float = SLIP_TOLERANCE
     elastic_slip: float = 0.0
+    cohesion: Cohesion | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,7 @@ import numpy as np
 
 from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.damage import Damage
 from harness.model.local_systems import LocalSystem
 from harness.model.records import PointVariables
 
@@ -217,42 +218,6 @@ class UserMaterial:
     unsymmetric: bool
     source: Source
     hybrid: HybridFormulation = HybridFormulation.INCREMENTAL
-
-
-@dataclass(frozen=True, slots=True)
-class DamageEvolution:
-    """*DAMAGE EVOLUTION of a traction-separation response.
-
-    type       'DISPLACEMENT' or 'ENERGY'
-    softening  'LINEAR', 'EXPONENTIAL' or 'TABULAR'
-    mixed_mode '' mode independent, 'BK' or 'POWER LAW'
-    values     displacement from onset to failure and exponential law parameter; or the fracture energy; or those of the
-               normal and both shear modes; or displacement after the onset and damage in turn
-    power      POWER=
-    """
-
-    type: str
-    softening: str
-    mixed_mode: str
-    values: tuple[float, ...]
-    power: float
-    source: Source
-
-
-@dataclass(frozen=True, slots=True)
-class Damage:
-    """*DAMAGE INITIATION of a traction-separation response, with what follows it.
-
-    criterion  'MAXS', 'QUADS', 'MAXE' or 'QUADE'
-    onset      nominal stresses, or strains, at the onset: normal, first and second shear direction
-    viscosity  of *DAMAGE STABILIZATION, time
-    """
-
-    criterion: str
-    onset: tuple[float, float, float]
-    source: Source
-    evolution: DamageEvolution | None = None
-    viscosity: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

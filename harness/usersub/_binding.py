@@ -621,6 +621,36 @@ def user_amplitude(address: int, asked: AskedAmplitude) -> tuple[float, FloatArr
     return float(value), state[: len(asked.state)], define, bool(left)
 
 
+POINT_REALS: Final = 13
+"""Of a cohesive_point in fortran/host/host_traction_separation.f90: separation (3), traction (3), damage, energies that
+damage dissipates (3), that of the viscosity, damage without viscosity, initiation criterion."""
+
+
+def traction_separation(
+    law: tuple[FloatArray, Int32Array], time: float, separations: FloatArray, old: FloatArray
+) -> tuple[FloatArray, FloatArray, tuple[int, float] | None]:
+    """Traction-separation response of points: states (m, POINT_REALS) and derivatives (m, 3, 3) of the tractions; the
+    row of a point whose fracture energy at the mode mix is below the elastic energy at the onset of damage, and by how
+    much.
+
+    Parameters
+    ----------
+    law
+        As `read_law` in fortran/host/host_traction_separation.f90 has it.
+    time
+        Of the increment.
+    separations
+        (m, 3) normal and shear separations.
+    old
+        (m, POINT_REALS) states at the start of the increment.
+    """
+    new, tangents, brittle, fault = np.zeros_like(old), np.zeros((len(old), 3, 3)), 0, 0.0
+    # f2py knows no empty arrays
+    if len(old):
+        brittle, fault = _host.host_traction_separation(*law, time, separations.T, old.T, new.T, tangents.T)
+    return new, tangents.transpose(0, 2, 1), (brittle - 1, fault) if brittle else None
+
+
 def _padded(names: Sequence[str]) -> NDArray[np.bytes_]:
     """As CHARACTER*80."""
     return np.array([name.ljust(80) for name in names], dtype="S80")

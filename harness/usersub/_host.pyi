@@ -184,6 +184,15 @@ def host_set_diffusion(
 def host_set_user_thermal(
     number: int, flows: int, address: int, name: str | bytes, statev: int, constants: NDArray[np.float64], count: int
 ) -> None: ...
+def host_traction_separation(
+    reals: NDArray[np.float64],
+    integers: NDArray[np.int32],
+    dtime: float,
+    separation: NDArray[np.float64],
+    before: NDArray[np.float64],
+    after: NDArray[np.float64],
+    tangent: NDArray[np.float64],
+) -> tuple[int, float]: ...
 def host_uvarm_pass(
     address: int,
     names: Sequence[str] | NDArray[np.bytes_],

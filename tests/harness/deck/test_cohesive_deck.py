@@ -127,7 +127,7 @@ MISTAKES = {
     "second criterion": (
         "*DAMAGE EVOLUTION",
         "*DAMAGE INITIATION, CRITERION=MAXS\n1., 1.\n*DAMAGE EVOLUTION",
-        r"31: .*one criterion is supported; the material has one already, at deck.inp:29",
+        r"31: .*one criterion is supported; there is one already, at deck.inp:29",
     ),
     "no initiation": (
         "*DAMAGE INITIATION, CRITERION=QUADS\n30., 60., 50.\n",
@@ -142,7 +142,7 @@ MISTAKES = {
     "evolution twice": (
         "*DAMAGE STABILIZATION\n0.1",
         "*DAMAGE EVOLUTION, TYPE=ENERGY\n1.",
-        r"33: .*the material has one already, at deck.inp:31",
+        r"33: .*there is one already, at deck.inp:31",
     ),
     "stabilization alone": (f"*DAMAGE EVOLUTION, {EVOLUTION}\n", "", r"31: .*does not follow \*DAMAGE EVOLUTION"),
     "negative stabilization": ("\n0.1\n", "\n-0.1\n", r"34: .*viscosity -0.1 must not be negative"),

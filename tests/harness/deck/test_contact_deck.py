@@ -186,6 +186,22 @@ def test_interactions_that_no_pair_uses_are_listed(read):
     assert [name for name, _ in model.ignored] == ["SURFACE INTERACTION", "SURFACE BEHAVIOR", "CONTACT DAMPING"]
 
 
+def test_damage_of_a_material_and_of_a_property(read):
+    """Each belongs to the keyword before it."""
+    damage = "*DAMAGE INITIATION, CRITERION=QUADS\n{0}., {0}.\n*DAMAGE EVOLUTION, TYPE=DISPLACEMENT\n{0}.\n"
+    other = f"*MATERIAL, NAME=OTHER\n*ELASTIC, TYPE=TRACTION\n1., 1.\n{damage.format(3)}"
+    bond = f"*COHESIVE BEHAVIOR\n5., 6.\n{damage.format(4)}*DAMAGE STABILIZATION\n0.1\n"
+    (pair,) = read(DECK.replace("*SOLID", f"{other}*SOLID", 1).replace("*FRICTION\n0.3,\n", bond)).contacts
+    cohesion = pair.property.cohesion
+    assert cohesion.stiffness == (5.0, 6.0)
+    assert (cohesion.damage.criterion, cohesion.damage.onset, cohesion.damage.viscosity) == (
+        "QUADS",
+        (4.0, 4.0, 0.0),
+        0.1,
+    )
+    assert cohesion.damage.evolution.values == (4.0,)
+
+
 def test_convert_sdi_goes_on(read):
     step = "*STEP\n*STATIC\n*END STEP\n"
     text = DECK + step + step.replace("*STEP", "*STEP, CONVERT SDI=NO", 1) + step
@@ -212,7 +228,11 @@ def test_convert_sdi_goes_on(read):
         ("=HARD", "=HARD, NO SEPARATION", "32: option NO SEPARATION is not supported"),
         ("=HARD", "=HARD, AUGMENTED LAGRANGE", "32: option AUGMENTED LAGRANGE is not supported"),
         ("=HARD", "=HARD, PENALTY\n, 0.1", "32: expected the stiffness, .*that of Abaqus depends on the elements"),
-        ("=HARD", "=HARD, PENALTY=NONLINEAR\n1., 0., 1., 0.1", "33: other ratios of PENALTY=NONLINEAR than the default"),
+        (
+            "=HARD",
+            "=HARD, PENALTY=NONLINEAR\n1., 0., 1., 0.1",
+            "33: other ratios of PENALTY=NONLINEAR than the default",
+        ),
         ("=HARD", "=LINEAR", "32: expected the stiffness, pressure per overclosure, on the data line$"),
         ("=HARD", "=LINEAR, DIRECT\n1.", "32: DIRECT and a stiffness exclude each other"),
         ("=HARD", "=LINEAR\n-1.", "33: stiffness -1 must be positive"),
@@ -225,6 +245,39 @@ def test_convert_sdi_goes_on(read):
         ("*FRICTION", "*FRICTION, ROUGH", "33: option ROUGH is not supported"),
         ("*FRICTION", "*FRICTION, TAUMAX=3.", "33: option TAUMAX is not supported"),
         ("*FRICTION", "*FRICTION, SLIP TOLERANCE=0.", "33: SLIP TOLERANCE=0 must be positive"),
+        (
+            "*FRICTION\n0.3",
+            "*COHESIVE BEHAVIOR\n*DAMAGE INITIATION, CRITERION=MAXS\n1.",
+            "33: expected the stiffnesses, .*de",
+        ),
+        ("*FRICTION\n0.3", "*COHESIVE BEHAVIOR\n1.", "34: 1 values, expected 2 or 3; dependence on temperature is not"),
+        ("*FRICTION\n0.3", "*COHESIVE BEHAVIOR\n1., 0.", "34: stiffness 0 must be positive"),
+        (
+            "*FRICTION\n0.3",
+            "*COHESIVE BEHAVIOR, REPEATED CONTACTS\n1., 1.",
+            "33: option REPEATED CONTACTS is not supported",
+        ),
+        (
+            "*FRICTION\n0.3",
+            "*COHESIVE BEHAVIOR, ELIG=CURRENT CONTACTS\n1., 1.",
+            "33: .*CURRENT CONTACTS is not supported",
+        ),
+        ("*FRICTION\n0.3", "*DAMAGE INITIATION, CRITERION=MAXS\n1., 1.", "33: does not follow .COHESIVE BEHAVIOR"),
+        (
+            "*FRICTION\n0.3",
+            "*COHESIVE BEHAVIOR\n1., 1.\n*DAMAGE INITIATION, CRITERION=MAXE\n1., 1.",
+            "35: CRITERION=MAXE is not one of what it follows; expected MAXS, QUADS, MAXU, QUADU",
+        ),
+        (
+            "1000., 0.3\n",
+            "1000., 0.3\n*DAMAGE INITIATION, CRITERION=MAXU\n1., 1.\n",
+            "19: .*expected MAXS, QUADS, MAXE, QUADE",
+        ),
+        (
+            "0.3\n*SOLID",
+            "0.3\n*NSET, NSET=A\n1\n*DAMAGE INITIATION, CRITERION=MAXS\n1., 1.\n*SOLID",
+            "21: .*not follow .MAT",
+        ),
         ("*FRICTION", "*CONTACT DAMPING", "33: is not supported, but a contact pair uses TOUCH .deck.inp:35"),
         ("*STATIC", "*STATIC, RIKS", "37: .CONTACT PAIR .deck.inp:36. is not supported with .STATIC, RIKS"),
         ("*STATIC", "*DYNAMIC\n0.1, 1.", "37: .CONTACT PAIR .deck.inp:36. is not supported with .DYNAMIC"),

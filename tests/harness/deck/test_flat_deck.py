@@ -113,9 +113,9 @@ def test_contact_properties_that_nothing_uses(read: Read) -> None:
         ("SURFACE BEHAVIOR", f"deck.inp:{line + 4}"),
     ]
     # an option of a contact property is none of the material before it
-    damage = text.replace("*FRICTION\n0.3,", "*DAMAGE INITIATION, CRITERION=MAXS\n1., 1., 1.")
-    with pytest.raises(DeckError, match=rf"deck.inp:{line + 2}: \*DAMAGE INITIATION: does not follow \*MATERIAL"):
-        read(damage)
+    dense = text.replace("*FRICTION\n0.3,", "*DENSITY\n1.")
+    with pytest.raises(DeckError, match=rf"deck.inp:{line + 2}: \*DENSITY: does not follow \*MATERIAL"):
+        read(dense)
 
 
 @pytest.mark.parametrize(

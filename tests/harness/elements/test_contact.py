@@ -16,13 +16,15 @@ from harness.elements import ContactBlock, Flags, Request
 from harness.elements.contact import OPEN, STICKING
 from harness.errors import ConvergenceError, DeckError, Source, UsageError
 from harness.job_on_ranks import refuse_unshared
-from harness.model.contact import ContactPair, ContactProperty
+from harness.model.contact import Cohesion, ContactPair, ContactProperty
+from harness.model.damage import Damage, DamageEvolution
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
 from harness.model.properties import UserProperty
 
 SOURCE = Source("test.inp", 1)
 THICKNESS = 1.5
+SOFTENING = "ENERGY", "EXPONENTIAL", "BK", (0.5, 0.8, 0.8), 1.4
 SURFACES = "SMALL SLIDING, TYPE=SURFACE TO SURFACE"
 SLIDING = "TYPE=NODE TO SURFACE"
 SLIDING_SURFACES = "TYPE=SURFACE TO SURFACE"
@@ -121,7 +123,9 @@ def test_stiffness_that_grows(run, deep):
     the stiffness is linear and the pressure its integral. The columns of height 1 are E/2 in series.
     """
     final = 5000.0
-    pressure = final / 100 * deep + 0.99 * final * (max(min(deep, 0.03) - 0.01, 0.0) ** 2 / 0.04 + max(deep - 0.03, 0.0))
+    pressure = final / 100 * deep + 0.99 * final * (
+        max(min(deep, 0.03) - 0.01, 0.0) ** 2 / 0.04 + max(deep - 0.03, 0.0)
+    )
     behavior = f"*SURFACE BEHAVIOR, PENALTY=NONLINEAR\n{final}"
     moved = f"*BOUNDARY\nUPPER_TOP, 2, 2, {-(deep + 2 * pressure / YOUNG)}"
     moved = step("1., 1.", moved, "*CONTROLS, PARAMETERS=FIELD\n1e-9, 1e-6")
@@ -405,7 +409,12 @@ def test_hertz_line_contact(run, pair, faces):
 # ------------------------------------------------------------ the block of points
 
 
-def pair_of(dimension, stiffness, friction, rng):
+BOND = Cohesion(
+    (30.0, 20.0, 10.0), SOURCE, Damage("MAXS", (0.3, 0.2, 0.1), SOURCE, DamageEvolution(*SOFTENING, SOURCE))
+)
+
+
+def pair_of(dimension, stiffness, friction, rng, cohesion=None):
     """A pair of two points, whose normals have any direction."""
     count = 3 if dimension == 2 else 5
     nodes = np.arange(2 * count).reshape(2, count)
@@ -417,7 +426,7 @@ def pair_of(dimension, stiffness, friction, rng):
     shares[:, 1:] = -rng.dirichlet(np.ones(count - 1), size=2)
     slopes -= slopes.mean(axis=1, keepdims=True)
     # the stiffness grows from overclosures of 0.2 to 0.6
-    surface = ContactProperty("P", SOURCE, stiffness=stiffness, friction=friction, initial=0.1)
+    surface = ContactProperty("P", SOURCE, stiffness=stiffness, friction=friction, initial=0.1, cohesion=cohesion)
     clearances, areas = np.array([0.01, -0.02]), np.array([1.5, 0.7])
     pair = ContactPair("(A,B)", surface, SOURCE, dimension, nodes, shares, slopes, normals, clearances, areas, 20.0)
     mesh = Mesh(np.arange(1, nodes.size + 1), rng.normal(size=(nodes.size, 3)), ("",) * nodes.size)
@@ -436,11 +445,12 @@ def pair_of(dimension, stiffness, friction, rng):
 @pytest.mark.parametrize("dimension", [2, 3])
 @pytest.mark.parametrize("moved", [0.01, 1.0])
 @pytest.mark.parametrize("nlgeom", [False, True])
-def test_matrix_by_differences(call, dimension, stiffness, friction, moved, nlgeom):
-    """Points that stick (moved little) and slip (moved far), and one of them open at times."""
+@pytest.mark.parametrize("cohesion", [None, BOND], ids=["", "bonded"])
+def test_matrix_by_differences(call, dimension, stiffness, friction, moved, nlgeom, cohesion):
+    """Points that stick (moved little) and slip (moved far), and one of them open at times, where it may be bonded."""
     rng = np.random.default_rng(5)
     for _ in range(10):
-        block = pair_of(dimension, stiffness, friction, rng)
+        block = pair_of(dimension, stiffness, friction, rng, cohesion)
         n = 2 * len(block.unknowns)
         u = moved * rng.normal(size=n)
         if block.direct:
@@ -464,7 +474,7 @@ def test_matrix_by_differences(call, dimension, stiffness, friction, moved, nlge
             [-(forces(u + step_size * e) - forces(u - step_size * e)) / (2 * step_size) for e in np.eye(n)], axis=1
         )
         np.testing.assert_allclose(found, wanted, atol=1e-6 * max(1.0, np.abs(wanted).max()))
-        if not friction:
+        if not friction and not cohesion:
             np.testing.assert_allclose(found, found.T, atol=1e-12 * np.abs(found).max())
 
 

@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 
 from harness.errors import Source
+from harness.model.damage import Damage, DamageEvolution
 from harness.model.mesh import ElementGroup
 from harness.model.properties import (
     CohesiveSection,
-    Damage,
-    DamageEvolution,
     Elastic,
     ElasticType,
     Material,

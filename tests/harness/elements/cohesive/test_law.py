@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from harness.errors import KernelError, Source
-from harness.model.properties import DamageEvolution, SectionControls
+from harness.model.damage import DamageEvolution
+from harness.model.properties import SectionControls
 
 STIFFNESS, ONSET, TOUGHNESS = (1e4, 1e4, 1e4), (30.0, 60.0, 50.0), (0.26, 1.002, 0.8)
 ENERGY, DISPLACEMENT = "ENERGY", "DISPLACEMENT"
