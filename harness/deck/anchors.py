@@ -156,30 +156,37 @@ def _project(points: FloatArray, corners: FloatArray, normals: FloatArray) -> tu
     """Natural coordinates (m, c, 1 or 2) of anchor points and distances (m, c) in multiples of the interpolated
     normals: X(place) + distance N(place) = point, by Newton's method.
     """
-    count = corners.shape[2]
+    pairs, count = corners.shape[:2], corners.shape[2]
     along = 1 if count == 2 else 2
-    place = np.zeros((*corners.shape[:2], along)) + (1 / 3 if count == 3 else 0.0)
-    distance = np.zeros(corners.shape[:2])
-    # lines are in the plane, whose third coordinate does not matter
-    matrix = np.zeros((*corners.shape[:2], 3, 3))
-    matrix[..., 2, 2] = 1.0
-    size = np.linalg.norm(corners - corners.mean(axis=2, keepdims=True), axis=3).max(axis=2)
+    points = np.broadcast_to(points, (*pairs, 3)).reshape(-1, 3)
+    corners, normals = (np.reshape(values, (-1, count, 3)) for values in (corners, normals))
+    place = np.zeros((len(points), along)) + (1 / 3 if count == 3 else 0.0)
+    distance, rows = np.zeros(len(points)), np.arange(len(points))
+    size = np.linalg.norm(corners - corners.mean(axis=1, keepdims=True), axis=2).max(axis=1)
     for _ in range(STEPS):
-        shapes, slopes = shape_functions(place, count), natural_gradients(place, count)
-        normal = np.einsum("mck,mckd->mcd", shapes, normals)
-        missing = points - np.einsum("mck,mckd->mcd", shapes, corners) - distance[..., None] * normal
-        turned = corners + distance[..., None, None] * normals
-        tangents = np.einsum("mcka,mckd->mcda", slopes, turned)
-        matrix[..., :along] = tangents
+        shapes, slopes = shape_functions(place[rows], count), natural_gradients(place[rows], count)
+        normal = np.einsum("pk,pkd->pd", shapes, normals[rows])
+        missing = points[rows] - np.einsum("pk,pkd->pd", shapes, corners[rows]) - distance[rows, None] * normal
+        turned = corners[rows] + distance[rows, None, None] * normals[rows]
+        # lines are in the plane, whose third coordinate does not matter
+        matrix = np.zeros((len(rows), 3, 3))
+        matrix[:, 2, 2] = 1.0
+        matrix[..., :along] = np.einsum("pka,pkd->pda", slopes, turned)
         matrix[..., along] = normal
         if along == 1:
-            matrix[..., 2, :2] = missing[..., 2] = 0.0
-        usable = np.abs(np.linalg.det(matrix)) > EQUAL * size**along
-        change = np.linalg.solve(np.where(usable[..., None, None], matrix, np.eye(3)), missing[..., None])[..., 0]
+            matrix[:, 2, :2] = missing[:, 2] = 0.0
+        usable = np.abs(np.linalg.det(matrix)) > EQUAL * size[rows] ** along
+        change = np.linalg.solve(np.where(usable[:, None, None], matrix, np.eye(3)), missing[..., None])[..., 0]
         change[~usable] = 0.0
-        place = np.clip(place + change[..., :along], -3.0, 3.0)
-        distance = distance + change[..., along]
-    return place, distance
+        last = place[rows]
+        place[rows] = np.clip(last + change[:, :along], -3.0, 3.0)
+        distance[rows] += change[:, along]
+        # the method doubles the digits: the error is now that of rounding
+        moves = np.abs(place[rows] - last).max(axis=1) > EQUAL
+        rows = rows[moves | (np.abs(change[:, along]) > EQUAL * size[rows])]
+        if not len(rows):
+            break
+    return place.reshape(*pairs, along), distance.reshape(pairs)
 
 
 def shape_functions(place: FloatArray, count: int) -> FloatArray:
