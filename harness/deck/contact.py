@@ -13,12 +13,13 @@ from harness.deck.anchors import EQUAL, Anchors, find_anchors
 from harness.deck.averages import average
 from harness.deck.blocks import Block, Row
 from harness.deck.contact_sides import Side, Sides, check_corners, surface_pair
-from harness.deck.error_report import Problems
+from harness.deck.error_report import Problems, look_up
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.interactions import Interactions
 from harness.deck.numbers import read_real
 from harness.deck.pieces import make_pieces, wound
 from harness.deck.profiles import find_profile
+from harness.deck.smoothing import Region, read_smoothings
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import dofs_by_node
 from harness.elements import FiniteSliding, SurfaceSliding
@@ -65,6 +66,8 @@ class ContactReader:
         self._interactions = interactions
         self._problems = problems
         self._points = flat.mesh.coordinates
+        blocks = [block for owner in flat.owners for block in owner.blocks]
+        self._smoothings = read_smoothings(blocks, self._sides.surfaces, problems)
 
     def read(self) -> tuple[ContactPair | SlidingPair, ...]:
         """All pairs of the deck."""
@@ -99,6 +102,8 @@ class ContactReader:
             name = self._flat.mesh.name(int(shared[0]))
             raise row.error(f"node {name} is on both surfaces, {secondary} and {main}")
         averaged = block.options.text("TYPE") == "SURFACE TO SURFACE" and bool(side.faces)
+        if block.options.given("GEOMETRIC CORRECTION") and (block.options.flag("SMALL SLIDING") or not averaged):
+            raise block.error("GEOMETRIC CORRECTION is supported between surfaces in finite sliding")
         if not block.options.flag("SMALL SLIDING"):
             if averaged:
                 return self._surface_sliding(block, row, owner, (side, target), surface)
@@ -135,6 +140,8 @@ class ContactReader:
     ) -> SlidingPair:
         """A pair with an analytical rigid surface."""
         secondary, main = row.name(0, "secondary surface"), row.name(1, "main surface")
+        if block.options.given("GEOMETRIC CORRECTION"):
+            raise block.error(f"GEOMETRIC CORRECTION: the analytical rigid surface {main} has no faces")
         if block.options.flag("SMALL SLIDING"):
             raise block.error(f"SMALL SLIDING is not supported on the analytical rigid surface {main}; leave it out")
         if block.options.text("TYPE") == "SURFACE TO SURFACE":
@@ -157,7 +164,11 @@ class ContactReader:
         """A pair of surface to surface in finite sliding."""
         check_corners(sides[1], self._flat.mesh, row)
         name = f"({row.name(0, 'secondary surface')},{row.name(1, 'main surface')})"
-        pair = surface_pair(name, (block.name, row.source), sides, self._points, surface, everywhere=False)
+        smoothing, regions = block.options.text("GEOMETRIC CORRECTION"), tuple[Region, ...]()
+        if smoothing:
+            regions = look_up(self._smoothings, smoothing, "surface smoothing", block.source)
+        place = block.name, row.source
+        pair = surface_pair(name, place, sides, self._points, surface, everywhere=False, regions=regions)
         if block.options.given("ADJUST"):
             self._adjust_sliding(block, pair, SurfaceSliding(pair, self._points).at_nodes(), owner)
         return pair
@@ -312,9 +323,10 @@ KEYWORDS = (
                 Kind.REAL,
                 f"of the main surface beyond its edges for sliding nodes, over the length of a face ({EXTENSION})",
             ),
+            Option("GEOMETRIC CORRECTION", Kind.NAME, "*SURFACE SMOOTHING of the surfaces"),
             *ignored("HCRIT", "MINIMUM DISTANCE", "NO THICKNESS", "TRACKING"),
             *ignored("MIDFACE NODES", "SUPPLEMENTARY CONSTRAINTS", "SLIDING TRANSITION"),
-            *refused("GEOMETRIC CORRECTION", "MECHANICAL CONSTRAINT", "TIED", "CPSET", "OP", "WEIGHT"),
+            *refused("MECHANICAL CONSTRAINT", "TIED", "CPSET", "OP", "WEIGHT"),
         ),
         "secondary surface, main surface",
     ),

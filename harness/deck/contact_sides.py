@@ -14,6 +14,7 @@ from harness.deck.blocks import Row
 from harness.deck.flatten import FlatMesh, Owner
 from harness.deck.pieces import face_normals, filled, make_pieces, wound
 from harness.deck.smooth_parts import smooth_parts
+from harness.deck.smoothing import Region, rounded_pieces
 from harness.deck.surfaces import Surfaces, linear_face, tributary_areas
 from harness.deck.user_elements import dofs_by_node
 from harness.errors import DeckError, Source
@@ -153,6 +154,7 @@ def surface_pair(
     surface: ContactProperty,
     *,
     everywhere: bool,
+    regions: Sequence[Region] = (),
 ) -> SurfacePair:
     """A pair of surface to surface in finite sliding.
 
@@ -168,11 +170,14 @@ def surface_pair(
         The contact property.
     everywhere
         The surfaces may have all sides of their bodies: an overlap of half of the height of an element is none.
+    regions
+        Where faces approximate curved surfaces.
     """
     secondary, main = sides
     faces, opposite = wound(secondary.faces, coordinates), wound(main.faces, coordinates)
     parts = smooth_parts(faces, coordinates)
     own = make_pieces(faces, coordinates, 0.0, 0.0, parts.corners)
+    other = make_pieces(opposite, coordinates, 0.0, 0.0, smooth_parts(opposite, coordinates).corners)
     return SurfacePair(
         name=name,
         property=surface,
@@ -181,13 +186,14 @@ def surface_pair(
         dimension=own.low.shape[1] + 1,
         secondary=parts.nodes,
         faces=parts.corners,
-        main=make_pieces(opposite, coordinates, 0.0, 0.0, smooth_parts(opposite, coordinates).corners),
+        main=other,
         areas=secondary.areas[np.searchsorted(secondary.nodes, parts.nodes)],
         length=secondary.size,
         own=own,
         corners=filled(parts.corners),
         depths=secondary.depth[own.nodes],
         deepest=0.5 * secondary.heights if everywhere else np.full(len(secondary.heights), np.inf),
+        rounded=(rounded_pieces(regions, own), rounded_pieces(regions, other)),
     )
 
 

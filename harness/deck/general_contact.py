@@ -20,6 +20,7 @@ from harness.deck.contact_sides import Sides, check_corners, surface_pair
 from harness.deck.error_report import Problems, look_up
 from harness.deck.flatten import FlatMesh
 from harness.deck.interactions import Interactions
+from harness.deck.smoothing import ASSIGNMENT, Region, read_corrections
 from harness.deck.table import INPUT, NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.elements import SurfaceSliding
 from harness.errors import DeckError, Source
@@ -85,6 +86,7 @@ class GeneralContact:
         self._flat, self._groups = flat, groups
         self._interactions, self._problems = interactions, problems
         self._sides = Sides(flat, groups)
+        self._regions: tuple[Region, ...] = ()
 
     def read(self, blocks: Sequence[Block]) -> tuple[SurfacePair, ...]:
         """Pairs of the general contact that root blocks of a deck define."""
@@ -94,6 +96,7 @@ class GeneralContact:
             if domain:
                 lines = {name: [line for b in domain if b.name == name for line in _lines(b)] for name in _PARTS}
                 lines[EXCLUSIONS] += self._constrained(blocks)
+                self._regions = read_corrections(domain, self._sides.surfaces)
                 found += self._pairs(domain[0], lines, _starts(blocks))
         return tuple(found)
 
@@ -195,7 +198,7 @@ class GeneralContact:
         check_corners(main, self._flat.mesh, row)
         name = "({},{})".format(*(f"General_Contact_Faces_{part}" for part in names))
         place = head.name, head.source
-        pair = surface_pair(name, place, (secondary, main), points, given, everywhere=True)
+        pair = surface_pair(name, place, (secondary, main), points, given, everywhere=True, regions=self._regions)
         chosen, clearances, normals = SurfaceSliding(pair, points).at_nodes()
         chosen &= (clearances != 0.0) & (clearances >= -start.below) & (clearances <= start.above)
         normals = np.pad(normals, ((0, 0), (0, 3 - pair.dimension)))
@@ -209,7 +212,7 @@ def _blocks_of(blocks: Sequence[Block]) -> list[Block]:
     for block in blocks:
         if block.name == "CONTACT":
             found.append(block)
-        elif block.name in _PARTS:
+        elif block.name in (*_PARTS, ASSIGNMENT):
             if not found:
                 raise block.error("does not follow *CONTACT")
             found.append(block)

@@ -43,6 +43,7 @@ from harness.deck import (
     section_controls,
     sections,
     shells,
+    smoothing,
     steps,
     structure,
     surfaces,
@@ -55,7 +56,7 @@ from harness.deck.table import Keyword, Kind, Option, Support, compact
 
 _FILES = (
     *(structure, lexer, placement, orientations, local_mesh, generation, user_elements, surfaces, constraints, ties),
-    *(contact, general_contact, interactions),
+    *(contact, general_contact, interactions, smoothing),
     *(
         materials,
         expansion,

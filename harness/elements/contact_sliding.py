@@ -223,6 +223,11 @@ class FiniteSliding:
         return self._clearance
 
     @property
+    def places(self) -> tuple[IntArray, FloatArray]:
+        """Pieces (m,) of the main surface opposite to the points, and natural coordinates (m, a) there."""
+        return self._opposite.piece, self._opposite.natural
+
+    @property
     def start_normals(self) -> FloatArray:
         """(m, d) outward normals of the main surface opposite to the points, before the analysis."""
         return self._normal

@@ -18,6 +18,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from harness.elements.contact_correction import corrections
 from harness.elements.contact_kinematics import Clearances, Find, Slips, displacements
 from harness.elements.contact_sliding import FiniteSliding, Opposites, normals_of, rounding_of, unit
 from harness.elements.contact_surface import EQUAL, FaceSurface, weights_of
@@ -75,7 +76,10 @@ class SurfaceSliding:
 
     def at_nodes(self) -> tuple[NDArray[np.bool_], FloatArray, FloatArray]:
         """Before the analysis: (m,) whether points can touch, clearances (m,) and normals (m, d) at their nodes."""
-        return self.above & self._slip.above, self._slip.start(), self._slip.start_normals
+        start = self._slip.start() - corrections(
+            self._pair.rounded[1], self._main, self._coordinates, self._slip.places
+        )
+        return self.above & self._slip.above, start, self._slip.start_normals
 
     def track(self, u: FloatArray, du: FloatArray, find: Find, *, first: bool) -> None:
         """Find the pieces that are opposite: in the first pass of an increment of new samples."""
@@ -106,6 +110,11 @@ class SurfaceSliding:
         self._opposite = Opposites(self._main, self._coordinates, nodes, shapes, -FACING)
         self._opposite.search(self._moved, self._looks(), everywhere=True)
         self._there = self._reaches()
+        sides = (pair.own, (face, natural)), (self._main, (self._opposite.piece, self._opposite.natural))
+        self._outside = sum(
+            corrections(rounded, pieces, self._coordinates, place)
+            for rounded, (pieces, place) in zip(pair.rounded, sides, strict=True)
+        )
         self._average()
 
     def _reaches(self) -> NDArray[np.bool_]:
@@ -152,7 +161,7 @@ class SurfaceSliding:
     def _average(self) -> None:
         """Clearances and areas of the points, and the weights of the samples in them."""
         m, opposite = len(self._pair.secondary), self._opposite
-        values = opposite.values(self._moved)
+        values = opposite.values(self._moved) - self._outside
         here = (opposite.above & self._there)[:, None]
         parts, point = self._parts, self._point
         whole, area = _sums(point, parts, m), _sums(point, parts * here, m)

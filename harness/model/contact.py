@@ -178,6 +178,22 @@ class SlidingPair:
 
 
 @dataclass(frozen=True, slots=True)
+class Rounded:
+    """What pieces of a surface approximate, of d dimensions.
+
+    pieces  (q,) of the surface
+    centre  (d,) of a circle in the plane or a sphere, or a point on the axis of revolution
+    axis    (d,) unit vector; zero without an axis
+    radius  of a torus, of the circle on which the centres of its arcs are, in the plane of `centre`; None: no torus
+    """
+
+    pieces: IntArray
+    centre: FloatArray
+    axis: FloatArray
+    radius: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class SurfacePair(SlidingPair):
     """Surface to surface in finite sliding: a point at each secondary node of each smooth part of its surface.
 
@@ -185,12 +201,14 @@ class SurfacePair(SlidingPair):
     corners  (p, k) rows of `secondary` that the nodes of the pieces of `own` are
     depths   (p, k) factor from length or area to area at these nodes
     deepest  (p,) overlap of these pieces at the start of an increment that is none, but the far side of the body
+    rounded  what pieces of `own` and of `main` approximate
     """
 
     own: Pieces
     corners: IntArray
     depths: FloatArray
     deepest: FloatArray
+    rounded: tuple[tuple[Rounded, ...], tuple[Rounded, ...]] = field(default=((), ()), kw_only=True)
 
 
 @dataclass(frozen=True, slots=True)

@@ -242,6 +242,27 @@ def test_convert_sdi_goes_on(read):
         ("0.3,\n*C", "-0.3,\n*C", "34: friction coefficient -0.3 must not be negative"),
         ("0.3,\n*C", "0.3, 1.\n*C", "34: a coefficient that depends on slip rate, pressure or fields is not supported"),
         ("*FRICTION\n0.3,\n", "*FRICTION\n", "33: expected the friction coefficient on the data line"),
+        (
+            "SMALL SLIDING",
+            "GEOMETRIC CORRECTION=ROUND",
+            "35: GEOMETRIC CORRECTION is supported between surfaces in fini",
+        ),
+        ("SMALL SLIDING", "TYPE=SURF, GEOMETRIC CORRECTION=ROUND", "35: unknown surface smoothing ROUND"),
+        (
+            "*FRICTION\n",
+            "*SURFACE SMOOTHING, NAME=R\nSEC, , CIRCLE, 0., 0.\n",
+            "34: correction CIRCLE is not known; expe",
+        ),
+        (
+            "*FRICTION\n",
+            "*SURFACE SMOOTHING, NAME=R\nSEC, , SPHERICAL, 0.\n",
+            "34: 1 numbers of a spherical correction, exp",
+        ),
+        (
+            "*FRICTION\n",
+            f"*SURFACE SMOOTHING, NAME=R\nSEC, , TOROIDAL{', 0.' * 7}\n",
+            "34: the two points on the axis are in",
+        ),
         ("*FRICTION", "*FRICTION, ROUGH", "33: option ROUGH is not supported"),
         ("*FRICTION", "*FRICTION, TAUMAX=3.", "33: option TAUMAX is not supported"),
         ("*FRICTION", "*FRICTION, SLIP TOLERANCE=0.", "33: SLIP TOLERANCE=0 must be positive"),
