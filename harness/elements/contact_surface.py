@@ -19,6 +19,9 @@ STEPS: Final = 20
 EQUAL: Final = 1e-9
 """Difference of distances, over the size of a piece, that counts as none, and of natural coordinates."""
 
+FLAT: Final = 1e-14
+"""Area of a piece, squared, over its size to the fourth power, that counts as none."""
+
 NEAREST: Final = 4
 """Nodes of the main surface whose pieces are tried for a node whose piece is not known."""
 
@@ -335,6 +338,11 @@ class FaceSurface:
             convex = np.linalg.det(matrix) > 0.1 * np.linalg.det(metric)
             convex &= np.trace(matrix, axis1=1, axis2=2) > 0.0
             matrix = np.where(convex[:, None, None], matrix, metric)
+            # where a piece has no area, along the steepest way
+            trace = np.trace(metric, axis1=1, axis2=2)
+            flat = np.linalg.det(metric) <= FLAT * trace ** metric.shape[1]
+            steepest = np.maximum(trace, np.finfo(float).tiny)[:, None, None] * np.eye(metric.shape[1])
+            matrix = np.where(flat[:, None, None], steepest, matrix)
             change = np.linalg.solve(matrix, np.einsum("mad,md->ma", place.tangents, apart)[..., None])[..., 0]
             last = natural[rows]
             natural[rows] = np.clip(last + change, low[rows] - reach[rows], high[rows] + reach[rows])

@@ -343,3 +343,13 @@ def test_surfaces_that_cannot_be_tied(run, kind, change, message):
     assert change[0] in text
     with pytest.raises(DeckError, match=rf"deck\.inp:\d+: \*TIE: {message}"):
         run(text.replace(*change))
+
+
+def test_face_whose_area_is_lost_in_rounding(run):
+    """A node so far away that the sides of its face are parallel in floating-point numbers."""
+    lower, upper = boxes("C3D8", (1, 1), (1, 1))
+    text = tied(lower, upper, ["*STEP\n*STATIC\n*END STEP"], tie="TYPE=SURFACE TO SURFACE, POSITION TOLERANCE=0.01")
+    far = text.replace("\n8, 2.0, 1.0, 1.0", "\n8, 2147483647., 1.0, 1.0")
+    assert far != text
+    with pytest.raises(DeckError, match=r"\*TIE: node \d+ .*of the first surface is farther than 0.01"):
+        run(far)
