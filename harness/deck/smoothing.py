@@ -69,9 +69,11 @@ def _regions(row: Row, names: int, surfaces: Surfaces) -> Iterator[Region]:
         axis /= size
     for k in range(names):
         if not row.blank(k):
-            facets = surfaces.facets(row.name(k, "surface"), row.source)
-            faces = np.concatenate([group.nodes[rows][:, list(local)] for group, rows, local, _ in facets])
-            chosen = frozenset(map(tuple, np.sort(faces, axis=1).tolist()))
+            name = row.name(k, "surface")
+            faces = [group.nodes[rows][:, list(local)] for group, rows, local, _ in surfaces.facets(name, row.source)]
+            chosen = frozenset(tuple(sorted(nodes)) for own in faces for nodes in own.tolist())
+            if not chosen:
+                raise row.error(f"surface {name} has no faces")
             yield Region(chosen, centre, axis, numbers[6] if len(numbers) == 7 else None)
 
 

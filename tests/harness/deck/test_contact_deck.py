@@ -263,6 +263,11 @@ def test_convert_sdi_goes_on(read):
             f"*SURFACE SMOOTHING, NAME=R\nSEC, , TOROIDAL{', 0.' * 7}\n",
             "34: the two points on the axis are in",
         ),
+        (
+            "*FRICTION\n",
+            "*SURFACE, NAME=BARE\n*SURFACE SMOOTHING, NAME=R\nBARE, , SPHERICAL, 0., 0., 0.\n",
+            "35: surface BARE has no faces",
+        ),
         ("*FRICTION", "*FRICTION, ROUGH", "33: option ROUGH is not supported"),
         ("*FRICTION", "*FRICTION, TAUMAX=3.", "33: option TAUMAX is not supported"),
         ("*FRICTION", "*FRICTION, SLIP TOLERANCE=0.", "33: SLIP TOLERANCE=0 must be positive"),

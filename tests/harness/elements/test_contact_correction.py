@@ -63,6 +63,17 @@ def test_clearances_of_concentric_circles(tmp_path):
     assert found[0] < 0.01 * found[1]
 
 
+def test_triangles_and_quadrilaterals_of_one_surface(tmp_path):
+    nodes = [(x, y, z) for z in (0.0, 1.0) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    nodes += [(x, y, z) for z in (0.0, 1.0) for x, y in ((2, 0), (3, 0), (2, 1))]
+    lines = ["*NODE", *(f"{k}, {x}, {y}, {z}" for k, (x, y, z) in enumerate(nodes, 1))]
+    lines += ["*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8", "*ELEMENT, TYPE=C3D6, ELSET=E"]
+    lines += ["2, 9, 10, 11, 12, 13, 14", "*SURFACE, NAME=TOP\nE, S2", "*SOLID SECTION, ELSET=E, MATERIAL=M", ""]
+    lines += ["*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3", "*SURFACE SMOOTHING, NAME=R\nTOP, , SPHERICAL, 0., 0., 0."]
+    (tmp_path / "deck.inp").write_text("\n".join([*lines, "*STEP\n*STATIC\n*END STEP\n"]))
+    assert len(read_deck(tmp_path / "deck.inp").groups) == 2
+
+
 @pytest.mark.parametrize("kind", ["cone", "sphere", "torus"])
 def test_correction_of_a_face(kind):
     """Of a quadrilateral whose corners are on the surface: how far the middle is inside, by the closed form.
