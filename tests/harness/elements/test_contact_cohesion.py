@@ -144,6 +144,7 @@ BRITTLE = Damage(
 )
 
 
+@pytest.mark.sample(5)
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 @pytest.mark.parametrize("stiffness", [None, 40.0])
 @pytest.mark.parametrize("law", [None, BRITTLE], ids=["elastic", "damaged"])
