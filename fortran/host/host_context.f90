@@ -5,8 +5,8 @@ module host_context
   use host_kinds, only: dp, i4
   implicit none (type, external)
   private
-  public :: added_stress, base_stress, call_context, current, heat_t, initial_stresses, job_name, names_cut, output_directory, &
-            output_variables, rank, ranks, stress_matrix, threads
+  public :: added_stress, base_stress, call_context, current, fields_at_end, heat_t, initial_stresses, job_name, names_cut, &
+            output_directory, output_variables, rank, ranks, stress_matrix, threads
 
   !> LFLAGS(3) of the host's own pass before an analysis, in which built-in elements take their stresses from SVARS.
   integer(i4), parameter :: initial_stresses = -1
@@ -85,4 +85,20 @@ contains
     integer(i4), intent(in) :: request
     stress_matrix = request == base_stress .or. request == added_stress
   end function stress_matrix
+
+  !> Temperature and fields of the point at the end of the increment, and their increments; zero and none without any.
+  subroutine fields_at_end(temperature, its_change, fields, their_changes)
+    real(dp), intent(out) :: temperature, its_change
+    real(dp), allocatable, intent(out) :: fields(:), their_changes(:)
+    temperature = 0
+    its_change = 0
+    if (allocated(current%fields)) then
+      temperature = sum(current%fields(1, :))
+      its_change = current%fields(1, 2)
+      fields = sum(current%fields(2:, :), 2)
+      their_changes = current%fields(2:, 2)
+    else
+      allocate (fields(0), their_changes(0))
+    end if
+  end subroutine fields_at_end
 end module host_context

@@ -4,7 +4,7 @@
 !> but for the entries of their arrays.
 module host_network_routines
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
-  use host_context, only: current
+  use host_context, only: current, fields_at_end
   use host_guarded, only: guarded_t, lay_out_guarded, warn_of_no_numbers, warn_of_writes
   use host_kinds, only: dp, i4
   implicit none (type, external)
@@ -61,16 +61,7 @@ contains
     call lay_out_guarded(work, [int(noutput), int(nstatv)])
     networkid = this%network
     coords = current%place
-    temp = 0
-    dtemp = 0
-    if (allocated(current%fields)) then
-      temp = sum(current%fields(1, :))
-      dtemp = current%fields(1, 2)
-      predef = sum(current%fields(2:, :), 2)
-      dpred = current%fields(2:, 2)
-    else
-      allocate (predef(0), dpred(0))
-    end if
+    call fields_at_end(temp, dtemp, predef, dpred)
     nfield = size(predef, kind=i4)
     constants = this%constants
     nprops = size(constants, kind=i4)

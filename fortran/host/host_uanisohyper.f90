@@ -3,7 +3,7 @@
 !> UANISOHYPER_INV at a material point, with the arguments of Abaqus (User Subroutines Guide, UANISOHYPER_INV).
 module host_uanisohyper
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
-  use host_context, only: current
+  use host_context, only: current, fields_at_end
   use host_guarded, only: guarded_t, lay_out_guarded, warn_of_no_numbers, warn_of_writes
   use host_kinds, only: dp, i4
   implicit none (type, external)
@@ -47,7 +47,7 @@ contains
     real(dp), intent(inout) :: statev(:)                      !< STATEV at the start of the increment, then at its end
     real(dp), intent(out) :: energy, first(size(invariants)), second(size(invariants), size(invariants))
     procedure(uanisohyper_procedure), pointer :: uanisohyper
-    real(dp) :: ainv(size(invariants)), zeta(size(cosines)), temp, constants(size(potential%constants))
+    real(dp) :: ainv(size(invariants)), zeta(size(cosines)), temp, unused, constants(size(potential%constants))
     real(dp), allocatable :: fieldv(:), fieldvinc(:)
     integer(i4) :: nfibers, ninv, noel, incmpflag, ihybflag, numstatev, numfieldv, numprops
     integer :: i, k, pairs
@@ -64,16 +64,8 @@ contains
     call lay_out_guarded(work, [2, int(ninv), pairs, pairs, int(numstatev)])
     ainv = invariants
     zeta = cosines
-    temp = 0
-    numfieldv = 0
-    if (allocated(current%fields)) then
-      temp = sum(current%fields(1, :))
-      fieldv = sum(current%fields(2:, :), 2)
-      fieldvinc = current%fields(2:, 2)
-      numfieldv = size(fieldv, kind=i4)
-    else
-      allocate (fieldv(0), fieldvinc(0))
-    end if
+    call fields_at_end(temp, unused, fieldv, fieldvinc)
+    numfieldv = size(fieldv, kind=i4)
     constants = potential%constants
     numprops = size(constants, kind=i4)
     noel = current%element

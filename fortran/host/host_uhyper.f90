@@ -3,7 +3,7 @@
 !> UHYPER at a material point, with the arguments of Abaqus (User Subroutines Guide, UHYPER).
 module host_uhyper
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
-  use host_context, only: current
+  use host_context, only: current, fields_at_end
   use host_guarded, only: guarded_t, lay_out_guarded, warn_of_no_numbers, warn_of_writes
   use host_kinds, only: dp, i4
   implicit none (type, external)
@@ -46,7 +46,7 @@ contains
     real(dp), intent(inout) :: statev(:)           !< STATEV at the start of the increment, then at its end
     real(dp), intent(out) :: energy, first(3), second(3, 3)
     procedure(uhyper_procedure), pointer :: uhyper
-    real(dp) :: invariants(3), temp, constants(size(potential%constants))
+    real(dp) :: invariants(3), temp, unused, constants(size(potential%constants))
     real(dp), allocatable :: fieldv(:), fieldvinc(:)
     integer(i4) :: noel, incmpflag, numstatev, numfieldv, numprops
     character(len=80) :: cmname
@@ -55,16 +55,8 @@ contains
     numstatev = size(statev, kind=i4)
     call lay_out_guarded(work, [2, 3, 6, 6, int(numstatev)])
     invariants = [i1, i2, j]
-    temp = 0
-    numfieldv = 0
-    if (allocated(current%fields)) then
-      temp = sum(current%fields(1, :))
-      fieldv = sum(current%fields(2:, :), 2)
-      fieldvinc = current%fields(2:, 2)
-      numfieldv = size(fieldv, kind=i4)
-    else
-      allocate (fieldv(0), fieldvinc(0))
-    end if
+    call fields_at_end(temp, unused, fieldv, fieldvinc)
+    numfieldv = size(fieldv, kind=i4)
     constants = potential%constants
     numprops = size(constants, kind=i4)
     noel = current%element

@@ -5,7 +5,7 @@
 module host_user_creep
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
   use core_root, only: advance, root_search, search_between, searching
-  use host_context, only: current
+  use host_context, only: current, fields_at_end
   use host_creep, only: creep_values, crept_t, relax, trial_of, trial_t
   use host_guarded, only: guarded_t, lay_out_guarded, warn_of_writes
   use host_kinds, only: dp, i4
@@ -119,16 +119,7 @@ contains
     esw = 0
     p = pressure
     qtild = mises
-    temp = 0
-    dtemp = 0
-    if (allocated(current%fields)) then
-      temp = sum(current%fields(1, :))
-      dtemp = current%fields(1, 2)
-      predef = sum(current%fields(2:, :), 2)
-      dpred = current%fields(2:, 2)
-    else
-      allocate (predef(0), dpred(0))
-    end if
+    call fields_at_end(temp, dtemp, predef, dpred)
     dtime = current%dtime
     ! all at the end of the increment, the last one in steps where materials creep
     time = [current%time, old(10)] + dtime
