@@ -72,6 +72,7 @@ from harness.model.properties import (
     UserProperty,
     materials_of,
 )
+from harness.model.records import PointVariables
 from harness.usersub import Library
 
 TENSORS: Final = {
@@ -245,20 +246,34 @@ MOST_POINTS: Final = 64
 """Points of a plastic material per user element if *USER ELEMENT does not give INTEGRATION=."""
 
 
-def _composite_block(
-    model: Model, group: ElementGroup, kind: ContinuumType, section: CompositeSection, library: Library
+def _nodal_block(
+    model: Model,
+    group: ElementGroup,
+    kind: ContinuumType | CohesiveType | ShellType | MembraneType | BeamType,
+    routine: Routine,
+    library: Library,
+    variables: PointVariables | None,
+    *,
+    unsymmetric: bool = False,
 ) -> ElementBlock:
-    _check_nodes(group, kind.nodes)
-    routine = composite_routine(model, group, kind, section, library)
-    block = ElementBlock(
+    """A block whose unknowns are those of its nodes; unsymmetric, too, with a material whose tangent is."""
+    return ElementBlock(
         group,
         model.mesh.coordinates,
         tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
         routine,
         library,
-        unsymmetric=any(map(has_unsymmetric_tangent, materials_of(section))),
-        variables=composite_variables(kind, section, routine),
+        unsymmetric=unsymmetric or any(map(has_unsymmetric_tangent, materials_of(group.section))),
+        variables=variables,
     )
+
+
+def _composite_block(
+    model: Model, group: ElementGroup, kind: ContinuumType, section: CompositeSection, library: Library
+) -> ElementBlock:
+    _check_nodes(group, kind.nodes)
+    routine = composite_routine(model, group, kind, section, library)
+    block = _nodal_block(model, group, kind, routine, library, composite_variables(kind, section, routine))
     block.begin_axes(layer_axes(model, group, kind, section, routine.family))
     return block
 
@@ -335,16 +350,9 @@ def _cohesive_block(model: Model, group: ElementGroup, kind: CohesiveType, libra
     if not isinstance(section, CohesiveSection):
         raise DeckError(section.source, f"elements of type {group.type} need *COHESIVE SECTION")
     _check_nodes(group, kind.nodes)
-    return ElementBlock(
-        group,
-        model.mesh.coordinates,
-        tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
-        cohesive_routine(model, group, section),
-        library,
-        # damage that depends on the mode mix
-        unsymmetric=True,
-        variables=cohesive_variables(section, kind),
-    )
+    routine, variables = cohesive_routine(model, group, section), cohesive_variables(section, kind)
+    # damage that depends on the mode mix
+    return _nodal_block(model, group, kind, routine, library, variables, unsymmetric=True)
 
 
 def _structural_block(
@@ -368,18 +376,10 @@ def _shell_block(model: Model, group: ElementGroup, kind: ShellType, library: Li
         raise DeckError(section.source, f"elements of type {group.type} need *SHELL SECTION")
     _check_nodes(group, kind.nodes)
     routine = shell_routine(model, group, kind, section, library)
-    user = (layer.material.user for layer in section.layers)
     # moments are no derivatives by rotation vectors
     turns = any(step.nlgeom for step in model.steps)
-    block = ElementBlock(
-        group,
-        model.mesh.coordinates,
-        tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
-        routine,
-        library,
-        unsymmetric=turns or any(constants and constants.unsymmetric for constants in user),
-        variables=shell_variables(section, kind, routine),
-    )
+    variables = shell_variables(section, kind, routine)
+    block = _nodal_block(model, group, kind, routine, library, variables, unsymmetric=turns)
     check_normals(model, group, kind, library)
     block.set_last(directors(model, group).reshape(len(group.labels), -1))
     _begin_surface_axes(model, group, kind, block, routine, library)
@@ -394,15 +394,7 @@ def _continuum_shell_block(
         raise DeckError(section.source, f"elements of type {group.type} need *SHELL SECTION")
     _check_nodes(group, kind.nodes)
     routine = continuum_shell_routine(model, group, kind, section, library)
-    block = ElementBlock(
-        group,
-        model.mesh.coordinates,
-        tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
-        routine,
-        library,
-        unsymmetric=any(map(has_unsymmetric_tangent, materials_of(section))),
-        variables=shell_variables(section, kind, routine),
-    )
+    block = _nodal_block(model, group, kind, routine, library, shell_variables(section, kind, routine))
     block.set_last(stack_directions(model, group, kind, section, library))
     _begin_surface_axes(model, group, kind, block, routine, library)
     return block
@@ -414,15 +406,7 @@ def _membrane_block(model: Model, group: ElementGroup, kind: MembraneType, libra
         raise DeckError(section.source, f"elements of type {group.type} need *MEMBRANE SECTION")
     _check_nodes(group, kind.nodes)
     routine = membrane_routine(model, group, kind, section, library)
-    block = ElementBlock(
-        group,
-        model.mesh.coordinates,
-        tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
-        routine,
-        library,
-        unsymmetric=has_unsymmetric_tangent(section.material),
-        variables=membrane_variables(kind, routine),
-    )
+    block = _nodal_block(model, group, kind, routine, library, membrane_variables(kind, routine))
     _begin_surface_axes(model, group, kind, block, routine, library)
     return block
 
@@ -450,15 +434,8 @@ def _beam_block(model: Model, group: ElementGroup, kind: BeamType, library: Libr
     routine = beam_routine(model, group, kind, section, library)
     # moments in space are no derivatives by the rotation vector
     turns = kind.dimension == 3 and any(step.nlgeom for step in model.steps)
-    block = ElementBlock(
-        group,
-        model.mesh.coordinates,
-        tuple((node, dof) for node in range(kind.nodes) for dof in kind.dofs(node)),
-        routine,
-        library,
-        unsymmetric=turns or any(map(has_unsymmetric_tangent, materials_of(section))),
-        variables=beam_variables(section, kind, routine),
-    )
+    variables = beam_variables(section, kind, routine)
+    block = _nodal_block(model, group, kind, routine, library, variables, unsymmetric=turns)
     block.set_last(start_directions(model, group, kind, section))
     return block
 
