@@ -27,7 +27,6 @@ _WORDS: Final = {
     HeatLaw.FILM: ("sink temperature", "film coefficient"),
     HeatLaw.RADIATION: ("ambient temperature", "emissivity"),
 }
-_LABEL: Final = re.compile(r"(BF|[SFR]\d?)(NU)?")
 _BODY, _FIRST_FACE = 1, 11
 """JLTYP of BFNU, and of the first face, S1NU or F1NU (User Subroutines Guide, DFLUX and FILM)."""
 
@@ -96,18 +95,16 @@ def _places(block: Block, row: Row, prescription: Prescription) -> Iterator[tupl
 
 def _label(row: Row, law: HeatLaw, *, on_surface: bool) -> tuple[str, bool]:
     """The label of a load without NU, and whether it has it."""
-    given = row.name(1, "load type")
-    match = _LABEL.fullmatch(given)
-    letter, flux = _LETTERS[law], law is HeatLaw.FLUX
-    known = (letter,) if on_surface else ("BF", f"{letter}n") if flux else (f"{letter}n",)
-    fits = match is not None and (match[1] == letter if on_surface else match[1] != letter)
-    by_user = match is not None and match[2] is not None
-    if law is HeatLaw.RADIATION and by_user:
-        fits = False
-    if match is None or not fits or (match[1][0] != letter and not (flux and match[1] == "BF")):
+    given, letter = row.name(1, "load type"), _LETTERS[law]
+    known = [letter if on_surface else f"{letter}n"]
+    if law is HeatLaw.FLUX and not on_surface:
+        known.insert(0, "BF")
+    by_user = law is not HeatLaw.RADIATION and given.endswith("NU")
+    label = given.removesuffix("NU") if by_user else given
+    if re.sub("[0-9]", "n", label) not in known:
         more = "" if law is HeatLaw.RADIATION else f"; with NU, as in {letter}NU"
         raise row.error(f"load type {given} is not supported (supported: {', '.join(known)}{more})")
-    return match[1], by_user
+    return label, by_user
 
 
 def _check_temperatures(row: Row, label: str, group: ElementGroup) -> None:
