@@ -12,7 +12,7 @@ from material_point import COMPONENTS, MaterialPoint
 
 import harness
 from harness import usersub
-from harness.elements import Call, Flags, build_blocks
+from harness.elements import Call, Flags, Request, build_blocks
 from harness.errors import Source
 from harness.model.element_types import CONTINUUM
 from harness.model.mesh import ElementGroup, Mesh
@@ -158,6 +158,27 @@ def forces_of(solid_group, bound, load, call):
         return evaluate
 
     return forces_of
+
+
+@pytest.fixture
+def response(bound, load, call):
+    """Force, tangent and energies of elements by their unknowns, node by node; their block is an attribute."""
+
+    def response(group, nodes, *, nlgeom=False, user=None):
+        block, matrix = bound(group, nodes, load(user))
+
+        def evaluate(u, du=None, *, request=Request.NORMAL):
+            u = np.asarray(u, dtype=float).ravel()
+            residual = np.zeros(u.size)
+            matrix.data[:] = 0
+            now = replace(call, flags=Flags(1, nlgeom, request=request))
+            report = block.evaluate(now, u, u if du is None else du, residual, matrix.data)
+            return -residual, matrix.toarray(), report.energy
+
+        evaluate.block = block
+        return evaluate
+
+    return response
 
 
 @pytest.fixture

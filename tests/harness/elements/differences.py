@@ -35,6 +35,22 @@ def check_uniform_tangent(solid, *, about):
         np.testing.assert_allclose(slope, tangent @ d - forces * trace, atol=1e-6 * abs(tangent).max())
 
 
+def asymmetry_along_a_path(respond, pass_time):
+    """Compare tangents of a material point with central differences, on a path of six increments of half a unit of time
+    that turns. Returns the largest difference of entries across the diagonal, over the largest entry."""
+    step, strain, random, found = 1e-6, np.zeros(respond.n), np.random.default_rng(2), 0.0
+    for k in range(6):
+        pass_time(respond, 0.5 * k, 0.5 * (k + 1))
+        strain = strain + 0.02 * random.normal(size=respond.n)
+        _, tangent = respond(strain)
+        slopes = [(respond(strain + h)[0] - respond(strain - h)[0]) / (2 * step) for h in step * np.eye(respond.n)]
+        np.testing.assert_allclose(tangent, np.array(slopes).T, atol=1e-6 * abs(tangent).max())
+        found = max(found, abs(tangent - tangent.T).max() / abs(tangent).max())
+        respond(strain)
+        respond.block.commit()
+    return found
+
+
 def check_energy(solid):
     """In random displacements the forces are derivatives of ENERGY(2), and the tangent theirs; returns the report."""
     random = np.random.default_rng(3)

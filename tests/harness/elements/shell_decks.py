@@ -91,13 +91,16 @@ class ShellDeck:
 
     def text(self, step: str, sets: dict[str, Iterable[int]] | None = None) -> str:
         """The deck, with a step and node sets."""
-        lines = ["*NODE, NSET=ALL"]
-        lines += [f"{k}, {x!r}, {y!r}, {z!r}" for k, (x, y, z) in enumerate(self.coordinates.tolist(), 1)]
-        lines += [f"*ELEMENT, TYPE={self.kind}, ELSET=SHELL"]
-        lines += [f"{k}, {', '.join(map(str, nodes))}" for k, nodes in enumerate(self.elements(), 1)]
-        for name, nodes in (sets or {}).items():
-            lines += [f"*NSET, NSET={name}", *(f"{node}," for node in nodes)]
-        return "\n".join([*lines, self.before + f"*MATERIAL, NAME=M\n{self.material.strip()}", self.section, step, ""])
+        material = self.before + f"*MATERIAL, NAME=M\n{self.material.strip()}"
+        return "\n".join([*_mesh_lines(self, sets), material, self.section, step, ""])
+
+
+def values_of(evaluate, *names):
+    """(points, names) committed values of the section points of the only element of a `response`."""
+    evaluate.block.commit()
+    state = evaluate.block.state(0)
+    known = list(state.variables.names)
+    return state.svars.reshape(-1, len(known))[:, [known.index(name) for name in names]]
 
 
 @dataclass
@@ -153,10 +156,16 @@ class ThickDeck:
 
     def text(self, step: str, sets: dict[str, Iterable[int]] | None = None) -> str:
         """The deck, with a step and node sets."""
-        lines = ["*NODE, NSET=ALL"]
-        lines += [f"{k}, {x!r}, {y!r}, {z!r}" for k, (x, y, z) in enumerate(self.coordinates.tolist(), 1)]
-        lines += [f"*ELEMENT, TYPE={self.kind}, ELSET=SHELL"]
-        lines += [f"{k}, {', '.join(map(str, nodes))}" for k, nodes in enumerate(self.elements(), 1)]
-        for name, nodes in (sets or {}).items():
-            lines += [f"*NSET, NSET={name}", *(f"{node}," for node in nodes)]
-        return "\n".join([*lines, f"*MATERIAL, NAME=M\n{self.material.strip()}", self.section, step, ""])
+        material = f"*MATERIAL, NAME=M\n{self.material.strip()}"
+        return "\n".join([*_mesh_lines(self, sets), material, self.section, step, ""])
+
+
+def _mesh_lines(deck: ShellDeck | ThickDeck, sets: dict[str, Iterable[int]] | None) -> list[str]:
+    """Nodes, elements of the set SHELL, and node sets."""
+    lines = ["*NODE, NSET=ALL"]
+    lines += [f"{k}, {x!r}, {y!r}, {z!r}" for k, (x, y, z) in enumerate(deck.coordinates.tolist(), 1)]
+    lines += [f"*ELEMENT, TYPE={deck.kind}, ELSET=SHELL"]
+    lines += [f"{k}, {', '.join(map(str, nodes))}" for k, nodes in enumerate(deck.elements(), 1)]
+    for name, nodes in (sets or {}).items():
+        lines += [f"*NSET, NSET={name}", *(f"{node}," for node in nodes)]
+    return lines

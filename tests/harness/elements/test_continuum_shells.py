@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from shell_decks import values_of
 
-from harness.elements import Flags, Request
+from harness.elements import Request
 from harness.errors import DeckError, KernelError, Source
 from harness.model.element_types import CONTINUUM_SHELL
 from harness.model.mesh import ElementGroup
@@ -59,33 +60,14 @@ def distorted(element_type):
 
 
 @pytest.fixture
-def shell(bound, load, call):
+def shell(response):
     """Force, tangent and energies of an element by its displacements, node by node."""
 
     def shell(element_type, section, x, *, nlgeom=False, user=None):
         group = ElementGroup(element_type, np.array([1]), np.arange(len(x))[None], "", section, None, SOURCE)
-        block, matrix = bound(group, x, load(user))
-
-        def evaluate(u, du=None, *, request=Request.NORMAL):
-            u = np.asarray(u, dtype=float).ravel()
-            residual = np.zeros(u.size)
-            matrix.data[:] = 0
-            now = replace(call, flags=Flags(1, nlgeom, request=request))
-            report = block.evaluate(now, u, u if du is None else du, residual, matrix.data)
-            return -residual, matrix.toarray(), report.energy
-
-        evaluate.block = block
-        return evaluate
+        return response(group, x, nlgeom=nlgeom, user=user)
 
     return shell
-
-
-def values_of(evaluate, *names):
-    """(points, names) committed values of the section points."""
-    evaluate.block.commit()
-    state = evaluate.block.state(0)
-    known = list(state.variables.names)
-    return state.svars.reshape(-1, len(known))[:, [known.index(name) for name in names]]
 
 
 def rigid_motions(x):

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from shell_decks import ShellDeck
+from truss_decks import LENGTH, PULL, truss
 
 import harness
 from harness.errors import KernelError
@@ -250,26 +251,8 @@ def test_arguments_in_beams(run, element_type, ntens, point, options):
         np.testing.assert_allclose(values, value, rtol=SINGLE, atol=SINGLE, err_msg=expression)
 
 
-TRUSS = """*NODE, NSET=ALL
-1, 1., 0.{z}
-2, 4., 4.{z}
-*ELEMENT, TYPE={type}, ELSET=E
-1, 1, 2
-*SOLID SECTION, ELSET=E, MATERIAL=M
-2.
-*MATERIAL, NAME=M
-{material}
-*BOUNDARY
-1, 1, 3
-2, 2, 3
-"""
-PULL = "*BOUNDARY\n2, 1, 1, 0.6"
-LENGTH = 5.0
-
-
-def truss(element_type, material, *, options="", data=PULL):
-    text = TRUSS.format(type=element_type, z="" if element_type == "T2D2" else ", 0.", material=material)
-    return text + STEP.format(options=options, data=data, output="E, S, UVARM")
+def pulled(element_type, material, *, options="", data=PULL):
+    return truss(element_type, material) + STEP.format(options=options, data=data, output="E, S, UVARM")
 
 
 @pytest.mark.parametrize("element_type", ["T2D2", "T3D2"])
@@ -283,7 +266,7 @@ def test_arguments_in_trusses(run, element_type, options):
         "ICHAR(ORNAME(1:1))": 32,
     }
     expressions |= arguments(len(expressions) + 3 + 100)
-    text = truss(element_type, ELASTIC.format(nu=0.5, count=len(expressions)), options=options)
+    text = pulled(element_type, ELASTIC.format(nu=0.5, count=len(expressions)), options=options)
     found = run(text, lines(expressions))
     for k, (expression, value) in enumerate(expressions.items(), 1):
         assert found.field(f"UVARM{k}") == pytest.approx(value, rel=SINGLE), expression
@@ -310,7 +293,7 @@ def strained(element_type, material):
         text = BEAM.format(type=element_type, material=material)
         data = "*BOUNDARY\n1, 1, 6\n2, 2, 6\n2, 1, 1, 0.04"
         return text + STEP.format(options="", data=data, output="S, UVARM"), "_SP1"
-    return truss(element_type, material, data=f"*BOUNDARY\n2, 1, 1, {0.02 * LENGTH / 0.6!r}"), ""
+    return pulled(element_type, material, data=f"*BOUNDARY\n2, 1, 1, {0.02 * LENGTH / 0.6!r}"), ""
 
 
 EACH = ["S4", "S4R", "S3", "S8R", "M3D4", "M3D4R", "M3D6", "B21", "B31", "T2D2", "T3D2"]

@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from shell_decks import values_of
 
-from harness.elements import Flags, Request, build_blocks
+from harness.elements import Request, build_blocks
 from harness.elements.shell import directors, section_points, section_stiffness, shear_stiffness
 from harness.elements.threads import known_routines
 from harness.errors import DeckError, KernelError, Source
@@ -62,33 +63,14 @@ def group_of(element_type, section, nodes=None):
 
 
 @pytest.fixture
-def shell(bound, load, call):
+def shell(response):
     """Force, tangent and energies of a shell by its unknowns, node by node."""
 
     def shell(element_type, section, x, nodes=None):
         x = x[: SHELL[element_type].nodes] if nodes is None else x
-        block, matrix = bound(group_of(element_type, section, nodes), x, load(None))
-
-        def evaluate(u, du=None, *, request=Request.NORMAL):
-            u = np.asarray(u, dtype=float).ravel()
-            residual = np.zeros(u.size)
-            matrix.data[:] = 0
-            now = replace(call, flags=Flags(1, request=request))
-            report = block.evaluate(now, u, u if du is None else du, residual, matrix.data)
-            return -residual, matrix.toarray(), report.energy
-
-        evaluate.block = block
-        return evaluate
+        return response(group_of(element_type, section, nodes), x)
 
     return shell
-
-
-def values_of(evaluate, *names):
-    """(points, names) committed values of the points of the only element."""
-    evaluate.block.commit()
-    state = evaluate.block.state(0)
-    known = list(state.variables.names)
-    return state.svars.reshape(-1, len(known))[:, [known.index(name) for name in names]]
 
 
 def rigid_motions(x):

@@ -6,26 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from truss_decks import LENGTH, PULL, truss
 
 import harness
 
 HERE = Path(__file__).parents[1]
-TRUSS = """*NODE, NSET=ALL
-1, 1., 0.{z}
-2, 4., 4.{z}
-*ELEMENT, TYPE={type}, ELSET=E
-1, 1, 2
-*SOLID SECTION, ELSET=E, MATERIAL=M
-2.
-*MATERIAL, NAME=M
-{material}
-*BOUNDARY
-1, 1, 3
-2, 2, 3
-"""
 FIELD = "*OUTPUT, FIELD\n*ELEMENT OUTPUT\nE, S, SDV\n*END STEP\n"
-PULL = "*BOUNDARY\n2, 1, 1, 0.6"
-LENGTH = 5.0
 
 
 @pytest.fixture
@@ -36,10 +22,6 @@ def run(tmp_path):
         return harness.run(tmp_path / "job.inp", tmp_path / "user.f", output_dir=tmp_path)
 
     return run
-
-
-def truss(element_type, material):
-    return TRUSS.format(type=element_type, z="" if element_type == "T2D2" else ", 0.", material=material)
 
 
 UMAT = f"""      INCLUDE '{HERE / "umat.inc"}'
