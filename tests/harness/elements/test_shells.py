@@ -82,6 +82,25 @@ def rigid_motions(x):
     return np.array(found)
 
 
+@pytest.mark.parametrize("element_type", ["S3", "S4", "S8R"])
+def test_tangent_with_backstresses(shell, element_type):
+    """Unsymmetric, as backstresses with a recall term make it: against central differences, in a second increment."""
+    plastic = Plastic(np.array([[5.0, 0.0]]), SOURCE, np.array([[400.0, 100.0]]), combined=True)
+    layers = (ShellLayer(T, 5, replace(STEEL, plastic=plastic)),)
+    x, random, step = FLAT[: SHELL[element_type].nodes], np.random.default_rng(3), 1e-6
+    evaluate = shell(element_type, shell_section(layers), x)
+    start, change = 0.05 * random.normal(size=(2, 6 * len(x)))
+    evaluate(start)
+    evaluate.block.commit()
+    _, tangent, _ = evaluate(start + change, change)
+    expected = np.empty_like(tangent)
+    for k, h in enumerate(step * np.eye(len(start))):
+        up, down = (evaluate(start + change + d, change + d)[0] for d in (h, -h))
+        expected[:, k] = (up - down) / (2 * step)
+    assert abs(tangent - tangent.T).max() > 1e-3 * abs(tangent).max()
+    np.testing.assert_allclose(tangent, expected, atol=1e-6 * abs(tangent).max())
+
+
 @pytest.mark.parametrize("element_type", TYPES)
 @pytest.mark.parametrize("layers", [ONE, LAMINATE], ids=["one", "laminate"])
 def test_rigid_motions_are_all_that_cost_nothing(shell, element_type, layers):
