@@ -9,7 +9,7 @@ import numpy as np
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray
 from harness.model.properties import Holzapfel, Orientation, UserPotential
-from harness.usersub import _binding
+from harness.usersub import _materials
 
 
 def define_holzapfel(law: Holzapfel, orientation: Orientation | None, ntens: int, *, hybrid: bool) -> int:
@@ -21,15 +21,15 @@ def define_holzapfel(law: Holzapfel, orientation: Orientation | None, ntens: int
     if compliance == 0 and not hybrid:
         message = "D = 0 is an incompressible material, which needs hybrid elements, as C3D8H"
         raise DeckError(law.source, f"*{law.keyword}: {message}")
-    return _binding.define_anisotropic(ntens, _directions(law, orientation), (c10, *fibres), compliance)
+    return _materials.define_anisotropic(ntens, _directions(law, orientation), (c10, *fibres), compliance)
 
 
 def define_user_invariants(
     law: UserPotential, orientation: Orientation | None, name: str, ntens: int, statev: int, address: int
 ) -> int:
     """Define a material of UANISOHYPER_INV in the host; returns its number there. Raises DeckError."""
-    number = _binding.define_anisotropic(ntens, _directions(law, orientation), (0.0, 0.0, 0.0, 0.0), 0.0)
-    _binding.set_user_invariants(number, address, name, statev, law.constants)
+    number = _materials.define_anisotropic(ntens, _directions(law, orientation), (0.0, 0.0, 0.0, 0.0), 0.0)
+    _materials.set_user_invariants(number, address, name, statev, law.constants)
     return number
 
 

@@ -26,7 +26,7 @@ from harness.model.properties import SolidSection
 from harness.model.records import ElementState, PointVariables
 from harness.model.restart import Saved
 from harness.model.steps import VerticalStress
-from harness.usersub import Library, _binding
+from harness.usersub import Library, _binding, _points
 from harness.usersub.exchange import BlockArrays, LoadArrays, Outcome, UnknownFields
 from harness.usersub.faults import Entries, Fault, Guards
 
@@ -588,7 +588,7 @@ class ElementBlock:
         except ValueError as error:
             raise ValueError(f"elements of type {self.group.type} {error}") from None
         sigma = np.zeros((*states.shape[:2], len(places)))
-        element, point = _binding.sigini(address, self.group.type, self._arrays, sigma, self._routine.family)
+        element, point = _points.sigini(address, self.group.type, self._arrays, sigma, self._routine.family)
         if element:
             why = at_point("SIGINI", point) + self._library.stop_reason()
             raise KernelError(element, self.group.type, why)
@@ -641,7 +641,7 @@ class ElementBlock:
             It ends the analysis.
         """
         state = np.ascontiguousarray(self._initial_state())
-        element, point = _binding.sdvini(address, self._arrays, state, self._routine.family) if state.size else (0, 0)
+        element, point = _points.sdvini(address, self._arrays, state, self._routine.family) if state.size else (0, 0)
         if element:
             at = at_point("SDVINI", point) if self.group.definition is None else "SDVINI "
             raise KernelError(element, self.group.type, at + self._library.stop_reason())
@@ -694,7 +694,7 @@ class ElementBlock:
             return
         nodes = labels[self.group.nodes].astype(np.int32)
         name, family = given.orientation.name, self._routine.family
-        found, element, point = _binding.orient(address, name, self._arrays, nodes, family, given.points)
+        found, element, point = _points.orient(address, name, self._arrays, nodes, family, given.points)
         if element:
             why = at_point("ORIENT", point) + self._library.stop_reason()
             raise KernelError(element, self.group.type, why)
@@ -800,7 +800,7 @@ class ElementBlock:
         assert given is not None
         start = call.step_time - call.time_increment, call.total_time - call.time_increment, call.time_increment
         place = call.step, call.increment
-        element, point = _binding.uvarm(
+        element, point = _points.uvarm(
             given.address,
             given.names,
             given.axes[None, None] if self._routine.axes is None else self._axes_now(self._routine.axes),

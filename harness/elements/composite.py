@@ -49,7 +49,7 @@ from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import CompositeSection, Orientation, SolidLayer, materials_of
 from harness.model.records import PointVariables
-from harness.usersub import Library, _binding
+from harness.usersub import Library, _binding, _materials
 
 ALONG: Final = 1e-6
 """Length below which the projection of a unit vector on a layer has no direction."""
@@ -241,7 +241,7 @@ def _define(kind: ContinuumType, section: CompositeSection, layer: SolidLayer, l
     number = define_material(material, None, kind.tensor, section.source, library, room=room)
     name = layer.orientation.name if layer.orientation else ""
     define_fields(number, material, (np.eye(3), name), kind.tensor, library, room=room)
-    _binding.set_local(number)
+    _materials.set_local(number)
     define_expansion(number, material, None)
     return number
 

@@ -21,10 +21,10 @@ from harness.errors import DeckError
 from harness.model.arrays import FloatArray
 from harness.model.contact import Cohesion, ContactPair, SlidingPair
 from harness.model.restart import Saved
-from harness.usersub import _binding
+from harness.usersub import _points
 
 TRACTION, DAMAGE, DISSIPATED, VISCOUS, CRITERION = slice(3, 6), 6, slice(7, 10), 10, 12
-"""Places in the state of a point (`_binding.POINT_REALS`)."""
+"""Places in the state of a point (`_points.POINT_REALS`)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +64,7 @@ class Bonds:
         self._law, self._shear = (np.array(reals), np.array(integers, dtype=np.int32)), moduli[1]
         m = len(bonded)
         self.slip = self._slip_trial = np.zeros((m, components))
-        self._state = self._state_trial = np.zeros((m, _binding.POINT_REALS))
+        self._state = self._state_trial = np.zeros((m, _points.POINT_REALS))
         self._stored = np.zeros(m)
         self._areas = np.ones(m)
 
@@ -93,7 +93,7 @@ class Bonds:
         separations[:, 0] = np.where(pulled, clearance, 0.0)
         separations[:, 1:dimension] = np.einsum("mat,mt->ma", slips.axes, slips.value)
         states, tangents = self._state.copy(), np.zeros((m, 3, 3))
-        states[rows], tangents[rows], brittle = _binding.traction_separation(
+        states[rows], tangents[rows], brittle = _points.traction_separation(
             self._law, time, separations[rows], self._state[rows]
         )
         if brittle is not None:

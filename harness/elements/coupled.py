@@ -35,7 +35,7 @@ from harness.model.mesh import ElementGroup
 from harness.model.model import TEMPERATURE, Model
 from harness.model.properties import Material, SolidSection
 from harness.model.records import PointVariables
-from harness.usersub import Library, _binding
+from harness.usersub import Library, _binding, _materials
 
 
 def coupled_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
@@ -94,7 +94,7 @@ def heat_routine(model: Model, group: ElementGroup, kind: HeatType, section: Sol
     if kind.axisymmetric:
         check_radii(model, group)
     _check_thermal(model, group, material)
-    number = _binding.define_empty_material()
+    number = _materials.define_empty_material()
     define_thermal(number, material, library)
     define_user_field(number, material, directions(section.orientation), library)
     return Routine(

@@ -15,7 +15,7 @@ import numpy as np
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray
 from harness.model.properties import HIGHEST_ORDER, Hyperelastic, Potential
-from harness.usersub import Library, _binding
+from harness.usersub import Library, _materials
 
 MOST_BULK: Final = 100.0
 """Initial bulk modulus over the shear modulus, above which Abaqus wants hybrid elements (nu = 0.495)."""
@@ -49,7 +49,7 @@ def define_hyperelastic(
     ratio = shear / bulk
     moduli = 9 * shear / (3 + ratio) / long_term, (3 - 2 * ratio) / (6 + 2 * ratio)
     logarithmic = law.potential is Potential.ARRUDA_BOYCE
-    return _binding.define_hyperelastic(ntens, polynomial, ogden, volumetric, logarithmic=logarithmic, moduli=moduli)
+    return _materials.define_hyperelastic(ntens, polynomial, ogden, volumetric, logarithmic=logarithmic, moduli=moduli)
 
 
 def initial_moduli(law: Hyperelastic) -> tuple[float, float]:

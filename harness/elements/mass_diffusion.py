@@ -15,7 +15,7 @@ from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import Diffusivity, Material, Orientation, SolidSection
 from harness.model.records import PointVariables
-from harness.usersub import _binding
+from harness.usersub import _binding, _materials
 
 _ROWS, _COLUMNS = (0, 0, 1, 0, 1, 2), (0, 1, 1, 2, 2, 2)
 """Of D11, D12, D22, D13, D23, D33."""
@@ -30,8 +30,8 @@ def mass_diffusion_routine(model: Model, group: ElementGroup, kind: HeatType, se
     law = _checked(group, material, section.orientation, kind)
     axes, _ = directions(section.orientation)
     tensors = axes.T @ law.tensors @ axes
-    number = _binding.define_empty_material()
-    _binding.set_diffusion(
+    number = _materials.define_empty_material()
+    _materials.set_diffusion(
         number,
         fick=law.fick,
         absolute_zero=model.constants.absolute_zero,

@@ -33,7 +33,7 @@ from harness.model.properties import (
     Viscoelastic,
     isotropic_fault,
 )
-from harness.usersub import Library, _binding
+from harness.usersub import Library, _materials
 
 HISTORY_VALUES: Final = 7
 """Values of the history of a point of a plastic or prestressed material, before backstresses of six values each
@@ -183,7 +183,7 @@ def define_fields(
         if tensor is not Tensor.UNIAXIAL:
             rows = _definite_rows(elastic, rows, tensor)
         table = np.hstack([np.array(rows), elastic.table[:, count:]])
-        _binding.set_dependence(number, len(rows[0]), _turn(axes), table)
+        _materials.set_dependence(number, len(rows[0]), _turn(axes), table)
     define_user_field(number, material, (axes, name), library, room=room)
 
 
@@ -195,7 +195,8 @@ def define_user_field(
         address = _needed(library.usdfld, "USDFLD", material, "*USER DEFINED FIELD", material.user_field, library)
         axes, name = along
         statev = state_variables(material)
-        _binding.set_user_field(number, address, (material.name, name), statev, statev if room is None else room, axes)
+        room = statev if room is None else room
+        _materials.set_user_field(number, address, (material.name, name), statev, room, axes)
 
 
 def define_user_output(
@@ -207,7 +208,7 @@ def define_user_output(
     """
     if material.output_variables and library.uvarm is not None:
         counts = material.output_variables, width, state_variables(material), room
-        _binding.set_user_output(number, library.uvarm, (material.name, orientation), counts)
+        _materials.set_user_output(number, library.uvarm, (material.name, orientation), counts)
 
 
 def user_outputs(material: Material, library: Library) -> int:
@@ -219,7 +220,7 @@ def _definite_rows(elastic: Elastic, rows: list[tuple[float, ...]], tensor: Tens
     """Constants as the host takes them, of rows of a table that are positive definite. Raises DeckError."""
     found = [_engineering(elastic, row, tensor) for row in rows]
     for row in found:
-        _check_definite(elastic, _binding.compliance(row))
+        _check_definite(elastic, _materials.compliance(row))
     # the shear modulus is not linear in both constants
     return [(row[0], row[3]) for row in found] if elastic.type is ElasticType.ISOTROPIC else found
 
@@ -264,22 +265,22 @@ def define_material(
         constants, table = _isotropic_constants(elastic), plastic.table
     thickness = np.zeros(3)
     thickness[: len(components)] = compliance[2, components[:3]]
-    number = _binding.define_material(stiffness, reduced, thickness, axes, constants, table)
+    number = _materials.define_material(stiffness, reduced, thickness, axes, constants, table)
     if plastic is not None and plastic.user is not None:
         address = _needed(library.uhard, "UHARD", material, "*PLASTIC, HARDENING=USER", plastic.source, library)
         moduli, statev = _isotropic_constants(elastic), state_variables(material)
-        _binding.set_user_hardening(number, address, material.name, moduli, statev, plastic.user)
+        _materials.set_user_hardening(number, address, material.name, moduli, statev, plastic.user)
     if plastic is not None and len(plastic.backstresses):
-        _binding.set_backstresses(number, plastic.backstresses, plastic.growth)
+        _materials.set_backstresses(number, plastic.backstresses, plastic.growth)
     if material.viscoelastic is not None:
-        _binding.set_prony(number, *_moduli(elastic, material.viscoelastic), material.viscoelastic.terms)
+        _materials.set_prony(number, *_moduli(elastic, material.viscoelastic), material.viscoelastic.terms)
     if (creep := material.creep) is not None and creep.user:
         address = _needed(library.creep, "CREEP", material, "*CREEP, LAW=USER", creep.source, library)
         constants = _isotropic_constants(elastic)
-        _binding.set_user_creep(number, address, material.name, constants, state_variables(material))
+        _materials.set_user_creep(number, address, material.name, constants, state_variables(material))
     elif creep is not None:
         law = creep.factor, creep.stress_power, creep.time_power
-        _binding.set_creep(number, _isotropic_constants(elastic), law, by_time=creep.by_time)
+        _materials.set_creep(number, _isotropic_constants(elastic), law, by_time=creep.by_time)
     return number
 
 
@@ -343,7 +344,7 @@ def _define_hyperelastic(
             address = _needed(known, law.routine, material, f"*{law.keyword}, USER", law.source, library)
             statev = state_variables(material)
             if law.directions is None:
-                return _binding.define_user_potential(address, material.name, ntens, statev, law.constants)
+                return _materials.define_user_potential(address, material.name, ntens, statev, law.constants)
             return define_user_invariants(law, orientation, material.name, ntens, statev, address)
     raise AssertionError
 
@@ -352,16 +353,16 @@ def _define_networks(number: int, material: Material, library: Library) -> None:
     if not material.networks:
         return
     laws = [(network.ratio, network.law, network.constants) for network in material.networks]
-    _binding.set_networks(number, laws, state_variables(material))
+    _materials.set_networks(number, laws, state_variables(material))
     for place, network in enumerate(material.networks, 1):
         if network.user is not None:
             what = "*VISCOELASTIC, NONLINEAR, LAW=USER"
             creep = _needed(library.ucreepnetwork, "UCREEPNETWORK", material, what, network.source, library)
-            _binding.set_network_routine(number, place, creep, material.name, network.user, shifts=False)
+            _materials.set_network_routine(number, place, creep, material.name, network.user, shifts=False)
         if network.shift is not None:
             what = "*TRS, DEFINITION=USER"
             shift = _needed(library.utrsnetwork, "UTRSNETWORK", material, what, network.source, library)
-            _binding.set_network_routine(number, place, shift, material.name, network.shift, shifts=True)
+            _materials.set_network_routine(number, place, shift, material.name, network.shift, shifts=True)
 
 
 def is_incompressible(material: Material) -> bool:
@@ -389,10 +390,10 @@ def _define_incompressible(elastic: Elastic, tensor: Tensor) -> int:
     shear = young / 3
     stiffness = np.diag([2 * shear] * 3 + [shear] * 3)
     stiffness[:3, :3] -= 2 * shear / 3
-    compliance = _binding.compliance([*(young,) * 3, *(INCOMPRESSIBLE,) * 3, *(shear,) * 3])
+    compliance = _materials.compliance([*(young,) * 3, *(INCOMPRESSIBLE,) * 3, *(shear,) * 3])
     chosen = np.ix_(_COMPONENTS[tensor], _COMPONENTS[tensor])
     nothing = np.zeros(3), np.eye(3), (0.0, 0.0), np.zeros((1, 2))
-    return _binding.define_material(stiffness[chosen], compliance[chosen], *nothing)
+    return _materials.define_material(stiffness[chosen], compliance[chosen], *nothing)
 
 
 def define_truss_material(material: Material, library: Library) -> int:
@@ -405,7 +406,7 @@ def define_truss_material(material: Material, library: Library) -> int:
         young, poisson = _isotropic_constants(elastic)
         table = np.zeros((1, 2)) if material.plastic is None else material.plastic.table
         one = np.eye(1)
-        number = _binding.define_material(one * young, one / young, np.zeros(3), np.eye(3), (young, poisson), table)
+        number = _materials.define_material(one * young, one / young, np.zeros(3), np.eye(3), (young, poisson), table)
     define_fields(number, material, directions(None), Tensor.UNIAXIAL, library)
     return number
 
@@ -413,16 +414,16 @@ def define_truss_material(material: Material, library: Library) -> int:
 def define_thermal(number: int, material: Material, library: Library) -> None:
     """Tell the host how a material conducts, stores and generates heat. Raises DeckError."""
     tables = material.conductivity, material.specific_heat, material.latent_heat
-    _binding.set_thermal(number, material.density, *tables)
+    _materials.set_thermal(number, material.density, *tables)
     statev = state_variables(material)
     if material.user_thermal is not None:
         source = material.user_thermal.source
         address = _needed(library.umatht, "UMATHT", material, "*USER MATERIAL, TYPE=THERMAL", source, library)
-        _binding.set_umatht(number, address, material.name, statev, material.user_thermal.constants)
+        _materials.set_umatht(number, address, material.name, statev, material.user_thermal.constants)
     if material.heat_generation is not None:
         source = material.heat_generation
         address = _needed(library.hetval, "HETVAL", material, "*HEAT GENERATION", source, library)
-        _binding.set_hetval(number, address, material.name, statev)
+        _materials.set_hetval(number, address, material.name, statev)
 
 
 def shear_modulus(elastic: Elastic, tensor: Tensor) -> float:
@@ -459,7 +460,7 @@ def _define_user_material(
     formulation = int(given.hybrid) if hybrid else 0
     statev = state_variables(material)
     room = statev if room is None else room
-    return _binding.define_user_material(
+    return _materials.define_user_material(
         address, material.name, int(tensor), given.constants, formulation, statev, room
     )
 
@@ -496,7 +497,7 @@ def _compliance(elastic: Elastic, tensor: Tensor) -> FloatArray:
         stiffness = _orthotropic(c) if elastic.type is ElasticType.ORTHOTROPIC else _anisotropic(c)
         _check_definite(elastic, stiffness)
         return _inverse(stiffness, elastic)
-    compliance = _binding.compliance(_engineering(elastic, c, tensor))
+    compliance = _materials.compliance(_engineering(elastic, c, tensor))
     _check_definite(elastic, compliance)
     return compliance
 
@@ -569,7 +570,7 @@ def define_expansion(number: int, material: Material, orientation: Orientation |
     table = material.expansion.table.copy()
     # strains go with the stresses that do work on them
     table[:, 1:] = table[:, 1:] @ _turn(directions(orientation)[0])
-    _binding.set_expansion(number, table, material.expansion.zero)
+    _materials.set_expansion(number, table, material.expansion.zero)
 
 
 def _rotated(compliance: FloatArray, axes: FloatArray) -> FloatArray:

@@ -29,7 +29,7 @@ from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import MembraneSection
 from harness.model.records import PointVariables
-from harness.usersub import Library, _binding
+from harness.usersub import Library, _binding, _materials
 
 NAMES: Final = ("E11", "E22", "E12", "S11", "S22", "S12")
 """Variables of a point, in its directions."""
@@ -51,7 +51,7 @@ def membrane_routine(
     define_user_output(number, material, name, library, room=statev, width=outputs)
     prestressed = is_prestressed(model, group, material)
     if prestressed:
-        _binding.set_prestressed(number)
+        _materials.set_prestressed(number)
     of_points = kind.points * len(NAMES)
     forces = 6 * kind.nodes if dynamic else 0
     axes = PointAxes(of_points + forces, kind.points, False, orientation) if orientation else None

@@ -41,7 +41,7 @@ from harness.model.properties import (
     SolidSection,
 )
 from harness.model.records import PointVariables
-from harness.usersub import Library, _binding
+from harness.usersub import Library, _binding, _materials
 
 HOURGLASS_FRACTION: Final = 0.005
 """Hourglass stiffness parameter over the shear modulus (Abaqus Analysis User's Guide, Section controls)."""
@@ -93,10 +93,10 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     number = define_material(material, orientation, kind.tensor, section.source, library, hybrid=kind.pressures > 0)
     prestressed = is_prestressed(model, group, material)
     if prestressed:
-        _binding.set_prestressed(number)
+        _materials.set_prestressed(number)
     define_fields(number, material, directions(orientation), kind.tensor, library)
     if local is not None:
-        _binding.set_local(number)
+        _materials.set_local(number)
     define_expansion(number, material, orientation)
     enhanced = _enhanced_moduli(kind, section)
     pressures = pressure_unknowns(kind, material)

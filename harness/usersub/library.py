@@ -18,7 +18,7 @@ from harness.errors import CompileError, UelError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.records import PointVariables
 from harness.model.user_values import AskedAmplitude, GivenAmplitude, UserValues
-from harness.usersub import _binding, layout
+from harness.usersub import _binding, _points, layout
 from harness.usersub.built import path_of_kernels
 from harness.usersub.cache import Built
 from harness.usersub.compiler import build, digest_of_sources
@@ -178,7 +178,7 @@ class Library:
         address = routines[asked.routine]
         assert address is not None
         made = np.array(asked.given)
-        failed = _binding.user_values(address, asked, made)
+        failed = _points.user_values(address, asked, made)
         if failed:
             first, second = asked.places[failed - 1, :2].tolist()
             place = f"element {first}" if asked.routine == "DLOAD" else f"node {first}"
@@ -206,7 +206,7 @@ class Library:
             give a finite number.
         """
         assert self.uamp is not None
-        value, state, define, left = _binding.user_amplitude(self.uamp, asked)
+        value, state, define, left = _points.user_amplitude(self.uamp, asked)
         place = f"amplitude {asked.name}, step {asked.step}, increment {asked.increment}"
         if left:
             raise UelError(f"{self.name}: UAMP {self.stop_reason()} ({place})")

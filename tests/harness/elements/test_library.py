@@ -7,10 +7,10 @@ import sys
 
 PROGRAM = """
 import numpy as np
-from harness.usersub import _binding
+from harness.usersub import _materials
 
 for _ in range(20000):
-    number = _binding.define_material(np.eye(3), np.eye(3), np.zeros(3), np.eye(3), (1.0, 0.0), np.zeros((1, 2)))
+    number = _materials.define_material(np.eye(3), np.eye(3), np.zeros(3), np.eye(3), (1.0, 0.0), np.zeros((1, 2)))
 print(number)
 """
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from harness.usersub import _binding
+from harness.usersub._extension import host
 
 ROOT = Path(__file__).parents[3]
 
@@ -20,10 +20,10 @@ def test_types_of_the_host_are_those_of_its_declarations():
 
 def test_compiled_host_has_what_the_types_say():
     declared = (ROOT / "harness" / "usersub" / "_host.pyi").read_text(encoding="utf-8").split("def ")[1:]
-    compiled = {name for name in dir(_binding._host) if name.startswith("host_")}
+    compiled = {name for name in dir(host) if name.startswith("host_")}
     assert {text.partition("(")[0] for text in declared} == compiled
 
 
 def test_an_argument_that_is_missing_is_an_error():
     with pytest.raises(TypeError, match=r"missing required argument 'address'"):
-        _binding._host.host_evaluate()  # type: ignore[call-arg]
+        host.host_evaluate()  # type: ignore[call-arg]
