@@ -1,18 +1,23 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pytest plugin: `pytest --uel my_uel.for --deck job.inp` makes each check of each element type a test."""
+"""Pytest plugin: `pytest --uel my_uel.for --deck job.inp` makes each check of each element type a test.
+
+Every pytest in the environment loads it, so the checks are imported where a deck is.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
-from harness.check.apart import CALL_LIMIT, examine_apart
-from harness.check.examine import TypeReport
 from harness.check.finding import Finding, Verdict, failed
 from harness.errors import UelError
+
+if TYPE_CHECKING:
+    from harness.check.examine import TypeReport
 
 
 class CheckFailedError(Exception):
@@ -26,7 +31,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--uel", action="append", default=[], metavar="FILE", help="user routines of --deck")
     group.addoption("--uel-increments", type=int, default=3, metavar="K", help="increments of --deck to run (3)")
     limit = "time limit of one call of a user routine (60)"
-    group.addoption("--uel-call-limit", type=float, default=CALL_LIMIT, metavar="SECONDS", help=limit)
+    group.addoption("--uel-call-limit", type=float, metavar="SECONDS", help=limit)
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -52,10 +57,13 @@ class UelDeck(pytest.File):
 
     def collect(self) -> Iterator[pytest.Item]:
         """Run the checks: only the deck tells which element types there are."""
+        from harness.check.apart import CALL_LIMIT, examine_apart  # noqa: PLC0415 (takes a second)
+
         config = self.config
         try:
             users = [Path(user) for user in config.getoption("--uel")]
-            limit = config.getoption("--uel-call-limit")
+            given = config.getoption("--uel-call-limit")
+            limit = CALL_LIMIT if given is None else given
             outcome = examine_apart(self.path, users, increments=config.getoption("--uel-increments"), call_limit=limit)
         except UelError as error:
             raise self.CollectError(str(error)) from None

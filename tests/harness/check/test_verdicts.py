@@ -247,11 +247,11 @@ def test_plugin_tells_where_nothing_was_looked_at(springs, tmp_path):
     deck, user = springs()
     user.write_text(NEEDS_A_NEIGHBOUR)
     (tmp_path / "conftest.py").write_text(
-        "from harness.check import examine, plugin\n"
+        "from harness.check import apart, examine\n"
         "def look(deck, user, **options):\n"
         "    options.pop('call_limit', None)\n"
         "    return examine.examine(deck, user, skip=['order'], **options)\n"
-        "plugin.examine_apart = look\n"
+        "apart.examine_apart = look\n"
     )
     command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "--rootdir", str(tmp_path)]
     command += ["--deck", str(deck), "--uel", str(user)]
