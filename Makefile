@@ -17,6 +17,8 @@ PROCESSOR ?= this
 CORES ?= all
 # a number: tests come in a random order, and hypothesis takes other examples; with WORKERS=1 the same run each time
 SEED ?=
+# one test in so many, which ones by SEED
+SHARE ?= 1
 
 BIN := $(VENV)/bin
 INSTALLED := $(VENV)/.installed
@@ -31,7 +33,7 @@ SITE = $(shell find $(CURDIR)/$(COPY) -type d -name harness -prune -exec dirname
 PYTEST = $(RUN) PYTHONPATH=$(SITE) MESONPY_EDITABLE_SKIP=$(CURDIR)/$(BUILD) \
 	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 MKL_NUM_THREADS=1 \
 	$(BIN)/python tests/programs/machine.py --processor $(PROCESSOR) --cores $(CORES) $(BIN)/pytest \
-	-n $(WORKERS) --maxprocesses 16 --dist worksteal \
+	-n $(WORKERS) --maxprocesses 16 --dist worksteal --share $(SHARE) \
 	$(if $(SEED),-p randomly --randomly-seed=$(SEED) --hypothesis-profile=other --hypothesis-seed=$(SEED))
 
 .DEFAULT_GOAL := help

@@ -8,7 +8,8 @@ Examples of hypothesis are the same in every run, whatever the machine; others w
 import os
 import signal
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
+from zlib import crc32
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -23,6 +24,11 @@ PATIENT = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
 settings.register_profile("same", derandomize=True, **PATIENT)
 settings.register_profile("other", print_blob=True, **PATIENT)
 settings.load_profile("same")
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """make test SHARE=n."""
+    parser.addoption("--share", type=int, default=1, metavar="N", help="one test in N, which ones by the seed")
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -42,8 +48,11 @@ def current_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 
 
 @pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items: Iterable[pytest.Item]) -> None:
-    """Mark as long what sample(n) leaves to make test-all; before the tests are selected, and put in another order."""
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Mark as long what sample(n) leaves to make test-all; before the tests are selected, and put in another order.
+
+    Of them those stay whose name and seed fall to the share.
+    """
     cases = Counter[str]()
     for item in items:
         sample = item.get_closest_marker("sample")
@@ -52,3 +61,10 @@ def pytest_collection_modifyitems(items: Iterable[pytest.Item]) -> None:
             if cases[function] % sample.args[0]:
                 item.add_marker(pytest.mark.long)
             cases[function] += 1
+    share, seed = config.getoption("share"), config.getoption("randomly_seed", None)
+    kept: list[pytest.Item] = []
+    left: list[pytest.Item] = []
+    for item in items:
+        (left if crc32(f"{seed} {item.nodeid}".encode()) % share else kept).append(item)
+    config.hook.pytest_deselected(items=left)
+    items[:] = kept

@@ -47,6 +47,21 @@ def test_one_core_for_each_worker(tmp_path) -> None:
     assert len(set(seen.values())) == min(len(seen), len(os.sched_getaffinity(0)))
 
 
+def test_a_share_of_the_tests(tmp_path) -> None:
+    """Another seed takes other ones; that one takes the same is what workers of pytest-xdist compare."""
+    (tmp_path / "test_seen.py").write_text("".join(f"def test_{k}():\n    pass\n" for k in range(40)))
+    (tmp_path / "conftest.py").write_text((HERE / "conftest.py").read_text())
+    taken = []
+    for seed in (1, 2):
+        words = f"-q --collect-only --share 2 -p randomly --randomly-seed {seed} -c {os.devnull} --rootdir . ."
+        command = [sys.executable, "-m", "pytest", *words.split()]
+        printed = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False).stdout
+        taken.append(set(re.findall(r"::(test_\d+)", printed)))
+        assert f"{len(taken[-1])}/40 tests collected ({40 - len(taken[-1])} deselected)" in printed
+    assert 0 < len(taken[0]) < 40
+    assert taken[0] != taken[1]
+
+
 def test_this_machine_is_left_as_it_is() -> None:
     command = [sys.executable, "-c", SEEN]
     assert on(*command).stdout == subprocess.run(command, capture_output=True, text=True, check=True).stdout
