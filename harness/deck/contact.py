@@ -28,7 +28,7 @@ from harness.model.contact import ContactPair, ContactProperty, Pieces, RigidPro
 from harness.model.mesh import ElementGroup
 from harness.model.steps import Step
 
-PROCEDURES = ("STATIC", "VISCO")
+PROCEDURES = ("STATIC", "VISCO", "COUPLED TEMPERATURE-DISPLACEMENT")
 
 SMOOTH = 0.2
 """Default SMOOTH: fraction of faces of a main surface, in the plane, that are rounded (Abaqus Keywords Guide)."""
@@ -293,6 +293,10 @@ def check_contact(pairs: Sequence[ContactPair | SlidingPair], steps: Sequence[St
         for what, there in obstacles.items():
             if there:
                 problems.add(step.source, f"{place} is not supported with {what}")
+        for heat in dict.fromkeys(pair.property.heat for pair in pairs):
+            if heat is not None and given.temperatures:
+                message = f"heat that crosses a contact is not supported (*{given.keyword}, {step.source})"
+                problems.add(heat, f"{message}; without this line none crosses it")
 
 
 KEYWORDS = (

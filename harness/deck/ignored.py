@@ -34,10 +34,6 @@ _IGNORED = {
     "SECTION PRINT": "Section forces in .dat.",
     "FAIL STRESS": "Limits of the failure measures CFAILURE, which are output.",
     "FAIL STRAIN": "Limits of the failure measures CFAILURE, which are output.",
-    **dict.fromkeys(
-        ("GAP CONDUCTANCE", "GAP HEAT GENERATION"),
-        "Contact property for heat, which contact pairs here do not conduct.",
-    ),
 }
 
 KEYWORDS = tuple(Keyword(name, doc, Where.ANY, support=Support.IGNORED) for name, doc in _IGNORED.items())

@@ -56,6 +56,8 @@ class Interactions:
                         found = _read_friction(found, block)
                     case "COHESIVE BEHAVIOR":
                         found = replace(found, cohesion=_read_cohesion(block))
+                    case _ if block.name in _HEAT:
+                        found = replace(found, heat=found.heat or block.source)
                     case _ if block.name in DAMAGE:
                         found = replace(found, cohesion=_extend_cohesion(found.cohesion, block))
                     case _:
@@ -164,7 +166,9 @@ def _extend_cohesion(found: Cohesion | None, block: Block) -> Cohesion:
 
 DAMAGE = tuple(keyword.name for keyword in DAMAGE_OPTIONS)
 
-_OPTIONS = ("SURFACE BEHAVIOR", "FRICTION", "COHESIVE BEHAVIOR", "CONTACT DAMPING", *DAMAGE)
+_HEAT = ("GAP CONDUCTANCE", "GAP HEAT GENERATION")
+
+_OPTIONS = ("SURFACE BEHAVIOR", "FRICTION", "COHESIVE BEHAVIOR", "CONTACT DAMPING", *_HEAT, *DAMAGE)
 
 
 def _flags(*names: str) -> tuple[Option, ...]:
@@ -244,6 +248,20 @@ KEYWORDS = (
             *_values("DEPENDENCIES"),
         ),
         "stiffness, traction per separation, of the normal, first shear and second shear direction",
+    ),
+    Keyword(
+        "GAP CONDUCTANCE",
+        "Heat that crosses a contact: refused in steps with temperatures, without effect in others.",
+        Where.MODEL,
+        ignored("DEPENDENCIES", "PRESSURE", "TABULAR", "USER"),
+        "not read",
+    ),
+    Keyword(
+        "GAP HEAT GENERATION",
+        "Heat of friction: refused in steps with temperatures, without effect in others.",
+        Where.MODEL,
+        ignored("USER"),
+        "not read",
     ),
     Keyword(
         "CONTACT DAMPING",

@@ -54,6 +54,7 @@ class ContactProperty:
     slip_tolerance  largest elastic slip over the length of a face
     elastic_slip    largest elastic slip itself, which replaces the tolerance; 0: not given
     cohesion        of points that are in contact at the start
+    heat            the first keyword of heat that crosses the contact, which is not conducted here
     """
 
     name: str
@@ -65,6 +66,7 @@ class ContactProperty:
     slip_tolerance: float = SLIP_TOLERANCE
     elastic_slip: float = 0.0
     cohesion: Cohesion | None = None
+    heat: Source | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -316,6 +316,15 @@ def test_mistakes(refuse, mistake):
     refuse(DECK, mistake)
 
 
+def test_heat_that_crosses_a_contact(read):
+    """It counts in steps with temperatures alone."""
+    deck = DECK.replace("*FRICTION\n0.3", "*GAP CONDUCTANCE\n1., 0.\n*GAP HEAT GENERATION\n1.")
+    read(deck)
+    message = r"deck\.inp:33: heat that crosses .* \(\*COUPLED TEMP.*inp:39\); without this line none crosses it"
+    with pytest.raises(DeckError, match=message):
+        read(deck.replace("*STATIC", "*COUPLED TEMPERATURE-DISPLACEMENT"))
+
+
 def test_misplaced_and_repeated_properties(read):
     with pytest.raises(DeckError, match=r"deck\.inp:37: \*FRICTION: does not follow \*SURFACE INTERACTION"):
         read(DECK.replace(PAIR, f"{PAIR}*FRICTION\n0.1\n"))

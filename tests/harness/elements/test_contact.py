@@ -60,6 +60,34 @@ def test_patch_test(run, element_type, pair, lower):
     assert [(row.severe_discontinuity_iterations, row.iterations) for row in result.status] == [(0, 1)]
 
 
+@PAIRS
+@pytest.mark.parametrize("element_type", ["CPE4T", "CPE4RT", "C3D8T"])
+def test_warm_bodies_close_a_gap(run, pair, element_type):
+    """No heat crosses. Between walls strains are (stress (1 + nu) (1 - 2 nu) / E + (1 + nu) alpha T) / (1 - nu)."""
+    gap, alpha, warm, cold, nu = 0.01, 1e-3, 20.0, 10.0, 0.3
+    lower, upper = plane(gap, element_type=element_type)
+    held, side = HELD + "\nLOWER_RIGHT, 1\nUPPER_RIGHT, 1", ""
+    if element_type == "C3D8T":
+        lower = Box("LOWER", element_type, (0, 0, 0), (2, THICKNESS, 1), (2, 1, 1))
+        upper = Box("UPPER", element_type, (0, 0, 1 + gap), (2, THICKNESS, 2 + gap), (2, 1, 1), first=1001)
+        held = held.replace("BOTTOM, 2", "BOTTOM, 3") + "".join(f"\n{name}_FACE, 2" for name in ("LOWER", "UPPER"))
+        side = "".join(
+            f"*NSET, NSET={box.name}_FACE\n" + "".join(f"{k},\n" for k in np.ravel(box.numbers))
+            for box in (lower, upper)
+        )
+    top = 3 if side else 2
+    law = f"*ELASTIC\n{YOUNG}, {nu}\n*EXPANSION\n{alpha}\n*CONDUCTIVITY\n1."
+    ends = f"*BOUNDARY\nUPPER_TOP, {top}\nUPPER_TOP, 11, 11, {warm}\nLOWER_BOTTOM, 11, 11, {cold}"
+    warming = step("1., 1.", ends).replace("*STATIC", "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE")
+    warming = warming.replace("*OUTPUT, FIELD", "*OUTPUT, FIELD\n*NODE OUTPUT\nU, NT")
+    result = run(two_boxes(lower, upper, [held, warming], pair=pair, model=side.rstrip(), law=law))
+    stress = (gap * (1 - nu) - (1 + nu) * alpha * (warm + cold)) * YOUNG / (2 * (1 + nu) * (1 - 2 * nu))
+    assert total(result, f"RF{top}", "UPPER_TOP")[-1] == pytest.approx(2 * THICKNESS * stress, rel=1e-9)
+    temperatures = result.field("NT11")
+    of_lower = np.arange(len(temperatures)) < lower.numbers.size
+    np.testing.assert_allclose(temperatures, np.where(of_lower, cold, warm), rtol=1e-9)
+
+
 @pytest.mark.parametrize(
     ("pair", "along", "error"),
     [
