@@ -54,13 +54,15 @@ PLACE = STOPPED.format(": {}")
         pytest.param(
             3, PLACE.format(r"in UEL, crashes.f line \d+: division of an integer by zero"), marks=pytest.mark.long
         ),
-        (4, PLACE.format(ENDLESS)),
+        # 4 and 6 are also runs of a batch, in batch/test_command.py
+        pytest.param(4, PLACE.format(ENDLESS), marks=pytest.mark.long),
         (5, r"uel: the run was ended by SIGABRT: abort, usually .*, " + WHERE + ": abort: memory is damaged"),
-        (
+        pytest.param(
             6,
             r"uel: the run was ended by the Fortran library, .*; it looks up files from .*, "
             + WHERE
             + ": the process ends",
+            marks=pytest.mark.long,
         ),
         pytest.param(7, PLACE.format("STOP 'enough'"), marks=pytest.mark.long),
         # inside a WRITE, whose unit stays locked
@@ -73,7 +75,11 @@ PLACE = STOPPED.format(": {}")
         pytest.param(12, PLACE.format(ENDLESS), marks=pytest.mark.long),
         # what it has printed before
         (13, STOPPED.format(r" \(XIT\); last printed: second / stiffness is negative / see page 7")),
-        (14, STOPPED.format(r" \(XIT\); last printed: no convergence of the local iteration")),
+        pytest.param(
+            14,
+            STOPPED.format(r" \(XIT\); last printed: no convergence of the local iteration"),
+            marks=pytest.mark.long,
+        ),
     ],
 )
 def test_the_end_is_reported(tmp_path: Path, way: int, message: str) -> None:

@@ -42,7 +42,7 @@ def test_finding_is_shown_without_a_traceback(patch):
 @pytest.mark.parametrize(
     "words, code, message",
     [
-        (["--uel", "none.for", "--deck", "patch.inp"], 2, "none.for: no such file"),
+        pytest.param(["--uel", "none.for", "--deck", "patch.inp"], 2, "none.for: no such file", marks=pytest.mark.long),
         (["--uel", "none.for"], 4, "--uel needs a deck with the elements: --deck job.inp"),
     ],
 )

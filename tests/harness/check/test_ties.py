@@ -25,6 +25,7 @@ def test_first_of_a_matrix_and_of_zeros():
     assert first_largest(np.zeros(3)) == 0
 
 
+@pytest.mark.long
 def test_message_does_not_depend_on_the_last_bits_of_amatrx(patch, tmp_path):
     """A sign that is wrong makes all states and all largest entries equally bad; other bits name the same ones."""
     text = (tmp_path.__class__(__file__).parent / "quad.f").read_text()
