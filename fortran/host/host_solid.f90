@@ -19,7 +19,8 @@
 !>
 !> Generalised plane strain (host_planes): the planes come with the call, three unknowns of theirs behind those of the nodes.
 !>
-!> Hyperelastic materials take their stress from the deformation gradient. Their forces are derivatives of the strain energy, the
+!> Hyperelastic materials take their stress from the deformation gradient, divided by the stretch of *EXPANSION, the same in all
+!> directions (Analysis User's Guide, Hyperelastic behavior of rubberlike materials). Forces are derivatives of the energy, the
 !> tangent those of the forces (host_mean_volume); where the volume strain is the mean, the points share the change of the volume.
 !>
 !> The matrix of a stress (host_context) is what the tangent in large displacements has of it, also where displacements are small.
@@ -345,7 +346,7 @@ contains
     real(dp) :: first_tangent(strains, strains)    !< of all points
     real(dp) :: now(rule%dim, rule%nodes), g_start(rule%nodes, direct), volume_start, deformation(3, 3, 2, rule%points)
     real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(6, 2), weight, elastic, work, flowed
-    real(dp) :: now_axes(3, 3), middle(3, 3), rate(6), by_temperature(strains + 1)
+    real(dp) :: now_axes(3, 3), middle(3, 3), rate(6), by_temperature(strains + 1), expanded
     real(dp), allocatable :: by_corners(:)
     real(dp) :: weights(rule%points)
     logical :: averaged, begins, of_stress, smoothed
@@ -464,9 +465,11 @@ contains
       end if
       weight = volume(p)*merge(thickness, 1.0_dp, dim == 2)
       if (present(pressure)) then
-        current%mean_stress = mean_stress(pressure, p)
+        expanded = 1
+        if (allocated(here%hyperelastic)) expanded = (1 + thermal(1, 2))**3
+        current%mean_stress = mean_stress(pressure, p)*expanded
         call compare_volumes(pressure, p, direct, strains, here, finite, weight, &
-                             volume_before(p)*merge(thickness, 1.0_dp, dim == 2), strain, b(:, :, p))
+                             volume_before(p)*merge(thickness, 1.0_dp, dim == 2), expanded, strain, b(:, :, p))
       end if
       if (begins) then
         call begin_point(here, int(p, i4), weight, svars(:, p), stress, elastic)
@@ -605,18 +608,19 @@ contains
   end function of_planes
 
   !> Adds a point to the residual of the pressure: the change of its volume now, by the displacements less that of the material.
-  subroutine compare_volumes(pressure, point, direct, m, material, finite, now, before, strain, b)
+  subroutine compare_volumes(pressure, point, direct, m, material, finite, now, before, expanded, strain, b)
     type(pressure_t), intent(inout) :: pressure
     integer, intent(in) :: point, direct, m
     type(material_t), intent(in) :: material
     logical, intent(in) :: finite
-    real(dp), intent(in) :: now, before, strain(m), b(:, :)   !< volumes, strain if it is small
+    !> Volumes, the change of that of a hyperelastic material by free expansion, and the strain if it is small.
+    real(dp), intent(in) :: now, before, expanded, strain(m), b(:, :)
     real(dp) :: of_material(2), difference
     of_material = [1, 0]
     if (allocated(material%hyperelastic)) of_material = volume_of(material%hyperelastic, current%mean_stress)
     difference = before*sum(strain(:direct))
-    if (finite) difference = now - before*of_material(1)
-    call add_compatibility(pressure, point, difference, now*sum(b(:, :direct), 2), before*of_material(2))
+    if (finite) difference = now - before*expanded*of_material(1)
+    call add_compatibility(pressure, point, difference, now*sum(b(:, :direct), 2), before*expanded**2*of_material(2))
   end subroutine compare_volumes
 
   !> Young's modulus and Poisson's ratio of an isotropic material for the enhanced hourglass control, the modulus in plane
@@ -724,6 +728,7 @@ contains
     real(dp) :: total(material%ntens), t(material%ntens), t_rate(material%ntens), tangent(material%ntens, material%ntens)
     real(dp) :: e_old(values_of_point(dim)/2), t_old(values_of_point(dim)/2), e_new(values_of_point(dim)/2), &
                 t_new(values_of_point(dim)/2), free(values_of_point(dim)/2)
+    real(dp) :: stretch(2)            ! of the free expansion of a hyperelastic material, at the start and the end
     logical :: valid
     n = values_of_point(dim)/2
     of_state = components(m, 2*dim)
@@ -740,9 +745,22 @@ contains
       if (finite) total(of_material(k)) = e_old(of_state(k)) + strain(k)
     end do
     direct = merge(2, 3, material%ntens == 3)
+    stretch = 1
+    if (allocated(material%hyperelastic)) then
+      stretch = 1 + thermal(1, :)
+      do k = 1, 2
+        current%deformation(:, :, k) = current%deformation(:, :, k)/stretch(k)
+      end do
+    end if
     if (allocated(material%expansion)) total = total - thermal(components(material%ntens, 6), 2)
     call stress_update(material, point, total, t, tangent, valid)
     if (allocated(material%expansion)) total = total + thermal(components(material%ntens, 6), 2)
+    if (allocated(material%hyperelastic)) then
+      ! its energy is that of the volume before the expansion
+      t = t/stretch(2)**3
+      tangent = tangent/stretch(2)**3
+      current%energy = current%energy/stretch(2)**3
+    end if
     e_new = 0
     t_new = 0
     do k = 1, m
@@ -755,7 +773,7 @@ contains
     end do
     by_temperature = 0
     if (allocated(material%expansion)) then
-      t_rate = matmul(tangent, rate(components(material%ntens, 6)))
+      t_rate = matmul(tangent, rate(components(material%ntens, 6)))/stretch(2)
       by_temperature = -[t_rate(of_material), sum(t_rate(:direct))/3]
     end if
     of_point = [sum(t(:direct))/3, elastic_volume(material, t), sum(tangent(:direct, of_material), 1)/3]

@@ -38,7 +38,7 @@ KEYWORDS = (
     Keyword(
         "EXPANSION",
         "Thermal expansion of continuum elements and beams from the initial temperature on (*INITIAL CONDITIONS): by "
-        "*TEMPERATURE, or by their own temperatures. Not beside *HYPERELASTIC.",
+        "*TEMPERATURE, or by their own temperatures. Beside *HYPERELASTIC of TYPE=ISO.",
         Where.MODEL,
         (
             one_of("TYPE", "symmetry, in the directions of *ORIENTATION", tuple(COUNTS), default="ISO"),

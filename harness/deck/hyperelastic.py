@@ -110,10 +110,11 @@ def _coefficients(potential: Potential, order: int) -> int:
 KEYWORDS = (
     Keyword(
         "HYPERELASTIC",
-        "Isotropic hyperelasticity by coefficients or UHYPER, of plane strain, axisymmetric and solid elements without "
-        "incompatible modes or temperatures in steps with NLGEOM. Incompressible materials, with D = 0 or USER without "
-        "TYPE=COMPRESSIBLE, need hybrid elements; a term with a later D of zero is left out. One-point elements "
-        "have *SECTION CONTROLS, HOURGLASS=ENHANCED by default; with USER they need *HOURGLASS STIFFNESS.",
+        "Isotropic hyperelasticity by coefficients or UHYPER, of plane strain, axisymmetric and solid elements "
+        "without incompatible modes in steps with NLGEOM, also with temperatures, but for hybrid ones. "
+        "Incompressible materials, with D = 0 or USER without TYPE=COMPRESSIBLE, need hybrid elements; a term with"
+        " a later D of zero is left out. One-point elements have *SECTION CONTROLS, HOURGLASS=ENHANCED by default;"
+        " with USER they need *HOURGLASS STIFFNESS.",
         Where.MODEL,
         (
             Option("ARRUDA-BOYCE", doc="strain energy potential of Arruda and Boyce"),

@@ -278,8 +278,11 @@ def _check_hyperelastic(block: Block, material: Material) -> None:
         if other is not None:
             message = f"material {material.name} has *{law.keyword} and *{keyword}, at {other.source}"
             raise block.error(f"{message}; expected only one of them")
-    if material.expansion:
-        raise block.error(f"material {material.name} has *{law.keyword} and *EXPANSION, which is not supported")
+    if material.expansion and not material.expansion.isotropic:
+        message = f"material {material.name} has *{law.keyword} and *EXPANSION, at {material.expansion.source}"
+        raise block.error(f"{message}; expected TYPE=ISO there")
+    if material.expansion and material.networks:
+        raise block.error(f"material {material.name} has *VISCOELASTIC and *EXPANSION, which is not supported")
 
 
 def _thickness(rows: list[Row], index: int, what: str) -> float:

@@ -15,7 +15,6 @@ from harness.elements.materials import (
     define_thermal,
     define_user_field,
     directions,
-    refuse_hyperelastic,
     state_variables,
 )
 from harness.elements.routine import Routine
@@ -45,7 +44,6 @@ def coupled_routine(model: Model, group: ElementGroup, section: SolidSection, li
         # its points are others than those of the stresses, where USDFLD is called
         message = f"with UMATHT is not supported for elements of type {group.type}"
         raise DeckError(material.user_field, f"*USER DEFINED FIELD {message}")
-    refuse_hyperelastic(material, f"elements of type {group.type}")
     for step in model.steps:
         if not (step.procedure.temperatures and step.procedure.displacements):
             message = f"elements of type {group.type} are supported in *COUPLED TEMPERATURE-DISPLACEMENT steps only"

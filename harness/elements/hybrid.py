@@ -31,7 +31,10 @@ def check_hybrid(name: str, kind: ContinuumType, material: Material) -> None:
         message = f"is an incompressible material, which elements of type {name} cannot have; expected hybrid ones"
         raise DeckError(user.source, f"{what} {message}: {', '.join(HYBRID)}")
     if pressure_unknowns(kind, material) and (kind.incompatible or kind.coupled or kind.generalised):
-        message = f"incompressible materials (material {material.name}) are not supported for elements of type {name}"
+        what = "incompressible materials"
+        if not is_incompressible(material) and material.hyperelastic is not None:
+            what = f"laws of *{material.hyperelastic.keyword} by coefficients"
+        message = f"{what} (material {material.name}) are not supported for elements of type {name}"
         raise DeckError(material.source, message)
     if material.elastic is None or not (kind.pressures and is_incompressible(material)):
         return

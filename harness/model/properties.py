@@ -245,6 +245,11 @@ class Expansion:
     zero: float
     source: Source
 
+    @property
+    def isotropic(self) -> bool:
+        """Whether it is the same in all directions."""
+        return bool((self.table[:, 1:4] == self.table[:, 1:2]).all()) and not self.table[:, 4:].any()
+
 
 @dataclass(frozen=True, slots=True)
 class Diffusivity:

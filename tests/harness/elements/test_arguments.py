@@ -106,7 +106,7 @@ FIELD = "*FIELD, USER\nALL, 6.\n"
 VARY = f"*TEMPERATURE, USER\nALL, 60.\n{FIELD}"
 ELASTIC = "*ELASTIC\n1000., 0.\n*USER DEFINED FIELD\n*DEPVAR\n1\n*USER OUTPUT VARIABLES\n3"
 RUBBER = "*HYPERELASTIC, USER, TYPE=COMPRESSIBLE, PROPERTIES=2\n0.5, 0.4\n*DEPVAR\n1"
-THERMAL = f"{ELASTIC}\n*CONDUCTIVITY\n1.\n*SPECIFIC HEAT\n1."
+THERMAL = "\n*CONDUCTIVITY\n1.\n*SPECIFIC HEAT\n1."
 TISSUE = "*ANISOTROPIC HYPERELASTIC, USER, FORMULATION=INVARIANT, LOCAL DIRECTIONS=2, TYPE=COMPRESSIBLE, PROPERTIES=2\n"
 TISSUE += "0.5, 0.4\n*DEPVAR\n1"
 STEPS = {
@@ -136,7 +136,7 @@ HEAT_STEPS = {
 PATHS = tuple(name for name in STEPS if "path" in name)
 TIMED = tuple(name for name in STEPS if "path" not in name)
 LARGE = tuple(name for name in TIMED if "large" in name)
-AT_ONCE = tuple(name for name in STEPS if "visco" in name or "dynamic" in name)
+AT_ONCE = *(name for name in STEPS if "visco" in name or "dynamic" in name), "coupled", "large coupled"
 LINEAR = {
     "static perturbation": ("*STATIC", ", PERTURBATION"),
     "frequency": ("*FREQUENCY\n1,", ""),
@@ -184,8 +184,8 @@ def in_step(calls, kind, material=ELASTIC):
         return calls(*given, USERS + VARY, material)
     begin = given[0].partition("\n")[0]
     if kind in COUPLED_STEPS:
-        return calls(*given, USERS + FIELD, THERMAL, type="CPE4T", begin=begin)
-    return calls(*given, HEATED + FIELD, THERMAL, type="DC2D4", begin=begin, sensor="NT11")
+        return calls(*given, USERS + FIELD, material + THERMAL, type="CPE4T", begin=begin)
+    return calls(*given, HEATED + FIELD, material + THERMAL, type="DC2D4", begin=begin, sensor="NT11")
 
 
 def last(calls, routine, place=None):
@@ -283,7 +283,7 @@ def test_points_along_a_path(calls, kind):
 
 
 def field(kind):
-    """The field and its increment at the end: in *VISCO and *DYNAMIC it acts at once."""
+    """The field and its increment at the end: in *VISCO, *DYNAMIC and transient coupled steps it acts at once."""
     return {"FIELDV": 6.0, "FIELDVINC": 0.0 if kind in AT_ONCE else 2 * size(kind)}
 
 
@@ -312,11 +312,13 @@ def of_stretch(routine, j):
     return {"AINV": [*invariants, *of_fibers], "ZETA": first @ second, "NFIBERS": 2, "IHYBFLAG": 0}
 
 
-@pytest.mark.parametrize("kind", LARGE)
+@pytest.mark.parametrize("kind", [*LARGE, "large coupled", "large coupled steady"])
 @pytest.mark.parametrize("routine", ["UHYPER", "UANISOHYPER_INV"])
 def test_hyperelasticity(calls, routine, kind):
+    """In coupled steps the temperature is that of the nodes."""
     found = last(in_step(calls, kind, {"UHYPER": RUBBER}.get(routine, TISSUE)), routine)
-    check(found, of_stretch(routine, J) | {"STATEV": committed(kind)} | HYPERELASTIC | field(kind))
+    expected = HYPERELASTIC | ({"TEMP": 20.0} if kind in COUPLED_STEPS else {})
+    check(found, of_stretch(routine, J) | {"STATEV": committed(kind)} | expected | field(kind))
 
 
 @pytest.mark.parametrize("kind", LINEAR)

@@ -391,11 +391,6 @@ ERRORS = [
     (RUBBER, {"element_type": "CPS4"}, r"\*HYPERELASTIC is not supported for elements of type CPS4"),
     (
         RUBBER,
-        {"more": "*CONDUCTIVITY\n1.", "element_type": "C3D8T", "step": "*STEP, NLGEOM"},
-        r"\*HYPERELASTIC is not supported for elements of type C3D8T",
-    ),
-    (
-        RUBBER,
         {"element_type": "C3D8R", "section": ", CONTROLS=C", "more": "*SECTION CONTROLS, NAME=C, HOURGLASS=STIFFNESS"},
         r"C3D8R with \*HYPERELASTIC need HOURGLASS=ENHANCED of \*SECTION CONTROLS, or \*HOURGLASS STIFFNESS",
     ),
@@ -406,7 +401,16 @@ ERRORS = [
         r"TYPE=STRESS is not supported with \*HYPERELASTIC \(material M\)",
     ),
     (RUBBER, {"more": "*ELASTIC\n1., 0."}, r"has \*HYPERELASTIC and \*ELASTIC, at .*; expected only one of them"),
-    (RUBBER, {"more": "*EXPANSION\n1e-5"}, r"has \*HYPERELASTIC and \*EXPANSION, which is not supported"),
+    (
+        RUBBER,
+        {"more": "*EXPANSION, TYPE=ORTHO\n1e-5, 0., 0."},
+        r"has \*HYPERELASTIC and \*EXPANSION, .*expected TYPE=ISO",
+    ),
+    (
+        RUBBER,
+        {"more": "*VISCOELASTIC, NONLINEAR, NETWORKID=1, SRATIO=0.5, LAW=STRAIN\n0.1, 1., 0.\n*EXPANSION\n1e-5"},
+        r"has \*VISCOELASTIC and \*EXPANSION, which is not supported",
+    ),
 ]
 
 
