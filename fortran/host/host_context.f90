@@ -18,7 +18,8 @@ module host_context
   !> no material is called, and all that is kept is UVAR, in the history.
   integer(i4), parameter :: output_variables = -4
 
-  !> The heat terms of UMAT at the end of the increment; directions of the stresses, engineering shear strains.
+  !> The heat terms of UMAT at the end of the increment, and of UHARD the last one; directions of the stresses, engineering shear
+  !> strains.
   type :: heat_t
     real(dp) :: source = 0                   !< RPL, heat generated per volume and time
     real(dp) :: source_by_temperature = 0    !< DRPLDT
@@ -46,7 +47,7 @@ module host_context
     real(dp) :: length = 0        !< characteristic length of the element
     real(dp) :: pnewdt = 0        !< smallest that a user material has returned in this call
     integer(i4) :: tensor = 0     !< components of stress: 1, 2, 3, 4 or 6; 0 without a material
-    type(heat_t) :: heat          !< of the last call of UMAT
+    type(heat_t) :: heat          !< of the last call of UMAT or UHARD
     logical :: deformed = .false. !< the element is deformed
     integer :: distorted = 0      !< point at which it is inside out, negative: over the axis; 0 for none
     logical :: finite = .false.   !< large displacements: the next two are those of the point

@@ -23,7 +23,7 @@ module host_materials
   use host_protect, only: escape
   use host_expansion, only: expansion_t
   use host_thermal, only: thermal_t
-  use host_thickness, only: free_thickness, reduced_stress, reduced_tangent, solid_strain, thickness_search
+  use host_thickness, only: free_thickness, reduced_change, reduced_stress, reduced_tangent, solid_strain, thickness_search
   use host_uhard, only: user_hardening_t, user_solid
   use host_umat, only: call_umat, incompressible, strain_energy, total, user_material_t
   use host_usdfld, only: user_field_t
@@ -32,7 +32,7 @@ module host_materials
   implicit none (type, external)
   private
   public :: material_t, define, find_material, stress_update, not_solved, elastic_energy, elastic_volume, thickness_strain, &
-            history_values, has_fields, generates_heat, is_viscous, needs_deformation, set_constants
+            history_values, has_fields, has_heat_terms, is_viscous, needs_deformation, set_constants
 
   !> Values of the history of a point of a plastic or prestressed material: stress-free strain (6), which is the plastic strain
   !> minus the elastic strain of the initial stress, and equivalent plastic strain. Backstresses follow (host_backstress).
@@ -111,18 +111,17 @@ contains
   pure logical function has_fields(material)
     type(material_t), intent(in) :: material
     has_fields = allocated(material%user) .or. allocated(material%dependence) .or. allocated(material%user_field) .or. &
-                 generates_heat(material) .or. allocated(material%hardening) .or. allocated(material%user_creep) .or. &
-                 allocated(material%user_output)
+                 has_heat_terms(material) .or. allocated(material%user_creep) .or. allocated(material%user_output)
     if (allocated(material%hyperelastic)) has_fields = has_fields .or. calls_user(material%hyperelastic)
     if (allocated(material%networks)) has_fields = has_fields .or. calls_routine(material%networks)
   end function has_fields
 
-  !> Whether UMAT or HETVAL generate heat in elements with temperatures.
-  pure logical function generates_heat(material)
+  !> Whether UMAT or HETVAL generate heat in elements with temperatures, or UMAT or UHARD have stresses that depend on them.
+  pure logical function has_heat_terms(material)
     type(material_t), intent(in) :: material
-    generates_heat = allocated(material%user)
-    if (allocated(material%thermal)) generates_heat = generates_heat .or. allocated(material%thermal%source)
-  end function generates_heat
+    has_heat_terms = allocated(material%user) .or. allocated(material%hardening)
+    if (allocated(material%thermal)) has_heat_terms = has_heat_terms .or. allocated(material%thermal%source)
+  end function has_heat_terms
 
   !> Whether stresses depend on time: what they dissipate is ENERGY(3).
   pure logical function is_viscous(material)
@@ -284,6 +283,11 @@ contains
     solved = solved .and. search%root%found
     stress = reduced_stress(solid)
     tangent = reduced_tangent(modulus)
+    if (allocated(material%hardening)) then
+      associate (by_temperature => current%heat%stress_by_temperature)
+        by_temperature(:3) = reduced_change(by_temperature(:4), modulus)
+      end associate
+    end if
   end subroutine inelastic
 
   !> STATEV of UHARD or CREEP at the start of the increment, or as USDFLD has left them.

@@ -57,7 +57,7 @@ module host_solid
   use host_mean_volume, only: add_curvature, add_mean_volume, add_uniform_volume
   use host_protect, only: escape
   use host_planes, only: add_curvature_of_fibres, add_stress_of_fibres, planes, planes_t
-  use host_materials, only: elastic_energy, elastic_volume, find_material, generates_heat, has_fields, is_viscous, material_t, &
+  use host_materials, only: elastic_energy, elastic_volume, find_material, has_fields, has_heat_terms, is_viscous, material_t, &
                             needs_deformation, not_solved, set_constants, stress_update, thickness_strain
   use host_shape, only: is_multilinear, rule_of, rule_t
   use host_thermal, only: call_hetval
@@ -478,6 +478,7 @@ contains
         work = elastic
       else
         if (present(axes)) call turn_strain(dim, strains, middle, strain)
+        if (present(coupling)) current%heat = heat_t()
         call point_update(dim, strains, here, int(p, i4), weight, finite, strain, thermal, rate, svars(:, p), stress, modulus, &
                           by_temperature, elastic, work, of_point)
         if (allocated(here%networks)) flowed = flowed + weight*current%dissipated
@@ -487,8 +488,7 @@ contains
       end if
       if (finite .and. here%ntens == 3) weight = weight*exp(svars(3, p))
       if (present(coupling) .and. .not. begins) then
-        if (.not. allocated(here%user)) current%heat = heat_t()
-        if (generates_heat(here)) then
+        if (has_heat_terms(here)) then
           if (allocated(here%thermal%source)) call call_hetval(here%thermal%source, int(p, i4))
           call add_heat_source(coupling, weight, b(:, :, p), components(strains, here%ntens))
         end if
@@ -696,7 +696,7 @@ contains
     strain = all(place)
   end subroutine turn_strain
 
-  !> Stress and tangent of a point, and the heat terms of UMAT, from the directions of axes (rows) to global ones.
+  !> Stress and tangent of a point, and the heat terms of UMAT and UHARD, from the directions of axes (rows) to global ones.
   subroutine turn_response(material, m, axes, stress, modulus)
     type(material_t), intent(in) :: material
     integer, intent(in) :: m
@@ -706,7 +706,7 @@ contains
     turn = turn_matrix(m, axes)
     stress = matmul(transpose(turn), stress)
     modulus = matmul(transpose(turn), matmul(modulus, turn))
-    if (allocated(material%user)) call turn_heat(material%ntens, axes)
+    if (has_heat_terms(material)) call turn_heat(material%ntens, axes)
   end subroutine turn_response
 
   !> Stress and tangent of a point (11, 22, 12 in the plane); its state and its part of the energies. strain is the total

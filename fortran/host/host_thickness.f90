@@ -13,7 +13,7 @@ module host_thickness
   use host_kinds, only: dp
   implicit none (type, external)
   private
-  public :: free_thickness, reduced_stress, reduced_tangent, thickness_search, solid_strain
+  public :: free_thickness, reduced_change, reduced_stress, reduced_tangent, thickness_search, solid_strain
 
   type :: thickness_search
     type(root_search) :: root    !< of the stress 33; its x is positive, so that it has a size to compare rounding with
@@ -44,6 +44,13 @@ contains
     real(dp) :: stress(3)
     stress = solid([1, 2, 4])
   end function reduced_stress
+
+  !> Changes of the stresses 11, 22, 12 if those of a solid change at the same strains, while no stress 33 arises.
+  pure function reduced_change(change, solid) result(reduced)
+    real(dp), intent(in) :: change(4), solid(4, 4)   !< solid: derivatives by the strains
+    real(dp) :: reduced(3)
+    reduced = change([1, 2, 4]) - solid([1, 2, 4], 3)/solid(3, 3)*change(3)
+  end function reduced_change
 
   !> Their derivatives by the strains 11, 22, 12, while no stress 33 arises.
   pure function reduced_tangent(solid) result(tangent)

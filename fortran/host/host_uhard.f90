@@ -52,34 +52,42 @@ contains
     real(dp), intent(out) :: stress(n), tangent(n, n), new(7)
     logical, intent(out) :: solved
     type(root_search) :: search
-    real(dp) :: q, stiffness, flow, slope, multiplier
+    real(dp) :: q, stiffness, flow, slope, softening, multiplier
     stiffness = 3*young/(2*(1 + poisson))
     q = trial_mises(young, poisson, n, old, strain)
     multiplier = 0
     slope = 0
+    current%heat%stress_by_temperature = 0
     solved = .true.
-    call call_uhard(law, point, statev, old(7), 0.0_dp, flow, slope)
+    call call_uhard(law, point, statev, old(7), 0.0_dp, flow, slope, softening)
     ! nothing flows in no time, as in the calls for initial accelerations, though a yield stress by the rate may be less than q
     if (q > flow .and. current%dtime > 0) then
       search = search_between(0.0_dp, q/stiffness, min((q - flow)/max(stiffness + slope, stiffness), q/stiffness), &
                               geometric=.false.)
       do while (searching(search))
-        call call_uhard(law, point, statev, old(7), search%x, flow, slope)
+        call call_uhard(law, point, statev, old(7), search%x, flow, slope, softening)
         call advance(search, stiffness*search%x + flow - q, stiffness + slope)
       end do
       multiplier = search%x
       solved = search%found
     end if
     call returned_solid(young, poisson, n, old, strain, multiplier, slope, stress, tangent, new)
+    if (multiplier > 0) then
+      ! the yield surface shrinks with the temperature, and the plastic strain grows
+      associate (by_temperature => current%heat%stress_by_temperature)
+        by_temperature(:n) = stress/(q - stiffness*multiplier)*softening*stiffness/(stiffness + slope)
+        by_temperature(:3) = by_temperature(:3) - sum(by_temperature(:3))/3
+      end associate
+    end if
   end subroutine user_solid
 
-  !> Yield stress after an increment of the equivalent plastic strain, and its derivative by it. Leaves the pass if the yield
-  !> stress is no positive number.
-  subroutine call_uhard(law, point, start, plastic, increment, flow, slope)
+  !> Yield stress after an increment of the equivalent plastic strain, and its derivatives by it and by the temperature. Leaves the
+  !> pass if the yield stress is no positive number.
+  subroutine call_uhard(law, point, start, plastic, increment, flow, slope, softening)
     type(user_hardening_t), intent(in) :: law
     integer(i4), intent(in) :: point
     real(dp), intent(in) :: start(:), plastic, increment
-    real(dp), intent(out) :: flow, slope
+    real(dp), intent(out) :: flow, slope, softening
     procedure(uhard_procedure), pointer :: uhard
     real(dp) :: eqplas, eqplasrt, time(2), dtime, temp, dtemp, constants(size(law%constants))
     real(dp), allocatable :: predef(:), dpred(:)
@@ -128,9 +136,10 @@ contains
       flow = x(s(1))
       slope = x(s(2))
       if (dtime > 0) slope = slope + x(s(2) + 1)/dtime
+      softening = x(s(2) + 2)
       if (nstatv > 0) current%history_trial(size(current%history_trial, 1) - nstatv + 1:, point) = x(s(3):s(3) + nstatv - 1)
     end associate
-    if (.not. (flow > 0 .and. flow <= huge(flow) .and. abs(slope) <= huge(slope))) then
+    if (.not. (flow > 0 .and. flow <= huge(flow) .and. max(abs(slope), abs(softening)) <= huge(slope))) then
       write (text, '(a,es10.3,a,es10.3)') 'UHARD gives SYIELD = ', flow, ' at EQPLAS = ', plastic + increment
       call add_message(-3_i4, trim(text)//'; expected a positive number, and numbers in HARD')
       call escape()

@@ -127,7 +127,7 @@ KEYWORDS = (
         "Mises plasticity with isotropic hardening; or, in continuum elements and UELMAT, with linear kinematic or "
         "combined hardening: the rate of a backstress is 2/3 C times that of the plastic strain, less gamma times the "
         "backstress and the rate of the equivalent plastic strain. With gamma the stiffness is unsymmetric. With "
-        "HARDENING=USER UHARD gives the yield stress in continuum elements without temperatures, and UELMAT.",
+        "HARDENING=USER UHARD gives the yield stress in continuum elements and UELMAT.",
         Where.MODEL,
         (
             one_of(

@@ -20,7 +20,6 @@ from harness.elements.materials import (
     is_incompressible,
     linearity,
     refuse_hyperelastic,
-    refuse_user_hardening,
     refuse_viscous,
     shear_modulus,
     state_variables,
@@ -80,7 +79,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     check_modes(model, group, kind, material)
     _check_hyperelastic(model, group, kind, material)
     _check_viscous(model, group, kind, material)
-    _check_user_hardening(model, group, kind, material)
+    _check_user_hardening(model, material)
     check_hybrid(group.type, kind, material)
     orientation, local = section.orientation, _local_orientation(model, section, kind)
     if local is not None:
@@ -169,12 +168,10 @@ def _check_viscous(model: Model, group: ElementGroup, kind: ContinuumType, mater
         raise DeckError(perturbation.source, f"*STEP: {message} ({material.viscous.source})")
 
 
-def _check_user_hardening(model: Model, group: ElementGroup, kind: ContinuumType, material: Material) -> None:
-    """Raise DeckError if UHARD gives the yield stress, and the elements or the steps are not for that."""
+def _check_user_hardening(model: Model, material: Material) -> None:
+    """Raise DeckError if UHARD gives the yield stress, and the steps are not for that."""
     if material.plastic is None or material.plastic.user is None:
         return
-    if kind.coupled:
-        refuse_user_hardening(material, f"elements of type {group.type}")
     perturbation = next((step for step in model.steps if step.procedure.linear), None)
     if perturbation is not None:
         # a yield stress that depends on the rate would let the stress of the base state relax

@@ -1,13 +1,22 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*PLASTIC, HARDENING=USER: UHARD against tables, theory of a yield stress by the rate, and its arguments."""
+"""*PLASTIC, HARDENING=USER: UHARD against tables, yield stresses by rate and temperature, its arguments."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from differences import differences
+from moving_element import turn
+from reference_cells import unit_cell
 from small_decks import body_lines
 
 import harness
-from harness.errors import DeckError, KernelError
+from harness.elements import Flags
+from harness.errors import DeckError, KernelError, Source
+from harness.model.element_types import COUPLED
+from harness.model.mesh import ElementGroup
+from harness.model.properties import Elastic, ElasticType, Expansion, Material, Orientation, Plastic, SolidSection
 
 YOUNG, NU, SIZE, SLOPE, VISCOSITY = 1000.0, 0.3, 5.0, 80.0, 2.0
 CUBE = np.array([[x, y, z] for z in (0.0, 1.0) for x, y in ((0, 0), (1.2, 0), (1, 1), (0, 1))])
@@ -25,18 +34,27 @@ LINES = """      SYIELD = PROPS(1) + PROPS(2)*EQPLAS + PROPS(3)*EQPLASRT
       HARD(1) = PROPS(2)
       HARD(2) = PROPS(3)"""
 LINEAR = UHARD.format(LINES)
+SOFTENING = 0.03
+WARM = UHARD.format(
+    f"""{LINES}
+      SYIELD = SYIELD - {SOFTENING}D0*(TEMP + DTEMP)
+      HARD(3) = -{SOFTENING}D0"""
+)
 BY_USER = f"*PLASTIC, HARDENING=USER, PROPERTIES=3\n{SIZE}, {SLOPE}, 0."
 TABLE = f"*PLASTIC\n{SIZE}, 0.\n{SIZE + SLOPE}, 1."
 PULLED = "*BOUNDARY\nALL, 2\n1, 1\n4, 1\n2, 1, 1, 0.03\n3, 1, 1, 0.05\n"
 CELLS = {"C3D8": CUBE, "C3D8R": CUBE, "C3D8H": CUBE, "C3D8I": CUBE, "C3D4": CUBE[[0, 1, 3, 4]]}
 CELLS |= dict.fromkeys(("CPE4", "CPE4R", "CPE4I", "CPS4", "CPS4I", "CAX4"), CUBE[:4, :2])
 CELLS |= {"CPS3": CUBE[:3, :2], "CPE3": CUBE[:3, :2]}
+WARM_CELLS = {"C3D8RT": CUBE, "C3D8T": CUBE, "CPS3T": CUBE[:3, :2]}
 
 
 def deck(element_type, plastic, *, step="", procedure="*STATIC\n0.25, 1., 0.25, 0.25", held=PULLED, more="", load=""):
-    nodes = CELLS.get(element_type, CUBE)
+    nodes = (CELLS | WARM_CELLS).get(element_type, CUBE)
     lines = body_lines(element_type, nodes, [range(len(nodes))])
     lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=STUFF", "1.", "*MATERIAL, NAME=STUFF", "*DENSITY", "1e-6"]
+    if element_type in COUPLED:
+        lines += ["*CONDUCTIVITY", "1.", "*SPECIFIC HEAT", "1."]
     lines += ["*ELASTIC", f"{YOUNG}, {NU}", plastic, more, f"*STEP{step}", procedure, load, held.strip()]
     lines += ["*OUTPUT, HISTORY", "*NODE OUTPUT, NSET=ALL", "U, RF", "*ENERGY OUTPUT", "*OUTPUT, FIELD"]
     return "\n".join(line for line in [*lines, "*ELEMENT OUTPUT", "S, SDV", "*END STEP"] if line) + "\n"
@@ -44,7 +62,7 @@ def deck(element_type, plastic, *, step="", procedure="*STATIC\n0.25, 1., 0.25, 
 
 def pulled(element_type):
     """The nodes of one side stay, the others are pulled away, each by another displacement."""
-    nodes = CELLS[element_type]
+    nodes = (CELLS | WARM_CELLS)[element_type]
     left = [k + 1 for k in range(len(nodes)) if nodes[k, 0] == 0]
     lines = ["*BOUNDARY", *(f"{k}, 1, {nodes.shape[1]}" for k in left)]
     right = [k + 1 for k in range(len(nodes)) if nodes[k, 0] > 0]
@@ -101,9 +119,15 @@ def test_a_yield_stress_that_depends_on_the_rate(run, procedure):
     assert max(row.total_iterations for row in result.status) <= 3
 
 
+COUPLED_STEP = "*COUPLED TEMPERATURE-DISPLACEMENT{}\n0.5, 1., 0.5, 0.5"
+
+
 @pytest.mark.parametrize(
     ("step", "procedure"),
     [
+        (", AMPLITUDE=RAMP", COUPLED_STEP.format("")),
+        ("", COUPLED_STEP.format(", STEADY STATE")),
+        (", NLGEOM", COUPLED_STEP.format(", STEADY STATE")),
         ("", "*STATIC\n0.5, 1., 0.5, 0.5"),
         (", NLGEOM", "*STATIC\n0.5, 1., 0.5, 0.5"),
         ("", "*STATIC, RIKS\n0.5, 1., 0.5, 0.5, 1."),
@@ -114,6 +138,8 @@ def test_a_yield_stress_that_depends_on_the_rate(run, procedure):
 @pytest.mark.parametrize("element_type", ["C3D8R", "CPS3"])
 def test_arguments_of_uhard(run, tmp_path, element_type, step, procedure):
     """The first call of the second increment of a step has the values at its start, at the plastic strain before it."""
+    if "COUPLED" in procedure:
+        element_type += "T"
     body = f"""      IF (KINC .EQ. 2) THEN
       WRITE(6,'(A,8I4,1X,A)') 'UHARD ', NOEL, NPT, LAYER, KSPT,
      1 KSTEP, KINC, NSTATV, NUMFIELDV, TRIM(CMNAME)
@@ -128,6 +154,8 @@ def test_arguments_of_uhard(run, tmp_path, element_type, step, procedure):
       STATEV(2) = EQPLAS"""
     more = "*DEPVAR\n2\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\n*INITIAL CONDITIONS, TYPE=FIELD\nALL, 4."
     load = "" if "RIKS" in procedure else "*TEMPERATURE\nALL, 60.\n*FIELD\nALL, 6."
+    if "COUPLED" in procedure:
+        load = "*FIELD\nALL, 6.\n*BOUNDARY\nALL, 11, 11, 60."
     held = pulled(element_type) if "RIKS" not in procedure else pulled(element_type).replace("2, 2, 2, 0.02", "2, 2")
     text = deck(
         element_type,
@@ -163,6 +191,62 @@ def test_arguments_of_uhard(run, tmp_path, element_type, step, procedure):
     np.testing.assert_allclose(rows[:, 1] * step_of, rows[:, 0] - plastic, atol=1e-7)
     assert (rows[:, 1] > 0).any()
     assert (rows[:, 2] == calls).all()
+
+
+def test_a_yield_stress_that_falls_with_the_temperature(run):
+    """A bar that is warmed while it is pulled: E (e - p) = s + h p - a T, at the end of each increment."""
+    straight = np.array([[x, y, z] for z in (0.0, 1.0) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))])
+    ends = "".join(f"{k}, 1, 1, 0.02\n" for k in (2, 3, 6, 7)) + "ALL, 11, 11, 50.\n"
+    procedure = "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE\n0.2, 1., 0.2, 0.2"
+    text = deck("C3D8T", BY_USER, procedure=procedure, held=BAR.format(ends))
+    text = text.replace(
+        "\n".join(body_lines("C3D8T", CUBE, [range(8)])), "\n".join(body_lines("C3D8T", straight, [range(8)]))
+    )
+    result = run(text, WARM)
+    force = sum(np.array(result.history[f"RF1[ALL:{k}]"]) for k in (2, 3, 6, 7))
+    plastic = 0.0
+    for k, value in enumerate(force, start=1):
+        plastic += max(YOUNG * (0.004 * k - plastic) - SIZE - SLOPE * plastic + SOFTENING * 10 * k, 0.0) / (
+            YOUNG + SLOPE
+        )
+        assert value == pytest.approx(YOUNG * (0.004 * k - plastic), rel=1e-6)
+    assert plastic > 0.01
+
+
+@pytest.mark.parametrize("angle", [None, 30.0])
+@pytest.mark.parametrize("element_type", ["CPE4T", "CPS4T", "CAX4T", "C3D8T", "C3D8RT", "C3D8HT"])
+def test_tangent_with_the_temperature(load, bound, call, element_type, angle):
+    """Of a distorted element that flows and expands, by central differences, in any directions of the material."""
+    kind, random, source = COUPLED[element_type], np.random.default_rng(5), Source("test.inp", 1)
+    nodes = unit_cell(kind.family.cell)[0]
+    nodes = nodes + 0.05 * random.uniform(-1, 1, nodes.shape) + 0.1
+    material = Material(
+        "STUFF",
+        source,
+        elastic=Elastic(ElasticType.ISOTROPIC, (YOUNG, NU), source),
+        plastic=Plastic(np.zeros((0, 2)), source, user=np.array([SIZE, SLOPE, VISCOSITY])),
+        expansion=Expansion(np.array([[0.0, 1e-4, 1e-4, 1e-4, 0.0, 0.0, 0.0]]), 0.0, source),
+        conductivity=np.array([[3.0, 0.0]]),
+        specific_heat=np.array([[0.7, 0.0]]),
+        density=2.0,
+    )
+    orientation = None if angle is None else Orientation("O", turn(np.radians(angle)).T, source)
+    section = SolidSection("ALL", material, orientation, 0.5, source, hourglass=1.0)
+    group = ElementGroup(element_type, np.array([101]), np.arange(kind.nodes)[None], "", section, None, source)
+    block, matrix = bound(group, nodes, load(WARM))
+    call = replace(call, flags=Flags(72), unsymmetric=True)
+    used = np.array([11 * node + dof - 1 for node, dof in block.unknowns])
+    thermal = np.array([dof for _, dof in block.unknowns]) == 11
+    u, n = np.zeros(matrix.shape[0]), matrix.shape[0]
+    u[used] = random.uniform(-0.05, 0.05, len(used))
+    u[used[thermal]] += 20.0
+    block.evaluate(call, u, u, np.zeros(n), matrix.data)
+    found = matrix.toarray()[np.ix_(used, used)]
+    difference = differences(block, call, u, u, used, 1e-6)
+    np.testing.assert_allclose(found, difference, atol=1e-6 * abs(found).max())
+    by_temperature = np.ix_(~thermal, thermal)
+    atol = 1e-5 * abs(found[by_temperature]).max()
+    np.testing.assert_allclose(found[by_temperature], difference[by_temperature], atol=atol)
 
 
 def test_stresses_above_the_static_yield_stress_do_not_relax_in_no_time(run):
@@ -212,12 +296,6 @@ def test_uhard_ends_the_analysis(run, body, message):
         (deck("C3D8", BY_USER.replace("=3", "=2")), r"PROPERTIES=2, but the data lines have 3"),
         (deck("C3D8", BY_USER.replace("=3", "=-1")), r"PROPERTIES=-1: expected a number of 0 or more"),
         (deck("C3D8", TABLE.replace("*PLASTIC", "*PLASTIC, PROPERTIES=2")), r"PROPERTIES goes with HARDENING=USER"),
-        (
-            deck("C3D8T", BY_USER)
-            .replace("*ELASTIC", "*CONDUCTIVITY\n1.\n*ELASTIC")
-            .replace("*STATIC", "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE"),
-            r"\*PLASTIC, HARDENING=USER is not supported for elements of type C3D8T",
-        ),
         (
             deck(
                 "C3D8",
