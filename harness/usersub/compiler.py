@@ -118,23 +118,17 @@ class Opinion:
     free: frozenset[str]
 
 
-_heard: Final[dict[str, Opinion]] = {}
-"""By key of what was compiled: who checks one element with many decks asks the compilers once."""
-
-
 def listen(files: Sequence[Path], include: Sequence[Path] = ()) -> Opinion:
     """Compile files as `build` does, with all warnings, and discard the result. Raises CompileError."""
     folders = _folders(files, include)
-    supply, texts, sources = _scan(files, folders)
+    supply, _, sources = _scan(files, folders)
     free = frozenset(file.name for file in files if is_free_form(file, _read(file)))
-    flags = {language: language.warnings for language in LANGUAGES}
-    key = _key([language_of(file).program(file) for file in files], [*sorted(free), *texts])
-    if key not in _heard:
-        with tempfile.TemporaryDirectory() as work:
-            _, _, warnings = _objects(files, folders, supply, sources, Path(work), flags)
-            undeclared = _without_implicit_types(files, folders, supply, Path(work))
-        _heard[key] = Opinion(warnings, undeclared, _texts(sources), free)
-    return _heard[key]
+    with tempfile.TemporaryDirectory() as work:
+        flags = {language: language.warnings for language in LANGUAGES}
+        _, _, warnings = _objects(files, folders, supply, sources, Path(work), flags)
+        undeclared = _without_implicit_types(files, folders, supply, Path(work))
+    texts = _texts(sources)
+    return Opinion(warnings, undeclared, texts, free)
 
 
 def _without_implicit_types(

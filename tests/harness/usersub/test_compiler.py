@@ -10,7 +10,7 @@ from user_database import database, note, said
 
 from harness import usersub
 from harness.errors import CompileError
-from harness.usersub import compiler, suspicions
+from harness.usersub import suspicions
 
 
 def test_fixed_form_has_132_columns(load):
@@ -363,24 +363,3 @@ def test_include_by_its_full_path_is_not_written_for_warnings(tmp_path):
     before = included.stat().st_mtime_ns
     assert suspicions([user]) == []
     assert included.stat().st_mtime_ns == before
-
-
-def test_compilers_are_asked_once_about_the_same_files(tmp_path, monkeypatch):
-    """`uel check` of many decks with one element, and a test suite of it, ask for warnings with each of them."""
-    user = "      subroutine one(x)\n      include 'value.inc'\n      end\n"
-    texts = {"user.f": user, "value.inc": "      y = x*(1/3)\n"}
-    for name, text in texts.items():
-        (tmp_path / name).write_text(text)
-    first = suspicions([tmp_path / "user.f"])
-    assert [one.file for one in first if "division" in one.sentence] == ["value.inc"]
-    asked = []
-    monkeypatch.setattr(compiler, "_without_implicit_types", lambda *_: asked.append("again") or "")
-    copies = tmp_path / "elsewhere"
-    copies.mkdir()
-    for name in texts:
-        shutil.copy(tmp_path / name, copies)
-    assert suspicions([copies / "user.f"]) == first
-    assert not asked
-    (copies / "value.inc").write_text("      y = x/3\n")
-    assert suspicions([copies / "user.f"]) != first
-    assert asked == ["again"]
