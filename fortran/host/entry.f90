@@ -11,9 +11,9 @@ subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matri
                          fault, position, array, item, alone, ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, &
                          nrhs, nnz, values, points, most, nfield, nrate, mload, mfield, fluxes)
   use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
+  use host_block, only: block_t, keeps_state, scalars_t
   use host_context, only: initial_stresses
   use host_driver, only: run_block
-  use host_element, only: block_t, keeps_state, scalars_t
   use host_kinds, only: dp, i4, i8
   use host_scatter, only: sum_by_field
   implicit none (type, external)
@@ -45,7 +45,6 @@ subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matri
   real(dp), target :: by_unknown(ndofel, 3)
   type(block_t), target :: block
   block%address = transfer(int(address, c_intptr_t), block%address)
-  block%with_material = material > 0
   block%tensor = tensor
   block%symmetric = symmetric /= 0
   block%want_matrix = want_matrix /= 0

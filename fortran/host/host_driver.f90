@@ -2,14 +2,15 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The element loop: one pass over a block of like elements, with checks and scatter.
 module host_driver
-  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funloc, c_loc, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_loc, c_ptr
+  use host_block, only: block_t, entries_notice, entries_zero, fault_distorted, fault_endless, fault_left, fault_none, &
+                        fault_outside, fault_unset, guards_notice, guards_search, guards_stop
+  use host_call, only: arguments_t, lay_out_arguments
   use host_context, only: call_context, current
-  use host_element, only: block_t, call_element, check_results, entries_notice, entries_zero, fault_distorted, fault_endless, &
-                          fault_left, fault_none, fault_outside, fault_unset, guards_notice, guards_search, guards_stop, &
-                          prepare, work
+  use host_element, only: arguments, call_element, check_results, prepare, work
   use host_kinds, only: dp, i4
   use host_protect, only: protect
-  use host_scatter, only: add, add_magnitude, add_matrix, add_residual
+  use host_scatter, only: add_energy, add_magnitude, add_matrix, add_residual
   use host_team, only: run_team
   use host_workspace, only: arm_guards, exchange_guard_values, find_damage, i_amatrx, i_energy, i_rhs, n_arrays, set_room, &
                             workspace_t
@@ -26,6 +27,7 @@ module host_driver
   type :: pass_t
     type(block_t), pointer :: block => null()
     type(workspace_t), pointer :: work => null()
+    type(arguments_t), pointer :: arguments => null()
     type(call_context), pointer :: now => null()
   end type pass_t
 
@@ -37,14 +39,9 @@ contains
     type(block_t), intent(inout), target :: block
     type(pass_t), target :: pass
     integer :: array, index
-    if (block%with_material) then
-      call c_f_procpointer(block%address, block%uelmat)
-    else
-      call c_f_procpointer(block%address, block%uel)
-    end if
     call prepare(block)
     if (block%parallel) call run_team(block)
-    pass = pass_t(block, work, current)
+    pass = pass_t(block, work, arguments, current)
     select case (protect(c_funloc(loop), c_loc(pass)))
     case (0)
     case (2)
@@ -79,19 +76,20 @@ contains
     type(c_ptr), value :: context   ! is the pass
     type(pass_t), pointer :: pass
     call c_f_pointer(context, pass)
-    call all_elements(pass%block, pass%work, pass%now)
+    call all_elements(pass%block, pass%work, pass%arguments, pass%now)
   end subroutine loop
 
   !> All elements of the block, until a fault.
-  subroutine all_elements(block, work, now)
+  subroutine all_elements(block, work, arguments, now)
     type(block_t), intent(inout) :: block
-    type(workspace_t), intent(inout), target :: work
-    type(call_context), intent(inout), target :: now
+    type(workspace_t), intent(in) :: work
+    type(arguments_t), intent(inout) :: arguments
+    type(call_context), intent(inout) :: now
     integer :: e, ndofel, array, index
     ndofel = int(block%scalars%ndofel)
     do e = block%first, size(block%labels)
       block%position = e
-      call call_element(block, e, work, now)
+      call call_element(block, e, arguments, now)
       if (block%guards == guards_search .and. block%culprit(1) == 0) then
         call find_damage(work, array, index)
         if (array > 0) block%culprit = int([e, array, index], i4)
@@ -99,7 +97,7 @@ contains
       call check_results(block, work)
       if (block%fault == fault_unset .and. block%entries == entries_notice) call repeat_on_zeros(block, e)
       if (block%fault /= fault_none) return
-      if (block%keeps_state) call add(8, work%memory(work%start(i_energy)), block%energy_sum)
+      if (block%keeps_state) call add_energy(work%memory(work%start(i_energy)), block%energy_sum)
       if (block%want_residual) then
         call add_residual(ndofel, work%memory(work%start(i_rhs)), block%equations(:, e), block%residual(:, 1))
         call add_magnitude(ndofel, work%memory(work%start(i_rhs)), block%floor, block%flux(:, 1), block%flux(:, 2), &
@@ -121,7 +119,8 @@ contains
     block%unset = [int(e, i4), block%array, block%index]
     block%entries = entries_zero
     block%fault = fault_none
-    call call_element(block, e, work, current)
+    call lay_out_arguments(block, work, arguments)
+    call call_element(block, e, arguments, current)
     call check_results(block, work)
   end subroutine repeat_on_zeros
 
@@ -172,7 +171,7 @@ contains
     integer :: e
     call c_f_pointer(context, block)
     do e = 1, size(block%labels)
-      call call_element(block, e, work, current)
+      call call_element(block, e, arguments, current)
       call look(block)
       if (block%position > 0) return
     end do

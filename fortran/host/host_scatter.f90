@@ -5,17 +5,16 @@ module host_scatter
   use host_kinds, only: dp, i4
   implicit none (type, external)
   private
-  public :: add, add_residual, add_magnitude, add_matrix, add_own_residual, add_own_matrix, sum_by_field
+  public :: add_energy, add_residual, add_magnitude, add_matrix, add_own_residual, add_own_matrix, sum_by_field
 
 contains
 
-  !> y = y + x
-  subroutine add(n, x, y)
-    integer, intent(in) :: n
-    real(dp), intent(in) :: x(n)
-    real(dp), intent(inout) :: y(n)
-    y = y + x
-  end subroutine add
+  !> Add ENERGY of an element to the sums.
+  subroutine add_energy(energy, sums)
+    real(dp), intent(in) :: energy(8)
+    real(dp), intent(inout) :: sums(8)
+    sums = sums + energy
+  end subroutine add_energy
 
   !> Scatter a column of RHS.
   subroutine add_residual(n, rhs, equations, residual)

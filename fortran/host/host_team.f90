@@ -11,11 +11,12 @@
 module host_team
   use, intrinsic :: iso_c_binding, only: c_funloc, c_loc, c_ptr
   use omp_lib, only: omp_get_thread_num, omp_get_num_threads
+  use host_block, only: block_t, fault_none, untouched
   use host_context, only: current, threads
-  use host_element, only: block_t, call_element, check_results, fault_none, keep_smallest, prepare, untouched, work
+  use host_element, only: arguments, call_element, check_results, keep_smallest, prepare, work
   use host_kinds, only: dp, i4
   use host_protect, only: most_seats, on_seat, on_threads
-  use host_scatter, only: add, add_magnitude, add_own_matrix, add_own_residual
+  use host_scatter, only: add_energy, add_magnitude, add_own_matrix, add_own_residual
   use host_workspace, only: arm_guards, find_damage, i_amatrx, i_energy, i_rhs, take_guards, workspace_t
   implicit none (type, external)
   private
@@ -105,7 +106,7 @@ contains
       !$omp end atomic
       if (e > last .or. team%broken == strip) exit
       block%pnewdt = untouched
-      call call_element(block, e, work, current)
+      call call_element(block, e, arguments, current)
       call check_results(block, work)
       if (block%fault /= fault_none) team%broken = strip
       k = e - first + 1
@@ -151,7 +152,7 @@ contains
   subroutine add_totals(block, rhs, energy, pnewdt)
     type(block_t), intent(inout) :: block
     real(dp), intent(in) :: rhs(:), energy(8), pnewdt   !< of an element
-    if (block%keeps_state) call add(8, energy, block%energy_sum)
+    if (block%keeps_state) call add_energy(energy, block%energy_sum)
     if (block%want_residual) then
       call add_magnitude(size(block%floor), rhs, block%floor, block%flux(:, 1), block%flux(:, 2), block%flux(:, 3))
     end if

@@ -10,7 +10,7 @@ module host_workspace
   use host_protect, only: fence, open_fences
   implicit none (type, external)
   private
-  public :: workspace_t, arrays, n_arrays, lay_out, exchange_guard_values, arm_guards, find_damage, copy, fill, same_bits
+  public :: workspace_t, arrays, n_arrays, lay_out, exchange_guard_values, arm_guards, find_damage, fill, same_bits
   public :: all_finite, first_difference, set_room, take_guards
   public :: i_rhs, i_amatrx, i_svars, i_energy, i_props, i_coords, i_u, i_du, i_v, i_a, i_predef
 
@@ -185,24 +185,6 @@ contains
     x(n - 7:n) = value
   end subroutine fill
 
-  !> y = x, in the same way.
-  subroutine copy(n, x, y)
-    integer, intent(in) :: n
-    real(dp), intent(in) :: x(n)
-    real(dp), intent(inout) :: y(n)
-    integer :: i
-    if (n < 8) then
-      do i = 1, n
-        y(i) = x(i)
-      end do
-      return
-    end if
-    do i = 1, n - 8, 8
-      y(i:i + 7) = x(i:i + 7)
-    end do
-    y(n - 7:n) = x(n - 7:n)
-  end subroutine copy
-
   !> Index of the first entry that has other bits, 0 if none has.
   pure integer function first_difference(n, bits, x)
     integer, intent(in) :: n
@@ -230,19 +212,20 @@ contains
     same_bits = transfer(x, 1_i8) == bits
   end function same_bits
 
-  !> True unless an entry is NaN or infinite (or so large that sums overflow). Eight sums at a time vectorise.
+  !> True unless an entry is NaN or infinite (or so large that sums overflow). Eight sums at a time vectorise, and the last eight
+  !> entries may count twice.
   pure logical function all_finite(n, x)
     integer, intent(in) :: n
     real(dp), intent(in) :: x(n)
     real(dp) :: s(8)
-    integer :: i, whole
-    s = 0
-    whole = n - mod(n, 8)
-    do i = 1, whole, 8
+    integer :: i
+    if (n < 8) then
+      all_finite = abs(sum(x)) <= huge(1.0_dp)
+      return
+    end if
+    s = x(n - 7:n)
+    do i = 1, n - 8, 8
       s = s + x(i:i + 7)
-    end do
-    do i = whole + 1, n
-      s(1) = s(1) + x(i)
     end do
     all_finite = abs(sum(s)) <= huge(1.0_dp)
   end function all_finite

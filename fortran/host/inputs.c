@@ -15,22 +15,10 @@
 #include <malloc.h>
 #endif
 
+#include "arguments.h"
+
 // stack.c
 void uel_host_scribble(void);
-
-enum {
-    RHS, AMATRX, SVARS, ENERGY, NDOFEL, NRHS, NSVARS, PROPS, NPROPS, COORDS, MCRD, NNODE, U, DU, V, A, JTYPE, TIME, DTIME,
-    KSTEP, KINC, JELEM, PARAMS, NDLOAD, JDLTYP, ADLMAG, PREDEF, NPREDF, LFLAGS, MLVARX, DDLMAG, MDLOAD, PNEWDT, JPROPS,
-    NJPROP, PERIOD, MATERIALLIB, ARGUMENTS
-};
-
-typedef void uel_t(void *, void *, void *, void *, void *, void *, void *, void *, void *, void *, void *, void *, void *,
-                   void *, void *, void *, void *, void *, void *, void *, void *, void *, void *, void *, void *, void *,
-                   void *, void *, void *, void *, void *, void *, void *, void *, void *, void *);
-typedef void uelmat_t(void *, void *, void *, void *, void *, void *, void *, void *, void *, void *, void *, void *,
-                      void *, void *, void *, void *, void *, void *, void *, void *, void *, void *, void *, void *,
-                      void *, void *, void *, void *, void *, void *, void *, void *, void *, void *, void *, void *,
-                      void *);
 
 static uel_t *uel;
 static uelmat_t *uelmat;
@@ -206,11 +194,6 @@ int64_t uel_host_allocated(void)
     a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23, a24,   \
         a25, a26, a27, a28, a29, a30, a31, a32, a33, a34, a35
 
-#define PASSED                                                                                                           \
-    g[0], g[1], g[2], g[3], g[4], g[5], g[6], g[7], g[8], g[9], g[10], g[11], g[12], g[13], g[14], g[15], g[16], g[17],  \
-        g[18], g[19], g[20], g[21], g[22], g[23], g[24], g[25], g[26], g[27], g[28], g[29], g[30], g[31], g[32], g[33],  \
-        g[34], g[35]
-
 static void watched_uel(PARAMETERS)
 {
     void *g[] = {GIVEN};
@@ -219,7 +202,7 @@ static void watched_uel(PARAMETERS)
     surround(g, MATERIALLIB);
     keep(g, MATERIALLIB, length);
     uel_host_scribble();
-    uel(PASSED);
+    uel(EACH_OF_UEL(g));
     look_around(g, MATERIALLIB, length);
     compare(g, MATERIALLIB, length);
     *pnewdt = *(double *)g[PNEWDT];
@@ -233,7 +216,7 @@ static void watched_uelmat(PARAMETERS, void *a36)
     surround(g, ARGUMENTS);
     keep(g, ARGUMENTS, length);
     uel_host_scribble();
-    uelmat(PASSED, g[MATERIALLIB]);
+    uelmat(EACH_OF_UEL(g), g[MATERIALLIB]);
     look_around(g, ARGUMENTS, length);
     compare(g, ARGUMENTS, length);
     *pnewdt = *(double *)g[PNEWDT];
