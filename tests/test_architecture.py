@@ -115,7 +115,10 @@ def test_the_registry_alone_asks_which_procedure_a_step_has() -> None:
 
 def test_lflags_are_put_together_in_one_place() -> None:
     """`Flags` has them by name; what hands them to Fortran takes them from there."""
-    knowing = {f"harness/{name}" for name in ("elements/lflags.py", "elements/block.py", "usersub/_binding.py")}
+    knowing = {
+        f"harness/{name}"
+        for name in ("elements/lflags.py", "elements/call.py", "usersub/exchange.py", "usersub/_binding.py")
+    }
     files = [path for path in TRACKED if path.parts[0] == "harness" and path.suffix == ".py"]
     used = re.compile(r"(?<!harness\.elements\.)\blflags\b")
     assert {str(path) for path in files if used.search((ROOT / path).read_text())} == knowing

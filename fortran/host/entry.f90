@@ -4,12 +4,12 @@
 !> are those that Python sees (harness/usersub/_host.pyi, written by stub.py). They only pack and unpack.
 
 !> One pass over a block; see block_t for the arrays.
-subroutine host_evaluate(address, material, tensor, jtype, symmetric, want_matrix, kstep, kinc, guards, entries, &
-                         iteration, parallel, lflags, time, dtime, period, params, labels, jprops, equations, map, &
-                         props, coords, u, du, v, a, counts, kinds, loads, predef, floor, field, svars, svars_trial, energy, &
-                         energy_trial, history, history_trial, residual, matrix, flux, pnewdt, energy_sum, &
-                         fault, position, array, item, alone, ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, &
-                         nrhs, nnz, values, points, most, nfield, nrate, mload, mfield, fluxes)
+subroutine host_evaluate(address, material, jtype, tensor, labels, jprops, equations, map, props, coords, svars, energy, &
+                         history, svars_trial, energy_trial, history_trial, symmetric, want_matrix, guards, entries, parallel, &
+                         kstep, kinc, iteration, time, dtime, period, params, lflags, u, du, v, a, counts, kinds, loads, predef, &
+                         floor, field, fluxes, residual, matrix, flux, pnewdt, energy_sum, fault, position, array, item, alone, &
+                         ndofel, nsvars, nprops, njprop, mcrd, nnode, m, n, nrhs, nnz, values, points, most, nfield, nrate, &
+                         mload, mfield)
   use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
   use host_block, only: block_t, keeps_state, scalars_t
   use host_context, only: initial_stresses

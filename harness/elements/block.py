@@ -27,7 +27,7 @@ from harness.model.records import ElementState, PointVariables
 from harness.model.restart import Saved
 from harness.model.steps import VerticalStress
 from harness.usersub import Library, _binding, _points
-from harness.usersub.exchange import BlockArrays, LoadArrays, Outcome, UnknownFields
+from harness.usersub.exchange import BlockArrays, Called, LoadArrays, Outcome, UnknownFields
 from harness.usersub.faults import Entries, Fault, Guards
 
 _PLASTIC: Final = 3
@@ -76,6 +76,7 @@ class ElementBlock:
         self.variables = variables
         self._coordinates = coordinates
         self._routine = routine
+        self._called = Called(routine.address, routine.material, routine.jtype, routine.tensor)
         self._library = library
         self.first = 0
         self.rows = np.arange(len(group.labels))
@@ -194,9 +195,12 @@ class ElementBlock:
             (m, unknowns, unknowns) position in the CSR values of each entry of the element matrix (row, column), from
             0.
         """
-        self._arrays.equations = np.ascontiguousarray(equations + 1, dtype=np.int32)
-        # the driver walks AMATRX by columns
-        self._arrays.map = np.ascontiguousarray(scatter.transpose(0, 2, 1) + 1, dtype=np.int32)
+        self._arrays = replace(
+            self._arrays,
+            equations=np.ascontiguousarray(equations + 1, dtype=np.int32),
+            # the driver walks AMATRX by columns
+            map=np.ascontiguousarray(scatter.transpose(0, 2, 1) + 1, dtype=np.int32),
+        )
         fields = self._unknown_fields
         self._forces = len(equations) * np.bincount(fields.of, minlength=fields.number + 1)[1:]
 
@@ -278,14 +282,11 @@ class ElementBlock:
             return _NOTHING
         motion = motion or _AT_REST
         outcome = _binding.evaluate(
-            self._scalars(call),
-            self._options(call, assemble=matrix is not None),
-            call.flags.lflags,
+            self._called,
             self._arrays,
-            u,
-            du,
-            motion.velocity,
-            motion.acceleration,
+            self._options(call, assemble=matrix is not None),
+            call.moment,
+            (u, du, motion.velocity, motion.acceleration),
             self._loads(call.distributed),
             self._fields(call.predefined),
             self._floor(call),
@@ -330,13 +331,14 @@ class ElementBlock:
         self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray
     ) -> tuple[BlockReport, FloatArray]:
         """`evaluate` that returns AMATRX of each element, (m, unknowns, unknowns), columns first, in place of a sum."""
-        assembled = self._arrays.map
-        matrices = np.zeros(assembled.shape)
-        self._arrays.map = np.arange(1, matrices.size + 1, dtype=np.int32).reshape(assembled.shape)
+        assembled = self._arrays
+        matrices = np.zeros(assembled.map.shape)
+        one_by_one = np.arange(1, matrices.size + 1, dtype=np.int32).reshape(matrices.shape)
+        self._arrays = replace(assembled, map=one_by_one)
         try:
             return self.evaluate(call, u, du, residual, matrices.reshape(-1)), matrices
         finally:
-            self._arrays.map = assembled
+            self._arrays = assembled
 
     def add_matrices(self, matrices: FloatArray, data: FloatArray) -> None:
         """Add matrices of the elements, as `evaluate_apart` returns them, to the CSR values (nnz,) of the system."""
@@ -474,13 +476,14 @@ class ElementBlock:
         place = self._routine.density
         if place < 0:
             return
-        given, self._arrays.props = self._arrays.props, self._arrays.props.copy()
-        self._arrays.props[place] = 1.0
+        given, props = self._arrays, self._arrays.props.copy()
+        props[place] = 1.0
+        self._arrays = replace(given, props=props)
         zero = np.zeros(unknowns)
         try:
             self.evaluate(call.asking(Request.MASS), zero, zero, zero.copy(), matrix)
         finally:
-            self._arrays.props = given
+            self._arrays = given
 
     def bare_loop(self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray) -> None:
         """Only call the elements, from a plain Fortran loop over the block: the upper bound of speed.
@@ -497,32 +500,13 @@ class ElementBlock:
         residual
             (n,), to which RHS is added.
         """
-        _binding.bare_loop(self._scalars(call), call.flags.lflags, self._arrays, u, du, residual)
+        _binding.bare_loop(self._called, self._arrays, call.moment, u, du, residual)
 
-    def _scalars(self, call: Call) -> _binding.Scalars:
-        return {
-            "address": self._routine.address,
-            "material": self._routine.material,
-            "jtype": self._routine.jtype,
-            "kstep": call.step,
-            "kinc": call.increment,
-            "time": (call.step_time, call.total_time),
-            "dtime": call.time_increment,
-            "period": call.period,
-        }
-
-    def _options(self, call: Call, *, assemble: bool) -> _binding.PassOptions:
-        return {
-            "tensor": self._routine.tensor,
-            "symmetric": not (self.unsymmetric or (call.unsymmetric and self.group.definition)),
-            "want_matrix": assemble,
-            "guards": self._guards,
-            "entries": self._entries,
-            "iteration": call.iteration,
-            # in their first calls routines, and the host, set up what they keep
-            "parallel": self.parallel and self._last is not None and call.flags.request is not Request.OUTPUT_VARIABLES,
-            "params": call.params,
-        }
+    def _options(self, call: Call, *, assemble: bool) -> tuple[bool, bool, Guards, Entries, bool]:
+        symmetric = not (self.unsymmetric or (call.unsymmetric and self.group.definition))
+        # in their first calls routines, and the host, set up what they keep
+        parallel = self.parallel and self._last is not None and call.flags.request is not Request.OUTPUT_VARIABLES
+        return symmetric, assemble, self._guards, self._entries, parallel
 
     def initialise(self, rows: IntArray, values: FloatArray) -> None:
         """Initial SVARS of elements, or STATEV of their points.

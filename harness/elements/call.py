@@ -5,13 +5,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple, Self
 
 import numpy as np
 
 from harness.elements.lflags import Damping, Flags, Request
 from harness.model.arrays import FloatArray, IntArray
-from harness.usersub.exchange import Outcome
+from harness.usersub.exchange import Moment, Outcome
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +42,7 @@ class Predefined:
     initial: FloatArray
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Call:
     """Arguments common to all elements in one pass.
 
@@ -78,6 +79,15 @@ class Call:
     def extrapolated(self) -> Self:
         """The same call, the first of an increment that starts from an extrapolation."""
         return replace(self, flags=replace(self.flags, extrapolated=True))
+
+    @cached_property
+    def moment(self) -> Moment:
+        """What the driver takes of it, for each block."""
+        time = self.step_time, self.total_time
+        lflags = self.flags.lflags
+        return Moment(
+            self.step, self.increment, self.iteration, time, self.time_increment, self.period, self.params, lflags
+        )
 
     @property
     def place(self) -> str:

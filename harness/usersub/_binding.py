@@ -8,14 +8,23 @@ Its materials are in `_materials`, what is called at points in `_points`.
 from __future__ import annotations
 
 import os
-from typing import Final, Literal, TypedDict
+from typing import Final, Literal
 
 import numpy as np
 
 from harness.model.arrays import FloatArray
 from harness.usersub._extension import host
-from harness.usersub.exchange import BlockArrays, Int32Array, LoadArrays, Outcome, RawMessage, UnknownFields
-from harness.usersub.faults import Fault
+from harness.usersub.exchange import (
+    BlockArrays,
+    Called,
+    Int32Array,
+    LoadArrays,
+    Moment,
+    Outcome,
+    RawMessage,
+    UnknownFields,
+)
+from harness.usersub.faults import Entries, Fault, Guards
 
 ARRAYS: Final = ("RHS", "AMATRX", "SVARS", "ENERGY", "PROPS", "COORDS", "U", "DU", "V", "A", "PREDEF")
 """Guarded arrays, in the order of fortran/host/host_workspace.f90."""
@@ -43,44 +52,17 @@ _STRAIN_ENERGY: Final = 1
 """Index of ENERGY(2)."""
 
 
-class Scalars(TypedDict):
-    """Scalar arguments of a pass, as host_evaluate in fortran/host/entry.f90 has them."""
-
-    address: int
-    material: int
-    jtype: int
-    kstep: int
-    kinc: int
-    time: tuple[float, float]
-    dtime: float
-    period: float
-
-
-class PassOptions(TypedDict):
-    """Arguments that a plain loop does not need."""
-
-    tensor: int
-    symmetric: bool
-    want_matrix: bool
-    guards: int
-    entries: int
-    iteration: int
-    parallel: bool
-    params: tuple[float, float, float]
-
+_FAULTS: Final = tuple(Fault)
 
 _watching = False
 
 
 def evaluate(
-    scalars: Scalars,
-    options: PassOptions,
-    lflags: tuple[int, ...],
+    called: Called,
     arrays: BlockArrays,
-    u: FloatArray,
-    du: FloatArray,
-    v: FloatArray,
-    a: FloatArray,
+    options: tuple[bool, bool, Guards, Entries, bool],
+    moment: Moment,
+    unknowns: tuple[FloatArray, FloatArray, FloatArray, FloatArray],
     loads: LoadArrays,
     predef: FloatArray,
     floor: FloatArray,
@@ -88,54 +70,53 @@ def evaluate(
     residual: FloatArray,
     matrix: FloatArray,
 ) -> Outcome:
-    """One pass over a block; lflags is LFLAGS(1..7).
+    """One pass over a block.
 
-    v and a are (n,), or (1,) where nothing moves; predef is (m, nodes, fields, 2), or (1, nodes, fields, 2) if it is
-    the same for all elements; floor (ndofel,); residual (NRHS, n), whose rows take the columns of RHS.
+    options are: (A + A^T)/2 is assembled, AMATRX is assembled, what a write outside an array does, what an entry that
+    is not set does, several threads may call. unknowns are u and du, (n,), v and a, (n,), or (1,) where nothing moves;
+    predef is (m, nodes, fields, 2), or (1, nodes, fields, 2) if it is the same for all elements; floor (ndofel,);
+    residual (NRHS, n), whose rows take the columns of RHS.
     """
     if _watching:
-        scalars = {**scalars, "address": host.host_watch(scalars["address"], scalars["material"])}
+        called = called._replace(address=host.host_watch(called.address, called.material))
+    # by position: to match some forty names takes as long as a call of several elements
     flux, pnewdt, energy, fault, position, array, item, alone = host.host_evaluate(
-        **scalars,
-        **options,
-        lflags=lflags,
-        labels=arrays.labels,
-        jprops=arrays.jprops,
-        equations=arrays.equations.T,
-        map=arrays.map.T,
-        props=arrays.props,
-        coords=arrays.coords.T,
-        u=u,
-        du=du,
-        v=v,
-        a=a,
-        counts=loads.counts,
-        kinds=loads.kinds.T,
-        loads=loads.values.T,
-        predef=predef.T,
-        floor=floor,
-        field=fields.of,
-        svars=arrays.svars.T,
-        svars_trial=arrays.svars_trial.T,
-        energy=arrays.energy.T,
-        energy_trial=arrays.energy_trial.T,
-        history=arrays.history.T,
-        history_trial=arrays.history_trial.T,
-        residual=residual.T,
-        matrix=matrix,
-        fluxes=fields.number,
+        called.address,
+        called.material,
+        called.jtype,
+        called.tensor,
+        *arrays.reversed,
+        *options,
+        moment.kstep,
+        moment.kinc,
+        moment.iteration,
+        moment.time,
+        moment.dtime,
+        moment.period,
+        moment.params,
+        moment.lflags,
+        *unknowns,
+        loads.counts,
+        loads.kinds.T,
+        loads.values.T,
+        predef.T,
+        floor,
+        fields.of,
+        fields.number,
+        residual.T,
+        matrix,
     )
     left = fault == Fault.LEFT
     return Outcome(
-        fault=Fault(fault),
-        position=position - 1,
-        array="" if left else ARRAYS[array - 1],
-        routine=POINT_ROUTINES[array] if left else "",
-        item=item,
-        flux=flux.T,
-        pnewdt=pnewdt,
-        energy=energy,
-        alone=alone,
+        _FAULTS[fault],
+        position - 1,
+        "" if left else ARRAYS[array - 1],
+        POINT_ROUTINES[array] if left else "",
+        item,
+        flux.T,
+        pnewdt,
+        energy,
+        alone,
     )
 
 
@@ -188,18 +169,20 @@ def allocated() -> int:
 
 
 def bare_loop(
-    scalars: Scalars,
-    lflags: tuple[int, ...],
-    arrays: BlockArrays,
-    u: FloatArray,
-    du: FloatArray,
-    residual: FloatArray,
+    called: Called, arrays: BlockArrays, moment: Moment, u: FloatArray, du: FloatArray, residual: FloatArray
 ) -> None:
     """Call the elements from a plain loop: what `evaluate` is measured against."""
     ndofel = arrays.equations.shape[1]
     host.host_bare_loop(
-        **scalars,
-        lflags=np.array(lflags, dtype=np.int32),
+        address=called.address,
+        material=called.material,
+        jtype=called.jtype,
+        kstep=moment.kstep,
+        kinc=moment.kinc,
+        lflags=np.array(moment.lflags, dtype=np.int32),
+        time=moment.time,
+        dtime=moment.dtime,
+        period=moment.period,
         labels=arrays.labels,
         jprops=arrays.jprops,
         equations=arrays.equations.T,

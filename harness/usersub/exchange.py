@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +15,37 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.usersub.faults import Fault
 
 Int32Array = NDArray[np.int32]
+
+_Integers = tuple[Int32Array, Int32Array, Int32Array, Int32Array]
+_Reals = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]
+ReversedArrays = tuple[*_Integers, *_Reals]
+
+
+class Called(NamedTuple):
+    """What the driver calls for a block.
+
+    address   of UEL or UELMAT
+    material  number of the material in the host; 0 for none, then it is UEL
+    tensor    stress components of the material, 0 without one
+    """
+
+    address: int
+    material: int
+    jtype: int
+    tensor: int
+
+
+class Moment(NamedTuple):
+    """Arguments of a pass that are the same for all blocks, under Abaqus' names; iteration is for messages."""
+
+    kstep: int
+    kinc: int
+    iteration: int
+    time: tuple[float, float]
+    dtime: float
+    period: float
+    params: tuple[float, float, float]
+    lflags: tuple[int, ...]
 
 
 class Outcome(NamedTuple):
@@ -49,7 +81,7 @@ class UnknownFields:
     number: int
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True)
 class BlockArrays:
     """Arrays of a block that the driver reads and writes, C order, element first (the driver's shapes reversed)."""
 
@@ -65,6 +97,14 @@ class BlockArrays:
     energy_trial: FloatArray
     history: FloatArray
     history_trial: FloatArray
+
+    @cached_property
+    def reversed(self) -> ReversedArrays:
+        """The same with the driver's shapes; made once, for each pass takes them."""
+        integers = self.labels, self.jprops, self.equations.T, self.map.T
+        start = self.svars.T, self.energy.T, self.history.T
+        end = self.svars_trial.T, self.energy_trial.T, self.history_trial.T
+        return *integers, self.props, self.coords.T, *start, *end
 
     def of(self, rows: IntArray) -> BlockArrays:
         """Those of some of the elements, copied."""
