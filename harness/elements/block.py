@@ -27,7 +27,7 @@ from harness.model.records import ElementState, PointVariables
 from harness.model.restart import Saved
 from harness.model.steps import VerticalStress
 from harness.usersub import Library, _binding, _points
-from harness.usersub.exchange import BlockArrays, Called, LoadArrays, Outcome, UnknownFields
+from harness.usersub.exchange import BlockArrays, LoadArrays, Outcome, UnknownFields
 from harness.usersub.faults import Entries, Fault, Guards
 
 _PLASTIC: Final = 3
@@ -76,7 +76,6 @@ class ElementBlock:
         self.variables = variables
         self._coordinates = coordinates
         self._routine = routine
-        self._called = Called(routine.address, routine.material, routine.jtype, routine.tensor)
         self._library = library
         self.first = 0
         self.rows = np.arange(len(group.labels))
@@ -282,7 +281,7 @@ class ElementBlock:
             return _NOTHING
         motion = motion or _AT_REST
         outcome = _binding.evaluate(
-            self._called,
+            self._routine.called,
             self._arrays,
             self._options(call, assemble=matrix is not None),
             call.moment,
@@ -500,7 +499,7 @@ class ElementBlock:
         residual
             (n,), to which RHS is added.
         """
-        _binding.bare_loop(self._called, self._arrays, call.moment, u, du, residual)
+        _binding.bare_loop(self._routine.called, self._arrays, call.moment, u, du, residual)
 
     def _options(self, call: Call, *, assemble: bool) -> tuple[bool, bool, Guards, Entries, bool]:
         symmetric = not (self.unsymmetric or (call.unsymmetric and self.group.definition))

@@ -6,12 +6,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum, auto
+from functools import cached_property
 
 import numpy as np
 
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.local_systems import UndefinedDirectionsError
 from harness.model.properties import Orientation
+from harness.usersub.exchange import Called
 
 VALUES_OF_AXES = 18
 """Values of SVARS for the directions of a point (fortran/host/host_axes.f90)."""
@@ -33,7 +35,7 @@ class Linearity(Enum):
     UNKNOWN = auto()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Routine:
     """What the driver calls for a block, with the constants of the calls.
 
@@ -89,6 +91,11 @@ class Routine:
     turns: bool = False
     forceless: bool = False
     initial_temperatures: FloatArray | None = None
+
+    @cached_property
+    def called(self) -> Called:
+        """What the driver takes of it in each pass."""
+        return Called(self.address, self.material, self.jtype, self.tensor)
 
     def stress_of(self, svars: FloatArray) -> tuple[FloatArray, IntArray]:
         """SVARS of elements (m, svars) by their points (m, points, values), a view, and the places of the stress there.
