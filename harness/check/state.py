@@ -119,7 +119,7 @@ class ElementState:
     def with_svars(self, svars: FloatArray) -> ElementState:
         """The state with other state variables (nsvars,) at the start of the increment."""
         single = self.single.twin(strict=False)
-        single.block.initialise(np.array([0]), svars)
+        single.block.initial.initialise(np.array([0]), svars)
         return replace(self, single=single)
 
     def depends_on(self, chosen: np.ndarray) -> bool:

@@ -11,21 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
-from harness.elements.directions import is_user, undefined
 from harness.elements.faults import ERRORS, at_point, distortion, material_point, write_outside, wrong_entry
 from harness.elements.fields import FIELD_NAMES, field_of
+from harness.elements.initial_state import InitialState
 from harness.elements.lflags import Flags, Request
 from harness.elements.routine import Linearity, PointAxes, Routine
 from harness.elements.watch import Watch
 from harness.errors import ElementError, KernelError
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import ContinuumType
-from harness.model.local_systems import UndefinedDirectionsError, orthonormal
 from harness.model.mesh import ElementGroup
-from harness.model.properties import SolidSection
 from harness.model.records import ElementState, PointVariables
 from harness.model.restart import Saved
-from harness.model.steps import VerticalStress
 from harness.usersub import Library, _binding, _points
 from harness.usersub.exchange import BlockArrays, LoadArrays, Outcome, UnknownFields
 from harness.usersub.faults import Entries, Fault, Guards
@@ -116,6 +112,11 @@ class ElementBlock:
         # of each unknown the first one of the same dof, from 1
         self._first = np.array([(dofs.index(dof) + 1) * (dof in routine.free) for dof in dofs], dtype=np.int32)
         self._no_fields = np.zeros((1, group.nodes.shape[1], 1 if group.definition else 2, 2))
+
+    @property
+    def initial(self) -> InitialState:
+        """What sets the state in which its elements begin."""
+        return InitialState(self.group, self._arrays, self._routine, self._library)
 
     @property
     def elastic(self) -> bool:
@@ -507,90 +508,8 @@ class ElementBlock:
         parallel = self.parallel and self._last is not None and call.flags.request is not Request.OUTPUT_VARIABLES
         return symmetric, assemble, self._guards, self._entries, parallel
 
-    def initialise(self, rows: IntArray, values: FloatArray) -> None:
-        """Initial SVARS of elements, or STATEV of their points.
-
-        Parameters
-        ----------
-        rows
-            (k,) elements, as rows of the block from 0.
-        values
-            The first variables, the same for all these elements and their points.
-
-        Raises
-        ------
-        ValueError
-            There are more values than variables.
-        """
-        state = self._initial_state()
-        if len(values) > state.shape[2]:
-            raise ValueError(f"{len(values)} values, but elements of type {self.group.type} have {state.shape[2]}")
-        state[rows, :, : len(values)] = values
-        self._begin(state)
-
-    def set_stress(self, rows: IntArray, values: FloatArray | VerticalStress) -> None:
-        """Initial stress at all points of elements; `begin_stressed` passes it to the material.
-
-        Parameters
-        ----------
-        rows
-            (k,) elements, as rows of the block from 0.
-        values
-            Components in Abaqus' order (force/length^2), in the directions of *ORIENTATION; those left out are zero.
-            Or a stress over the elevation, in global directions.
-
-        Raises
-        ------
-        ValueError
-            The elements take no stress, or lack a component that is not zero; or have an orientation.
-        """
-        try:
-            if isinstance(values, VerticalStress):
-                values = values.components(self._elevations(rows), len(self._routine.stress))
-            self._routine.set_stress(self._arrays.svars, rows, values)
-        except ValueError as error:
-            raise ValueError(f"elements of type {self.group.type} {error}") from None
-
-    def call_sigini(self, address: int) -> None:
-        """Let SIGINI set the initial stress at all points; `begin_stressed` passes it to the material.
-
-        Parameters
-        ----------
-        address
-            Of SIGINI, as `Library.sigini`.
-
-        Raises
-        ------
-        ValueError
-            The elements take no stress.
-        KernelError
-            It ends the analysis.
-        """
-        try:
-            states, places = self._routine.stress_of(self._arrays.svars)
-        except ValueError as error:
-            raise ValueError(f"elements of type {self.group.type} {error}") from None
-        sigma = np.zeros((*states.shape[:2], len(places)))
-        element, point = _points.sigini(address, self.group.type, self._arrays, sigma, self._routine.family)
-        if element:
-            why = at_point("SIGINI", point) + self._library.stop_reason()
-            raise KernelError(element, self.group.type, why)
-        states[:, :, places] = sigma
-
-    def _elevations(self, rows: IntArray) -> FloatArray:
-        """Last coordinate (k, points) of the integration points of elements."""
-        kind, section = self.group.built_in, self.group.section
-        if not isinstance(kind, ContinuumType) or not isinstance(section, SolidSection):
-            raise ValueError("do not take an initial stress by elevation")
-        if section.orientation is not None:
-            raise ValueError("have directions of their own (*ORIENTATION), for which GEOSTATIC is not supported")
-        family = kind.family
-        _, shapes, _ = _binding.integration_rule(family.number, kind.points, family.nodes, family.dimension)
-        elevations: FloatArray = self._arrays.coords[rows, :, kind.dimension - 1] @ shapes.T
-        return elevations
-
     def begin_stressed(self, call: Call, u: FloatArray, residual: FloatArray) -> None:
-        """Pass the stresses of `set_stress` to the material; the state that follows is committed.
+        """Pass the stresses of `initial.set_stress` to the material; the state that follows is committed.
 
         Parameters
         ----------
@@ -609,95 +528,6 @@ class ElementBlock:
         flags = Flags(call.flags.procedure, request=Request.INITIAL_STRESSES)
         self.evaluate(replace(call, flags=flags), u, np.zeros_like(u), residual, None)
         self._keep_trial()
-
-    def call_sdvini(self, address: int) -> None:
-        """Let SDVINI set the initial state.
-
-        Parameters
-        ----------
-        address
-            Of SDVINI, as `Library.sdvini`.
-
-        Raises
-        ------
-        KernelError
-            It ends the analysis.
-        """
-        state = np.ascontiguousarray(self._initial_state())
-        element, point = _points.sdvini(address, self._arrays, state, self._routine.family) if state.size else (0, 0)
-        if element:
-            at = at_point("SDVINI", point) if self.group.definition is None else "SDVINI "
-            raise KernelError(element, self.group.type, at + self._library.stop_reason())
-        self._begin(state)
-
-    def begin_axes(self, axes: FloatArray) -> None:
-        """Set the directions of *ORIENTATION at the start.
-
-        Parameters
-        ----------
-        axes
-            (m, points, 3, 3), in rows.
-
-        Raises
-        ------
-        DeckError
-            Direction 3 is not normal to the plane of plane elements.
-        """
-        given = self._routine.axes
-        assert given is not None
-        try:
-            given.begin(self._arrays.svars, axes)
-        except UndefinedDirectionsError as error:
-            raise undefined(self.group, given.orientation, error) from None
-        self._arrays.svars_trial[:] = self._arrays.svars
-
-    def set_last(self, values: FloatArray) -> None:
-        """Set the last SVARS of all elements (m, count), which stay as they are."""
-        self._arrays.svars[:, -values.shape[1] :] = self._arrays.svars_trial[:, -values.shape[1] :] = values
-
-    def call_orient(self, address: int, labels: IntArray) -> None:
-        """Let ORIENT set the directions of points whose *ORIENTATION says so.
-
-        Parameters
-        ----------
-        address
-            Of ORIENT, as `Library.orient`.
-        labels
-            Numbers of all nodes of the model.
-
-        Raises
-        ------
-        KernelError
-            It ends the analysis.
-        DeckError
-            It does not give two directions, or not in the plane of plane elements.
-        """
-        given = self._routine.axes
-        if given is None or not is_user(given.orientation) or not len(self.group.labels):
-            return
-        nodes = labels[self.group.nodes].astype(np.int32)
-        name, family = given.orientation.name, self._routine.family
-        found, element, point = _points.orient(address, name, self._arrays, nodes, family, given.points)
-        if element:
-            why = at_point("ORIENT", point) + self._library.stop_reason()
-            raise KernelError(element, self.group.type, why)
-        try:
-            axes = orthonormal(found)
-        except UndefinedDirectionsError as error:
-            raise undefined(self.group, given.orientation, error) from None
-        self.begin_axes(axes)
-
-    def _initial_state(self) -> FloatArray:
-        """What *INITIAL CONDITIONS, TYPE=SOLUTION sets (m, points, values), a view of the committed state."""
-        if self.group.definition is not None:
-            return self._arrays.svars[:, None, :]
-        history = self._arrays.history
-        return history[:, :, history.shape[2] - self._routine.statev :]
-
-    def _begin(self, state: FloatArray) -> None:
-        """Make it the committed and the trial state."""
-        self._initial_state()[:] = state
-        self._arrays.svars_trial[:], self._arrays.history_trial[:] = self._arrays.svars, self._arrays.history
 
     def commit(self) -> None:
         """End of a converged increment: the state of the last normal call becomes the committed one, then UVARM.

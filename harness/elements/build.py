@@ -274,7 +274,7 @@ def _composite_block(
     _check_nodes(group, kind.nodes)
     routine = composite_routine(model, group, kind, section, library)
     block = _nodal_block(model, group, kind, routine, library, composite_variables(kind, section, routine))
-    block.begin_axes(layer_axes(model, group, kind, section, routine.family))
+    block.initial.begin_axes(layer_axes(model, group, kind, section, routine.family))
     return block
 
 
@@ -309,7 +309,7 @@ def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library
         variables=piezoelectric_variables(group) if kind.electrical else solid_variables(group, routine),
     )
     if routine.axes is not None:
-        block.begin_axes(start_axes(model, group, kind, routine.axes.orientation, library))
+        block.initial.begin_axes(start_axes(model, group, kind, routine.axes.orientation, library))
     return block
 
 
@@ -381,7 +381,7 @@ def _shell_block(model: Model, group: ElementGroup, kind: ShellType, library: Li
     variables = shell_variables(section, kind, routine)
     block = _nodal_block(model, group, kind, routine, library, variables, unsymmetric=turns)
     check_normals(model, group, kind, library)
-    block.set_last(directors(model, group).reshape(len(group.labels), -1))
+    block.initial.set_last(directors(model, group).reshape(len(group.labels), -1))
     _begin_surface_axes(model, group, kind, block, routine, library)
     return block
 
@@ -395,7 +395,7 @@ def _continuum_shell_block(
     _check_nodes(group, kind.nodes)
     routine = continuum_shell_routine(model, group, kind, section, library)
     block = _nodal_block(model, group, kind, routine, library, shell_variables(section, kind, routine))
-    block.set_last(stack_directions(model, group, kind, section, library))
+    block.initial.set_last(stack_directions(model, group, kind, section, library))
     _begin_surface_axes(model, group, kind, block, routine, library)
     return block
 
@@ -423,7 +423,7 @@ def _begin_surface_axes(
     if routine.axes is not None:
         axes = start_axes(model, group, kind, routine.axes.orientation, library)
         # the direction that is projected, the next one, and that closest to the normal
-        block.begin_axes(np.roll(axes, -routine.axes.orientation.normal, axis=-2))
+        block.initial.begin_axes(np.roll(axes, -routine.axes.orientation.normal, axis=-2))
 
 
 def _beam_block(model: Model, group: ElementGroup, kind: BeamType, library: Library) -> ElementBlock:
@@ -436,7 +436,7 @@ def _beam_block(model: Model, group: ElementGroup, kind: BeamType, library: Libr
     turns = kind.dimension == 3 and any(step.nlgeom for step in model.steps)
     variables = beam_variables(section, kind, routine)
     block = _nodal_block(model, group, kind, routine, library, variables, unsymmetric=turns)
-    block.set_last(start_directions(model, group, kind, section))
+    block.initial.set_last(start_directions(model, group, kind, section))
     return block
 
 

@@ -58,7 +58,7 @@ def set_initial_states(blocks: Iterable[ElementBlock], model: Model, user: Initi
     """
     if user.orient is not None:
         for block in blocks:
-            block.call_orient(user.orient, model.mesh.labels)
+            block.initial.call_orient(user.orient, model.mesh.labels)
     sdvini = user.sdvini
     for entry in model.initial_solutions:
         if entry.elements is None and sdvini is None:
@@ -66,12 +66,12 @@ def set_initial_states(blocks: Iterable[ElementBlock], model: Model, user: Initi
         for block in blocks:
             if entry.elements is None:
                 assert sdvini is not None
-                block.call_sdvini(sdvini)
+                block.initial.call_sdvini(sdvini)
                 continue
             rows = block.places_of(entry.elements[block.holds(entry.elements)])
             try:
                 if block.are_of_group(entry.elements).any():
-                    block.initialise(rows, entry.values)
+                    block.initial.initialise(rows, entry.values)
             except ValueError as error:
                 raise DeckError(entry.source, f"*INITIAL CONDITIONS, TYPE=SOLUTION: {error}") from None
 
@@ -97,7 +97,7 @@ def set_initial_stresses(
                 continue
             rows = block.places_of(entry.elements[block.holds(entry.elements)])
             try:
-                block.set_stress(rows, entry.values if entry.profile is None else entry.profile)
+                block.initial.set_stress(rows, entry.values if entry.profile is None else entry.profile)
             except ValueError as error:
                 raise DeckError(entry.source, f"*INITIAL CONDITIONS, TYPE=STRESS: {error}") from None
             stressed[block.first] = block
@@ -129,7 +129,7 @@ def _stresses_by_user(system: System, entry: InitialStress, user: InitialRoutine
     blocks = {block.first: block for block in system.blocks if _has_stress(block.group)}
     for block in blocks.values():
         try:
-            block.call_sigini(user.sigini)
+            block.initial.call_sigini(user.sigini)
         except ValueError as error:
             raise DeckError(entry.source, f"*INITIAL CONDITIONS, TYPE=STRESS, USER: {error}") from None
     return blocks

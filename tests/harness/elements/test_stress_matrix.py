@@ -44,7 +44,7 @@ def element(solid_group, load, call):
         n = len(block.unknowns)
         block.bind(np.arange(n, dtype=np.int32)[None], np.arange(n * n, dtype=np.int32).reshape(1, n, n))
         if stressed:
-            block.set_stress(np.array([0]), initial.values)
+            block.initial.set_stress(np.array([0]), initial.values)
             block.begin_stressed(call, np.zeros(n), np.zeros(n))
         u = 1e-3 * np.random.default_rng(2).standard_normal(n)
 
