@@ -5,20 +5,24 @@
 Times depend on the machine and on what else it does, so the benchmark judges ratios of neighbouring times: what is
 compared takes turns, and the median of the ratios counts. Times are those of the processor in this thread: other
 processes that take it do not count, but they leave its caches cold, which only adds time. So of element loops, the
-shortest of what is measured, the least of a few neighbouring turns is taken before they are compared. The element loops
-are those of a pass that calls all elements; in an iteration matrices stand for the linear ones, as in `uel run`. The
-plain loop does what any loop over elements must: it gathers U and DU, sets SVARS and ENERGY, calls, and adds RHS.
+shortest of what is measured, the least of a few neighbouring turns is taken before they are compared; and they are
+measured in several processes, for where memory lies in one of them moves a ratio by some 0.02. They are those of a pass
+that calls all elements; in an iteration matrices stand for the linear ones, as in `uel run`. The plain loop does what
+any loop over elements must: it gathers U and DU, sets SVARS and ENERGY, calls, and adds RHS.
 """
 
 from __future__ import annotations
 
 import argparse
+import statistics
 import sys
 import tempfile
 import time
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from itertools import cycle
+from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
@@ -32,8 +36,10 @@ from harness.assembly import Constraints, System, TolerantSystem
 from harness.deck import read_deck
 from harness.elements import Call, ElementBlock, Flags, build_blocks
 from harness.model.arrays import FloatArray
+from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.records import IncrementDone, IterationDone
+from harness.model.restart import Saved
 from harness.procedures import run_steps
 from harness.solver.linear import available, choose
 from harness.solver.threads import one_blas_thread
@@ -41,6 +47,8 @@ from harness.solver.threads import one_blas_thread
 DECK = Path(__file__).parents[3] / "abaqus_inputs" / "dcb_ref" / "dcb_ref.inp"
 LARGEST_ITERATION = 1.5
 """Bound of a Newton iteration over one SuperLU factorisation and solution of its own matrix."""
+PROCESSES = 5
+"""In which the element loops are measured, one after the other."""
 LARGEST_DRIVER, LARGEST_BLOCK = 1.10, 1.15
 """Bounds of the driver without scatter of AMATRX over a plain Fortran loop: over all blocks, and in each."""
 
@@ -109,25 +117,67 @@ def run(system: System, model: Model, library: usersub.Library, increments: int,
     return Run(displacement, float(np.median(mine / others)), float(np.median(mine)), total, increments)
 
 
-class Elements:
-    """Times of the element loops: with scatter, without it, and of a plain Fortran loop."""
+@dataclass(frozen=True)
+class State:
+    """Where the element loops are measured: after an increment, at the unknowns u, with what the blocks have kept."""
 
-    def __init__(self, system: System, call: Call, u: FloatArray) -> None:
-        self._call, self._u = call, u
-        self._data, self._residual = np.zeros(len(system.indices)), np.zeros_like(u)
-        self.rows = [(block, self._measure(block)) for block in system.blocks]
-        self.assembled = float(np.median(in_turns(lambda: system.evaluate(call, u, np.zeros_like(u)))))
+    increment: int
+    u: FloatArray
+    kept: list[Saved]
 
-    def _measure(self, block: ElementBlock) -> FloatArray:
-        u, zero, call = self._u, np.zeros_like(self._u), self._call
-        return least_of_turns(
-            in_turns(
-                lambda: block.evaluate(call, u, zero, self._residual, self._data),
-                lambda: block.evaluate(call, u, zero, self._residual, None),
-                lambda: block.bare_loop(call, u, zero, self._residual),
-                repetitions=150,
+    @property
+    def call(self) -> Call:
+        """Of the increment after it."""
+        return Call(Flags(1), 1, self.increment + 1, 1.0, 1.0, 0.01, 1.0)
+
+
+@dataclass(frozen=True)
+class Times:
+    """Of the element loops in one process (ms).
+
+    blocks     (repetitions, 3) of each block: with scatter, without it, and of a plain Fortran loop
+    assembled  a pass over all blocks
+    """
+
+    blocks: list[FloatArray]
+    assembled: float
+
+
+def measure(state: State) -> Times:
+    """Times of the element loops in this process."""
+    with tempfile.TemporaryDirectory() as folder, one_blas_thread():
+        model = read_deck(DECK)
+        library = usersub.load(None, job="elements", output_dir=Path(folder), deck=DECK)
+        system = TolerantSystem(model, library)
+        for block, kept in zip(system.blocks, state.kept, strict=True):
+            block.resume(kept)
+        call, u, zero = state.call, state.u, np.zeros_like(state.u)
+        data, residual = np.zeros(len(system.indices)), np.zeros_like(u)
+
+        def times_of(block: ElementBlock) -> FloatArray:
+            return least_of_turns(
+                in_turns(
+                    lambda: block.evaluate(call, u, zero, residual, data),
+                    lambda: block.evaluate(call, u, zero, residual, None),
+                    lambda: block.bare_loop(call, u, zero, residual),
+                    repetitions=50,
+                )
             )
-        )
+
+        blocks = [times_of(block) for block in system.blocks]
+        assembled = float(np.median(in_turns(lambda: system.evaluate(call, u, zero))))
+        library.close()
+    return Times(blocks, assembled)
+
+
+class Elements:
+    """Times of the element loops, in some processes one after the other."""
+
+    def __init__(self, groups: list[ElementGroup], state: State) -> None:
+        self._groups = groups
+        with ProcessPoolExecutor(1, get_context("spawn"), max_tasks_per_child=1) as pool:
+            self._processes = list(pool.map(measure, [state] * PROCESSES))
+        self.assembled = statistics.median(process.assembled for process in self._processes)
 
     def report(self, console: Console) -> bool:
         """Print the table; False if the driver is slower than its bound, over all blocks or in one."""
@@ -135,18 +185,25 @@ class Elements:
         for name in ("with scatter", "without", "plain loop", "ratio"):
             table.add_column(name, justify="right")
         worst = 0.0
-        for block, times in self.rows:
-            count = len(block.group.labels)
-            per_element = [f"{1e6 * each / count:.0f}" for each in np.median(times, axis=0)]
-            ratio = float(np.median(times[:, 1] / times[:, 2]))
+        for k, group in enumerate(self._groups):
+            times = [process.blocks[k] for process in self._processes]
+            per_element = [f"{1e6 * each / len(group.labels):.0f}" for each in np.median(np.concatenate(times), axis=0)]
+            ratio = driver_to_plain(times)
             worst = max(worst, ratio)
-            table.add_row(f"{count} x {block.group.type}", *per_element, judged(ratio, LARGEST_BLOCK))
-        _, driver, plain = sum(times for _, times in self.rows).T
-        ratio = float(np.median(driver / plain))
+            table.add_row(f"{len(group.labels)} x {group.type}", *per_element, judged(ratio, LARGEST_BLOCK))
+        ratio = driver_to_plain([np.sum(process.blocks, axis=0) for process in self._processes])
         table.add_row("all", "", "", "", judged(ratio, LARGEST_DRIVER))
         console.print(table)
-        console.print("ratio: driver without scatter of AMATRX to a plain Fortran loop of the same calls")
+        console.print(
+            "ratio: driver without scatter of AMATRX to a plain Fortran loop of the same calls; "
+            f"the median of {PROCESSES} processes"
+        )
         return ratio <= LARGEST_DRIVER and worst <= LARGEST_BLOCK
+
+
+def driver_to_plain(processes: list[FloatArray]) -> float:
+    """The median over processes of that in one process, of times (repetitions, 3) as `Times` has them."""
+    return statistics.median(float(np.median(times[:, 1] / times[:, 2])) for times in processes)
 
 
 class Iterations:
@@ -234,14 +291,15 @@ def main() -> int:
         system = TolerantSystem(model, library)
         seconds = time.thread_time() - start
         console.print(f"DCB-ref: deck read and system built in {seconds:.2f} s, {len(system)} unknowns")
-        call = Call(Flags(1), 1, options.increments + 1, 1.0, 1.0, 0.01, 1.0)
         # a matrix of the same pattern, to be factorised beside the run
         at_rest = System(model.mesh, build_blocks(model, library), model.equations)
+        call = Call(Flags(1), 1, 1, 1.0, 1.0, 0.01, 1.0)
         superlu = Iterations(at_rest, model, call, np.zeros(len(at_rest))).superlu
         done = run(system, model, library, options.increments, superlu)
-        elements = Elements(system, call, done.displacement)
+        state = State(options.increments, done.displacement, [block.kept() for block in system.blocks])
+        elements = Elements([block.group for block in system.blocks], state)
         good = elements.report(console)
-        good &= Iterations(system, model, call, done.displacement).report(console, elements, done)
+        good &= Iterations(system, model, state.call, state.u).report(console, elements, done)
         library.close()
     return 0 if good else 1
 
