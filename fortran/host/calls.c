@@ -13,7 +13,10 @@
 // protect.c
 void uel_host_begin(int32_t seat, int32_t element);
 
-// One copy of the code for all who call it.
+// host_workspace.f90
+void uel_host_fill(int64_t n, int64_t bits, double *to);
+
+// One copy of the code for all who call it: inlined, it takes the room that is short.
 #define NOINLINE __attribute__((noinline))
 
 typedef double pair __attribute__((vector_size(16), aligned(8)));
@@ -29,7 +32,7 @@ struct layout {
     void (*routine)(void);
     int32_t with_material, loaded, moves, keeps;
     int64_t ndofel, rhs, svars, props, coords, predef, another, jprops;
-    double on_entry;
+    int64_t on_entry;      // bits of a number
     const int32_t *equations;
     const double *from_u, *from_du, *from_v, *from_a;
     const struct scalars *from_scalars;
@@ -51,25 +54,6 @@ static NOINLINE void copy(int64_t n, const double *from, double *to)
     for (int64_t k = 0; k < n - 8; k += 8)
         memcpy(to + k, from + k, 8 * sizeof *to);
     memcpy(to + n - 8, from + n - 8, 8 * sizeof *to);
-}
-
-static void set_eight(pair value, double *to)
-{
-    for (int k = 0; k < 8; k += 2)
-        *(pair *)(to + k) = value;
-}
-
-static NOINLINE void fill(int64_t n, double value, double *to)
-{
-    const pair both = {value, value};
-    if (n < 8) {
-        for (int64_t k = 0; k < n; k++)
-            to[k] = value;
-        return;
-    }
-    for (int64_t k = 0; k < n - 8; k += 8)
-        set_eight(both, to + k);
-    set_eight(both, to + n - 8);
 }
 
 // Entries of two vectors of the system, two at a time.
@@ -110,11 +94,11 @@ void uel_host_call(const struct layout *layout, int64_t place, int32_t seat, int
     if (layout->moves)
         gather(n, equations, layout->from_v, layout->from_a, given[V], given[A]);
     else {
-        fill(n, 0, given[V]);
-        fill(n, 0, given[A]);
+        uel_host_fill(n, 0, given[V]);
+        uel_host_fill(n, 0, given[A]);
     }
-    fill(layout->rhs, layout->on_entry, given[RHS]);
-    fill(n * n, layout->on_entry, given[AMATRX]);
+    uel_host_fill(layout->rhs, layout->on_entry, given[RHS]);
+    uel_host_fill(n * n, layout->on_entry, given[AMATRX]);
     copy(layout->svars, layout->from_svars + place * layout->svars, given[SVARS]);
     memcpy(given[ENERGY], layout->from_energy + place * 8, 8 * sizeof(double));
     copy(layout->props, layout->from_props, given[PROPS]);

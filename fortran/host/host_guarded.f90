@@ -6,6 +6,7 @@
 !> elements, because there are many more calls. They hold a number that is practically zero: reading outside an array does not turn
 !> the results into NaN.
 module host_guarded
+  use, intrinsic :: iso_c_binding, only: c_int64_t
   use host_context, only: current
   use host_kinds, only: dp, i4, i8
   use host_messages, only: add_message
@@ -48,7 +49,7 @@ contains
       total = total + before + length(k) + work%behind(k)
     end do
     allocate (work%memory(total + room))
-    call fill(total + room, mark, work%memory)
+    call fill(int(total + room, c_int64_t), mark, work%memory)
   end subroutine lay_out_guarded
 
   !> Warn of writes outside the arrays by the last call, once per array, and restore the guards.
@@ -68,8 +69,8 @@ contains
         if (position == 0) cycle
         entry = position - before
       end if
-      call fill(work%behind(k), mark, work%memory(work%start(k) + length))
-      call fill(before, mark, work%memory(work%start(k) - before))
+      call fill(int(work%behind(k), c_int64_t), mark, work%memory(work%start(k) + length))
+      call fill(int(before, c_int64_t), mark, work%memory(work%start(k) - before))
       if (reported(k)) cycle
       write (text, '(a,i0,5a,i0,a,i0,3a,i0)') 'element ', current%element, ': ', trim(current%routine), &
         ' writes outside ', trim(names(k)), ': entry ', entry, ' of ', length, ' (', trim(sizes(k)), ') at integration point ', &

@@ -5,7 +5,7 @@
 !> A write outside an array changes a guard. The guards are checked once per block; only if one has changed does the driver run the
 !> block again and check after each element, so detection costs next to nothing.
 module host_workspace
-  use, intrinsic :: iso_c_binding, only: c_intptr_t, c_loc
+  use, intrinsic :: iso_c_binding, only: c_int64_t, c_intptr_t, c_loc
   use host_kinds, only: dp, guard_bits, i4, i8, unset_bits
   use host_protect, only: fence, open_fences
   implicit none (type, external)
@@ -125,9 +125,9 @@ contains
     call open_fences()
     free = 1
     do k = 1, n_arrays
-      call fill(work%start(k) - free, work%guard(k), work%memory(free))
+      call fill(int(work%start(k) - free, c_int64_t), work%guard(k), work%memory(free))
       free = work%start(k) + work%length(k)
-      call fill(work%behind(k), work%guard(k), work%memory(free))
+      call fill(int(work%behind(k), c_int64_t), work%guard(k), work%memory(free))
       free = free + work%behind(k)
     end do
     call fence_arrays(work)
@@ -165,13 +165,13 @@ contains
     index = 0
   end subroutine compare_guards
 
-  !> x(:) = the number with these bits. Eight entries at a time vectorise, and the last eight may overlap with those before.
-  subroutine fill(n, bits, x)
-    integer, intent(in) :: n
-    integer(i8), intent(in) :: bits
+  !> x(:) = the number with these bits. Eight entries at a time vectorise, and the last eight may overlap with those before. For
+  !> calls.c as well.
+  subroutine fill(n, bits, x) bind(c, name='uel_host_fill')
+    integer(c_int64_t), value :: n, bits
     real(dp), intent(inout) :: x(n)
     real(dp) :: value
-    integer :: i
+    integer(c_int64_t) :: i
     value = transfer(bits, value)
     if (n < 8) then
       do i = 1, n
