@@ -102,9 +102,7 @@ class InitialState:
             raise ValueError(f"elements of type {self._group.type} {error}") from None
         sigma = np.zeros((*states.shape[:2], len(places)))
         element, point = _points.sigini(address, self._group.type, self._arrays, sigma, self._routine.family)
-        if element:
-            why = at_point("SIGINI", point) + self._library.stop_reason()
-            raise KernelError(element, self._group.type, why)
+        self._check(element, at_point("SIGINI", point))
         states[:, :, places] = sigma
 
     def _elevations(self, rows: IntArray) -> FloatArray:
@@ -134,9 +132,7 @@ class InitialState:
         """
         state = np.ascontiguousarray(self._variables())
         element, point = _points.sdvini(address, self._arrays, state, self._routine.family) if state.size else (0, 0)
-        if element:
-            at = at_point("SDVINI", point) if self._group.definition is None else "SDVINI "
-            raise KernelError(element, self._group.type, at + self._library.stop_reason())
+        self._check(element, at_point("SDVINI", point) if self._group.definition is None else "SDVINI ")
         self._begin(state)
 
     def begin_axes(self, axes: FloatArray) -> None:
@@ -187,14 +183,17 @@ class InitialState:
         nodes = labels[self._group.nodes].astype(np.int32)
         name, family = given.orientation.name, self._routine.family
         found, element, point = _points.orient(address, name, self._arrays, nodes, family, given.points)
-        if element:
-            why = at_point("ORIENT", point) + self._library.stop_reason()
-            raise KernelError(element, self._group.type, why)
+        self._check(element, at_point("ORIENT", point))
         try:
             axes = orthonormal(found)
         except UndefinedDirectionsError as error:
             raise undefined(self._group, given.orientation, error) from None
         self.begin_axes(axes)
+
+    def _check(self, element: int, at: str) -> None:
+        """Raise KernelError if a user routine ended the analysis for an element; 0 for none."""
+        if element:
+            raise KernelError(element, self._group.type, at + self._library.stop_reason())
 
     def _variables(self) -> FloatArray:
         """What *INITIAL CONDITIONS, TYPE=SOLUTION sets (m, points, values), a view of the committed state."""
