@@ -42,6 +42,9 @@ there, as with Lagrange multipliers, the other types replace pivots and may retu
 ANALYSE, FACTORISE, SOLVE, RELEASE = 11, 22, 33, -1
 """PARDISO's phases."""
 
+NO_MEMORY: Final = -2
+"""PARDISO's error where memory is not to be had."""
+
 PARAMETERS: Final = {
     0: 1,  # these values in place of the defaults, which refine each solution twice, at twice its cost
     1: 2,  # nested dissection
@@ -214,7 +217,15 @@ def upper_triangle(pattern: Pattern) -> tuple[NDArray[np.int32], Pattern]:
 def call(
     handle: Any, phase: int, pattern: Pattern, values: FloatArray, rhs: FloatArray, solution: FloatArray | None = None
 ) -> FloatArray:
-    """Run one phase. Not by pypardiso's own call, which copies all indices each time to count them from 1."""
+    """Run one phase. Not by pypardiso's own call, which copies all indices each time to count them from 1.
+
+    Raises
+    ------
+    MemoryError
+        There is not enough for the factors.
+    PardisoError
+        Any other error.
+    """
     solution = np.zeros(pattern.size) if solution is None else solution
     error = ctypes.c_int32(0)
     integers, reals = ctypes.POINTER(ctypes.c_int32), ctypes.POINTER(ctypes.c_double)
@@ -237,6 +248,8 @@ def call(
         solution.ctypes.data_as(reals),
         error,
     )
+    if error.value == NO_MEMORY:
+        raise MemoryError
     if error.value:
         raise PardisoError(error.value)
     return solution

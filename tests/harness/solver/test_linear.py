@@ -5,6 +5,7 @@
 import os
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -17,7 +18,7 @@ from harness.solver.linear import LinearSolver, available, choose, singular, sup
 from harness.solver.linear.base import Pattern
 from harness.solver.linear.choice import SOLVERS
 from harness.solver.linear.ordering import narrowest
-from harness.solver.linear.pardiso import SYMMETRIC, UNSYMMETRIC
+from harness.solver.linear.pardiso import FACTORISE, SYMMETRIC, UNSYMMETRIC, PardisoError, call
 
 INSTALLED = [row.name for row in available() if row.installed]
 
@@ -582,6 +583,18 @@ def test_symmetric_solver_never_takes_an_unsymmetric_matrix() -> None:
         solver.factorise(matrix.data)
         assert solver._type is UNSYMMETRIC
         assert backward_error(matrix, matrix.data, solver.solve(rhs), rhs) < 1e-10
+
+
+def test_pardiso_without_memory_is_no_singular_matrix() -> None:
+    """-2 is oneMKL's error where memory is not to be had, -4 that of a zero pivot."""
+    matrix, _ = clamped(4, 2)
+    pattern = Pattern(matrix.indptr, matrix.indices)
+    handle = SimpleNamespace(mtype=11, pt=np.zeros(64, dtype=np.int64), iparm=np.zeros(64, dtype=np.int32))
+    handle.perm = np.zeros(0, dtype=np.int32)
+    for code, error in ((-2, MemoryError), (-4, PardisoError)):
+        handle._mkl_pardiso = lambda *words, code=code: setattr(words[-1], "value", code)
+        with pytest.raises(error):
+            call(handle, FACTORISE, pattern, matrix.data, np.zeros(pattern.size))
 
 
 CUBE = """\
