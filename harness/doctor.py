@@ -36,7 +36,7 @@ _LINES: Final = {
 _NO_LIBRARY: Final = "cannot open shared object file"
 _RUNTIME: Final = "apt install libgfortran5 libgomp1, dnf install libgfortran libgomp"
 """What a wheel takes from the system: user routines share these libraries, and the units of files, with the host."""
-_BEFORE: Final = {"python-mumps": "apt install libmumps-seq-dev, and then "}
+_BEFORE: Final = {"python-mumps": "apt install libmumps-seq-dev libopenblas0-serial, and then "}
 """What to do before a package can be installed."""
 
 

@@ -74,6 +74,11 @@ class Pattern:
         """(nnz,) row of each entry."""
         return np.repeat(np.arange(self.size, dtype=np.int32), np.diff(self.indptr))
 
+    @property
+    def upper(self) -> NDArray[np.int32]:
+        """Positions of the entries on and above the diagonal."""
+        return np.flatnonzero(self.indices >= self.rows).astype(np.int32)
+
     @cached_property
     def diagonal(self) -> IntArray:
         """(n,) positions of the diagonal entries among all entries."""

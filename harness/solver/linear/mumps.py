@@ -5,16 +5,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import ClassVar
+from typing import Any, ClassVar, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from harness.model.arrays import FloatArray
 from harness.solver.linear.base import LinearSolver, Pattern
 
+NO_MEMORY: Final = (-5, -7, -13)
+"""MUMPS' errors in INFOG(1): memory that the analysis or the factorisation asks for is not to be had."""
+
 
 class MumpsSolver(LinearSolver):
-    """MUMPS, the analysis kept between factorisations."""
+    """MUMPS, the analysis kept between factorisations.
+
+    Matrices are taken as symmetric until one comes that is not.
+    """
 
     name: ClassVar[str] = "mumps"
     module: ClassVar[str] = "mumps"
@@ -25,25 +32,34 @@ class MumpsSolver(LinearSolver):
         super().__init__(pattern, name_of)
         import mumps  # noqa: PLC0415 (need not be installed)
 
-        self._error = mumps.MUMPSError
-        self._context = mumps.Context()
-        self._analysed = False
+        self._new_context, self._error = mumps.Context, mumps.MUMPSError
+        self._context: Any = None
+        self._symmetric = True
+        # positions of the entries that MUMPS gets
+        self._taken: NDArray[np.int32] | slice = slice(None)
 
     def forget(self) -> None:
-        """As that of other solvers; the analysis is made anew."""
+        """As that of other solvers; the kind of matrix is found and the analysis made anew."""
         super().forget()
-        self._analysed = False
+        self._context, self._symmetric = None, True
 
     def _factorise(self, data: FloatArray) -> float | None:
+        if self._symmetric and not self.pattern.is_symmetric(data):
+            self._context, self._symmetric = None, False
         try:
-            if not self._analysed:
-                self._context.set_matrix(self.pattern.matrix(data.copy()))
+            if self._context is None:
+                self._context = self._new_context()
+                # of a symmetric matrix it takes the upper triangle, in the order of the pattern
+                self._context.set_matrix(self.pattern.matrix(data.copy()), symmetric=self._symmetric)
+                self._taken = self.pattern.upper if self._symmetric else slice(None)
                 self._context.analyze()
-                self._analysed = True
-            # MUMPS reads the values in place: the array it was given, in the order of the pattern
-            self._context.data[:] = data
+            # MUMPS reads the values in place
+            self._context.data[:] = data[self._taken]
             self._context.factor(reuse_analysis=True)
-        except self._error:
+        except self._error as error:
+            self._context = None
+            if error.error in NO_MEMORY:
+                raise MemoryError from error
             return 0.0
         return None
 

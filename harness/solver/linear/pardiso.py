@@ -209,7 +209,7 @@ def _without_openmp(handle: Any) -> bool:
 
 def upper_triangle(pattern: Pattern) -> tuple[NDArray[np.int32], Pattern]:
     """Positions of the entries on and above the diagonal, and their pattern."""
-    upper = np.flatnonzero(pattern.indices >= pattern.rows).astype(np.int32)
+    upper = pattern.upper
     indptr = np.searchsorted(upper, pattern.indptr).astype(np.int32)
     return upper, Pattern(indptr, pattern.indices[upper])
 

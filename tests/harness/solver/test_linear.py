@@ -17,8 +17,9 @@ from harness.errors import SingularMatrixError, UelError
 from harness.solver.linear import LinearSolver, available, choose, singular, superlu
 from harness.solver.linear.base import Pattern
 from harness.solver.linear.choice import SOLVERS
+from harness.solver.linear.mumps import MumpsSolver
 from harness.solver.linear.ordering import narrowest
-from harness.solver.linear.pardiso import FACTORISE, SYMMETRIC, UNSYMMETRIC, PardisoError, call
+from harness.solver.linear.pardiso import FACTORISE, SYMMETRIC, PardisoError, call
 
 INSTALLED = [row.name for row in available() if row.installed]
 
@@ -558,18 +559,22 @@ def test_symmetry_to_rounding() -> None:
         assert pattern.is_symmetric(data, np.array([1000, 1001]))
 
 
-@pytest.mark.skipif("pardiso" not in INSTALLED, reason="pypardiso is not installed")
-def test_symmetric_solver_never_takes_an_unsymmetric_matrix() -> None:
+def takes_symmetric(solver) -> bool:
+    """Whether a solver takes its matrices as symmetric ones now."""
+    return bool(solver._symmetric if solver.name == "mumps" else solver._type is SYMMETRIC)
+
+
+@pytest.mark.parametrize("name", [name for name in ("pardiso", "mumps") if name in INSTALLED])
+def test_symmetric_solver_never_takes_an_unsymmetric_matrix(name) -> None:
     """Whether all of it turns unsymmetric, or one entry in the upper or in the lower triangle."""
-    rhs = None
     for change in ("all", "upper", "lower"):
         matrix, coordinates = clamped(100, 4)
         pattern = Pattern(matrix.indptr, matrix.indices)
         rhs = np.random.default_rng(4).normal(size=matrix.shape[0])
-        solver = solver_for("pardiso", matrix, coordinates)
+        solver = solver_for(name, matrix, coordinates)
         solver.factorise(matrix.data)
         solver.solve(rhs)
-        assert solver._type is SYMMETRIC
+        assert takes_symmetric(solver)
         data = matrix.data.copy()
         if change == "all":
             data *= 1 + 0.1 * np.random.default_rng(3).random(matrix.nnz)
@@ -577,11 +582,11 @@ def test_symmetric_solver_never_takes_an_unsymmetric_matrix() -> None:
             above = pattern.indices > pattern.rows
             data[np.flatnonzero(above if change == "upper" else above[pattern.transposed])[50]] += 1e-6 * data.max()
         solver.factorise(data)
-        assert solver._type is UNSYMMETRIC
+        assert not takes_symmetric(solver)
         assert backward_error(matrix, data, solver.solve(rhs), rhs) < 1e-10
         # a symmetric one after it does not change the solver back: the analysis would be repeated
         solver.factorise(matrix.data)
-        assert solver._type is UNSYMMETRIC
+        assert not takes_symmetric(solver)
         assert backward_error(matrix, matrix.data, solver.solve(rhs), rhs) < 1e-10
 
 
@@ -595,6 +600,41 @@ def test_pardiso_without_memory_is_no_singular_matrix() -> None:
         handle._mkl_pardiso = lambda *words, code=code: setattr(words[-1], "value", code)
         with pytest.raises(error):
             call(handle, FACTORISE, pattern, matrix.data, np.zeros(pattern.size))
+
+
+@pytest.mark.parametrize(("code", "error"), [(-13, MemoryError), (-10, SingularMatrixError)])
+def test_mumps_without_memory_is_no_singular_matrix(code, error, monkeypatch) -> None:
+    """INFOG(1) is -13 where memory is not to be had, -10 of a singular matrix; the next matrix is taken as usual."""
+
+    class FakeError(RuntimeError):
+        def __init__(self) -> None:
+            self.error = code
+
+    class Context:
+        wrong = True
+
+        def set_matrix(self, matrix, *, symmetric) -> None:
+            self.data = (sparse.triu(matrix) if symmetric else matrix.tocoo()).data
+
+        def analyze(self) -> None:
+            pass
+
+        def factor(self, *, reuse_analysis) -> None:
+            assert reuse_analysis
+            if Context.wrong:
+                raise FakeError
+
+        def solve(self, rhs):
+            return rhs
+
+    monkeypatch.setitem(sys.modules, "mumps", SimpleNamespace(Context=Context, MUMPSError=FakeError))
+    matrix, _ = clamped(4, 2)
+    solver = MumpsSolver(Pattern(matrix.indptr, matrix.indices))
+    with pytest.raises(error):
+        solver.factorise(matrix.data)
+    Context.wrong = False
+    solver.factorise(matrix.data)
+    assert solver.solve(np.ones(matrix.shape[0])).tolist() == [1.0] * matrix.shape[0]
 
 
 CUBE = """\
