@@ -42,7 +42,7 @@ PYTEST = $(RUN) PYTHONPATH=$(SITE) MESONPY_EDITABLE_SKIP=$(CURDIR)/$(BUILD) \
 help:
 	@sed -n 's/^# make/make/p' $(firstword $(MAKEFILE_LIST))
 	@echo 'make test-all    the quick tests and the long ones'
-	@echo 'make ranks       what the tests of several processes need, 1 GB; without it they are skipped'
+	@echo 'make ranks       what the tests of several processes and of PARDISO need, 1 GB; without it they are skipped'
 	@echo 'make test-debug  the quick tests on kernels with run-time checks'
 	@echo 'make test-matrix both, on clean clones, as on several machines: tests/programs/matrix.py'
 	@echo 'make bench       speed ratios, measured in one run'
@@ -65,12 +65,13 @@ demo: $(INSTALLED)
 
 ranks: $(RANKS)
 
-# MPI for the tests, in a folder of its own: oneMKL in the environment would change what other tests see
+# MPI and PARDISO for the tests, in folders of their own: in the environment they would change what other tests see
 $(RANKS): $(INSTALLED)
-	@$(BIN)/python -c 'import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["project"]\
-	["optional-dependencies"]["mpi"], sep="\n")' > $(VENV)/ranks.txt
-	@$(BIN)/pip install --quiet --prefix $(VENV)/.ranks --requirement $(VENV)/ranks.txt && touch $@ || \
-		echo 'MPI is not installed: its tests are skipped'
+	@for extra in mpi fast; do $(BIN)/python -c 'import sys, tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))\
+	["project"]["optional-dependencies"][sys.argv[1]], sep="\n")' $$extra > $(VENV)/$$extra.txt; done
+	@$(BIN)/pip install --quiet --prefix $(VENV)/.ranks --requirement $(VENV)/mpi.txt && \
+		$(BIN)/pip install --quiet --target $(VENV)/.ranks/fast --no-deps --requirement $(VENV)/fast.txt && touch $@ || \
+		echo 'MPI and PARDISO are not installed: their tests are skipped'
 
 # what users get, and with bytecode: an editable package is looked for and compiled by each of the processes anew
 copy: $(INSTALLED)
