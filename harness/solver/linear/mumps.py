@@ -26,7 +26,7 @@ class MumpsSolver(LinearSolver):
     name: ClassVar[str] = "mumps"
     module: ClassVar[str] = "mumps"
     distribution: ClassVar[str] = "python-mumps"
-    widest_band: ClassVar[tuple[int, int]] = (120, 300)
+    widest_band: ClassVar[tuple[int, int]] = (120, 600)
 
     def __init__(self, pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None = None) -> None:
         super().__init__(pattern, name_of)
