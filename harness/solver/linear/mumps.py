@@ -64,4 +64,7 @@ class MumpsSolver(LinearSolver):
         return None
 
     def _solve(self, rhs: FloatArray) -> FloatArray:
+        if self._context is None:
+            # a matrix with entries that are not finite, which has no factors
+            return np.full_like(rhs, np.nan)
         return np.asarray(self._context.solve(rhs))

@@ -632,6 +632,9 @@ def test_mumps_without_memory_is_no_singular_matrix(code, error, monkeypatch) ->
     solver = MumpsSolver(Pattern(matrix.indptr, matrix.indices))
     with pytest.raises(error):
         solver.factorise(matrix.data)
+    if error is SingularMatrixError:
+        solver.factorise(np.full_like(matrix.data, np.nan))
+        assert np.isnan(solver.solve(np.ones(matrix.shape[0]))).all()
     Context.wrong = False
     solver.factorise(matrix.data)
     assert solver.solve(np.ones(matrix.shape[0])).tolist() == [1.0] * matrix.shape[0]
