@@ -16,11 +16,8 @@ FOUND = list((OWN / "lib").glob("libmkl_rt.so*"))
 
 @pytest.mark.skipif(not FOUND, reason="oneMKL is not installed: make ranks")
 def test_linear_solvers_with_pardiso(tmp_path) -> None:
-    site = next((OWN / "lib").glob("python*/site-packages"))
-    variables = os.environ | {
-        "PYTHONPATH": os.pathsep.join(filter(None, (os.environ.get("PYTHONPATH"), str(OWN / "fast"), str(site)))),
-        "PYPARDISO_MKL_RT": str(FOUND[0]),
-    }
+    path = os.pathsep.join(filter(None, (os.environ.get("PYTHONPATH"), str(OWN / "fast"))))
+    variables = os.environ | {"PYTHONPATH": path, "PYPARDISO_MKL_RT": str(FOUND[0])}
     words = ["-m", "pytest", "-q", "-p", "no:cacheprovider", "-k", "pardiso"]
     result = subprocess.run(
         [sys.executable, *words, f"--basetemp={tmp_path}", str(Path(__file__).with_name("test_linear.py"))],
