@@ -115,7 +115,7 @@ class TieReader:
         return _Sector(first, axis, 2.0 * np.pi / count)
 
     def read(
-        self, block: Block, owner: Owner, active: Sequence[set[int]], held: dict[int, set[int]]
+        self, block: Block, owner: Owner, active: Sequence[frozenset[int]], held: dict[int, set[int]]
     ) -> Iterator[Equation]:
         """Equations of the ties of a keyword.
 
@@ -163,7 +163,9 @@ class TieReader:
             if share * cosine != 0.0
         ]
 
-    def _on_axis(self, nodes: IntArray, active: Sequence[set[int]], tolerance: float, row: Row) -> Iterator[Equation]:
+    def _on_axis(
+        self, nodes: IntArray, active: Sequence[frozenset[int]], tolerance: float, row: Row
+    ) -> Iterator[Equation]:
         """Nodes of both sides of a sector move along the axis, and turn about it: u_j = (n_j/n_k) u_k."""
         assert self._sector is not None
         axis = self._sector.axis

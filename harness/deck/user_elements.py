@@ -55,9 +55,10 @@ def dofs_of(group: ElementGroup) -> set[int]:
     return set(BUILT_IN[group.type].dofs(0))
 
 
-def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[set[int]]:
+def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[frozenset[int]]:
     """Dofs that elements use at each of `count` nodes."""
-    found: list[set[int]] = [set() for _ in range(count)]
+    # a bit for each dof: few sets of dofs differ, and nothing is done for each element
+    found = np.zeros(count, dtype=np.int64)
     for group in groups:
         for local in range(group.nodes.shape[1]):
             if group.definition is not None:
@@ -66,11 +67,12 @@ def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[set[int]]:
                 dofs = {group.section.dofs[local]}
             else:
                 dofs = set(BUILT_IN[group.type].dofs(local))
-            for node in group.nodes[:, local].tolist():
-                found[node] |= dofs
+            found[group.nodes[:, local]] |= sum(1 << dof for dof in dofs)
         if group.reference >= 0:
-            found[group.reference] |= set(PLANES)
-    return found
+            found[group.reference] |= sum(1 << dof for dof in PLANES)
+    different, place = np.unique(found, return_inverse=True)
+    sets = [frozenset(dof for dof in range(1, LARGEST_DOF + 1) if bits >> dof & 1) for bits in different.tolist()]
+    return [sets[k] for k in place.tolist()]
 
 
 def find_type(name: str, definitions: Definitions, source: Source) -> ElementType:
