@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from typing import Final
 
 _FORM: Final = "(R|I|M|V|S|HS)?(H|P|PH)?(T|E)?"
@@ -35,9 +36,14 @@ _FAMILIES: Final = (
     r"CONN[23]D2|SPRING[12A]|DASHPOT[12A]|JOINTC|JOINT[23]D|DRAG[23]D|DCOUP[23]D|LS3S|LS6",
     r"GAP(UNI|UNIT|CYL|SPHER)|DGAP|ITS(UNI|CYL)|ITT[23]\d|ISL2[12]|IRS(2[12]A?|3|4|9|13)|ASI\d+[AD]?|PSI[23][46]",
 )
-_NAME: Final = re.compile("|".join(_FAMILIES))
+
+
+@cache
+def _name() -> re.Pattern[str]:
+    """Of any element; compiled where a name is looked up, which most decks do not need."""
+    return re.compile("|".join(_FAMILIES))
 
 
 def is_abaqus_element(name: str) -> bool:
     """Whether Abaqus has an element type of this name."""
-    return _NAME.fullmatch(name.upper()) is not None
+    return _name().fullmatch(name.upper()) is not None
