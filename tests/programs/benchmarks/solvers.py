@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Times of the linear solvers on matrices of double cantilever beams: `python tests/programs/benchmarks/solvers.py`.
 
-CPU times of one process, so that other load counts little, with the threads that the environment allows. A matrix is
-that of the first pass. In part: the stiffness of the first elements of the interface is halved, and restored. In
-full: all entries change. With --write the rows replace those of harness/solver/linear/measured.json, and
+CPU times of one process, so that other load counts little, with the threads that the environment allows. The solvers
+take turns, and each figure is the median of three: a machine that is slow for a second does not favour one of them. A
+matrix is that of the first pass. In part: the stiffness of the first elements of the interface is halved, and restored.
+In full: all entries change. With --write the rows replace those of harness/solver/linear/measured.json, and
 harness/solver/linear/solvers.md is written again; --kept writes the page of the rows that are there.
 """
 
@@ -15,7 +16,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
@@ -54,6 +55,9 @@ MOST = 200
 
 LARGEST_SUPERLU = 50_000
 """Unknowns in space: 98,738 take more than four minutes."""
+
+ROUNDS = 3
+"""In which all solvers are measured on a matrix."""
 
 GMRES = partial(gmres, restart=MOST, maxiter=1, callback_type="pr_norm")
 
@@ -237,20 +241,30 @@ def rows(cases: list[Case], console: Console) -> Iterator[Measured]:
     """Measure all solvers that are installed."""
     for case in cases:
         problem = Problem(case)
-        width = narrowest(problem.pattern).width
-        for solver in [row.name for row in available() if row.installed]:
-            # 24 bytes for each of the unknowns and each of the half bandwidth
-            if solver == "band" and 24 * width * problem.pattern.size > LARGEST_BAND:
-                continue
-            if solver == "superlu" and problem.pattern.in_space and problem.pattern.size > LARGEST_SUPERLU:
-                continue
-            row = direct(case, problem, solver)
-            console.print(*row.cells, sep="  ", soft_wrap=True)
-            yield row
+        measurements = [partial(direct, case, problem, name) for name in _serving(problem.pattern)]
         if find_spec("pyamg"):
-            row = multigrid(case, problem)
+            measurements.append(partial(multigrid, case, problem))
+        rounds = [[measure() for measure in measurements] for _ in range(ROUNDS)]
+        for row in map(_median, zip(*rounds, strict=True)):
             console.print(*row.cells, sep="  ", soft_wrap=True)
             yield row
+
+
+def _serving(pattern: Pattern) -> list[str]:
+    """The direct solvers that are installed and not hopeless for a pattern."""
+    names = [row.name for row in available() if row.installed]
+    # 24 bytes for each of the unknowns and each of the half bandwidth
+    if 24 * narrowest(pattern).width * pattern.size > LARGEST_BAND:
+        names.remove("band")
+    if pattern.in_space and pattern.size > LARGEST_SUPERLU:
+        names.remove("superlu")
+    return names
+
+
+def _median(rows: tuple[Measured, ...]) -> Measured:
+    """Of each time of one solver on one matrix."""
+    times = {name: [getattr(row, name) for row in rows] for name in ("first", "full", "part", "solution")}
+    return replace(rows[0], **{name: median(found) for name, found in times.items() if None not in found})
 
 
 def main() -> int:
