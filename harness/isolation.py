@@ -37,6 +37,9 @@ _GRACE: Final = 5.0
 _IDLE: Final = 10.0
 """Seconds without work after which a process that abandoned a call is assumed to wait for a lock for ever."""
 
+_ONE_BLAS_THREAD: Final = {"OPENBLAS_NUM_THREADS": "1"}
+"""A job uses one (`solver.threads`); more of them would be started with numpy, and wait in a loop for work."""
+
 _REASONS: Final = {
     signal.SIGKILL: "killed, by a user or by the system for lack of memory",
     signal.SIGABRT: "abort, usually because a user routine wrote outside an array",
@@ -133,7 +136,7 @@ def run_apart(
     run why another rank has ended, '' if none has.
     """
     _take_all_stack()
-    variables: Mapping[str, str] | None = None if launch else without_launch()
+    variables: Mapping[str, str] = os.environ if launch else without_launch()
     if sanitized:
         try:
             variables = sanitizer.environment()
@@ -146,7 +149,7 @@ def run_apart(
         try:
             process = subprocess.Popen(
                 [sys.executable, "-m", "harness.apart", str(os.getpid()), str(descriptor), module, *words],
-                env=variables,
+                env={**_ONE_BLAS_THREAD, **variables},
                 stdout=output,
                 stderr=errors,
                 pass_fds=[descriptor, *(launch.descriptors if launch else ())],

@@ -15,10 +15,9 @@ import os
 import re
 import shutil
 from dataclasses import dataclass
-from html import unescape
+from html import escape, unescape
 from pathlib import Path
 from typing import TypeVar
-from xml.sax.saxutils import escape
 
 import meshio
 import numpy as np
@@ -145,7 +144,7 @@ class _PointArray:
 
 def _quoted(name: str) -> str:
     """A file name in XML."""
-    return escape(name, {'"': "&quot;", "\n": "&#10;"})
+    return escape(name).replace("\n", "&#10;")
 
 
 def _replace(path: Path, text: str) -> None:

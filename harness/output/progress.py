@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 
 from harness.model.model import Model
 from harness.model.records import (
@@ -18,6 +19,9 @@ from harness.model.records import (
     StepStarted,
 )
 from harness.output.step_header import controls_of
+
+if TYPE_CHECKING:
+    from rich.progress import Progress, TaskID
 
 
 class ProgressDisplay:
@@ -32,6 +36,13 @@ class ProgressDisplay:
         self._cutbacks = 0
         if quiet or not console.is_terminal:
             return
+        from rich.progress import (  # noqa: PLC0415 (jobs without a terminal do not wait for it)
+            BarColumn,
+            Progress,
+            TextColumn,
+            TimeElapsedColumn,
+        )
+
         self._progress = Progress(
             TextColumn("Step {task.fields[step]}"),
             BarColumn(bar_width=10),

@@ -45,9 +45,7 @@ def launched() -> Launch:
     return Launch()
 
 
-def without_launch() -> dict[str, str] | None:
-    """Environment of a process that is no rank, whoever started this one; None: that of this one."""
+def without_launch() -> dict[str, str]:
+    """Environment of a process that is no rank, whoever started this one."""
     names = {name for pair in _VARIABLES for name in pair}
-    if not names & os.environ.keys():
-        return None
     return {name: value for name, value in os.environ.items() if name not in names}

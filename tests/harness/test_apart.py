@@ -35,6 +35,17 @@ def test_exit_code_of_a_process_that_comes_to_its_end(module) -> None:
     assert module("def main(words):\n    return 1\n") == (End(1, True, "", ""), "")
 
 
+@pytest.mark.parametrize("given", ["", "3"])
+def test_threads_of_openblas_in_a_process(module, monkeypatch: pytest.MonkeyPatch, given: str) -> None:
+    """One, unless the user says otherwise; memory in cycles is collected again after the imports."""
+    monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
+    if given:
+        monkeypatch.setenv("OPENBLAS_NUM_THREADS", given)
+    code = "int(os.environ['OPENBLAS_NUM_THREADS']) if gc.isenabled() else 99"
+    text = f"import gc, os\ndef main(words):\n    return {code}\n"
+    assert module(text) == (End(int(given or 1), True, "", ""), "")
+
+
 @pytest.mark.parametrize("way", ["os._exit(0)", "sys.exit(0)"])
 def test_process_that_does_not_come_to_its_end(module, way: str) -> None:
     end, _ = module(f"import os, sys\ndef main(words):\n    {way}\n")
