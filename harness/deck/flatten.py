@@ -36,6 +36,7 @@ class Owner:
     blocks: list[Block]
     placement: Placement
     nodes: IntArray
+    points: FloatArray
     node_offset: int = 0
     elements: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     element_offset: int = 0
@@ -139,8 +140,7 @@ class FlatMesh:
                 with self._problems.gather():
                     readers[block.name](block)
         offset = sum(len(owner.nodes) for owner in self.owners)
-        nodes = np.array(sorted(mesh.nodes), dtype=np.int64)
-        self._owners[name] = Owner(name, mesh, blocks, IDENTITY, nodes, offset)
+        self._owners[name] = Owner(name, mesh, blocks, IDENTITY, *mesh.nodes(), offset)
 
     def _instance_node(self, instance: str, label: int) -> int | None:
         index = int(self._owners[instance].find_nodes(np.array([label]))[0])
@@ -153,11 +153,12 @@ class FlatMesh:
     def _make_mesh(self) -> Mesh:
         points, names, normals = [], [], []
         for owner in self.owners:
-            own = np.array([owner.mesh.nodes[label] for label in owner.nodes.tolist()]).reshape(-1, 3)
-            points.append(owner.placement.move(own))
-            given = np.array([owner.mesh.normals.get(label, (0.0, 0.0, 0.0)) for label in owner.nodes.tolist()])
-            normals.append(owner.placement.turn(given.reshape(-1, 3)))
-            names += [owner.name] * len(own)
+            points.append(owner.placement.move(owner.points))
+            given = np.zeros_like(owner.points)
+            if owner.mesh.normals:
+                given[np.searchsorted(owner.nodes, list(owner.mesh.normals))] = list(owner.mesh.normals.values())
+            normals.append(owner.placement.turn(given))
+            names += [owner.name] * len(owner.nodes)
         labels = np.concatenate([owner.nodes for owner in self.owners])
         whole = np.concatenate(normals)
         return Mesh(labels, np.concatenate(points), tuple(names), whole if whole.any() else None)
@@ -171,7 +172,7 @@ class FlatMesh:
                 whole = np.concatenate(parts) if parts else np.zeros(0, dtype=np.int64)
                 if kind == "NSET" and name in owner.mesh.unsorted:
                     whole = whole[np.sort(np.unique(whole, return_index=True)[1])]
-                else:
+                elif not (whole[1:] > whole[:-1]).all():
                     whole = np.unique(whole)
                 found[f"{owner.name}.{name}" if owner.name else name] = whole
         return found

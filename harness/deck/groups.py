@@ -168,11 +168,12 @@ def _make_sections(
     problems: Problems,
 ) -> dict[tuple[int, int], Section]:
     """Section of each pair of section keyword and element type that occurs."""
-    pairs = np.unique(np.stack([elements.section_of, elements.type_of], axis=1), axis=0)
+    kinds = max(len(elements.types), 1)
+    pairs = np.unique(elements.section_of * kinds + elements.type_of)
     orientations = read_orientations(elements.flat, problems)
     problems.check()
     made = {}
-    for section, kind in pairs.tolist():
+    for section, kind in (divmod(pair, kinds) for pair in pairs.tolist()):
         block, owner = sections[section]
         with problems.gather():
             type, axes = elements.types[kind], orientations[owner.name]

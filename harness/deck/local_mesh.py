@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 
@@ -73,7 +74,9 @@ class LocalMesh:
         self._warn = warn
         self.definitions = definitions
         self.instances = instances or {}
-        self.nodes: dict[int, Point] = {}
+        # coordinates of all definitions one after the other, and which one counts
+        self._points = array("d")
+        self._definition_of: dict[int, int] = {}
         self.normals: dict[int, Point] = {}
         # nodes that give n1 of beams, by the elements; numbers as those of ElementRun
         self.orienting: dict[int, int] = {}
@@ -96,16 +99,19 @@ class LocalMesh:
 
     def add_nodes(self, labels: IntArray, points: FloatArray, source: Callable[[int], Source]) -> None:
         """Add nodes."""
-        new = dict(zip(labels.tolist(), map(tuple, points.tolist()), strict=True))
-        if len(new) < len(labels) or not self.nodes.keys().isdisjoint(new):
-            seen = dict(self.nodes)
-            for index, (label, point) in enumerate(zip(labels.tolist(), points.tolist(), strict=True)):
-                if seen.get(label, tuple(point)) != tuple(point):
+        first = len(self._points) // 3
+        new = dict(zip(labels.tolist(), range(first, first + len(labels)), strict=True))
+        again = new.keys() & self._definition_of.keys()
+        if again or len(new) < len(labels):
+            seen = {label: self._coordinates_of(label) for label in again}
+            for index, (label, point) in enumerate(zip(labels.tolist(), map(tuple, points.tolist()), strict=True)):
+                if seen.setdefault(label, point) != point:
                     self._warn(
                         source(index), f"node {label} is defined again, with other coordinates; this definition counts"
                     )
-                seen[label] = tuple(point)
-        self.nodes.update(new)
+                seen[label] = point
+        self._definition_of.update(new)
+        self._points.frombytes(points.tobytes())
 
     def add_elements(self, run: ElementRun) -> None:
         """Add elements."""
@@ -212,11 +218,22 @@ class LocalMesh:
         own = [part.labels for part in members if not part.instance]
         return np.unique(np.concatenate(own)) if own else np.zeros(0, dtype=np.int64)
 
+    def nodes(self) -> tuple[IntArray, FloatArray]:
+        """Labels of all nodes in ascending order, and their coordinates (n, 3)."""
+        labels = sorted(self._definition_of)
+        points = np.array(self._points).reshape(-1, 3)[[self._definition_of[label] for label in labels]]
+        return np.array(labels, dtype=np.int64), points
+
     def point(self, label: int, source: Source) -> Point:
         """Coordinates of a node."""
-        if label not in self.nodes:
+        if label not in self._definition_of:
             raise DeckError(source, f"node {label} is not defined")
-        return self.nodes[label]
+        return self._coordinates_of(label)
+
+    def _coordinates_of(self, label: int) -> Point:
+        place = 3 * self._definition_of[label]
+        x, y, z = self._points[place : place + 3]
+        return x, y, z
 
     def element(self, label: int, source: Source) -> tuple[ElementType, IntArray]:
         """Type and node labels of an element."""
@@ -352,14 +369,13 @@ def _label(text: str, source: Source) -> int:
 def _read_nodes(block: Block) -> tuple[IntArray, FloatArray, Callable[[int], Source]]:
     """Labels, (n, 6) coordinates and direction cosines of the normal, and the place of each."""
     # read as a real number, 2e0 would be a label
-    labels_only = "".join(line.partition(",")[0] for line in block.lines)
-    table = None if "e" in labels_only or "E" in labels_only else real_table(block.lines)
-    if table is not None and table.shape[1] <= 7 and table[:, 0].min() >= 1 and table[:, 0].max() <= LARGEST_LABEL:
-        labels = table[:, 0].astype(np.int64)
-        if (labels == table[:, 0]).all():
+    labels = integer_table(block.lines, columns=1)
+    if labels is not None and 0 < labels.min() <= labels.max() <= LARGEST_LABEL:
+        table = real_table(block.lines)
+        if table is not None and table.shape[1] <= 7:
             points = np.zeros((len(table), 6))
             points[:, : table.shape[1] - 1] = table[:, 1:]
-            return labels, points, block.source_of
+            return labels[:, 0], points, block.source_of
     rows = list(block.rows())
     found = np.array([_label(row.text(0, "node number"), row.source) for row in rows], dtype=np.int64)
     points = np.zeros((len(rows), 6))

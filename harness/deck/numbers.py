@@ -5,16 +5,19 @@
 from __future__ import annotations
 
 import re
+import warnings
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from harness.model.arrays import FloatArray, IntArray
+
+Number = TypeVar("Number", np.float64, np.int64)
 
 # mantissa, then an exponent with E or D; '210e9.0' has one reading only, so it is taken
 _REAL = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[EeDd]([+-]?\d+)(?:\.0*)?)?", re.ASCII)
 _INTEGER = re.compile(r"[+-]?\d+(?:\.0*)?", re.ASCII)
-# float() and int() read these too: 1_000, nan, inf, and digits of other scripts
-_NOT_PLAIN = re.compile(r"[_a-df-zA-DF-Z]|[^\x00-\x7f]")
 LARGEST_INTEGER = 2**31 - 1
 LARGEST, SMALLEST = 1e100, 1e-100
 """Sizes of real numbers: their cubes are numbers as well, and so are the reciprocals."""
@@ -50,38 +53,38 @@ def is_integer(text: str) -> bool:
 
 def real_table(lines: list[str]) -> FloatArray | None:
     """(lines, columns) of a block whose lines all hold the same number of plain numbers, None for any other."""
-    tokens = _plain_tokens(lines)
-    if not tokens:
-        return None
-    try:
-        table = np.array(list(map(float, tokens)))
-    except ValueError:
+    table = _table(lines, np.float64)
+    if table is None:
         return None
     sizes = np.abs(table)
-    # a number that is out of bounds is named when the lines are read one by one
+    # a number that is out of bounds is named when the lines are read one by one; comparisons with nan are false
     if not (sizes <= LARGEST).all() or ((sizes < SMALLEST) & (sizes > 0.0)).any():
         return None
-    return table.reshape(len(lines), -1)
+    return table
 
 
-def integer_table(lines: list[str]) -> IntArray | None:
-    """(lines, columns) of a block whose lines all hold the same number of plain integers, None for any other."""
-    tokens = _plain_tokens(lines)
-    if not tokens:
+def integer_table(lines: list[str], *, columns: int | None = None) -> IntArray | None:
+    """(lines, columns) of a block whose lines all hold the same number of plain integers, None for any other.
+
+    columns: of lines with more entries, those to read; the others may hold anything.
+    """
+    table = _table(lines, np.int64, columns)
+    return None if table is None or np.abs(table).max() > LARGEST_INTEGER else table
+
+
+def _table(lines: list[str], kind: type[Number], columns: int | None = None) -> NDArray[Number] | None:
+    if not lines or not all(map(str.isascii, lines)):
         return None
-    try:
-        table = np.array(list(map(int, tokens)), dtype=np.int64)
-    except (ValueError, OverflowError):
-        return None
-    return table.reshape(len(lines), -1) if np.abs(table).max() <= LARGEST_INTEGER else None
-
-
-def _plain_tokens(lines: list[str]) -> list[str]:
-    if not lines:
-        return []
     if lines[0].endswith(","):
         lines = [line.rstrip(", \t") for line in lines]
-    if len({line.count(",") for line in lines}) != 1:
-        return []
-    text = ",".join(lines)
-    return [] if _NOT_PLAIN.search(text) else text.split(",")
+    with warnings.catch_warnings():
+        # of lines without data, and of integers that are written as real numbers
+        warnings.simplefilter("error")
+        try:
+            table = np.loadtxt(
+                lines, kind, comments=None, delimiter=",", ndmin=2, usecols=None if columns is None else range(columns)
+            )
+        except (ValueError, Warning):
+            return None
+    # blank lines are left out
+    return table if len(table) == len(lines) else None

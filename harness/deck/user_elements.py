@@ -70,9 +70,9 @@ def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[frozenset[i
             found[group.nodes[:, local]] |= sum(1 << dof for dof in dofs)
         if group.reference >= 0:
             found[group.reference] |= sum(1 << dof for dof in PLANES)
-    different, place = np.unique(found, return_inverse=True)
-    sets = [frozenset(dof for dof in range(1, LARGEST_DOF + 1) if bits >> dof & 1) for bits in different.tolist()]
-    return [sets[k] for k in place.tolist()]
+    of_nodes = found.tolist()
+    sets = {bits: frozenset(dof for dof in range(1, LARGEST_DOF + 1) if bits >> dof & 1) for bits in set(of_nodes)}
+    return [sets[bits] for bits in of_nodes]
 
 
 def find_type(name: str, definitions: Definitions, source: Source) -> ElementType:

@@ -96,8 +96,7 @@ class Rewriting:
         """*NODE of the new nodes of each part, after all others of it."""
         for name, nodes in self._new.items():
             owner = self._owner(name)
-            origins = self._cut.origins[nodes - self._count]
-            local = np.array([owner.mesh.nodes[label] for label in self._labels[origins].tolist()])
+            local = owner.points[self._cut.origins[nodes - self._count] - owner.node_offset]
             # every digit: the doubles are in the same place
             rows = zip(self._labels[nodes].tolist(), local.tolist(), strict=True)
             lines = ["** nodes doubled by uel insert", "*NODE", *(", ".join(map(repr, (n, *x))) for n, x in rows)]

@@ -11,7 +11,6 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from harness.deck.expressions import Value, assign
-from harness.deck.numbers import read_integer, read_real
 from harness.deck.table import split_fields
 from harness.errors import DeckError
 from harness.model.amplitude import Amplitude
@@ -406,37 +405,6 @@ def test_parameters_in_keyword_lines(read: Read) -> None:
     text = FLAT.replace("half = width/2\n", "half = width/2\nname = 'PLY'\nn = 4\n")
     text = text.replace("NODES=4", "NODES=<n>").replace("MATERIAL=PLY", "MATERIAL=<name>")
     assert read(text).groups[0].nodes.shape == (2, 4)
-
-
-@pytest.mark.parametrize(
-    ("text", "value"),
-    [
-        ("1", 1.0),
-        ("-1.5", -1.5),
-        (".5", 0.5),
-        ("1.", 1.0),
-        ("1.d-3", 1e-3),
-        ("2D+3", 2e3),
-        ("210e9.0", 210e9),
-        ("+1E3", 1e3),
-    ],
-)
-def test_reals(text: str, value: float) -> None:
-    assert read_real(text) == value
-
-
-@pytest.mark.parametrize(
-    "text", ["", "1_000", "nan", "inf", "1e", "e5", "1e999", "1 2", "0x10", "1.5.2", "210e9.5", "\u0661"]
-)
-def test_no_reals(text: str) -> None:
-    with pytest.raises(ValueError, match=r"is not a number|is too large"):
-        read_real(text)
-
-
-@pytest.mark.parametrize("text", ["", "1.5", "1e3", "3000000000", "9" * 5000, "\u0661"])
-def test_no_integers(text: str) -> None:
-    with pytest.raises(ValueError, match=r"is not an integer|is too large"):
-        read_integer(text)
 
 
 def test_fields_with_quotes() -> None:
