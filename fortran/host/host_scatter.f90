@@ -5,7 +5,7 @@ module host_scatter
   use host_kinds, only: dp, i4
   implicit none (type, external)
   private
-  public :: add_energy, add_residual, add_magnitude, add_matrix, add_own_residual, add_own_matrix, sum_by_field
+  public :: add_energy, add_residual, add_magnitude, add_matrix, add_own_residual, add_own_matrix, keep_matrix, sum_by_field
 
 contains
 
@@ -96,26 +96,37 @@ contains
     end do
   end subroutine add_own_residual
 
-  !> The columns of AMATRX, or of its symmetric part, that belong to a thread; to the bit what add_matrix adds.
-  subroutine add_own_matrix(n, own, a, map, symmetric, matrix)
+  !> Keep AMATRX, or its symmetric part, for add_own_matrix; while it is in the cache of the thread that called the element.
+  subroutine keep_matrix(n, a, symmetric, kept)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: a(n, n)
+    logical, intent(in) :: symmetric
+    real(dp), intent(out) :: kept(n, n)
+    integer :: i, j
+    if (.not. symmetric) then
+      kept = a
+      return
+    end if
+    do j = 1, n
+      do i = 1, n
+        kept(i, j) = 0.5_dp*(a(i, j) + a(j, i))
+      end do
+    end do
+  end subroutine keep_matrix
+
+  !> The columns that belong to a thread of what keep_matrix has kept; to the bit what add_matrix adds.
+  subroutine add_own_matrix(n, own, a, map, matrix)
     integer, intent(in) :: n
     logical, intent(in) :: own(n)          !< by unknown
     real(dp), intent(in) :: a(n, n)
     integer(i4), intent(in) :: map(n, n)
-    logical, intent(in) :: symmetric
     real(dp), intent(inout) :: matrix(*)
     integer :: i, j
     do j = 1, n
       if (.not. own(j)) cycle
-      if (symmetric) then
-        do i = 1, n
-          matrix(map(i, j)) = matrix(map(i, j)) + 0.5_dp*(a(i, j) + a(j, i))
-        end do
-      else
-        do i = 1, n
-          matrix(map(i, j)) = matrix(map(i, j)) + a(i, j)
-        end do
-      end if
+      do i = 1, n
+        matrix(map(i, j)) = matrix(map(i, j)) + a(i, j)
+      end do
     end do
   end subroutine add_own_matrix
 end module host_scatter

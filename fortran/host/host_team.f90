@@ -16,7 +16,7 @@ module host_team
   use host_element, only: arguments, call_element, check_results, keep_smallest, prepare, work
   use host_kinds, only: dp, i4
   use host_protect, only: most_seats, on_seat, on_threads
-  use host_scatter, only: add_energy, add_magnitude, add_own_matrix, add_own_residual
+  use host_scatter, only: add_energy, add_magnitude, add_own_matrix, add_own_residual, keep_matrix
   use host_workspace, only: arm_guards, find_damage, i_amatrx, i_energy, i_rhs, take_guards, workspace_t
   implicit none (type, external)
   private
@@ -111,7 +111,9 @@ contains
       if (block%fault /= fault_none) team%broken = strip
       k = e - first + 1
       team%rhs(:, k, side) = work%memory(work%start(i_rhs):work%start(i_rhs) + work%length(i_rhs) - 1)
-      team%amatrx(:, k, side) = work%memory(work%start(i_amatrx):work%start(i_amatrx) + work%length(i_amatrx) - 1)
+      if (block%want_matrix) then
+        call keep_matrix(size(block%equations, 1), work%memory(work%start(i_amatrx)), block%symmetric, team%amatrx(:, k, side))
+      end if
       team%energy(:, k, side) = work%memory(work%start(i_energy):work%start(i_energy) + 7)
       team%pnewdt(k, side) = block%pnewdt
     end do
@@ -140,7 +142,7 @@ contains
             end if
           end if
           if (block%want_matrix) then
-            call add_own_matrix(n, own, team%amatrx(:, k, side), block%map(:, :, e), block%symmetric, block%matrix)
+            call add_own_matrix(n, own, team%amatrx(:, k, side), block%map(:, :, e), block%matrix)
           end if
           if (current%thread == 0) call add_totals(block, rhs, team%energy(:, k, side), team%pnewdt(k, side))
         end associate
