@@ -46,6 +46,16 @@ def test_threads_of_openblas_in_a_process(module, monkeypatch: pytest.MonkeyPatc
     assert module(text) == (End(int(given or 1), True, "", ""), "")
 
 
+def test_parts_of_numpy_that_are_loaded_where_they_are_used(module) -> None:
+    text = (
+        "import sys\nimport numpy\nimport scipy.sparse\ndef loaded():\n    return 'unittest' in sys.modules\n"
+        "def main(words):\n    before = loaded()\n    numpy.testing.assert_equal(1, 1)\n"
+        "    from numpy.testing import assert_allclose\n    numpy.f2py.crackfortran.crackline\n"
+        "    return 10 * before + loaded()\n"
+    )
+    assert module(text) == (End(1, True, "", ""), "")
+
+
 @pytest.mark.parametrize("way", ["os._exit(0)", "sys.exit(0)"])
 def test_process_that_does_not_come_to_its_end(module, way: str) -> None:
     end, _ = module(f"import os, sys\ndef main(words):\n    {way}\n")
