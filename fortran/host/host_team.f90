@@ -33,7 +33,9 @@ module host_team
     integer :: length = 0                            !< elements of a strip
     integer :: next(0:3) = 0                         !< in a strip, the element that nobody has called; for four strips in turn
     integer :: broken = 0                            !< the strip that one thread has to repeat, 0 for none
-    real(dp), allocatable :: rhs(:, :, :), amatrx(:, :, :), energy(:, :, :), pnewdt(:, :)   !< by element, for two strips in turn
+    ! of the elements of two strips in turn; what two threads write has no cache line in common
+    integer(i4), allocatable :: owner(:, :, :)       !< threads to which its unknowns belong
+    real(dp), allocatable :: kept(:, :, :)           !< RHS, ENERGY, PNEWDT and AMATRX
   end type team_t
 
   type(team_t), target, save :: team
@@ -54,15 +56,21 @@ contains
     team%length = n
     team%next = [1, n + 1, 2*n + 1, 3*n + 1]
     team%broken = 0
-    allocate (team%rhs(ndofel*size(block%residual, 2), n, 0:1), team%amatrx(ndofel**2, n, 0:1), team%energy(8, n, 0:1), &
-              team%pnewdt(n, 0:1))
+    allocate (team%owner(padded(ndofel, 16), n, 0:1), &
+              team%kept(padded(ndofel*size(block%residual, 2) + 9 + ndofel**2, 8), n, 0:1))
     call on_threads(c_funloc(all_threads), c_loc(team))
-    deallocate (team%rhs, team%amatrx, team%energy, team%pnewdt)
+    deallocate (team%owner, team%kept)
     block%first = size(block%labels) + 1
     if (team%broken > 0) block%first = first_of(team%broken)
     block%alone = int(size(block%labels) + 1 - block%first, i4)
     call prepare(block)
   end subroutine run_team
+
+  !> A number of entries, rounded up to whole cache lines of so many.
+  pure integer function padded(entries, of_line)
+    integer, intent(in) :: entries, of_line
+    padded = (entries + of_line - 1)/of_line*of_line
+  end function padded
 
   !> First element of a strip.
   integer function first_of(number)
@@ -94,8 +102,11 @@ contains
   subroutine take_elements(context) bind(c)
     type(c_ptr), value :: context   ! is the team
     type(block_t) :: block
-    integer :: array, e, first, index, k, last, side
+    integer :: array, e, first, index, k, last, m, n, others, side
     block = team%block
+    n = size(block%equations, 1)
+    m = n*size(block%residual, 2)
+    others = omp_get_num_threads()
     first = first_of(strip)
     last = min(first + team%length - 1, size(block%labels))
     side = mod(strip, 2)
@@ -110,12 +121,13 @@ contains
       call check_results(block, work)
       if (block%fault /= fault_none) team%broken = strip
       k = e - first + 1
-      team%rhs(:, k, side) = work%memory(work%start(i_rhs):work%start(i_rhs) + work%length(i_rhs) - 1)
-      if (block%want_matrix) then
-        call keep_matrix(size(block%equations, 1), work%memory(work%start(i_amatrx)), block%symmetric, team%amatrx(:, k, side))
-      end if
-      team%energy(:, k, side) = work%memory(work%start(i_energy):work%start(i_energy) + 7)
-      team%pnewdt(k, side) = block%pnewdt
+      team%owner(:n, k, side) = mod((block%equations(:, e) - 1)/unknowns_in_a_row, others)
+      associate (kept => team%kept(:, k, side))
+        kept(:m) = work%memory(work%start(i_rhs):work%start(i_rhs) + m - 1)
+        kept(m + 1:m + 8) = work%memory(work%start(i_energy):work%start(i_energy) + 7)
+        kept(m + 9) = block%pnewdt
+        if (block%want_matrix) call keep_matrix(n, work%memory(work%start(i_amatrx)), block%symmetric, kept(m + 10:))
+      end associate
     end do
     call find_damage(work, array, index)
     if (array == 0) return
@@ -126,25 +138,23 @@ contains
   !> Add the part of the sums that belongs to this thread.
   subroutine add_own()
     logical :: own(size(team%block%equations, 1))
-    integer :: e, k, n, others, side
+    integer :: e, k, m, n, side
     n = size(own)
-    others = omp_get_num_threads()
+    m = n*size(team%block%residual, 2)
     side = mod(strip, 2)
     associate (block => team%block)
       do e = first_of(strip), min(first_of(strip + 1) - 1, size(block%labels))
         k = e - first_of(strip) + 1
-        own = mod((block%equations(:, e) - 1)/unknowns_in_a_row, others) == current%thread
-        associate (rhs => team%rhs(:, k, side))
+        own = team%owner(:n, k, side) == current%thread
+        associate (kept => team%kept(:, k, side))
           if (block%want_residual) then
-            call add_own_residual(n, own, rhs, block%equations(:, e), block%residual(:, 1))
+            call add_own_residual(n, own, kept, block%equations(:, e), block%residual(:, 1))
             if (block%scalars%nrhs == 2) then
-              call add_own_residual(n, own, rhs(n + 1:), block%equations(:, e), block%residual(:, 2))
+              call add_own_residual(n, own, kept(n + 1:), block%equations(:, e), block%residual(:, 2))
             end if
           end if
-          if (block%want_matrix) then
-            call add_own_matrix(n, own, team%amatrx(:, k, side), block%map(:, :, e), block%matrix)
-          end if
-          if (current%thread == 0) call add_totals(block, rhs, team%energy(:, k, side), team%pnewdt(k, side))
+          if (block%want_matrix) call add_own_matrix(n, own, kept(m + 10:), block%map(:, :, e), block%matrix)
+          if (current%thread == 0) call add_totals(block, kept(:m), kept(m + 1:m + 8), kept(m + 9))
         end associate
       end do
     end associate
