@@ -37,7 +37,7 @@ PYTEST = $(RUN) PYTHONPATH=$(SITE) MESONPY_EDITABLE_SKIP=$(CURDIR)/$(BUILD) \
 	$(if $(SEED),-p randomly --randomly-seed=$(SEED) --hypothesis-profile=other --hypothesis-seed=$(SEED))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo ranks copy test test-all test-debug test-matrix bench lint docs decks clean
+.PHONY: help demo ranks copy test test-all test-debug test-matrix bench start lint docs decks clean
 
 help:
 	@sed -n 's/^# make/make/p' $(firstword $(MAKEFILE_LIST))
@@ -46,6 +46,7 @@ help:
 	@echo 'make test-debug  the quick tests on kernels with run-time checks'
 	@echo 'make test-matrix both, on clean clones, as on several machines: tests/programs/matrix.py'
 	@echo 'make bench       speed ratios, measured in one run'
+	@echo 'make start       what a small job costs before it computes'
 	@echo 'make lint        what CI checks before the tests'
 	@echo 'make docs        the manual, in build/site'
 	@echo 'make decks       write the decks of abaqus_inputs again'
@@ -94,6 +95,9 @@ test-matrix:
 bench: $(INSTALLED)
 	@failed=0; for program in bench limit; do \
 		$(RUN) $(BIN)/python tests/programs/benchmarks/$$program.py || failed=1; done; exit $$failed
+
+start: copy
+	$(RUN) PYTHONPATH=$(SITE) MESONPY_EDITABLE_SKIP=$(CURDIR)/$(BUILD) $(BIN)/python tests/programs/benchmarks/start.py
 
 lint: $(INSTALLED)
 	$(RUN) $(BIN)/ruff check .
