@@ -31,7 +31,7 @@ class Type:
 
 
 SYMMETRIC: Final = Type(-2)
-"""Symmetric, definite or not: 0.6 of the time and memory."""
+"""Symmetric, definite or not: 0.6 to 0.9 of the time, 0.6 of the memory."""
 UNSYMMETRIC: Final = Type(1)
 """Symmetric pattern."""
 PIVOTED: Final = Type(11, {10: 1, 12: 1})
