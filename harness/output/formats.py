@@ -65,7 +65,8 @@ def program() -> str:
 class TextFile:
     """A file that replaces an older one of the same name; each `write` is handed to the system at once.
 
-    So a killed run leaves every text that was written, and a reader sees only whole records.
+    So a killed run leaves every text that was written, the last one perhaps up to where a page of it ends: readers
+    leave out a line without an end.
     """
 
     def __init__(self, path: Path) -> None:
