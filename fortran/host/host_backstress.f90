@@ -11,7 +11,7 @@
 module host_backstress
   use core_root, only: advance, root_search, search_between, searching
   use host_kinds, only: dp
-  use host_mises, only: yield_stress
+  use host_mises, only: yield_stress, yields
   implicit none (type, external)
   private
   public :: backstress_t, combined_solid
@@ -60,7 +60,7 @@ contains
     solved = .true.
     x = 0
     call find_flow(0.0_dp)
-    if (root*length > size_now) then
+    if (yields(root*length, size_now)) then
       ! at its upper end the stress that is left is less than the backstresses and the size of the yield surface
       search = search_between(0.0_dp, root*length/(3*shear), 0.0_dp, geometric=.false.)
       do while (searching(search))

@@ -9,7 +9,7 @@ module host_uhard
   use host_guarded, only: guarded_t, lay_out_guarded, warn_of_writes
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
-  use host_mises, only: returned_solid, trial_mises
+  use host_mises, only: returned_solid, trial_mises, yields
   use host_protect, only: escape
   implicit none (type, external)
   private
@@ -61,7 +61,7 @@ contains
     solved = .true.
     call call_uhard(law, point, statev, old(7), 0.0_dp, flow, slope, softening)
     ! nothing flows in no time, as in the calls for initial accelerations, though a yield stress by the rate may be less than q
-    if (q > flow .and. current%dtime > 0) then
+    if (yields(q, flow) .and. current%dtime > 0) then
       search = search_between(0.0_dp, q/stiffness, min((q - flow)/max(stiffness + slope, stiffness), q/stiffness), &
                               geometric=.false.)
       do while (searching(search))

@@ -185,7 +185,7 @@ class ContactBlock:
         force = np.where(closed, multiplier, 0.0)
         slips = self._motion.slips(moved, change, self._slip)
         sticks = np.ones(len(force)) if self._bonds is None else self._bonds.damage
-        friction = _Friction(self.pair, force, np.where(closed[:, None], slips.value, 0.0), closed, sticks)
+        friction = _Friction(self.pair, force, np.where(closed[:, None], slips.value, 0.0), closed, sticks, small)
         self._add(residual, data, (found, slips), (multiplier, force, closed), friction)
         normal, shear = force, friction.force
         if self._bonds is not None:
@@ -378,13 +378,17 @@ class _Friction:
         slip: FloatArray,
         closed: NDArray[np.bool_],
         sticks: FloatArray,
+        small: float,
     ) -> None:
-        """sticks: (m,) part of the stiffness of sticking points."""
+        """sticks: (m,) part of the stiffness of sticking points.
+
+        small: rounding of the slip; an increment after one with slip begins with sticking on every processor.
+        """
         given, directions = pair.property, slip.shape[1]
         coefficient = given.friction
         most = (given.elastic_slip or given.slip_tolerance * pair.length) / np.maximum(sticks, NONE)
         size = np.linalg.norm(slip, axis=1)
-        self.slips = closed & (coefficient > 0.0) & (size > most)
+        self.slips = closed & (coefficient > 0.0) & (size > most + small)
         # length of the slip at which the force would reach its limit
         reach = np.where(self.slips, size, most)[:, None]
         along = slip / reach

@@ -93,6 +93,19 @@ def test_no_friction_where_it_is_open_or_sound(element, interface, alpha):
 
 
 @pytest.mark.parametrize("alpha", STIFFNESSES)
+def test_an_increment_begins_with_sticking_after_one_with_sliding(element, interface, alpha):
+    """Its shear is the friction but for rounding, which would choose the tangent otherwise."""
+    for gap in np.random.default_rng(5).uniform((0.06, -2e-3), (0.07, -1e-3), (50, 2)):
+        item = rubbing(element, interface, alpha, 0.05)
+        item.advance(apart(*gap))
+        sticking = item.evaluate(apart(gap[0] - 1e-4, gap[1]))[1]
+        sliding = item.evaluate(apart(gap[0] + 1e-4, gap[1]))[1]
+        assert abs(sliding - sticking).max() > 1e-3 * abs(sticking).max()
+        tangent = item.evaluate(apart(*gap))[1]
+        np.testing.assert_allclose(tangent, sticking, atol=1e-8 * abs(sticking).max())
+
+
+@pytest.mark.parametrize("alpha", STIFFNESSES)
 @pytest.mark.parametrize("values", [{}, SHARP, {"VISCOSITY": 0.02}, {"BETAN": 0.0, "BETAT": 0.0, "ANGLE TOP": 40.0}])
 @pytest.mark.parametrize(
     ("sliding", "gap", "sticks"),

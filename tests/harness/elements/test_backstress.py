@@ -55,6 +55,19 @@ def test_linear_kinematic_loop(point, tensor):
 
 
 @pytest.mark.parametrize("tensor", TENSORS)
+def test_an_increment_begins_elastically_after_one_with_plastic_strain(point, tensor):
+    """Its stress is on the yield surface but for rounding, which would choose the tangent otherwise."""
+    n = len(COMPONENTS[tensor])
+    elastic = point(tensor, TWO)(np.zeros(n))[1]
+    for strain in 0.02 * np.random.default_rng(4).normal(size=(50, n)):
+        respond = point(tensor, TWO, table=TABLE)
+        assert abs(respond(strain)[1] - elastic).max() > 0.1 * abs(elastic).max()
+        respond.block.commit()
+        tangent = respond(strain, np.zeros(n))[1]
+        np.testing.assert_allclose(tangent, elastic, rtol=1e-9, atol=1e-9 * abs(elastic).max())
+
+
+@pytest.mark.parametrize("tensor", TENSORS)
 def test_backstress_saturates(point, tensor):
     """In shear tau = (yield stress + C/gamma)/sqrt(3): P.J. Armstrong, C.O. Frederick, CEGB report RD/B/N731 (1966)."""
     shear = COMPONENTS[tensor].index(3)

@@ -13,7 +13,7 @@ from contact_decks import YOUNG, Box, plane, step, total, two_boxes
 
 from harness.deck import read_deck
 from harness.elements import ContactBlock, Flags, Request
-from harness.elements.contact import OPEN, STICKING
+from harness.elements.contact import OPEN, SLIPPING, STICKING
 from harness.errors import ConvergenceError, DeckError, Source, UsageError
 from harness.job_on_ranks import refuse_unshared
 from harness.model.contact import Cohesion, ContactPair, ContactProperty
@@ -504,6 +504,29 @@ def test_matrix_by_differences(call, dimension, stiffness, friction, moved, nlge
         np.testing.assert_allclose(found, wanted, atol=1e-6 * max(1.0, np.abs(wanted).max()))
         if not friction and not cohesion:
             np.testing.assert_allclose(found, found.T, atol=1e-12 * np.abs(found).max())
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize("nlgeom", [False, True])
+def test_points_that_do_not_move_on_stick_after_an_increment_with_slip(call, dimension, nlgeom):
+    """Their elastic slip is the largest one but for rounding, which would choose the status otherwise."""
+    rng = np.random.default_rng(6)
+    slipped = 0
+    for _ in range(50):
+        block = pair_of(dimension, 40.0, 0.3, rng)
+        n = 2 * len(block.unknowns)
+        first, second = (replace(call, iteration=k, flags=Flags(1, nlgeom)) for k in range(2))
+        u = rng.normal(size=n)
+        for at, change in ((first, 0 * u), (second, u)):
+            block.evaluate(at, change, change, np.zeros(n), np.zeros(n * n))
+        block.commit()
+        slipping = block.kept()["status"] == SLIPPING
+        slipped += np.count_nonzero(slipping)
+        for at in (first, second):
+            block.evaluate(at, u, 0 * u, np.zeros(n), np.zeros(n * n))
+        block.commit()
+        assert (block.kept()["status"][slipping] == STICKING).all()
+    assert slipped > 30
 
 
 @pytest.mark.parametrize("dimension", [2, 3])

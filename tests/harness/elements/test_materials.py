@@ -285,6 +285,21 @@ def test_history_is_kept_only_on_commit(point):
     np.testing.assert_allclose(respond(unloaded, unloaded - loaded)[0], 0, atol=1e-9 * stress)
 
 
+@pytest.mark.parametrize("tensor", list(COMPONENTS)[:4])
+def test_an_increment_begins_elastically_after_one_with_plastic_strain(point, tensor):
+    """Its stress is the yield stress but for rounding, which would choose the tangent otherwise."""
+    n = len(COMPONENTS[tensor])
+    elastic = point(ISOTROPIC, tensor)(np.zeros(n))[1]
+    for strain in 0.02 * np.random.default_rng(4).normal(size=(100, n)):
+        respond = point(ISOTROPIC, tensor, table=TABLE)
+        stress, tangent = respond(strain)
+        assert abs(tangent - elastic).max() > 0.1 * abs(elastic).max()
+        respond.block.commit()
+        again, tangent = respond(strain, np.zeros(n))
+        np.testing.assert_allclose(again, stress, rtol=1e-9, atol=1e-9 * abs(stress).max())
+        np.testing.assert_allclose(tangent, elastic, rtol=1e-12, atol=1e-12 * abs(elastic).max())
+
+
 def test_points_are_counted(point):
     with pytest.raises(KernelError, match=r"element 101 .* NPT = 5 is outside the points that INTEGRATION= declares"):
         point(ISOTROPIC, "PSTRESS", table=TABLE, integers=(5, 0), integration=4)([0, 0, 0])
