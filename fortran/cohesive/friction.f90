@@ -3,14 +3,11 @@
 !> Coulomb friction of a point in contact, in the consistent law; pairs are the shears (s, t).
 module cohesive_friction
   use core_kinds, only: dp
+  use core_limit, only: exceeds
   use cohesive_shear, only: shears
   implicit none(type, external)
   private
   public :: friction_state, coulomb_friction, add_friction
-
-  !> Part of the friction by which a shear passes it before the point slides. Where it is the friction but for rounding, as where an
-  !> increment begins after one with sliding, the point sticks on every processor.
-  real(dp), parameter :: least_excess = 1.0e-10_dp
 
   !> Friction of a point.
   type :: friction_state
@@ -39,7 +36,7 @@ contains
     length = abs(excess(1))
     if (abs(excess(2)) > 0.0_dp) length = hypot(excess(1), excess(2))
     most = -coefficient*pressed
-    friction%sticks = length <= most*(1.0_dp + least_excess)
+    friction%sticks = .not. exceeds(length, most)
     friction%traction = excess
     friction%by_pressed = 0.0_dp
     friction%by_shear = 0.0_dp

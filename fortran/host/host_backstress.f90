@@ -9,9 +9,10 @@
 !>
 !> History of a point: that of host_mises, then each backstress 11, 22, 33, 12, 13, 23.
 module host_backstress
+  use core_limit, only: exceeds
   use core_root, only: advance, root_search, search_between, searching
   use host_kinds, only: dp
-  use host_mises, only: yield_stress, yields
+  use host_mises, only: yield_stress
   implicit none (type, external)
   private
   public :: backstress_t, combined_solid
@@ -60,7 +61,7 @@ contains
     solved = .true.
     x = 0
     call find_flow(0.0_dp)
-    if (yields(root*length, size_now)) then
+    if (exceeds(root*length, size_now)) then
       ! at its upper end the stress that is left is less than the backstresses and the size of the yield surface
       search = search_between(0.0_dp, root*length/(3*shear), 0.0_dp, geometric=.false.)
       do while (searching(search))

@@ -6,24 +6,14 @@
 !> stresses, beams).
 !> History of a point: plastic strain 11, 22, 33, 12, 13, 23 (engineering shear), equivalent plastic strain.
 module host_mises
+  use core_limit, only: exceeds
   use core_root, only: advance, root_search, search_between, searching
   use host_kinds, only: dp
   implicit none (type, external)
   private
-  public :: mises_solid, mises_plane_stress, mises_beam, mises_uniaxial, yield_stress, trial_mises, returned_solid, yields
-
-  !> Part of the yield stress by which a stress passes it before there is plastic strain. A stress that is the yield stress but for
-  !> rounding, as it is where an increment begins after one with plastic strain, is elastic on every processor.
-  real(dp), parameter :: least_excess = 1.0e-10_dp
+  public :: mises_solid, mises_plane_stress, mises_beam, mises_uniaxial, yield_stress, trial_mises, returned_solid
 
 contains
-
-  !> True if there is plastic strain in the increment without which this is the stress, and for NaN, whose return is not solved.
-  elemental function yields(stress, flow)
-    real(dp), intent(in) :: stress, flow
-    logical :: yields
-    yields = .not. stress <= flow*(1 + least_excess)
-  end function yields
 
   !> Yield stress and its slope at an equivalent plastic strain; constant beyond the table.
   pure subroutine yield_stress(table, plastic, stress, slope)
@@ -52,7 +42,7 @@ contains
     q = trial_mises(young, poisson, n, old, strain)
     call yield_stress(table, old(7), flow, slope)
     multiplier = 0
-    if (yields(q, flow)) call radial_return(table, old(7), q, 3*young/(2*(1 + poisson)), multiplier, slope)
+    if (exceeds(q, flow)) call radial_return(table, old(7), q, 3*young/(2*(1 + poisson)), multiplier, slope)
     call returned_solid(young, poisson, n, old, strain, multiplier, slope, stress, tangent, new)
   end subroutine mises_solid
 
@@ -146,7 +136,7 @@ contains
     q = sqrt(1.5_dp*dot_product(trial, projected(trial)))
     call yield_stress(table, old(7), flow, slope)
     solved = .true.
-    if (.not. yields(q, flow)) return
+    if (.not. exceeds(q, flow)) return
     ! the return shrinks both parts of the squared Mises stress, each with its own rate
     call find_multiplier([(trial(1) + trial(2))**2/4, 0.75_dp*(trial(2) - trial(1))**2 + 3*trial(3)**2], &
                          [young/(3*(1 - poisson)), 2*shear], table, old(7), multiplier, q, slope, solved)
@@ -182,7 +172,7 @@ contains
     tangent = diagonal(moduli)
     q = sqrt(stress(1)**2 + 3*stress(2)**2)
     call yield_stress(table, old(7), flow, slope)
-    if (.not. yields(q, flow)) return
+    if (.not. exceeds(q, flow)) return
     call find_multiplier([stress(1)**2, 3*stress(2)**2], rates, table, old(7), multiplier, q, slope, solved)
     if (.not. solved) return
     algorithmic = diagonal(moduli/(1 + rates*multiplier))
@@ -203,7 +193,7 @@ contains
     stress = young*(strain - plastic)
     modulus = young
     call yield_stress(table, equivalent, flow, hardening)
-    if (.not. yields(abs(stress), flow)) return
+    if (.not. exceeds(abs(stress), flow)) return
     call radial_return(table, equivalent, abs(stress), young, increment, hardening)
     plastic = plastic + sign(increment, stress)
     equivalent = equivalent + increment

@@ -4,12 +4,13 @@
 !> Tables and the return with a known increment: host_mises.
 module host_uhard
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
+  use core_limit, only: exceeds
   use core_root, only: advance, root_search, search_between, searching
   use host_context, only: current
   use host_guarded, only: guarded_t, lay_out_guarded, warn_of_writes
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
-  use host_mises, only: returned_solid, trial_mises, yields
+  use host_mises, only: returned_solid, trial_mises
   use host_protect, only: escape
   implicit none (type, external)
   private
@@ -61,7 +62,7 @@ contains
     solved = .true.
     call call_uhard(law, point, statev, old(7), 0.0_dp, flow, slope, softening)
     ! nothing flows in no time, as in the calls for initial accelerations, though a yield stress by the rate may be less than q
-    if (yields(q, flow) .and. current%dtime > 0) then
+    if (exceeds(q, flow) .and. current%dtime > 0) then
       search = search_between(0.0_dp, q/stiffness, min((q - flow)/max(stiffness + slope, stiffness), q/stiffness), &
                               geometric=.false.)
       do while (searching(search))

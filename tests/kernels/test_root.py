@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 SOURCES = (
-    *("core/kinds", "core/status", "core/root", "core/small_matrix", "cohesive/parameters", "cohesive/shear"),
+    *("core/kinds", "core/limit", "core/status", "core/root", "core/small_matrix"),
+    *("cohesive/parameters", "cohesive/shear"),
     "cohesive/state",
     *("cohesive/mode_mix", "cohesive/bilinear", "cohesive/exponential", "cohesive/ppr", "cohesive/law"),
     "cohesive/friction",

@@ -143,6 +143,17 @@ def test_below_the_yield_stress_nothing_changes(beam, element_type, profile):
     np.testing.assert_allclose(other_energy, energy, atol=1e-12 * energy[1])
 
 
+@pytest.mark.parametrize("profile", ["RECT", "BOX"])
+@pytest.mark.parametrize("element_type", TYPES)
+def test_an_increment_begins_elastically_after_one_with_plastic_strain(beam, element_type, profile):
+    """Stresses at the points are the yield stress but for rounding, which would choose the tangent otherwise."""
+    evaluate = beam(element_type, section(profile, HARDENING))
+    elastic = evaluate(np.zeros(evaluate.unknowns))[1]
+    for u in 0.05 * np.random.default_rng(2).normal(size=(10, evaluate.unknowns)):
+        assert abs(evaluate(u, commit=True)[1] - elastic).max() > 0.1 * abs(elastic).max()
+        np.testing.assert_allclose(evaluate(u)[1], elastic, atol=1e-9 * abs(elastic).max())
+
+
 def plastic_modulus(profile, dimension):
     """First moments of both halves about the line that halves the area: M/yield."""
     if profile == "RECT":

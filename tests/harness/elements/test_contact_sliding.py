@@ -8,6 +8,7 @@ from contact_decks import Box, step, total, two_boxes
 from contact_points import SOURCE, Points
 
 from harness.deck.pieces import make_pieces
+from harness.elements.contact import SLIPPING, STICKING
 from harness.model.contact import ContactProperty, SlidingPair
 
 
@@ -62,6 +63,27 @@ def test_matrix_by_differences(call, dimension, stiffness, friction, moved):
         found = points.check_matrix(start, moved * rng.normal(size=points.size))
         if not friction and dimension == 3:
             np.testing.assert_allclose(found, found.T, atol=1e-12 * np.abs(found).max())
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_points_that_do_not_move_on_stick_after_an_increment_with_slip(call, dimension):
+    """Their elastic slip is the largest one but for rounding, which would choose the status otherwise."""
+    rng = np.random.default_rng(6)
+    slipped = 0
+    for _ in range(20):
+        pair, coordinates = pair_of(dimension, rng, stiffness=40.0, friction=0.3, height=-0.2)
+        points = Points(call, pair, coordinates, range(1, dimension + 1))
+        u, still = 0.1 * rng.normal(size=points.size), np.zeros(points.size)
+        points.evaluate(points.first, still, still)
+        points.evaluate(points.second, u, u)
+        points.block.commit()
+        slipping = points.block.kept()["status"] == SLIPPING
+        slipped += np.count_nonzero(slipping)
+        points.evaluate(points.first, u, still)
+        points.evaluate(points.second, u, still)
+        points.block.commit()
+        assert (points.block.kept()["status"][slipping] == STICKING).all()
+    assert slipped > 50
 
 
 def rotation_of(angle, dimension):

@@ -249,6 +249,28 @@ def test_tangent_with_the_temperature(load, bound, call, element_type, angle):
     np.testing.assert_allclose(found[by_temperature], difference[by_temperature], atol=atol)
 
 
+@pytest.mark.parametrize("element_type", ["CPE4", "C3D8"])
+def test_an_increment_begins_elastically_after_one_with_plastic_strain(solid_group, bound, load, call, element_type):
+    """Its stress is the yield stress but for rounding, which would choose the tangent otherwise."""
+    nodes = np.pad(CELLS[element_type], ((0, 0), (0, 3 - CELLS[element_type].shape[1])))
+    plastic = Plastic(np.zeros((0, 2)), Source("test.inp", 1), user=np.array([SIZE, SLOPE, 0.0]))
+    group = solid_group(element_type, np.arange(len(nodes))[None], 1.0, plastic=plastic)
+    block, matrix = bound(group, nodes, load(LINEAR))
+    size, random = matrix.shape[0], np.random.default_rng(5)
+
+    def tangent(u, du):
+        matrix.data[:] = 0.0
+        block.evaluate(call, u, du, np.zeros(size), matrix.data)
+        return matrix.toarray()
+
+    still = np.zeros(size)
+    elastic = tangent(still, still)
+    for u in random.uniform(-0.1, 0.1, (10, size)):
+        assert abs(tangent(u, u) - elastic).max() > 0.1 * abs(elastic).max()
+        block.commit()
+        np.testing.assert_allclose(tangent(u, still), elastic, atol=1e-9 * abs(elastic).max())
+
+
 def test_stresses_above_the_static_yield_stress_do_not_relax_in_no_time(run):
     """The call for initial accelerations of the second step leaves them, as its very short increment does."""
     first = deck("C3D8", BY_USER.replace(" 0.", f" {VISCOSITY}"), held=pulled("C3D8"))
