@@ -1,0 +1,170 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Solids beside which U4, U6, U8 and U12 are wrong or doubtful: each reason, its place and its weight."""
+
+import re
+
+import numpy as np
+import pytest
+
+from harness.deck.reader import read_deck
+from harness.delamination.kernels import uel_property, user_element
+from harness.elements.neighbour_solids import examine, owns_solids, solids_of, standard_type
+from harness.usersub.layout import element_layouts
+
+ELASTIC = "*ELASTIC\n1e4, 0.3"
+EXPANDING = f"{ELASTIC}\n*EXPANSION\n2e-5"
+DEFINITION = "\n".join(user_element(4, "UNSYMM"))
+PROPERTIES = "\n".join(uel_property(4, "INTERFACE", {}))
+HEATED = "*TEMPERATURE\n{upper}, 100."
+
+
+def quads(kind="CPS4", material="", model="", step="", section=""):
+    """Two quads with U4 between them: element 3, nodes 1 to 4 and 5 to 8."""
+    return (
+        "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 1., 1.\n4, 0., 1.\n5, 0., 1.\n6, 1., 1.\n7, 1., 2.\n8, 0., 2.\n"
+        f"9, 3., 0.\n*NSET, NSET=UPPER\n5, 6, 7, 8\n*NSET, NSET=AWAY\n9\n"
+        f"*ELEMENT, TYPE={kind}, ELSET=LOW\n1, 1, 2, 3, 4\n*ELEMENT, TYPE={kind}, ELSET=HIGH\n2, 5, 6, 7, 8\n"
+        f"{DEFINITION}\n"
+        "*ELEMENT, TYPE=U4, ELSET=INTERFACE\n3, 1, 2, 3, 4, 5, 6, 7, 8\n"
+        f"{PROPERTIES}\n"
+        "*MATERIAL, NAME=PLAIN\n*ELASTIC\n1e4, 0.3\n"
+        f"*MATERIAL, NAME=OTHER\n{material or ELASTIC}\n"
+        f"*SOLID SECTION, ELSET=LOW, MATERIAL=PLAIN{section}\n1.\n"
+        f"*SOLID SECTION, ELSET=HIGH, MATERIAL=OTHER{section}\n1.\n"
+        f"{model}\n*STEP\n*STATIC\n1., 1.\n{step.format(upper='UPPER', away='AWAY')}\n*END STEP\n"
+    )
+
+
+def examined(folder, text):
+    """What is found, and the line of the deck where it is."""
+    path = folder / "deck.inp"
+    path.write_text(re.sub(r"\n+", "\n", text))
+    model = read_deck(path)
+    lines = path.read_text().splitlines()
+    return [(each, lines[each.source.line - 1]) for each in examine(model, model.groups)]
+
+
+def test_elastic_solids_have_no_finding(tmp_path):
+    assert examined(tmp_path, quads()) == []
+    assert examined(tmp_path, quads("CPS4I")) == []
+
+
+def test_thermal_strains_are_wrong_where_the_temperature_of_the_solid_changes(tmp_path):
+    warm = EXPANDING
+    ((found, line),) = examined(tmp_path, quads(material=warm, step=HEATED))
+    assert found.wrong and line == "UPPER, 100."
+    assert re.match(
+        r"U4 does not know thermal strains: material OTHER of the CPS4 beside it has \*EXPANSION \(.*deck.inp:\d+\), "
+        r"and its temperature changes; take U2",
+        found.message,
+    )
+    # an initial temperature alone strains nothing, nor does the same one again, nor that of other nodes
+    initial = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nUPPER, 100."
+    assert examined(tmp_path, quads(material=warm, model=initial)) == []
+    assert examined(tmp_path, quads(material=warm, model=initial, step=HEATED)) == []
+    assert examined(tmp_path, quads(material=warm, step="*TEMPERATURE\n{away}, 100.")) == []
+    assert examined(tmp_path, quads(material=f"{ELASTIC}\n*EXPANSION\n0.", step=HEATED)) == []
+    # no expansion, no strain
+    assert examined(tmp_path, quads(step=HEATED)) == []
+    # the same temperature through an amplitude is another one
+    ramped = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nUPPER, 100.\n*AMPLITUDE, NAME=A\n0., 0., 1., 1."
+    step = HEATED.replace("*TEMPERATURE", "*TEMPERATURE, AMPLITUDE=A")
+    assert len(examined(tmp_path, quads(material=warm, model=ramped, step=step))) == 1
+
+
+def test_initial_stress_is_wrong_unless_it_is_zero(tmp_path):
+    stressed = "*INITIAL CONDITIONS, TYPE=STRESS\n{}, 0., {}, 0."
+    ((found, line),) = examined(tmp_path, quads(model=stressed.format(2, 5.0)))
+    assert found.wrong and line == "2, 0., 5.0, 0."
+    assert re.match(r"U4 does not know the initial stress of the CPS4 beside it; take U2", found.message)
+    assert examined(tmp_path, quads(model=stressed.format(2, 0.0))) == []
+    by_user = "*INITIAL CONDITIONS, TYPE=STRESS, USER"
+    ((found, line),) = examined(tmp_path, quads(model=by_user))
+    assert found.wrong and line == by_user
+
+
+@pytest.mark.parametrize(
+    ("material", "line", "message", "wrong"),
+    [
+        (f"{ELASTIC}\n*PLASTIC\n10., 0.", "*PLASTIC", r"\*PLASTIC of material OTHER .* once it yields; take U2", False),
+        (f"{ELASTIC}\n*CREEP\n1e-9, 2., 0.", "*CREEP", r"\*CREEP of material OTHER .*takes it as elastic", True),
+        (
+            f"{ELASTIC}\n*VISCOELASTIC, TIME=PRONY\n0.5, 0.5, 1.",
+            "*VISCOELASTIC, TIME=PRONY",
+            r"\*VISCOELASTIC of material OTHER .*takes it as elastic",
+            True,
+        ),
+        (
+            "*USER MATERIAL, CONSTANTS=1\n1.",
+            "*USER MATERIAL, CONSTANTS=1",
+            r"\*USER MATERIAL of material OTHER .*moduli of its properties",
+            False,
+        ),
+        (
+            "*ELASTIC, DEPENDENCIES=0\n1e4, 0.3, 0.\n2e4, 0.3, 100.",
+            "*ELASTIC, DEPENDENCIES=0",
+            r"\*ELASTIC of material OTHER .*the same moduli throughout",
+            False,
+        ),
+    ],
+)
+def test_materials_that_are_not_elastic(tmp_path, material, line, message, wrong):
+    ((found, where),) = examined(tmp_path, quads(material=material))
+    assert re.search(message, found.message)
+    assert found.wrong is wrong and where == line
+
+
+def test_hyperelastic_material(tmp_path):
+    text = quads("CPE4", "*HYPERELASTIC, NEO HOOKE\n80., 1e-3")
+    ((found, line),) = examined(tmp_path, text)
+    assert re.search(r"\*HYPERELASTIC of material OTHER .*linear elastic", found.message)
+    assert not found.wrong and line == "*HYPERELASTIC, NEO HOOKE"
+
+
+def test_one_point_is_wrong_and_doubtful_with_enhanced_hourglass_control(tmp_path):
+    found = examined(tmp_path, quads("CPE4R"))
+    assert [(each.wrong, line) for each, line in found] == [
+        (True, "*SOLID SECTION, ELSET=LOW, MATERIAL=PLAIN"),
+        (True, "*SOLID SECTION, ELSET=HIGH, MATERIAL=OTHER"),
+    ]
+    expected = r"CPE4R beside U4 \(element 1\) has the stress of its middle.*take CPE4 or CPE4I, or U2 in place of U4"
+    assert re.match(expected, found[0][0].message)
+    controls = "*SECTION CONTROLS, NAME=C, HOURGLASS=ENHANCED"
+    found = examined(tmp_path, quads("CPE4R", model=controls, section=", CONTROLS=C"))
+    assert [each.wrong for each, _ in found] == [False, False]
+    assert re.search(r"tractions may oscillate", found[0][0].message)
+
+
+def test_other_elements(tmp_path):
+    found = examined(tmp_path, quads("CPEG4", section=", REF NODE=9"))
+    assert [each.wrong for each, _ in found] == [True, True]
+    assert re.match(r"CPEG4 beside U4 \(element 1\) strains normal to the plane", found[0][0].message)
+
+
+def test_each_finding_once(tmp_path):
+    """Both quads have the material: the finding is of the material, not of each."""
+    text = quads(material=EXPANDING, step="*TEMPERATURE\n1, 9.\n{upper}, 9.")
+    text = text.replace("ELSET=LOW, MATERIAL=PLAIN", "ELSET=LOW, MATERIAL=OTHER")
+    assert len(examined(tmp_path, text)) == 2  # two places that give a temperature
+    assert len(examined(tmp_path, text.replace("1, 9.\n", "").replace("UPPER, 9.", "UPPER, 9.\n1, 0."))) == 1
+
+
+def test_solids_are_those_with_the_nodes_of_a_side(tmp_path):
+    path = tmp_path / "deck.inp"
+    # the nodes of a side may run another way round than those of the solid
+    path.write_text(quads().replace("3, 1, 2, 3, 4, 5, 6, 7, 8", "3, 3, 4, 1, 2, 5, 6, 7, 8"))
+    model = read_deck(path)
+    group = next(group for group in model.groups if group.type == "U4")
+    assert solids_of(model, group).tolist() == [[0, 1]]
+    path.write_text(quads().replace("3, 1, 2, 3, 4, 5, 6, 7, 8", "3, 1, 2, 3, 9, 5, 6, 7, 8"))
+    model = read_deck(path)
+    group = next(group for group in model.groups if group.type == "U4")
+    assert solids_of(model, group).tolist() == [[-1, 1]]
+
+
+def test_standard_elements_take_the_place_of_those_that_own_their_solids():
+    own = [jtype for jtype in element_layouts() if owns_solids(jtype)]
+    assert own == [4, 6, 8, 12]
+    assert [standard_type(jtype) for jtype in own] == [2, 5, 7, 11]
+    assert not np.any([owns_solids(jtype) for jtype in (1, 2, 3, 9, 10, 99)])
