@@ -17,6 +17,7 @@ from harness.deck import read_deck
 from harness.elements.earlier_zeros import warn_of_earlier_zeros
 from harness.elements.process_zone import LongElements
 from harness.elements.threads import MOST_THREADS, known_routines, refuse_shared_stress, use_threads
+from harness.elements.unsymmetric_matrices import warn_of_missing_unsymm
 from harness.errors import ConvergenceError, ElementError, UelError, UsageError, in_words, note_warnings
 from harness.interrupts import held, settle
 from harness.job_on_ranks import files_of_job, messages_of, refuse_unshared
@@ -234,6 +235,7 @@ def _analyse(
 
     try:
         warn_of_earlier_zeros(model, library)
+        warn_of_missing_unsymm(model, library)
         system = ranks.agree(assemble)
         long_elements = LongElements(model, library)
 

@@ -372,15 +372,15 @@ module abaqus_layout
     element_item(1, continuum, 2, 4, 4, 1, 2), & !< continuum quad, stress from a material of the deck (UELMAT)
     element_item(2, standard, 2, 4, 2, 13, 3), & !< standard cohesive interface
     element_item(3, next_to_quads, 2, 4, 2, 17, 7), & !< stabilised cohesive interface, four nodes, next to U1 quads
-    element_item(4, self_contained, 2, 8, 2, 33, 6), & !< stabilised cohesive interface, eight nodes, self-contained; UNSYMM
+    element_item(4, self_contained, 2, 8, 2, 33, 6), & !< stabilised cohesive interface, eight nodes, self-contained
     element_item(5, standard, 2, 6, 3, 13, 3), & !< standard cohesive interface between edges of three nodes
-    element_item(6, self_contained, 2, 16, 3, 33, 6), & !< stabilised cohesive interface of eight-node quads, self-contained; UNSYMM
+    element_item(6, self_contained, 2, 16, 3, 33, 6), & !< stabilised cohesive interface of eight-node quads, self-contained
     element_item(7, standard_3d, 3, 8, 4, 12, 3), & !< standard cohesive interface in space, four nodes on each face
-    element_item(8, self_contained_3d, 3, 16, 4, 36, 5), & !< stabilised cohesive interface of eight-node bricks; UNSYMM
+    element_item(8, self_contained_3d, 3, 16, 4, 36, 5), & !< stabilised cohesive interface of eight-node bricks
     element_item(9, continuum_3d, 3, 8, 8, 1, 2), & !< continuum brick, stress from a material of the deck (UELMAT)
     element_item(10, next_to_bricks, 3, 8, 4, 16, 7), & !< stabilised cohesive interface in space, eight nodes, next to U9 bricks
     element_item(11, standard_3d, 3, 16, 9, 12, 3), & !< standard cohesive interface in space, eight nodes on each face
-    element_item(12, self_contained_3d, 3, 40, 9, 36, 5)] !< stabilised cohesive interface of 20-node bricks; UNSYMM
+    element_item(12, self_contained_3d, 3, 40, 9, 36, 5)] !< stabilised cohesive interface of 20-node bricks
 
   type(faces_item), parameter, public :: faces(2:12) = [ &
     faces_item(2, 0, [1, 2, 0, 0], [4, 3, 0, 0]), & !< as COH2D4

@@ -149,7 +149,7 @@ def _interface(specimen: Specimen) -> list[str]:
     variant = "" if jtype == 2 else "consistent " if interface.consistent else "paper's "
     return [
         f"** interface: {variant}{_TITLES[jtype]}",
-        *user_element(jtype, "UNSYMM"),
+        *user_element(jtype),
         elements,
         *uel_property(jtype, "INTERFACE", interface_values(specimen)),
     ]

@@ -220,7 +220,7 @@ def _interface(column: Column, labels: IntArray, owner: int) -> list[str]:
     for side in ("BOTTOM", "TOP"):
         # the ply in its own axes, which ANGLE turns
         values |= {f"{name} {side}": value for name, value in PLY.constants.items()}
-    lines = user_element(column.jtype, "UNSYMM")
+    lines = user_element(column.jtype)
     lines += element_block(f"U{column.jtype}", "INTERFACE", nodes[None], 3)
     return [*lines, *uel_property(column.jtype, "INTERFACE", values)]
 

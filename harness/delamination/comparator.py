@@ -53,7 +53,7 @@ def element_deck(element: str, mix: str) -> str:
     lines += [keyword("NSET", "GENERATE", NSET="BOTTOM"), *table([(1, count // 2, 1)])]
     lines += [keyword("NSET", "GENERATE", NSET="TOP"), *table([(count // 2 + 1, count, 1)])]
     if not interface.built_in:
-        lines += user_element(2, "UNSYMM")
+        lines += user_element(2)
     lines += [keyword("ELEMENT", TYPE=element, ELSET="INTERFACE"), *table([[1, *labels.tolist()]])]
     if interface.built_in:
         lines += cohesive_section(interface, SIDE)

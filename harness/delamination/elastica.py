@@ -59,7 +59,7 @@ def _deck(kind: str) -> str:
         "** written by python -m harness.delamination.decks; units N, mm, MPa",
         *node_block(labels.ravel(), places),
         *element_block("CPS4R", "ARMS", arms, 1),
-        *user_element(int(kind[1:]), "UNSYMM"),
+        *user_element(int(kind[1:])),
         *element_block(kind, "INTERFACE", interface, 1 + len(arms)),
         *node_set("CLAMPED", labels[..., -1].ravel()),
         *node_set("LOAD_TOP", labels[1, through // 2, :1]),

@@ -10,11 +10,12 @@ from harness.delamination.keywords import captions, keyword, wrapped
 from harness.usersub.layout import element_layouts
 
 
-def user_element(jtype: int, *flags: str, **options: str | int) -> list[str]:
-    """*USER ELEMENT of an element type: its counts, and what else is given."""
+def user_element(jtype: int, **options: str | int) -> list[str]:
+    """*USER ELEMENT of an element type: its counts, UNSYMM where it needs it, and what else is given."""
     layout = element_layouts()[jtype]
     counts: dict[str, str | int] = {"TYPE": f"U{jtype}", "NODES": layout.nodes, "COORDINATES": layout.dimension}
     counts |= {"PROPERTIES": len(layout.reals), "I_PROPERTIES": len(layout.integers), "VARIABLES": layout.svars}
+    flags = ["UNSYMM"] if layout.unsymmetric else []
     return [keyword("USER ELEMENT", *flags, **counts, **options), ", ".join("123"[: layout.dimension])]
 
 

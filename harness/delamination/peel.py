@@ -77,7 +77,7 @@ def _deck(interface: Interface) -> str:
         "** written by python -m harness.delamination.decks; units N, mm, MPa",
         *node_block(np.append(labels, base), places),
         *element_block("CPS4R", "FILM", film, 1),
-        *([] if interface.built_in else user_element(int(kind[1:]), "UNSYMM")),
+        *([] if interface.built_in else user_element(int(kind[1:]))),
         *element_block(kind, "INTERFACE", interface_nodes, 1 + len(film)),
         *node_set("BASE", base.ravel()),
         *node_set("END", labels[through // 2, :1]),

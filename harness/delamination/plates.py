@@ -137,7 +137,7 @@ def mesh_blocks(laminate: Laminate) -> list[str]:
             lines += element_block(laminate.bricks, name, np.concatenate(layers), count)
         count += sum(map(len, layers))
     if not laminate.interface.built_in:
-        lines += user_element(int(kind[1:]), "UNSYMM")
+        lines += user_element(int(kind[1:]))
     faces = mesh.interface(kind)
     if laminate.generated:
         return lines + _generated_elements(mesh, kind, "INTERFACE", [faces], count)

@@ -251,7 +251,7 @@ def definition_lines(kind: InterfaceType) -> list[str]:
     """*USER ELEMENT of a type of the project; nothing for those of Abaqus."""
     if not kind.jtype:
         return []
-    return user_element(kind.jtype, *(["UNSYMM"] if kind.solid else []))
+    return user_element(kind.jtype)
 
 
 def material_lines(kind: InterfaceType, name: str, values: Mapping[str, float]) -> list[str]:

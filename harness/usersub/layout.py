@@ -79,6 +79,16 @@ class ElementLayout:
         """Number of SVARS, VARIABLES= of *USER ELEMENT."""
         return self.points * len(self.variables) + len(self.own)
 
+    @property
+    def unsymmetric(self) -> bool:
+        """Whether its *USER ELEMENT needs UNSYMM, without which Abaqus takes the symmetric part of AMATRX.
+
+        All interface elements do: the consistent tangent of softening in mixed mode, the derivative of the rotation
+        with NLGEOM, and the traction of the solids are unsymmetric. A standard element with TANGENT 1 and small
+        displacements has a symmetric matrix, which UNSYMM does not change.
+        """
+        return bool(self.faces[0])
+
 
 @cache
 def element_layouts() -> dict[int, ElementLayout]:
@@ -161,7 +171,8 @@ def markdown() -> str:
 def _markdown_lines() -> Iterator[str]:
     for layout in element_layouts().values():
         counts = f"NODES={layout.nodes}, PROPERTIES={len(layout.reals)}, I PROPERTIES={len(layout.integers)}"
-        yield from (f"### U{layout.jtype}: {layout.meaning}", "", f"{counts}, VARIABLES={layout.svars}", "")
+        counts += f", VARIABLES={layout.svars}" + ", UNSYMM" * layout.unsymmetric
+        yield from (f"### U{layout.jtype}: {layout.meaning}", "", counts, "")
         yield from _table("PROPS", "unit", [(i, i.unit) for i in layout.reals])
         yield from _table("JPROPS", "", [(i, "") for i in layout.integers])
         title = f"SVARS of each of {layout.points} points"

@@ -27,6 +27,7 @@ def test_user_element_lines_of_the_documentation_are_current():
             f"VARIABLES={item.svars}",
         ):
             assert option in line
+        assert ("UNSYMM" in line) == item.unsymmetric
 
 
 def test_names_of_svars():

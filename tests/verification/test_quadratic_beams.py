@@ -59,7 +59,7 @@ def deck(beam: Beam, opening: float, increment: float) -> str:
         f"Double cantilever beam of {beam.arm} and {kind}",
         *node_block(np.arange(1, 1 + len(places)), places),
         *element_block(beam.arm, "ARMS", arms, 1),
-        *user_element(beam.interface, "UNSYMM"),
+        *user_element(beam.interface),
         *element_block(kind, "INTERFACE", interface, 1 + len(arms)),
         *(line for name, labels in sets.items() for line in node_set(name, labels)),
         "*SOLID SECTION, ELSET=ARMS, MATERIAL=ARM",

@@ -57,7 +57,7 @@ def deck(kind, closure, nlgeom):
         "double cantilever beam",
         *node_block(labels.ravel(), np.array(places)),
         *user_element(bulk, **options),
-        *user_element(kind, "UNSYMM"),
+        *user_element(kind),
         *element_block(f"U{bulk}", "BELOW", arms[:COLUMNS], 1),
         *element_block(f"U{bulk}", "ABOVE", arms[COLUMNS:], 1 + COLUMNS),
         *element_block(f"U{kind}", "INTERFACE", interface, FIRST),

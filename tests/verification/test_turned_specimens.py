@@ -60,7 +60,7 @@ def in_the_plane(quads: str, kind: str) -> Specimen:
     if interface.built_in:
         properties = cohesive_section(interface, WIDTH)
     else:
-        lines += user_element(int(kind[1:]), "UNSYMM")
+        lines += user_element(int(kind[1:]))
         plies = {f"{name} {side}": v for name, v in METAL.constants.items() for side in ("BOTTOM", "TOP")}
         given = law_values(interface) | plies | {"THICKNESS": WIDTH, "PLANE": 1}
         properties = uel_property(int(kind[1:]), "INTERFACE", given)

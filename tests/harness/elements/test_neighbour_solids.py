@@ -14,7 +14,7 @@ from harness.usersub.layout import element_layouts
 
 ELASTIC = "*ELASTIC\n1e4, 0.3"
 EXPANDING = f"{ELASTIC}\n*EXPANSION\n2e-5"
-DEFINITION = "\n".join(user_element(4, "UNSYMM"))
+DEFINITION = "\n".join(user_element(4))
 PROPERTIES = "\n".join(uel_property(4, "INTERFACE", {}))
 HEATED = "*TEMPERATURE\n{upper}, 100."
 

@@ -90,7 +90,7 @@ def pulled(
     lines += elements(solid, "SOLID", (0, 1), (2, 3))
     own = kind.startswith("U")
     if own:
-        lines += user_element(int(kind[1:]), "UNSYMM")
+        lines += user_element(int(kind[1:]))
     lines += elements(kind, "INTERFACE", (0, 1, 2, 3) if kind in ("U4", "U8") else (1, 2))
     named = ", ORIENTATION=AXES" if axes else ""
     lines += [*axes.splitlines(), f"*SOLID SECTION, ELSET=SOLID, MATERIAL=PLY{named}", "1."]

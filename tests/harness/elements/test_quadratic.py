@@ -178,7 +178,7 @@ def stack(jtype, quads):
     return "\n".join(
         [
             *("*NODE", *nodes, f"*ELEMENT, TYPE={quads}, ELSET=QUADS", *elements),
-            *user_element(jtype, "UNSYMM"),
+            *user_element(jtype),
             *(f"*ELEMENT, TYPE=U{jtype}, ELSET=COHESIVE", *interfaces),
             *("*NSET, NSET=LOW", ", ".join(ends[0.0]), "*NSET, NSET=HIGH", ", ".join(ends[2.0])),
             *("*MATERIAL, NAME=M", "*ELASTIC", f"{E}, {NU}", "*SOLID SECTION, ELSET=QUADS, MATERIAL=M", "2.0"),

@@ -7,6 +7,7 @@ import pytest
 from solid_grids import grid, inserted
 
 import harness
+from harness.deck.reader import read_deck
 from harness.model.element_types import CONTINUUM
 
 YOUNG, POISSON = 1.0e4, 0.3
@@ -72,6 +73,15 @@ def values_of(element):
     """Strengths that are not reached; a stiffness where one is needed."""
     strong = ["SIGMAMAX=1e6", "TAUMAX=1e6", "GIC=1e9", "GIIC=1e9"]
     return strong if element in OWNERS else [*strong, "ALPHAN=1e6"]
+
+
+@pytest.mark.parametrize(("kind", "element"), [(k, e) for k, e in PAIRS if e.startswith("U")])
+def test_elements_of_the_project_are_defined_with_unsymm(tmp_path, kind, element):
+    """Their matrices are unsymmetric in mixed-mode softening (tests/kernels/test_symmetry.py)."""
+    deck = write(tmp_path / "uncut.inp", block(kind), ["*BOUNDARY", "FIX, 1, 3"])
+    inserted(deck, tmp_path / "cut.inp", values_of(element), between=[("LOW", "HIGH")], element=element)
+    group = next(group for group in read_deck(tmp_path / "cut.inp").groups if group.type == element)
+    assert group.definition.unsymmetric
 
 
 @pytest.mark.parametrize(("kind", "element"), PAIRS)
