@@ -5,7 +5,7 @@ module host_forces
   use host_kinds, only: dp
   implicit none (type, external)
   private
-  public :: add_plane_point, add_axisymmetric_point, add_space_point, add_geometric, add_stress_matrix
+  public :: add_plane_point, add_axisymmetric_point, add_space_point, add_geometric, add_stress_matrix, by_volume
 
 contains
 
@@ -97,6 +97,19 @@ contains
       stiffness(1::2, 2*i - 1) = stiffness(1::2, 2*i - 1) + volume*full(3, 3)*g(i, 3)*g(:, 3)
     end do
   end subroutine add_geometric
+
+  !> Symmetric part of the derivative, by the strains, of a stress that is divided by the volume: a stress that grows with it.
+  pure function by_volume(m, direct, stress) result(modulus)
+    integer, intent(in) :: m, direct
+    real(dp), intent(in) :: stress(m)
+    real(dp) :: modulus(m, m)
+    integer :: i
+    modulus = 0
+    do i = 1, direct
+      modulus(:, i) = modulus(:, i) + 0.5_dp*stress
+      modulus(i, :) = modulus(i, :) + 0.5_dp*stress
+    end do
+  end function by_volume
 
   !> Matrix of the stress alone of a point: the same terms.
   pure subroutine add_stress_matrix(dim, direct, m, nodes, g, b, stress, volume, stiffness)

@@ -13,15 +13,23 @@
 !> zero. Incompressible materials have J(s) = 1. Unknowns are the factors of the functions times V, so that their residuals are
 !> strains: mean differences of J. In small displacements J - 1 is the volume strain.
 !>
-!> Other materials, which are compressible, have the mean stress of their points projected on the functions: the pressure that is
-!> eliminated, for a bulk modulus that is the same in the element.
+!> Other materials, which are compressible, have a pressure that is eliminated. With the stiffness D and the bulk modulus
+!> K = I:D:I/9 of a point, the mean stress s = I:D:e/3 of its strain e, and a change t of its volume strain,
+!>
+!>     integral of W(e + t I/3) - p t over the volume
+!>
+!> is stationary where K t = p - s, so that p is the mean stress, and where p is s projected on the functions with the weight 1/K.
+!> The stress is D:e + (p - s) D:I/(3K), which for isotropic materials replaces the mean stress and for anisotropic ones also
+!> changes the shape that goes with it: forces are the derivatives of one energy, and their matrix is symmetric. Constant strains
+!> need no change of volume. UMAT and UHYPER have p for the mean stress alone, with equal weights (Abaqus Analysis User's Guide,
+!> User-defined mechanical material behavior: hybrid elements replace the pressure stress).
 module host_hybrid
   use core_small_matrix, only: invert_general
   use host_kinds, only: dp
   use host_shape, only: rule_t
   implicit none (type, external)
   private
-  public :: pressure_t, begin_pressure, mean_stress, add_compatibility, smoothing_t, begin_smoothing, keep_point, &
+  public :: pressure_t, begin_pressure, mean_stress, add_compatibility, mean_response_t, smoothing_t, begin_smoothing, keep_point, &
             keep_temperature, smooth, smooth_by_temperature, mean_stress_added, smoothing_change
 
   type :: pressure_t
@@ -34,12 +42,23 @@ module host_hybrid
     real(dp), allocatable :: by_factors(:, :)      !< (functions, functions)
   end type pressure_t
 
+  !> A point whose pressure is eliminated; components are those of the strains of the element, in global directions.
+  type :: mean_response_t
+    real(dp) :: stress = 0             !< s
+    real(dp) :: compressibility = 0    !< 1/K; 0 where the elastic energy does not follow from the stress
+    real(dp) :: by_strains(6) = 0      !< derivatives of s
+    real(dp) :: unit(6) = 0            !< stress by a unit of p - s: D:I/(3K)
+    real(dp) :: unit_state(6) = 0      !< the same as SVARS hold it
+    real(dp) :: work = 0               !< of a unit of p - s that has grown in the increment, per volume
+  end type mean_response_t
+
   type :: smoothing_t
-    real(dp), allocatable :: projection(:, :)      !< on the functions: values at all points by those of what is projected
-    real(dp), allocatable :: mean(:), weight(:), strain(:)    !< of the points: mean stresses, volumes now, volume strains
-    real(dp), allocatable :: change(:)             !< of the mean stresses by the projection
-    real(dp), allocatable :: by_displacements(:, :), rate(:, :)   !< derivatives of volume strains and mean stresses
-    real(dp), allocatable :: by_temperatures(:, :)   !< (corners, points) derivatives of the mean stresses, if they have any
+    real(dp), allocatable :: functions(:, :)       !< (functions, points)
+    real(dp), allocatable :: initial(:), weight(:)   !< (points) volumes before any displacement, and now
+    type(mean_response_t), allocatable :: mean(:)  !< (points)
+    real(dp), allocatable :: change(:)             !< (points) p - s
+    real(dp), allocatable :: force(:, :), rate(:, :)   !< (unknowns, points) forces by a unit of p - s; derivatives of s
+    real(dp), allocatable :: by_temperatures(:, :)   !< (corners, points) derivatives of s, if it has any
   end type smoothing_t
 
 contains
@@ -105,31 +124,27 @@ contains
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: functions, unknowns       !< unknowns: of the element
     real(dp), intent(in) :: x(rule%dim, rule%nodes), initial(rule%points)
-    real(dp), dimension(functions, rule%points) :: values, weighted
-    real(dp) :: inverse(functions, functions)
-    logical :: good
-    values = pressure_functions(rule, functions, x)
-    weighted = values*spread(initial, 1, functions)
-    ! regular wherever the element is not inside out
-    call invert_general(matmul(weighted, transpose(values)), inverse, good)
-    this%projection = matmul(transpose(values), matmul(inverse, weighted))
-    allocate (this%mean(rule%points), this%weight(rule%points), this%strain(rule%points), this%change(rule%points))
-    allocate (this%by_displacements(unknowns, rule%points), this%rate(unknowns, rule%points))
+    this%functions = pressure_functions(rule, functions, x)
+    this%initial = initial
+    allocate (this%mean(rule%points), this%weight(rule%points))
+    allocate (this%force(unknowns, rule%points), this%rate(unknowns, rule%points))
   end subroutine begin_smoothing
 
-  !> Keep a point with its volume now, its mean stress, the volume strain of that, and its derivatives by the strains: in large
-  !> displacements those of the mean stress times the volume.
-  pure subroutine keep_point(this, point, weight, direct, finite, of_point, b)
+  !> Keep a point with its volume now and its strains by the unknowns. In large displacements derivatives are those of the mean
+  !> stress times the volume.
+  pure subroutine keep_point(this, point, weight, direct, finite, mean, b)
     type(smoothing_t), intent(inout) :: this
     integer, intent(in) :: point, direct
     logical, intent(in) :: finite
-    real(dp), intent(in) :: weight, of_point(:), b(:, :)
+    real(dp), intent(in) :: weight, b(:, :)
+    type(mean_response_t), intent(in) :: mean
+    integer :: m
+    m = size(b, 2)
     this%weight(point) = weight
-    this%mean(point) = of_point(1)
-    this%strain(point) = of_point(2)
-    this%by_displacements(:, point) = sum(b(:, :direct), 2)
-    this%rate(:, point) = matmul(b, of_point(3:))
-    if (finite) this%rate(:, point) = this%rate(:, point) - of_point(1)*this%by_displacements(:, point)
+    this%mean(point) = mean
+    this%force(:, point) = weight*matmul(b, mean%unit(:m))
+    this%rate(:, point) = matmul(b, mean%by_strains(:m))
+    if (finite) this%rate(:, point) = this%rate(:, point) - mean%stress*sum(b(:, :direct), 2)
   end subroutine keep_point
 
   !> Keep how the mean stress of a point changes with its temperature, which is that of the corners by their shape functions.
@@ -143,34 +158,45 @@ contains
     this%by_temperatures(:, point) = mean_by_temperatures
   end subroutine keep_temperature
 
-  !> What the projection changes of the mean stresses of all points.
+  !> Values of the pressure at all points by the mean stresses there.
+  pure function projection_of(this) result(projection)
+    type(smoothing_t), intent(in) :: this
+    real(dp) :: projection(size(this%mean), size(this%mean))
+    real(dp) :: weighted(size(this%functions, 1), size(this%mean)), inverse(size(this%functions, 1), size(this%functions, 1))
+    logical :: good
+    weighted = this%functions*spread(this%initial, 1, size(weighted, 1))
+    if (all(this%mean%compressibility > 0)) then
+      ! relative to the largest, so that no unit matters
+      weighted = weighted*spread(this%mean%compressibility/maxval(this%mean%compressibility), 1, size(weighted, 1))
+    end if
+    ! regular wherever the element is not inside out
+    call invert_general(matmul(weighted, transpose(this%functions)), inverse, good)
+    projection = matmul(transpose(this%functions), matmul(inverse, weighted))
+  end function projection_of
+
+  !> Difference of the pressure and the mean stress of the strain, at all points.
   pure function smoothing_change(this) result(change)
     type(smoothing_t), intent(in) :: this
     real(dp) :: change(size(this%mean))
-    change = matmul(this%projection, this%mean) - this%mean
+    change = matmul(projection_of(this), this%mean%stress) - this%mean%stress
   end function smoothing_change
 
-  !> Add what the projection changes of the mean stresses to the forces and, but for the change of the forces of a given
-  !> pressure, to the tangent.
+  !> Add what the pressure changes of the forces and, but for the change of the forces of a given pressure, of the tangent.
   pure subroutine smooth(this, force, stiffness)
     type(smoothing_t), intent(inout) :: this
     real(dp), intent(inout) :: force(:), stiffness(:, :)
-    real(dp) :: weighted(size(this%rate, 1), size(this%rate, 2))
     this%change = smoothing_change(this)
-    weighted = this%by_displacements*spread(this%weight, 1, size(weighted, 1))
-    force = force + matmul(weighted, this%change)
-    stiffness = stiffness + matmul(weighted, matmul(this%projection, transpose(this%rate)) - transpose(this%rate))
+    force = force + matmul(this%force, this%change)
+    stiffness = stiffness + matmul(this%force, matmul(projection_of(this), transpose(this%rate)) - transpose(this%rate))
   end subroutine smooth
 
-  !> Add what the projection changes of the derivatives of the forces by the temperatures of the corners.
+  !> Add what the pressure changes of the derivatives of the forces by the temperatures of the corners.
   pure subroutine smooth_by_temperature(this, tangent)
     type(smoothing_t), intent(in) :: this
     real(dp), intent(inout) :: tangent(:, :)     !< (displacements, corners)
-    real(dp) :: weighted(size(this%rate, 1), size(this%rate, 2))
     if (.not. allocated(this%by_temperatures)) return
-    weighted = this%by_displacements*spread(this%weight, 1, size(weighted, 1))
     associate (rate => transpose(this%by_temperatures))
-      tangent = tangent + matmul(weighted, matmul(this%projection, rate) - rate)
+      tangent = tangent + matmul(this%force, matmul(projection_of(this), rate) - rate)
     end associate
   end subroutine smooth_by_temperature
 end module host_hybrid

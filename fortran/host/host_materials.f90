@@ -31,7 +31,7 @@ module host_materials
   use host_uvarm, only: user_output_t
   implicit none (type, external)
   private
-  public :: material_t, define, find_material, stress_update, not_solved, elastic_energy, elastic_volume, thickness_strain, &
+  public :: material_t, define, find_material, stress_update, not_solved, elastic_bulk_modulus, elastic_energy, thickness_strain, &
             history_values, has_fields, has_heat_terms, is_viscous, needs_deformation, set_constants
 
   !> Values of the history of a point of a plastic or prestressed material: stress-free strain (6), which is the plastic strain
@@ -471,14 +471,14 @@ contains
     end do
   end function elastic_energy
 
-  !> Elastic volume strain of a stress; zero of materials whose elastic energy does not follow from the stress.
-  pure real(dp) function elastic_volume(material, stress)
+  !> Mean stress by a unit of volume strain in equal parts of the directions; zero of materials whose elastic energy does not
+  !> follow from the stress, and in plane stress.
+  pure real(dp) function elastic_bulk_modulus(material)
     type(material_t), intent(in) :: material
-    real(dp), intent(in) :: stress(material%ntens)
-    elastic_volume = 0
-    if (allocated(material%hyperelastic) .or. allocated(material%user) .or. material%ntens == 3) return
-    elastic_volume = dot_product(sum(material%compliance(:3, :material%ntens), 1), stress)
-  end function elastic_volume
+    elastic_bulk_modulus = 0
+    if (allocated(material%hyperelastic) .or. allocated(material%user) .or. material%ntens < 4) return
+    elastic_bulk_modulus = sum(material%stiffness(:3, :3))/9
+  end function elastic_bulk_modulus
 
   !> Strain 33 in plane stress, after stress_update of the point; zero with UMAT, which does not give it.
   real(dp) function thickness_strain(material, point, stress)

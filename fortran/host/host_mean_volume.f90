@@ -6,7 +6,7 @@
 !> displacements, so that its tangent has the second derivatives: they are those of the points' own volume strains.
 module host_mean_volume
   use core_strains, only: strain_matrix
-  use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point
+  use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point, by_volume
   use host_kinds, only: dp
   use host_kinematics, only: gradients
   use host_shape, only: rule_of, rule_t
@@ -23,9 +23,11 @@ contains
     real(dp), intent(in) :: g(nodes, direct, points), b(dim*nodes, m, points), stress(m, points), w(points)
     real(dp), intent(in) :: volume(points)                  !< of the points now
     real(dp), intent(inout) :: stiffness(dim*nodes, dim*nodes)
-    real(dp) :: own(dim*nodes, m), pressure(points), none(m, m)
+    real(dp) :: own(dim*nodes, m), pressure(points), none(m, m), unit(m)
     integer :: p
     none = 0
+    unit = 0
+    unit(:direct) = 1
     ! the mean strain is in equal parts in the direct ones
     pressure = w*sum(stress(:direct, :), 1)/direct
     do p = 1, points
@@ -34,7 +36,8 @@ contains
       call add_tangent(dim, direct, m, nodes, g(:, :, p), own, stress(:, p), w(p), none, stiffness)
       call add_tangent(dim, direct, m, nodes, g(:, :, p), b(:, :, p), stress(:, p), -w(p), none, stiffness)
       ! the mean volume strain changes by that of all points, and the point's own goes
-      call add_curvature(dim, direct, m, nodes, g(:, :, p), own, sum(pressure)*volume(p)/sum(volume) - pressure(p), stiffness)
+      call add_curvature(dim, direct, m, nodes, g(:, :, p), own, unit, &
+                         sum(pressure)*volume(p)/sum(volume) - pressure(p), stiffness)
       call add_square(sum(own(:, :direct), 2), pressure(p), stiffness)
     end do
     call add_square(sum(b(:, :direct, 1), 2), -sum(pressure), stiffness)
@@ -47,34 +50,31 @@ contains
     real(dp), intent(in) :: g(:, :), b(:, :), stress(m), volume
     real(dp), intent(in) :: depth                     !< factor of the volumes of points: the angle of axisymmetric elements
     real(dp), intent(inout) :: stiffness(:, :)
-    real(dp) :: own(size(b, 1), m), part(size(x, 2), direct), weight, pressure
+    real(dp) :: own(size(b, 1), m), part(size(x, 2), direct), weight, pressure, unit(m)
     type(rule_t), pointer :: rule
     integer :: point, dim, nodes
     dim = size(x, 1)
     nodes = size(x, 2)
     ! in equal parts in the directions of the displacements
     pressure = sum(stress(:dim))/dim
-    call add_curvature(dim, direct, m, nodes, g, b, -pressure*volume, stiffness)
+    unit = 0
+    unit(:direct) = 1
+    call add_curvature(dim, direct, m, nodes, g, b, unit, -pressure*volume, stiffness)
     ! as many points as nodes: two in each direction
     rule => rule_of(family, nodes)
     do point = 1, rule%points
       call gradients(rule, direct, point, x, part, weight)
       call strain_matrix(dim, direct, nodes, part, own)
-      call add_curvature(dim, direct, m, nodes, part, own, pressure*depth*weight, stiffness)
+      call add_curvature(dim, direct, m, nodes, part, own, unit, pressure*depth*weight, stiffness)
     end do
   end subroutine add_uniform_volume
 
-  !> Tangent of a pressure, volume included, with these gradients and strains.
-  subroutine add_curvature(dim, direct, m, nodes, g, b, pressure, stiffness)
+  !> Tangent of a given multiple of a stress, volume included, with these gradients and strains.
+  subroutine add_curvature(dim, direct, m, nodes, g, b, stress, multiple, stiffness)
     integer, intent(in) :: dim, direct, m, nodes
-    real(dp), intent(in) :: g(nodes, direct), b(dim*nodes, m), pressure
+    real(dp), intent(in) :: g(nodes, direct), b(dim*nodes, m), stress(m), multiple
     real(dp), intent(inout) :: stiffness(dim*nodes, dim*nodes)
-    real(dp) :: modulus(m, m), unit(m)
-    modulus = 0
-    modulus(:direct, :direct) = 1
-    unit = 0
-    unit(:direct) = 1
-    call add_tangent(dim, direct, m, nodes, g, b, unit, pressure, modulus, stiffness)
+    call add_tangent(dim, direct, m, nodes, g, b, stress, multiple, by_volume(m, direct, stress), stiffness)
   end subroutine add_curvature
 
   !> Tangent of a stress with these gradients and strains; modulus is that of the Jaumann rate of the Kirchhoff stress.

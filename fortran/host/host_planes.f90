@@ -12,7 +12,7 @@
 !> shows it (Generalized plane strain elements with relative motion of bounding planes).
 module host_planes
   use host_context, only: current
-  use host_forces, only: add_axisymmetric_point, add_geometric
+  use host_forces, only: add_axisymmetric_point, add_geometric, by_volume
   use host_kinds, only: dp
   use host_protect, only: escape
   use host_shape, only: is_quadratic, rule_t
@@ -85,20 +85,19 @@ contains
     stiffness(n + 3, 1:n:2) = stiffness(n + 3, 1:n:2) - by_product
   end subroutine add_stress_of_fibres
 
-  !> As add_curvature (host_mean_volume): tangent of a pressure, volume included.
-  subroutine add_curvature_of_fibres(this, rule, point, g, b, fibre, ratio, pressure, stiffness)
+  !> As add_curvature (host_mean_volume): tangent of a given multiple of a stress, volume included.
+  subroutine add_curvature_of_fibres(this, rule, point, g, b, fibre, ratio, unit, multiple, stiffness)
     type(planes_t), intent(in) :: this
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: point
-    real(dp), intent(in) :: g(rule%nodes, 3), b(2*rule%nodes + planes, 4), fibre(2*rule%nodes + planes), ratio, pressure
+    real(dp), intent(in) :: g(rule%nodes, 3), b(2*rule%nodes + planes, 4), fibre(2*rule%nodes + planes), ratio
+    real(dp), intent(in) :: unit(4), multiple        !< the stress, and its factor, volume included
     real(dp), intent(inout) :: stiffness(2*rule%nodes + planes, 2*rule%nodes + planes)
-    real(dp) :: modulus(4, 4), unit(4), none(4), no_force(2*rule%nodes + planes)
-    modulus = 0
-    modulus(:3, :3) = 1
-    unit = [1, 1, 1, 0]
+    real(dp) :: modulus(4, 4), none(4), no_force(2*rule%nodes + planes)
+    modulus = by_volume(4, 3, unit)
     none = 0
     no_force = 0
-    call add_stress_of_fibres(this, rule, point, g, fibre, ratio, unit, pressure, modulus, stiffness)
-    call add_axisymmetric_point(size(no_force), b, none, pressure*modulus, no_force, stiffness)
+    call add_stress_of_fibres(this, rule, point, g, fibre, ratio, unit, multiple, modulus, stiffness)
+    call add_axisymmetric_point(size(no_force), b, none, multiple*modulus, no_force, stiffness)
   end subroutine add_curvature_of_fibres
 end module host_planes

@@ -45,8 +45,9 @@ module host_solid
                            shares, thermal_strain
   use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point, add_stress_matrix
   use host_gradients, only: all_gradients, carry, find_deformation, gradient_of, gradients_of_points
-  use host_hybrid, only: add_compatibility, begin_pressure, begin_smoothing, keep_point, keep_temperature, mean_stress, &
-                         mean_stress_added, pressure_t, smooth, smooth_by_temperature, smoothing_change, smoothing_t
+  use host_hybrid, only: add_compatibility, begin_pressure, begin_smoothing, keep_point, keep_temperature, mean_response_t, &
+                         mean_stress, mean_stress_added, pressure_t, smooth, smooth_by_temperature, smoothing_change, &
+                         smoothing_t
   use host_hourglass, only: resist_hourglass
   use host_hyperelastic, only: volume_of
   use host_incompatible, only: mode_strains
@@ -57,8 +58,8 @@ module host_solid
   use host_mean_volume, only: add_curvature, add_mean_volume, add_uniform_volume
   use host_protect, only: escape
   use host_planes, only: add_curvature_of_fibres, add_stress_of_fibres, planes, planes_t
-  use host_materials, only: elastic_energy, elastic_volume, find_material, has_fields, has_heat_terms, is_viscous, material_t, &
-                            needs_deformation, not_solved, set_constants, stress_update, thickness_strain
+  use host_materials, only: elastic_bulk_modulus, elastic_energy, find_material, has_fields, has_heat_terms, is_viscous, &
+                            material_t, needs_deformation, not_solved, set_constants, stress_update, thickness_strain
   use host_shape, only: is_multilinear, rule_of, rule_t
   use host_thermal, only: call_hetval
   use host_usdfld, only: call_usdfld
@@ -340,7 +341,7 @@ contains
     real(dp) :: ratio(rule%points), by_planes(planes, rule%points), by_planes_mid(planes, rule%points), w(planes)
     real(dp), dimension(rule%nodes, direct, rule%points) :: g, g_mid, g_before
     real(dp), dimension(rule%dim*rule%nodes, strains, rule%points) :: b, b_mid
-    real(dp), dimension(rule%points) :: volume, volume_mid, volume_now, volume_before, volume_strain
+    real(dp), dimension(rule%points) :: volume, volume_mid, volume_now, volume_before
     real(dp) :: stresses(strains, rule%points)
     real(dp) :: by_unknowns(rule%dim*rule%nodes + others, strains)
     real(dp) :: first_tangent(strains, strains)    !< of all points
@@ -350,9 +351,8 @@ contains
     real(dp), allocatable :: by_corners(:)
     real(dp) :: weights(rule%points)
     logical :: averaged, begins, of_stress, smoothed
-    real(dp) :: unit(material%ntens)    !< stress
     type(smoothing_t) :: smoothing
-    real(dp) :: of_point(strains + 2)   !< mean stress, its volume strain, and derivatives
+    type(mean_response_t) :: mean
     integer :: dim, nodes, n, flat, p, dissipated
     dim = rule%dim
     nodes = rule%nodes
@@ -400,7 +400,6 @@ contains
     flowed = 0
     dissipated = merge(3, 4, is_viscous(material))
     work = energy(2) + energy(dissipated)
-    volume_strain = sum(svars(:3, :), 1)
     if (has_fields(material) .or. present(layers)) current%length = size_of(rule, flat, now, volume)
     current%finite = finite
     if (finite .and. (needs_deformation(material) .or. material%local .or. smoothed .or. present(pressure))) then
@@ -480,11 +479,13 @@ contains
         if (present(axes)) call turn_strain(dim, strains, middle, strain)
         if (present(coupling)) current%heat = heat_t()
         call point_update(dim, strains, here, int(p, i4), weight, finite, strain, thermal, rate, svars(:, p), stress, modulus, &
-                          by_temperature, elastic, work, of_point)
+                          by_temperature, elastic, work, mean)
         if (allocated(here%networks)) flowed = flowed + weight*current%dissipated
         if (present(moduli)) first_tangent = first_tangent + volume(p)*modulus
-        if (present(axes)) of_point(3:) = matmul(of_point(3:), turn_matrix(strains, axes(:, :, 2, p)))
-        if (present(axes)) call turn_response(here, strains, axes(:, :, 2, p), stress, modulus)
+        if (present(axes)) then
+          call turn_response(here, strains, axes(:, :, 2, p), stress, modulus)
+          call turn_mean(strains, axes(:, :, 2, p), mean)
+        end if
       end if
       if (finite .and. here%ntens == 3) weight = weight*exp(svars(3, p))
       if (present(coupling) .and. .not. begins) then
@@ -512,10 +513,10 @@ contains
       if (request == added_stress) then
         call find_strain(size(added), strains, by_unknowns(:size(added), :), added, strain)
         stress = matmul(modulus, strain)
-        of_point(1) = dot_product(of_point(3:), strain)
+        mean%stress = dot_product(mean%by_strains(:strains), strain)
         if (present(pressure)) stress(:direct) = stress(:direct) + mean_stress_added(pressure, p)
       end if
-      if (smoothed) call keep_point(smoothing, p, weight, direct, finite, of_point, by_unknowns)
+      if (smoothed) call keep_point(smoothing, p, weight, direct, finite, mean, by_unknowns)
       if (of_stress) then
         stresses(:, p) = stress
         weights(p) = weight
@@ -541,8 +542,9 @@ contains
       end select
     end do
     if (of_stress) then
-      if (smoothed) stresses(:direct, :) = stresses(:direct, :) + spread(smoothing_change(smoothing), 1, direct)
+      if (smoothed) smoothing%change = smoothing_change(smoothing)
       do p = 1, rule%points
+        if (smoothed) stresses(:, p) = stresses(:, p) + smoothing%change(p)*smoothing%mean(p)%unit(:strains)
         if (present(bounds)) then
           by_unknowns(:n, :) = b(:, :, p)
           by_unknowns(n + 1:, :) = of_planes(by_planes(:, p))
@@ -563,24 +565,24 @@ contains
                            volume*merge(thickness, 1.0_dp, dim == 2), volume_now, stiffness)
     end if
     if (smoothed) then
-      unit = 0
-      unit(:3) = 1
       call smooth(smoothing, force, stiffness)
       if (present(coupling)) call smooth_by_temperature(smoothing, coupling%tangent(:n, n + 1:))
       do p = 1, rule%points
-        associate (change => smoothing%change(p))
+        associate (change => smoothing%change(p), volume_here => smoothing%weight(p), of_point => smoothing%mean(p))
           if (finite .and. present(bounds)) then
             by_unknowns(:n, :) = b(:, :, p)
             by_unknowns(n + 1:, :) = of_planes(by_planes(:, p))
             call add_curvature_of_fibres(bounds, rule, p, g(:, :, p), by_unknowns, by_unknowns(:, 3), ratio(p), &
-                                         smoothing%weight(p)*change, stiffness)
+                                         of_point%unit(:4), volume_here*change, stiffness)
           else if (finite) then
-            call add_curvature(dim, direct, strains, nodes, g(:, :, p), b(:, :, p), smoothing%weight(p)*change, stiffness)
+            call add_curvature(dim, direct, strains, nodes, g(:, :, p), b(:, :, p), of_point%unit(:strains), &
+                               volume_here*change, stiffness)
           end if
-          elastic = elastic + smoothing%weight(p)*change*(smoothing%strain(p) + 0.5_dp*change*elastic_volume(material, unit))
-          work = work + smoothing%weight(p)*0.5_dp*change*(sum(svars(:3, p)) - volume_strain(p))
-          svars(values_of_point(dim)/2 + 1:values_of_point(dim)/2 + 3, p) = &
-            svars(values_of_point(dim)/2 + 1:values_of_point(dim)/2 + 3, p) + change
+          elastic = elastic + volume_here*change*of_point%compressibility*(of_point%stress + 0.5_dp*change)
+          work = work + volume_here*change*of_point%work
+          associate (stress_state => svars(values_of_point(dim)/2 + 1:, p))
+            stress_state = stress_state + change*of_point%unit_state(:size(stress_state))
+          end associate
         end associate
       end do
     end if
@@ -709,11 +711,22 @@ contains
     if (has_heat_terms(material)) call turn_heat(material%ntens, axes)
   end subroutine turn_response
 
+  !> Mean stress of a point, from the directions of axes (rows) to global ones.
+  pure subroutine turn_mean(m, axes, mean)
+    integer, intent(in) :: m
+    real(dp), intent(in) :: axes(3, 3)
+    type(mean_response_t), intent(inout) :: mean
+    real(dp) :: turn(m, m)
+    turn = turn_matrix(m, axes)
+    mean%by_strains(:m) = matmul(mean%by_strains(:m), turn)
+    mean%unit(:m) = matmul(mean%unit(:m), turn)
+  end subroutine turn_mean
+
   !> Stress and tangent of a point (11, 22, 12 in the plane); its state and its part of the energies. strain is the total
   !> one in small displacements, that of the increment in large ones; thermal: at the start and end of the increment, and rate
   !> its derivative there. All is in global directions, or in those of the point if the material is (local).
   subroutine point_update(dim, m, material, point, volume, finite, strain, thermal, rate, state, stress, modulus, &
-                          by_temperature, elastic, work, of_point)
+                          by_temperature, elastic, work, mean)
     integer, intent(in) :: dim, m     !< m: number of strains
     type(material_t), intent(in) :: material
     integer(i4), intent(in) :: point
@@ -722,12 +735,12 @@ contains
     real(dp), intent(inout) :: state(values_of_point(dim)), elastic, work
     real(dp), intent(out) :: stress(m), modulus(m, m)
     real(dp), intent(out) :: by_temperature(m + 1)   !< derivatives of the stress and of the mean stress, by thermal strain
-    !> Mean stress, its elastic volume strain, and derivatives of the mean stress by the strains.
-    real(dp), intent(out) :: of_point(m + 2)
+    type(mean_response_t), intent(out) :: mean
     integer :: j, k, n, of_material(m), of_state(m), direct
     real(dp) :: total(material%ntens), t(material%ntens), t_rate(material%ntens), tangent(material%ntens, material%ntens)
     real(dp) :: e_old(values_of_point(dim)/2), t_old(values_of_point(dim)/2), e_new(values_of_point(dim)/2), &
-                t_new(values_of_point(dim)/2), free(values_of_point(dim)/2)
+                t_new(values_of_point(dim)/2), free(values_of_point(dim)/2), unit_state(values_of_point(dim)/2)
+    real(dp) :: unit(material%ntens)
     real(dp) :: stretch(2)            ! of the free expansion of a hyperelastic material, at the start and the end
     logical :: valid
     n = values_of_point(dim)/2
@@ -776,22 +789,49 @@ contains
       t_rate = matmul(tangent, rate(components(material%ntens, 6)))/stretch(2)
       by_temperature = -[t_rate(of_material), sum(t_rate(:direct))/3]
     end if
-    of_point = [sum(t(:direct))/3, elastic_volume(material, t), sum(tangent(:direct, of_material), 1)/3]
+    call find_mean(material, t, unit, mean)
+    mean%by_strains(:m) = sum(tangent(:direct, of_material), 1)/3
+    mean%unit(:m) = unit(of_material)
+    unit_state = 0
+    unit_state(of_state) = mean%unit(:m)
+    if (material%ntens == 4) unit_state(3) = unit(3)
     elastic = elastic + volume*elastic_energy(material, point, t)
     if (material%ntens == 3) e_new(3) = thickness_strain(material, point, t) + thermal(3, 2)
     if (material%ntens == 4) t_new(3) = t(3)
     if (material%turned) then
       e_new = rotated(n, e_new, material%axes, 2.0_dp)
       t_new = rotated(n, t_new, material%axes, 1.0_dp)
+      unit_state = rotated(n, unit_state, material%axes, 1.0_dp)
     end if
+    mean%unit_state(:n) = unit_state
     ! trapezoidal rule, exact where the response is linear
     work = work + volume*0.5_dp*dot_product(t_new + t_old, e_new - e_old)
+    mean%work = 0.5_dp*dot_product(unit_state, e_new - e_old)
     if (allocated(material%expansion)) then
       free = thermal(:n, 2) - thermal(:n, 1)
       if (material%turned) free = rotated(n, free, material%axes, 2.0_dp)
       work = work - volume*0.5_dp*dot_product(t_new + t_old, free)
+      mean%work = mean%work - 0.5_dp*dot_product(unit_state, free)
     end if
     state(:n) = e_new
     state(n + 1:) = t_new
   end subroutine point_update
+
+  !> Mean stress of a point by its stress, and the stress (unit) that a unit of the pressure beyond it causes (host_hybrid).
+  pure subroutine find_mean(material, stress, unit, mean)
+    type(material_t), intent(in) :: material
+    real(dp), intent(in) :: stress(material%ntens)
+    real(dp), intent(out) :: unit(material%ntens)
+    type(mean_response_t), intent(out) :: mean
+    real(dp) :: bulk
+    integer :: direct
+    direct = merge(2, 3, material%ntens == 3)
+    mean%stress = sum(stress(:direct))/3
+    unit = 0
+    unit(:direct) = 1
+    bulk = elastic_bulk_modulus(material)
+    if (.not. bulk > 0) return
+    mean%compressibility = 1/bulk
+    unit = sum(material%stiffness(:material%ntens, :3), 2)/(3*bulk)
+  end subroutine find_mean
 end module host_solid

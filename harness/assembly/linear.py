@@ -37,9 +37,9 @@ class LinearElements:
     """The blocks of a system whose elements are linear.
 
     In a static step with small displacements they are called in the first pass; after that a pass adds -K U, with K
-    the AMATRX of that call. Their state is brought up to date when it is read, or needed by a pass that calls them; at
-    the end of each increment if they have other energies than that of K (hourglass control), or are linear only because
-    the user says so, which is verified then.
+    the AMATRX of that call, once some elements of the block have been seen to have these forces. Their state is brought
+    up to date when it is read, or needed by a pass that calls them; at the end of each increment if they have other
+    energies than that of K (hourglass control), or are linear only because the user says so, which is verified then.
     """
 
     def __init__(self, blocks: Sequence[ElementBlock], entries: int) -> None:
@@ -81,10 +81,15 @@ class LinearElements:
     ) -> BlockReport:
         """A normal pass over a block that keeps its matrices; arguments and result as in `ElementBlock.evaluate`."""
         report, matrices = block.evaluate_apart(call, u, du, residual)
-        if id(block) not in self._matrices:
+        block.add_matrices(matrices, data)
+        if id(block) in self._matrices:
+            return report
+        # the user's elements are not called again: they are verified at the end of each increment
+        if block.assumed_linear or not len(matrices) or block.has_forces_of(matrices, call):
             block.add_matrices(matrices, self._data)
             self._matrices[id(block)] = matrices
-        block.add_matrices(matrices, data)
+        else:
+            self._blocks = [other for other in self._blocks if other is not block]
         return report
 
     def rebind(self, entries: int) -> None:

@@ -32,6 +32,15 @@ _PLASTIC: Final = 3
 MOST_INTERRUPTED: Final = 5
 """Passes in a row that several threads may leave to one."""
 
+MOST_TRIED: Final = 20
+"""Elements of a block whose forces are compared with their matrices before those stand for them."""
+
+FORCE_TOLERANCE: Final = 1e-8
+"""Largest difference of a force from matrix times U, over the sum of the magnitudes of its terms.
+
+Rounding is 1e-12 in thin shells; a matrix that is not the derivative of the force differs in the first digits.
+"""
+
 _NO_MATRIX = np.zeros(1)
 _AT_REST = Motion(np.zeros(1), np.zeros(1))
 _NOTHING = BlockReport(np.zeros(1), np.zeros(1, dtype=np.int64), np.inf, np.zeros(8))
@@ -217,26 +226,25 @@ class ElementBlock:
         list[ElementBlock]
             In the order of the elements; changes of their states do not affect this block.
         """
+        return [self._part(np.array([k]), strict=strict) for k in range(len(self.group.labels))]
+
+    def _part(self, places: IntArray, *, strict: bool) -> ElementBlock:
+        """Some of its elements, places from 0, in a new unbound block and in their committed state."""
         group = self.group
-        parts = [
-            ElementBlock(
-                replace(group, labels=group.labels[k : k + 1], nodes=group.nodes[k : k + 1]),
-                self._coordinates,
-                self.unknowns,
-                self._routine,
-                self._library,
-                unsymmetric=self.unsymmetric,
-                variables=self.variables,
-                strict=strict,
-            )
-            for k in range(len(group.labels))
-        ]
-        for k, part in enumerate(parts):
-            part.first = self.first + int(self.rows[k])
-            part._arrays.svars[0] = self._arrays.svars[k]
-            part._arrays.energy[0] = self._arrays.energy[k]
-            part._arrays.history[0] = self._arrays.history[k]
-        return parts
+        part = ElementBlock(
+            replace(group, labels=group.labels[places], nodes=group.nodes[places]),
+            self._coordinates,
+            self.unknowns,
+            self._routine,
+            self._library,
+            unsymmetric=self.unsymmetric,
+            variables=self.variables,
+            strict=strict,
+        )
+        part.first = self.first + int(self.rows[places[0]])
+        for name in ("svars", "energy", "history"):
+            getattr(part._arrays, name)[:] = getattr(self._arrays, name)[places]
+        return part
 
     def evaluate(
         self,
@@ -374,6 +382,32 @@ class ElementBlock:
 
     def _report(self, outcome: Outcome, energy: FloatArray, damage: float) -> BlockReport:
         return BlockReport.of(outcome, self._forces, energy, damage)
+
+    def has_forces_of(self, matrices: FloatArray, call: Call) -> bool:
+        """Return whether RHS is minus the matrix times U, in some elements of the block and for trial values of U.
+
+        Parameters
+        ----------
+        matrices
+            Of the elements, as `evaluate_apart` returns them.
+        call
+            A static one with small displacements.
+        """
+        places = np.unique(np.linspace(0, len(matrices) - 1, MOST_TRIED).round().astype(np.int64))
+        matrices = matrices[places]
+        part, (m, n) = self._part(places, strict=True), matrices.shape[:2]
+        # all elements apart, so that their forces do not add up
+        part.bind(np.arange(m * n, dtype=np.int32).reshape(m, n), np.arange(m * n * n, dtype=np.int32).reshape(m, n, n))
+        stiffness = np.abs(matrices)
+        largest = stiffness.max(axis=2)
+        # displacements, rotations and pressures whose forces are alike
+        trial = np.divide(
+            np.random.default_rng(0).uniform(-1.0, 1.0, (m, n)), largest, where=largest > 0, out=np.zeros((m, n))
+        )
+        called, u = np.zeros(m * n), trial.ravel()
+        part.evaluate(call.asking(Request.RESIDUAL), u, u, called, None)
+        deviation = np.abs(called.reshape(m, n) + np.einsum("ej,eji->ei", trial, matrices))
+        return bool((deviation <= FORCE_TOLERANCE * np.einsum("ej,eji->ei", np.abs(trial), stiffness)).all())
 
     def largest_deviation(
         self, matrices: FloatArray, call: Call, u: FloatArray, du: FloatArray

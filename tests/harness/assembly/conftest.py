@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Blocks in plain numpy, so that assembly is tested without compiled elements."""
 
+from collections import Counter
 from collections.abc import Callable
 
 import numpy as np
 import pytest
 
-from harness.elements import FIELD_NAMES, BlockReport, Call, Flags
+from harness.elements import FIELD_NAMES, BlockReport, Call, ElementBlock, Flags
 from harness.errors import Source
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.properties import UserProperty
@@ -82,3 +83,17 @@ def two_blocks(make_mesh) -> tuple[Mesh, list[LinearBlock]]:
     )
     triangles = LinearBlock([[5, 4, 6], [2, 5, 6]], [(0, 1), (1, 1), (2, 11)], rng.normal(size=(2, 3, 3)))
     return make_mesh(8), [quads, triangles]
+
+
+@pytest.fixture
+def calls(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
+    """Passes over the blocks of each element type."""
+    counted: Counter[str] = Counter()
+    ordinary = ElementBlock.evaluate
+
+    def evaluate(self, *arguments, **options):
+        counted[self.group.type] += 1
+        return ordinary(self, *arguments, **options)
+
+    monkeypatch.setattr(ElementBlock, "evaluate", evaluate)
+    return counted
