@@ -11,6 +11,10 @@
 !> the start; separations are those of the present positions in this frame, less those at the start, and tractions are per
 !> initial area.
 !>
+!> Mass per area is density times constitutive thickness (Analysis User's Guide, Defining the constitutive response of cohesive
+!> elements using a traction-separation description: with the thickness 1 the density is a mass per area), by halves at the two nodes
+!> of each point.
+!>
 !> An element is deleted at the end of the increment in which the damage of all its points has reached MAX DEGRADATION with
 !> none of them in compression (Analysis User's Guide, Maximum degradation and choice of element removal).
 !>
@@ -19,7 +23,7 @@
 !> initiation criterion, status; in dynamic analyses then the forces of the last two increments.
 module host_cohesive
   use core_rotation, only: line_frame, surface_frame, turned_frame
-  use host_inertia, only: respond
+  use host_inertia, only: is_dynamic, respond
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_protect, only: escape
@@ -29,7 +33,7 @@ module host_cohesive
   private
   public :: cohesive_uel
 
-  integer, parameter :: p_thickness = 1, p_width = 2, p_law = 3
+  integer, parameter :: p_thickness = 1, p_width = 2, p_density = 3, p_law = 4
   integer, parameter :: j_family = 1, j_deletion = 2, j_law = 3
 
   !> Rows n, s, t of a frame from rows s, n, t, and the other way round.
@@ -54,6 +58,9 @@ contains
     n = ndofel
     states = points*values_of_point(int(mcrd))
     mass = 0
+    if (is_dynamic(lflags(1)) .or. any(lflags(3) == [4, 6])) then
+      call lump_mass(int(jprops(j_family)), int(mcrd), points, props(p_thickness), props(p_width)*props(p_density), coords, mass)
+    end if
     old = 0
     if (nsvars > states) old = reshape(svars(states + 1:states + 2*n), [n, 2])
     if (any(lflags(3) == forces_wanted)) then
@@ -96,9 +103,7 @@ contains
       bottom = p
       top = opposite(family, points, p)
       call measure(family, n, points, p, x, frame, area)
-      distance = thickness
-      if (.not. thickness > 0) distance = dot_product(frame(1, :), x(:, top) - x(:, bottom))
-      if (.not. distance > 0) call stop_with('THICKNESS=GEOMETRY: the thickness between the faces is', distance, p)
+      distance = thickness_at(n, points, x, thickness, frame, bottom, top)
       separation = matmul(frame, u(:, top) - u(:, bottom))
       if (finite) then
         call turn_frame(family, n, points, p, x, x + u, frame, present_frame, turning)
@@ -147,6 +152,35 @@ contains
     end do
     svars(per_point, :) = merge(0, 1, removed .or. failed)
   end subroutine integrate
+
+  !> Lumped mass matrix.
+  subroutine lump_mass(family, n, points, thickness, density, x, mass)
+    integer, intent(in) :: family, n, points
+    real(dp), intent(in) :: thickness, density, x(n, 2*points)
+    real(dp), intent(inout) :: mass(n, 2*points, n, 2*points)
+    real(dp) :: frame(3, n), area, half
+    integer :: p, i, top
+    do p = 1, points
+      top = opposite(family, points, p)
+      call measure(family, n, points, p, x, frame, area)
+      half = 0.5_dp*density*area*thickness_at(n, points, x, thickness, frame, p, top)
+      do i = 1, n
+        mass(i, p, i, p) = half
+        mass(i, top, i, top) = half
+      end do
+    end do
+  end subroutine lump_mass
+
+  !> Constitutive thickness at a point: the given one, or the distance of its nodes along the normal, the first row of the frame.
+  real(dp) function thickness_at(n, points, x, given, frame, bottom, top)
+    integer, intent(in) :: n, points, bottom, top
+    real(dp), intent(in) :: x(n, 2*points), given, frame(3, n)
+    thickness_at = given
+    if (.not. given > 0) thickness_at = dot_product(frame(1, :), x(:, top) - x(:, bottom))
+    if (.not. thickness_at > 0) then
+      call stop_with('THICKNESS=GEOMETRY: the thickness between the faces is', thickness_at, bottom)
+    end if
+  end function thickness_at
 
   !> Node of the top face that lies over one of the bottom face.
   pure integer function opposite(family, points, node)

@@ -242,7 +242,14 @@ _OPTIONS = (
         Where.MODEL,
         data="number of variables",
     ),
-    Keyword("DENSITY", "Mass density.", Where.MODEL, refused("DEPENDENCIES", "PORE FLUID"), "density"),
+    Keyword(
+        "DENSITY",
+        "Mass density. The mass per area of cohesive elements is density times constitutive thickness, which is 1 by "
+        "default.",
+        Where.MODEL,
+        refused("DEPENDENCIES", "PORE FLUID"),
+        "density",
+    ),
 )
 _OTHERS = (*PLASTIC_OPTIONS, *VISCOUS_OPTIONS, *HYPERELASTIC_OPTIONS, *DAMAGE_OPTIONS)
 _FIELDS = (*EXPANSION_OPTIONS, *HEAT_OPTIONS, *DIFFUSION_OPTIONS, *PIEZO_OPTIONS)

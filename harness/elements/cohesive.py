@@ -32,11 +32,6 @@ def cohesive_routine(model: Model, group: ElementGroup, section: CohesiveSection
     """What the driver calls for a group of cohesive elements. Raises DeckError."""
     kind = COHESIVE[group.type]
     dynamic = next((step for step in model.steps if step.procedure.inertia), None)
-    if dynamic is not None and section.material.density:
-        message = f"*{dynamic.procedure.keyword}: the mass of elements of type {group.type}, by *DENSITY of material"
-        raise DeckError(
-            dynamic.source, f"{message} {section.material.name}, is not supported; without it they have none"
-        )
     hidden = 2 * kind.dimension * kind.nodes if dynamic is not None else 0
     reals, integers = cohesive_properties(section, kind.dimension)
     return Routine(
@@ -75,8 +70,8 @@ def cohesive_variables(section: CohesiveSection, kind: CohesiveType) -> PointVar
 def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[float], list[int]]:
     """PROPS, and JPROPS after the family of the faces.
 
-    PROPS: constitutive thickness (0: from the nodes), width, then those of the law. JPROPS: deletion, then those of the
-    law.
+    PROPS: constitutive thickness (0: from the nodes), width, density, then those of the law. JPROPS: deletion, then those of
+    the law.
     """
     material, controls = section.material, section.controls
     elastic, damage = material.elastic, material.damage
@@ -90,7 +85,7 @@ def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[
     width = section.width if dimension == 2 else 1.0
     viscosity = (damage.viscosity if damage else 0.0) if controls.viscosity is None else controls.viscosity
     reals, codes = law_properties(moduli, damage, dimension, section.thickness, (viscosity, controls.degradation))
-    return [section.thickness, width, *reals], [int(controls.deletion), *codes]
+    return [section.thickness, width, material.density, *reals], [int(controls.deletion), *codes]
 
 
 def law_properties(

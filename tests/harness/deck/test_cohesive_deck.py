@@ -230,14 +230,11 @@ def test_property(read: Read, tmp_path: Path, name: str) -> None:
 
 
 def test_mass_in_dynamics(read: Read, tmp_path: Path) -> None:
+    """Solids need a density there, cohesive elements do not."""
     steel = DECK.replace("210000., 0.3\n", "210000., 0.3\n*DENSITY\n7.8e-9\n").replace(
         "*STATIC\n", "*DYNAMIC\n1., 1.\n"
     )
     library = usersub.load(None, job="job", output_dir=tmp_path)
     build_blocks(read(steel), library)
     glue = steel.replace("3e4\n", "3e4\n*DENSITY\n1e-9\n")
-    message = (
-        r"^deck\.inp:39: \*DYNAMIC: the mass of elements of type COH2D4, by \*DENSITY of material GLUE, is not supp"
-    )
-    with pytest.raises(DeckError, match=message):
-        build_blocks(read(glue), library)
+    build_blocks(read(glue), library)

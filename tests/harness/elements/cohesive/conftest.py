@@ -28,7 +28,7 @@ DEFAULTS = SectionControls()
 class Layer:
     """An element turned out of the global axes, driven by separations in its own axes (n, s[, t])."""
 
-    def __init__(self, bound, library, call, element_type, damage, *, stiffness, controls, thickness, gap):
+    def __init__(self, bound, library, call, element_type, damage, *, stiffness, controls, thickness, gap, density):
         self.dimension = 3 if element_type == "COH3D8" else 2
         self.call = call
         n = self.dimension
@@ -51,7 +51,9 @@ class Layer:
         nodes = np.concatenate([bottom, top + gap * self.axes[0]])
         coordinates = np.zeros((len(nodes), 3))
         coordinates[:, :n] = nodes
-        material = Material("M", SOURCE, Elastic(ElasticType.TRACTION, stiffness, SOURCE), damage=damage)
+        material = Material(
+            "M", SOURCE, Elastic(ElasticType.TRACTION, stiffness, SOURCE), damage=damage, density=density
+        )
         section = CohesiveSection("ALL", material, thickness, WIDTH, controls, SOURCE)
         group = ElementGroup(element_type, np.array([101]), np.arange(len(nodes))[None], "", section, None, SOURCE)
         self.block, self.matrix = bound(group, coordinates, library)
@@ -109,6 +111,7 @@ def layer(bound, load, call):
         thickness=1.0,
         gap=0.0,
         viscosity=0.0,
+        density=0.0,
     ):
         scale = 1.0 if criterion.endswith("S") else 1e-4
         onset = tuple(scale * value for value in ONSET)
@@ -124,6 +127,7 @@ def layer(bound, load, call):
             controls=controls,
             thickness=thickness,
             gap=gap,
+            density=density,
         )
 
     return layer

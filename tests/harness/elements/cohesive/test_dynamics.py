@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cohesive elements in *DYNAMIC: two masses on a layer, against the operator of Hilber, Hughes and Taylor."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import harness
+from harness.elements import Request
 
 STIFFNESS, AREA, MASS, VELOCITY, SIZE = 100.0, 4.0, 0.5, 0.6, 0.02
 """Per area, of the whole layer, of each node on it; velocity at the start; time increment."""
@@ -18,16 +21,12 @@ DECK = """*NODE
 3, 4
 *ELEMENT, TYPE=COH2D4, ELSET=LAYER
 1, 1, 2, 3, 4
-*ELEMENT, TYPE=MASS, ELSET=MASSES
-2, 3
-3, 4
-*MASS, ELSET=MASSES
 {mass}
-*COHESIVE SECTION, ELSET=LAYER, MATERIAL=GLUE, RESPONSE=TRACTION SEPARATION
-1., 2.
+*COHESIVE SECTION, ELSET=LAYER, MATERIAL=GLUE, RESPONSE=TRACTION SEPARATION, THICKNESS=SPECIFIED
+{thickness}, 2.
 *MATERIAL, NAME=GLUE
 *ELASTIC, TYPE=TRACTION
-{stiffness}, {stiffness}, {stiffness}
+{modulus}, {modulus}, {modulus}
 {damage}
 *BOUNDARY
 1, 1, 2
@@ -45,12 +44,14 @@ U2, V2
 ALLKE, ALLSE, ALLDMD, ETOTAL
 *END STEP
 """
+MASSES = f"*ELEMENT, TYPE=MASS, ELSET=MASSES\n2, 3\n3, 4\n*MASS, ELSET=MASSES\n{MASS}"
 
 
 @pytest.fixture
 def run(tmp_path):
-    def run(alpha, count, *, size=SIZE, damage="", nlgeom=""):
-        values = {"mass": MASS, "stiffness": STIFFNESS, "velocity": VELOCITY, "size": size, "end": count * size}
+    def run(alpha, count, *, size=SIZE, damage="", nlgeom="", mass=MASSES, thickness=1.0):
+        values = {"modulus": STIFFNESS * thickness, "velocity": VELOCITY, "size": size, "end": count * size}
+        values |= {"mass": mass, "thickness": thickness}
         text = DECK.format(alpha=alpha, damage=damage, nlgeom=nlgeom, **values)
         (tmp_path / "layer.inp").write_text(text.replace("\n\n", "\n"))
         return harness.run(tmp_path / "layer.inp", output_dir=tmp_path).history
@@ -60,8 +61,11 @@ def run(tmp_path):
 
 @pytest.mark.parametrize("alpha", [0.0, -0.05, -0.3])
 @pytest.mark.parametrize("nlgeom", ["", ", NLGEOM"])
-def test_a_mass_on_a_layer(run, alpha, nlgeom):
-    """M a_1 + (1 + alpha) K u_1 - alpha K u_0 = 0 with Newmark's formulas; nothing is damaged, compression included."""
+@pytest.mark.parametrize("own", [0.0, 1.0, 0.5])
+def test_a_mass_on_a_layer(run, alpha, nlgeom, own):
+    """The mass of nodes, or that of the layer of this constitutive thickness: half of it, as the other half is held.
+
+    M a_1 + (1 + alpha) K u_1 - alpha K u_0 = 0 with Newmark's formulas; nothing is damaged, compression included."""
     stiffness, count = STIFFNESS * AREA / 2, 40
     beta, gamma = (1 - alpha) ** 2 / 4, 0.5 - alpha
     u, v, a, expected = 0.0, VELOCITY, 0.0, []
@@ -72,7 +76,11 @@ def test_a_mass_on_a_layer(run, alpha, nlgeom):
         )
         u, v, a = predicted + SIZE**2 * beta * after, v + SIZE * ((1 - gamma) * a + gamma * after), after
         expected.append((u, v))
-    history = run(alpha, count, nlgeom=nlgeom)
+    given = {"nlgeom": nlgeom}
+    if own:
+        # both nodes on top have a quarter of density times thickness times area each
+        given |= {"damage": f"*DENSITY\n{4 * MASS / (AREA * own)}", "mass": "", "thickness": own}
+    history = run(alpha, count, **given)
     found = np.stack([history["U2[TOP:3]"], history["V2[TOP:3]"]], axis=1)
     np.testing.assert_allclose(found, expected, atol=1e-8)
     if alpha == 0.0:
@@ -88,3 +96,20 @@ def test_a_layer_that_breaks_takes_its_fracture_energy(run):
     assert lost == pytest.approx(toughness * AREA, rel=0.01)
     assert history["ALLKE"][-1] == pytest.approx(MASS * VELOCITY**2 - lost, rel=0.01)
     np.testing.assert_allclose(np.diff(history["V2[TOP:3]"])[-3:], 0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("element_type", ["COH2D4", "COH3D8"])
+@pytest.mark.parametrize(("thickness", "gap"), [(1.0, 0.0), (0.25, 0.0), (0.0, 0.3)])
+def test_mass_matrix(layer, element_type, thickness, gap):
+    """Density times constitutive thickness per area, that between the faces where it is that of the nodes.
+
+    By equal halves at the nodes of both faces (Analysis User's Guide, Defining the constitutive response of cohesive
+    elements using a traction-separation description: "the density represents mass per unit area", for the thickness 1).
+    """
+    density = 7.0
+    made = layer(element_type, thickness=thickness, gap=gap, density=density)
+    made.call = replace(made.call.asking(Request.MASS))
+    made.evaluate(np.zeros(made.coordinates.size))
+    mass = made.matrix.toarray()
+    each = density * (thickness or gap) * made.area / len(made.coordinates)
+    np.testing.assert_allclose(mass, each * np.eye(len(mass)), atol=1e-12 * each)
