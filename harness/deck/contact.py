@@ -23,6 +23,7 @@ from harness.deck.smoothing import Region, read_smoothings
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_elements import dofs_by_node
 from harness.elements import FiniteSliding, SurfaceSliding
+from harness.errors import Source
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.contact import ContactPair, ContactProperty, Pieces, RigidProfile, SlidingPair, SurfacePair
 from harness.model.mesh import ElementGroup
@@ -66,6 +67,7 @@ class ContactReader:
         self._interactions = interactions
         self._problems = problems
         self._points = flat.mesh.coordinates
+        self._pairs: dict[tuple[Source, ...], Source] = {}
         blocks = [block for owner in flat.owners for block in owner.blocks]
         self._smoothings = read_smoothings(blocks, self._sides.surfaces, problems)
 
@@ -84,6 +86,12 @@ class ContactReader:
             if row.blank(1):
                 raise row.error("expected the secondary and the main surface; contact with itself is not supported")
             row.at_most(2)
+            surfaces = self._sides.surfaces
+            names = row.name(0, "secondary surface"), row.name(1, "main surface")
+            key = tuple(surfaces.locate(name, row.source, owner.name)[1].source for name in names)
+            if key in self._pairs:
+                raise row.error(f"{' and '.join(names)} are a contact pair already, at {self._pairs[key]}")
+            self._pairs[key] = row.source
             yield self._pair(block, row, owner)
 
     def _pair(self, block: Block, row: Row, owner: Owner) -> ContactPair | SlidingPair:

@@ -31,8 +31,6 @@ def extend_damage(damage: Damage | None, block: Block, criteria: tuple[str, ...]
     if damage is None:
         raise block.error("does not follow *DAMAGE INITIATION")
     if block.name == "DAMAGE EVOLUTION":
-        if damage.evolution is not None:
-            raise block.error(f"there is one already, at {damage.evolution.source}")
         return replace(damage, evolution=_read_evolution(block))
     if damage.evolution is None:
         raise block.error("does not follow *DAMAGE EVOLUTION")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What keywords with a name define: each name once."""
+"""What keywords with a name define; `harness.deck.repetition` refuses a name that is defined twice."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from typing import TypeVar
 
 from harness.deck.blocks import Block
 from harness.deck.error_report import Problems
-from harness.errors import Source
 
 Defined = TypeVar("Defined")
 
@@ -32,18 +31,13 @@ def read_definitions(
     read
         From a block to what its name stands for.
     problems
-        Gets the errors; a second definition of a name is one, with the place of the first.
+        Gets the errors.
     option
         Has the name.
     """
     found: dict[str, Defined] = {}
-    places: dict[str, Source] = {}
     for block in blocks:
         if block.name == keyword:
             with problems.gather():
-                name = block.options.text(option)
-                if name in places:
-                    raise block.error(f"{name} is defined already, at {places[name]}")
-                places[name] = block.source
-                found[name] = read(block)
+                found[block.options.text(option)] = read(block)
     return found

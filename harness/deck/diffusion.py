@@ -51,8 +51,6 @@ def _read_kappa(block: Block, given: Diffusivity | None) -> Diffusivity:
     kind = block.options.text("TYPE")
     if given is None:
         raise block.error("does not follow *DIFFUSIVITY")
-    if len(given.soret if kind == "TEMP" else given.pressure):
-        raise block.error(f"TYPE={kind} is given already for the *DIFFUSIVITY at {given.source}")
     table = np.array([values for _, values in _read_rows(block, 1, "factor")])
     if kind == "PRESS":
         return replace(given, pressure=table)

@@ -5,12 +5,17 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from harness.deck.blocks import Block, Row
+from harness.deck.error_report import Problems
+from harness.deck.flatten import FlatMesh
 from harness.deck.initial import FIELD_NUMBER, field_number
-from harness.deck.prescribed import HARMONIC, LOAD, Prescription
+from harness.deck.prescribed import HARMONIC, LOAD, Prescription, of_amplitude
+from harness.deck.repetition import given_again, overlaps
 from harness.deck.surfaces import face_nodes
 from harness.deck.table import Keyword, Kind, Option, Where, refused
 from harness.model.element_types import BODY_FORCES, BeamType, ContinuumType, Direction, SurfaceType
@@ -177,6 +182,32 @@ def read_fields(block: Block, prescription: Prescription) -> list[Load]:
         given = nodes, number, row.real(1, "value", 0.0), amplitude, row.source
         found.append(Load(*given, user=by_user))
     return found
+
+
+def keep_last(entries: Sequence[Load], flat: FlatMesh, problems: Problems) -> tuple[Load, ...]:
+    """Return the fields of a step, each node with its last value, and warn of earlier ones that differ."""
+    by_field: dict[int, list[int]] = {}
+    for k, entry in enumerate(entries):
+        by_field.setdefault(entry.dof, []).append(k)
+    kept = {k: entry.nodes for k, entry in enumerate(entries)}
+    for dof, group in by_field.items():
+        name = {0: "TEMPERATURE", PRESSURE_STRESS: "PRESSURE STRESS"}.get(dof, f"FIELD, VARIABLE={dof}")
+        for first, later, node in overlaps([kept[k] for k in group]):
+            before, here = entries[group[first]], entries[group[later]]
+            if _value(before) != _value(here):
+                what = f"*{name}: node {flat.mesh.name(node)}"
+                message = given_again(what, _value(here), _value(before), before.source, "in one step")
+                problems.warn(here.source, message)
+        taken = np.zeros(len(flat.mesh.labels), dtype=bool)
+        for k in reversed(group):
+            kept[k] = kept[k][~taken[kept[k]]]
+            taken[kept[k]] = True
+    return tuple(replace(entry, nodes=kept[k]) for k, entry in enumerate(entries) if len(kept[k]))
+
+
+def _value(entry: Load) -> str:
+    """What an entry gives, for messages."""
+    return "what the user routine says" if entry.user else of_amplitude(entry)
 
 
 KEYWORDS = (

@@ -21,7 +21,7 @@ from harness.deck.structure import Structure
 from harness.deck.user_elements import Definitions, read_user_element
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.mesh import Mesh
+from harness.model.mesh import Mesh, full_name
 from harness.model.properties import UserElement
 
 ROOT = ""
@@ -62,11 +62,9 @@ class FlatMesh:
 
     def __init__(self, structure: Structure, problems: Problems) -> None:
         self._problems = problems
+        self.warn = problems.warn
         self._owners: dict[str, Owner] = {}
-        blocks_of = {
-            name: [*structure.parts[scope.head.options.text("PART")].blocks, *scope.blocks]
-            for name, scope in structure.instances.items()
-        }
+        blocks_of = structure.of_instances
         definitions = _definitions(structure.root, {}, problems)
         definitions_of = {name: _definitions(blocks, definitions, problems) for name, blocks in blocks_of.items()}
         problems.check()
@@ -96,6 +94,16 @@ class FlatMesh:
     def element_count(self) -> int:
         """Number of elements, whose positions begin at 0."""
         return sum(len(owner.elements) for owner in self.owners)
+
+    def owner_of(self, position: int) -> Owner:
+        """Return the instance, or the root, that has an element, by its position."""
+        owners = (owner for owner in reversed(self.owners) if len(owner.elements))
+        return next(owner for owner in owners if owner.element_offset <= position)
+
+    def element_name(self, position: int) -> str:
+        """Return the number of an element, with its instance if it has one."""
+        owner = self.owner_of(position)
+        return full_name(owner.name, int(owner.elements[position - owner.element_offset]))
 
     @property
     def root(self) -> LocalMesh:

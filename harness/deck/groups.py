@@ -24,7 +24,7 @@ from harness.deck.user_elements import ElementType
 from harness.errors import DeckError, Source
 from harness.model.arrays import IntArray
 from harness.model.element_types import HOURGLASS_CONTROLLED
-from harness.model.mesh import ElementGroup, full_name
+from harness.model.mesh import ElementGroup
 from harness.model.properties import (
     BeamSection,
     CompositeSection,
@@ -87,6 +87,7 @@ def make_groups(
     elements = _Elements(flat, problems)
     problems.check()
     sections: list[tuple[Block, Owner]] = []
+    given: dict[tuple[str, int], Source] = {}
     hourglass: dict[int, float] = {}
     shear: dict[int, tuple[tuple[float, ...], float | None]] = {}
     for owner in flat.owners:
@@ -96,9 +97,11 @@ def make_groups(
                     _assign(elements, sections, block, owner)
                 elif block.name == "HOURGLASS STIFFNESS":
                     place = _last_section(block, sections, "SOLID SECTION", *SHELL_KEYWORDS, MEMBRANE_KEYWORD)
+                    _refuse_second(block, place, given)
                     hourglass[place] = _hourglass_stiffness(block)
                 elif block.name == "TRANSVERSE SHEAR STIFFNESS":
                     place = _last_section(block, sections, *SHELL_KEYWORDS, *BEAM_KEYWORDS)
+                    _refuse_second(block, place, given)
                     of_beam = sections[place][0].name in BEAM_KEYWORDS
                     shear[place] = read_beam_shear(block) if of_beam else read_shear_stiffness(block)
     problems.check()
@@ -115,6 +118,13 @@ def make_groups(
             stiffness, slenderness = shear[section]
             made[section, kind] = replace(found, shear=stiffness, slenderness=slenderness)
     return _cut(elements, made)
+
+
+def _refuse_second(block: Block, section: int, given: dict[tuple[str, int], Source]) -> None:
+    """Refuse a keyword that the section before has already."""
+    place = given.setdefault((block.name, section), block.source)
+    if place != block.source:
+        raise block.error(f"the section has one already, at {place}")
 
 
 def _last_section(block: Block, sections: list[tuple[Block, Owner]], *names: str) -> int:
@@ -142,7 +152,7 @@ def _assign(elements: _Elements, sections: list[tuple[Block, Owner]], block: Blo
     taken = positions[elements.section_of[positions] >= 0]
     if len(taken):
         other = sections[elements.section_of[taken[0]]][0]
-        label = _label(elements.flat, int(taken[0]))
+        label = elements.flat.element_name(int(taken[0]))
         raise block.error(f"element {label} has a section already, by *{other.name} at {other.source}")
     elements.section_of[positions] = len(sections)
     sections.append((block, owner))
@@ -155,7 +165,7 @@ def _check_assigned(elements: _Elements, problems: Problems) -> None:
         lacking = without[elements.type_of[without] == index]
         if len(lacking):
             more = f" and {len(lacking) - 1} more of type {kind.name}" if len(lacking) > 1 else ""
-            name = _label(elements.flat, int(lacking[0]))
+            name = elements.flat.element_name(int(lacking[0]))
             message = f"element {name}{more} has no section: no *{kind.section} refers to it"
             problems.add(_source(elements.flat, int(lacking[0])), message)
 
@@ -226,17 +236,8 @@ def _orienting(flat: FlatMesh, owner: Owner, labels: IntArray, positions: IntArr
     return found
 
 
-def _owner(flat: FlatMesh, position: int) -> Owner:
-    return next(owner for owner in reversed(flat.owners) if len(owner.elements) and owner.element_offset <= position)
-
-
-def _label(flat: FlatMesh, position: int) -> str:
-    owner = _owner(flat, position)
-    return full_name(owner.name, int(owner.elements[position - owner.element_offset]))
-
-
 def _source(flat: FlatMesh, position: int) -> Source:
-    owner = _owner(flat, position)
+    owner = flat.owner_of(position)
     label = int(owner.elements[position - owner.element_offset])
     run = owner.mesh.runs[owner.mesh.run_of[label]]
     return run.source(int(np.flatnonzero(run.labels == label)[0]))

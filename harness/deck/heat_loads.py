@@ -5,8 +5,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Final
+
+import numpy as np
 
 from harness.deck.blocks import Block, Row
 from harness.deck.error_report import look_up
@@ -42,6 +45,28 @@ def read_heat_loads(block: Block, prescription: Prescription) -> list[HeatLoad]:
         row.at_most(3 if law is HeatLaw.FLUX else 4)
         for places, kind in _places(block, row, prescription):
             found.append(_load(row, places, kind, (amplitude, film_amplitude)))
+    return found
+
+
+def number_exchanges(loads: Sequence[HeatLoad]) -> list[HeatLoad]:
+    """Number the films and radiation that one step gives to the same place, so that each has its own surroundings.
+
+    loads: those of one keyword. Fluxes need no numbers: they add up.
+    """
+    size = max((int(load.places.max()) for load in loads if len(load.places)), default=-1) + 1
+    counts: dict[HeatLoadType, IntArray] = {}
+    found: list[HeatLoad] = []
+    for load in loads:
+        if not load.type.exchanges:
+            found.append(load)
+            continue
+        # a node has one place for exchange, whatever its area
+        count = counts.setdefault(replace(load.type, area=float(load.type.area > 0)), np.zeros(size, dtype=np.int64))
+        numbers = count[load.places]
+        for number in np.unique(numbers).tolist():
+            kind = replace(load.type, number=number)
+            found.append(replace(load, places=load.places[numbers == number], type=kind))
+        count[load.places] += 1
     return found
 
 

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -13,9 +13,11 @@ from harness.deck.blocks import Block, Row
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh
 from harness.deck.imperfection import EarlierResults, same_nodes
+from harness.deck.repetition import given_again, overlaps
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF
-from harness.errors import UelError
+from harness.errors import Source, UelError
+from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import CONCENTRATION, TEMPERATURE
 from harness.model.steps import PRESSURE_STRESS, InitialSolution, InitialStress, InitialValue, VerticalStress
 
@@ -80,7 +82,21 @@ def read_initial_values(
                     count = max(len(row) - 1, 1)
                     values = {TEMPERATURE + k: row.real(1 + k, "temperature", 0.0) for k in range(count)}
                 found += [InitialValue(nodes, dof, value, row.source) for dof, value in values.items()]
+    for dof in dict.fromkeys(entry.dof for entry in found):
+        own = [(entry.nodes, f"{entry.value:g}", entry.source) for entry in found if entry.dof == dof]
+        what = f"*INITIAL CONDITIONS, TYPE={kind}: {f'dof {dof} of ' if kind == 'VELOCITY' else ''}node"
+        _warn_of_changes(own, what, flat.mesh.name, problems)
     return found
+
+
+def _warn_of_changes(
+    entries: Sequence[tuple[IntArray, str, Source]], what: str, name: Callable[[int], str], problems: Problems
+) -> None:
+    """Warn of nodes or elements that get another value than from an earlier entry (places, value, source)."""
+    for first, later, place in overlaps([places for places, _, _ in entries]):
+        (_, before, source), (_, here, at) = entries[first], entries[later]
+        if here != before:
+            problems.warn(at, given_again(f"{what} {name(place)}", here, before, source))
 
 
 def _read_earlier(block: Block, kind: str, flat: FlatMesh, earlier: EarlierResults | None) -> Iterator[InitialValue]:
@@ -134,7 +150,20 @@ def read_initial_stresses(blocks: Iterable[Block], flat: FlatMesh, problems: Pro
                     continue
                 values = np.array([row.real(k, "stress", 0.0) for k in range(1, len(row))])
                 found.append(InitialStress(elements, values, ramped, row.source))
+    own = [(entry.elements, _stress_of(entry), entry.source) for entry in found]
+    _warn_of_changes(own, "*INITIAL CONDITIONS, TYPE=STRESS: element", flat.element_name, problems)
     return found
+
+
+def _stress_of(entry: InitialStress) -> str:
+    """Return what an entry gives, for messages."""
+    if entry.values is None:
+        return "what SIGINI says"
+    return str(entry.profile) if entry.profile is not None else _listed(np.trim_zeros(entry.values, "b"))
+
+
+def _listed(values: FloatArray) -> str:
+    return ", ".join(f"{value:g}" for value in values.tolist()) or "0"
 
 
 def _read_profile(row: Row) -> VerticalStress:
@@ -171,6 +200,8 @@ def read_initial_solutions(blocks: Iterable[Block], flat: FlatMesh, problems: Pr
                 found.append(InitialSolution(None, np.zeros(0), block.source))
             else:
                 found += _read_solution(block, flat)
+    own = [(entry.elements, _listed(entry.values), entry.source) for entry in found if entry.elements is not None]
+    _warn_of_changes(own, "*INITIAL CONDITIONS, TYPE=SOLUTION: element", flat.element_name, problems)
     return found
 
 

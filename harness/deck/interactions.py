@@ -11,6 +11,7 @@ from harness.deck.blocks import Block
 from harness.deck.damage import KEYWORDS as DAMAGE_OPTIONS
 from harness.deck.damage import OF_SURFACES, extend_damage
 from harness.deck.error_report import Problems, nearest
+from harness.deck.repetition import check_once
 from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of
 from harness.errors import DeckError, Source
 from harness.model.contact import INITIAL, SLIP_TOLERANCE, Cohesion, ContactProperty
@@ -21,23 +22,19 @@ class Interactions:
 
     def __init__(self, blocks: Iterable[Block], problems: Problems) -> None:
         self._problems = problems
-        self._damages: set[Source] = set()
+        self._options: set[Source] = set()
         self._given: dict[str, list[Block]] = {}
         self._read: dict[str, ContactProperty] = {}
         current: list[Block] | None = None
         for block in blocks:
             with problems.gather():
                 if block.name == "SURFACE INTERACTION":
-                    name = block.options.text("NAME")
-                    if name in self._given:
-                        raise block.error(f"{name} is defined already, at {self._given[name][0].source}")
-                    self._given[name] = current = [block]
+                    self._given[block.options.text("NAME")] = current = [block]
                 elif block.name not in _OPTIONS:
                     current = None
                 elif current is not None:
                     current.append(block)
-                    if block.name in DAMAGE:
-                        self._damages.add(block.source)
+                    self._options.add(block.source)
                 elif block.name not in DAMAGE:
                     raise block.error("does not follow *SURFACE INTERACTION")
 
@@ -47,6 +44,7 @@ class Interactions:
             raise DeckError(source, f"unknown surface interaction {name}{nearest(name, self._given)}")
         if name not in self._read:
             head, *others = self._given[name]
+            check_once(self._given[name], self._problems)
             found = ContactProperty(name, head.source)
             for block in others:
                 match block.name:
@@ -65,9 +63,9 @@ class Interactions:
             self._read[name] = found
         return self._read[name]
 
-    def without_damage(self, blocks: Iterable[Block]) -> list[Block]:
-        """Blocks but those of the damage of contact properties: keywords that follow *MATERIAL too."""
-        return [block for block in blocks if block.source not in self._damages]
+    def without_options(self, blocks: Iterable[Block]) -> list[Block]:
+        """Return the blocks without the options of contact properties, some of which follow *MATERIAL too."""
+        return [block for block in blocks if block.source not in self._options]
 
     @property
     def unused(self) -> tuple[tuple[str, Source], ...]:

@@ -52,6 +52,7 @@ from harness.deck import (
     user_elements,
     viscous,
 )
+from harness.deck.repetition import RULES
 from harness.deck.table import Keyword, Kind, Option, Support, compact
 
 _FILES = (
@@ -98,6 +99,7 @@ def markdown() -> str:
         if keyword.support is Support.READ:
             lines += ["", f"## *{keyword.name}", "", f"{keyword.doc} ({keyword.where.value})", *_option_lines(keyword)]
             lines += ["", f"Comments: {keyword.comments}."] if keyword.comments else []
+            lines += ["", RULES[keyword.name].sentence] if keyword.name in RULES else []
     lines += ["", "## Accepted and listed: they cannot change the solution", "", "| keyword | |", "|---|---|"]
     passive = sorted((k for k in KEYWORDS.values() if k.support is Support.IGNORED), key=lambda keyword: keyword.name)
     lines += [f"| *{keyword.name} | {keyword.doc} |" for keyword in passive]

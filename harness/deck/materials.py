@@ -46,8 +46,6 @@ def read_materials(blocks: list[Block], problems: Problems) -> dict[str, Materia
         with problems.gather():
             if block.name == "MATERIAL":
                 current = block.options.text("NAME")
-                if current in materials:
-                    raise block.error(f"{current} is defined already, at {materials[current].source}")
                 materials[current] = Material(current, block.source)
             elif block.name in MATERIAL_OPTIONS:
                 if current is None:

@@ -29,8 +29,6 @@ def with_modes(procedure: Procedure, blocks: Sequence[Block], prescription: Pres
         for block in (block for found in given.values() for block in found):
             raise block.error("is for *MODAL DYNAMIC, and *STEADY STATE DYNAMICS without DIRECT")
         return procedure
-    if len(given["SELECT EIGENMODES"]) > 1:
-        raise given["SELECT EIGENMODES"][1].error(f"the step has one at {given['SELECT EIGENMODES'][0].source}")
     superposition = Superposition(
         damping=tuple(_read_damping(block) for block in given["MODAL DAMPING"]),
         base=tuple(_read_base(block, prescription, procedure) for block in given["BASE MOTION"]),

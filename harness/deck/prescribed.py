@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from harness.deck.blocks import Block, Row
 from harness.deck.error_report import Problems, look_up, nearest
 from harness.deck.flatten import FlatMesh
+from harness.deck.repetition import given_again, overlaps
 from harness.deck.surfaces import Surfaces
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused, unquote
 from harness.deck.transforms import Transforms
@@ -158,35 +159,28 @@ def read_dof(row: Row, index: int) -> int:
 
 
 def contradictions(entries: Sequence[Boundary], flat: FlatMesh) -> Iterator[tuple[Source, str]]:
-    """Place and sentence of each entry of a step that gives a dof another value than an earlier one does."""
+    """Yield place and sentence of each entry of a step that gives a dof another value than an earlier one does."""
     alike: dict[tuple[int, bool], list[Boundary]] = {}
     for entry in entries:
         alike.setdefault((entry.dof, entry.imaginary), []).append(entry)
-    for group in (group for group in alike.values() if len(group) > 1):
-        nodes = np.concatenate([entry.nodes for entry in group])
-        numbers = np.repeat(np.arange(len(group)), [len(entry.nodes) for entry in group])
-        order = np.argsort(nodes, kind="stable")
-        nodes, numbers = nodes[order], numbers[order]
-        again = np.flatnonzero(nodes[1:] == nodes[:-1])
-        pairs = np.stack([numbers[again], numbers[again + 1]], axis=1)
-        for first, later in np.unique(pairs, axis=0).tolist():
-            if _given(group[first]) != _given(group[later]):
-                later_dof = dof_in_deck(group[later].dof)
-                node = int(nodes[again[np.all(pairs == (first, later), axis=1)][0]])
-                yield (
-                    group[later].source,
-                    f"*BOUNDARY: node {flat.mesh.name(node)}, dof {later_dof} is given "
-                    f"{_given(group[later])} here and {_given(group[first])} at {group[first].source}, in one step; "
-                    "the entry here counts",
-                )
+    for group in alike.values():
+        for first, later, node in overlaps([entry.nodes for entry in group]):
+            before, here = group[first], group[later]
+            if _given(before) != _given(here):
+                what = f"*BOUNDARY: node {flat.mesh.name(node)}, dof {dof_in_deck(here.dof)}"
+                yield here.source, given_again(what, _given(here), _given(before), before.source, "in one step")
 
 
 def _given(entry: Boundary) -> str:
     """What an entry prescribes, for messages."""
     if entry.fixed or entry.user:
         return "what DISP says" if entry.user else "the value at the start of the step"
-    curve = f" with amplitude {entry.amplitude.name}" if entry.amplitude else ""
-    return f"{'the rate' if entry.velocity else 'the value'} {entry.magnitude:g}{curve}"
+    return f"{'the rate' if entry.velocity else 'the value'} {of_amplitude(entry)}"
+
+
+def of_amplitude(entry: Boundary | Load) -> str:
+    """Return the magnitude of an entry, with its amplitude, for messages."""
+    return f"{entry.magnitude:g}{f' with amplitude {entry.amplitude.name}' if entry.amplitude else ''}"
 
 
 OP = one_of("OP", "NEW removes what earlier steps prescribed", ("MOD", "NEW"), default="MOD")

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from harness.deck.amplitudes import read_amplitudes
+from harness.deck.blocks import Block
 from harness.deck.constraints import ConstraintReader, read_equations
 from harness.deck.contact import ContactReader, check_contact
 from harness.deck.diffusion import with_concentrations
@@ -27,11 +28,12 @@ from harness.deck.materials import read_materials
 from harness.deck.physical_constants import read_physical_constants
 from harness.deck.prescribed import Prescription
 from harness.deck.profiles import reference_dofs
+from harness.deck.repetition import check_once
 from harness.deck.requests import RequestReader
 from harness.deck.restart import digest_of, find_restart, join_parts, refuse_reading
 from harness.deck.section_controls import read_section_controls
 from harness.deck.steps import check_parts, read_steps
-from harness.deck.structure import read_heading
+from harness.deck.structure import Structure, read_heading
 from harness.deck.surfaces import Surfaces
 from harness.deck.transforms import Transforms
 from harness.deck.user_elements import dofs_of, refuse_types
@@ -86,7 +88,9 @@ def read_deck(
         refuse_types(blocks, problems)
     problems.check()
     interactions = Interactions(structure.root, problems)
-    materials = read_materials(interactions.without_damage(structure.root), problems)
+    root = interactions.without_options(structure.root)
+    _check_repetition(root, structure, problems)
+    materials = read_materials(root, problems)
     in_steps = [block for scope in structure.steps for block in scope.blocks]
     amplitudes = read_amplitudes([*structure.root, *in_steps], problems)
     flat = FlatMesh(structure, problems)
@@ -152,6 +156,13 @@ def read_deck(
     found = with_concentrations(model, problems)
     problems.check()
     return found
+
+
+def _check_repetition(root: Sequence[Block], structure: Structure, problems: Problems) -> None:
+    """Refuse keywords that are given twice in the model, its steps, or an instance; root: the model's own ones."""
+    check_once([*root, *(block for scope in structure.steps for block in (scope.head, *scope.blocks))], problems)
+    for blocks in structure.of_instances.values():
+        check_once(blocks, problems)
 
 
 def survey_deck(path: Path, given: Mapping[str, float] | None = None) -> Survey:

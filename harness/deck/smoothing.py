@@ -37,10 +37,9 @@ def read_smoothings(blocks: Iterable[Block], surfaces: Surfaces, problems: Probl
     for block in blocks:
         if block.name == SMOOTHING:
             with problems.gather():
-                name = block.options.text("NAME")
-                if name in found:
-                    raise block.error(f"{name} is defined already")
-                found[name] = tuple(region for row in block.rows() for region in _regions(row, 2, surfaces))
+                found[block.options.text("NAME")] = tuple(
+                    region for row in block.rows() for region in _regions(row, 2, surfaces)
+                )
     return found
 
 

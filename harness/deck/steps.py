@@ -11,9 +11,9 @@ from typing import TypeVar
 
 from harness.deck.blocks import Block
 from harness.deck.controls import ControlState
-from harness.deck.distributed import read_distributed, read_fields, read_surface_loads
+from harness.deck.distributed import keep_last, read_distributed, read_fields, read_surface_loads
 from harness.deck.error_report import Problems
-from harness.deck.heat_loads import HEAT_LOADS, read_heat_loads
+from harness.deck.heat_loads import HEAT_LOADS, number_exchanges, read_heat_loads
 from harness.deck.prescribed import Prescription, check_load_cases, contradictions, of_load_case
 from harness.deck.procedures import read_procedure
 from harness.deck.requests import RequestReader
@@ -69,6 +69,7 @@ def read_steps(
             partial(read_fields, prescription=prescription),
             problems,
         )
+        fields = keep_last(fields, prescription.flat, problems)
         with problems.gather():
             procedure = read_procedure(scope, prescription)
             if procedure.energies is not None:
@@ -100,7 +101,7 @@ def read_steps(
                     element_loads=tuple(load for load in distributed if isinstance(load, ElementLoad)),
                     surface_loads=surface_loads,
                     new_surface_loads=new_surface_loads,
-                    heat_loads=tuple(load for loads, _ in heat.values() for load in loads),
+                    heat_loads=tuple(load for loads, _ in heat.values() for load in number_exchanges(loads)),
                     new_heat_loads=frozenset(name for name, (_, new) in heat.items() if new),
                     fields=fields,
                     new_fields=new_fields,

@@ -46,6 +46,14 @@ class Structure:
     steps: list[Scope] = field(default_factory=list)
     ignored: list[tuple[str, Source]] = field(default_factory=list)
 
+    @property
+    def of_instances(self) -> dict[str, list[Block]]:
+        """Blocks of each instance: those of its part, then its own."""
+        return {
+            name: [*self.parts[scope.head.options.text("PART")].blocks, *scope.blocks]
+            for name, scope in self.instances.items()
+        }
+
 
 def read_heading(blocks: list[Block]) -> str:
     """First line of the *HEADING keywords of a deck, '' without any."""

@@ -5,13 +5,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from harness.deck.blocks import Block
+from harness.deck.blocks import Block, Row
 from harness.deck.error_report import nearest
 from harness.deck.flatten import FlatMesh
-from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of
+from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import (
@@ -41,6 +43,47 @@ _QUADRATIC = {
 """Shares of the nodes in the area of a quadratic face."""
 
 
+@dataclass(frozen=True, slots=True)
+class _Line:
+    """Positions of elements with a face, or nodes, of one data line of a surface."""
+
+    members: IntArray
+    face: str
+    row: Row
+
+
+def _keys(lines: Sequence[_Line], every: Sequence[_Line]) -> IntArray:
+    """Numbers of the faces or nodes of lines, one behind the other; every: all lines that are compared."""
+    codes = {face: k for k, face in enumerate(sorted({line.face for line in every}))}
+    keys = [line.members * len(codes) + codes[line.face] for line in lines]
+    return np.concatenate([np.zeros(0, dtype=np.int64), *keys])
+
+
+def _chosen(lines: Sequence[_Line], chosen: NDArray[np.bool_]) -> list[_Line]:
+    """Return the lines with some of their faces or nodes, which follow each other as those of `_keys`."""
+    ends = np.cumsum([len(line.members) for line in lines])[:-1]
+    parts = np.split(chosen, ends)
+    return [replace(line, members=line.members[part]) for line, part in zip(lines, parts, strict=True)]
+
+
+def _merged(lines: Sequence[_Line]) -> list[_Line]:
+    """Return the lines of a surface, which is a set: each without what an earlier one has."""
+    keys = _keys(lines, lines)
+    first = np.zeros(len(keys), dtype=bool)
+    first[np.unique(keys, return_index=True)[1]] = True
+    return _chosen(lines, first) if lines else []
+
+
+def _combined(block: Block) -> list[tuple[str, Source]]:
+    """Names and places of the surfaces that COMBINE puts together. Raises DeckError."""
+    how = block.options.text("COMBINE")
+    names = [(row.name(k, "surface"), row.source) for row in block.rows() for k in range(len(row))]
+    if not names or (how != "UNION" and len(names) != 2):
+        wanted = "the names of surfaces" if how == "UNION" else "the names of two surfaces"
+        raise block.error(f"COMBINE={how} takes {wanted}, found {len(names)}")
+    return names
+
+
 class Surfaces:
     """Surfaces of the whole model, by their names at the level where they are used."""
 
@@ -65,8 +108,13 @@ class Surfaces:
         return self._blocks[key]
 
     def kind(self, name: str, source: Source, owner: str = "") -> str:
-        """TYPE of a surface. Raises DeckError."""
-        return self.locate(name, source, owner)[1].options.text("TYPE")
+        """TYPE of a surface; of a combined one that of its surfaces. Raises DeckError."""
+        place, block = self.locate(name, source, owner)
+        if not block.options.given("COMBINE"):
+            return block.options.text("TYPE")
+        self._lines(name, source, owner)
+        own, at = _combined(block)[0]
+        return self.kind(own, at, place)
 
     def profile(self, name: str, source: Source, owner: str) -> tuple[str, Block, float] | None:
         """Level, keyword and fillet radius of an analytical rigid surface in the plane, None for another one.
@@ -84,74 +132,87 @@ class Surfaces:
             raise block.error(f"FILLET RADIUS={radius:g} must not be negative")
         return place, block, radius
 
-    def _find(self, name: str, source: Source, owner: str) -> tuple[str, Block]:
-        """Level and keyword of a surface of elements or nodes. Raises DeckError."""
+    def _lines(self, name: str, source: Source, owner: str, within: tuple[Source, ...] = ()) -> list[_Line]:
+        """Lines of a surface of elements or nodes, none of which has what an earlier one has. Raises DeckError."""
         place, block = self.locate(name, source, owner)
+        if block.source in within:
+            raise block.error("combines itself")
+        if block.options.given("COMBINE"):
+            members = [self._lines(own, at, place, (*within, block.source)) for own, at in _combined(block)]
+            found = self._combine(block, members)
+            if not any(len(line.members) for line in found):
+                self._flat.warn(block.source, f"*SURFACE: {name} is empty")
+            return found
         kind = block.options.text("TYPE")
         if kind not in ("ELEMENT", "NODE"):
             raise DeckError(source, f"surface {name} ({block.source}) is of TYPE={kind}, which constraints cannot use")
-        return place, block
+        find, faces = (self._flat.nodes, False) if kind == "NODE" else (self._flat.elements, True)
+        return _merged(
+            [
+                _Line(find(row.name(0, "set"), row.source, place), row.name(1, "face") if faces else "", row)
+                for row in block.rows()
+            ]
+        )
+
+    @staticmethod
+    def _combine(block: Block, members: list[list[_Line]]) -> list[_Line]:
+        how, lines = block.options.text("COMBINE"), [line for own in members for line in own]
+        if len({bool(line.face) for line in lines}) > 1:
+            raise block.error("combines surfaces of elements and of nodes; expected one kind")
+        if how == "UNION":
+            return _merged(lines)
+        first, second = (_keys(own, lines) for own in members)
+        return _chosen(members[0], np.isin(first, second) == (how == "INTERSECTION"))
 
     def nodes(self, name: str, source: Source, owner: str = "") -> IntArray:
         """Node indices of a surface, ascending; DeckError where there is none, or its faces are not known."""
-        place, block = self._find(name, source, owner)
-        parts = [np.zeros(0, dtype=np.int64)]
-        for row in block.rows():
-            what = row.name(0, "set")
-            if block.options.text("TYPE") == "NODE":
-                parts.append(self._flat.nodes(what, row.source, place))
-            else:
-                elements = self._flat.elements(what, row.source, place)
-                parts += [self._face(element, row.name(1, "face"), row.source)[1] for element in elements.tolist()]
+        lines, parts = self._lines(name, source, owner), [np.zeros(0, dtype=np.int64)]
+        if self.kind(name, source, owner) == "NODE":
+            parts += [line.members for line in lines]
+        else:
+            parts += [self._face(element, line)[1] for line in lines for element in line.members.tolist()]
         return np.unique(np.concatenate(parts))
 
     def shares(self, name: str, source: Source, owner: str = "") -> tuple[IntArray, FloatArray]:
         """Nodes of a surface, ascending, and their tributary areas or lengths, which are 1 on a surface of nodes."""
         nodes = self.nodes(name, source, owner)
-        place, block = self._find(name, source, owner)
-        if block.options.text("TYPE") == "NODE":
+        if self.kind(name, source, owner) == "NODE":
             return nodes, np.ones(len(nodes))
         areas = np.zeros(len(nodes))
-        for row in block.rows():
-            for element in self._flat.elements(row.name(0, "set"), row.source, place).tolist():
-                family, face = self._face(element, row.name(1, "face"), row.source)
+        for line in self._lines(name, source, owner):
+            for element in line.members.tolist():
+                family, face = self._face(element, line)
                 places = self._flat.mesh.coordinates[face]
                 np.add.at(areas, np.searchsorted(nodes, face), tributary_areas(family, places))
         return nodes, areas
 
     def faces(self, name: str, source: Source) -> list[tuple[IntArray, str, Source]]:
         """Elements (positions) and their face (S1, ...) of each line of a surface of elements. Raises DeckError."""
-        place, block = self._find(name, source, "")
-        if block.options.text("TYPE") != "ELEMENT":
-            raise DeckError(source, f"surface {name} ({block.source}) has no faces of elements")
-        found = []
-        for row in block.rows():
-            elements = self._flat.elements(row.name(0, "set"), row.source, place)
-            found.append((elements, row.name(1, "face"), row.source))
-        return found
+        lines = self._lines(name, source, "")
+        if self.kind(name, source) == "NODE":
+            place = self.locate(name, source, "")[1].source
+            raise DeckError(source, f"surface {name} ({place}) has no faces of elements")
+        return [(line.members, line.face, line.row.source) for line in lines]
 
     def facets(
         self, name: str, source: Source, owner: str = ""
     ) -> Iterator[tuple[ElementGroup, IntArray, Face, Source]]:
         """Faces of a surface: a group, rows of it, the local nodes of their face, the place. Raises DeckError."""
-        place, block = self._find(name, source, owner)
-        for row in block.rows():
-            elements = self._flat.elements(row.name(0, "set"), row.source, place)
-            numbers = np.searchsorted(self._starts, elements, side="right") - 1
+        for line in self._lines(name, source, owner):
+            numbers = np.searchsorted(self._starts, line.members, side="right") - 1
             for k in np.unique(numbers).tolist():
-                local = face_nodes(self._groups[k], row.name(1, "face"), row.source, "SURFACE")
-                yield self._groups[k], elements[numbers == k] - self._starts[k], local, row.source
+                local = face_nodes(self._groups[k], line.face, line.row.source, "SURFACE")
+                yield self._groups[k], line.members[numbers == k] - self._starts[k], local, line.row.source
 
     def of_nodes(self, name: str, source: Source, owner: str = "") -> list[tuple[IntArray, float]] | None:
         """Nodes of each line of a surface of nodes, with the area of each node; None of a surface of faces."""
-        place, block = self._find(name, source, owner)
-        if block.options.text("TYPE") != "NODE":
+        lines = self._lines(name, source, owner)
+        if self.kind(name, source, owner) != "NODE":
             return None
-        rows = list(block.rows())
-        for row in rows:
+        for row in (line.row for line in lines):
             if not row.real(1, "area", 1.0) > 0.0:
                 raise row.error(f"area {row.real(1, 'area'):g} must be positive")
-        return [(self._flat.nodes(row.name(0, "set"), row.source, place), row.real(1, "area", 1.0)) for row in rows]
+        return [(line.members, line.row.real(1, "area", 1.0)) for line in lines]
 
     def by_group(self, elements: IntArray) -> Iterator[tuple[ElementGroup, IntArray]]:
         """Elements (positions in the model) group by group."""
@@ -167,11 +228,11 @@ class Surfaces:
             found |= set(self._groups[k].nodes[element - self._starts[k]].tolist())
         return found
 
-    def _face(self, element: int, face: str, source: Source) -> tuple[Family, IntArray]:
-        """A face of an element, by its position in the model, and its nodes."""
+    def _face(self, element: int, line: _Line) -> tuple[Family, IntArray]:
+        """The face of an element of a line, by its position in the model, and its nodes."""
         k = int(np.searchsorted(self._starts, element, side="right")) - 1
         group = self._groups[k]
-        local = face_nodes(group, face, source, "SURFACE")
+        local = face_nodes(group, line.face, line.row.source, "SURFACE")
         kind = group.built_in
         assert isinstance(kind, SolidType | SurfaceType | RigidType)
         nodes: IntArray = group.nodes[element - self._starts[k]][list(local)]
@@ -260,9 +321,16 @@ KEYWORDS = (
                 default="ELEMENT",
             ),
             Option("FILLET RADIUS", Kind.REAL, "of arcs between lines of an analytical rigid surface"),
-            *ignored("INTERNAL", "DEFINITION", "TRIM", "COMBINE", "CROP", "NO OFFSET", "NO THICK"),
+            one_of(
+                "COMBINE",
+                "put surfaces together, a face or node once; DIFFERENCE: the first surface without the second",
+                ("UNION", "INTERSECTION", "DIFFERENCE"),
+            ),
+            *ignored("INTERNAL", "DEFINITION", "TRIM", "NO OFFSET", "NO THICK"),
+            *refused("CROP"),
         ),
-        "set or element, face (S1, S2, ...; SPOS, SNEG of shells and rigid elements; E1, E2, ... of shells); or node "
-        "set or node; or START, x, y, then LINE, x, y or CIRCL, x, y, x and y of the centre",
+        "COMBINE: names of surfaces, two but for UNION; or set or element, face (S1, S2, ...; SPOS, SNEG of shells and "
+        "rigid elements; E1, E2, ... of shells); or node set or node; or START, x, y, then LINE, x, y or CIRCL, x, y, "
+        "x and y of the centre",
     ),
 )

@@ -83,8 +83,6 @@ class TieReader:
         models = [
             block for owner in self._flat.owners for block in owner.blocks if block.name == "CYCLIC SYMMETRY MODEL"
         ]
-        for block in models[1:]:
-            raise block.error(f"is there already, at {models[0].source}")
         if models and not cyclic:
             raise models[0].error("no *TIE has CYCLIC SYMMETRY")
         if cyclic and not models:

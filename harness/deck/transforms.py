@@ -78,6 +78,9 @@ class Transforms:
         if kind is SystemKind.RECTANGULAR:
             axes = np.stack([owner.placement.turn(own) for own in axes])
         for node, own in zip(nodes.tolist(), axes, strict=True):
+            if node in self._axes and np.abs(self._axes[node] - own).max() > _ALIGNED:
+                message = f"node {flat.mesh.name(node)} has other directions already, by {self._sources[node]}"
+                raise block.error(message)
             self._axes[node], self._sources[node] = own, block.source
 
     def parts(self, nodes: IntArray, dof: int, source: Source) -> list[tuple[IntArray, int]]:

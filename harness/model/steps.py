@@ -236,6 +236,7 @@ class HeatLoadType:
     surface  its name, '' for none
     by_user  DFLUX or FILM gives the magnitudes
     area     of nodes, 0 for others
+    number   0, and 1, 2, ... of further exchanges that a step gives to the same place
     """
 
     keyword: str
@@ -245,6 +246,7 @@ class HeatLoadType:
     surface: str = ""
     by_user: bool = False
     area: float = 0.0
+    number: int = 0
 
     @property
     def exchanges(self) -> bool:

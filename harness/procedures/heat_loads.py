@@ -8,7 +8,7 @@ emissivity, are constant from the start of the step on (Abaqus Keywords Guide, *
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -114,13 +114,26 @@ class _OfKeyword:
         """Take over entries of a step; new: those of earlier steps are removed."""
         if new:
             self._active[:] = False
-        loads: list[Load] = []
+        loads = [] if new else list(self._replaced(entries))
         for entry in entries:
             for part in range(1 + entry.type.exchanges):
                 self._active[self.slots.find(entry.places, self._kind(entry.type, part))] = True
             loads.append(Load(entry.places, self._kind(entry.type, 0), entry.magnitude, entry.amplitude, entry.source))
         varying = self.magnitudes.take([*loads, *self._coefficients(entries)], new, step, total_time)
         return self._at_once(varying, entries)
+
+    def _replaced(self, entries: Sequence[HeatLoad]) -> Iterator[Load]:
+        """End further exchanges that an earlier step gave to the places of these entries; their loads are zero."""
+        for entry in entries:
+            for load in self._types if entry.type.exchanges else ():
+                if load.number and replace(load, number=0) == replace(entry.type, number=0):
+                    slots = self.slots.find_some(entry.places, self._kind(load, 0))
+                    slots = slots[self._active[slots]]
+                    places = self.slots.places[slots]
+                    for part in range(2):
+                        kind = self._kind(load, part)
+                        self._active[self.slots.find(places, kind)] = False
+                        yield Load(places, kind, 0.0, None, entry.source)
 
     def _coefficients(self, entries: Sequence[HeatLoad]) -> list[Load]:
         given = [entry for entry in entries if entry.type.exchanges]

@@ -315,6 +315,13 @@ class Slots:
         """Numbers of the pairs, which must be among those given."""
         return np.searchsorted(self._sorted, self._keys(places, kind))
 
+    def find_some(self, places: IntArray, kind: int) -> IntArray:
+        """Numbers of the pairs that are among those given."""
+        found = self.find(places, kind)
+        known = found < len(self)
+        found, keys = found[known], self._keys(places, kind)[known]
+        return np.asarray(found[self._sorted[found] == keys])
+
 
 def fading_forces(reaction: FloatArray, prescribed: IntArray, step: Step, unbalanced: FloatArray) -> Variation:
     """Forces that fade in a step: reactions of degrees of freedom that it releases, and `unbalanced` ones.

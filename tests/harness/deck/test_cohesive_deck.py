@@ -142,7 +142,7 @@ MISTAKES = {
     "evolution twice": (
         "*DAMAGE STABILIZATION\n0.1",
         "*DAMAGE EVOLUTION, TYPE=ENERGY\n1.",
-        r"33: .*there is one already, at deck.inp:31",
+        r"33: .*a \*DAMAGE INITIATION has one already, at deck.inp:31",
     ),
     "stabilization alone": (f"*DAMAGE EVOLUTION, {EVOLUTION}\n", "", r"31: .*does not follow \*DAMAGE EVOLUTION"),
     "negative stabilization": ("\n0.1\n", "\n-0.1\n", r"34: .*viscosity -0.1 must not be negative"),

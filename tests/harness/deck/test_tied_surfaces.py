@@ -294,7 +294,7 @@ MODEL = "*CYCLIC SYMMETRY MODEL, N=9\n3.0, -2.0"
     [
         (MODEL, "", r"\*TIE: CYCLIC SYMMETRY needs \*CYCLIC SYMMETRY MODEL"),
         (", CYCLIC SYMMETRY\n", "\n", r"\*CYCLIC SYMMETRY MODEL: no \*TIE has CYCLIC SYMMETRY"),
-        (MODEL, f"{MODEL}\n{MODEL}", r"\*CYCLIC SYMMETRY MODEL: is there already, at .*deck\.inp:\d+"),
+        (MODEL, f"{MODEL}\n{MODEL}", r"\*CYCLIC SYMMETRY MODEL: the model has one already, at .*deck\.inp:\d+"),
         ("N=9", "N=0", r"\*CYCLIC SYMMETRY MODEL: N=0: expected at least one sector"),
         (MODEL, "*CYCLIC SYMMETRY MODEL, N=9", r"needs a data line with the points a and b of the axis"),
         (

@@ -327,6 +327,7 @@ ERRORS = [
     ({"nodes": ["LOW"]}, {}, "--nodes: the mesh has no node set LOW"),
     ({"surfaces": ["S"]}, {}, "--surface: the mesh has no surface S"),
     ({"surfaces": ["POINTS"]}, {}, r"--surface POINTS: expected a surface of elements .*deck.inp:\d+"),
+    ({"surfaces": ["BOTH"]}, {}, r"deck.inp:\d+: \*SURFACE: a combined surface is not supported here"),
     ({"inside": ["CORNER"]}, {}, "--all CORNER: no two solids share a face there"),
     ({"plies": ("LOW", "BODY")}, {}, "--plies: element 1 is in LOW and in BODY"),
     ({"plies": ()}, {}, "--plies: the deck has no two sections of solids"),
@@ -357,7 +358,8 @@ ERRORS = [
 def test_errors(tmp_path, wanted, options, message):
     mesh = strip()
     mesh.sets["CORNER"] = (mesh.cell == [2, 1]).all(axis=1)
-    path = deck(tmp_path, mesh, ["*SURFACE, NAME=POINTS, TYPE=NODE", "LEFT"])
+    surfaces = ["*SURFACE, NAME=POINTS, TYPE=NODE", "LEFT", "*SURFACE, NAME=BOTH, COMBINE=UNION", "FACE"]
+    path = deck(tmp_path, mesh, surfaces)
     if "crack" in wanted or options:
         wanted = {"between": [("LOW", "HIGH")], **wanted}
     if message.startswith("--between LOW CORNER"):
