@@ -34,6 +34,7 @@ from harness.model.properties import (
     SectionControls,
     ShellSection,
     SolidSection,
+    SpringSection,
 )
 
 
@@ -191,8 +192,22 @@ def _make_sections(
             if isinstance(found, SolidSection):
                 find = partial(elements.flat.nodes, owner=owner.name)
                 found = replace(found, reference=reference_node(block, type.name, find))
-            made[section, kind] = found
+            made[section, kind] = _turned(found, owner, problems)
     return made
+
+
+def _turned(section: Section, owner: Owner, problems: Problems) -> Section:
+    """Return a section with the directions that it gives turned with its instance."""
+    if not owner.placement.rotates:
+        return section
+    if isinstance(section, BeamSection):
+        x, y, z = owner.placement.turn(np.array(section.n1)).tolist()
+        return replace(section, n1=(x, y, z))
+    if isinstance(section, SpringSection) and section.dofs:
+        dofs = ", ".join(map(str, section.dofs))
+        message = f"dofs {dofs} are those of the global axes, which do not turn with instance {owner.name}"
+        problems.warn(section.source, message)
+    return section
 
 
 def _cut(elements: _Elements, made: dict[tuple[int, int], Section]) -> tuple[ElementGroup, ...]:

@@ -297,7 +297,7 @@ def test_what_is_written(run):
         (SWEEP, "*SELECT EIGENMODES, GENERATE\n3, 1", "expected first and last mode and a positive increment"),
         (SWEEP, "*SELECT EIGENMODES, GENERATE, DEFINITION=FREQ\n3, 1", "GENERATE is for DEFINITION=MODE NUMBERS"),
         (SWEEP, "*SELECT EIGENMODES, DEFINITION=FREQ\n3., 1.", "the highest frequency 1 is below the lowest, 3"),
-        (SWEEP, "*SELECT EIGENMODES\n1\n*SELECT EIGENMODES\n1", r"SELECT EIGENMODES: a step has one already, at .*modal.inp"),
+        (SWEEP, "*SELECT EIGENMODES\n1\n*SELECT EIGENMODES\n1", r"EIGENMODES: a step has one already, at .*modal.inp"),
         (SWEEP, "*MODAL DAMPING\n", "MODAL DAMPING: needs a data line"),
         (SWEEP, "*MODAL DAMPING\n3, 1, 0.1", "the last mode 1 is before the first, 3"),
         (SWEEP, "*MODAL DAMPING\n1, 1, -0.1", "damping must not be negative"),
