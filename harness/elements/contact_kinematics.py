@@ -4,29 +4,28 @@
 
 The clearance of a point is g = n . d: d from the anchor point to the secondary node, n the normal of the tangent plane.
 Without NLGEOM both are those of the mesh, and g is linear. With NLGEOM the plane goes with the face: n = v / |v|, and v
-has constant components along the tangents a1, a2 of the face at the anchor point and their product. What g loses to the
-turning face are moments: the derivatives of g move the force along the face to where the node is.
+has constant components along the tangents a1, a2 of the face at the anchor point and their product. The slip is what d
+has along directions e1, e2 that turn with n, so that bodies that move together do not slip, whatever their clearance.
+What g and the slip lose to the turning face are moments: their derivatives move the forces along the face to where the
+node is.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.elements.rotations import PERMUTATION
+from harness.elements.contact_frames import TURN, Jet, components, make_variables, turning_axes
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.contact import ContactPair
 from harness.model.restart import Saved
 
 Find = Callable[[IntArray, IntArray | int], IntArray]
 """Numbers of the unknowns of nodes and dofs, broadcast against each other; -1 for none."""
-
-_TURN: Final = np.array([[0.0, -1.0], [1.0, 0.0]])
-"""By a right angle, in the plane."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,13 +141,16 @@ class SmallSliding:
         self._shape = *pair.nodes.shape, dimension
         self._clearances = pair.clearances
         self._places = coordinates[pair.nodes][:, :, :dimension]
-        self._shares, self._slopes = pair.shares, pair.slopes
         self._normals = pair.normals[:, :dimension]
-        self._parts = np.linalg.solve(self._base(self._tangents_of(self._places)), self._normals[..., None])[..., 0]
-        self._first = self._first_direction() if dimension == 3 else np.zeros(0)
-        # derivatives of the slips by the displacements, those at the start of the increment
-        self._tangents = self._directions(None)
-        self._moved: FloatArray | None = None
+        # the tangents of the face and d are these sums over the nodes
+        sums = np.concatenate([pair.slopes[..., : dimension - 1], pair.shares[..., None]], axis=2)
+        self._sums = np.einsum("mna,de->madne", sums, np.eye(dimension)).reshape(len(sums), dimension**2, -1)
+        base = self._base(self._vectors(self._places)[:-1])
+        self._parts: FloatArray = np.linalg.solve(base, self._normals[..., None])[..., 0]
+        self._first: FloatArray = np.linalg.solve(base, self._first_direction()[..., None])[..., 0]
+        directions = [axis.value for axis in self._axes(self._places, constant=True)[0][1:]]
+        self._tangents = np.stack([self._along(direction) for direction in directions], axis=1)
+        self._now: Jet | None = None
 
     def unknowns_of(self, count: int) -> tuple[tuple[int, int], ...]:
         """Displacements of one node after the other."""
@@ -170,28 +172,35 @@ class SmallSliding:
 
     def clearances(self, moved: FloatArray, *, nlgeom: bool) -> Clearances:
         """At displacements."""
-        self._moved = moved if nlgeom else None
+        self._now = None
         return self.finite(moved) if nlgeom else self.linear(moved)
 
     def slips(self, moved: FloatArray, change: FloatArray, elastic: FloatArray) -> Slips:
-        """Along tangents of the face at the start of the increment."""
-        del moved
-        tangents = self._tangents
+        """After `clearances`: with NLGEOM by how much the parts of d along axes that turn with the face change in the
+        increment, without it the displacement along the axes of the mesh.
+        """
         axes = np.broadcast_to(np.eye(self.components), (len(change), self.components, self.components))
-        return Slips(elastic + np.einsum("mtu,mu->mt", tangents, change), tangents, tangents, None, axes)
+        now = self._now
+        if now is None:
+            tangents = self._tangents
+            return Slips(elastic + np.einsum("mtu,mu->mt", tangents, change), tangents, tangents, None, axes)
+        then = components(*self._axes(self._at(moved - change), constant=True))
+        by = np.einsum("mtk,mku->mtu", now.first[:, 1:], self._sums)
+
+        def turned(points: IntArray, forces: FloatArray) -> FloatArray:
+            return self._curved(points, np.einsum("mt,mtkl->mkl", forces, now.second[points, 1:]))
+
+        return Slips(elastic + now.value[:, 1:] - then.value[:, 1:], by, by, turned, axes)
 
     def commit(self) -> None:
-        """Slips follow the turned face."""
-        if self._moved is not None:
-            self._tangents = self._directions(self._moved)
+        """They have no history."""
 
     def kept(self) -> Saved:
-        """Tangents."""
-        return {"tangents": self._tangents}
+        """Nothing."""
+        return {}
 
     def resume(self, saved: Saved) -> None:
         """Begin with what `kept` returned."""
-        self._tangents = saved["tangents"]
 
     def linear(self, moved: FloatArray) -> Clearances:
         """In small displacements."""
@@ -201,91 +210,56 @@ class SmallSliding:
 
     def finite(self, moved: FloatArray) -> Clearances:
         """In large displacements."""
-        m, n, dimension = self._shape
-        places = self._places + moved.reshape(self._shape)
-        tangents = self._tangents_of(places)
-        turned, first = self._normal_of(tangents)
-        length = np.linalg.norm(turned, axis=1)
-        normal = turned / length[:, None]
-        apart = np.einsum("mn,mnd->md", self._shares, places)
-        value = np.einsum("md,md->m", normal, apart)
-        # of d beside the normal, over |v|
-        beside = (apart - value[:, None] * normal) / length[:, None]
-        by_place = np.einsum("mn,de->mdne", self._shares, np.eye(dimension)).reshape(m, dimension, -1)
-        gradient = np.einsum("md,mdu->mu", normal, by_place) + np.einsum("md,mdu->mu", beside, first)
-        stretch = np.einsum("md,mdu->mu", normal, first) / length[:, None]
-        normal_by = first / length[:, None, None] - normal[..., None] * stretch[:, None]
-        beside_by = by_place - normal[..., None] * gradient[:, None] - value[:, None, None] * normal_by
-        beside_by = beside_by / length[:, None, None] - beside[..., None] * stretch[:, None]
-        curvature = np.einsum("mdu,mdv->muv", by_place, normal_by) + np.einsum("mdu,mdv->muv", first, beside_by)
-        if dimension == 3:
-            # v is quadratic in the places of the nodes
-            twist = np.einsum("mn,mk->mnk", self._slopes[..., 0], self._slopes[..., 1])
-            twist = self._parts[:, 2, None, None] * (twist - twist.transpose(0, 2, 1))
-            second = np.einsum("mnk,md,dpq->mnpkq", twist, beside, PERMUTATION)
-            curvature += second.reshape(m, n * dimension, -1)
-        eps = float(np.finfo(float).eps)
-        rounding = eps * float(np.abs(places).max())
+        places = self._at(moved)
+        self._now = now = components(*self._axes(places))
+        gradient = np.einsum("mk,mku->mu", now.first[:, 0], self._sums)
 
         def bent(points: IntArray, force: FloatArray) -> FloatArray:
-            return np.asarray(force[:, None, None] * curvature[points])
+            return self._curved(points, force[:, None, None] * now.second[points, 0])
 
-        return Clearances(value, gradient, gradient, bent, rounding)
+        rounding = float(np.finfo(float).eps) * float(np.abs(places).max())
+        return Clearances(now.value[:, 0], gradient, gradient, bent, rounding)
 
-    def _directions(self, moved: FloatArray | None) -> FloatArray:
-        """(m, directions, u) derivatives of the slips along tangents of the face; moved: None where it is in its mesh
-        position.
-        """
-        places = self._places if moved is None else self._places + moved.reshape(self._shape)
-        tangents = self._tangents_of(places)
-        turned, _ = self._normal_of(tangents)
-        normal = turned / np.linalg.norm(turned, axis=1)[:, None]
-        if self._shape[2] == 2:
-            return self._along(normal @ _TURN.T)[:, None]
-        first = _across(np.einsum("mde,me->md", self._base(tangents), self._first), normal)
-        return np.stack([self._along(first), self._along(np.cross(normal, first))], axis=1)
+    def _curved(self, points: IntArray, matrix: FloatArray) -> FloatArray:
+        """(r, u, u) derivatives by the displacements from those (r, k, k) by tangents and d."""
+        sums = self._sums[points]
+        return np.asarray(np.einsum("mku,mkv->muv", sums, np.einsum("mkl,mlv->mkv", matrix, sums)))
+
+    def _at(self, moved: FloatArray) -> FloatArray:
+        """(m, n, dimension) places of the nodes at displacements."""
+        return np.asarray(self._places + moved.reshape(self._shape))
+
+    def _vectors(self, places: FloatArray) -> list[FloatArray]:
+        """Tangents (m, dimension) of the face at the anchor point, then d."""
+        m, dimension = self._shape[0], self._shape[2]
+        found = np.einsum("mku,mu->mk", self._sums, places.reshape(m, -1)).reshape(m, -1, dimension)
+        return [found[:, number] for number in range(found.shape[1])]
+
+    def _axes(self, places: FloatArray, *, constant: bool = False) -> tuple[list[Jet], Jet]:
+        """Normal and directions of slip, and d; constant: without derivatives."""
+        *tangents, apart = make_variables(self._vectors(places), constant=constant)
+        return turning_axes(tangents, self._parts, self._first), apart
 
     def _first_direction(self) -> FloatArray:
-        """(m, 3) constant components of the first direction of slips along the tangents and their product.
+        """(m, dimension) first direction of slip before the analysis.
 
-        Before the analysis it is the projection of the global 1-axis, or of the 3-axis where the 1-axis is within 0.1
-        degrees of the normal (Abaqus Analysis User's Guide, "Conventions").
+        It is the projection of the global 1-axis, or of the 3-axis where the 1-axis is within 0.1 degrees of the normal
+        (Abaqus Analysis User's Guide, "Conventions"). In the plane it follows from the normal.
         """
+        if self._shape[2] == 2:
+            return np.zeros_like(self._normals)
         steep = np.abs(self._normals[:, 0]) > np.cos(np.radians(0.1))
-        first = _across(np.where(steep[:, None], np.eye(3)[2], np.eye(3)[0]), self._normals)
-        return np.asarray(np.linalg.solve(self._base(self._tangents_of(self._places)), first[..., None])[..., 0])
+        return _across(np.where(steep[:, None], np.eye(3)[2], np.eye(3)[0]), self._normals)
 
     def _along(self, direction: FloatArray) -> FloatArray:
         """(m, u) derivative of d along a direction (m, dimension)."""
-        return (self._shares[:, :, None] * direction[:, None]).reshape(len(direction), -1)
+        dimension = self._shape[2]
+        return np.asarray(np.einsum("md,mdu->mu", direction, self._sums[:, -dimension:]))
 
-    def _tangents_of(self, places: FloatArray) -> FloatArray:
-        """(m, 1 or 2, dimension) tangents of the face at the anchor point."""
-        return np.asarray(np.einsum("mna,mnd->mad", self._slopes, places))
-
-    def _base(self, tangents: FloatArray) -> FloatArray:
+    def _base(self, tangents: list[FloatArray]) -> FloatArray:
         """(m, dimension, dimension) the tangents and what is normal to them, in columns."""
-        if tangents.shape[1] == 1:
-            return np.stack([tangents[:, 0], tangents[:, 0] @ _TURN.T], axis=2)
-        return np.stack([*tangents.transpose(1, 0, 2), np.cross(tangents[:, 0], tangents[:, 1])], axis=2)
-
-    def _normal_of(self, tangents: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """v (m, dimension) and its derivatives (m, dimension, u)."""
-        parts, (m, _, dimension) = self._parts, self._shape
-        turned = np.einsum("mde,me->md", self._base(tangents), parts)
-        if dimension == 2:
-            by_tangent = parts[:, 0, None, None] * np.eye(2) + parts[:, 1, None, None] * _TURN
-            return turned, np.einsum("mn,mde->mdne", self._slopes[..., 0], by_tangent).reshape(m, 2, -1)
-        product = parts[:, 2, None, None, None]
-        cross = product * np.stack(
-            [
-                np.einsum("rpq,mq->mrp", PERMUTATION, tangents[:, 1]),
-                np.einsum("rpq,mp->mrq", PERMUTATION, tangents[:, 0]),
-            ],
-            axis=1,
-        )
-        by_tangents = parts[:, :2, None, None] * np.eye(3) + cross
-        return turned, np.einsum("mna,made->mdne", self._slopes, by_tangents).reshape(m, 3, -1)
+        normal = tangents[0] @ TURN.T if len(tangents) == 1 else np.cross(tangents[0], tangents[1])
+        return np.stack([*tangents, normal], axis=2)
 
 
 def _across(vectors: FloatArray, normals: FloatArray) -> FloatArray:

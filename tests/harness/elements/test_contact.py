@@ -531,7 +531,7 @@ def test_points_that_do_not_move_on_stick_after_an_increment_with_slip(call, dim
 
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_rigid_motion(call, dimension):
-    """Clearances stay; the forces of a multiplier balance, and so do their moments."""
+    """Clearances stay, and nothing slips; the forces of both balance, and so do their moments."""
     rng = np.random.default_rng(7)
     block = pair_of(dimension, None, 0.0, rng)
     kinematics, places = block._motion, block._motion._places
@@ -541,10 +541,16 @@ def test_rigid_motion(call, dimension):
     turned = places @ rotation.T + rng.normal(size=dimension)
     found = kinematics.finite((turned - places).reshape(2, -1))
     np.testing.assert_allclose(found.value, at_rest.value, atol=1e-12)
-    slips = [
-        kinematics._directions(at).reshape(2, -1, *places.shape[1:]) for at in (None, (turned - places).reshape(2, -1))
-    ]
-    np.testing.assert_allclose(slips[1], slips[0] @ rotation.T, atol=1e-12)
+    motion = (turned - places).reshape(2, -1)
+    slips = kinematics.slips(motion, motion, np.zeros((2, dimension - 1)))
+    np.testing.assert_allclose(slips.value, 0.0, atol=1e-12)
+    kinematics.finite(0.0 * motion)
+    before = kinematics.slips(0.0 * motion, 0.0 * motion, np.zeros((2, dimension - 1)))
+    by, start = (one.by.reshape(2, -1, *places.shape[1:]) for one in (slips, before))
+    np.testing.assert_allclose(by, start @ rotation.T, atol=1e-12)
+    np.testing.assert_allclose(by.sum(axis=2), 0.0, atol=1e-12)
+    couples = np.einsum("mnp,mtnq->mtpq", turned, by)
+    np.testing.assert_allclose(couples, couples.transpose(0, 1, 3, 2), atol=1e-12)
     forces = found.gradient.reshape(places.shape)
     np.testing.assert_allclose(forces, at_rest.gradient.reshape(places.shape) @ rotation.T, atol=1e-12)
     np.testing.assert_allclose(forces.sum(axis=1), 0.0, atol=1e-12)
