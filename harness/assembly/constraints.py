@@ -10,12 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from harness.assembly.equations import eliminate
+from harness.assembly.equations import eliminate, named
 from harness.assembly.system import System
-from harness.errors import Source
+from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Arm, Equation
 from harness.parallel.ranks import Ranks
+
+CONSISTENT = 1e-6
+"""Relative difference up to which two values of an unknown are the same: decks have six digits."""
 
 
 class Constraints:
@@ -56,9 +59,8 @@ class Constraints:
         Raises
         ------
         DeckError
-            The model is over-constrained: an equation has prescribed terms alone, its first term is also that of
-            another equation or depends on itself. Or its coefficient is zero, or the system does not have an unknown
-            of an equation.
+            The model is over-constrained: the first term of an equation is also that of another one or depends on
+            itself. Or its coefficient is zero, or the system does not have an unknown of an equation.
         ValueError
             Prescribed unknowns are repeated or negative.
         """
@@ -70,7 +72,8 @@ class Constraints:
         kind[self.prescribed] = 1
         if np.count_nonzero(kind) < len(self.prescribed) or self.prescribed.min(initial=0) < 0:
             raise ValueError("prescribed unknowns must be distinct and not negative")
-        dependent, coefficients = eliminate(system.dofs, equations, self.prescribed, places or {})
+        self._places = places or {}
+        dependent, coefficients, self._redundant = eliminate(system.dofs, equations, self.prescribed)
         kind[dependent] = 2
         self.free = np.flatnonzero(kind == 0)
         self._t: sparse.csr_array | None = None
@@ -110,6 +113,30 @@ class Constraints:
         return same and np.array_equal(self.prescribed, prescribed)
 
     @property
+    def overconstraints(self) -> list[tuple[int, Source]]:
+        """Prescribed unknowns that follow from other prescribed ones too, and the constraint by which they do."""
+        return [(one.unknown, one.source) for one in self._redundant]
+
+    def _excesses(self, u: FloatArray) -> list[float]:
+        """By how much each of these two values differs from the other, over the terms that they are computed from."""
+        return [one.excess(u) for one in self._redundant]
+
+    def refuse_contradictions(self, u: FloatArray, moment: str) -> None:
+        """Raise DeckError where two such values differ at unknowns u (n,); moment: step and increment, in words."""
+        for (unknown, source), excess in zip(self.overconstraints, self._excesses(u), strict=True):
+            if excess > CONSISTENT:
+                where = f" at {self._places[unknown]}" if unknown in self._places else ""
+                raise DeckError(
+                    source,
+                    f"over-constrained: {named(self._system.dofs, unknown)} is prescribed{where}, and other prescribed "
+                    "values give it another value by this constraint: they differ by "
+                    f"{excess:.2g} of their size ({moment})",
+                )
+
+    def refuse_unbalanced(self, u: FloatArray, residual: FloatArray) -> None:
+        """Raise DeckError if forces (n,) at unknowns u (n,) work on a motion that moves nothing else."""
+
+    @property
     def ranks(self) -> Ranks:
         """Those of the system: each has the part of T^T K T of its elements."""
         return self._system.ranks
@@ -123,6 +150,10 @@ class Constraints:
     def dofs(self) -> IntArray:
         """(n_q,) dofs of the free unknowns."""
         return self._system.dofs.dof[self.free]
+
+    def name(self, unknown: int) -> tuple[str, int]:
+        """Node name and dof of an unknown, for messages."""
+        return self._system.dofs.name(unknown)
 
     def name_of(self, reduced: int) -> tuple[str, int]:
         """Node name and dof of a free unknown, for messages.
@@ -184,6 +215,26 @@ class Constraints:
         du[self.free] = dq
         du[self.prescribed] = dprescribed
         return du
+
+    def along(self, direction: FloatArray) -> FloatArray:
+        """Return the direction with the same free and prescribed unknowns, in the state of the last `follow`.
+
+        Parameters
+        ----------
+        direction
+            (n,) changes of all unknowns.
+
+        Returns
+        -------
+        FloatArray
+            (n,): its product with forces is their work on the path that fulfils the constraints.
+        """
+        return self.expand(direction[self.free], direction[self.prescribed])
+
+    def convective(self, u: FloatArray, velocity: FloatArray) -> FloatArray:
+        """Accelerations (n,) at unknowns u (n,) with velocities (n,), where the free and prescribed ones have none."""
+        del velocity
+        return np.zeros_like(u)
 
     def reduce_vector(self, vector: FloatArray) -> FloatArray:
         """T^T r.

@@ -138,6 +138,9 @@ class System:
         numbers = [self.dofs.equations_of(block) for block in bound]
         couplings = [pair.couplings() for pair in self.contacts]
         self.indptr, self.indices = build_pattern(len(self.dofs), [*numbers, *couplings])
+        self.of_elements = np.zeros(len(self.dofs), dtype=np.bool_)
+        for equation_numbers in numbers:
+            self.of_elements[equation_numbers] = True
         for block, equation_numbers in zip(bound, numbers, strict=True):
             block.bind(equation_numbers, _binding.scatter_map(equation_numbers, self.indptr, self.indices))
         for pair in self.contacts:

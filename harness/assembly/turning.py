@@ -19,6 +19,9 @@ from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Arm, Equation
 
+ANGLE = 1e-5
+"""Rotation in radians over which T is differenced: its error is the square of that."""
+
 
 class TurningConstraints(Constraints):
     """Constraints of which some have finite rotations; T and P are those of the last `follow`."""
@@ -30,23 +33,31 @@ class TurningConstraints(Constraints):
         equations: Sequence[Equation],
         places: Mapping[int, Source],
         arms: Sequence[Arm],
+        start: FloatArray | None = None,
     ) -> None:
-        """Arguments as of `Constraints`. Raises DeckError, also if nodes of arms have other constraints."""
-        super().__init__(system, prescribed, equations, places)
+        """Arguments as of `Constraints`, and those of `Arms`; start: zero by default.
+
+        Raises DeckError, also if nodes of arms have other constraints.
+        """
+        n = len(system)
+        start = np.zeros(n) if start is None else start
         if system.ranks.size > 1:
             raise DeckError(arms[0].source, "a constraint with rotations is not supported with NLGEOM on several ranks")
-        n = len(system)
-        self.arms = tuple(arms)
-        dependent = np.setdiff1d(np.arange(n), np.concatenate([self.free, self.prescribed]))
-        self._turning = turning = Arms(system.dofs, arms, dependent, equations)
-        # of each arm, its displacements by the rotations
-        rows, columns = np.broadcast_arrays(turning.own[:, :, None], turning.turns[:, None, :])
-        self._slopes = (rows >= 0) & (columns >= 0)
-        where = rows[self._slopes], columns[self._slopes]
+        self._turning = turning = Arms(system.dofs, arms, prescribed, start, system.of_elements)
+        super().__init__(system, prescribed, turning.replace_held(equations), places)
+        self._equations, self.arms = tuple(equations), tuple(arms)
+        apart = np.concatenate([self.free, self.prescribed, turning.eliminated])
+        turning.check(np.setdiff1d(np.arange(n), apart), equations)
+        rows, columns, steady = np.broadcast_arrays(
+            turning.rows[:, :, None], turning.row_sources[:, None, :], turning.steady[:, None, :]
+        )
+        self._chosen = (rows >= 0) & (columns >= 0)
+        where = rows[self._chosen], columns[self._chosen]
         self._t, self._of_free = _with_entries(self._t, self.free, *where)
         self._p, self._of_prescribed = _with_entries(self._p, self.prescribed, *where)
+        self._moving = ~steady[self._chosen]
         self._find_pattern()
-        self.follow(np.zeros(n), np.zeros(n))
+        self.follow(start, np.zeros(n))
 
     def _find_pattern(self) -> None:
         """As of `Constraints`, with the entries of T and P that change."""
@@ -60,7 +71,8 @@ class TurningConstraints(Constraints):
         numbers = np.arange(len(entry), dtype=np.float64)
         order = reduced_pattern(self._system, self._t, numbers)[2].data.astype(np.int64)
         changing = np.zeros(self._t.nnz, dtype=bool)
-        changing[self._of_free[1]] = True
+        own, places = self._of_free
+        changing[places[self._moving[own]]] = True
         self._changing = np.flatnonzero((changing[left] | changing[right])[order])
         self._left, self._right = (side[order][self._changing] for side in (left, right))
         self._curved = self._find_curved()
@@ -81,24 +93,52 @@ class TurningConstraints(Constraints):
         self._map.data[self._changing] = left * self._t.data[self._right]
         self._curvature = self._turning.curvature(u, residual)[self._curved[0]]
 
+    def convective(self, u: FloatArray, velocity: FloatArray) -> FloatArray:
+        """As of `Constraints`: centripetal, by central differences of T and P; these are those of u afterwards."""
+        zero = np.zeros_like(u)
+        spin = float(np.abs(velocity[self._turning.rotations]).max(initial=0.0))
+        if not spin:
+            return zero
+        time = ANGLE / spin
+        self.follow(u + time * velocity, zero)
+        ahead = self.along(velocity)
+        self.follow(u - time * velocity, zero)
+        behind = self.along(velocity)
+        self.follow(u, zero)
+        return np.asarray((ahead - behind) / (2.0 * time))
+
     def reduce_tangent(self, data: FloatArray) -> FloatArray:
         """As of `Constraints`."""
         reduced = self.reduce(data)
         np.add.at(reduced, self._curved[1], self._curvature)
         return reduced
 
-    def _set(self, values: FloatArray) -> None:
-        """Set what T and P have of the arms, (k, 3, 3): their moments by forces, or displacements by rotations."""
+    def refuse_unbalanced(self, u: FloatArray, residual: FloatArray) -> None:
+        """As of `Constraints`."""
+        self._turning.refuse_idle_moments(u, residual)
+
+    @property
+    def overconstraints(self) -> list[tuple[int, Source]]:
+        """As of `Constraints`, with prescribed displacements of nodes that follow."""
+        return super().overconstraints + self._turning.redundant
+
+    def _excesses(self, u: FloatArray) -> list[float]:
+        """As of `Constraints`."""
+        own: list[float] = self._turning.excesses(u).tolist()
+        return super()._excesses(u) + own
+
+    def _set(self, by_reference: FloatArray) -> None:
+        """Set what T and P have of the arms: their `levers` or `slopes`."""
         assert self._t is not None
-        chosen = values[self._slopes]
+        chosen = self._turning.coefficients(by_reference)[self._chosen]
         for matrix, (own, places) in ((self._t, self._of_free), (self._p, self._of_prescribed)):
             matrix.data[places] = chosen[own]
 
     def _find_curved(self) -> tuple[tuple[IntArray, ...], IntArray]:
-        """Pairs of free rotations of a reference node: their places in `Arms.curvature`, and in T^T K T."""
+        """Pairs of unknowns of a reference node with a stiffness of arms: in `Arms.curvature`, and in T^T K T."""
         number = np.full(len(self._system) + 1, -1)
         number[self.free] = np.arange(len(self.free))
-        turns = number[self._turning.rotations]
+        turns = number[self._turning.curved]
         rows, columns = np.broadcast_arrays(turns[:, :, None], turns[:, None, :])
         pairs = np.nonzero((rows >= 0) & (columns >= 0))
         size = len(self.free)

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Linear equations between dofs: *EQUATION, and what *MPC, *COUPLING, *RIGID BODY and *TIE stand for.
 
-Equations have small rotations. With NLGEOM, nodes all of whose displacements follow a reference node are arms, and
-*DISTRIBUTING is no equation, so that both turn by any angle in static steps; what else couples displacements to
-rotations is refused, unless these are held at zero.
+Equations have small rotations. With NLGEOM, nodes all of whose displacements follow a reference node are arms, which
+turn by any angle in general steps, and *DISTRIBUTING is no equation, so that it does in static ones; what else couples
+displacements to rotations is refused, unless these are held at zero.
 """
 
 from __future__ import annotations
@@ -99,7 +99,7 @@ class ConstraintReader:
 
     def _turn(self, nonlinear: Sequence[Step]) -> None:
         """Find the arms that turn, and refuse other constraints with rotations that are not held at zero."""
-        other = next((step for step in nonlinear if step.procedure.linear or step.procedure.inertia), None)
+        other = next((step for step in nonlinear if step.procedure.linear), None)
         turning: set[tuple[Source, int]] = set()
         for source, references in self._turning.items():
             free = {
@@ -438,8 +438,10 @@ KEYWORDS = (
     ),
     Keyword(
         "KINEMATIC",
-        "Dofs that *COUPLING couples. With NLGEOM, in static steps, nodes follow finite rotations of the reference "
-        "node, as those of *KINEMATIC COUPLING, *RIGID BODY and *MPC, BEAM do.",
+        "Dofs that *COUPLING couples. With NLGEOM, in general steps, nodes follow finite rotations of the reference "
+        "node, as those of *KINEMATIC COUPLING, *RIGID BODY and *MPC, BEAM do. *BOUNDARY may prescribe displacements "
+        "of these nodes, which then determine those of the reference node; where both are determined, they must "
+        "agree.",
         Where.MODEL,
         data="first dof, last dof; none: all",
     ),

@@ -70,8 +70,8 @@ def cohesive_variables(section: CohesiveSection, kind: CohesiveType) -> PointVar
 def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[float], list[int]]:
     """PROPS, and JPROPS after the family of the faces.
 
-    PROPS: constitutive thickness (0: from the nodes), width, density, then those of the law. JPROPS: deletion, then those of
-    the law.
+    PROPS: constitutive thickness (0: from the nodes), width, density, then those of the law. JPROPS: deletion, then
+    those of the law.
     """
     material, controls = section.material, section.controls
     elastic, damage = material.elastic, material.damage

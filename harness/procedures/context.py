@@ -77,10 +77,8 @@ class StepContext:
         constraints, solver = state.constraints, state.solver
         if constraints is None or solver is None or not constraints.matches(self.unknowns, equations, arms):
             given = self.system, self.unknowns, equations, state.boundaries.sources
-            if arms and fallback:
-                message = "a constraint with rotations is not supported with NLGEOM and --fallback"
-                raise DeckError(arms[0].source, message)
-            constraints = TurningConstraints(*given, arms) if arms else Constraints(*given)
+            start = self.beginning["displacement"]
+            constraints = TurningConstraints(*given, arms, start) if arms else Constraints(*given)
             find = choose_solver if self.system.ranks.size == 1 else choose_rank_solver
             choose = partial(find, setting.solver, constraints, state.effort)
             if isinstance(solver, RankSolver):

@@ -36,6 +36,7 @@ from harness.procedures.incrementation import (
     too_discontinuous,
 )
 from harness.procedures.limit import PASSED, LimitLoad
+from harness.procedures.overconstraints import warn_overconstrained
 from harness.procedures.path import Path
 from harness.procedures.step_parts import Part
 from harness.procedures.unconstrained import UNLOADED, UnconstrainedSolver
@@ -105,6 +106,7 @@ class GeneralStep:
             yield Warned(f"*RESTART, WRITE HAS NO EFFECT IN STEP {self._step.number}: {self._obstacle}")
         if context.choice:
             yield Noted(context.choice)
+        yield from warn_overconstrained(context.constraints)
         while not self.finished:
             if context.increment == self._step.increments:
                 limit = f"step {self._step.number}, INC={self._step.increments}"
@@ -294,6 +296,10 @@ class GeneralStep:
     ) -> Iterator[Record]:
         """Commit the state of the last pass, and choose the next increment."""
         context, number, attempt = self._context, self._step.number, self._control.attempts
+        moment = f"step {number}, increment {context.increment}"
+        end = self._state.displacement + last.increment
+        context.constraints.refuse_contradictions(end, moment)
+        context.constraints.refuse_unbalanced(end, last.residual)
         # the states of the increment before are gone now, and those of this one are not recorded
         hold()
         self._system.commit()

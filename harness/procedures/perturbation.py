@@ -30,6 +30,7 @@ from harness.model.records import (
 )
 from harness.model.steps import Step
 from harness.model.user_values import UserValues
+from harness.procedures.overconstraints import warn_overconstrained
 from harness.procedures.step_setting import Setting, SolverTimes, choose_solver, places
 from harness.solver.linear import LinearSolver
 
@@ -63,6 +64,7 @@ class PerturbationStep:
     def run(self) -> Iterator[Record]:
         """Records of the step. Raises KernelError, SingularMatrixError, DeckError."""
         yield Noted(f"LINEAR SOLVER {self._solver.name.upper()}: {self._solver.reason}")
+        yield from warn_overconstrained(self._constraints)
         yield from self._increments()
         yield self._times.note()
         yield StepDone(self._step.number, self._increment, 0, self._increment)
@@ -103,6 +105,7 @@ class PerturbationStep:
         stiffness = self._system.matrix(evaluation.data)
         external = load + evaluation.residual
         change = self._response(evaluation.data, constraints.reduce(evaluation.data), external)
+        constraints.refuse_contradictions(change, f"step {step.number}")
         internal = stiffness @ change
         self._pass(Request.PERTURBATION, change)
         work = 0.5 * float(change @ (self._state.signs * internal))

@@ -142,6 +142,8 @@ class SteadyStateStep(HarmonicStep):
         held = _by_parts(constraints.expand, np.zeros(len(constraints.free), dtype=np.complex128), prescribed)
         missing = _by_parts(constraints.reduce_vector, load - self._system.matrix(data) @ held)
         found = held + _by_parts(constraints.expand, self._solution_of(data, missing), np.zeros_like(prescribed))
+        for part in (found.real, found.imag):
+            constraints.refuse_contradictions(part, f"step {self._step.number}")
         return found, _by_parts(constraints.reactions, load - self._system.matrix(data) @ found)
 
     def _solution_of(self, data: ComplexArray, missing: ComplexArray) -> ComplexArray:

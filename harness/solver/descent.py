@@ -98,8 +98,10 @@ class Majoriser:
     def direction(self, reduced: FloatArray) -> FloatArray:
         """K_0^-1 r (n,) of a reduced residual. Raises SingularMatrixError."""
         assert self._data is not None and self._make is not None
+        known = self._solver is not None
         if self._solver is None:
             self._solver = self._make()
+        if self._constraints.arms or not known:
             self._solver.factorise(self._constraints.reduce(self._data))
         return self._constraints.expand(self._solver.solve(reduced), np.zeros(len(self._constraints.prescribed)))
 
@@ -157,9 +159,12 @@ class Descent(Newton):
         if self.reason:
             return self._descend(given, state, missing, self._downhill(state, correction))
         new = self._taken(given, state, correction + self._lift(missing), searchable=True)
-        if new.evaluation.pnewdt < 1.0 or abs(float(correction @ new.residual)) <= slope + noise:
+        if new.evaluation.pnewdt < 1.0:
+            return new
+        if abs(float(self._constraints.along(correction) @ new.residual)) <= slope + noise:
             return new
         self.take_over(iteration, GROWING)
+        self._constraints.follow(given.displacement + state.increment, state.residual)
         return self._descend(given, state, missing, self._downhill(state, correction))
 
     def _lift(self, missing: FloatArray) -> FloatArray:
@@ -187,11 +192,13 @@ class Descent(Newton):
         start = state.increment + self._lift(missing)
 
         def component(scale: float) -> float | None:
-            evaluation, load = self._trial(given, start + scale * direction)
-            return float(direction @ (evaluation.residual + load)) if evaluation.pnewdt >= 1.0 else None
+            evaluation, residual = self._trial(given, start + scale * direction)
+            work = float(self._constraints.along(direction) @ residual)
+            return work if evaluation.pnewdt >= 1.0 else None
 
         scale, tried = descend(component, float(direction @ state.residual))
         if scale == 0.0:
+            self._constraints.follow(given.displacement + state.increment, state.residual)
             direction = self._majoriser.direction(state.reduced)
             scale, more = descend(component, float(direction @ state.residual))
             tried += more

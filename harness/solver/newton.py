@@ -193,9 +193,12 @@ class Newton:
         return self._constraints.expand(self._solver.solve(rhs), missing)
 
     def _trial(self, given: Increment, increment: FloatArray) -> tuple[Evaluation, FloatArray]:
-        """A pass for the residual alone, and the load."""
+        """A pass for the residual alone, to which the constraints are set, and that residual."""
         increment = self._constraints.place(given.displacement, increment)
-        return self._pass(given.call.asking(Request.RESIDUAL), given, increment, matrix=False)
+        evaluation, load = self._pass(given.call.asking(Request.RESIDUAL), given, increment, matrix=False)
+        residual = evaluation.residual + load
+        self._constraints.follow(given.displacement + increment, residual)
+        return evaluation, residual
 
     def _pass(
         self, call: Call, given: Increment, increment: FloatArray, *, matrix: bool = True
@@ -218,10 +221,11 @@ class Newton:
         direction = full.correction
 
         def component(scale: float) -> float:
-            evaluation, load = self._trial(given, before.increment + scale * direction)
-            return float(direction @ (evaluation.residual + load))
+            _, residual = self._trial(given, before.increment + scale * direction)
+            return float(self._constraints.along(direction) @ residual)
 
-        at_zero, at_one = float(direction @ before.residual), float(direction @ full.residual)
+        at_zero = float(direction @ before.residual)
+        at_one = float(self._constraints.along(direction) @ full.residual)
         scale, tried = search(component, at_zero, at_one, self._line_search)
         if len(tried) == 1:
             return replace(full, line_search=tried)

@@ -3,10 +3,12 @@
 """The fall-back on springs that Newton's method does not solve; solutions by hand."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import harness
 from harness.errors import ConvergenceError, SingularMatrixError
 from harness.model.amplitude import Amplitude, AmplitudeType
 from harness.model.procedures import Static
@@ -161,3 +163,67 @@ def test_search_without_end_is_cut_back(bench, monkeypatch):
     assert "HAS NOT CONVERGED" in result.abandoned[0].reason
     with pytest.raises(ConvergenceError, match="TOO MANY ATTEMPTS"):
         raise result.error
+
+
+LEVER = """*NODE
+1, 0., 0.
+2, 0., 1.
+3, 0., 4.
+4, 1., 4.
+9, 0., 0.
+*NSET, NSET=END
+4
+*NSET, NSET=ARMS
+2, 3
+*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=2, PROPERTIES=2, I PROPERTIES=1
+1
+*USER ELEMENT, TYPE=U6, NODES=2, COORDINATES=2, PROPERTIES=3, I PROPERTIES=1
+1
+*ELEMENT, TYPE=U6, ELSET=FAILING
+1, 1, 2
+*ELEMENT, TYPE=U1, ELSET=SOFT
+2, 3, 4
+*ELEMENT, TYPE=MASS, ELSET=MASSES
+3, 2
+4, 3
+*MASS, ELSET=MASSES
+1.
+*UEL PROPERTY, ELSET=SOFT
+0.1, 0., 0
+*UEL PROPERTY, ELSET=FAILING
+10., 0.1, 0.5, 0
+*SURFACE, NAME=ARMS, TYPE=NODE
+ARMS
+*COUPLING, CONSTRAINT NAME=C, REF NODE=9, SURFACE=ARMS
+*KINEMATIC
+*BOUNDARY
+1, 1
+9, 1, 2
+*STEP, NLGEOM, INC=500
+*STATIC
+0.1, 1., 1e-5, 0.1
+*BOUNDARY
+4, 1, 1, 3.4
+*OUTPUT, HISTORY
+*NODE OUTPUT, NSET=END
+U1, RF1
+*END STEP
+"""
+
+
+def test_a_snap_through_a_coupling_that_turns(tmp_path):
+    """A lever turns about its reference node by t: a failing spring holds it at 1, a soft one pulls at 4.
+
+    Moments: f(s) = 4 k (u - 4 s) with s = -sin t, the force f and the stiffness k = 0.1. It is whole up to s = 0.1,
+    u = 2.9, and then snaps to s = u/4, a turn by 46 degrees at least: 16 k is less than its softening, 2.5.
+    """
+    deck, springs = tmp_path / "lever.inp", Path(__file__).parent / "springs.f"
+    deck.write_text(LEVER)
+    with pytest.raises(ConvergenceError):
+        harness.run(deck, user=springs, output_dir=tmp_path)
+    result = harness.run(deck, user=springs, output_dir=tmp_path, fallback=True)
+    u, force = (result.history[f"{name}[END]"] for name in ("U1", "RF1"))
+    whole = u / (1 / 0.1 + 16 / 10)
+    np.testing.assert_allclose(force, np.where(u < 2.9, whole, 0), atol=1e-4)
+    assert u[-1] == pytest.approx(3.4)
+    assert "EQUILIBRIUM FOUND WITH THE DESCENT SEARCH" in (tmp_path / "lever.msg").read_text()
