@@ -19,7 +19,7 @@ from harness.assembly import Evaluation
 from harness.elements import Motion, Request
 from harness.model.arrays import FloatArray
 from harness.model.procedures import Dynamic, Integrator
-from harness.model.records import Record
+from harness.model.records import Record, Warned
 from harness.model.restart import Saved
 from harness.procedures.context import StepContext
 from harness.procedures.incrementation import Accuracy
@@ -28,6 +28,11 @@ from harness.solver.newton import Increment, Iterate
 
 HALF_INCREMENT = "THE HALF-INCREMENT RESIDUAL IS LARGER THAN ITS TOLERANCE."
 
+
+REPLACED = "INITIAL VELOCITIES OF NODES THAT FOLLOW OTHERS BY CONSTRAINTS ARE NOT THEIRS AND ARE REPLACED"
+
+CONSISTENT = 1e-6
+"""Relative difference up to which initial velocities fulfil the constraints: decks have six digits."""
 
 MOVED = 1e-6
 """Of the size of the model: how far nodes move along their velocities, to see how volumes change."""
@@ -67,10 +72,18 @@ class ImplicitIntegration(Part):
         self._previous_load = context.load_at(0.0)
 
     def start(self) -> Iterable[Record]:
-        """Compute the initial accelerations, unless they are zero."""
+        """Make initial velocities consistent, and compute the initial accelerations, unless they are zero."""
+        state, constraints = self._context.state, self._context.constraints
+        constraints.follow(state.displacement, np.zeros_like(state.displacement))
+        following = constraints.along(state.velocity)
+        given = np.abs(state.velocity).max(initial=0.0)
+        # as in Abaqus, constraints take precedence; in a later step both differ by the error of integration
+        replaced = len(state.begun) == 1 and np.abs(following - state.velocity).max(initial=0.0) > CONSISTENT * given
+        if replaced:
+            state.velocity = following
         if self._procedure.initial_acceleration:
             self._accelerate()
-        return ()
+        return [Warned(REPLACED)] if replaced else []
 
     def _accelerate(self) -> None:
         """Solve M a = P - I for the initial accelerations; unknowns without mass have none."""
@@ -80,7 +93,9 @@ class ImplicitIntegration(Part):
         evaluation = self._at_rest(Request.INITIAL_ACCELERATION)
         load = context.load_at(0.0)
         assert evaluation.data is not None
-        data, missing = evaluation.data, evaluation.residual + load
+        convective = constraints.convective(state.displacement, state.velocity)
+        data = evaluation.data
+        missing = evaluation.residual + load - context.system.product(data, convective)
         if incompressible is not None:
             data, missing = data + incompressible.data, np.where(incompressible.rows, incompressible.forces, missing)
         mass = constraints.reduce(data)
@@ -91,7 +106,7 @@ class ImplicitIntegration(Part):
         mass[(row == indices) & weightless[row]] = 1.0
         reduced[weightless] = 0.0
         context.solver.factorise(mass)
-        found = constraints.expand(context.solver.solve(reduced), np.zeros(len(constraints.prescribed)))
+        found = convective + constraints.expand(context.solver.solve(reduced), np.zeros(len(constraints.prescribed)))
         state.acceleration = np.where(of_nodes, found, 0.0)
         if incompressible is not None:
             state.displacement = state.displacement + np.where(of_nodes, 0.0, found)
@@ -160,7 +175,10 @@ class ImplicitIntegration(Part):
         start = context.load_at(context.step_time)
         at_middle = context.load_at(middle, context.state.displacement + increment)
         load = (1.0 + alpha) * at_middle - 0.5 * alpha * (start + self._previous_load)
-        ratio = context.checker.largest_ratio(evaluation.residual + load, self._tolerances())
+        residual = evaluation.residual + load
+        context.constraints.follow(context.state.displacement + increment, residual)
+        ratio = context.checker.largest_ratio(residual, self._tolerances())
+        context.constraints.follow(context.state.displacement + last.increment, last.residual)
         return Accuracy(ratio, HALF_INCREMENT)
 
     def _tolerances(self) -> dict[str, float]:
@@ -176,7 +194,8 @@ class ImplicitIntegration(Part):
         """The increment in its middle: the cubic from the state at the start to the displacements at the end."""
         state = self._context.state
         increment = last.increment / 8 + 0.375 * size * state.velocity + size**2 / 16 * state.acceleration
-        return np.where(self._context.system.dofs.of_nodes, increment, 0.5 * last.increment)
+        increment = np.where(self._context.system.dofs.of_nodes, increment, 0.5 * last.increment)
+        return self._context.constraints.place(state.displacement, increment)
 
     def _half_increment(self, last: Iterate, size: float, increment: FloatArray) -> Evaluation:
         """Pass at half the increment, over which accelerations are linear."""
