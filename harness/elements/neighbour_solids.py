@@ -14,7 +14,7 @@ to a model that has the elements, and `uel insert` to a deck before it has them.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -69,6 +69,11 @@ class Neighbours:
     elements: IntArray
     nodes: IntArray
 
+    def joined(self, others: Neighbours) -> Neighbours:
+        """These and others of the same type and section."""
+        elements = np.concatenate([self.elements, others.elements])
+        return replace(self, elements=elements, nodes=np.concatenate([self.nodes, others.nodes]))
+
 
 @dataclass(frozen=True, slots=True)
 class States:
@@ -121,24 +126,25 @@ def examine(model: Model, groups: Iterable[ElementGroup]) -> list[Finding]:
         initially_stressed(model.initial_stresses),
     )
     starts = group_starts(model)
-    found: dict[tuple[str, Source], Finding] = {}
+    owned: dict[int, IntArray] = {}
     for group in groups:
-        if group.definition is None or not owns_solids(group.definition.number):
-            continue
-        solids = np.unique(solids_of(model, group))
-        for index, beside in enumerate(model.groups):
-            rows = solids[(solids >= starts[index]) & (solids < starts[index] + len(beside.labels))] - starts[index]
-            if len(rows):
-                neighbours = Neighbours(
-                    group.definition.number,
-                    beside.type,
-                    beside.section,
-                    full_name(beside.instance, int(beside.labels[rows[0]])),
-                    beside.source,
-                    starts[index] + rows,
-                    beside.nodes[rows],
-                )
-                found |= {(each.message, each.source): each for each in find_faults(neighbours, states)}
+        if group.definition is not None and owns_solids(group.definition.number):
+            jtype = group.definition.number
+            others = owned.get(jtype, np.zeros(0, dtype=np.int64))
+            owned[jtype] = np.unique(np.concatenate([others, solids_of(model, group).ravel()]))
+    found: dict[str, Finding] = {}
+    for jtype, solids in owned.items():
+        alike: dict[tuple[str, Source], Neighbours] = {}
+        for start, beside in zip(starts, model.groups, strict=True):
+            rows = solids[(solids >= start) & (solids < start + len(beside.labels))] - start
+            if not len(rows):
+                continue
+            key = beside.type, beside.section.source
+            name = full_name(beside.instance, int(beside.labels[rows[0]]))
+            new = Neighbours(jtype, beside.type, beside.section, name, beside.source, start + rows, beside.nodes[rows])
+            alike[key] = alike[key].joined(new) if key in alike else new
+        for neighbours in alike.values():
+            found |= {str(each): each for each in find_faults(neighbours, states)}
     return list(found.values())
 
 
