@@ -207,9 +207,40 @@ def _directions(
 
 
 def _turned(group: ElementGroup, layer: SolidLayer, axes: FloatArray, normal: FloatArray) -> FloatArray:
-    """Directions of an orientation projected on the layer, then turned about its normal. Raises DeckError.
+    """Directions of a layer of elements, see `turned_directions`. Raises DeckError."""
+    try:
+        return turned_directions(layer, axes, normal)
+    except UndefinedDirectionsError as error:
+        assert layer.orientation is not None
+        label = group.labels[error.row[0]]
+        name = layer.orientation.name
+        raise DeckError(
+            layer.orientation.source, f"*ORIENTATION, NAME={name}: {error}; it is not in element {label}"
+        ) from None
+
+
+def turned_directions(layer: SolidLayer, axes: FloatArray, normal: FloatArray) -> FloatArray:
+    """Project the directions of an orientation on a layer and turn them about its normal.
 
     An angle of zero leaves directions as they are where none of the orientation can be the normal.
+
+    Parameters
+    ----------
+    layer
+        With an angle and its orientation.
+    axes
+        (m, points, 3, 3) directions of the orientation, in rows.
+    normal
+        (m, points, 3) unit vectors in the stack direction.
+
+    Returns
+    -------
+    (m, points, 3, 3) directions of the layer, in rows.
+
+    Raises
+    ------
+    UndefinedDirectionsError
+        The direction about which angles are is not the closest one to the stack direction.
     """
     orientation = layer.orientation
     assert orientation is not None
@@ -224,10 +255,8 @@ def _turned(group: ElementGroup, layer: SolidLayer, axes: FloatArray, normal: Fl
     if len(lying) and layer.angle == 0:
         return axes
     if len(lying):
-        label = group.labels[lying[0, 0]]
         message = f"direction {orientation.normal}, about which the angles of layers are, must be the closest one to"
-        place = f"the stack direction; it is not in element {label}"
-        raise DeckError(orientation.source, f"*ORIENTATION, NAME={orientation.name}: {message} {place}")
+        raise UndefinedDirectionsError(tuple(lying[0].tolist()), f"{message} the stack direction")
     along /= size[..., None]
     next_one = np.cross(upright, along)
     c, s = np.cos(np.radians(layer.angle)), np.sin(np.radians(layer.angle))

@@ -24,8 +24,8 @@ from harness.insertion.connectivity import (
     known_types,
 )
 from harness.insertion.meshes import is_mesh, read_mesh
+from harness.insertion.neighbours import check_neighbours
 from harness.insertion.properties import (
-    Sections,
     check_values,
     definition_lines,
     element_values,
@@ -34,10 +34,14 @@ from harness.insertion.properties import (
     read_values,
 )
 from harness.insertion.rewriting import Rewriting, quoted
+from harness.insertion.sections import Faces, Sections
 from harness.insertion.selection import Selection, Wanted, select
 from harness.insertion.topology import Cut, cut
 from harness.model.arrays import IntArray
 from harness.model.element_types import BUILT_IN, DISCRETE, FAMILIES, ContinuumType, Family
+
+Items = tuple[tuple[str, float], ...]
+"""Properties of an element by name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +54,7 @@ class Insertion:
     crack       number of faces of the initial crack
     whole       faces that were left as they are, for none of their nodes is doubled
     warnings    what is odd but understood
+    plies       between which plies is cut, and how many faces there
     """
 
     kind: str
@@ -58,10 +63,15 @@ class Insertion:
     crack: int
     whole: int
     warnings: tuple[str, ...]
+    plies: tuple[tuple[str, str, int], ...] = ()
 
     def lines(self, elset: str) -> list[str]:
         """What to tell the user."""
         lines = [f"warning: {warning}" for warning in self.warnings]
+        lines += [
+            f"--plies: cut between {lower} and {upper}: {count} face{'s' * (count != 1)}"
+            for lower, upper, count in self.plies
+        ]
         if self.whole:
             lines.append(
                 f"warning: {self.whole} faces get no element: the mesh around them holds all their nodes together"
@@ -114,8 +124,16 @@ def insert(
     if not len(chosen) and not selection.crack.any():
         raise UsageError("no face gets an element: nothing there can open")
     kind = _kind(deck, chosen, element) if len(chosen) else None
+    properties: dict[Items, IntArray] = {}
+    warnings: list[str] = []
     if kind is not None:
         check_values(kind, given)
+        sections, sides = Sections(deck), _two_sides(deck, chosen)
+        warnings += check_neighbours(deck, sections, kind, chosen)
+        properties = _values(kind, sections, sides, given)
+        warnings += sections.warnings
+    if wanted.plies is not None and not wanted.plies:
+        warnings += _meeting(deck, selection)
     rewriting = Rewriting(deck, pieces)
     rewriting.write_nodes()
     rewriting.write_elements(_changed(deck, pieces))
@@ -123,14 +141,15 @@ def insert(
     rewriting.write_nodal_lines()
     rewriting.write_equations()
     if kind is not None:
-        _write_interface(deck, rewriting, pieces, kind, chosen, elset, given)
+        _write_interface(deck, rewriting, pieces, kind, chosen, elset, properties)
     done = Insertion(
         kind.name if kind is not None else "",
         len(chosen),
         len(pieces.origins),
         int(np.sum(selection.crack)),
         whole,
-        (*deck.warnings, *_ties(deck, pieces)),
+        (*deck.warnings, *warnings, *_ties(deck, pieces)),
+        tuple(selection.plies),
     )
     return rewriting.text(), done
 
@@ -142,6 +161,19 @@ def _read(files: Sequence[Path], solids: Sequence[str]) -> Deck:
     if solids and not meshes:
         raise UsageError("--solids is for meshes: a deck says what its elements are")
     return Deck(files, {file: read_mesh(file, solids) for file in meshes})
+
+
+def _meeting(deck: Deck, selection: Selection) -> list[str]:
+    """Warning that cuts between sections meet, as where the section of a ply changes along it."""
+    faces = np.flatnonzero(selection.meets)
+    if not len(faces):
+        return []
+    first, second = (deck.name(int(deck.solids.element[face])) for face in deck.solids.pairs[faces[0]])
+    return [
+        f"--plies: cuts between sections meet at {len(faces)} faces, the first between elements {first} and {second}: "
+        "where the section of a ply changes along it, the ply is cut across; name the element sets of whole plies to "
+        "cut between them alone (--plies PLY1 PLY2 ...)"
+    ]
 
 
 def _with_elements(deck: Deck, selection: Selection, pieces: Cut) -> tuple[IntArray, int]:
@@ -249,12 +281,11 @@ def _write_interface(
     kind: InterfaceType,
     sides: IntArray,
     elset: str,
-    given: Mapping[str, float],
+    values: Mapping[Items, IntArray],
 ) -> None:
     """Elements, sets and properties, part by part."""
     cells = {group.family.number: group for group in pieces.cells}
     nodes = element_nodes(kind, deck.solids, sides[:, 0], sides[:, 1], cells)
-    values = _values(deck, kind, sides, given)
     positions = deck.positions[deck.solids.element[sides[:, 0]]]
     number = int(max(other.elements.max() for other in deck.owners if len(other.elements))) + 1
     for owner in deck.first.values():
@@ -281,25 +312,25 @@ def _write_interface(
     rewriting.after_model(material_lines(kind, quoted(elset), dict(next(iter(values)))))
 
 
-Items = tuple[tuple[str, float], ...]
+def _values(
+    kind: InterfaceType, sections: Sections, sides: tuple[Faces, Faces], given: Mapping[str, float]
+) -> dict[Items, IntArray]:
+    """Which elements have which properties: those between like solids have the same."""
+    (below, first), (above, second) = (sections.sides(faces) for faces in sides)
+    found: dict[Items, list[IntArray]] = {}
+    pairs, which = np.unique(np.column_stack([first, second]), axis=0, return_inverse=True)
+    for place, (lower, upper) in enumerate(pairs.tolist()):
+        rows = np.flatnonzero(which.ravel() == place)
+        found.setdefault(tuple(element_values(kind, given, below[lower], above[upper]).items()), []).append(rows)
+    return {items: np.sort(np.concatenate(rows)) for items, rows in found.items()}
 
 
-def _values(deck: Deck, kind: InterfaceType, sides: IntArray, given: Mapping[str, float]) -> dict[Items, IntArray]:
-    """Which elements have which properties: those between the same sections have the same."""
-    solids, sections = deck.solids, Sections(deck)
+def _two_sides(deck: Deck, sides: IntArray) -> tuple[Faces, Faces]:
+    """Faces of the solids below and above."""
+    solids = deck.solids
     corners = face_nodes(solids, sides[:, 0])[:, : int(solids.corners[sides[0, 0]])]
     normals = face_normals(solids.points[corners])
-    numbers = solids.element[sides]
-    found: dict[Items, list[IntArray]] = {}
-    pairs, which = np.unique(deck.sections[numbers], axis=0, return_inverse=True)
-    for place, pair in enumerate(pairs.tolist()):
-        rows = np.flatnonzero(which.ravel() == place)
-        below, above = (
-            sections.side(section, int(number), normals[rows])
-            for section, number in zip(pair, numbers[rows[0]].tolist(), strict=True)
-        )
-        found.setdefault(tuple(element_values(kind, given, below, above).items()), []).append(rows)
-    return {items: np.sort(np.concatenate(rows)) for items, rows in found.items()}
+    return Faces(sides[:, 0], normals, above=False), Faces(sides[:, 1], normals, above=True)
 
 
 def _ties(deck: Deck, pieces: Cut) -> list[str]:

@@ -46,12 +46,16 @@ class Selection:
     cuts   (pairs,) which are separated
     crack  (pairs,) which of them get no element
     below  (pairs,) 0 or 1: which of the pair belongs to the solid below
+    plies  between which plies is cut, and how many faces there
+    meets  (pairs,) which of the faces between plies have an edge, in the plane a node, in common with two others
     """
 
     cuts: Mask
     crack: Mask
     below: IntArray
     oriented: Mask = field(repr=False)
+    plies: list[tuple[str, str, int]] = field(default_factory=list)
+    meets: Mask = field(default_factory=lambda: np.zeros(0, dtype=bool))
 
     def add(self, which: Mask, below: IntArray | None = None) -> None:
         """Cut along more faces; those that had no direction yet take this one."""
@@ -91,10 +95,14 @@ def select(deck: Deck, wanted: Wanted) -> Selection:
         inside = _solids(deck, name, "--all")
         _take(found, f"--all {name}", inside[sides].all(axis=1))
     if wanted.plies is not None:
-        ply = _plies(deck, wanted.plies)[sides]
+        plies, names = _plies(deck, wanted.plies)
+        ply = plies[sides]
         different = (ply[:, 0] != ply[:, 1]) & np.all(ply != NONE, axis=1)
         below = (ply[:, 0] > ply[:, 1]).astype(np.int64) if wanted.plies else None
         _take(found, " ".join(["--plies", *wanted.plies]), different, below)
+        pairs, counts = np.unique(np.sort(ply[different], axis=1), axis=0, return_counts=True)
+        found.plies = [(names[a], names[b], n) for (a, b), n in zip(pairs.tolist(), counts.tolist(), strict=True)]
+        found.meets = _meeting(deck, different)
     for name in wanted.crack:
         faces = _crack(deck, name) & found.cuts
         if not faces.any():
@@ -155,14 +163,14 @@ def _surface(deck: Deck, name: str, option: str) -> Mask:
     return found
 
 
-def _plies(deck: Deck, names: Sequence[str]) -> IntArray:
-    """(solids,) number of the ply of each, -1 for none; with names, in their order."""
+def _plies(deck: Deck, names: Sequence[str]) -> tuple[IntArray, Sequence[str]]:
+    """(solids,) number of the ply of each, -1 for none; names of the plies: those given, or sets of the sections."""
     found = np.full(deck.solids.count, NONE)
     if not names:
         found = deck.sections.copy()
         if len(np.unique(found[found != NONE])) < 2:
             raise UsageError("--plies: the deck has no two sections of solids; name the element sets of the plies")
-        return found
+        return found, [f"{block.options.text('ELSET')} ({block.source})" for _, block in deck.section_blocks]
     for place, name in enumerate(names):
         inside = _solids(deck, name, "--plies")
         twice = inside & (found != NONE)
@@ -170,6 +178,27 @@ def _plies(deck: Deck, names: Sequence[str]) -> IntArray:
             number = int(np.argmax(twice))
             raise UsageError(f"--plies: element {deck.name(number)} is in {names[found[number]]} and in {name}")
         found[inside] = place
+    return found, names
+
+
+def _meeting(deck: Deck, cuts: Mask) -> Mask:
+    """Mask of the faces of a cut that have an edge, in the plane a node, in common with two others of it."""
+    solids = deck.solids
+    rows = np.flatnonzero(cuts)
+    faces = solids.pairs[rows, 0]
+    corners = solids.corners[faces]
+    found = np.zeros(len(cuts), dtype=bool)
+    edges, owners = [], []
+    for count in np.unique(corners).tolist():
+        here = rows[corners == count]
+        nodes = solids.nodes[faces[corners == count], :count]
+        ends = nodes[:, :, None] if count == 2 else np.stack([nodes, np.roll(nodes, -1, axis=1)], axis=2)
+        ends = np.sort(ends, axis=2).reshape(len(here) * count, -1)
+        # nodes of the plane stand for edges
+        edges.append(np.column_stack([ends[:, 0], ends[:, -1]]))
+        owners.append(np.repeat(here, count))
+    _, which, counts = np.unique(np.concatenate(edges), axis=0, return_inverse=True, return_counts=True)
+    found[np.concatenate(owners)[counts[which.ravel()] > 2]] = True
     return found
 
 

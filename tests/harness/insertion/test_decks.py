@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What becomes of a deck's text, sets, loads and constraints; U4 and the like take properties from its sections."""
 
+import re
+
 import numpy as np
 import pytest
 from solid_grids import LAW, grid, inserted
@@ -191,13 +193,39 @@ def test_plies_are_those_of_the_sections_or_those_named(tmp_path):
     path.write_text(text)
     every = inserted(path, tmp_path / "all.inp", plies=())
     assert (every.elements, every.doubled) == (9, 12)
+    assert [(lower.partition(" ")[0], upper.partition(" ")[0], n) for lower, upper, n in every.plies] == [
+        ("P0", "P1", 3), ("P1", "P2", 3), ("P2", "P3", 3)
+    ]  # fmt: skip
+    assert every.warnings == ()
     some = inserted(path, tmp_path / "some.inp", plies=("P3", "P2", "P1"))
     assert (some.elements, some.doubled) == (6, 8)
+    assert some.lines("I")[0] == "--plies: cut between P3 and P2: 3 faces"
     after = read_deck(tmp_path / "some.inp")
     group = next(group for group in after.groups if group.type == "U4")
     x = after.mesh.coordinates[group.nodes]
     # the first ply is below, so the normal points from P3 to P2
     assert np.all(x[:, :4, 1].mean(axis=1) > x[:, 4:, 1].mean(axis=1))
+
+
+@pytest.mark.parametrize(("kind", "counts", "faces"), [("CPS4", (4, 2), 4), ("C3D8", (4, 1, 2), 4)])
+def test_plies_that_are_cut_across_are_said(tmp_path, kind, counts, faces):
+    """Two plies, whose sections change half-way: their cuts meet there, and the sets of whole plies avoid that."""
+    mesh = strip(kind, counts)
+    left = mesh.cell[:, 0] < 2
+    low = mesh.cell[:, -1] == 0
+    mesh.sets |= {"LL": low & left, "LR": low & ~left, "HL": ~low & left, "HR": ~low & ~left}
+    path = deck(tmp_path, mesh)
+    sections = "".join(f"*SOLID SECTION, ELSET={name}, MATERIAL=M\n1.\n" for name in ("LL", "LR", "HL", "HR"))
+    path.write_text(path.read_text().replace("*SOLID SECTION, ELSET=BODY, MATERIAL=M\n1.\n", sections))
+    done = inserted(path, tmp_path / "out.inp", plies=())
+    (warning,) = done.warnings
+    expected = rf"--plies: cuts between sections meet at {faces} faces, the first between elements \d+ and \d+"
+    assert re.match(expected, warning)
+    lines = done.lines("INTERFACE")
+    assert re.match(r"--plies: cut between LL \(.*deck.inp:\d+\) and LR \(.*deck.inp:\d+\): 1 face$", lines[1])
+    assert [n for _, _, n in done.plies] == [1, 2, 2, 1]
+    whole = inserted(path, tmp_path / "out.inp", plies=("LOW", "HIGH"))
+    assert whole.warnings == () and whole.plies == (("LOW", "HIGH", 4),)
 
 
 def test_all_elements_of_a_set(tmp_path):
@@ -393,15 +421,6 @@ def test_an_element_that_owns_its_solids_needs_their_nodes_and_constants(tmp_pat
         path.read_text().replace("*ELASTIC\n1e4, 0.3", "*ELASTIC, TYPE=ORTHOTROPIC\n" + "1., " * 8 + "\n1.")
     )
     with pytest.raises(UsageError, match=r"U4 owns .*material M has \*ELASTIC, TYPE=ORTHOTROPIC .*E1_BOTTOM=VALUE"):
-        insert_between(path)
-
-
-def test_directions_that_differ_from_point_to_point_are_not_known(tmp_path):
-    path = deck(tmp_path, strip(), ["*ORIENTATION, NAME=AROUND, SYSTEM=CYLINDRICAL", "0., 0., 0., 0., 0., 1."])
-    lamina = "*ELASTIC, TYPE=LAMINA\n1e4, 1e3, 0.3, 1e3, 1e3, 1e3"
-    text = path.read_text().replace("*ELASTIC\n1e4, 0.3", lamina)
-    path.write_text(text.replace("ELSET=BODY, MATERIAL=M", "ELSET=BODY, MATERIAL=M, ORIENTATION=AROUND"))
-    with pytest.raises(UsageError, match=r"orientation AROUND differs from point to point .*deck.inp:\d+"):
         insert_between(path)
 
 

@@ -153,7 +153,9 @@ def test_a_mesh_and_its_deck_become_a_model_that_runs(tmp_path, monkeypatch, cap
     (tmp_path / "job.inp").write_text("\n".join([*SECTION, *step]) + "\n")
     # names of plies and values may stand in any order
     assert main(["insert", "m.msh", "job.inp", "--plies", "LOW", "HIGH", *STRONG, "-o", "model.inp"]) == 0
-    assert capsys.readouterr().out == "2 elements U8 in INTERFACE, 6 nodes doubled\nwritten: model.inp\n"
+    assert capsys.readouterr().out == (
+        "--plies: cut between LOW and HIGH: 2 faces\n2 elements U8 in INTERFACE, 6 nodes doubled\nwritten: model.inp\n"
+    )
     assert main(["run", "model.inp", "--quiet"]) == 0
 
 

@@ -1,0 +1,82 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Solids beside which an element that owns them would be wrong are refused, doubtful ones are said."""
+
+import re
+
+import pytest
+from solid_grids import LAW, grid, inserted
+
+from harness.errors import DeckError
+
+WARM = ["*EXPANSION", "1e-5"]
+STANDARD = (*LAW, "ALPHAN=1e6")
+
+
+def deck(folder, *, kind="CPS4", section="", material=(), model=(), step=()):
+    mesh = grid(kind, (2, 2), (2.0, 2.0))
+    mesh.sets = {"LOW": mesh.cell[:, 1] == 0, "HIGH": mesh.cell[:, 1] == 1}
+    lines = [*mesh.lines(), f"*SOLID SECTION, ELSET=BODY, MATERIAL=M{section}", "1.", "*MATERIAL, NAME=M"]
+    lines += ["*ELASTIC", "1e4, 0.3", *material, *model, "*STEP", "*STATIC", "1., 1.", *step, "*END STEP"]
+    path = folder / "deck.inp"
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def insert(folder, values=LAW, element="", **what):
+    path = deck(folder, **what)
+    done = inserted(path, folder / "out.inp", values, between=[("LOW", "HIGH")], element=element)
+    lines = path.read_text().splitlines()
+    places = [lines[int(re.match(r".*deck.inp:(\d+): ", each)[1]) - 1] for each in done.warnings]
+    return done, places
+
+
+WRONG = [
+    (
+        {"material": WARM, "step": ["*TEMPERATURE", "1, 150."]},
+        r"deck.inp:\d+: U4 does not know thermal strains: material M of the CPS4 beside it has \*EXPANSION "
+        r"\(.*deck.inp:\d+\), and its temperature changes; take U2",
+    ),
+    (
+        {
+            "material": WARM,
+            "model": ["*AMPLITUDE, NAME=A", "0., 0.", "1., 1."],
+            "step": ["*TEMPERATURE, AMPLITUDE=A", "1, 0."],
+        },
+        "U4 does not know thermal strains",
+    ),
+    (
+        {"model": ["*INITIAL CONDITIONS, TYPE=STRESS", "LOW, 1., 0., 0."]},
+        r"deck.inp:\d+: U4 does not know the initial stress of the CPS4 beside it; take U2",
+    ),
+    ({"material": ["*CREEP", "1e-9, 2., 0."]}, r"deck.inp:\d+: \*CREEP of material M of the CPS4 beside U4"),
+    ({"kind": "CPS4R"}, r"deck.inp:\d+: CPS4R beside U4 \(element \d\) has the stress of its middle.*or CPS4I"),
+]
+
+
+@pytest.mark.parametrize(("what", "message"), WRONG)
+def test_wrong_ones_are_refused_and_the_standard_element_is_not(tmp_path, what, message):
+    with pytest.raises(DeckError, match=message):
+        insert(tmp_path, **what)
+    assert not (tmp_path / "out.inp").exists()
+    done, places = insert(tmp_path, STANDARD, "U2", **what)
+    assert done.elements == 2 and places == []
+
+
+def test_doubtful_ones_are_said(tmp_path):
+    done, places = insert(tmp_path, material=["*PLASTIC", "10., 0."])
+    assert places == ["*PLASTIC"] and "its tractions are wrong once it yields; take U2" in done.warnings[0]
+    controls = ["*SECTION CONTROLS, NAME=C, HOURGLASS=ENHANCED"]
+    done, places = insert(tmp_path, kind="CPS4R", section=", CONTROLS=C", model=controls)
+    assert places == ["*SOLID SECTION, ELSET=BODY, MATERIAL=M, CONTROLS=C"]
+    assert "tractions may oscillate" in done.warnings[0]
+    assert done.lines("INTERFACE")[0].startswith("warning: ")
+
+
+def test_what_does_not_matter_is_not_said(tmp_path):
+    """Expansion without a change of temperature, and stress elsewhere."""
+    model = ["*INITIAL CONDITIONS, TYPE=TEMPERATURE", "1, 20."]
+    _, places = insert(tmp_path, material=WARM, model=model, step=["*TEMPERATURE", "1, 20."])
+    assert places == []
+    model = ["*INITIAL CONDITIONS, TYPE=STRESS", "LOW, 0., 0., 0."]
+    assert insert(tmp_path, model=model)[1] == []
