@@ -191,8 +191,8 @@ KEYWORDS = (
             one_of("SECTION", "profile", _SECTIONS, required=True, refused=(*_MORE, "ELBOW")),
             *ignored("TEMPERATURE"),
         ),
-        f"{_DATA}; then approximate n1, in a part in its axes, blank for 0, 0, -1 (beams in a plane always have this one); then numbers of "
-        "section points, which must be the default ones",
+        f"{_DATA}; then approximate n1, in a part in its axes, blank for 0, 0, -1 (beams in a plane always have this "
+        "one); then numbers of section points, which must be the default ones",
     ),
     Keyword(
         "BEAM GENERAL SECTION",

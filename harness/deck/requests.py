@@ -14,10 +14,11 @@ from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh
 from harness.deck.table import Keyword, Kind, Option, Where, compact, ignored, one_of, refused
 from harness.deck.user_elements import LARGEST_DOF
+from harness.errors import Source
 from harness.model.arrays import IntArray
 from harness.model.nodal import COMPONENTS
-from harness.model.records import ENERGIES
-from harness.model.steps import ElementRequest, NodeRequest, OutputRequests, Position
+from harness.model.records import ELEMENT_ENERGIES, ENERGIES
+from harness.model.steps import ElementRequest, EnergyRequest, NodeRequest, OutputRequests, Position
 
 PRESELECTED_NODAL = ("U", "RF", "CF")
 NEVER = 0
@@ -42,6 +43,8 @@ class RequestReader:
         self._requests = OutputRequests(history_energies=ENERGIES)
         self._open: _Open | None = None
         self._dropped: set[str] = set()
+        self.energies: list[tuple[Source, str]] = []
+        """Energies of the whole model that the step asks for itself."""
         self._readers: dict[str, Callable[[Block], None]] = {
             "OUTPUT": self._output,
             "NODE OUTPUT": self._node_output,
@@ -59,7 +62,7 @@ class RequestReader:
     def read_step(self, blocks: list[Block]) -> OutputRequests:
         """Requests in force in a step."""
         self._open = None
-        self._dropped = set()
+        self._dropped, self.energies = set(), []
         for block in blocks:
             if self.reads(block):
                 with self._problems.gather():
@@ -98,7 +101,8 @@ class RequestReader:
         if "FIELD" in kinds - self._dropped:
             self._requests = replace(self._requests, field_frequency=NEVER, field_intervals=0)
         if "HISTORY" in kinds - self._dropped:
-            self._requests = replace(self._requests, history_nodes=(), history_energies=(), history_frequency=1)
+            none = replace(self._requests, history_nodes=(), history_energies=(), history_sets=())
+            self._requests = replace(none, history_frequency=1)
         if "NODE PRINT" in kinds - self._dropped:
             self._requests = replace(self._requests, node_print=())
         if "EL PRINT" in kinds - self._dropped:
@@ -123,9 +127,19 @@ class RequestReader:
             self._requests = replace(self._requests, history_nodes=(*self._requests.history_nodes, request))
 
     def _energy_output(self, block: Block) -> None:
+        options = block.options
+        if options.given("PER ELEMENT SET") or options.given("PER SECTION"):
+            message = "PER ELEMENT SET and PER SECTION are not supported; ELSET= is, with the energies of a set"
+            self._problems.warn(block.source, f"*ENERGY OUTPUT: {message}")
         if self._history(block) is None:
             return
+        if elset := options.text("ELSET"):
+            elements = np.unique(self._flat.elements(elset, block.source))
+            request = EnergyRequest(elset, elements, _listed(block) or ELEMENT_ENERGIES)
+            self._requests = replace(self._requests, history_sets=(*self._requests.history_sets, request))
+            return
         names = _listed(block) or ENERGIES
+        self.energies += [(block.source, name) for name in names]
         energies = tuple(dict.fromkeys((*self._requests.history_energies, *names)))
         self._requests = replace(self._requests, history_energies=energies)
 
@@ -224,9 +238,14 @@ KEYWORDS = (
     ),
     Keyword(
         "ENERGY OUTPUT",
-        "Energies of the whole model, of the *OUTPUT, HISTORY before.",
+        "Energies of the whole model, or of an element set, of the *OUTPUT, HISTORY before. In linear steps sets have "
+        "none, and the model those of the procedure: ALLSE and ALLWK of *STATIC.",
         Where.STEP,
-        (_VARIABLE, *ignored("ELSET", "PER ELEMENT SET", "PER SECTION")),
+        (
+            Option("ELSET", Kind.NAME, f"element set, which has {', '.join(ELEMENT_ENERGIES)}"),
+            _VARIABLE,
+            *(Option(name, doc="not supported: a warning") for name in ("PER ELEMENT SET", "PER SECTION")),
+        ),
         "variables",
     ),
     Keyword(

@@ -19,6 +19,7 @@ from harness.deck.procedures import read_procedure
 from harness.deck.requests import RequestReader
 from harness.deck.structure import Scope
 from harness.deck.table import Keyword, Kind, Option, Where, ignored, one_of, refused
+from harness.errors import Source
 from harness.model.amplitude import AmplitudeType, UserAmplitude
 from harness.model.procedures import Procedure
 from harness.model.steps import ON_EDGES, DistributedLoad, ElementLoad, LoadKind, Step
@@ -73,6 +74,7 @@ def read_steps(
         with problems.gather():
             procedure = read_procedure(scope, prescription)
             if procedure.energies is not None:
+                _check_energies(scope, procedure, requests, problems)
                 output = replace(output, history_energies=procedure.energies)
             check_parts(scope.blocks, problems, harmonic=procedure.harmonic)
             increments = options.integer("INC", MOST_INCREMENTS)
@@ -117,6 +119,22 @@ def read_steps(
         if step.procedure.linear and step.procedure.loaded:
             _check_perturbation(step, problems)
     return tuple(steps)
+
+
+def _check_energies(scope: Scope, procedure: Procedure, requests: RequestReader, problems: Problems) -> None:
+    """Name what a step asks for and its procedure does not have."""
+    known = procedure.energies or ()
+    has = f"which has {', '.join(known)}" if known else "which has no energies"
+    where = f"*{procedure.keyword} (step at {scope.head.source}), {has}"
+    by_place: dict[Source, list[str]] = {}
+    for source, name in requests.energies:
+        if name not in known:
+            by_place.setdefault(source, []).append(name)
+    for source, names in by_place.items():
+        problems.warn(source, f"*ENERGY OUTPUT: {', '.join(names)} not available in {where}; left out")
+    for block in scope.blocks:
+        if block.name == "ENERGY PRINT" and not known:
+            problems.warn(block.source, f"*ENERGY PRINT: nothing is printed in {where}")
 
 
 def _check_smoothing(step: Step, problems: Problems) -> None:

@@ -20,13 +20,12 @@ from harness.elements.watch import Watch
 from harness.errors import ElementError, KernelError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.mesh import ElementGroup
-from harness.model.records import ElementState, PointVariables
+from harness.model.records import PLASTIC, ElementState, PointVariables
 from harness.model.restart import Saved
 from harness.usersub import Library, _binding, _points
 from harness.usersub.exchange import BlockArrays, LoadArrays, Outcome, UnknownFields
 from harness.usersub.faults import Entries, Fault, Guards
 
-_PLASTIC: Final = 3
 """Index of ENERGY(4)."""
 
 MOST_INTERRUPTED: Final = 5
@@ -321,7 +320,7 @@ class ElementBlock:
         self._watch.pnewdt(call, outcome.pnewdt)
         energy, damage = outcome.energy, 0.0
         if self._routine.damages:
-            damage, energy[_PLASTIC] = float(energy[_PLASTIC]), 0.0
+            damage, energy[PLASTIC] = float(energy[PLASTIC]), 0.0
         return self._report(outcome, energy, damage)
 
     def _count_interrupted(self, outcome: Outcome) -> None:
@@ -615,7 +614,7 @@ class ElementBlock:
             Of the group in the model.
         """
         arrays = self._arrays
-        return ElementState(index, self._extended(arrays.svars, arrays.history), arrays.energy.copy(), self.variables)
+        return self._state(index, self._extended(arrays.svars, arrays.history), arrays.energy)
 
     def trial(self, index: int) -> ElementState:
         """State that the last call that keeps one has left, copied.
@@ -627,7 +626,10 @@ class ElementBlock:
         """
         arrays = self._arrays
         svars = self._extended(arrays.svars_trial, arrays.history_trial)
-        return ElementState(index, svars, arrays.energy_trial.copy(), self.variables)
+        return self._state(index, svars, arrays.energy_trial)
+
+    def _state(self, index: int, svars: FloatArray, energy: FloatArray) -> ElementState:
+        return ElementState(index, svars, energy.copy(), self.variables, self._routine.damages)
 
     def _extended(self, svars: FloatArray, history: FloatArray) -> FloatArray:
         """Copy of SVARS without the hidden ones, with STATEV and UVAR after those of each point."""

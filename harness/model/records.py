@@ -175,6 +175,29 @@ ENERGIES: Final = (
 )
 """Energies of the whole model that a general step has."""
 
+ELEMENT_ENERGIES: Final = ("ALLAE", "ALLCD", "ALLDMD", "ALLIE", "ALLKE", "ALLPD", "ALLSE", "ALLVD")
+"""Those that are sums over elements, which element sets have too."""
+
+
+PLASTIC: Final = 3
+"""Place in ENERGY of what plasticity or, in some elements, damage dissipates."""
+
+
+def energies_of_elements(energy: FloatArray, damage: float) -> dict[str, float]:
+    """Return energies by Abaqus name from a sum (8,) of ENERGY, and what damage dissipates."""
+    kinetic, elastic, creep, plastic, viscous, artificial, electrostatic = (float(e) for e in energy[:7])
+    return {
+        "ALLSE": elastic,
+        "ALLPD": plastic,
+        "ALLDMD": damage,
+        "ALLCD": creep,
+        "ALLVD": viscous,
+        "ALLAE": artificial,
+        "ALLKE": kinetic,
+        "ALLIE": elastic + plastic + damage + creep + artificial + electrostatic,
+    }
+
+
 MODAL: Final = ("EIGVAL", "EIGFREQ", "GM")
 """Whole-model variables of a mode: eigenvalue, frequency in cycles per time, generalized mass."""
 
@@ -298,12 +321,14 @@ class ElementState:
     svars     (m, number of SVARS)
     energy    (m, 8) as in ENERGY
     variables meaning of the SVARS, None where unknown (a user's own element)
+    damages   ENERGY(4) is dissipated by damage, not by plasticity
     """
 
     group: int
     svars: FloatArray
     energy: FloatArray
     variables: PointVariables | None
+    damages: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -353,6 +353,15 @@ class NodeRequest:
     sensor: str = ""
 
 
+@dataclass(frozen=True, slots=True)
+class EnergyRequest:
+    """*ENERGY OUTPUT, ELSET=: energies of a set as Abaqus names them; elements are positions in the model."""
+
+    elset: str
+    elements: IntArray
+    variables: tuple[str, ...]
+
+
 class Position(StrEnum):
     """Where the values of *EL PRINT are."""
 
@@ -383,6 +392,7 @@ class OutputRequests:
 
     history_nodes: tuple[NodeRequest, ...] = ()
     history_energies: tuple[str, ...] = ()
+    history_sets: tuple[EnergyRequest, ...] = ()
     history_frequency: int = 1
     field_frequency: int = 1
     field_intervals: int = 0

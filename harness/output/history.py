@@ -4,9 +4,9 @@
 
 Columns are step, increment, time (total time), `LPF` if the load factor is part of the solution, then what *NODE
 OUTPUT and *ENERGY OUTPUT of the steps request, in order: `U2[LOAD]` for a set of one node, `RF2[LOAD:17]` for each node
-of a larger set, `ALLSE` for an energy of the whole model. A mode of *FREQUENCY has a row, with its frequency as time.
-So does a frequency of *STEADY STATE DYNAMICS, with amplitudes and, in further columns `PU2[LOAD]`, phase angles in
-degrees. A column that a step does not request is empty there.
+of a larger set, `ALLSE` for an energy of the whole model, `ALLSE[TOP]` for that of an element set. A mode of *FREQUENCY
+has a row, with its frequency as time. So does a frequency of *STEADY STATE DYNAMICS, with amplitudes and, in further
+columns `PU2[LOAD]`, phase angles in degrees. A column that a step does not request is empty there.
 """
 
 from __future__ import annotations
@@ -20,10 +20,19 @@ import numpy as np
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.nodal import PHASE, Component, NodalIndex
-from harness.model.records import ENERGIES, MODAL, IncrementDone, Solution
-from harness.model.steps import NodeRequest
+from harness.model.records import (
+    ELEMENT_ENERGIES,
+    ENERGIES,
+    MODAL,
+    PLASTIC,
+    IncrementDone,
+    Solution,
+    energies_of_elements,
+)
+from harness.model.steps import EnergyRequest, NodeRequest
 from harness.output.formats import TextFile
 from harness.output.schedule import Schedule
+from harness.output.tables import chosen_elements
 
 FIXED = ("step", "increment", "time")
 
@@ -73,6 +82,8 @@ class HistoryFile:
                     columns.append(_Column(name))
                 else:
                     self.unavailable.append(f"{name} of step {step.number}")
+            for asked in step.output.history_sets:
+                columns += self._of_set(asked, step.number, linear=step.procedure.linear)
             chosen: dict[str, _Column] = {column.name: column for column in columns}
             for name, column in chosen.items():
                 if name not in position:
@@ -83,6 +94,13 @@ class HistoryFile:
         fixed = (*FIXED, "LPF") if self._along_path else FIXED
         csv.writer(buffer, lineterminator="\n").writerow([*fixed, *(column.name for column in self._columns)])
         self._file.write(buffer.getvalue())
+
+    def _of_set(self, request: EnergyRequest, step: int, *, linear: bool) -> list[_Column]:
+        names = [name for name in request.variables if name in ELEMENT_ENERGIES and not linear]
+        missing = [name for name in request.variables if name not in names]
+        self.unavailable += [f"{name} of element set {request.elset} in step {step}" for name in missing]
+        energies = _SetEnergies(self._model, request.elements)
+        return [_Column(f"{name}[{request.elset}]", energies=energies, key=name) for name in names]
 
     def _nodal(self, request: NodeRequest, index: NodalIndex, *, harmonic: bool) -> list[_Column]:
         names = request.variables
@@ -102,15 +120,45 @@ class HistoryFile:
         ]
 
 
-class _Column:
-    """One value of a row: of a nodal component at its position, or an energy where there is none."""
+class _SetEnergies:
+    """Energies of an element set, summed once for each increment."""
 
-    def __init__(self, name: str, component: Component | None = None, position: IntArray | None = None) -> None:
+    def __init__(self, model: Model, elements: IntArray) -> None:
+        self._model, self._elements = model, elements
+        self._last: tuple[Solution, dict[str, float]] | None = None
+
+    def of(self, solution: Solution) -> dict[str, float]:
+        """Return the energies by name."""
+        if self._last is None or self._last[0] is not solution:
+            energy, damage = np.zeros(8), 0.0
+            for _, inside, state in chosen_elements(self._elements, self._model, solution):
+                own = state.energy[inside].sum(axis=0)
+                if state.damages:
+                    damage, own[PLASTIC] = damage + own[PLASTIC], 0.0
+                energy += own
+            self._last = solution, energies_of_elements(energy, float(damage))
+        return self._last[1]
+
+
+class _Column:
+    """One value of a row: a nodal component at its position, or an energy, of a set or of the whole model."""
+
+    def __init__(
+        self,
+        name: str,
+        component: Component | None = None,
+        position: IntArray | None = None,
+        energies: _SetEnergies | None = None,
+        key: str = "",
+    ) -> None:
         self.name = name
         self._component = component
         self._position = position
+        self._energies, self._key = energies, key
 
     def value(self, solution: Solution) -> float:
+        if self._energies is not None:
+            return self._energies.of(solution)[self._key]
         if self._component is None or self._position is None:
             return float(solution.energies[self.name])
         return float(self._component.values(solution, self._position)[0])

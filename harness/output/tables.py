@@ -142,7 +142,7 @@ def _node_values(
 def element_tables(request: ElementRequest, model: Model, solution: Solution) -> str:
     """Tables of one *EL PRINT request, one for each element type that keeps any of the variables."""
     text = ""
-    for group, inside, state in _chosen(request, model, solution):
+    for group, inside, state in chosen_elements(request.elements, model, solution):
         for names, values, sections in _element_values(group, state, inside, request.variables):
             text += _element_table(request, model.mesh, group, inside, names, values, sections)
     return text
@@ -187,7 +187,7 @@ def missing_variables(
             for name in request.variables
             if not _node_values(name, request.nodes, model, solution, index, nlgeom=False)
         ]
-    chosen = _chosen(request, model, solution)
+    chosen = chosen_elements(request.elements, model, solution)
     return [
         name
         for name in request.variables
@@ -208,15 +208,15 @@ def not_extrapolated(request: ElementRequest, model: Model) -> list[str]:
     return list(dict.fromkeys(types))
 
 
-def _chosen(
-    request: ElementRequest, model: Model, solution: Solution
+def chosen_elements(
+    elements: IntArray, model: Model, solution: Solution
 ) -> list[tuple[ElementGroup, IntArray, ElementState]]:
-    """Groups with elements of the request, which of their elements, and their state."""
+    """Groups that have some of the elements (positions in the model), which of their elements, and their state."""
     states = {state.group: state for state in solution.elements}
     chosen = []
     first = 0
     for k, group in enumerate(model.groups):
-        inside = request.elements[(request.elements >= first) & (request.elements < first + len(group.labels))] - first
+        inside = elements[(elements >= first) & (elements < first + len(group.labels))] - first
         first += len(group.labels)
         if len(inside) and k in states:
             chosen.append((group, inside, states[k]))

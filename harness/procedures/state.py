@@ -14,7 +14,7 @@ from harness.elements import FIELD_NAMES, Predefined
 from harness.model.arrays import FloatArray
 from harness.model.element_types import POTENTIAL
 from harness.model.model import Model
-from harness.model.records import Solution
+from harness.model.records import Solution, energies_of_elements
 from harness.model.restart import Saved
 from harness.model.steps import Step
 from harness.model.user_values import GivesValues
@@ -177,18 +177,6 @@ class ConvergedState:
 
     def _energies(self) -> dict[str, float]:
         """Energies of the whole model as Abaqus sums them: ETOTAL is constant where the balance holds."""
-        kinetic, elastic, creep, plastic, viscous, artificial, electrostatic = (float(e) for e in self.energy[:7])
-        internal = elastic + plastic + self.damage + creep + artificial + electrostatic
-        return {
-            "ALLSE": elastic,
-            "ALLPD": plastic,
-            "ALLDMD": self.damage,
-            "ALLCD": creep,
-            "ALLVD": viscous,
-            "ALLAE": artificial,
-            "ALLSD": self.stabilization,
-            "ALLKE": kinetic,
-            "ALLIE": internal,
-            "ALLWK": self.work,
-            "ETOTAL": kinetic + internal + viscous + self.stabilization - self.work,
-        }
+        found = energies_of_elements(self.energy, self.damage)
+        total = found["ALLKE"] + found["ALLIE"] + found["ALLVD"] + self.stabilization - self.work
+        return found | {"ALLSD": self.stabilization, "ALLWK": self.work, "ETOTAL": total}
