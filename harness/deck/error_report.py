@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TypeVar
 
@@ -24,6 +24,7 @@ class Problems:
 
     def __init__(self) -> None:
         self._errors: dict[tuple[Source, str], DeckError] = {}
+        self._of_materials: dict[str, list[DeckError]] = {}
         self._warnings: dict[str, None] = {}
         self._differences: dict[str, None] = {}
 
@@ -46,6 +47,21 @@ class Problems:
             yield
         except DeckError as error:
             self._errors.setdefault((error.source, str(error)), error)
+
+    @contextmanager
+    def gather_of(self, material: str) -> Iterator[None]:
+        """Keep the DeckError that ends the body as one of a material, which is none if nothing uses the material."""
+        try:
+            yield
+        except DeckError as error:
+            self._of_materials.setdefault(material, []).append(error)
+
+    def settle(self, used: Container[str]) -> list[str]:
+        """Count the errors of materials that are used; return the names of others that have errors."""
+        for material in [name for name in self._of_materials if name in used]:
+            for error in self._of_materials.pop(material):
+                self._errors.setdefault((error.source, str(error)), error)
+        return list(self._of_materials)
 
     @property
     def warnings(self) -> tuple[str, ...]:

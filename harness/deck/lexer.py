@@ -8,9 +8,11 @@ import bisect
 import codecs
 import re
 from collections.abc import Mapping, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
 
+from harness.deck.abaqus_names import MATERIAL_KEYWORDS
 from harness.deck.blocks import Block
 from harness.deck.error_report import Problems, nearest
 from harness.deck.expressions import Value, assign, find
@@ -20,6 +22,7 @@ from harness.deck.table import (
     Option,
     Options,
     Where,
+    abaqus_name,
     compact,
     find_keyword,
     ignored,
@@ -171,6 +174,7 @@ class _Lexer:
         self._open: Block | None = None
         self._discard = False
         self._commented = False
+        self._material = ""
 
     def read(self, lines: list[str], file: str, stack: tuple[Path, ...]) -> None:
         """Take all lines of one file."""
@@ -195,7 +199,7 @@ class _Lexer:
                 self.close()
                 header = _Header(line, Source(file, number), [line])
                 number = self._join(header, lines, number)
-                with self._problems.gather():
+                with self._gather(header):
                     self._keyword(header, stack)
 
     def close(self) -> None:
@@ -294,6 +298,15 @@ class _Lexer:
             return False
         return any(compact(option.name) == compact(first) for option in keyword.options)
 
+    def _gather(self, header: _Header) -> AbstractContextManager[None]:
+        """What keeps the error of a keyword line: one in a material counts if something uses the material."""
+        name = abaqus_name(split_fields(header.text[1:])[0])
+        if name in MATERIAL_KEYWORDS and self._material:
+            return self._problems.gather_of(self._material)
+        if name != "INCLUDE":
+            self._material = ""
+        return self._problems.gather()
+
     def _keyword(self, header: _Header, stack: tuple[Path, ...]) -> None:
         """Open the block of a keyword line, or read the file it includes."""
         self._discard, previous, self._open = True, self._open, None
@@ -301,7 +314,12 @@ class _Lexer:
         text = self._substitute(header.text, source)
         self.depends |= text != header.text and "INPUT" in text.upper()
         fields = split_fields(text[1:])
-        keyword = find_keyword(self._keywords, fields[0], source)
+        try:
+            keyword = find_keyword(self._keywords, fields[0], source)
+        except DeckError:
+            # it may be in a material that nothing uses
+            self.passages.append(Passage(None, 0, header.lines))
+            raise
         if keyword.name == "INCLUDE":
             self._open = previous
             self.passages.append(Passage(None, 0, [f"** {line}" for line in header.lines]))
@@ -317,6 +335,8 @@ class _Lexer:
         self.passages.append(Passage(self._open, -1, header.lines))
         # a block with a wrong option stays, so that one wrong *STEP does not condemn all that follows
         self._open.options = options = _options(keyword, fields[1:], source)
+        if keyword.name == "MATERIAL":
+            self._material = options.text("NAME")
         if options.known("INPUT") and options.given("INPUT"):
             self._include(options.text("INPUT"), source, stack)
 

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -25,6 +26,7 @@ from harness.deck.piezoelectric import KEYWORDS as PIEZO_OPTIONS
 from harness.deck.piezoelectric import extend_electrical
 from harness.deck.plastic import KEYWORDS as PLASTIC_OPTIONS
 from harness.deck.plastic import extend_plastic
+from harness.deck.structure import Structure
 from harness.deck.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
 from harness.deck.user_constants import MOST_VARIABLES, read_constants
 from harness.deck.user_elements import read_count
@@ -38,12 +40,45 @@ DEPENDENT = (ElasticType.ISOTROPIC, ElasticType.LAMINA, ElasticType.ENGINEERING_
 MOST_FIELDS = 1000
 
 
-def read_materials(blocks: list[Block], problems: Problems) -> dict[str, Material]:
-    """Materials: *MATERIAL and the options that follow it at once."""
+def leave_out_unused(structure: Structure, problems: Problems) -> None:
+    """Drop the materials that have errors and that nothing uses: in Abaqus what they hold has no effect either."""
+    _list_unused(problems.settle(structure.materials), structure)
+    left_out = {name for name, _ in structure.ignored}
+    kept: list[Block] = []
+    inside = False
+    for block in structure.root:
+        if block.name == "MATERIAL":
+            inside = _label(block.options.text("NAME")) in left_out
+        elif block.name not in MATERIAL_OPTIONS:
+            inside = False
+        if not inside:
+            kept.append(block)
+    structure.root = kept
+
+
+def _list_unused(names: Sequence[str], structure: Structure) -> None:
+    listed = {name for name, _ in structure.ignored}
+    for block in structure.root:
+        if block.name == "MATERIAL" and (name := block.options.text("NAME")) in names and _label(name) not in listed:
+            structure.ignored.append((_label(name), block.source))
+
+
+def _label(material: str) -> str:
+    """What the list of ignored keywords calls a material."""
+    return f"MATERIAL, NAME={material}"
+
+
+def read_materials(blocks: list[Block], structure: Structure, problems: Problems) -> dict[str, Material]:
+    """Return the materials: *MATERIAL and the options that follow it at once.
+
+    blocks: those of the model, in the structure, without the options of contact properties. Errors in a material count
+    where something uses it, else the structure lists it among what is ignored.
+    """
     materials: dict[str, Material] = {}
     current: str | None = None
     for block in blocks:
-        with problems.gather():
+        inside = current is not None and block.name in MATERIAL_OPTIONS
+        with problems.gather_of(current) if inside and current else problems.gather():
             if block.name == "MATERIAL":
                 current = block.options.text("NAME")
                 materials[current] = Material(current, block.source)
@@ -53,6 +88,7 @@ def read_materials(blocks: list[Block], problems: Problems) -> dict[str, Materia
                 materials[current] = _extend(materials[current], block, problems)
             else:
                 current = None
+    _list_unused(problems.settle(structure.materials), structure)
     return materials
 
 
@@ -256,7 +292,7 @@ MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *_OTHERS, *_FIELDS)}
 KEYWORDS = (
     Keyword(
         "MATERIAL",
-        "Begin a material.",
+        "Begin a material. One that no section names may hold what is not supported: it is listed and has no effect.",
         Where.MODEL,
         (NAME, *refused("RTOL", "SRATE FACTOR", "STRAIN RATE REGULARIZATION")),
     ),

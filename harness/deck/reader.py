@@ -24,7 +24,7 @@ from harness.deck.initial import read_initial_solutions, read_initial_stresses, 
 from harness.deck.interactions import Interactions
 from harness.deck.keywords import KEYWORDS
 from harness.deck.lexer import Survey, read_blocks, survey_blocks
-from harness.deck.materials import read_materials
+from harness.deck.materials import leave_out_unused, read_materials
 from harness.deck.physical_constants import read_physical_constants
 from harness.deck.prescribed import Prescription
 from harness.deck.profiles import reference_dofs
@@ -84,13 +84,14 @@ def read_deck(
     structure, restarts = join_parts(parts, blocks, KEYWORDS, problems)
     if not parts:
         refuse_reading(structure, problems)
+    leave_out_unused(structure, problems)
     if problems.found:
         refuse_types(blocks, problems)
     problems.check()
     interactions = Interactions(structure.root, problems)
     root = interactions.without_options(structure.root)
     _check_repetition(root, structure, problems)
-    materials = read_materials(root, problems)
+    materials = read_materials(root, structure, problems)
     in_steps = [block for scope in structure.steps for block in scope.blocks]
     amplitudes = read_amplitudes([*structure.root, *in_steps], problems)
     flat = FlatMesh(structure, problems)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from harness.deck.blocks import Block
 from harness.deck.error_report import Problems, nearest
-from harness.deck.table import NAME, Keyword, Kind, Option, Support, Where, ignored, refused
+from harness.deck.table import NAME, Keyword, Kind, Option, Support, Where, ignored, refused, unquote
 from harness.errors import DeckError, Source
 
 _ENDS = {"END PART": "PART", "END ASSEMBLY": "ASSEMBLY", "END INSTANCE": "INSTANCE", "END STEP": "STEP"}
@@ -45,6 +45,15 @@ class Structure:
     instances: dict[str, Scope] = field(default_factory=dict)
     steps: list[Scope] = field(default_factory=list)
     ignored: list[tuple[str, Source]] = field(default_factory=list)
+
+    @property
+    def materials(self) -> frozenset[str]:
+        """Names that keywords give as MATERIAL=, and all words on data lines of sections, which may have layers."""
+        scopes = *self.parts.values(), *self.instances.values()
+        blocks = [*self.root, *(block for scope in scopes for block in scope.blocks)]
+        found = {block.options.values.get("MATERIAL", "") for block in blocks}
+        rows = (row for block in blocks if block.name.endswith("SECTION") for row in block.rows())
+        return frozenset(found.union(unquote(field) for row in rows for field in row.fields))
 
     @property
     def of_instances(self) -> dict[str, list[Block]]:

@@ -192,14 +192,19 @@ _REASONS = {
 _ABAQUS = {compact(name): name for name in ABAQUS_KEYWORDS}
 
 
+def abaqus_name(name: str) -> str:
+    """Name of the keyword of Abaqus that is called so, or of the only one that begins so; '' without any."""
+    wanted = compact(name)
+    begins = [wanted] if wanted in _ABAQUS else [full for full in _ABAQUS if wanted and full.startswith(wanted)]
+    return _ABAQUS[begins[0]] if len(begins) == 1 else ""
+
+
 def find_keyword(keywords: Mapping[str, Keyword], name: str, source: Source) -> Keyword:
     """Keyword of this name, or the only one of Abaqus that begins like this; DeckError says whether Abaqus has it."""
     wanted = compact(name)
     if not wanted:
         raise DeckError(source, "a keyword line without a keyword; a comment begins with **")
-    begins = [full for full in _ABAQUS if full.startswith(wanted)] if wanted not in _ABAQUS else []
-    if len(begins) == 1:
-        wanted = begins[0]
+    wanted = compact(abaqus_name(name)) or wanted
     if wanted in keywords:
         return keywords[wanted]
     if wanted in _ABAQUS:

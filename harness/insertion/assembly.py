@@ -21,6 +21,7 @@ from harness.deck.groups import node_indices
 from harness.deck.keywords import KEYWORDS
 from harness.deck.lexer import read_passages
 from harness.deck.local_mesh import ElementRun
+from harness.deck.materials import leave_out_unused
 from harness.deck.sections import SECTION_KEYWORDS
 from harness.deck.structure import Structure, sort_blocks
 from harness.errors import DeckError, Source, UsageError
@@ -54,6 +55,7 @@ class Deck:
         self.file = files[-1]
         self.blocks, self.passages = read_passages(files, KEYWORDS, problems, made)
         self.structure: Structure = sort_blocks(self.blocks, problems)
+        leave_out_unused(self.structure, problems)
         problems.check()
         self.flat = FlatMesh(self.structure, problems)
         problems.check()

@@ -122,8 +122,8 @@ class Sections:
         self._problems = Problems()
         self._deck = deck
         root = deck.structure.root
-        without = Interactions(root, self._problems).without_damage(root)
-        self._materials = read_materials(without, self._problems)
+        without = Interactions(root, self._problems).without_options(root)
+        self._materials = read_materials(without, deck.structure, self._problems)
         self._orientations = read_orientations(deck.flat, self._problems)
         self._controls = read_section_controls(root, self._problems)
         self._problems.check()

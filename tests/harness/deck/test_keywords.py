@@ -112,7 +112,7 @@ def test_every_option_that_a_reader_asks_for_is_of_an_entry_beside_it() -> None:
                 elsewhere.add((stem, name))
     assert asked > 100
     # what is asked for again, or of several keywords
-    named = {("groups", "ELSET")}
+    named = {("groups", "ELSET"), ("lexer", "NAME")}
     assert elsewhere == {*named, ("procedures", "PERTURBATION"), ("steps", "OP")}
 
 

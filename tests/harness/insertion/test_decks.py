@@ -347,6 +347,14 @@ def test_each_pair_of_sections_has_its_set(tmp_path):
     }  # fmt: skip
 
 
+def test_a_material_that_nothing_uses_stays(tmp_path):
+    path = deck(tmp_path, strip())
+    spare = "*MATERIAL, NAME=SPARE\n*CONCRETE\n1., 2.\n"
+    path.write_text(path.read_text().replace("*STEP", f"{spare}*STEP", 1))
+    inserted(path, tmp_path / "out.inp", between=[("LOW", "HIGH")])
+    assert spare in (tmp_path / "out.inp").read_text()
+
+
 ERRORS = [
     ({"between": [("LOW", "HIHG")]}, {}, r"--between: the mesh has no element set HIHG .*did you mean HIGH\?"),
     ({"between": [("LOW", "BODY")]}, {}, "--between LOW BODY: element 1 is in both sets"),

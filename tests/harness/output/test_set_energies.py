@@ -97,7 +97,8 @@ def test_damage_is_no_plastic_dissipation(run):
     # the layer opens by 0.5 in some 60 increments, of which the last one before it fails counts in part
     assert history["ALLDMD[GLUE]"][-1] == pytest.approx(0.25, rel=1 / 60)
     for name in ("ALLPD[GLUE]", "ALLDMD[LONG]", "ALLPD[LONG]"):
-        assert not history[name].any()
+        # of the strain energy in the bar, up to 1e-3, rounding remains
+        assert np.abs(history[name]).max() < 1e-15
 
 
 def test_what_sets_do_not_have(run):
