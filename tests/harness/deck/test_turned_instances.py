@@ -101,6 +101,13 @@ def cylindrical(points):
     return "*ORIENTATION, NAME=O, SYSTEM=CYLINDRICAL\n" + line(points([[3.0, 1.0, 0.0], [3.0, 1.5, 1.0]]).ravel())
 
 
+def coupled(points, directions):
+    """The loaded node 2 moves as the mean of the top."""
+    text = brick(rectangular)(points, directions).replace(", 2, 8\n", ", 9, 8\n").replace("\n2, ", "\n9, ")
+    text += "*NODE\n" + line(points([[0.4, 0.5, 2.0]])[0], 2) + "*SURFACE, NAME=TOP\nALL, S2\n"
+    return text + "*COUPLING, CONSTRAINT NAME=C, REF NODE=2, SURFACE=TOP\n*DISTRIBUTING\n"
+
+
 HELD = "*BOUNDARY\n{0}3, 1, 3\n{0}4, 1, 3\n{0}5, 1, 3\n"
 CASES = {
     "n1": (beam([0.0, 1.0, 0.0]), MATERIAL),
@@ -111,6 +118,7 @@ CASES = {
     "normals of nodes": (with_normals, MATERIAL),
     "orientation": (brick(rectangular), FIBRES),
     "cylindrical orientation": (brick(cylindrical), FIBRES),
+    "distributing coupling": (coupled, FIBRES),
 }
 
 
