@@ -23,6 +23,7 @@ from harness.model.element_types import (
     QUAD8,
     TRI3,
     TRI6,
+    CohesiveType,
     ContinuumType,
     Face,
     Family,
@@ -234,8 +235,10 @@ class Surfaces:
         group = self._groups[k]
         local = face_nodes(group, line.face, line.row.source, "SURFACE")
         kind = group.built_in
-        assert isinstance(kind, SolidType | SurfaceType | RigidType)
         nodes: IntArray = group.nodes[element - self._starts[k]][list(local)]
+        if isinstance(kind, CohesiveType):
+            return kind.face, nodes
+        assert isinstance(kind, SolidType | SurfaceType | RigidType)
         whole = not isinstance(kind, SolidType) and len(local) == kind.nodes
         return kind.family if whole else kind.family.face_family(local), nodes
 
@@ -283,6 +286,9 @@ def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> 
         faces = kind.sides | kind.edges
     elif isinstance(kind, RigidType):
         faces = kind.sides
+    elif isinstance(kind, CohesiveType):
+        # as faces 1 and 3 of a quadrilateral, 1 and 2 of a brick (Elements Guide, COH2D4 and COH3D8)
+        faces = {"S1": kind.bottom, "S3" if kind.dimension == 2 else "S2": kind.top}
     if face not in faces:
         known = ", ".join(faces) or "none"
         raise DeckError(source, f"*{keyword}: elements of type {group.type} have no face {face} (faces: {known})")
@@ -290,16 +296,18 @@ def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> 
 
 
 def family_of_face(group: ElementGroup, local: Face) -> Family | None:
-    """The family of a face of solids or rigid elements, None of others."""
+    """The family of a face of solids, rigid or cohesive elements, None of others."""
     kind = group.built_in
     if isinstance(kind, RigidType):
         return kind.family
+    if isinstance(kind, CohesiveType):
+        return kind.face
     return kind.family.face_family(local) if isinstance(kind, ContinuumType) else None
 
 
 def linear_face(group: ElementGroup, local: Face) -> Family | None:
     """The family of a face of solids or rigid elements, None where it is another one, or has middle nodes."""
-    family = family_of_face(group, local)
+    family = None if isinstance(group.built_in, CohesiveType) else family_of_face(group, local)
     return family if family in (LINE2, TRI3, QUAD4) else None
 
 
@@ -330,7 +338,7 @@ KEYWORDS = (
             *refused("CROP"),
         ),
         "COMBINE: names of surfaces, two but for UNION; or set or element, face (S1, S2, ...; SPOS, SNEG of shells and "
-        "rigid elements; E1, E2, ... of shells); or node set or node; or START, x, y, then LINE, x, y or CIRCL, x, y, "
-        "x and y of the centre",
+        "rigid elements; E1, E2, ... of shells; S1, S2 of COH3D8; S1, S3 of COH2D4); or node set or node; or START, x, "
+        "y, then LINE, x, y or CIRCL, x, y, x and y of the centre",
     ),
 )

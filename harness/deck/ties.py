@@ -264,7 +264,8 @@ KEYWORDS = (
     Keyword(
         "TIE",
         "Tie surfaces: all dofs of the nodes of the first one follow the second. Where nodes do not match, those of "
-        "the first follow the faces of the second, of solids, at the points that are nearest to them.",
+        "the first follow the faces of the second, of solids or cohesive elements, at the points that are nearest to "
+        "them.",
         Where.MODEL,
         (
             NAME,

@@ -353,3 +353,79 @@ def test_face_whose_area_is_lost_in_rounding(run):
     assert far != text
     with pytest.raises(DeckError, match=r"\*TIE: node \d+ .*of the first surface is farther than 0.01"):
         run(far)
+
+
+# ------------------------------------------------------------ cohesive elements with a mesh of their own
+
+K = 500.0
+"""Traction per separation of a layer without thickness."""
+
+
+def glued(kind, lower, layer, upper, *, secondary=True):
+    """Two boxes on a layer of cohesive elements; it is the secondary side of both ties, or the main one."""
+    flat = len(lower) == 1
+    bodies = boxes(kind, lower, upper)
+    low, high = ((0, 1), (2, 1)) if flat else ((0, 0, 1), (2, 1, 1))
+    glue = Box("GLUE", "COH2D4" if flat else "COH3D8", low, high, (*layer, 1), first=5001)
+    lines = glue.lines()
+    lines[-2:] = ["*COHESIVE SECTION, ELSET=GLUE, MATERIAL=G, RESPONSE=TRACTION SEPARATION", "1., 1.5"]
+    ties = [("GLUE_LOW", "LOWER_HIGH"), ("GLUE_HIGH", "UPPER_LOW")]
+    for k, tie in enumerate(ties):
+        first, second = tie if secondary else tie[::-1]
+        lines += [f"*TIE, NAME=T{k}, TYPE=NODE TO SURFACE", f"{first}, {second}"]
+    lines += ["*MATERIAL, NAME=G", f"*ELASTIC, TYPE=TRACTION\n{K}, {K}, {K}"]
+    held = "*BOUNDARY\nLOWER_BOTTOM, 1, 3\nUPPER_TOP, 1, 3\n" if flat else "*BOUNDARY\nLOWER_BOTTOM, 1, 3\n"
+    held = held.replace("3\n", "2\n") if flat else held + "UPPER_TOP, 1, 2\n"
+    axis = len(low)
+    pull = f"*STEP\n*STATIC\n1., 1.\n{held}*BOUNDARY\nUPPER_TOP, {axis}, {axis}, 0.01\n*OUTPUT, FIELD\n*END STEP\n"
+    text = [*bodies[0].lines(), *bodies[1].lines(), *lines, "*MATERIAL, NAME=M", f"*ELASTIC\n{YOUNG}, 0."]
+    return "\n".join(text) + "\n" + pull, axis
+
+
+@pytest.mark.parametrize("secondary", [True, False])
+@pytest.mark.parametrize(
+    ("kind", "lower", "layer", "upper"),
+    [
+        ("CPE4", (2,), (2,), (2,)),
+        ("CPS4", (2,), (4,), (1,)),
+        ("C3D8", (2, 1), (2, 1), (2, 1)),
+        ("C3D8", (2, 1), (4, 2), (1, 1)),
+    ],
+)
+def test_cohesive_layer_tied_to_solids(run, kind, lower, layer, upper, secondary):
+    """A layer between two bars of length 1: u = s (2/E + 1/K), without Poisson's ratio."""
+    if not secondary:
+        # the finer side follows
+        lower, layer, upper = layer, lower, layer
+    text, axis = glued(kind, lower, layer, upper, secondary=secondary)
+    result = run(text)
+    stress = 0.01 / (2 / YOUNG + 1 / K)
+    solids = result.field(f"S{axis}{axis}")
+    np.testing.assert_allclose(solids[np.isfinite(solids)], stress, rtol=1e-9)
+
+
+@pytest.mark.parametrize(("face", "named"), [("S4", "S1, S2"), ("SPOS", "S1, S2")])
+def test_other_faces_of_cohesive_elements(tmp_path, face, named):
+    text, _ = glued("C3D8", (1, 1), (1, 1), (1, 1))
+    (tmp_path / "deck.inp").write_text(text.replace("GLUE_HIGH, S2", f"GLUE_HIGH, {face}"))
+    with pytest.raises(DeckError, match=rf"\*SURFACE: elements of type COH3D8 have no face {face} \(faces: {named}\)"):
+        read_deck(tmp_path / "deck.inp")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("*STATIC\n1., 1.\n", "*STATIC\n1., 1.\n*DSLOAD\nGLUE_HIGH, P, 1.\n", "load type P on elements of type COH3D8"),
+        (
+            "*TIE, NAME=T1, TYPE=NODE TO SURFACE\nGLUE_HIGH, UPPER_LOW",
+            "*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I\nUPPER_LOW, GLUE_HIGH",
+            "faces of elements of type COH3D8 are not supported in contact pairs",
+        ),
+    ],
+)
+def test_what_cohesive_faces_do_not_take(tmp_path, old, new, message):
+    text, _ = glued("C3D8", (1, 1), (1, 1), (1, 1))
+    assert old in text
+    (tmp_path / "deck.inp").write_text(text.replace(old, new))
+    with pytest.raises(DeckError, match=message):
+        read_deck(tmp_path / "deck.inp")
