@@ -60,17 +60,18 @@ class ConstraintReader:
         self.arms: tuple[Arm, ...] = ()
         self.couplings: list[Distributing] = []
 
+    def adjust(self) -> None:
+        """Find what ties join, and move nodes by their ADJUST."""
+        self._ties.find(self._active, self._axisymmetric)
+
     def read(self, boundaries: Sequence[Boundary], steps: Sequence[Step]) -> tuple[Equation, ...]:
         """Equations of all constraints of the deck; boundaries are those before the first step.
 
         `arms` are those that have finite rotations; `couplings` have them too, and no equations.
         """
         self._finite = any(step.nlgeom for step in steps)
-        ties = [block for owner in self._flat.owners for block in owner.blocks if block.name == "TIE"]
-        if self._finite or ties:
-            self._held = _held_at_zero(boundaries, steps)
-        with self._problems.gather():
-            self._ties.read_sector(ties, steps)
+        self._held = _held_at_zero(boundaries, steps)
+        self._ties.check(steps)
         found: list[Equation] = []
         readers = {
             "MPC": self._mpc,
@@ -293,7 +294,8 @@ class ConstraintReader:
             yield from self._follow(node, reference, dofs, block.source)
 
     def _tie(self, block: Block, owner: Owner) -> Iterator[Equation]:
-        yield from self._ties.read(block, owner, self._active, self._held)
+        del owner
+        yield from self._ties.read(block, self._held, nlgeom=self._finite)
 
 
 def reference_node(block: Block, owner: Owner, flat: FlatMesh) -> int:

@@ -101,7 +101,9 @@ def read_deck(
     groups = make_groups(flat, materials, read_section_controls(structure.root, problems), problems)
     if not structure.steps:
         raise DeckError(Source(str(path), 1), "the deck has no *STEP")
-    # first, since it may move nodes
+    # first, since they may move nodes
+    constraints = ConstraintReader(flat, groups, problems)
+    constraints.adjust()
     contacts: tuple[ContactPair | SlidingPair, ...] = ContactReader(flat, groups, interactions, problems).read()
     contacts += GeneralContact(flat, groups, interactions, problems).read(structure.root)
     built_in = np.concatenate([np.full(len(group.labels), group.definition is None) for group in groups])
@@ -121,7 +123,6 @@ def read_deck(
     solutions = read_initial_solutions(structure.root, flat, problems)
     stresses = read_initial_stresses(structure.root, flat, problems)
     equations = read_equations(flat, problems)
-    constraints = ConstraintReader(flat, groups, problems)
     steps = read_steps(structure.steps, prescription, RequestReader(flat, problems), problems)
     # a step with errors is missing
     steps = tuple(replace(step, restart=restarts[step.number - 1]) for step in steps)

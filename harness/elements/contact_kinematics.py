@@ -146,8 +146,8 @@ class SmallSliding:
         sums = np.concatenate([pair.slopes[..., : dimension - 1], pair.shares[..., None]], axis=2)
         self._sums = np.einsum("mna,de->madne", sums, np.eye(dimension)).reshape(len(sums), dimension**2, -1)
         base = self._base(self._vectors(self._places)[:-1])
-        self._parts: FloatArray = np.linalg.solve(base, self._normals[..., None])[..., 0]
-        self._first: FloatArray = np.linalg.solve(base, self._first_direction()[..., None])[..., 0]
+        self._parts = np.asarray(np.linalg.solve(base, self._normals[..., None])[..., 0], dtype=np.float64)
+        self._first = np.asarray(np.linalg.solve(base, self._first_direction()[..., None])[..., 0], dtype=np.float64)
         directions = [axis.value for axis in self._axes(self._places, constant=True)[0][1:]]
         self._tangents = np.stack([self._along(direction) for direction in directions], axis=1)
         self._now: Jet | None = None

@@ -67,6 +67,9 @@ class Place:
         first = self.tangents[:, 0]
         if self.at.shape[1] == 2:
             found = np.stack([first[:, 1], -first[:, 0]], axis=1)
+        elif self.tangents.shape[1] == 1:
+            # a line in space has none
+            found = np.zeros_like(first)
         else:
             found = np.cross(first, self.tangents[:, 1])
         length = np.linalg.norm(found, axis=1)[:, None]
@@ -185,6 +188,7 @@ class FaceSurface:
         """
         dimension = coordinates.shape[1]
         self.pieces, self._coordinates, self._dimension, self._facing = pieces, coordinates, dimension, facing
+        self._along = pieces.low.shape[1]
         self.dofs = tuple(range(1, dimension + 1))
         self.unknowns = tuple((node, dof) for node in range(1, 1 + pieces.nodes.shape[1]) for dof in self.dofs)
         self._own = np.unique(pieces.nodes)
@@ -245,7 +249,7 @@ class FaceSurface:
             _, near = KDTree(places).query(points, k=min(NEAREST, len(places)))
             near = self._of_node[near.reshape(len(points), -1)].reshape(len(points), -1)
             found = self._nearest(present, points, looks, np.concatenate([before[:, None], near], axis=1))[0]
-        natural, above = np.zeros((len(points), self._dimension - 1)), np.zeros(len(points), dtype=np.bool_)
+        natural, above = np.zeros((len(points), self._along)), np.zeros(len(points), dtype=np.bool_)
         rows = np.arange(len(points))
         for _ in range(WALK):
             last = found[rows]
@@ -262,6 +266,10 @@ class FaceSurface:
         before, looks = np.zeros(len(points), dtype=np.int64), np.zeros_like(points)
         piece, natural, _ = self.track(points, looks, moved, before, everywhere=True)
         return np.asarray(np.linalg.norm(points - self.at(piece, self._inside(piece, natural), moved).at, axis=1))
+
+    def locate(self, piece: IntArray, points: FloatArray) -> FloatArray:
+        """Natural coordinates (m, a) of points (m, d) on pieces (m,), extended, before any displacement."""
+        return self._project(_Present.of(self.pieces, self._coordinates), piece, points)
 
     def nearest(self, points: FloatArray) -> tuple[IntArray, FloatArray]:
         """Nodes (m, k) of the pieces, before any displacement, that are nearest to points (m, d), and their shares
@@ -284,7 +292,7 @@ class FaceSurface:
         pieces, rows = self.pieces, np.arange(len(candidates))
         least = present.least(points, looks, candidates, self._facing)
         first = least.argmin(axis=1)
-        distance, natural = np.full(least.shape, np.inf), np.zeros((*least.shape, self._dimension - 1))
+        distance, natural = np.full(least.shape, np.inf), np.zeros((*least.shape, self._along))
         closest, natural[rows, first] = self._reach(present, points, looks, candidates[rows, first])
         distance[rows, first] = closest
         margin = EQUAL * present.sizes[candidates]

@@ -24,6 +24,11 @@ def run(tmp_path):
     return run
 
 
+def read(tmp_path, text):
+    (tmp_path / "deck.inp").write_text(text)
+    return read_deck(tmp_path / "deck.inp")
+
+
 # ------------------------------------------------------------ meshes that do not match
 
 
@@ -160,14 +165,17 @@ def test_both_sides_held(run, tmp_path):
     result = run(tied(*boxes("CPS4", (2,), (6,)), [PULL], tie="TYPE=SURFACE TO SURFACE", model=held))
     np.testing.assert_allclose(result.field("S22"), YOUNG * 0.005, rtol=1e-9)
     text = " ".join((tmp_path / "deck.dat").read_text().split())
-    assert "*TIE: nodes between those of the main surface follow its faces at their places" in text
+    assert "*TIE: nodes follow means of the main surface over their faces, which pass constant stress" in text
 
 
-def test_rounding_of_places(run):
-    """A gap within the tolerance stays, and the bodies move as if there was none."""
+@pytest.mark.parametrize("adjust", ["YES", "NO"])
+def test_gap_within_the_tolerance(run, adjust):
+    """ADJUST=YES, the default, closes a gap without strain; else the bodies move as if there was none."""
     held = "*BOUNDARY\nLOWER_BOTTOM, 2\nLOWER_LEFT, 1"
-    result = run(tied(*boxes("CPS4", (2,), (6,), gap=1e-3), [PULL], model=held))
-    np.testing.assert_allclose(result.field("S22"), YOUNG * 0.005, rtol=1e-9)
+    tie = "TYPE=NODE TO SURFACE" + ("" if adjust == "YES" else ", ADJUST=NO")
+    result = run(tied(*boxes("CPS4", (2,), (6,), gap=1e-3), [PULL], tie=tie, model=held))
+    height = 2.001 if adjust == "YES" else 2.0
+    np.testing.assert_allclose(result.field("S22"), YOUNG * 0.01 / height, rtol=1e-9)
 
 
 # ------------------------------------------------------------ cyclic symmetry
@@ -300,7 +308,7 @@ MODEL = "*CYCLIC SYMMETRY MODEL, N=9\n3.0, -2.0"
         (
             "N=9",
             "N=8",
-            r"node .* of the first surface coincides with no node of the second one .*; expected matching nodes",
+            r"no node of the first surface is within .* of the second one; expected surfaces that touch",
         ),
         ("*NSET, NSET=LAST\n", "*NSET, NSET=LAST\n1,\n", r"node 1 is on both surfaces, but not on the axis"),
     ],
@@ -323,36 +331,176 @@ def test_axis_of_one_point(run):
         run(text.replace(line, "3.0, -2.0, 1.0, 3.0, -2.0, 1.0"))
 
 
+APART = ("CPS4", (2,), (6,), 0.5)
+
+
+@pytest.mark.parametrize("kind", ["ELEMENT", "NODE"])
+def test_surfaces_apart(run, kind):
+    """No node is within 5 % of the edge of a main face, or of the distance of its nodes, which are 1."""
+    text = tied(*boxes(*APART), [PULL])
+    if kind == "NODE":
+        text = text.replace("LOWER_HIGH, S3", "LOWER_TOP").replace("NAME=LOWER_HIGH\n", "NAME=LOWER_HIGH, TYPE=NODE\n")
+    message = (
+        r"no node of the first surface is within 0\.05 of the second one; expected surfaces that touch, or a larger"
+    )
+    with pytest.raises(DeckError, match=rf"deck\.inp:\d+: \*TIE: {message} POSITION TOLERANCE"):
+        run(text)
+
+
 @pytest.mark.parametrize(
-    ("kind", "change", "message"),
+    ("option", "message"),
     [
-        (
-            "CPS4",
-            ("UPPER_LOW, S1", "UPPER_LOW, S3"),
-            r"node .* and 6 more of the first surface is farther than .* from the second one",
-        ),
-        (
-            "CPS4",
-            ("*SURFACE, NAME=LOWER_HIGH\nLOWER_HIGH, S3", "*SURFACE, NAME=LOWER_HIGH, TYPE=NODE\nLOWER_TOP"),
-            r"node .* and 3 more of the first surface coincides with no node .*, or a second surface of faces",
-        ),
+        ("TIED NSET=UPPER_BOTTOM, POSITION TOLERANCE=1.", "POSITION TOLERANCE and TIED NSET exclude each other"),
+        ("TIED NSET=NONE", "unknown node set NONE"),
     ],
 )
-def test_surfaces_that_cannot_be_tied(run, kind, change, message):
-    text = tied(*boxes(kind, (2,), (6,)), [PULL])
-    assert change[0] in text
-    with pytest.raises(DeckError, match=rf"deck\.inp:\d+: \*TIE: {message}"):
-        run(text.replace(*change))
+def test_wrong_options(run, option, message):
+    with pytest.raises(DeckError, match=message):
+        run(tied(*boxes(*APART), [PULL], tie=option))
 
 
-def test_face_whose_area_is_lost_in_rounding(run):
-    """A node so far away that the sides of its face are parallel in floating-point numbers."""
+@pytest.mark.parametrize("tie", ["TYPE=NODE TO SURFACE", "TYPE=SURFACE TO SURFACE"])
+def test_nodes_far_away_stay_untied(run, tmp_path, tie):
+    """The lower surface reaches beyond the upper one: its node 6 is free, as without the tie (nu = 0)."""
+    lower = Box("LOWER", "CPS4", (0, 0), (2, 1), (2, 1))
+    upper = Box("UPPER", "CPS4", (0, 1), (1, 2), (1, 1), first=1001)
+    held = "*BOUNDARY\nLOWER_BOTTOM, 1, 2\nUPPER_TOP, 1"
+    text = tied(lower, upper, [PULL], tie=tie, model=held).replace("UPPER_LOW, LOWER_HIGH", "LOWER_HIGH, UPPER_LOW")
+    found = run(text)
+    untied = next(k for k, x in enumerate(lower.nodes) if x.tolist() == [2.0, 1.0]) + 1
+    message = f"*TIE: nodes of the first surface farther than 0.05 from the second one stay untied: {untied}"
+    assert any(warning.endswith(message) for warning in found.warnings)
+    assert any("stay untied" in line for line in (tmp_path / "deck.dat").read_text().splitlines())
+    moved = found.field("U")
+    # the other two nodes are tied: one mesh with common nodes gives the same
+    joined = text.replace(f"*TIE, NAME=T, {tie}\nLOWER_HIGH, UPPER_LOW", "*MPC\nTIE, 1001, 2\nTIE, 1003, 4")
+    assert joined != text
+    np.testing.assert_allclose(moved, run(joined).field("U"), atol=1e-12)
+
+
+def test_tied_nset(run):
+    """Its nodes are tied whatever their distance, and no others."""
+    held = "*BOUNDARY\nLOWER_BOTTOM, 2\nLOWER_LEFT, 1"
+    result = run(tied(*boxes(*APART), [PULL], tie="TIED NSET=UPPER_BOTTOM, ADJUST=NO", model=held))
+    np.testing.assert_allclose(result.field("S22"), YOUNG * 0.005, rtol=1e-9)
+
+
+def test_face_whose_area_is_lost_in_rounding(tmp_path):
+    """A node so far away that the sides of its face are parallel in floating-point numbers: a node is tied within the
+    tolerance, or stays untied with a warning.
+    """
     lower, upper = boxes("C3D8", (1, 1), (1, 1))
-    text = tied(lower, upper, ["*STEP\n*STATIC\n*END STEP"], tie="TYPE=SURFACE TO SURFACE, POSITION TOLERANCE=0.01")
+    tie = "TYPE=NODE TO SURFACE, POSITION TOLERANCE=0.01, ADJUST=NO"
+    text = tied(lower, upper, ["*STEP\n*STATIC\n*END STEP"], tie=tie)
     far = text.replace("\n8, 2.0, 1.0, 1.0", "\n8, 2147483647., 1.0, 1.0")
     assert far != text
-    with pytest.raises(DeckError, match=r"\*TIE: node \d+ .*of the first surface is farther than 0.01"):
-        run(far)
+    model = read(tmp_path, far)
+    points, nodes = model.mesh.coordinates, set()
+    for equation in model.equations:
+        (first, dof, _), *others = equation.terms
+        nodes.add(first)
+        at = -sum(share * points[node, dof - 1] for node, _, share in others)
+        assert at == pytest.approx(points[first, dof - 1], abs=0.01)
+    untied = 4 - len(nodes)
+    assert sum("stay untied" in warning for warning in model.warnings) == (untied > 0)
+
+
+# ------------------------------------------------------------ shells
+
+SHELL = """*NODE
+1, 0., 0., 0.
+2, 2., 0., 0.
+3, 2., 1., 0.
+4, 0., 1., 0.
+11, 0., 0., 0.1
+12, 1.5, 0., 0.1
+13, 1.5, 1., 0.1
+14, 0., 1., 0.1
+15, 0., 0., 1.1
+16, 1.5, 0., 1.1
+17, 1.5, 1., 1.1
+18, 0., 1., 1.1
+*ELEMENT, TYPE=S4, ELSET=PLATE
+1, 1, 2, 3, 4
+*ELEMENT, TYPE=%s, ELSET=BODY
+2, %s
+*SHELL SECTION, ELSET=PLATE, MATERIAL=M
+0.2
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.3
+*SURFACE, NAME=S_PLATE
+PLATE, SPOS
+*SURFACE, NAME=S_BODY
+BODY, %s
+%s
+*TIE, NAME=T%s
+%s
+*STEP%s
+*STATIC
+1., 1.
+*END STEP
+"""
+SOLID = "C3D8", "11, 12, 13, 14, 15, 16, 17, 18", "S1", "*SOLID SECTION, ELSET=BODY, MATERIAL=M"
+PLATE = "S4", "11, 12, 13, 14", "SNEG", "*SHELL SECTION, ELSET=BODY, MATERIAL=M\n0.02"
+
+
+@pytest.mark.parametrize("order", ["S_BODY, S_PLATE", "S_PLATE, S_BODY"])
+@pytest.mark.parametrize("body", [SOLID, PLATE], ids=["solid", "shell"])
+def test_shells_are_tied_by_their_sides(tmp_path, body, order):
+    """Half of the thickness away. Beside a shell nodes turn with it: its rigid motion is one of the tied body.
+
+    Nodes tied to a solid follow its displacements, and their rotations stay free.
+    """
+    model = read(tmp_path, SHELL % (*body, ", POSITION TOLERANCE=0.05", order, ""))
+    points = model.mesh.coordinates
+    spin = np.array([0.3, -0.2, 0.5])
+    field = np.concatenate([np.cross(spin, points), np.broadcast_to(spin, points.shape)], axis=1)
+    main_turns = body is PLATE or order == "S_BODY, S_PLATE"
+    if not main_turns:
+        field = np.concatenate([np.broadcast_to(spin, points.shape), 0 * points], axis=1)
+    tied = 4 if order == "S_BODY, S_PLATE" else 2
+    assert len(model.equations) == tied * (6 if body is PLATE else 3)
+    for equation in model.equations:
+        assert sum(c * field[node, dof - 1] for node, dof, c in equation.terms) == pytest.approx(0.0, abs=1e-12)
+    adjusted = [warning for warning in model.warnings if "nodes beside shells stay where they are" in warning]
+    assert len(adjusted) == (body is PLATE)
+    untied = [warning for warning in model.warnings if "stay untied: 2, 3" in warning]
+    assert len(untied) == (order == "S_PLATE, S_BODY")
+
+
+@pytest.mark.parametrize("options", ["", ", NO ROTATION"])
+def test_offset_with_nlgeom(tmp_path, options):
+    text = SHELL % (*SOLID, f", POSITION TOLERANCE=0.05{options}", "S_BODY, S_PLATE", ", NLGEOM")
+    warned = [w for w in read(tmp_path, text).warnings if "follow its rotations as small ones, also with NLGEOM" in w]
+    assert len(warned) == (not options)
+
+
+def test_thickness_does_not_count(tmp_path):
+    text = SHELL % (*SOLID, ", POSITION TOLERANCE=0.05, NO THICKNESS", "S_BODY, S_PLATE", "")
+    with pytest.raises(DeckError, match=r"\*TIE: no node of the first surface is within 0\.05 of the second one"):
+        read(tmp_path, text)
+
+
+def test_edges_of_shells(tmp_path):
+    """The edge of a plate follows that of another one, at its points."""
+    body = "S4", "14, 13, 17, 18", "E1", "*SHELL SECTION, ELSET=BODY, MATERIAL=M\n0.02"
+    text = SHELL % (*body, ", POSITION TOLERANCE=0.15", "S_BODY, S_PLATE", "")
+    model = read(tmp_path, text.replace("PLATE, SPOS", "PLATE, E3"))
+    shares = {(e.terms[0][0], e.terms[0][1]): {(n, d): -c for n, d, c in e.terms[1:]} for e in model.equations}
+    assert len(shares) == 12
+    # node 13, at x = 1.5 of an edge from 2 to 0; 0.1 above it, it turns with it about y
+    row = shares[6, 1]
+    assert row[2, 1] == pytest.approx(0.75)
+    assert row[3, 1] == pytest.approx(0.25)
+    assert row[2, 5] == pytest.approx(0.075)
+
+
+def test_faces_and_edges_in_one_surface(tmp_path):
+    text = SHELL % (*SOLID, "", "S_BODY, S_PLATE", "")
+    message = r"\*TIE: surface S_PLATE has faces and edges; expected a surface of one kind"
+    with pytest.raises(DeckError, match=message):
+        read(tmp_path, text.replace("PLATE, SPOS", "PLATE, SPOS\nPLATE, E3"))
 
 
 # ------------------------------------------------------------ cohesive elements with a mesh of their own
