@@ -19,7 +19,7 @@ from harness.procedures.convergence_checks import Checker, length_of_moments
 from harness.procedures.loads import fading_forces
 from harness.procedures.state import BegunStep
 from harness.procedures.step_setting import Setting, SolverTimes, choose_rank_solver, choose_solver, places
-from harness.procedures.unconstrained import tolerate
+from harness.procedures.unconstrained import UnconstrainedSolver, tolerate
 from harness.solver.linear import LinearSolver, RankSolver
 from harness.solver.newton import Acting, Factoriser
 
@@ -68,6 +68,8 @@ class StepContext:
         self.checker = Checker(
             system.dofs, self.constraints, step.controls, state.flux, length, convert=step.convert_sdi
         )
+        if isinstance(self.solver, UnconstrainedSolver | RankSolver):
+            self.solver.negligible = self.checker.negligible_force
         self.start, self.step_time, self.increment = state.total_time, 0.0, 0
 
     def _constrain(self, setting: Setting, *, fallback: bool) -> None:

@@ -122,6 +122,11 @@ class FluxHistory:
         """History at the start of the next step: q_0 where given, else the time average of this step."""
         return FluxHistory(controls.q_0 if controls.q_0 > 0.0 else self._mean())
 
+    @property
+    def known(self) -> float:
+        """Time average flux of the converged increments, or of the step before; 0 where there was none."""
+        return self._mean() if self.count or self.initial != INITIAL_FLUX else 0.0
+
     def unknown(self, controls: FieldControls) -> bool:
         """Whether no converged increment has carried flux, and the controls give none."""
         return not (self.count or controls.q_0 or controls.q_u) and self.initial == INITIAL_FLUX

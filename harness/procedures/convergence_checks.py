@@ -166,6 +166,11 @@ class Checker:
             if check.verdict is Convergence.ZERO_FLUX and assumed and left:
                 yield check
 
+    def negligible_force(self) -> float:
+        """Largest force that is accepted without a correction in each field with flux so far; 0 before any."""
+        known = [(field.history.known, field.controls.r_l) for field in self.fields]
+        return min((r_l * flux for flux, r_l in known if flux > 0.0), default=0.0)
+
     def time_averages(self) -> dict[str, float]:
         """Time average flux of each field after the last check."""
         return {field.name: field.average for field in self.fields}

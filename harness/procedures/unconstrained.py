@@ -4,7 +4,8 @@
 
 Abaqus warns of a numerical singularity and goes on. So does a step here: of all solutions, which differ by free
 motions, it takes one with small displacements. If a force acts in a free direction there is no solution, and the step
-ends with the error of the linear solver.
+ends with the error of the linear solver. Forces that the convergence criteria count as zero (R_l) do not matter: those
+of an increment that the extrapolation has solved are rounding alone, of which no solution balances any part.
 """
 
 from __future__ import annotations
@@ -38,7 +39,12 @@ def tolerate(solver: LinearSolver | RankSolver, renew: Renew | None = None) -> U
     renew: gives another solver where the pattern of the matrices has changed, else None.
     """
     if isinstance(solver, RankSolver):
-        solver.wrap = UnconstrainedSolver
+
+        def negligible() -> float:
+            # that of the present step, which the solver may outlive
+            return solver.negligible()
+
+        solver.wrap = lambda chosen: UnconstrainedSolver(chosen, negligible=negligible)
         return solver
     return UnconstrainedSolver(solver, renew)
 
@@ -46,12 +52,15 @@ def tolerate(solver: LinearSolver | RankSolver, renew: Renew | None = None) -> U
 class UnconstrainedSolver:
     """A linear solver that accepts singular matrices if the right-hand side has a solution all the same.
 
-    free  error of the last matrix, None if it is regular
+    free        error of the last matrix, None if it is regular
+    negligible  gives the force that counts as zero
     """
 
-    def __init__(self, solver: LinearSolver, renew: Renew | None = None) -> None:
+    def __init__(
+        self, solver: LinearSolver, renew: Renew | None = None, negligible: Callable[[], float] = float
+    ) -> None:
         """Arguments as of `tolerate`."""
-        self._solver, self._renew = solver, renew
+        self._solver, self._renew, self.negligible = solver, renew, negligible
         self.free: SingularMatrixError | None = None
         self._matrix = sparse.csr_array((0, 0))
         self._stand_ins: Iterator[FloatArray] = iter(())
@@ -83,9 +92,12 @@ class UnconstrainedSolver:
                 self._shift(error)
         if self.free is None:
             return solution
+        small = self.negligible()
+        if np.abs(rhs).max() <= small:
+            return np.zeros_like(rhs)
         for _ in range(1 + REFINEMENTS):
             missing = rhs - self._matrix @ solution
-            if np.linalg.norm(missing) <= LOADED * np.linalg.norm(rhs):
+            if np.linalg.norm(missing) <= LOADED * np.linalg.norm(rhs) or np.abs(missing).max() <= small:
                 return solution
             solution += self._solver.solve(missing)
         raise self.free

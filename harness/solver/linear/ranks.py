@@ -107,6 +107,7 @@ class RankSolver:
     name, reason  for the message file
     effort        of rank 0
     wrap          what rank 0 puts around the linear solver of a gathered matrix
+    negligible    gives the force that counts as zero for `wrap`
     free          message of the part of the model that moves freely, where `wrap` tolerates that; None without one
     """
 
@@ -135,6 +136,7 @@ class RankSolver:
         self._wanted = "auto" if name in _TOGETHER else name
         self.effort = effort
         self.wrap: Callable[[LinearSolver], _Factoriser] | None = None
+        self.negligible: Callable[[], float] = float
         self.free: str | None = None
         self._whole: Rows | None = None
         self._chosen: LinearSolver | None = None

@@ -105,6 +105,64 @@ def test_a_force_on_what_moves_freely_is_an_error(run, more):
         run(SQUARE + BESIDE, more)
 
 
+BRICK = """*NODE, NSET=ALL
+1, 0., -1., -1.
+2, 1., -1., -1.
+3, 1., 1., -1.
+4, 0., 1., -1.
+5, 0., -1., 1.
+6, 1., -1., 1.
+7, 1., 1., 1.
+8, 0., 1., 1.
+*ELEMENT, TYPE=C3D8, ELSET=E
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*SOLID SECTION, ELSET=E, MATERIAL=M
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.3
+*NSET, NSET=L
+1, 4, 5, 8
+*NSET, NSET=R
+2, 3, 6, 7
+*STEP, INC=200%s
+*STATIC, DIRECT
+0.01, 1.
+*BOUNDARY
+L, 1, 1
+R, 1, 1, 0.01
+1, 2, 3
+*OUTPUT, HISTORY
+*NODE OUTPUT, NSET=R
+U, RF
+*RESTART, WRITE, FREQUENCY=50
+*END STEP
+"""
+
+
+@pytest.mark.parametrize("options", ["", ", NLGEOM"])
+@pytest.mark.parametrize("solver", ["superlu", "band"])
+def test_many_increments_of_a_body_free_to_turn(tmp_path, options, solver):
+    """A brick is pulled and free to turn about the way of the pull: increments that the extrapolation has solved leave
+    rounding alone, and the run goes on, with one warning. So does a restart. The force is that of uniaxial stress.
+    """
+    (tmp_path / "free.inp").write_text(BRICK % options)
+    result = harness.run(tmp_path / "free.inp", output_dir=tmp_path, solver=solver)
+    assert len(result.status) == 100
+    stretch = 1.01
+    # of NLGEOM: E ln(l) l^(-2 nu) (logarithmic strain, Cauchy stress)
+    force = 4 * 1000 * (np.log(stretch) * stretch**-0.6 if options else 0.01)
+    total = sum(values[-1] for name, values in result.history.items() if name.startswith("RF1["))
+    assert total == pytest.approx(force, rel=1e-6)
+    assert (tmp_path / "free.msg").read_text().count("***WARNING") == 1
+    largest = max(np.abs(values).max() for name, values in result.history.items() if name.startswith("U"))
+    assert largest < 0.02
+    (tmp_path / "free_restart" / "step1_increment0100.npz").unlink()
+    again = harness.run(
+        tmp_path / "free.inp", output_dir=tmp_path, solver=solver, job="again", oldjob=tmp_path / "free"
+    )
+    assert again.completed
+
+
 def test_an_unknown_without_any_stiffness_stays(tmp_path):
     """Its displacement is exactly zero, and the others are those of the bar: F L/(E A)."""
     (tmp_path / "bar.inp").write_text(BAR + ALONG.format(pull=PULL, across=0.0))
