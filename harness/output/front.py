@@ -5,9 +5,9 @@
 Computed from the field output and the interface profiles of a job, whatever its interface elements. Values at the
 nodes are means of those of their elements, extrapolated from the integration points. A front is a line of constant
 damage on that surface, given by the middles of equal parts about as long as the elements. Surfaces that share no node
-are separate; each is projected on its mean plane.
+are separate; they may be curved.
 
-Energy release rates are Rice's integral along a line through the process zone, normal to the front:
+Energy release rates are Rice's integral along a line through the process zone, in the plane normal to the front:
 G_i = -int t_i dw_i, i = I for the normal, II and III for the shears normal to the front and along it. t is the
 traction, and w the separation of the law, or the displacement jump if an element has no other. While the delamination
 grows, their sum is the fracture energy of the law at this mode mix; before, it is the energy release rate at a crack
@@ -26,8 +26,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
-from matplotlib.tri import LinearTriInterpolator, Triangulation
-from numpy.typing import NDArray
+from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
@@ -37,6 +36,7 @@ from harness.model.arrays import FloatArray, IntArray
 from harness.output.formats import TextFile
 from harness.output.plots import COLOURS, STYLE
 from harness.output.results import Result
+from harness.output.triangles import Places, TriangulatedSurface, Ways
 
 DAMAGE = 0.5
 """Of the front."""
@@ -44,13 +44,10 @@ DAMAGE = 0.5
 _ALIGNED = np.cos(np.radians(0.1))
 """Abaqus takes the z axis for the local direction s where the normal is within 0.1 degrees of the x axis."""
 
+_FLAT = 0.05
+"""Extent of fronts across a plane, over that in it, up to which they are drawn in the plane."""
+
 _CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
-
-_SAMPLES = 6
-"""Of the process zone, for each element length."""
-
-_HALVINGS = 20
-"""Of a distance of samples, to find the edge of the surface."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +74,7 @@ class Front:
 
 
 class _Surface:
-    """Interface elements that share nodes, as triangles in their mean plane.
+    """Interface elements that share nodes, as triangles.
 
     Parameters
     ----------
@@ -95,27 +92,30 @@ class _Surface:
         self._cells = numbers.reshape(cells.shape)
         self._points = points[used]
         corners = self._points[self._cells]
-        diagonals = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
-        areas = np.cross(*diagonals)
+        areas = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
         self.size = float(np.sqrt(np.median(np.linalg.norm(areas, axis=1)) / 2.0))
-        normal = areas.sum(axis=0) / np.linalg.norm(areas.sum(axis=0))
-        first = np.array([0.0, 0.0, 1.0]) if abs(normal[0]) > _ALIGNED else np.array([1.0, 0.0, 0.0])
-        first -= (first @ normal) * normal
-        first /= np.linalg.norm(first)
-        # local directions s and t of the tractions
-        self.axes = np.stack([first, np.cross(normal, first)])
-        plane = self._points @ self.axes.T
-        centres = corners.mean(axis=1)
         # a node in the middle of each face: the triangles prefer no diagonal
-        middle = len(plane) + np.arange(len(cells))
+        middle = len(used) + np.arange(len(cells))
         triangles = [np.column_stack([self._cells[:, k], self._cells[:, (k + 1) % 4], middle]) for k in range(4)]
-        self.nodes = np.concatenate([self._points, centres])
-        plane = np.concatenate([plane, centres @ self.axes.T])
-        self.triangulation = Triangulation(plane[:, 0], plane[:, 1], np.concatenate(triangles))
-        self._to_corners: tuple[IntArray, FloatArray] | None = None
+        nodes = np.concatenate([self._points, corners.mean(axis=1)])
+        self.triangles = TriangulatedSurface(nodes, np.concatenate(triangles))
+        self._to_corners: tuple[IntArray, FloatArray, FloatArray] | None = None
 
-    def at_nodes(self, places: FloatArray, values: FloatArray) -> FloatArray:
-        """(n, k) values at the nodes from those at the integration points (m, 4, k) at `places` (m, 4, 3)."""
+    def at_nodes(self, places: FloatArray, values: FloatArray, shears: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Values at the nodes from those at the integration points, which are at `places` (m, 4, 3).
+
+        Parameters
+        ----------
+        values
+            (m, 4, k).
+        shears
+            (m, 4, c, 2) components of vectors along s and t.
+
+        Returns
+        -------
+        (n, k), (n, c, 3)
+            The vectors in global components: s and t differ from face to face.
+        """
         if self._to_corners is None:
             corners = self._points[self._cells]
             nearest = np.argmin(np.linalg.norm(corners[:, :, None] - places[:, None], axis=-1), axis=2)
@@ -123,13 +123,45 @@ class _Surface:
             reach = np.linalg.norm(places - centres, axis=-1).mean() / np.linalg.norm(corners - centres, axis=-1).mean()
             # bilinear functions of the points, at the corners
             shares = 0.25 * np.prod(1.0 + _CORNERS[:, None] * _CORNERS / reach, axis=-1)
-            self._to_corners = nearest, shares
-        nearest, shares = self._to_corners
-        ordered = np.take_along_axis(values, nearest[..., None], axis=1)
-        sums = np.zeros((len(self._points), values.shape[-1]))
-        np.add.at(sums, self._cells, shares @ ordered)
+            self._to_corners = nearest, shares, _directions(corners, reach)
+        nearest, shares, directions = self._to_corners
+        rows = np.arange(len(values))[:, None]
+        vectors = np.einsum("mpca,mpad->mpcd", shears[rows, nearest], directions)
+        flat = np.concatenate([values[rows, nearest], vectors.reshape(*vectors.shape[:2], -1)], axis=-1)
+        sums = np.zeros((len(self._points), flat.shape[-1]))
+        np.add.at(sums, self._cells, shares @ flat)
         mean = sums / np.bincount(self._cells.ravel())[:, None]
-        return np.concatenate([mean, values.mean(axis=1)])
+        nodal = np.concatenate([mean, flat.mean(axis=1)])
+        count = values.shape[-1]
+        return nodal[:, :count], nodal[:, count:].reshape(len(nodal), -1, 3)
+
+
+def _directions(corners: FloatArray, reach: float) -> FloatArray:
+    """Local directions s and t, (m, 4, 2, 3), at the points next to the corners (m, 4, 3) of faces."""
+    xi, eta = reach * _CORNERS.T
+    # derivatives of the bilinear functions of the corners, (points, corners)
+    along = 0.25 * _CORNERS[:, 0] * (1.0 + eta[:, None] * _CORNERS[:, 1])
+    across = 0.25 * _CORNERS[:, 1] * (1.0 + xi[:, None] * _CORNERS[:, 0])
+    normal = np.cross(np.einsum("pk,mkd->mpd", along, corners), np.einsum("pk,mkd->mpd", across, corners))
+    normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
+    first = np.where(np.abs(normal[..., :1]) > _ALIGNED, [0.0, 0.0, 1.0], [1.0, 0.0, 0.0])
+    first = first - np.sum(first * normal, axis=-1, keepdims=True) * normal
+    first /= np.linalg.norm(first, axis=-1, keepdims=True)
+    return np.stack([first, np.cross(normal, first)], axis=-2)
+
+
+@dataclass(frozen=True, slots=True)
+class _Fields:
+    """Fields at the nodes of a surface.
+
+    damage     (n,)
+    normals    (n, 2) traction and separation along the normal
+    shears     (n, 2, 3) those along the surface, in global components
+    """
+
+    damage: FloatArray
+    normals: FloatArray
+    shears: FloatArray
 
 
 def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
@@ -164,15 +196,12 @@ def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
         if profile is None:
             continue
         for number, surface in enumerate(surfaces, 1):
-            nodal = _nodal(surface, profile)
-            lines = _lines(surface, nodal["DAMAGE"], damage)
-            for line, (front, reach) in enumerate(
-                zip(lines, _reaches(surface, nodal["DAMAGE"], lines), strict=True), 1
-            ):
-                places, ahead, tractions, releases = _along(surface, nodal, front, reach)
-                found.append(
-                    Front(frame.step, frame.increment, frame.time, number, line, places, ahead, tractions, releases)
-                )
+            fields = _fields(surface, profile)
+            lines = _lines(surface, fields.damage, damage)
+            reaches = _reaches(surface, fields.damage, [places for places, _ in lines])
+            for line, ((places, triangles), reach) in enumerate(zip(lines, reaches, strict=True), 1):
+                values = _along(surface, fields, places, triangles, reach)
+                found.append(Front(frame.step, frame.increment, frame.time, number, line, *values))
     return found
 
 
@@ -203,22 +232,11 @@ def draw_fronts(path: Path, found: list[Front]) -> None:
     if not found:
         raise UelError(f"{path}: no front to draw: the damage of no increment reaches that of the front")
     last = [front for front in found if (front.step, front.increment) == (found[-1].step, found[-1].increment)]
-    places = np.concatenate([front.places for front in found])
-    # the two directions in which the surface extends most
-    first, second = sorted(np.argsort(np.ptp(places, axis=0))[1:])
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(5.5, 6.4), layout="constrained")
         FigureCanvasAgg(figure)
-        above, below = figure.subplots(2, 1)
-        lines = LineCollection(
-            [front.places[:, [first, second]] for front in found],
-            array=np.array([front.time for front in found]),
-            linewidths=1.2,
-        )
-        above.add_collection(lines)
-        above.autoscale_view()
-        above.set(xlabel="XYZ"[first], ylabel="XYZ"[second], aspect="equal", adjustable="datalim")
-        figure.colorbar(lines, ax=above, label="Time")
+        below = figure.add_subplot(2, 1, 2)
+        _draw_lines(figure, found)
         for k, front in enumerate(last):
             arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(front.places, axis=0), axis=1))])
             for name, colour, values in zip(("I", "II", "III"), COLOURS, front.releases.T, strict=False):
@@ -228,6 +246,32 @@ def draw_fronts(path: Path, found: list[Front]) -> None:
         below.set_ylim(bottom=min(0.0, below.get_ylim()[0]))
         figure.legend(ncols=4, loc="outside lower center")
         figure.savefig(path, dpi=200)
+
+
+def _draw_lines(figure: Figure, found: list[Front]) -> None:
+    """Draw fronts in their plane, along the two axes closest to it, or in space where they lie in none."""
+    places = np.concatenate([front.places for front in found])
+    times = np.array([front.time for front in found])
+    # a single straight front is in the plane into which it grows
+    grown = places + 0.1 * np.ptp(places, axis=0).max() * np.concatenate([front.ahead for front in found])
+    _, sizes, axes = np.linalg.svd(np.concatenate([places, grown]) - places.mean(axis=0), full_matrices=False)
+    if sizes[2] > _FLAT * sizes[1]:
+        space = figure.add_subplot(2, 1, 1, projection="3d")
+        lines = Line3DCollection([front.places for front in found], array=times, linewidths=1.2)
+        space.add_collection(lines)
+        low, high = places.min(axis=0), places.max(axis=0)
+        half = 0.5 * (high - low).max()
+        for name, middle in zip("xyz", 0.5 * (low + high), strict=True):
+            space.set(**{f"{name}lim": (middle - half, middle + half), f"{name}label": name.upper()})
+        figure.colorbar(lines, ax=space, label="Time")
+        return
+    first, second = sorted(np.argsort(np.abs(axes[2]))[:2])
+    above = figure.add_subplot(2, 1, 1)
+    drawn = LineCollection([front.places[:, [first, second]] for front in found], array=times, linewidths=1.2)
+    above.add_collection(drawn)
+    above.autoscale_view()
+    above.set(xlabel="XYZ"[first], ylabel="XYZ"[second], aspect="equal", adjustable="datalim")
+    figure.colorbar(drawn, ax=above, label="Time")
 
 
 def _surfaces(mesh: meshio.Mesh) -> list[_Surface]:
@@ -248,8 +292,8 @@ def _surfaces(mesh: meshio.Mesh) -> list[_Surface]:
     return [_Surface(mesh.points, faces[member == k], elements[member == k]) for k in range(count)]
 
 
-def _nodal(surface: _Surface, profile: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
-    """Damage (n,), tractions (n, 3) and separations (n, 3), components along n, s, t, at the nodes of a surface."""
+def _fields(surface: _Surface, profile: Mapping[str, FloatArray]) -> _Fields:
+    """Fields at the nodes of a surface from the integration points."""
     order = np.lexsort((profile["point"], profile["element"]))
     labels = profile["element"][order].astype(np.int64)
     rows = order[np.isin(labels, surface.elements)]
@@ -261,114 +305,106 @@ def _nodal(surface: _Surface, profile: Mapping[str, FloatArray]) -> dict[str, Fl
         stacked = np.stack([profile[name][rows] for name in names], axis=-1)
         return stacked.reshape(len(sorted_labels), count, len(names))[back]
 
-    places = gather("X", "Y", "Z")
     separation = "W" if "WN" in profile and np.isfinite(profile["WN"][rows]).all() else "SEP"
-    values = np.concatenate(
-        [gather("DAMAGE"), gather("TN", "TS", "TT"), gather(*(f"{separation}{axis}" for axis in "NST"))], axis=-1
+    shears = [gather(f"{name}S", f"{name}T") for name in ("T", separation)]
+    values, vectors = surface.at_nodes(
+        gather("X", "Y", "Z"), gather("DAMAGE", "TN", f"{separation}N"), np.stack(shears, axis=2)
     )
-    nodal = surface.at_nodes(places, values)
-    return {"DAMAGE": np.clip(nodal[:, 0], 0.0, 1.0), "T": nodal[:, 1:4], "W": nodal[:, 4:7]}
+    return _Fields(np.clip(values[:, 0], 0.0, 1.0), values[:, 1:], vectors)
 
 
-def _lines(surface: _Surface, damage: FloatArray, level: float) -> list[FloatArray]:
-    """Lines (n, 2) of a damage in the plane of a surface, as points at the distance of the elements."""
+def _lines(surface: _Surface, damage: FloatArray, level: float) -> list[tuple[Places, IntArray]]:
+    """Lines of a damage on a surface, as places at the distance of the elements and their triangles."""
     if not damage.min() < level < damage.max():
         return []
-    contours = Figure().subplots().tricontour(surface.triangulation, damage, [level])
+    triangles = surface.triangles
     return [
-        _even(line, surface.size)
-        for line in contours.allsegs[0]
-        if np.linalg.norm(np.diff(line, axis=0), axis=1).sum() > surface.size
+        triangles.even(line, surface.size)
+        for line in triangles.lines(damage, level)
+        if triangles.length(line) > surface.size
     ]
 
 
-def _even(line: FloatArray, distance: float) -> FloatArray:
-    """Middles of at least three equal parts of the line, about `distance` long: its ends lie on edges."""
-    steps = np.linalg.norm(np.diff(line, axis=0), axis=1)
-    arc = np.concatenate([[0.0], np.cumsum(steps)])
-    parts = max(3, round(arc[-1] / distance))
-    at = arc[-1] * (np.arange(parts) + 0.5) / parts
-    return np.stack([np.interp(at, arc, values) for values in line.T], axis=-1)
-
-
 def _along(
-    surface: _Surface, nodal: Mapping[str, FloatArray], line: FloatArray, reach: float
+    surface: _Surface, fields: _Fields, line: Places, triangles: IntArray, reach: float
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Places, normals, tractions and energy release rates of a front, as in `Front`."""
-    triangulation = surface.triangulation
-
-    def at(values: FloatArray, where: FloatArray) -> FloatArray:
-        found = LinearTriInterpolator(triangulation, values)(where[..., 0], where[..., 1])
-        return np.asarray(np.ma.filled(found, np.nan))
-
-    tangent = _tangents(line)
-    ahead = np.stack([tangent[:, 1], -tangent[:, 0]], axis=-1)
+    mesh = surface.triangles
+    points = line.values(mesh.nodes)
+    normal = _unit(line.values(mesh.normals))
+    along = _tangents(points)
+    along = _unit(along - np.sum(along * normal, axis=1, keepdims=True) * normal)
+    ahead = np.cross(along, normal)
+    both = [mesh.ways(line, triangles, along, direction, reach) for direction in (ahead, -ahead)]
+    slope = [_damage_beside(way, fields.damage, 0.5 * surface.size) for way in both]
     # the side on which the damage is smaller
-    step = 0.5 * surface.size * ahead
-    slope = np.nan_to_num(at(nodal["DAMAGE"], line + step), nan=1.0)
-    slope -= np.nan_to_num(at(nodal["DAMAGE"], line - step), nan=1.0)
-    ahead = ahead * (-1.0 if np.sum(slope) > 0.0 else 1.0)
-    tangent = np.stack([-ahead[:, 1], ahead[:, 0]], axis=-1)
-
-    offsets = np.linspace(-reach, reach, 1 + 2 * max(1, round(_SAMPLES * reach / surface.size)))
-    where = _to_edges(triangulation, line[:, None] + offsets[:, None] * ahead[:, None])
-    traction = np.stack([np.nan_to_num(at(values, where)) for values in nodal["T"].T], axis=-1)
-    opening = np.stack([at(values, where) for values in nodal["W"].T], axis=-1)
-    traction, opening = (_turned(values, ahead[:, None], tangent[:, None]) for values in (traction, opening))
-    mean = 0.5 * (traction[:, 1:] + traction[:, :-1])
-    # steps beyond the edge of the surface count nothing
-    releases = -np.nansum(mean * np.diff(opening, axis=1), axis=1)
-    middle = np.stack([np.nan_to_num(at(values, line)) for values in nodal["T"].T], axis=-1)
-    places = np.stack([at(values, line) for values in surface.nodes.T], axis=-1)
-    return places, ahead @ surface.axes, _turned(middle, ahead, tangent), releases
+    if np.sum(slope[0] - slope[1]) > 0.0:
+        ahead, both = -ahead, both[::-1]
+    along = np.cross(normal, ahead)
+    releases = np.zeros((len(points), 3))
+    for way, sign in zip(both, (1.0, -1.0), strict=True):
+        traction, opening = _components(mesh, fields, way.places, along)
+        mean = 0.5 * (traction[:, 1:] + traction[:, :-1])
+        # ways that have ended count nothing
+        releases -= sign * np.nansum(mean * np.diff(opening, axis=1), axis=1)
+    (middle,), _ = (
+        each[None, :, 0]
+        for each in _components(mesh, fields, Places(line.nodes[:, None], line.weights[:, None]), along)
+    )
+    return points, ahead, middle, releases
 
 
-def _to_edges(triangulation: Triangulation, where: FloatArray) -> FloatArray:
-    """Points of lines (n, m, 2), those beside an edge of the surface moved to it, whose last step would be lost."""
-    finder = triangulation.get_trifinder()
+def _components(
+    mesh: TriangulatedSurface, fields: _Fields, places: Places, along: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Tractions and separations (n, k, 3) at places (n, k): normal, ahead of the front and along it.
 
-    def on(places: FloatArray) -> NDArray[np.bool_]:
-        return np.asarray(finder(places[..., 0], places[..., 1])) >= 0
-
-    inside = on(where)
-    moved = where.copy()
-    for step in (1, -1):
-        outer, inner = (slice(None, -1), slice(1, None))[::step]
-        rows, columns = np.nonzero(~inside[:, outer] & inside[:, inner])
-        places = np.arange(where.shape[1])
-        beyond, within = where[rows, places[outer][columns]], where[rows, places[inner][columns]]
-        for _ in range(_HALVINGS):
-            middle = 0.5 * (beyond + within)
-            found = on(middle)[:, None]
-            beyond, within = np.where(found, beyond, middle), np.where(found, middle, within)
-        moved[rows, places[outer][columns]] = within
-    return moved
+    along: (n, 3) the direction of the front, normal to which the ways go; ahead and along turn with the surface.
+    """
+    normal = _unit(places.values(mesh.normals))
+    ahead = _unit(np.cross(along[:, None], normal))
+    directions = np.stack([ahead, np.cross(normal, ahead)], axis=-2)
+    values = places.values(fields.normals)
+    shape = fields.shears.shape
+    shears = places.values(fields.shears.reshape(shape[0], -1)).reshape(*values.shape[:-1], 2, 3)
+    parts = np.einsum("nkcd,nkad->nkca", shears, directions)
+    traction, opening = (np.concatenate([values[..., c, None], parts[..., c, :]], axis=-1) for c in (0, 1))
+    return traction, opening
 
 
-def _turned(values: FloatArray, ahead: FloatArray, tangent: FloatArray) -> FloatArray:
-    """Components along n, s, t as normal, ahead of the front and along it."""
-    shear = values[..., 1:]
-    return np.stack([values[..., 0], np.sum(shear * ahead, axis=-1), np.sum(shear * tangent, axis=-1)], axis=-1)
+def _damage_beside(way: Ways, damage: FloatArray, distance: float) -> FloatArray:
+    """Damage (n,) at a distance along ways; beyond an edge of the surface, where a crack is, 1."""
+    values = way.places.values(damage[:, None])[..., 0]
+    found = np.ones(len(values))
+    for row, (lengths, there) in enumerate(zip(way.lengths, values, strict=True)):
+        known = np.isfinite(lengths)
+        if lengths[known][-1] >= distance:
+            found[row] = np.interp(distance, lengths[known], there[known])
+    return found
 
 
-def _tangents(line: FloatArray) -> FloatArray:
-    """Unit tangents (n, 2) between the second neighbours."""
-    index = np.arange(len(line))
-    chords = line[np.minimum(index + 2, len(line) - 1)] - line[np.maximum(index - 2, 0)]
-    return np.asarray(chords / np.linalg.norm(chords, axis=1)[:, None])
+def _unit(vectors: FloatArray) -> FloatArray:
+    """Vectors (..., 3) at length 1; those of length 0 stay."""
+    size = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return np.asarray(vectors / np.where(size == 0.0, 1.0, size))
 
 
-def _reaches(surface: _Surface, damage: FloatArray, lines: list[FloatArray]) -> list[float]:
-    """Half the length of the lines through the process zone of each front.
+def _tangents(points: FloatArray) -> FloatArray:
+    """Chords (n, 3) between the second neighbours of points of a line."""
+    index = np.arange(len(points))
+    return np.asarray(points[np.minimum(index + 2, len(points) - 1)] - points[np.maximum(index - 2, 0)])
+
+
+def _reaches(surface: _Surface, damage: FloatArray, lines: list[Places]) -> list[float]:
+    """Half the length of the ways through the process zone of each front.
 
     It holds all that is damaged in part and closer to this front than to others, and three faces.
     """
     if not lines:
         return []
-    partly = (damage > 1e-3) & (damage < 1.0 - 1e-3)
-    plane = np.column_stack([surface.triangulation.x, surface.triangulation.y])[partly]
+    partly = surface.triangles.nodes[(damage > 1e-3) & (damage < 1.0 - 1e-3)]
     # a front passes between nodes, which may all be undamaged or failed
-    distances = np.stack([cKDTree(line).query(plane)[0] for line in lines])
+    distances = np.stack([cKDTree(line.values(surface.triangles.nodes)).query(partly)[0] for line in lines])
     closest = np.argmin(distances, axis=0)
     spreads = [np.append(0.0, distances[k, closest == k]).max() for k in range(len(lines))]
     return [float(spread) + 3.0 * surface.size for spread in spreads]

@@ -7,6 +7,7 @@ from pathlib import Path
 import meshio
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from harness.cli import main
 from harness.errors import UelError
@@ -140,6 +141,87 @@ def test_a_zone_counts_up_to_the_edge_of_the_surface(level: float) -> None:
 def test_another_damage_is_elsewhere() -> None:
     (front,) = fronts(Disc(), 0.75)
     assert np.hypot(*front.places.T[:2]) == pytest.approx(RADIUS - 0.25 * ZONE, abs=0.05)
+
+
+class Rolled(Disc):
+    """The disc rolled about the y axis to more than a quarter of a cylinder, of the radius 6: lengths do not change."""
+
+    RADIUS = 6.0
+
+    def _roll(self, flat: np.ndarray) -> np.ndarray:
+        angle = flat[:, 0] / self.RADIUS
+        return np.column_stack([self.RADIUS * np.sin(angle), flat[:, 1], self.RADIUS * np.cos(angle)])
+
+    def mesh(self, increment: int = -1, step: int | None = None) -> meshio.Mesh:
+        found = super().mesh(increment, step)
+        found.points = self._roll(self.plane)
+        return found
+
+    def interfaces(self) -> list[dict[str, np.ndarray]]:
+        (profile,) = super().interfaces()
+        # in the order of the profile
+        order = np.argsort(self.labels)
+        cells = self.cells[order]
+        g = np.sqrt(1.0 / 3.0)
+        xi = np.array([[-g, -g], [g, -g], [g, g], [-g, g]])
+        shapes = 0.25 * np.prod(1.0 + xi[:, None] * np.sign(xi), axis=-1)
+        profile |= dict(zip("XYZ", (shapes @ self._roll(self.plane)[cells]).reshape(-1, 3).T, strict=True))
+        # s is the projection of the x axis, which runs back beyond a quarter of the circle
+        middle = np.repeat(self.plane[cells].mean(axis=1)[:, 0], 4) / self.RADIUS
+        sense = np.sign(np.cos(middle))
+        for name in ("TS", "TT", "WS", "WT"):
+            profile[name] = profile[name] * sense
+        return [profile]
+
+
+def test_a_front_on_a_curved_surface() -> None:
+    """Rolled, the disc has the same front: ahead of it is along the surface, and modes keep their parts.
+
+    A projection on the mean plane exchanges them, and is not unique beyond a quarter of the circle on both sides.
+    """
+    (flat,), (front,) = fronts(Disc()), fronts(Rolled())
+    assert len(front.places) == len(flat.places)
+    x, y, z = front.places.T
+    radius = np.hypot(x, z)
+    # on facets of a twelfth of a radian
+    assert radius.min() > Rolled.RADIUS * np.cos(1 / 24.0) - 1e-9 and radius.max() < Rolled.RADIUS + 1e-9
+    angle = np.arctan2(x, z)
+    order = np.argsort(y), np.argsort(flat.places[:, 1])
+    assert Rolled.RADIUS * angle[order[0]] == pytest.approx(flat.places[order[1], 0], abs=0.02)
+    normal = np.column_stack([x, 0.0 * y, z]) / radius[:, None]
+    assert np.abs(np.sum(front.ahead * normal, axis=1)).max() < 1.0 / 24.0
+    assert np.linalg.norm(front.ahead, axis=1) == pytest.approx(1.0)
+    around = np.column_stack([np.cos(angle), np.zeros(len(angle)), -np.sin(angle)])
+    assert np.sum(front.ahead * around, axis=1)[order[0]] == pytest.approx(flat.ahead[order[1], 0], abs=0.02)
+    assert front.releases[order[0]] == pytest.approx(flat.releases[order[1]], rel=0.02)
+    assert np.abs(front.tractions[order[0]]) == pytest.approx(np.abs(flat.tractions[order[1]]), rel=0.02)
+
+
+def test_fronts_on_a_curved_surface_are_drawn_in_space(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn = []
+    add = Figure.add_subplot
+    monkeypatch.setattr(Figure, "add_subplot", lambda *a, **k: drawn.append(k.get("projection")) or add(*a, **k))
+    draw_fronts(tmp_path / "rolled.png", fronts(Rolled()))
+    draw_fronts(tmp_path / "flat.png", fronts(Disc(0.7)))
+    assert drawn == [None, "3d", None, None]
+    assert (tmp_path / "rolled.png").stat().st_size > 10000
+
+
+def test_a_closed_front() -> None:
+    """Around an island without damage in the middle of the surface, the line is closed."""
+
+    class Island(Disc):
+        def interfaces(self) -> list[dict[str, np.ndarray]]:
+            (profile,) = super().interfaces()
+            distance = np.hypot(profile["X"] - 6.0, profile["Y"] - 6.0)
+            profile["DAMAGE"] = np.clip(0.5 + (distance - 3.0) / 2.0, 0.0, 1.0)
+            return [profile]
+
+    (front,) = fronts(Island())
+    outward = front.places[:, :2] - 6.0
+    assert np.hypot(*outward.T) == pytest.approx(3.0, abs=0.05)
+    assert len(outward) == pytest.approx(2 * np.pi * 3.0 / 0.5, rel=0.1)
+    assert np.sum(front.ahead[:, :2] * outward, axis=1).max() < -0.95 * 3.0
 
 
 def test_files_of_a_front(tmp_path: Path) -> None:
