@@ -15,7 +15,7 @@ module cohesive_bilinear
   use cohesive_mode_mix, only: measure_onset, measure_energy, least_reserve
   implicit none(type, external)
   private
-  public :: bilinear_softening, bilinear_steepest
+  public :: bilinear_softening, bilinear_steepest, bilinear_loss
 
 contains
 
@@ -51,5 +51,19 @@ contains
     call least_reserve(law, reserve, share)
     slope = 1.0_dp/(reserve - law%flexibility)
   end function bilinear_steepest
+
+  !> Area of `loss` in a direction where 1/K - flexibility = lost/stiff: 1/(2 e) at failure.
+  pure function bilinear_loss(law, direction, stiff, lost) result(loss)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: direction(2)     !< c, not negative, of unit length
+    real(dp), intent(in) :: stiff, lost      !< not negative, not both zero
+    real(dp) :: loss                         !< stress times length
+    real(dp) :: f, e, slope(2)
+
+    call measure_onset(law, direction, f, slope)
+    call measure_energy(law, direction, e, slope)
+    ! (lambda - tau flexibility)/(2 f) at tau = K lambda
+    loss = 0.5_dp*lost/(e*lost + f**2*stiff)
+  end function bilinear_loss
 
 end module cohesive_bilinear

@@ -11,21 +11,20 @@
 !> A law is a softening curve tau(lambda) for every direction c of the separation, w = lambda c with c = (|w_tau|, w_n)/
 !> lambda, from which the traction follows as t_i = tau ratio_i c_i. It is continued towards smaller separations than that
 !> at the onset of damage, down to none; the straight line lambda/flexibility meets it at the onset. To add a law, add a module with
-!> `_softening` and `_steepest` and a line in each select case below. The PPR law is different: each of its components has its own
+!> `_softening`, `_steepest` and `_loss` and a line in each select case below. The PPR law is different: each of its components has its own
 !> damage, and it brings its own routines.
 module cohesive_law
   use core_kinds, only: dp
   use core_status, only: status_type, ok, small_beta
   use cohesive_parameters, only: law_parameters, exponential_law, ppr_law
-  use cohesive_shear, only: mode_of, resultant, shears
   use cohesive_state, only: point_history, damage_state
   use cohesive_mode_mix, only: check_mode_mix
-  use cohesive_bilinear, only: bilinear_softening, bilinear_steepest
-  use cohesive_exponential, only: exponential_softening, exponential_steepest
-  use cohesive_ppr, only: check_ppr, check_ppr_beta, evolve_ppr, ppr_damage_of_components
+  use cohesive_bilinear, only: bilinear_softening, bilinear_steepest, bilinear_loss
+  use cohesive_exponential, only: exponential_softening, exponential_steepest, exponential_loss
+  use cohesive_ppr, only: check_ppr, check_ppr_beta, evolve_ppr
   implicit none(type, external)
   private
-  public :: check_law, check_beta, softening, stiffness_of, evolve_damage, dissipate
+  public :: check_law, check_beta, softening, loss, stiffness_of, damage_envelope, evolve_damage
 
 contains
 
@@ -100,6 +99,22 @@ contains
     by_angle = by_direction(1)*direction(2) - by_direction(2)*direction(1)
   end subroutine softening
 
+  !> Area under the softening curve in a direction, less the triangle K lambda**2/2, once the secant stiffness has fallen to K: a
+  !> function of K and the direction alone. Times ratio_i c_i**2, it is the energy per area that component i has dissipated.
+  pure function loss(law, direction, stiff, lost) result(area)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: direction(2)     !< c, not negative, of unit length
+    real(dp), intent(in) :: stiff, lost      !< not negative, 1/K - flexibility = lost/stiff; stiff is 0 at failure
+    real(dp) :: area   !< stress times length
+
+    select case (law%kind)
+    case (exponential_law)
+      area = exponential_loss(law, direction, stiff, lost)
+    case default
+      area = bilinear_loss(law, direction, stiff, lost)
+    end select
+  end function loss
+
   !> Initial stiffness alpha of a law that is not rigid.
   pure function stiffness_of(law) result(stiffness)
     type(law_parameters), intent(in) :: law
@@ -166,47 +181,5 @@ contains
     state%slope(1, :) = slope
     state%slope(2, :) = slope
   end subroutine evolve_damage
-
-  !> Energies dissipated up to the end of an increment, per area.
-  !>
-  !> For each component, t = (1 - d) alpha g with the opening part of g_n, so that closed contact dissipates nothing.
-  !> The work of the traction along a straight path by the trapezoidal rule, less the change of the stored energy
-  !> t g/2, is (t0 + t1)(g1 - g0)/2 - (t1 g1 - t0 g0)/2 = (t0 g1 - t1 g0)/2 = alpha g0 g1 (d1 - d0)/2: exact wherever
-  !> t is linear along the path. Of it, the overstress (d_max - d) alpha g of the viscous regularisation works
-  !> `viscous`, by the trapezoidal rule too; the rest is due to damage, so that all three sum up to the work done.
-  pure subroutine dissipate(law, history, separation, state, dissipated, viscous)
-    type(law_parameters), intent(in) :: law
-    type(point_history), intent(in) :: history
-    real(dp), intent(in) :: separation(3)
-    type(damage_state), intent(in) :: state
-    real(dp), intent(out) :: dissipated(2)   !< by sliding and by opening
-    real(dp), intent(out) :: viscous
-    real(dp), dimension(2) :: stiffness, d0, d0_max, d1_max, of_damage, before, after
-    real(dp), dimension(3) :: g0, g1, work, overstress
-
-    g0 = [history%separation(1), max(0.0_dp, history%separation(2)), history%separation(3)]
-    g1 = [separation(1), max(0.0_dp, separation(2)), separation(3)]
-    if (law%kind == ppr_law) then
-      d0 = ppr_damage_of_components(law, history%largest)
-      d0_max = d0
-      d1_max = state%acting
-      if (law%viscosity > 0.0_dp) then
-        d0_max = ppr_damage_of_components(law, max(history%largest, resultant(g0)))
-        d1_max = ppr_damage_of_components(law, max(state%largest, resultant(g1)))
-      end if
-    else
-      d0 = history%damage
-      d0_max = history%damage_max
-      d1_max = state%damage_max
-    end if
-    stiffness = 0.5_dp*stiffness_of(law)
-    of_damage = stiffness*(state%acting - d0)
-    before = stiffness*(d0_max - d0)
-    after = stiffness*(d1_max - state%acting)
-    overstress = (g1 - g0)*(before(mode_of)*g0 + after(mode_of)*g1)
-    work = of_damage(mode_of)*g0*g1 - overstress
-    dissipated = history%dissipated + [sum(work(shears)), work(2)]
-    viscous = history%viscous + sum(overstress)
-  end subroutine dissipate
 
 end module cohesive_law

@@ -23,11 +23,10 @@ module cohesive_local_solve
   use cohesive_state, only: point_history, law_solution, driven_point, resultant_solution
   use cohesive_law, only: softening
   use cohesive_friction, only: friction_state, coulomb_friction, add_friction
-  use cohesive_ppr, only: ppr_start_of_increment
   use cohesive_ppr_local_solve, only: solve_ppr_law, ppr_trial_of_rest
   implicit none(type, external)
   private
-  public :: solve_law, dissipate_consistently
+  public :: solve_law, damage_at_secant, softening_stiffness, opening_part
 
   !> The scalar equation: b, and p/ratio without its compressive part.
   type :: law_equation
@@ -398,40 +397,5 @@ contains
 
     part = [vector(1), max(0.0_dp, vector(2)), vector(3)]
   end function opening_part
-
-  !> Energies dissipated up to the end of an increment, per area: by the trapezoidal rule (t0 w1 - t1 w0)/2, as in
-  !> `dissipate`; and by backward Euler for the overstress and the friction.
-  pure subroutine dissipate_consistently(law, history, old_traction, state, dissipated, viscous, friction_work)
-    type(law_parameters), intent(in) :: law
-    type(point_history), intent(in) :: history
-    real(dp), intent(in) :: old_traction(3)    !< T at the start of the increment
-    type(law_solution), intent(in) :: state
-    real(dp), intent(out) :: dissipated(2)     !< by sliding and by opening
-    real(dp), intent(out) :: viscous
-    real(dp), intent(out) :: friction_work            !< by friction
-    real(dp), dimension(3) :: w0, w1, t0, t1, work
-    real(dp) :: k, flexible
-
-    w0 = opening_part(history%separation)
-    w1 = opening_part(state%separation)
-    t1 = state%recoverable
-    k = softening_stiffness(law)
-    flexible = history%damage + k*law%flexibility
-    if (law%kind == ppr_law) then
-      t0 = ppr_start_of_increment(law, history, old_traction)
-    else if (flexible > 0.0_dp) then
-      t0 = law%ratio(mode_of)*w0*(k*(1.0_dp - history%damage)/flexible)
-    else
-      ! rigid so far
-      t0 = old_traction
-    end if
-    dissipated = history%dissipated
-    if (state%damage > history%damage) then
-      work = 0.5_dp*(opening_part(t0)*w1 - opening_part(t1)*w0)
-      dissipated = dissipated + [sum(work(shears)), work(2)]
-    end if
-    friction_work = history%friction_work + dot_product(state%friction, w1(shears) - w0(shears))
-    viscous = history%viscous + dot_product(state%overstress, w1 - w0)
-  end subroutine dissipate_consistently
 
 end module cohesive_local_solve

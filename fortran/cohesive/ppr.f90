@@ -28,13 +28,12 @@ module cohesive_ppr
   use core_root, only: root_search, search_between, searching, advance
   use core_status, only: status_type, ok, late_secant, small_beta, no_root
   use cohesive_parameters, only: law_parameters
-  use cohesive_shear, only: mode_of, resultant
   use cohesive_state, only: point_history, damage_state
   implicit none(type, external)
   private
   public :: ppr_component
   public :: prepare_ppr, check_ppr, check_ppr_beta, component_at, damage_at, evolve_ppr, ppr_damage_of_components
-  public :: ppr_start_of_increment
+  public :: ppr_work_of_damage
 
   !> A component at its largest separation.
   type :: ppr_component
@@ -43,6 +42,7 @@ module cohesive_ppr
     real(dp) :: slope      !< of that curve, stress/length
     real(dp) :: share      !< c: the share that it leaves of the other component
     real(dp) :: by_share   !< derivative of c, 1/length
+    real(dp) :: remainder  !< F: share of the fracture energy of its pure mode that is left
   end type ppr_component
 
   !> Half the width of the bracket of log(m): beyond these exponents the law counts as too soft.
@@ -132,7 +132,7 @@ contains
     integer :: i
 
     status = status_type(ok, 0, 0.0_dp, 0.0_dp)
-    coupling = law%strength(1)*law%strength(2)/minval(law%toughness)
+    coupling = coupling_of(law)
     do i = 1, 2
       steepest(i) = steepest_of(law, i)
     end do
@@ -144,6 +144,14 @@ contains
       return
     end do
   end subroutine check_ppr_beta
+
+  !> Bound of |dt_n/dw_tau|.
+  pure function coupling_of(law) result(coupling)
+    type(law_parameters), intent(in) :: law
+    real(dp) :: coupling   !< stress/length
+
+    coupling = law%strength(1)*law%strength(2)/minval(law%toughness)
+  end function coupling_of
 
   !> Bound of the softening slope of a pure mode, a >= 2: the largest value of (a - 1) traction/(final - w).
   !>
@@ -171,9 +179,9 @@ contains
     integer, intent(in) :: i            !< 1 tau, 2 n
     real(dp), intent(in) :: largest     !< not negative, length
     type(ppr_component) :: component
-    real(dp) :: a, m, x, rest, rise, remainder, weight
+    real(dp) :: a, m, x, rest, rise, weight
 
-    component = ppr_component(0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
+    component = ppr_component(0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
     a = law%shape(i)
     m = law%rise(i)
     x = largest/law%final(i)
@@ -184,15 +192,15 @@ contains
       component%secant = (law%ratio(i)/law%flexibility)*rest**(a - 1.0_dp)*rise**(m - 1.0_dp)
       component%traction = component%secant*largest
       component%slope = component%secant*(1.0_dp - x**2*(a/m)*(a + m - 1.0_dp))/(rest*rise)
-      remainder = (rest*rise)*rest**(a - 1.0_dp)*rise**(m - 1.0_dp)
+      component%remainder = (rest*rise)*rest**(a - 1.0_dp)*rise**(m - 1.0_dp)
     else
       component%traction = law%strength(i)*rest**(a - 1.0_dp)
       component%secant = component%traction/max(largest, tiny(1.0_dp)*component%traction)
       component%slope = -(a - 1.0_dp)*component%traction/(rest*law%final(i))
-      remainder = rest**a
+      component%remainder = rest**a
     end if
     weight = max(1.0_dp, law%toughness(i)/law%toughness(3 - i))
-    component%share = 1.0_dp - weight*(1.0_dp - remainder)
+    component%share = 1.0_dp - weight*(1.0_dp - component%remainder)
     if (component%share > 0.0_dp) then
       component%by_share = -weight*component%traction/law%toughness(i)
     else
@@ -260,37 +268,71 @@ contains
     state%damage_max = max(history%damage_max, damage_at(law, max(state%largest, jump)))
   end subroutine evolve_ppr
 
-  !> Recoverable traction at the start of an increment in the consistent law, without the compression of a closed
-  !> point. A component that has been rigid so far gets as much of the previous traction as it can carry.
-  pure function ppr_start_of_increment(law, history, old_traction) result(traction)
+  !> Energy per area that sliding and opening dissipate while the largest separations grow, both on a straight line: exact where one
+  !> of them grows alone, and their sum where both do, but for the steps in which a share vanishes.
+  !>
+  !> Where both grow, the steps go no farther than to failure, at which neither component has any traction left.
+  pure function ppr_work_of_damage(law, before, after, start, finish) result(work)
     type(law_parameters), intent(in) :: law
-    type(point_history), intent(in) :: history
-    real(dp), intent(in) :: old_traction(3)   !< T, stress
-    real(dp) :: traction(3)
-    type(ppr_component) :: parts(2)
-    real(dp) :: shares(2), acting(2), most
-    integer :: i
+    real(dp), intent(in) :: before(2), after(2)   !< largest separations (tau, n), length
+    real(dp), intent(in) :: start(2), finish(2)   !< separations at the ends of the increment, not negative
+    real(dp) :: work(2)                           !< not negative
+    integer, parameter :: steps = 8
+    real(dp) :: growth(2), resting(2), from(2), to(2), part
+    integer :: step
+
+    growth = after - before
+    if (.not. all(growth > 0.0_dp)) then
+      resting = sqrt(min(before**2, start*finish))
+      work = work_of_step(law, before, after, merge(before, resting, growth > 0.0_dp), merge(after, resting, growth > 0.0_dp))
+      return
+    end if
+    part = max(0.0_dp, min(1.0_dp, minval((law%final - before)/growth)))/steps
+    work = 0.0_dp
+    to = before
+    do step = 1, steps
+      from = to
+      to = before + (step*part)*growth
+      work = work + work_of_step(law, from, to, from, to)
+    end do
+  end function ppr_work_of_damage
+
+  !> The same in a step.
+  !>
+  !> A component dissipates -w_i**2 dK_i/2. While it grows alone, the share c_j that the other leaves it stays, and `loss_of` is
+  !> the integral; meanwhile the secant of the other falls with c_i, at the separation that it has. This is the mean of the two paths
+  !> that let one component grow after the other. Their sums are the same where the traction has a potential.
+  pure function work_of_step(law, before, after, start, finish) result(work)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: before(2), after(2)   !< largest separations
+    real(dp), intent(in) :: start(2), finish(2)   !< separations, no more than these
+    real(dp) :: work(2)
+    type(ppr_component) :: old(2), new(2)
+    real(dp) :: fall
+    integer :: i, j
 
     do i = 1, 2
-      parts(i) = component_at(law, i, history%largest(i))
+      old(i) = component_at(law, i, before(i))
+      new(i) = component_at(law, i, after(i))
     end do
-    acting = resultant(old_traction)
     do i = 1, 2
-      if (law%flexibility > 0.0_dp .or. history%largest(i) > 0.0_dp) then
-        shares(i) = parts(i)%secant*parts(3 - i)%share
-      else
-        most = parts(i)%traction*parts(3 - i)%share
-        shares(i) = 1.0_dp
-        if (abs(acting(i)) > most) shares(i) = most/abs(acting(i))
-      end if
+      j = 3 - i
+      work(i) = 0.5_dp*(old(j)%share + new(j)%share)*max(0.0_dp, loss_of(law, i, after(i), new(i)) &
+        - loss_of(law, i, before(i), old(i)))
+      fall = max(0.0_dp, old(j)%share - new(j)%share)
+      work(i) = work(i) + 0.25_dp*fall*(old(i)%secant*start(i)**2 + new(i)%secant*finish(i)**2)
     end do
-    do i = 1, 3
-      associate (mode => mode_of(i))
-        traction(i) = shares(mode)*merge(history%separation(i), old_traction(i), &
-          law%flexibility > 0.0_dp .or. history%largest(mode) > 0.0_dp)
-      end associate
-    end do
-    traction(2) = max(0.0_dp, traction(2))
-  end function ppr_start_of_increment
+  end function work_of_step
+
+  !> Energy per area that a component has dissipated in its pure mode, of which `component` is the state.
+  pure function loss_of(law, i, largest, component) result(loss)
+    type(law_parameters), intent(in) :: law
+    integer, intent(in) :: i            !< 1 tau, 2 n
+    real(dp), intent(in) :: largest     !< length
+    type(ppr_component), intent(in) :: component
+    real(dp) :: loss
+
+    loss = law%toughness(i)*(1.0_dp - component%remainder) - 0.5_dp*component%traction*largest
+  end function loss_of
 
 end module cohesive_ppr

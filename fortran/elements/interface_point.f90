@@ -7,8 +7,9 @@ module elements_interface_point
   use cohesive_parameters, only: law_parameters
   use cohesive_shear, only: mode_of, resultant, shear_direction
   use cohesive_state, only: point_history, damage_state, law_solution
-  use cohesive_law, only: dissipate, evolve_damage, stiffness_of
-  use cohesive_local_solve, only: solve_law, dissipate_consistently
+  use cohesive_dissipation, only: dissipate, dissipate_consistently
+  use cohesive_law, only: evolve_damage, stiffness_of
+  use cohesive_local_solve, only: solve_law
   use cohesive_traction, only: standard_traction, stabilised_traction
   implicit none(type, external)
   private
@@ -134,8 +135,7 @@ contains
     new%history%damage = state%damage
     new%history%damage_max = state%damage
     new%history%largest = state%largest
-    call dissipate_consistently(law, old%history, old%traction, state, new%history%dissipated, new%history%viscous, &
-      new%history%friction_work)
+    call dissipate_consistently(law, old%history, state, new%history%dissipated, new%history%viscous, new%history%friction_work)
   end subroutine store_solution
 
   !> Energies of a point: stored, dissipated by damage and friction, dissipated by the viscous overstress.

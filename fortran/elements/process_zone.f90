@@ -28,7 +28,7 @@ contains
 
     failing_point = maxloc(points%history%damage, dim=1)
     associate (history => points(failing_point)%history)
-      ! a point that breaks within one increment may have dissipated nothing by the trapezoidal rule
+      ! where the toughness of the mode mix is below both others, half of their sum may be all of it
       if (.not. (sum(history%dissipated/law%toughness) > failed .or. history%damage >= 1.0_dp)) failing_point = 0
     end associate
   end function failing_point

@@ -131,7 +131,7 @@ class LongElements:
             first, *shear = (values[:, names.index(name)] for name in ("DISSI", "DISSII", "DISSIII") if name in names)
             second = np.sum(shear, axis=0)
             part = first / long.law.energies[0] + second / long.law.energies[1]
-            # a point that breaks within one increment may have dissipated nothing by the trapezoidal rule
+            # where the toughness of the mode mix is below both others, half of their sum may be all of it
             failed = (part > FAILED) | (values[:, names.index("DAMAGE")] >= 1.0)
             if not failed.any():
                 continue

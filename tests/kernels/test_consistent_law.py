@@ -154,7 +154,7 @@ def test_law_is_recovered_and_its_area_is_the_fracture_energy(element, interface
     area = 0.5 * ((traction[1:] + traction[:-1]) * np.diff(w, axis=0)).sum(axis=0)
     np.testing.assert_allclose(area[1] / law["GIC"] + area[0] / law["GIIC"], 1, rtol=2e-3)
     state = item.state
-    np.testing.assert_allclose(state["DISSI"] / law["GIC"] + state["DISSII"] / law["GIIC"], 1, rtol=2e-3)
+    np.testing.assert_allclose(state["DISSI"] / law["GIC"] + state["DISSII"] / law["GIIC"], 1, rtol=1e-12)
     np.testing.assert_array_equal(state["DAMAGE"], 1)
     assert not item.evaluate(interface.apart(*(0.04 * direction)))[0].any()
 
@@ -171,12 +171,11 @@ def test_strength_is_reached_at_any_stiffness(element, interface, law, alpha):
 
 @pytest.mark.parametrize("alpha", STIFFNESSES)
 def test_damage_is_the_dissipated_fraction_in_mode_one(element, interface, law, alpha):
-    """The trapezoidal rule is exact but for the increment that holds the onset."""
     item = element(4, interface.eight, **rigid(alpha))
     onset = law["SIGMAMAX"] / alpha if alpha else 0.0
-    for gap in np.linspace(0.0, 0.025, 601)[1:]:
+    for gap in np.linspace(0.0, 0.025, 61)[1:]:
         item.advance(interface.apart(0.0, gap))
-        np.testing.assert_allclose(item.state["DISSI"] / law["GIC"], item.state["DAMAGE"], atol=5e-3)
+        np.testing.assert_allclose(item.state["DISSI"] / law["GIC"], item.state["DAMAGE"], rtol=1e-12, atol=1e-12)
     assert item.state["WN"].min() > onset
 
 
@@ -275,11 +274,12 @@ def test_viscous_overstress(element, interface, reference, law, ply, alpha):
 @pytest.mark.parametrize("alpha", STIFFNESSES)
 @pytest.mark.parametrize("viscosity", [0.0, 0.05])
 def test_energies_sum_up_to_the_work_on_the_separation(element, interface, alpha, viscosity):
-    """Stored + damage + viscous = work of T over w; the viscous part by backward Euler, the rest by trapezia."""
+    """Stored + damage + viscous = work of T over w; the viscous part by backward Euler, the rest by trapezia, which err in
+    the increments that hold onset, failure and the turn of the path: by 60 MPa times half of one, 2e-4 mm, at each."""
     item = element(4, interface.eight, **rigid(alpha), VISCOSITY=viscosity)
     length, thickness = np.linalg.norm(np.diff(interface.edge, axis=0)), 2.0
-    steps = [(0.3 * g, g) for g in (*np.linspace(0, 0.012, 40)[1:], *np.linspace(0.012, 0, 10)[1:])]
-    steps += [(g, 0.5 * g) for g in np.linspace(0, 0.05, 60)[1:]]
+    steps = [(0.3 * g, g) for g in (*np.linspace(0, 0.012, 60)[1:], *np.linspace(0.012, 0, 10)[1:])]
+    steps += [(g, 0.5 * g) for g in np.linspace(0, 0.05, 250)[1:]]
     work, before, traction = 0.0, np.zeros((2, 2)), np.zeros((2, 2))
     for gap in steps:
         viscous = item.state["DISSV"]
@@ -293,7 +293,7 @@ def test_energies_sum_up_to_the_work_on_the_separation(element, interface, alpha
         before, traction = w, new
         energy = item.energy * 2 / (length * thickness)
         if viscosity == 0:
-            assert energy[1] + energy[3] == pytest.approx(work, rel=1e-9, abs=1e-12)
+            assert energy[1] + energy[3] == pytest.approx(work, abs=4 * 60 * 1e-4)
             assert energy[4] == 0
         else:
             assert energy[4] == pytest.approx(work, rel=1e-12)

@@ -131,7 +131,9 @@ def test_tangent(element, interface, reference, alpha, values, sliding, gap, sti
 
 @pytest.mark.parametrize("alpha", STIFFNESSES)
 def test_energies_sum_up_to_the_work_on_the_separation(element, interface, alpha):
-    """Stored + damage + friction = work of T over w; friction by backward Euler, the rest by trapezia."""
+    """Stored + damage + friction = work of T over w; friction by backward Euler, the rest by trapezia, which err in the
+    increments that hold the onset and the failure: by the strength times half of an increment, 60 MPa x 2e-4 mm, of 1
+    N/mm and more. Damage dissipates G_IIc to rounding."""
     item = element(4, interface.eight, ALPHAN=alpha, ALPHAT=alpha, CLOSURE=1, FRICTION=MU, **BETA)
     path = [*np.linspace(0, 0.015, 60)[1:], *np.linspace(0.015, -0.02, 90)[1:], *np.linspace(-0.02, 0.04, 90)[1:]]
     work, before, cohesive, friction = np.zeros(2), np.zeros(2), np.zeros(2), 0.0
@@ -149,9 +151,9 @@ def test_energies_sum_up_to_the_work_on_the_separation(element, interface, alpha
     contact = 0.5 * state["TN"] * state["WN"]
     length, thickness = np.linalg.norm(np.diff(interface.edge, axis=0)), 2.0
     energy = item.energy * 2 / (length * thickness)
-    assert energy[1] + energy[3] == pytest.approx((work + contact).sum(), rel=1e-7)
+    assert energy[1] + energy[3] == pytest.approx((work + contact).sum(), abs=2 * 60 * 2e-4)
     assert energy[3] == pytest.approx((state["DISSII"] + state["DISSF"]).sum(), rel=1e-12)
-    np.testing.assert_allclose(state["DISSII"], 1.002, rtol=5e-3)
+    np.testing.assert_allclose(state["DISSII"], 1.002, rtol=1e-12)
     assert (state["DISSF"] > 0.1).all()
 
 

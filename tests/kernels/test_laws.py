@@ -86,13 +86,15 @@ def test_energies_at_failure_in_every_mode_mix(element, reference, values):
         reach = (
             energy / (traction_of(item, reference.onset(values, ray) * ray) @ ray) * (15 if values["LAW"] == 3 else 3)
         )
-        for fraction in np.linspace(0, 1, 401)[1:] ** 2:
+        for fraction in np.linspace(0, 1, 21)[1:] ** 2:
             u = np.zeros((4, 2))
             u[2:] = fraction * reach * ray
             item.advance(u)
         shares = np.array([values["ALPHAT"], values["ALPHAN"]]) * ray**2
         dissipated = [item.state["DISSII"][0], item.state["DISSI"][0]]
-        np.testing.assert_allclose(dissipated, energy * shares / shares.sum(), rtol=2e-3, atol=1e-12)
+        # the exponential law never quite fails: exp(-15) is left
+        tolerance = 1e-5 if values["LAW"] == 3 else 1e-10
+        np.testing.assert_allclose(dissipated, energy * shares / shares.sum(), rtol=tolerance, atol=1e-12)
         assert item.energy[3] == pytest.approx(2.0 * sum(dissipated), rel=1e-12)
 
 

@@ -11,7 +11,7 @@ module cohesive_plateau
   use cohesive_mode_mix, only: measure_onset, measure_energy, least_reserve
   implicit none(type, external)
   private
-  public :: plateau_softening, plateau_steepest
+  public :: plateau_softening, plateau_steepest, plateau_loss
 
 contains
 
@@ -54,5 +54,26 @@ contains
     call least_reserve(law, reserve, share)
     slope = (1.0_dp + law%plateau)/((1.0_dp - law%plateau)*(reserve - law%flexibility))
   end function plateau_steepest
+
+  !> Area of `loss` in a direction where 1/K - flexibility = lost/stiff: 1/(2 e) at failure.
+  pure function plateau_loss(law, direction, stiff, lost) result(loss)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: direction(2)     !< c, not negative, of unit length
+    real(dp), intent(in) :: stiff, lost      !< not negative, not both zero
+    real(dp) :: loss                         !< stress times length
+    real(dp) :: f, e, onset, failure, fall, slope(2)
+
+    call measure_onset(law, direction, f, slope)
+    call measure_energy(law, direction, e, slope)
+    onset = law%flexibility/f
+    failure = onset + (f/e - onset)/(1.0_dp + law%plateau)
+    fall = (1.0_dp - law%plateau)*(failure - onset)
+    if (lost <= (f*(failure - fall) - law%flexibility)*stiff) then
+      loss = 0.5_dp*lost/(f**2*stiff)
+    else
+      ! tau = K lambda = (failure - lambda)/(f fall)
+      loss = 0.5_dp/e - 0.5_dp*failure**2*stiff/(lost + law%flexibility*stiff + f*fall*stiff)
+    end if
+  end function plateau_loss
 
 end module cohesive_plateau
