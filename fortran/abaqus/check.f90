@@ -245,7 +245,7 @@ contains
     case (small_beta)
       row = merge(p_betan, p_betat, status%item == 1)
       call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ': beta = %R, ' // &
-        trim(sentence(status%code)) // '; expected more than %R: refine the mesh, or set it', &
+        trim(sentence(status%code)) // '; expected more than %R, or 0 for the estimate', &
         [real_position(jtype, row)], [status%value, status%expected])
     case (no_root)
       call fatal(jtype, jelem, 'point or mode %I: ' // trim(sentence(status%code)), [status%item], [real(dp) ::])

@@ -13,7 +13,7 @@ module abaqus_continuum_element
   use core_mode_search, only: mode_search, find_modes, most_passes
   use core_rotation, only: ply_axes, strain_rotation
   use core_solid_rotation, only: solid_turn, find_turn, turn_forces, turn_stiffness
-  use core_status, only: status_type, ok
+  use core_status, only: status_type, ok, inside_out
   use core_strains, only: condense
   use materials_linear_elasticity, only: plane_strain
   use materials_spectral_norm, only: spectral_norm
@@ -29,7 +29,7 @@ module abaqus_continuum_element
     b_e11, b_e22, b_e33, b_e12, b_e13, b_e23, b_s11, b_s22, b_s33, b_s12, b_s13, b_s23
   implicit none(type, external)
   private
-  public :: evaluate_continuum
+  public :: evaluate_continuum, continuum_forces_at
 
   !> Marks a stress component that a material must write, or must not.
   real(dp), parameter :: untouched = -huge(1.0_dp)
@@ -97,6 +97,66 @@ contains
         pnewdt, residual, tangent, good)
     end associate
   end subroutine evaluate_continuum
+
+  !> RHS of the stresses in SVARS, at the displacements to which they belong: of the start of an increment, where incompatible modes
+  !> are in equilibrium; `good` is false after a message.
+  subroutine continuum_forces_at(jtype, jelem, values, options, coords, u, finite, svars, residual, good)
+    integer, intent(in) :: jtype, jelem
+    real(dp), intent(in) :: values(:)              !< properties by their rows in the layout
+    integer, intent(in) :: options(:)
+    real(dp), intent(in) :: coords(:, :), u(:)     !< coords: original ones, (2 or 3, nodes)
+    logical, intent(in) :: finite
+    real(dp), intent(in) :: svars(:)
+    real(dp), intent(out) :: residual(:)
+    logical, intent(out) :: good
+
+    associate (dim => elements(jtype)%dimension)
+      call sum_stresses(jtype, jelem, dim, elements(jtype)%nodes, 3*(dim - 1), size(u) + merge(modes_of_brick, 0, &
+        options(j_formulation) == incompatible_modes), options(j_formulation), finite, &
+        merge(values(p_thickness), 1.0_dp, dim == 2), values(p_angle), coords(1:dim, :), u, svars, residual, good)
+    end associate
+  end subroutine continuum_forces_at
+
+  !> The same with its sizes.
+  subroutine sum_stresses(jtype, jelem, dim, nodes, strains, n, formulation, finite, thickness, angle, coordinates, u, svars, &
+    residual, good)
+    integer, intent(in) :: jtype, jelem, dim, nodes, strains
+    integer, intent(in) :: n                       !< unknowns, with those of the modes
+    integer, intent(in) :: formulation
+    logical, intent(in) :: finite
+    real(dp), intent(in) :: thickness, angle, coordinates(dim, nodes), u(dim*nodes), svars(:)
+    real(dp), intent(out) :: residual(dim*nodes)
+    logical, intent(out) :: good
+    real(dp) :: b(n, strains, nodes), volume(nodes), to_ply(strains, strains), stress(strains), force(n), moved(dim*nodes)
+    real(dp), parameter :: middle(3) = 0.0_dp      ! parent coordinates
+    real(dp) :: gradient(dim, nodes)
+    type(solid_turn) :: turn
+    type(status_type) :: status
+    integer :: k
+
+    residual = 0.0_dp
+    call solid_strains(dim, n, strains, formulation, coordinates, solid_points(dim), b, volume, status)
+    good = status%code == ok
+    if (.not. good) then
+      call report_status(jtype, jelem, status)
+      return
+    end if
+    to_ply = ply_strains(strains, angle, coordinates)
+    force = 0.0_dp
+    do k = 1, nodes
+      stress = svars((k - 1)*positions(dim)%count + positions(dim)%stress(:strains))
+      force = force + (thickness*volume(k))*matmul(b(:, :, k), matmul(stress, to_ply))
+    end do
+    residual = -force(:dim*nodes)
+    if (.not. finite) return
+    call solid_gradient(dim, nodes, coordinates, middle(:dim), gradient, status)
+    call find_turn(dim, nodes, gradient, reshape(coordinates, [dim*nodes]), u, turn, moved, good)
+    if (good) then
+      residual = turn_forces(dim, nodes, turn, residual)
+    else
+      call report_status(jtype, jelem, status_type(inside_out, 0, 0.0_dp, 0.0_dp))
+    end if
+  end subroutine sum_stresses
 
   !> The same with its sizes.
   subroutine integrate(this, dim, nodes, strains, m, n, places, thickness, angle, coordinates, u, predef, materiallib, svars, &

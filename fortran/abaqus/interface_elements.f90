@@ -9,7 +9,7 @@ module abaqus_interface_elements
   use cohesive_ppr, only: prepare_ppr
   use elements_interface_bulk, only: stabilisation_type
   use elements_interface_faces, only: central_frame
-  use elements_interface_kernel, only: integrate_interface
+  use elements_interface_kernel, only: integrate_interface, interface_forces
   use elements_interface_point, only: interface_options, interface_point
   use abaqus_layout, only: elements, faces, reals, real_position, own_variables, interface_variables, surface_variables, &
     standard, standard_3d, variables_of_points, o_betan, o_betat, o_gamman, o_gammat, &
@@ -23,11 +23,12 @@ module abaqus_interface_elements
     w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt
   use abaqus_check, only: report_status
   use abaqus_long_elements, only: warn_if_long
+  use abaqus_raised_beta, only: warn_if_raised
   use abaqus_report, only: fatal
   use abaqus_neighbours, only: stress_of_neighbours
   implicit none(type, external)
   private
-  public :: evaluate_interface
+  public :: evaluate_interface, interface_forces_at
 
   !> Positions of the variables of a point: vectors by the components (s, n, t), pairs (tau, n).
   type :: point_positions
@@ -77,13 +78,12 @@ contains
       call report_status(jtype, jelem, status)
       return
     end if
-    choice = interface_options(options(j_integration), options(j_sampling), options(j_closure) == consistent_closure, &
-      merge(1.0_dp, values(p_blend), options(j_tangent) == 1), finite)
+    choice = chosen(values, options, finite)
     stabilisation = stabilisation_type(max(0.0_dp, values([p_betat, p_betan])), values([p_gammabot, p_gammabot]), &
-      any(abs(values([p_betat, p_betan]) - by_eigenvalues) <= 0.0_dp))
+      any(abs(values([p_betat, p_betan]) - by_eigenvalues) <= 0.0_dp), given=values([p_betat, p_betan]) > 0.0_dp)
     dim = elements(jtype)%dimension
     original = coords(1:dim, :)
-    thickness = merge(values(p_thickness), 1.0_dp, dim == 2)
+    thickness = thickness_of(jtype, values)
     n = elements(jtype)%points
     nodes = face_nodes(jtype)
     old = points_from(svars, n, dim)
@@ -115,6 +115,7 @@ contains
     end associate
     good = status%code == ok
     if (good) then
+      call warn_if_raised(jtype, jelem, stabilisation%estimate, stabilisation%beta)
       call write_state(new, dim, svars)
       energy = 0.0_dp
       energy([2, 4, 5]) = energies
@@ -122,6 +123,48 @@ contains
       call report_status(jtype, jelem, status)
     end if
   end subroutine evaluate_interface
+
+  !> RHS of the tractions in SVARS, at the displacements to which they belong: of the start of an increment; `good` is false after a
+  !> message.
+  subroutine interface_forces_at(jtype, jelem, values, options, coords, u, finite, svars, residual, good)
+    integer, intent(in) :: jtype, jelem
+    real(dp), intent(in) :: values(:)              !< properties by their rows in the layout
+    integer, intent(in) :: options(:)
+    real(dp), intent(in) :: coords(:, :)           !< (2 or 3, nodes)
+    real(dp), intent(in) :: u(:)
+    logical, intent(in) :: finite                  !< large rotations
+    real(dp), intent(in) :: svars(*)
+    real(dp), intent(out) :: residual(:)
+    logical, intent(out) :: good
+    type(status_type) :: status
+
+    associate (dim => elements(jtype)%dimension, points => elements(jtype)%points)
+      call interface_forces(dim, points, face_nodes(jtype), chosen(values, options, finite), thickness_of(jtype, values), &
+        coords(1:dim, :), u, points_from(svars, points, dim), residual, status)
+    end associate
+    good = status%code == ok
+    if (.not. good) call report_status(jtype, jelem, status)
+  end subroutine interface_forces_at
+
+  !> Options of the kernel.
+  pure function chosen(values, options, finite) result(choice)
+    real(dp), intent(in) :: values(:)
+    integer, intent(in) :: options(:)
+    logical, intent(in) :: finite
+    type(interface_options) :: choice
+
+    choice = interface_options(options(j_integration), options(j_sampling), options(j_closure) == consistent_closure, &
+      merge(1.0_dp, values(p_blend), options(j_tangent) == 1), finite)
+  end function chosen
+
+  !> Thickness out of the plane; 1 in space.
+  pure function thickness_of(jtype, values) result(thickness)
+    integer, intent(in) :: jtype
+    real(dp), intent(in) :: values(:)
+    real(dp) :: thickness
+
+    thickness = merge(values(p_thickness), 1.0_dp, elements(jtype)%dimension == 2)
+  end function thickness_of
 
   !> Takes beta and gamma that an earlier increment has left: the eigenvalue problem takes longer than all the rest, and they do not
   !> change.

@@ -6,7 +6,10 @@ module abaqus_lflags
   use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: large_displacements, asks_for_nothing, asks_for_tangent, give_answer
+  public :: large_displacements, asks_for_nothing, asks_for_tangent, weight_of_start, give_answer
+
+  ! LFLAGS(1): *DYNAMIC with automatic and with fixed increments
+  integer, parameter :: dynamic(2) = [11, 12]
 
   ! LFLAGS(3)
   integer, parameter :: normal = 1              ! RHS and AMATRX; the only request whose SVARS and ENERGY are kept
@@ -39,6 +42,21 @@ contains
 
     asks_for_tangent = lflags(3) /= residual_alone .and. lflags(3) /= mass_and_residual
   end function asks_for_tangent
+
+  !> -alpha of the operator of Hilber, Hughes and Taylor where RHS is to be (1 + alpha) G - alpha G_start, with the static residual
+  !> G at the end and at the start of the increment; else 0.
+  !>
+  !> For the residual at half an increment, Abaqus asks for the mean of G at the starts of this increment and of the one before. The
+  !> latter is not in SVARS, and that of this increment stands for it: their difference counts alpha/2, 2.5 per cent by default, in
+  !> what chooses the next increment.
+  pure real(dp) function weight_of_start(lflags, params)
+    integer, intent(in) :: lflags(*)
+    real(dp), intent(in) :: params(*)   !< alpha, beta and gamma in *DYNAMIC
+
+    weight_of_start = 0.0_dp
+    if (.not. any(lflags(1) == dynamic) .or. lflags(4) == 1) return
+    if (lflags(3) == normal .or. lflags(3) == residual_alone) weight_of_start = -params(1)
+  end function weight_of_start
 
   !> Hands over what a call asks for; the rest stays as it is, RHS and AMATRX zero. In a linear step, LFLAGS(4) = 1, RHS is the
   !> effect of the perturbation.

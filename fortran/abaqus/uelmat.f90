@@ -5,15 +5,15 @@
 !> Everything is declared, so that ABA_PARAM.INC and its implicit typing are not needed. The routine sets every entry of RHS and
 !> AMATRX, whatever they hold on entry. SVARS and ENERGY change only in calls whose values are kept, LFLAGS(3) = 1 of a general
 !> step. In a linear step (LFLAGS(4) = 1) RHS is the effect of the perturbation: zero without loads on the elements, and -AMATRX DU
-!> once DU is known (LFLAGS(3) = 100).
+!> once DU is known (LFLAGS(3) = 100). In *DYNAMIC it is (1 + alpha) G - alpha G_start, PARAMS(1) being alpha.
 subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, v, a, &
   jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, lflags, mlvarx, ddlmag, &
   mdload, pnewdt, jprops, njprop, period, materiallib)
   use core_kinds, only: dp
   use abaqus_check, only: call_is_good
-  use abaqus_continuum_element, only: evaluate_continuum
+  use abaqus_continuum_element, only: evaluate_continuum, continuum_forces_at
   use abaqus_layout, only: elements, every_continuum, reals, integers, variables_of
-  use abaqus_lflags, only: asks_for_nothing, asks_for_tangent, give_answer, large_displacements
+  use abaqus_lflags, only: asks_for_nothing, asks_for_tangent, give_answer, large_displacements, weight_of_start
   use abaqus_report, only: fatal
   implicit none(type, external)
   integer, intent(in) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, npredf, mlvarx
@@ -23,6 +23,7 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   real(dp), intent(in) :: params(*), adlmag(mdload, *), predef(2, npredf, nnode), ddlmag(mdload, *), period
   integer, intent(in) :: materiallib(*)
   real(dp) :: residual(ndofel), tangent(ndofel, ndofel), state(variables_of(jtype)), energies(8), values(size(reals))
+  real(dp) :: before(ndofel), weight
   integer :: options(size(integers)), n
   logical :: good
 
@@ -43,8 +44,18 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   n = size(state)
   state = svars(1:n)
   energies = energy
+  weight = weight_of_start(lflags, params)
+  if (abs(weight) > 0.0_dp) then
+    call continuum_forces_at(jtype, jelem, values, options, coords, u - du(1:ndofel, 1), large_displacements(lflags), state, &
+      before, good)
+    if (.not. good) return
+  end if
   call evaluate_continuum(jtype, jelem, values, options, coords, u, predef, npredf, materiallib, large_displacements(lflags), &
     asks_for_tangent(lflags), state, energies, pnewdt, residual, tangent, good)
   if (.not. good) return
+  if (abs(weight) > 0.0_dp) then
+    residual = (1.0_dp - weight)*residual + weight*before
+    tangent = (1.0_dp - weight)*tangent
+  end if
   call give_answer(lflags, du(1:ndofel, 1), residual, tangent, state, energies, rhs(1:ndofel, 1), amatrx, svars(1:n), energy)
 end subroutine uelmat

@@ -6,6 +6,7 @@ subroutine uexternaldb(lop, lrestart, time, dtime, kstep, kinc)
   use core_kinds, only: dp
   use abaqus_bulk_exchange, only: clear_bulk_records
   use abaqus_long_elements, only: forget_long_elements
+  use abaqus_raised_beta, only: forget_raised_beta
   implicit none(type, external)
   integer, intent(in) :: lop, lrestart, kstep, kinc
   real(dp), intent(in) :: time(2), dtime
@@ -14,5 +15,6 @@ subroutine uexternaldb(lop, lrestart, time, dtime, kstep, kinc)
   if (lop == analysis_starts .or. lop == analysis_ends) then
     call clear_bulk_records()
     call forget_long_elements()
+    call forget_raised_beta()
   end if
 end subroutine uexternaldb

@@ -21,10 +21,10 @@ module cohesive_law
   use cohesive_mode_mix, only: check_mode_mix
   use cohesive_bilinear, only: bilinear_softening, bilinear_steepest, bilinear_loss
   use cohesive_exponential, only: exponential_softening, exponential_steepest, exponential_loss
-  use cohesive_ppr, only: check_ppr, check_ppr_beta, evolve_ppr
+  use cohesive_ppr, only: check_ppr, check_ppr_beta, raise_ppr_beta, evolve_ppr
   implicit none(type, external)
   private
-  public :: check_law, check_beta, softening, loss, stiffness_of, damage_envelope, evolve_damage
+  public :: check_law, check_beta, raise_beta, softening, loss, stiffness_of, damage_envelope, evolve_damage
 
 contains
 
@@ -66,6 +66,22 @@ contains
       end if
     end do
   end subroutine check_beta
+
+  !> Raises a beta that is an estimate, and less than twice what one beta for both components has to exceed, to that.
+  !>
+  !> Twice the slope k is the least beta at which the traction never falls faster than p rises: dT/dp = -k/(beta - k) >= -1. It also
+  !> is more than `check_beta` demands of any pair.
+  pure subroutine raise_beta(law, estimated, beta)
+    type(law_parameters), intent(in) :: law
+    logical, intent(in) :: estimated(2)        !< not a value of the deck
+    real(dp), intent(inout) :: beta(2)         !< (tau, n), stress/length
+
+    if (law%kind == ppr_law) then
+      call raise_ppr_beta(law, estimated, beta)
+    else
+      where (estimated) beta = max(beta, 2.0_dp*law%ratio*steepest(law))
+    end if
+  end subroutine raise_beta
 
   !> Largest softening slope -d tau/d lambda of a law.
   pure function steepest(law) result(slope)

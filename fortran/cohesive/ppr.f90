@@ -32,7 +32,7 @@ module cohesive_ppr
   implicit none(type, external)
   private
   public :: ppr_component
-  public :: prepare_ppr, check_ppr, check_ppr_beta, component_at, damage_at, evolve_ppr, ppr_damage_of_components
+  public :: prepare_ppr, check_ppr, check_ppr_beta, raise_ppr_beta, component_at, damage_at, evolve_ppr, ppr_damage_of_components
   public :: ppr_work_of_damage
 
   !> A component at its largest separation.
@@ -144,6 +144,18 @@ contains
       return
     end do
   end subroutine check_ppr_beta
+
+  !> Raises estimates of beta to twice what `check_ppr_beta` demands of equal margins, s_i + o.
+  pure subroutine raise_ppr_beta(law, estimated, beta)
+    type(law_parameters), intent(in) :: law
+    logical, intent(in) :: estimated(2)        !< not a value of the deck
+    real(dp), intent(inout) :: beta(2)         !< (tau, n), stress/length
+    integer :: i
+
+    do i = 1, 2
+      if (estimated(i)) beta(i) = max(beta(i), 2.0_dp*(steepest_of(law, i) + coupling_of(law)))
+    end do
+  end subroutine raise_ppr_beta
 
   !> Bound of |dt_n/dw_tau|.
   pure function coupling_of(law) result(coupling)

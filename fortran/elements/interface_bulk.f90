@@ -36,6 +36,8 @@ module elements_interface_bulk
     real(dp) :: gamma_bottom(2)   !< weight of the bottom stress; that of the top is 1 - gamma_bottom
     logical :: local              !< bounds of the local eigenvalue problem
     logical :: known = .false.    !< nothing is left to compute
+    logical :: given(2) = .false.      !< this beta is a value of the deck and may not change
+    real(dp) :: estimate(2) = 0.0_dp   !< beta that was too small for the law and has been raised to `beta`; 0 where none was
   end type stabilisation_type
 
 contains

@@ -12,7 +12,7 @@ module elements_interface_kernel
   use core_rotation, only: about_mean
   use core_status, only: status_type, ok
   use cohesive_parameters, only: law_parameters
-  use cohesive_law, only: check_law, check_beta
+  use cohesive_law, only: check_law, check_beta, raise_beta
   use elements_interface_bulk, only: stabilisation_type, stabilise, bulk_operator
   use elements_interface_faces, only: interface_place, measure_interface, jump_operator, separation_at, face_shape
   use elements_interface_point, only: interface_options, interface_point, point_response, standard_point, &
@@ -20,7 +20,7 @@ module elements_interface_kernel
   use elements_interface_rotation, only: turn_place, co_rotated, by_displacements, add_turning
   implicit none(type, external)
   private
-  public :: integrate_interface
+  public :: integrate_interface, interface_forces
 
 contains
 
@@ -85,7 +85,7 @@ contains
         if (status%code /= ok) return
         stabilisation = used
       end if
-      if (options%consistent_law) call check_beta(law, stabilisation%beta, status)
+      if (options%consistent_law .and. .not. stabilisation%known) call suit_law(law, stabilisation, status)
       if (status%code /= ok) return
     end if
 
@@ -132,6 +132,53 @@ contains
       call add_product(area, spread, by_displacement, tangent)
     end do
   end subroutine integrate_interface
+
+  !> Residual of tractions that are known, such as those at the start of an increment, at the displacements that they belong to.
+  pure subroutine interface_forces(dim, points, faces, options, thickness, coordinates, u, known, residual, status)
+    integer, intent(in) :: dim                                !< 2 or 3
+    integer, intent(in) :: points                             !< integration points
+    integer, intent(in) :: faces(:, :)                        !< nodes of the bottom and the top face, a column each
+    type(interface_options), intent(in) :: options
+    real(dp), intent(in) :: thickness                         !< out of the plane, length; 1 in space
+    real(dp), intent(in) :: u(:)                              !< displacements, length
+    real(dp), intent(in) :: coordinates(dim, size(u)/dim)     !< original coordinates, length
+    type(interface_point), intent(in) :: known(points)        !< their tractions count
+    real(dp), intent(out) :: residual(size(u))                !< force
+    type(status_type), intent(out) :: status
+    type(interface_place) :: places(points)
+    real(dp) :: turning(3, dim, dim, size(faces, 1)), spread(dim, size(u)), original(size(u))
+    real(dp), dimension(dim, size(faces, 1)) :: bottom, top
+    integer :: k, nodes
+
+    residual = 0.0_dp
+    nodes = size(faces, 1)
+    bottom = coordinates(:, faces(:, 1))
+    top = coordinates(:, faces(:, 2))
+    call measure_interface(dim, nodes, points, bottom, top, options%rule, places, status)
+    if (status%code /= ok) return
+    original = about_mean(dim, reshape(coordinates, [size(u)]))
+    do k = 1, points
+      if (options%finite) call turn_place(dim, nodes, faces, original, original + u, places(k), turning, status)
+      if (status%code /= ok) return
+      spread = jump_operator(dim, places(k), nodes, faces, size(u))
+      residual = residual - (places(k)%area*thickness)*matmul(known(k)%traction(1:dim), spread)
+    end do
+  end subroutine interface_forces
+
+  !> Raises an estimate of beta to what the consistent law needs; a beta of the deck has to suffice.
+  pure subroutine suit_law(law, stabilisation, status)
+    type(law_parameters), intent(in) :: law
+    type(stabilisation_type), intent(inout) :: stabilisation
+    type(status_type), intent(out) :: status    !< small_beta
+    real(dp) :: beta(2)
+
+    call check_beta(law, stabilisation%beta, status)
+    if (status%code == ok .or. all(stabilisation%given)) return
+    beta = stabilisation%beta
+    call raise_beta(law, .not. stabilisation%given, stabilisation%beta)
+    where (stabilisation%beta > beta) stabilisation%estimate = beta
+    call check_beta(law, stabilisation%beta, status)
+  end subroutine suit_law
 
   !> Adds area N^T x to a matrix.
   pure subroutine add_product(area, jump, x, matrix)

@@ -2,10 +2,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How large beta must be for the consistent stabilised law to have one solution, in U4."""
 
+import re
+
 import numpy as np
 import pytest
+from space import nodes_of as space_nodes
+from space import opened
 
 from harness.errors import KernelError
+
+
+def quadratic(corners):
+    """(16, 2) nodes of U6 from those of U4."""
+    return np.vstack([np.vstack([q, (q + np.roll(q, -1, axis=0)) / 2]) for q in (corners[:4], corners[4:])])
 
 
 def rigid(alpha):
@@ -37,12 +46,70 @@ def test_beta_must_exceed_the_softening_slope(element, interface, reference, law
     element(4, interface.eight, **rigid(alpha), **given).evaluate(u)
 
 
-def test_computed_beta_is_checked_too(element, interface):
-    """Equation (21) gives 1e5 N/mm^3 here; a law that fails within 1e-6 mm is steeper."""
-    brittle = {"SIGMAMAX": 30.0, "GIC": 1e-4, "GIIC": 1.0}
-    item = element(4, interface.eight, label=42, **rigid(0.0), **brittle)
-    with pytest.raises(KernelError, match=r"PROPS\(14\) BETAN: beta = .* refine the mesh"):
-        item.evaluate(np.zeros(16))
+def raised(slopes):
+    """Beta that takes the place of an estimate below the slopes: twice the steepest, (tau, n)."""
+    return np.full(2, 2.0 * slopes.max())
+
+
+BRITTLE = {"SIGMAMAX": 30.0, "GIC": 1e-4, "GIIC": 1.0}
+"""A law that fails within 7e-6 mm: its slope of 4.5e6 N/mm^3 is above the estimates of beta, 1e5 here."""
+
+
+@pytest.mark.parametrize("estimate", [0.0, -1.0, -2.0])
+def test_an_estimate_of_beta_is_raised_to_twice_the_softening_slope(
+    element, interface, reference, library, law, estimate
+):
+    """And the element says so, once in a job; it has the tractions of one with that beta in the deck."""
+    library.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)
+    library.messages()
+    expected = raised(reference.softening_slopes({**law, **rigid(0.0), **BRITTLE}))
+    values = {**rigid(0.0), **BRITTLE, "BETAN": estimate, "BETAT": estimate, "GAMMABOT": 0.5}
+    u = interface.displacements(8, *interface.states["elastic"], seed=1)
+    items = [element(4, interface.eight, label=label, **values) for label in (42, 43)]
+    found = [item.advance(u) for item in items]
+    (message,) = library.messages()
+    assert re.search(
+        r"U4 element 42: PROPS\(14\) BETAN: the estimate of beta is .*, too small for the softening slope of the law; "
+        rf"raised to {expected[1] / 1e6:.3f}.*E\+06.*Told once in a job",
+        message.text,
+    )
+    assert message.kind == "warning"
+    given = element(4, interface.eight, **values | {"BETAN": expected[1], "BETAT": expected[0]})
+    for one in found:
+        for a, b in zip(one, given.advance(u), strict=True):
+            np.testing.assert_allclose(a, b, rtol=1e-12, atol=1e-12 * abs(b).max())
+    # SVARS keep it, and the next increment does not ask again
+    assert items[0].block.state(0).svars[0, 36:38].tolist() == pytest.approx(expected[::-1].tolist(), rel=1e-12)
+    items[0].advance(1.1 * u)
+    assert not any("beta" in message.text for message in library.messages())
+    # another job says it again
+    library.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)
+    element(4, interface.eight, **values).evaluate(u)
+    assert len(library.messages()) == 1
+
+
+@pytest.mark.parametrize("kind", [2, 3, 4])
+@pytest.mark.parametrize("jtype", [4, 6, 8, 12])
+def test_raised_beta_suits_every_law(element, interface, library, jtype, kind):
+    """With coarse meshes, and stiffnesses that differ: the element goes on to failure."""
+    scale = 1e3  # size of the solids
+    nodes = {4: interface.eight, 6: quadratic(interface.eight)}.get(jtype)
+    nodes = space_nodes(jtype, "flat") if nodes is None else nodes
+    values = {"LAW": kind, "ALPHAN": 1e7, "ALPHAT": 1e6, "CLOSURE": 1, "BETAN": 0.0, "BETAT": 0.0}
+    values |= {"ETA": 2.0} if kind < 4 else {"SHAPEN": 3.0}
+    library.messages()
+    library.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)
+    item = element(jtype, scale * nodes, **values)
+    if jtype in (8, 12):
+        unit = opened(jtype, np.array([0.5, 0.0, 1.0]), 0).ravel()
+    else:
+        unit = np.zeros(nodes.shape)
+        unit[len(nodes) // 2 :] = np.array([0.5, 1.0]) @ interface.axes
+        unit = unit.ravel()
+    for gap in (1e-3, 5e-3, 0.02, 1.0):
+        assert np.isfinite(item.advance(gap * unit)[0]).all()
+    assert (item.state["DAMAGE"] > 0.99).all()
+    assert "too small for the softening slope" in library.messages()[0].text
 
 
 @pytest.mark.parametrize("ratio", [1.0, 0.2, 7.0])
