@@ -95,19 +95,21 @@ contains
     end do
   end subroutine interpolate
 
-  !> Heat per mass that warming from one temperature to another takes, and its derivative by the latter.
-  pure subroutine energy_taken(material, from, to, energy, slope)
+  !> Heat per mass that warming from one temperature to another takes, and its derivative by the latter, as a whole or without
+  !> that of the specific heat.
+  !>
+  !> The specific heat at the end of the increment holds for all of it, as in Abaqus: residuals and iterations of a public job
+  !> (harness/procedures/fidelity.md).
+  pure subroutine energy_taken(material, from, to, whole, energy, slope)
     type(thermal_t), intent(in) :: material
     real(dp), intent(in) :: from, to
+    logical, intent(in) :: whole
     real(dp), intent(out) :: energy, slope
-    real(dp) :: unused
+    real(dp) :: change
     integer :: k
-    call interpolate(material%specific_heat, to, slope, unused)
-    if (size(material%specific_heat, 2) == 1) then
-      energy = slope*(to - from)
-    else
-      energy = integral(material%specific_heat, to) - integral(material%specific_heat, from)
-    end if
+    call interpolate(material%specific_heat, to, slope, change)
+    energy = slope*(to - from)
+    if (whole) slope = slope + change*(to - from)
     do k = 1, size(material%latent_heat, 2)
       associate (heat => material%latent_heat(1, k), solidus => material%latent_heat(2, k), liquidus => material%latent_heat(3, k))
         energy = energy + heat*(molten(to, solidus, liquidus) - molten(from, solidus, liquidus))
@@ -121,30 +123,6 @@ contains
     real(dp), intent(in) :: temperature, solidus, liquidus
     molten = min(max((temperature - solidus)/(liquidus - solidus), 0.0_dp), 1.0_dp)
   end function molten
-
-  !> Integral of a table from its first temperature on.
-  pure real(dp) function integral(table, temperature)
-    real(dp), intent(in) :: table(:, :), temperature
-    real(dp) :: value, slope
-    integer :: k, n
-    n = size(table, 2)
-    call interpolate(table, temperature, value, slope)
-    integral = 0
-    if (temperature < table(2, 1)) then
-      integral = value*(temperature - table(2, 1))
-      return
-    end if
-    do k = 1, n
-      if (k == n) then
-        integral = integral + value*(temperature - table(2, n))
-      else if (temperature < table(2, k + 1)) then
-        integral = integral + 0.5_dp*(table(1, k) + value)*(temperature - table(2, k))
-        return
-      else
-        integral = integral + 0.5_dp*(table(1, k) + table(1, k + 1))*(table(2, k + 1) - table(2, k))
-      end if
-    end do
-  end function integral
 
   !> Add the heat that HETVAL generates at a point, whose temperature and fields are in current%fields, to current%heat. Its TIME
   !> is that at the end of the increment; TEMP and PREDEF are values at the end, and increments.

@@ -19,6 +19,7 @@ from harness.assembly.linear import LinearElements
 from harness.assembly.states import States
 from harness.elements import (
     FIELD_NAMES,
+    BlockReport,
     Call,
     ContactBlock,
     DistributingBlock,
@@ -47,7 +48,8 @@ class Evaluation:
 
     residual    (n,) sum of RHS: external minus internal force
     data        (nnz,) CSR values of the matrix, None if not asked for; overwritten by the next pass that asks for it
-    flux        (fields,) sum of |element nodal force| by field, as FIELD_NAMES orders them
+    flux        (fields,) sum of |element nodal force| by field, as FIELD_NAMES orders them, and of loads that are terms
+                of the average flux
     flux_count  (fields,) number of terms in it, those above the call's floor
     pnewdt      smallest PNEWDT an element returned
     energy      (8,) sum of ENERGY; that of linear elements that were not called is added by `System.commit`
@@ -55,7 +57,7 @@ class Evaluation:
     load        (n,) sum of column 2 of RHS, increments of the loads that elements apply; None unless NRHS = 2
     damage      dissipated by the damage of built-in elements
     largest     (fields,) largest |element nodal force|
-    entries     (fields,) number of element nodal forces
+    entries     (fields,) number of element nodal forces, and what the loads count as
     contact     what the iteration changed in each contact pair
     coupling    errors of distributing couplings, None without any
     """
@@ -214,10 +216,7 @@ class System:
             linear.fill(data)
         elif data is not None:
             data.fill(0.0)
-        flux, count = np.zeros(len(FIELD_NAMES)), np.zeros(len(FIELD_NAMES), dtype=np.int64)
-        largest, entries = np.zeros(len(FIELD_NAMES)), np.zeros(len(FIELD_NAMES), dtype=np.int64)
-        energy, damage = np.zeros(8), 0.0
-        pnewdt = np.inf
+        reports: list[BlockReport] = []
         for block in self.blocks:
             kept = columns if block.group.definition or not call.flags.linear else np.zeros_like(columns)
             if spared and block in linear:
@@ -226,15 +225,14 @@ class System:
                 report = linear.learn(block, call, u, du, columns[0], data)
             else:
                 report = block.evaluate(call, u, du, kept if nrhs > 1 else kept[0], data, motion)
-            flux += report.flux
-            count += report.flux_count
-            largest = np.maximum(largest, report.largest)
-            entries += report.entries
-            energy += report.energy
-            damage += report.damage
-            pnewdt = min(pnewdt, report.pnewdt)
-        for entered in self.loaded if call.distributed is not None else ():
-            energy += entered.evaluate(call, u, du, columns if nrhs > 1 else columns[0], data, motion).energy
+            reports.append(report)
+        distributed = call.distributed
+        for entered in self.loaded if distributed is not None else ():
+            assert distributed is not None
+            report = entered.evaluate(call, u, du, columns if nrhs > 1 else columns[0], data, motion)
+            reports.append(entered.as_terms(report, distributed))
+        energy = sum((report.energy for report in reports), np.zeros(8))
+        damage = float(sum(report.damage for report in reports))
         load = columns[1] if nrhs > 1 else None
         linear.passed(call, u, du, spared=spared)
         for pair in self.contacts:
@@ -245,8 +243,20 @@ class System:
             coupled.evaluate(call, u, du, columns[0], data)
         contact = tuple(pair.trial_changes for pair in self.contacts)
         coupling = next((coupled.errors for coupled in self.coupled), None)
+        fields = len(FIELD_NAMES)
         return Evaluation(
-            columns[0], data, flux, count, pnewdt, energy, load, damage, largest, entries, contact, coupling
+            columns[0],
+            data,
+            sum((report.flux for report in reports), np.zeros(fields)),
+            sum((report.flux_count for report in reports), np.zeros(fields, dtype=np.int64)),
+            min((report.pnewdt for report in reports), default=np.inf),
+            energy,
+            load,
+            damage,
+            np.max([np.zeros(fields), *(report.largest * np.ones(fields) for report in reports)], axis=0),
+            sum((report.entries for report in reports), np.zeros(fields, dtype=np.int64)),
+            contact,
+            coupling,
         )
 
     def _evaluate_all(self, act: Callable[[], Evaluation], nrhs: int) -> Evaluation:

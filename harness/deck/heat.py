@@ -75,7 +75,7 @@ KEYWORDS = (
     ),
     Keyword(
         "SPECIFIC HEAT",
-        "Specific heat per mass.",
+        "Specific heat per mass; that at the end of an increment holds for all of it, as in Abaqus.",
         Where.MODEL,
         refused("DEPENDENCIES", "PORE FLUID"),
         "specific heat, temperature; linear in between",

@@ -199,7 +199,11 @@ _TIMES = "initial increment, period (1), smallest increment, largest increment"
 _DIRECT = Option("DIRECT", doc="fixed increments")
 _HEAT = (
     Option("STEADY STATE", doc="no storage of heat: time is a scale for loads"),
-    Option("DELTMX", Kind.REAL, "largest change of temperature in an increment; without it increments are fixed"),
+    Option(
+        "DELTMX",
+        Kind.REAL,
+        "largest change of temperature in an increment; without it increments are fixed",
+    ),
 )
 _STABILIZE = (
     Option(

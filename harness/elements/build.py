@@ -16,7 +16,13 @@ from harness.elements.block import ElementBlock
 from harness.elements.cohesive import cohesive_routine, cohesive_variables
 from harness.elements.composite import composite_routine, composite_variables, layer_axes
 from harness.elements.continuum_shell import continuum_shell_routine, stack_directions
-from harness.elements.coupled import coupled_routine, heat_routine, heat_variables, is_unsymmetric
+from harness.elements.coupled import (
+    coupled_routine,
+    has_unsymmetric_flow,
+    heat_routine,
+    heat_variables,
+    is_unsymmetric,
+)
 from harness.elements.directions import start_axes
 from harness.elements.discrete import discrete_routine, discrete_unknowns, discrete_variables
 from harness.elements.fields import PRESSURE, REFERENCE
@@ -334,7 +340,7 @@ def _heat_block(model: Model, group: ElementGroup, kind: HeatType, library: Libr
         tuple((node, dof) for node in range(kind.nodes)),
         routine,
         library,
-        unsymmetric=(depends_on_concentration if diffusive else is_unsymmetric)(section.material),
+        unsymmetric=(depends_on_concentration if diffusive else has_unsymmetric_flow)(section.material),
         variables=variables,
     )
 

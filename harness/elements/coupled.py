@@ -120,11 +120,14 @@ def heat_variables(kind: HeatType, routine: Routine) -> PointVariables:
     return PointVariables("continuum", names, kind.points)
 
 
+def has_unsymmetric_flow(material: Material) -> bool:
+    """Whether UMATHT gives an unsymmetric matrix; that of *CONDUCTIVITY leaves out its slope without displacements."""
+    return material.user_thermal is not None and material.user_thermal.unsymmetric
+
+
 def is_unsymmetric(material: Material) -> bool:
-    """Whether heat conduction has an unsymmetric matrix, which depends on the temperature."""
-    if material.user_thermal is not None:
-        return material.user_thermal.unsymmetric
-    return len(material.conductivity) > 1
+    """Whether heat conduction beside displacements has an unsymmetric matrix, as it depends on the temperature."""
+    return has_unsymmetric_flow(material) or (material.user_thermal is None and len(material.conductivity) > 1)
 
 
 def _check_thermal(model: Model, group: ElementGroup, material: Material) -> None:

@@ -13,11 +13,12 @@ from typing import Final
 import numpy as np
 
 from harness.elements.block import ElementBlock
+from harness.elements.call import BlockReport, Distributed
 from harness.elements.load_vectors import outward_sign, unit_forces
 from harness.elements.routine import Routine
 from harness.elements.solid import section_depth, solid_of
 from harness.model.arrays import FloatArray, IntArray
-from harness.model.element_types import DiscreteKind, Family, SurfaceType
+from harness.model.element_types import DiscreteKind, Family, ShellType, SurfaceType
 from harness.model.mesh import ElementGroup
 from harness.model.model import Model
 from harness.model.properties import CompositeSection, ShellSection, SolidSection
@@ -27,6 +28,8 @@ from harness.usersub import Library, _binding
 
 _TRACTIONS: Final = {LoadKind.TRACTION: 1, LoadKind.SHEAR: 2}
 """JPROPS(5) of what is no pressure."""
+SHELL_PRESSURE: Final = 8
+"""Terms of the average force that a load normal to a shell is, over the components of its nodal forces."""
 _AT_POINTS: Final = 3
 """That of a pressure that differs from point to point, as DLOAD gives it."""
 
@@ -67,6 +70,7 @@ class FollowerBlock(ElementBlock):
         group = replace(parent, labels=parent.labels[rows], nodes=nodes)
         super().__init__(group, coordinates, unknowns, routine, library, unsymmetric=True, variables=None)
         self.elements, self.load, self.surface, self.acts = elements, load, surface, acts
+        self._parent = parent.built_in
         self._rule = face.number, face.full_points, face.nodes, face.dimension
 
     @property
@@ -95,6 +99,17 @@ class FollowerBlock(ElementBlock):
         x[:, :, :dimension] += u[self._arrays.equations[rows] - 1].reshape(*x.shape[:2], dimension)
         found: FloatArray = np.einsum("pk,mkd->mpd", shapes, x)
         return found
+
+    def as_terms(self, report: BlockReport, distributed: Distributed) -> BlockReport:
+        """The report of a pass, with the terms of the average flux that the loads on these faces are.
+
+        Loads normal to shells are SHELL_PRESSURE times the components of their nodal forces, others none.
+        """
+        if not isinstance(self._parent, ShellType):
+            none = np.zeros_like(self._forces)
+            return report._replace(flux=np.zeros(len(none)), flux_count=none, largest=np.zeros(len(none)), entries=none)
+        loaded = np.count_nonzero(self.holds(distributed.elements[distributed.kinds == 1]))
+        return report._replace(entries=np.where(self._forces > 0, SHELL_PRESSURE * len(self.unknowns) * loaded, 0))
 
     @property
     def key(self) -> str:

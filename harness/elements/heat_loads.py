@@ -15,6 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from harness.elements.block import ElementBlock
+from harness.elements.call import BlockReport, Distributed
 from harness.elements.routine import Routine
 from harness.elements.solid import section_depth
 from harness.errors import DeckError
@@ -35,15 +36,22 @@ class HeatLoadBlock(ElementBlock):
 
     places  (m,) positions of the elements in the model, or nodes, ascending
     load    the type of the load
+    terms   of the average flux that one load is: the nodes of the element that have temperatures, whatever the face
     """
 
     places: IntArray
     load: HeatLoadType
+    terms: int
 
     @property
     def elements(self) -> IntArray | None:
         """(m,) positions of the elements in the model; None if heat enters nodes."""
         return None if self.load.area else self.places
+
+    def as_terms(self, report: BlockReport, distributed: Distributed) -> BlockReport:
+        """The report of a pass, with the terms of the average flux that the loads on these elements are."""
+        loaded = np.count_nonzero(self.holds(distributed.elements[distributed.kinds == 1]))
+        return report._replace(entries=np.where(self._forces > 0, self.terms * loaded, 0))
 
     def keep(self, rows: IntArray) -> None:
         """As that of other blocks."""
@@ -114,7 +122,8 @@ def _on_elements(
     group = replace(parent, labels=parent.labels[rows], nodes=nodes)
     jtype = FACE if load.face else VOLUME
     routine = _routine(jtype, kind.dimension, depth, integers)
-    return _block(model, group, routine, library, field, places, load)
+    terms = sum(TEMPERATURE in kind.dofs(node) for node in range(kind.nodes))
+    return _block(model, group, routine, library, field, places, load, terms)
 
 
 def _check_nodes(model: Model, entries: list[HeatLoad]) -> None:
@@ -137,7 +146,7 @@ def _at_nodes(model: Model, nodes: IntArray, load: HeatLoadType, number: int, li
     labels = model.mesh.labels[nodes]
     group = replace(model.groups[0], type=load.keyword, labels=labels, nodes=nodes[:, None])
     routine = _routine(NODE, 3, load.area, [0, 0, 0, 0, number, False])
-    return _block(model, group, routine, library, None, nodes, load)
+    return _block(model, group, routine, library, None, nodes, load, 1)
 
 
 def _routine(jtype: int, dimension: int, factor: float, integers: list[int]) -> Routine:
@@ -159,10 +168,11 @@ def _block(
     field: Family | None,
     places: IntArray,
     load: HeatLoadType,
+    terms: int,
 ) -> HeatLoadBlock:
     count = 1 if field is None else field.nodes
     dof = CONCENTRATION if model.diffusive else TEMPERATURE
     unknowns = tuple((node, dof) for node in range(count))
     block = HeatLoadBlock(group, model.mesh.coordinates, unknowns, routine, library, unsymmetric=False, variables=None)
-    block.places, block.load = places, load
+    block.places, block.load, block.terms = places, load, terms
     return block

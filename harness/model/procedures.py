@@ -182,6 +182,7 @@ class Visco(Procedure):
 
     keyword: ClassVar = "VISCO"
     title: ClassVar = "VISCO ANALYSIS"
+    growth: ClassVar = "d_m_diff"
 
     tolerance: float = field(default=math.inf, kw_only=True)
 

@@ -225,7 +225,8 @@ class GeneralStep:
                 yield IterationDone(number_of_kind, checks, state.line_search, state.evaluation.contact)
                 if all(check.verdict.accepted for check in checks):
                     accuracy = self._accuracy(state, size)
-                    cutback = self._control.too_inaccurate(accuracy) or self._passed_limit(state, size)
+                    inaccurate = self._control.too_inaccurate(accuracy, linear=was_linear(checks))
+                    cutback = inaccurate or self._passed_limit(state, size)
                     if cutback is None:
                         yield from self._small_flux(checks)
                         yield from self._help(increment, spent.total)
@@ -315,7 +316,6 @@ class GeneralStep:
             searched=self._helped,
             accuracy=accuracy,
             disturbed=spent.severe > self._most_severe,
-            linear=was_linear(checks),
         )
         self._state.total_time = reached.total_time
         times = reached.step_time, reached.total_time

@@ -127,19 +127,23 @@ class IncrementControl:
         self._controls = controls
         self._size = procedure.initial if procedure.direct else min(procedure.initial, procedure.maximum)
         self._easy = 0
-        self._measures: list[float] = []
+        self._measures: list[tuple[float, float]] = []
         self._most = float(getattr(controls, procedure.growth))
         self._whole: tuple[float, float] | None = None
+        # whether the last attempt that converged was linear, and all of them so far
+        self._linear = self._always_linear = True
         self.in_parts = False
         self.attempts = 0
 
     def kept(self) -> Saved:
         """Sizes between two increments, neither of which is in parts."""
-        return {"size": self._size, "easy": self._easy, "measures": list(self._measures)}
+        measures = [list(pair) for pair in self._measures]
+        return {"size": self._size, "easy": self._easy, "measures": measures, "linear": self._always_linear}
 
     def resume(self, saved: Saved) -> None:
         """Go on from what `kept` returned."""
-        self._size, self._easy, self._measures = saved["size"], saved["easy"], list(saved["measures"])
+        self._size, self._easy, self._always_linear = saved["size"], saved["easy"], saved["linear"]
+        self._measures = [(measure, size) for measure, size in saved["measures"]]
 
     def part(self, end: float) -> bool:
         """Whether the current increment, to the step time `end`, may be taken in parts; `cut_back` gives their size.
@@ -185,8 +189,12 @@ class IncrementControl:
             return 0.0, BELOW_MINIMUM
         return self._size, ""
 
-    def too_inaccurate(self, accuracy: Accuracy | None) -> Cutback | None:
-        """Cutback if the integration over time is too inaccurate, unless increments are fixed."""
+    def too_inaccurate(self, accuracy: Accuracy | None, *, linear: bool) -> Cutback | None:
+        """Cutback if the integration over time is too inaccurate, unless increments are fixed.
+
+        linear: the response was linear in the attempt, which has converged.
+        """
+        self._linear, self._always_linear = linear, self._always_linear and linear
         if accuracy is None or accuracy.measure <= 1.0 or self._procedure.direct:
             return None
         return Cutback(self._controls.d_a / accuracy.measure, accuracy.complaint)
@@ -199,7 +207,6 @@ class IncrementControl:
         searched: bool = False,
         accuracy: Accuracy | None = None,
         disturbed: bool = False,
-        linear: bool = False,
     ) -> None:
         """Choose the size of the next increment.
 
@@ -216,8 +223,6 @@ class IncrementControl:
             Of the integration over time: if measured, it decides the growth.
         disturbed
             There were more than I_J severe discontinuity iterations, I_J^c with CONVERT SDI=YES.
-        linear
-            The response was linear: the matrix is kept unless the increment grows by D_L times the most it may.
         """
         # a cutback does not restart the count: Abaqus grows right after one if the attempts that converged were easy
         self._easy = self._easy + 1 if iterations <= self._controls.i_g and not disturbed else 0
@@ -229,20 +234,25 @@ class IncrementControl:
         elif 1.0 < pnewdt < UNTOUCHED:
             self._size *= pnewdt
         elif accuracy is not None:
-            growth = self._growth_by_accuracy(accuracy.measure)
-            self._size *= growth if not linear or growth >= self._controls.d_l * self._most else 1.0
+            self._size *= self._growth_by_accuracy(accuracy.measure)
         elif self._easy >= 2:
             self._size *= min(self._controls.d_d, self._most)
         self._size = min(max(self._size, self._procedure.minimum), self._procedure.maximum)
 
     def _growth_by_accuracy(self, measure: float) -> float:
-        """Growth after I_T increments in a row whose measures are below W_G: D_G over their mean, D_M at most."""
-        self._measures.append(measure)
-        last = self._measures[-self._controls.i_t :]
-        if len(last) < self._controls.i_t or max(last) >= self._controls.w_g:
+        """Growth if the last I_T measures, which go with the size, are up to W_G at this one: D_G over the last one.
+
+        It is at most D_M, and D_D where the response was not linear. A problem that was linear in all attempts of the
+        step keeps its matrix unless it may grow by D_L D_M.
+        """
+        controls = self._controls
+        self._measures = [*self._measures, (measure, self._size)][-controls.i_t :]
+        largest = max(earlier * self._size / size for earlier, size in self._measures)
+        if len(self._measures) < controls.i_t or largest > controls.w_g:
             return 1.0
-        mean = sum(last) / len(last)
-        return max(1.0, self._most if mean == 0.0 else min(self._most, self._controls.d_g / mean))
+        most = self._most if self._linear else min(self._most, controls.d_d)
+        growth = most if measure == 0.0 else min(most, controls.d_g / measure)
+        return growth if growth >= (controls.d_l * most if self._always_linear else 1.0) else 1.0
 
     def finished(self, step_time: float) -> bool:
         """Whether the period is reached."""

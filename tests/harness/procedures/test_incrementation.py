@@ -10,10 +10,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.model.procedures import Static
+from harness.model.procedures import HeatTransfer, Static, Visco
 from harness.model.steps import TimeControls
 from harness.procedures import incrementation
-from harness.procedures.incrementation import Cutback, IncrementControl, judge_rate, out_of_iterations, refused
+from harness.procedures.incrementation import (
+    Accuracy,
+    Cutback,
+    IncrementControl,
+    judge_rate,
+    out_of_iterations,
+    refused,
+)
 
 DATA = Path(__file__).parents[2] / "data"
 DEFAULT = TimeControls()
@@ -64,6 +71,58 @@ def test_sizes_at_the_smallest_increment_of_a_public_status_file():
         control.converged(iterations, FREE)
     assert control.attempt(time) == pytest.approx(printed[5], rel=5e-3)
     assert control.cut_back(out_of_iterations(16, DEFAULT)) == (0.0, incrementation.BELOW_MINIMUM)
+
+
+PRINTED_CHANGES = """
+596. 65.3 43.2 41.8 40.5 39.0 36.8 34.9 33.2 37.6 37.5 37.9 38.2 38.3 37.2 35.7 34.3 38.2 36.2 34.2 32.3 37.5 34.9 32.5
+36.6 33.9 31.5 36.4 32.9 29.0 33.8 30.1 26.7 34.5 30.1 26.4 35.6 32.3 29.3 35.5 31.6 28.1 34.8 31.5 29.0 36.3
+"""
+"""Largest change of temperature of each attempt of Amirisfahani/ThermalAbaqus, Job-1.msg (Abaqus 2017)."""
+
+PRINTED_SIZES = [
+    *(10.0, 0.713, *[0.4643] * 7, *[0.5598] * 8, *[0.6536] * 4, *[0.8083] * 3, *[0.9952] * 3, *[1.263] * 3),
+    *(*[1.743] * 3, *[2.612] * 3, *[3.918] * 3, *[5.344] * 3, *[7.596] * 3, 10.47),
+]
+"""Their time increments, Job-1.sta; most attempts took one iteration, whose response was linear."""
+
+
+def test_sizes_by_the_largest_change_of_temperature_of_a_public_status_file():
+    """DELTMX=50: growth by 40/change after three increments of one size with changes up to 37.5.
+
+    After increment 34, which took two iterations, it is D_D = 1.5 as that is less than 40/26.4.
+
+    The first attempt was not linear, so D_L does not hold growth back. The changes are printed with three digits.
+    """
+    control = IncrementControl(HeatTransfer(10.0, 5000.0, 0.05, 100.0, largest_change=50.0), DEFAULT)
+    time, tried = 0.0, []
+    for k, change in enumerate(map(float, PRINTED_CHANGES.split())):
+        tried.append(control.attempt(time))
+        accuracy = Accuracy(change / 50.0, "")
+        # printed with two iterations from the second attempt at a larger increment than 1.743 on
+        cutback = control.too_inaccurate(accuracy, linear=0 < k < 33)
+        if cutback is not None:
+            control.cut_back(cutback)
+            continue
+        time += tried[-1]
+        control.converged(1, FREE, accuracy=accuracy)
+    # each growth adds the rounding of a change, up to 1.5e-3
+    np.testing.assert_allclose(tried, PRINTED_SIZES, rtol=5e-3)
+
+
+def test_sizes_of_creep_of_a_public_message_file():
+    """Abaqus (lelimaa/Abaqus_WELL_, Job-1.msg, steps 5 and 7): 1, 1, 1, 2, 4, ... 1024 s.
+
+    One iteration each; the differences of creep strain, below 1e-22, are nothing beside CETOL = 0.01.
+    """
+    control = IncrementControl(Visco(1.0, 3e5, 1e-5, 1e5, tolerance=0.01), DEFAULT)
+    time, tried = 0.0, []
+    for _ in range(13):
+        tried.append(control.attempt(time))
+        accuracy = Accuracy(1e-20, "")
+        assert control.too_inaccurate(accuracy, linear=True) is None
+        time += tried[-1]
+        control.converged(1, FREE, accuracy=accuracy)
+    assert tried == pytest.approx([1.0, 1.0, *2.0 ** np.arange(11)])
 
 
 def test_last_increment_of_a_public_status_file_meets_the_period():
