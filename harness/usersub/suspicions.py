@@ -8,9 +8,11 @@ implicit types by the first letter, unused arguments, arrays declared with a bou
 
 from __future__ import annotations
 
+import math
 import re
 import struct
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
@@ -36,6 +38,17 @@ _LONG: Final = 4
 """Least number of letters of a name that may be misspelt: shorter ones are all alike."""
 
 _CONSTANT: Final = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+)(?![\w.])")
+_FUNCTION: Final = re.compile(
+    r"\b(sqrt|exp|log|log10|sin|cos|tan|asin|acos|atan)\(\s*(-?(?:\d+\.\d*|\.\d+))\s*\)", re.IGNORECASE
+)
+"""An intrinsic function of a single-precision constant."""
+_QUOTIENT: Final = re.compile(r"(?<![\w.*/])(?:(\d+\.\d*|\.\d+)/(\d+\.?\d*|\.\d+)|(\d+)/(\d+\.\d*|\.\d+))(?![\w.])")
+"""A quotient of constants, at least one of which is of single precision."""
+_INTRINSIC: Final = frozenset(
+    ("abs", "sqrt", "exp", "log", "log10", "sin", "cos", "tan", "asin", "acos", "atan", "max", "min", "dble", "real")
+)
+"""Functions whose argument is a number, not an index."""
+_ASSIGNED: Final = re.compile(r"^\s*\d*\s*(?:if\s*\(.*\)\s*)?([a-z]\w*)\s*(?:\([^=]*\)\s*)?=(?!=)(.*)$", re.IGNORECASE)
 
 _COUNT: Final = "give as many arguments as the routine has"
 _OPTIONS: Final = {
@@ -103,7 +116,7 @@ def suspicions(files: Sequence[Path], include: Sequence[Path] = ()) -> list[Susp
     """
     opinion = listen(files, include)
     told = _Told(opinion, _checked_lines(files, include))
-    found = dict.fromkeys([*told.warnings(), *told.misspelt(), *told.single_precision()])
+    found = dict.fromkeys([*told.warnings(), *told.misspelt(), *told.truncated(), *told.single_precision()])
     names = [file.name for file in files]
     place = {name: number for number, name in enumerate(names)}
     return sorted(found, key=lambda one: (not one.certain, place.get(one.file, len(names)), one.line))
@@ -151,20 +164,58 @@ class _Told:
             meant = f" for '{near[0]}'" if near else ""
             yield self._at(file, line, f"'{found[1]}' is declared nowhere and used once: misspelt{meant}?", "", False)
 
+    def truncated(self) -> Iterator[Suspicion]:
+        """Real values assigned to variables that are integers by their first letter, and used as real numbers."""
+        for file, line, _, text, option in warnings_of(self._opinion.warnings):
+            if option != "-Wconversion" or not re.search(r"from REAL\(\d+\) to INTEGER", text):
+                continue
+            unit, assigned = unit_at(self._units.get(file, []), line), _ASSIGNED.match(self._code(file, line)[6:])
+            if assigned is None:
+                continue
+            name, value = assigned[1].lower(), assigned[2]
+            # an entry of PROPS or SVARS alone may well hold an integer
+            if self._declared(file, unit, name) or not re.search(r"[*/+-]", value.strip()):
+                continue
+            yield self._at(
+                file,
+                line,
+                f"'{name}' is an integer by its first letter, and what it gets is cut off",
+                f"declare it: real*8 {name}; or write int(...) if that is meant",
+                "*" in value and self._is_factor(file, unit, name),
+            )
+
+    def _declared(self, file: str, unit: Unit | None, name: str) -> bool:
+        """Whether a name has a declaration, anywhere in the file if the head of its unit is in another one."""
+        if unit is not None:
+            return name in unit.declared or name in unit.dummies
+        declaration = rf"^\s*(?:integer|real|double\s*precision|dimension|common)\b.*\b{name}\b"
+        return re.search(declaration, self._opinion.texts.get(file, ""), re.IGNORECASE | re.MULTILINE) is not None
+
+    def _is_factor(self, file: str, unit: Unit | None, name: str) -> bool:
+        """Whether a name is multiplied as a real number wherever it becomes one."""
+        uses = []
+        for other, line, column, text, option in warnings_of(self._opinion.warnings):
+            same = other == file and unit_at(self._units[file], line) is unit and option == "-Wconversion-extra"
+            row = self._row(file, line)[:column].lower()
+            if same and "from INTEGER" in text and re.search(rf"(?<!\w){name}$", row.rstrip()):
+                rest, before = self._row(file, line)[column:].lstrip(), row.rstrip()[: -len(name)].rstrip()
+                uses.append(rest.startswith("*") or before.endswith("*"))
+        return bool(uses) and all(uses)
+
     def single_precision(self) -> Iterator[Suspicion]:
         """Constants that lose digits on their way into a variable of double precision: one message per file."""
-        found: dict[str, list[tuple[int, str]]] = {}
+        found: dict[str, list[tuple[int, str, str]]] = {}
         for file, line, _, _, option in warnings_of(self._opinion.warnings):
             if option == "-Wconversion-extra":
-                for constant in _CONSTANT.findall(self._code(file, line)):
-                    if (line, constant) not in found.setdefault(file, []) and _loses_digits(constant):
-                        found[file].append((line, constant))
+                for constant, better in _short(self._code(file, line)):
+                    if (line, constant, better) not in found.setdefault(file, []):
+                        found[file].append((line, constant, better))
         for file, places in found.items():
             if places:
-                line, constant = places[0]
+                line, constant, better = places[0]
                 sentence = f"{constant} is a single-precision constant, with 7 digits"
                 others = f"; there are {len(places)} of them" if len(places) > 1 else ""
-                yield self._at(file, line, sentence, f"write {constant}d0{others}", False)
+                yield self._at(file, line, sentence, f"write {better}{others}", False)
 
     def _judge(self, file: str, line: int, column: int, text: str, option: str) -> tuple[str, str, bool] | None:
         """Sentence, hint and whether the mistake is certain; None for style."""
@@ -179,11 +230,39 @@ class _Told:
             constant = argument_ranks.is_constant(self._opinion.texts.get(file, ""), line, column)
             what = "a constant" if constant else "a single value"
             return f"{what} is passed for the argument '{argument}', which is an array", argument_ranks.HINT, constant
+        if option.endswith("uninitialized") and self._internal(file, text):
+            return None
         if option == "-Wuninitialized":
             name = found[0] if (found := re.match(r"'\w+'", text)) else "a local variable"
             return f"{name} is used before it has a value", "", True
         hint = _OPTIONS.get(option) or next((hint for pattern, hint in _SENTENCES if re.search(pattern, text)), "")
-        return (text.replace(" at (1)", ""), hint, hint == _COUNT) if hint else None
+        certain = hint == _COUNT or (option == "-Winteger-division" and self._of_reals(file, line, column))
+        return (text.replace(" at (1)", ""), hint, certain) if hint else None
+
+    def _internal(self, file: str, text: str) -> bool:
+        """Whether a warning names a variable that the compiler made, such as the bounds of an intermediate array."""
+        found = re.match(r"'(\w+)", text)
+        known = self._opinion.texts.get(file, "")
+        return found is not None and re.search(rf"\b{found[1]}\b", known, re.IGNORECASE) is None
+
+    def _of_reals(self, file: str, line: int, column: int) -> bool:
+        """Whether a quotient of integers is part of the value of a real variable, and of no index or argument."""
+        code = self._code(file, line)
+        unit, assigned = unit_at(self._units.get(file, []), line), _ASSIGNED.match(code[6:])
+        if assigned is None or column - 1 < 6 + assigned.start(2):
+            return False
+        name = assigned[1].lower()
+        if name[0] in "ijklmn" or (unit is not None and name in unit.integers):
+            return False
+        depth = 0
+        for place in range(column - 2, 6 + assigned.start(2) - 1, -1):
+            depth += (code[place] == ")") - (code[place] == "(")
+            if depth < 0:
+                before = re.search(r"([a-z]\w*)\s*$", code[:place], re.IGNORECASE)
+                if before and before[1].lower() not in _INTRINSIC:
+                    return False
+                depth = 0
+        return True
 
     def _outside(self, file: str, line: int, column: int, found: re.Match[str]) -> tuple[str, str, bool] | None:
         index, side, bound, dimension = found.groups()
@@ -221,7 +300,24 @@ class _Told:
         return Suspicion(file, line, sentence, " ".join(self._row(file, line).split()), hint, certain)
 
 
-def _loses_digits(constant: str) -> bool:
-    """Whether single precision changes a number."""
-    value = float(constant)
-    return bool(struct.unpack("f", struct.pack("f", value))[0] != value)
+def _short(code: str) -> Iterator[tuple[str, str]]:
+    """Numbers in a line whose single precision loses digits, and how to write them in double precision."""
+    for constant in _CONSTANT.findall(code):
+        if _rounded(float(constant)) != float(constant):
+            yield constant, f"{constant}d0"
+    for match in _FUNCTION.finditer(code):
+        function, argument = match[1].lower(), match[2]
+        with suppress(ValueError):
+            value = getattr(math, function)(float(argument))
+            if _rounded(value) != value and _rounded(float(argument)) == float(argument):
+                yield match[0], f"{match[1]}({argument}d0)"
+    for match in _QUOTIENT.finditer(code):
+        above, below = match[1] or match[3], match[2] or match[4]
+        if float(below) and _rounded(float(above) / float(below)) != float(above) / float(below):
+            yield match[0], f"{above if '.' in above else above + '.'}d0/{below if '.' in below else below + '.'}d0"
+
+
+def _rounded(value: float) -> float:
+    """A number in single precision."""
+    short: float = struct.unpack("f", struct.pack("f", value))[0]
+    return short

@@ -34,6 +34,7 @@ class Unit:
     dummies   names of its arguments, in lower case like all names
     names     number of occurrences of each name
     declared  names in declarations
+    integers  names in declarations of integers
     read      names whose value is used: neither assigned, nor an argument of CALL
     """
 
@@ -41,6 +42,7 @@ class Unit:
     dummies: frozenset[str]
     names: Counter[str] = field(default_factory=Counter)
     declared: set[str] = field(default_factory=set)
+    integers: set[str] = field(default_factory=set)
     read: set[str] = field(default_factory=set)
 
     def single(self, name: str) -> bool:
@@ -60,6 +62,8 @@ def units(text: str, *, free: bool) -> list[Unit]:
             unit.names.update(names)
             if _SPECIFICATION.match(statement):
                 unit.declared.update(names)
+                if names[0] == "integer":
+                    unit.integers.update(names)
             elif not _CALL.match(statement):
                 unit.read.update(names[1:] if _ASSIGNMENT.match(statement) else names)
     return found

@@ -14,6 +14,7 @@ from harness.check.finding import Verdict
 from harness.cli import main
 from harness.errors import KernelError, UelError
 from harness.usersub import suspicions
+from harness.usersub.built import path_of_amalgam
 
 TESTS = Path(__file__).parents[1]
 TEMPLATE = Path(__file__).parents[3] / "harness" / "project" / "template" / "my_uel.for"
@@ -39,6 +40,27 @@ SET = "x = 1\n      s = 1\n      w = 1\n      "
 FREE = ROUTINE.replace("      ", "")
 
 
+PRODUCT = """\
+module faces
+  implicit none
+contains
+  pure function frame(nodes, bottom, top) result(slopes)
+    integer, intent(in) :: nodes
+    double precision, intent(in) :: bottom(3, nodes), top(3, nodes)
+    double precision, parameter :: parent(2) = 0
+    double precision :: slopes(3, 2)
+    slopes = matmul(0.5d0*(bottom + top), slope(3, nodes, parent))
+  end function
+  pure function slope(dim, nodes, parent) result(s)
+    integer, intent(in) :: dim, nodes
+    double precision, intent(in) :: parent(2)
+    double precision :: s(nodes, dim - 1)
+    s = parent(1)
+  end function
+end module
+"""
+
+
 def told(tmp_path, statement, name="my_uel.for"):
     """Suspicions of a file with a statement, which is in line 6 or below, and the text."""
     file = tmp_path / name
@@ -58,11 +80,24 @@ CERTAIN = [
     (SET + "call fill(b, 2, 3.d0, 2.d0)", "a constant is passed for the argument 'arr', which is an array"),
     (SET + "call fill(b, 2, 3.d0, zero)", "a constant is passed for the argument 'arr', which is an array"),
     (SET + "call fill(b, 2, 3.d0, w, n)", "More actual than formal arguments in procedure call"),
+    (SET + "young = young*(1/2)", r"Integer division truncated to constant '0'.*write 1.d0/3.d0"),
+    (SET + "x = sqrt(young*(1/3))", r"Integer division truncated to constant '0'.*write 1.d0/3.d0"),
+    (
+        SET + "mass = 2\n      x = mass*young\n      mass = young*x",
+        "'mass' is an integer by its first letter, and what it gets is cut off",
+    ),
 ]
 TOLD = [
     (SET + "call fill(b, 2, 3.d0, s)", "a single value is passed for the argument 'arr', which is an array"),
     (SET + "if (n > 1) q = props(n)\n      x = q", "'q' may be used uninitialized"),
-    (SET + "young = young*(1/2)", r"Integer division truncated to constant '0'.*write 1.d0/3.d0"),
+    (SET + "x = w(7/2)", "Integer division truncated to constant '3'"),
+    (SET + "k = 7/2", "Integer division truncated to constant '3'"),
+    (
+        SET + "nodes = 2\n      x = young - nodes\n      nodes = young*x",
+        "'nodes' is an integer by its first letter, and what it gets is cut off",
+    ),
+    (SET + "x = young/sqrt(3.)", r"sqrt\(3\.\) is a single-precision constant, with 7 digits.*write sqrt\(3\.d0\)"),
+    (SET + "x = young*x + 1./3.", r"1\./3\. is a single-precision constant, with 7 digits.*write 1\.d0/3\.d0"),
     (SET + "x = 0.577350269189626", r"0.577350269189626 is a single-precision constant.*write 0.577350269189626d0"),
     (SET + "if (n > 1) x = yuong", "'yuong' is declared nowhere and used once: misspelt for 'young'?"),
     (SET + "if (n > 1) yuong = 2", "'yuong' is declared nowhere and used once: misspelt for 'young'?"),
@@ -109,10 +144,24 @@ def test_mistakes_in_c(tmp_path, name):
         SET + "call fill(b(1,2), 2, 3.d0, w(2))",
         SET + "ef = props(3)",
         SET + "n2 = n/2\n      x = n2",
+        SET + "x = sqrt(4.) + 1./4. + sqrt(3.d0)",
+        SET + "k = nint(young*x)\n      x = k*y",
     ],
 )
 def test_right_code_in_an_old_style(tmp_path, statement):
     assert told(tmp_path, statement) == []
+
+
+def test_variables_of_the_compiler_are_not_the_users(tmp_path):
+    """The bounds of the intermediate array of this product, of which gfortran 12 says that they have no value."""
+    file = tmp_path / "faces.f90"
+    file.write_text(PRODUCT)
+    assert suspicions([file]) == []
+
+
+@pytest.mark.long
+def test_amalgam_is_beyond_suspicion():
+    assert suspicions([path_of_amalgam()]) == []
 
 
 @pytest.mark.parametrize("file", [TEMPLATE, *sorted(TESTS.glob("check/*.f"))], ids=lambda file: file.name)
