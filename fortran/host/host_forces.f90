@@ -67,7 +67,7 @@ contains
   pure subroutine add_geometric(dim, direct, m, nodes, g, stress, volume, modulus, stiffness)
     integer, intent(in) :: dim, direct, m, nodes      !< m: number of strains
     real(dp), intent(in) :: g(nodes, direct), stress(m), volume
-    real(dp), intent(inout) :: modulus(m, m), stiffness(dim*nodes, dim*nodes)
+    real(dp), intent(inout) :: modulus(m, m), stiffness(:, :)
     integer, parameter :: first(3) = [1, 1, 2], second(3) = [2, 3, 3]
     real(dp) :: full(direct, direct), basis(direct, direct, m), between(nodes, nodes)
     integer :: i, j

@@ -14,8 +14,7 @@
 !>
 !> Large displacements: Cauchy stress, rotated and updated increment by increment with the strain and the rotation at the middle of
 !> the increment (Jaumann rate; Hughes and Winget). The tangent leaves out the change of the volume and of the middle of the
-!> increment. Elements with incompatible modes have small strains in axes that turn with their middle (core_solid_rotation), to the
-!> order of the strain the same; their tangent is exact.
+!> increment. Incompatible modes are part of the deformation gradient (host_incompatible).
 !>
 !> Generalised plane strain (host_planes): the planes come with the call, three unknowns of theirs behind those of the nodes.
 !>
@@ -37,20 +36,20 @@
 module host_solid
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
   use core_mode_search, only: find_modes, mode_search, most_passes
-  use core_solid_rotation, only: find_turn, solid_turn, turn_forces, turn_stiffness
+  use core_rotation, only: about_mean
   use core_strains, only: condense
   use host_axes, only: carry_axes, turn_heat, turn_matrix, values_of_axes
   use host_context, only: added_stress, current, heat_t, initial_stresses, stress_matrix
   use host_coupling, only: add_heat_source, add_thermal_strain, coupling_t, find_shape, interpolate_fields, set_temperature, &
                            shares, thermal_strain
-  use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point, add_stress_matrix
+  use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point, add_stress_matrix, by_volume
   use host_gradients, only: all_gradients, carry, find_deformation, gradient_of, gradients_of_points
   use host_hybrid, only: add_compatibility, begin_pressure, begin_smoothing, keep_point, keep_temperature, mean_response_t, &
                          mean_stress, mean_stress_added, pressure_t, smooth, smooth_by_temperature, smoothing_change, &
                          smoothing_t
   use host_hourglass, only: resist_hourglass
   use host_hyperelastic, only: volume_of
-  use host_incompatible, only: mode_strains
+  use host_incompatible, only: add_by_modes, begin_modes, enhance, enhanced_strains, gradient_in_the_middle, modes_t
   use host_inertia, only: is_dynamic, mass_matrix, respond
   use host_initial_stress, only: begin_point
   use host_kinds, only: dp, i4
@@ -168,8 +167,8 @@ contains
     values_of_point = merge(8, 12, dim == 2)
   end function values_of_point
 
-  !> The same with incompatible modes: they are sought at the displacements of the nodes. With large displacements (finite)
-  !> strains are small in axes that turn with the middle of the element (core_solid_rotation).
+  !> The same with incompatible modes: they are sought at the displacements of the nodes. The matrix of a stress is that of all
+  !> unknowns where the modes follow the displacements as the tangent has them.
   subroutine integrate_with_modes(rule, strains, modes, request, finite, material, thickness, x, fields, predef, u, du, added, &
                                   force, stiffness, svars, alpha, energy, axes, functions, layers)
     type(rule_t), intent(in) :: rule
@@ -186,60 +185,53 @@ contains
     integer(i4), intent(in), optional :: layers(:, :)
     real(dp), dimension(rule%dim*rule%nodes + modes) :: all_force
     real(dp), dimension(rule%dim*rule%nodes + modes, rule%dim*rule%nodes + modes) :: all_stiffness
-    real(dp) :: b(modes, strains, rule%points), inverse(modes, modes), svars_start(size(svars)), energy_start(8)
-    real(dp), dimension(rule%dim*rule%nodes) :: moved
-    real(dp) :: all_work
-    type(solid_turn) :: turn
+    real(dp) :: inverse(modes, modes), svars_start(size(svars)), energy_start(8), follow(modes, rule%dim*rule%nodes)
+    real(dp), allocatable :: axes_start(:, :, :, :)
+    real(dp) :: unknowns(rule%dim*rule%nodes + modes), all_work, pnewdt
+    type(modes_t) :: enhanced
     type(mode_search) :: search
-    integer :: pass, n, p
+    integer :: pass, n
     logical :: settled, good
-    call mode_strains(rule, x, modes, strains, b)
     n = size(force)
-    moved = u
-    if (finite) then
-      call turn_of(rule, x, u - du, turn, moved)
-      if (.not. (material%turned .or. material%local)) call turn_states(rule, transpose(turn%rotation), svars)
-      call turn_of(rule, x, u, turn, moved)
-    end if
+    call begin_modes(enhanced, rule, strains, x, alpha)
     svars_start = svars
     energy_start = energy
+    if (present(axes)) axes_start = axes
+    pnewdt = current%pnewdt
     do pass = 1, most_passes
       svars = svars_start
       energy = energy_start
+      if (present(axes)) axes = axes_start
+      current%pnewdt = pnewdt
+      enhanced%now = alpha
       all_force = 0
       all_stiffness = 0
-      call integrate(rule, rule%dim, strains, modes, merge(request, 1_i4, request == initial_stresses), .false., material, &
-                     thickness, 0.0_dp, .false., x, fields, predef, moved, du, all_force, all_stiffness, svars, energy, &
-                     alpha=alpha, by_modes=b, axes=axes, functions=functions, layers=layers)
+      call integrate(rule, rule%dim, strains, modes, merge(request, 1_i4, request == initial_stresses), finite, material, &
+                     thickness, 0.0_dp, .false., x, fields, predef, u, du, all_force, all_stiffness, svars, energy, &
+                     modes=enhanced, axes=axes, functions=functions, layers=layers)
       if (request == initial_stresses) then
-        force = all_force(:size(force))
+        force = all_force(:n)
         return
       end if
       ! stresses at rest, thermal or initial, do none: there it is that of the nodal forces where nothing holds the nodes
-      all_work = dot_product(abs([moved, alpha]), matmul(abs(all_stiffness), abs([moved, alpha]))) + &
+      unknowns = abs([about_mean(rule%dim, u), alpha])
+      all_work = dot_product(unknowns, matmul(abs(all_stiffness), unknowns)) + &
                  sum(all_force(:n)**2)/max(maxval(abs(all_stiffness)), tiny(1.0_dp))
       call find_modes(search, all_force(n + 1:), all_stiffness(n + 1:, n + 1:), all_work, alpha, inverse, settled, good)
       if (settled .or. .not. good) exit
     end do
     if (.not. (settled .and. good)) call not_solved('the incompatible modes are not in equilibrium')
     call condense(n, inverse, all_force, all_stiffness, force, stiffness)
-    if (stress_matrix(request)) then
-      ! strains are small: stresses act on the rotation of the middle alone
-      if (.not. finite) call turn_of(rule, x, 0*u, turn, moved)
-      if (request == added_stress) force = matmul(stiffness, turned_back(rule, turn, added))
-      stiffness = turn_stiffness(rule%dim, rule%nodes, turn, force, 0*stiffness)
-      return
-    end if
-    if (.not. finite) return
-    stiffness = turn_stiffness(rule%dim, rule%nodes, turn, force, stiffness)
-    force = turn_forces(rule%dim, rule%nodes, turn, force)
-    if (present(axes)) then
-      do p = 1, rule%points
-        axes(:, :, 2, p) = matmul(axes(:, :, 1, p), transpose(turn%rotation))
-      end do
-    else if (.not. material%turned) then
-      call turn_states(rule, turn%rotation, svars)
-    end if
+    if (.not. stress_matrix(request)) return
+    follow = -matmul(inverse, all_stiffness(n + 1:, :n))
+    all_stiffness = 0
+    call integrate(rule, rule%dim, strains, modes, request, finite, material, thickness, 0.0_dp, .false., x, fields, predef, u, &
+                   du, all_force, all_stiffness, svars, energy, modes=enhanced, axes=axes, functions=functions, &
+                   added=[added, matmul(follow, added)], layers=layers)
+    associate (across => matmul(all_stiffness(:n, n + 1:), follow))
+      stiffness = all_stiffness(:n, :n) + across + transpose(across) + &
+                  matmul(transpose(follow), matmul(all_stiffness(n + 1:, n + 1:), follow))
+    end associate
   end subroutine integrate_with_modes
 
   !> The same with a pressure (host_hybrid), whose unknowns come after those of the nodes.
@@ -273,50 +265,10 @@ contains
     stiffness(m + 1:, m + 1:) = pressure%by_factors
   end subroutine integrate_with_pressure
 
-  !> The rotation of an element, and its displacements less it. Leaves the pass if its middle is inside out.
-  subroutine turn_of(rule, x, u, turn, moved)
-    type(rule_t), intent(in) :: rule
-    real(dp), dimension(rule%dim*rule%nodes), intent(in) :: x, u
-    type(solid_turn), intent(out) :: turn
-    real(dp), intent(out) :: moved(rule%dim*rule%nodes)
-    type(rule_t), pointer :: middle
-    real(dp) :: g(rule%nodes, rule%dim), volume
-    logical :: good
-    middle => rule_of(rule%family, 1)
-    current%deformed = .false.
-    call gradients(middle, rule%dim, 1, x, g, volume)
-    call find_turn(rule%dim, rule%nodes, transpose(g), x, u, turn, moved, good)
-    if (good) return
-    current%distorted = 1
-    call escape()
-  end subroutine turn_of
-
-  !> Displacements along the axes that turn with an element.
-  pure function turned_back(rule, turn, u) result(v)
-    type(rule_t), intent(in) :: rule
-    type(solid_turn), intent(in) :: turn
-    real(dp), intent(in) :: u(rule%dim, rule%nodes)
-    real(dp) :: v(rule%dim*rule%nodes)
-    v = reshape(matmul(transpose(turn%rotation(:rule%dim, :rule%dim)), u), [rule%dim*rule%nodes])
-  end function turned_back
-
-  !> Strains and stresses of all points, turned by a rotation.
-  pure subroutine turn_states(rule, rotation, states)
-    type(rule_t), intent(in) :: rule
-    real(dp), intent(in) :: rotation(3, 3)
-    real(dp), intent(inout) :: states(values_of_point(rule%dim), rule%points)
-    integer :: n, p
-    n = values_of_point(rule%dim)/2
-    do p = 1, rule%points
-      states(:n, p) = rotated(n, states(:n, p), rotation, 2.0_dp)
-      states(n + 1:, p) = rotated(n, states(n + 1:, p), rotation, 1.0_dp)
-    end do
-  end subroutine turn_states
-
   !> Force, tangent, state and energies; of the initial stresses without a tangent; or the matrix of a stress. The unknowns are
   !> those of the nodes, then others: incompatible modes, or those of two planes.
   subroutine integrate(rule, direct, strains, others, request, finite, material, thickness, hourglass, enhanced, x, fields, &
-                       predef, u, du, force, stiffness, svars, energy, coupling, alpha, by_modes, axes, functions, pressure, &
+                       predef, u, du, force, stiffness, svars, energy, coupling, modes, axes, functions, pressure, &
                        added, moduli, layers, bounds)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: direct, strains, others, fields
@@ -329,7 +281,7 @@ contains
     real(dp), dimension(rule%dim*rule%nodes + others, rule%dim*rule%nodes + others), intent(inout) :: stiffness
     real(dp), intent(inout) :: svars(values_of_point(rule%dim), rule%points), energy(8)
     type(coupling_t), intent(inout), optional :: coupling
-    real(dp), intent(in), optional :: alpha(others), by_modes(others, strains, rule%points)  !< modes, and strains by them
+    type(modes_t), intent(in), optional :: modes
     real(dp), intent(inout), optional :: axes(3, 3, 2, rule%points)   !< of the points (host_axes), if the material is in them
     integer, intent(in), optional :: functions                 !< of the pressure, on which the mean stress is projected
     type(pressure_t), intent(inout), optional :: pressure      !< with the unknowns; then there is no initial stress
@@ -341,13 +293,14 @@ contains
     real(dp) :: ratio(rule%points), by_planes(planes, rule%points), by_planes_mid(planes, rule%points), w(planes)
     real(dp), dimension(rule%nodes, direct, rule%points) :: g, g_mid, g_before
     real(dp), dimension(rule%dim*rule%nodes, strains, rule%points) :: b, b_mid
+    real(dp), allocatable :: g_modes(:, :, :)   !< as g, of the nodes and the modes that act like nodes
     real(dp), dimension(rule%points) :: volume, volume_mid, volume_now, volume_before
     real(dp) :: stresses(strains, rule%points)
     real(dp) :: by_unknowns(rule%dim*rule%nodes + others, strains)
     real(dp) :: first_tangent(strains, strains)    !< of all points
     real(dp) :: now(rule%dim, rule%nodes), g_start(rule%nodes, direct), volume_start, deformation(3, 3, 2, rule%points)
     real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(6, 2), weight, elastic, work, flowed
-    real(dp) :: now_axes(3, 3), middle(3, 3), rate(6), by_temperature(strains + 1), expanded
+    real(dp) :: now_axes(3, 3), middle(3, 3), gradient(3, 3), rate(6), by_temperature(strains + 1), expanded
     real(dp), allocatable :: by_corners(:)
     real(dp) :: weights(rule%points)
     logical :: averaged, begins, of_stress, smoothed
@@ -362,7 +315,7 @@ contains
     begins = request == initial_stresses
     of_stress = stress_matrix(request)
     ! full integration of elements with straight edges locks if the volume is preserved, but not in plane stress; modes see to it
-    averaged = rule%points > 1 .and. is_multilinear(rule) .and. material%ntens /= 3 .and. .not. present(by_modes)
+    averaged = rule%points > 1 .and. is_multilinear(rule) .and. material%ntens /= 3 .and. .not. present(modes)
     averaged = averaged .and. .not. (present(pressure) .or. rule%reduced)
     smoothed = .false.
     if (present(functions)) then
@@ -375,8 +328,17 @@ contains
     current%deformed = finite .and. any(abs(u) > 0)
     w = 0
     if (present(bounds) .and. finite) w = bounds%w
-    call all_gradients(rule, direct, strains, averaged, now, g, b, volume, bounds, w, ratio, by_planes)
-    if (finite) then
+    if (present(modes)) then
+      allocate (g_modes(nodes + dim, dim, rule%points))
+      call gradients_of_points(rule, dim, x, g, volume)
+      g_modes(:nodes, :, :) = g
+      g_modes(nodes + 1:, :, :) = modes%gradient
+      volume_before = volume
+      if (finite) call enhance(modes, rule, u, du, g_modes, volume, deformation)
+    else
+      call all_gradients(rule, direct, strains, averaged, now, g, b, volume, bounds, w, ratio, by_planes)
+    end if
+    if (finite .and. .not. present(modes)) then
       if (present(bounds)) w = bounds%w - 0.5_dp*bounds%dw
       call all_gradients(rule, direct, strains, averaged, now - 0.5_dp*du, g_mid, b_mid, volume_mid, bounds, w, &
                          by_planes=by_planes_mid)
@@ -402,7 +364,8 @@ contains
     work = energy(2) + energy(dissipated)
     if (has_fields(material) .or. present(layers)) current%length = size_of(rule, flat, now, volume)
     current%finite = finite
-    if (finite .and. (needs_deformation(material) .or. material%local .or. smoothed .or. present(pressure))) then
+    if (finite .and. .not. present(modes) .and. &
+        (needs_deformation(material) .or. material%local .or. smoothed .or. present(pressure))) then
       call find_deformation(rule, flat, averaged, x, u, du, deformation, volume_before, bounds)
     end if
     volume_now = volume
@@ -440,11 +403,23 @@ contains
       thermal = 0
       rate = 0
       if (allocated(here%expansion)) then
-        thermal = thermal_strain(rule, p, fields, here%expansion, predef, present(by_modes), rate, coupling)
+        thermal = thermal_strain(rule, p, fields, here%expansion, predef, present(modes), rate, coupling)
       end if
+      if (present(modes)) then
+        call enhanced_strains(modes, dim, nodes, strains, p, g_modes(:, :, p), by_unknowns)
+      else
+        by_unknowns(:n, :) = b(:, :, p)
+      end if
+      if (present(bounds)) by_unknowns(n + 1:, :) = of_planes(by_planes(:, p))
       if (finite) then
-        current%rotation = rotation_of(gradient_of(dim, direct, nodes, du, g_mid(:, :, p)))
-        call find_strain(n, strains, b_mid(:, :, p), du, strain)
+        if (present(modes)) then
+          gradient = gradient_in_the_middle(deformation(:, :, :, p))
+          strain = strain_of(strains, gradient)
+        else
+          gradient = gradient_of(dim, direct, nodes, du, g_mid(:, :, p))
+          call find_strain(n, strains, b_mid(:, :, p), du, strain)
+        end if
+        current%rotation = rotation_of(gradient)
         if (present(bounds)) strain(3) = strain(3) + dot_product(bounds%dw, by_planes_mid(:, p))
         if (present(axes)) then
           call carry_axes(p, deformation(:, :, :, p), axes(:, :, 2, p), middle)
@@ -458,8 +433,8 @@ contains
           middle = axes(:, :, 1, p)
           axes(:, :, 2, p) = middle
         end if
-        call find_strain(n, strains, b(:, :, p), u, strain)
-        if (present(by_modes)) strain = strain + matmul(alpha, by_modes(:, :, p))
+        call find_strain(n, strains, by_unknowns(:n, :), u, strain)
+        if (present(modes)) strain = strain + matmul(modes%now, by_unknowns(n + 1:, :))
         if (present(bounds)) strain(3) = strain(3) + dot_product(bounds%w, by_planes(:, p))
       end if
       weight = volume(p)*merge(thickness, 1.0_dp, dim == 2)
@@ -507,9 +482,6 @@ contains
           call keep_temperature(smoothing, p, by_corners)
         end if
       end if
-      by_unknowns(:n, :) = b(:, :, p)
-      if (present(by_modes)) by_unknowns(n + 1:, :) = by_modes(:, :, p)
-      if (present(bounds)) by_unknowns(n + 1:, :) = of_planes(by_planes(:, p))
       if (request == added_stress) then
         call find_strain(size(added), strains, by_unknowns(:size(added), :), added, strain)
         stress = matmul(modulus, strain)
@@ -524,6 +496,13 @@ contains
       end if
       if (finite .and. present(bounds)) then
         call add_stress_of_fibres(bounds, rule, p, g(:, :, p), by_unknowns(:, 3), ratio(p), stress, weight, modulus, stiffness)
+      else if (finite .and. present(modes)) then
+        ! the search for the modes needs their exact derivatives
+        if (.not. (present(axes) .or. allocated(here%hyperelastic))) then
+          call add_by_modes(modes, dim, strains, p, gradient, g_modes(nodes + 1:, :, p), by_unknowns(n + 1:, :), stress, modulus, &
+                            weight, stiffness(n + 1:, n + 1:))
+        end if
+        call add_enhanced(p, by_unknowns, stress, weight, modulus, stiffness)
       else if (finite) then
         call add_geometric(dim, direct, strains, nodes, g(:, :, p), stress, weight, modulus, stiffness)
       end if
@@ -545,12 +524,16 @@ contains
       if (smoothed) smoothing%change = smoothing_change(smoothing)
       do p = 1, rule%points
         if (smoothed) stresses(:, p) = stresses(:, p) + smoothing%change(p)*smoothing%mean(p)%unit(:strains)
+        modulus = 0
         if (present(bounds)) then
           by_unknowns(:n, :) = b(:, :, p)
           by_unknowns(n + 1:, :) = of_planes(by_planes(:, p))
-          modulus = 0
           call add_stress_of_fibres(bounds, rule, p, g(:, :, p), by_unknowns(:, 3), ratio(p), stresses(:, p), weights(p), &
                                     modulus, stiffness)
+          stiffness = stiffness + weights(p)*matmul(by_unknowns, matmul(modulus, transpose(by_unknowns)))
+        else if (present(modes)) then
+          call enhanced_strains(modes, dim, nodes, strains, p, g_modes(:, :, p), by_unknowns)
+          call add_enhanced(p, by_unknowns, stresses(:, p), weights(p), modulus, stiffness)
           stiffness = stiffness + weights(p)*matmul(by_unknowns, matmul(modulus, transpose(by_unknowns)))
         else
           call add_stress_matrix(dim, direct, strains, nodes, g(:, :, p), b(:, :, p), stresses(:, p), weights(p), stiffness)
@@ -574,6 +557,11 @@ contains
             by_unknowns(n + 1:, :) = of_planes(by_planes(:, p))
             call add_curvature_of_fibres(bounds, rule, p, g(:, :, p), by_unknowns, by_unknowns(:, 3), ratio(p), &
                                          of_point%unit(:4), volume_here*change, stiffness)
+          else if (finite .and. present(modes)) then
+            call enhanced_strains(modes, dim, nodes, strains, p, g_modes(:, :, p), by_unknowns)
+            modulus = by_volume(strains, dim, of_point%unit(:strains))
+            call add_enhanced(p, by_unknowns, of_point%unit(:strains), volume_here*change, modulus, stiffness)
+            stiffness = stiffness + volume_here*change*matmul(by_unknowns, matmul(modulus, transpose(by_unknowns)))
           else if (finite) then
             call add_curvature(dim, direct, strains, nodes, g(:, :, p), b(:, :, p), of_point%unit(:strains), &
                                volume_here*change, stiffness)
@@ -599,7 +587,41 @@ contains
       call resist_hourglass(rule, g_start(:, :dim), volume_start*merge(thickness, 1.0_dp, dim == 2), hourglass, &
                             enhanced_constants(material, enhanced, moduli), finite, x, u, force(:n), stiffness(:n, :n), energy(6))
     end if
+
+  contains
+
+    !> As add_geometric, of nodes and modes; those of the volume turn nothing, so that what the modulus has of them is taken back.
+    pure subroutine add_enhanced(point, by_all, stress, volume, modulus, stiffness)
+      integer, intent(in) :: point
+      real(dp), intent(in) :: by_all(:, :), stress(:), volume
+      real(dp), intent(inout) :: modulus(:, :), stiffness(:, :)
+      real(dp) :: part(size(by_all, 1))
+      integer :: turning, i, k
+      turning = dim*(nodes + dim)
+      call add_geometric(dim, dim, strains, nodes + dim, g_modes(:, :, point), stress, volume, modulus, &
+                         stiffness(:turning, :turning))
+      part(:turning) = 2*volume*matmul(by_all(:turning, :), stress)
+      part(turning + 1:) = volume*sum(stress(:dim))*modes%volume(:, point)
+      do i = 1, size(by_all, 1) - turning
+        k = turning + i
+        stiffness(:, k) = stiffness(:, k) + modes%volume(i, point)*part
+        stiffness(k, :) = stiffness(k, :) + modes%volume(i, point)*part
+      end do
+    end subroutine add_enhanced
   end subroutine integrate
+
+  !> Strains, with engineering shears, of a gradient of displacements: 11, 22, 12 in the plane.
+  pure function strain_of(m, gradient) result(strain)
+    integer, intent(in) :: m
+    real(dp), intent(in) :: gradient(3, 3)
+    real(dp) :: strain(m)
+    if (m == 3) then
+      strain = [gradient(1, 1), gradient(2, 2), gradient(1, 2) + gradient(2, 1)]
+    else
+      strain = [gradient(1, 1), gradient(2, 2), gradient(3, 3), gradient(1, 2) + gradient(2, 1), &
+                gradient(1, 3) + gradient(3, 1), gradient(2, 3) + gradient(3, 2)]
+    end if
+  end function strain_of
 
   !> Strains by the unknowns of two planes, which strain the fibres alone.
   pure function of_planes(by_planes) result(b)

@@ -111,7 +111,7 @@ KEYWORDS = (
     Keyword(
         "HYPERELASTIC",
         "Isotropic hyperelasticity by coefficients or UHYPER, of plane strain, axisymmetric and solid elements "
-        "without incompatible modes in steps with NLGEOM, also with temperatures, but for hybrid ones. "
+        "in steps with NLGEOM; hybrid elements have neither temperatures nor incompatible modes with it. "
         "Incompressible materials, with D = 0 or USER without TYPE=COMPRESSIBLE, need hybrid elements; a term with"
         " a later D of zero is left out. One-point elements have *SECTION CONTROLS, HOURGLASS=ENHANCED by default;"
         " with USER they need *HOURGLASS STIFFNESS.",

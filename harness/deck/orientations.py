@@ -202,8 +202,7 @@ KEYWORDS = (
     Keyword(
         "ORIENTATION",
         "Local axes. With NLGEOM those of built-in continuum elements turn with the material, in each increment by the "
-        "rotation of the polar decomposition of its deformation gradient (Theory Guide, State storage); those of "
-        "elements with incompatible modes, with their middle. "
+        "rotation of the polar decomposition of its deformation gradient (Theory Guide, State storage). "
         "CYLINDRICAL: 1 is radial, 2 circumferential, 3 axial; SPHERICAL: radial, circumferential, meridional.",
         Where.MODEL,
         (

@@ -34,7 +34,6 @@ from harness.elements.simpson import simpson
 from harness.elements.solid import (
     HOURGLASS_FRACTION,
     OF_FIRST_TANGENT,
-    check_modes,
     check_one_control,
     is_enhanced,
     numbered,
@@ -291,7 +290,6 @@ def _check(model: Model, group: ElementGroup, kind: ContinuumType, section: Comp
         if layer.orientation is not None and is_user(layer.orientation):
             message = f"*ORIENTATION, NAME={layer.orientation.name}: SYSTEM=USER is not supported for {elements}"
             raise DeckError(section.source, message)
-        check_modes(model, group, kind, layer.material)
         refuse_hyperelastic(layer.material, elements)
         refuse_viscous(layer.material, elements)
         refuse_user_hardening(layer.material, elements)

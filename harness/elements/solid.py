@@ -76,12 +76,11 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     if dynamic is not None and not material.density:
         message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
         raise DeckError(material.source, message)
-    check_modes(model, group, kind, material)
     _check_hyperelastic(model, group, kind, material)
     _check_viscous(model, group, kind, material)
     _check_user_hardening(model, material)
     check_hybrid(group.type, kind, material)
-    orientation, local = section.orientation, _local_orientation(model, section, kind)
+    orientation, local = section.orientation, _local_orientation(model, section)
     if local is not None:
         # the material is in the directions of the points
         orientation = replace(local, axes=np.eye(3), system=None)
@@ -135,19 +134,11 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     )
 
 
-def check_modes(model: Model, group: ElementGroup, kind: ContinuumType, material: Material) -> None:
-    """Raise DeckError if elements with incompatible modes do not support the material in the steps."""
-    nonlinear = next((step for step in model.steps if step.nlgeom), None)
-    if kind.incompatible and nonlinear is not None and (material.user or material.user_field):
-        message = f"NLGEOM is not supported for elements of type {group.type} with UMAT or USDFLD"
-        raise DeckError(nonlinear.source, message)
-
-
 def _check_hyperelastic(model: Model, group: ElementGroup, kind: ContinuumType, material: Material) -> None:
     """Raise DeckError if the material is hyperelastic, and the elements or the steps are not for it."""
     if material.hyperelastic is None:
         return
-    if kind.tensor is Tensor.PLANE_STRESS or kind.incompatible:
+    if kind.tensor is Tensor.PLANE_STRESS:
         refuse_hyperelastic(material, f"elements of type {group.type}")
     small = next((step for step in model.steps if not step.nlgeom), None)
     if small is not None:
@@ -210,16 +201,15 @@ def is_prestressed(model: Model, group: ElementGroup, material: Material) -> boo
     return True
 
 
-def _local_orientation(model: Model, section: SolidSection, kind: ContinuumType) -> Orientation | None:
+def _local_orientation(model: Model, section: SolidSection) -> Orientation | None:
     """The orientation if the material is in the directions of each point, which turn with it under NLGEOM.
 
-    Otherwise its constants are turned to global axes once. Elements with incompatible modes have their strains in axes
-    that turn with them.
+    Otherwise its constants are turned to global axes once.
     """
     orientation = section.orientation
     if orientation is None:
         return None
-    turns = any(step.nlgeom for step in model.steps) and not kind.incompatible
+    turns = any(step.nlgeom for step in model.steps)
     return orientation if turns or orientation.system is not None or section.material.user is not None else None
 
 

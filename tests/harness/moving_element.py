@@ -14,11 +14,13 @@ SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1.2, 0.9, 0], [0.1, 1, 0]])
 CUBE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
 EIGHT = np.vstack([SQUARE, (SQUARE + np.roll(SQUARE, -1, axis=0)) / 2])
 NODES = {"CPS3": SQUARE[:3], "CPE3": SQUARE[:3]}
-SPACE = [name for name, kind in CONTINUUM.items() if kind.dimension == 3 and not kind.modes]
-NODES |= {name: unit_cell(CONTINUUM[name].family.cell)[0] for name in SPACE} | {"C3D8": CUBE, "C3D8R": CUBE}
+SPACE = [name for name, kind in CONTINUUM.items() if kind.dimension == 3]
+NODES |= {name: unit_cell(CONTINUUM[name].family.cell)[0] for name in SPACE} | dict.fromkeys(
+    ("C3D8", "C3D8R", "C3D8I", "C3D8IH"), CUBE
+)
 NODES |= {"CAX3": SQUARE[:3], "CAX8": EIGHT, "CAX8R": EIGHT}
 AXISYMMETRIC = ["CAX3", "CAX4", "CAX4R", "CAX8", "CAX8R"]
-TYPES = ["CPS3", "CPS4", "CPS4R", "CPE3", "CPE4", "CPE4R", *SPACE]
+TYPES = ["CPS3", "CPS4", "CPS4R", "CPS4I", "CPE3", "CPE4", "CPE4R", "CPE4I", "CPE4IH", *SPACE]
 
 
 class MovingElement:

@@ -17,6 +17,7 @@ from harness.elements import Call, Flags, Request, build_blocks
 from harness.errors import Source
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
+from harness.model.procedures import Static
 from harness.model.properties import (
     Elastic,
     ElasticType,
@@ -26,6 +27,7 @@ from harness.model.properties import (
     UserElement,
     UserProperty,
 )
+from harness.model.steps import Step
 from harness.usersub.built import path_of_amalgam
 from harness.usersub.layout import element_layouts
 
@@ -124,14 +126,14 @@ class Element:
         )
         self._build(library, f"U{number}", np.tile(coordinates, (count, 1)), count, label, section, user)
 
-    def _build(self, library, name, coordinates, count, label, section, definition):
+    def _build(self, library, name, coordinates, count, label, section, definition, *, steps=()):
         coordinates = np.asarray(coordinates, dtype=float)
         nodes = np.arange(len(coordinates)).reshape(count, -1)
         group = ElementGroup(name, label + np.arange(count), nodes, "", section, definition, SOURCE)
         xyz = np.zeros((nodes.size, 3))
         xyz[:, : coordinates.shape[1]] = coordinates
         mesh = Mesh(np.arange(1, len(xyz) + 1), xyz, ("",) * len(xyz))
-        (self.block,) = build_blocks(Model(Path("test.inp"), "", mesh, (group,), ()), library)
+        (self.block,) = build_blocks(Model(Path("test.inp"), "", mesh, (group,), steps), library)
         n = self.n = len(self.block.unknowns)
         # row-major positions, so that the matrix comes back dense
         equations, entries = (np.arange(count * size, dtype=np.int32) for size in (n, n * n))
@@ -191,7 +193,9 @@ class BuiltIn(Element):
         self.copies = None
         orientation = None if axes is None else Orientation("PLY", axes, SOURCE)
         section = SolidSection("ALL", material, orientation, thickness, SOURCE)
-        self._build(library, name, coordinates, 1, 1, section, None)
+        # axes turn with the material where a step has large displacements
+        steps = () if axes is None else (Step(1, "Step-1", Static(), SOURCE, nlgeom=True),)
+        self._build(library, name, coordinates, 1, 1, section, None, steps=steps)
         self.names, self.points = self.block.state(0).variables.names, self.block.state(0).variables.points
 
     @property

@@ -394,7 +394,7 @@ ERRORS = [
         {"element_type": "C3D8R", "section": ", CONTROLS=C", "more": "*SECTION CONTROLS, NAME=C, HOURGLASS=STIFFNESS"},
         r"C3D8R with \*HYPERELASTIC need HOURGLASS=ENHANCED of \*SECTION CONTROLS, or \*HOURGLASS STIFFNESS",
     ),
-    (RUBBER, {"element_type": "CPE4I"}, r"\*HYPERELASTIC is not supported for elements of type CPE4I"),
+    (RUBBER, {"element_type": "CPS4I"}, r"\*HYPERELASTIC is not supported for elements of type CPS4I"),
     (
         RUBBER,
         {"more": "*INITIAL CONDITIONS, TYPE=STRESS\nBODY, 1., 0., 0., 0., 0., 0."},

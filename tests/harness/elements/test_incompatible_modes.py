@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import harness
-from harness.errors import DeckError
 from harness.model.element_types import CONTINUUM
 from harness.usersub import _binding
 
@@ -343,16 +342,6 @@ def test_elastica(tmp_path, element_type, load, deflection, shortening):
     found = {u: np.mean([v[-1] for name, v in result.history.items() if name.startswith(u)]) for u in ("U1", "U2")}
     assert found["U2"] / length == pytest.approx(deflection, rel=2e-3)
     assert -found["U1"] / length == pytest.approx(shortening, rel=4e-3)
-
-
-def test_large_displacements_with_umat_are_refused(tmp_path):
-    deck = tmp_path / "large.inp"
-    text = PLATE.format(type="CPS4I", nlgeom=", NLGEOM")
-    deck.write_text(
-        text.replace("*ELASTIC\n1000., 0.3\n*PLASTIC\n5., 0.\n25., 1.\n", "*USER MATERIAL, CONSTANTS=1\n1.\n")
-    )
-    with pytest.raises(DeckError, match=r"large.inp:\d+: NLGEOM is not supported for elements of type CPS4I with UMAT"):
-        harness.run(deck, output_dir=tmp_path)
 
 
 @pytest.mark.parametrize("element_type", ["CPE4IH", "C3D8IH"])

@@ -105,7 +105,7 @@ def test_stretch_of_axisymmetric_elements(element, element_type, direction):
     assert -(forces * rate).sum() == pytest.approx(work, rel=1e-10)
 
 
-@pytest.mark.parametrize("element_type", ["CPE3", "CPE4", "CPE4R", *SPACE, *AXISYMMETRIC])
+@pytest.mark.parametrize("element_type", ["CPE3", "CPE4", "CPE4R", "CPE4I", "CPE4IH", *SPACE, *AXISYMMETRIC])
 def test_tangent_at_the_start_of_an_increment(element, element_type):
     solid = element(element_type)
     about = element_type in AXISYMMETRIC

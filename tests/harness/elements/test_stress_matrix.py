@@ -80,9 +80,14 @@ def test_part_of_the_tangent(element, element_type):
     """What the tangent of NLGEOM in the shape without displacements gains by an initial stress.
 
     That of hybrid elements has the pressure times the change of the volume in place of a stress that turns.
+    Incompatible modes follow the displacements as without the stress, which is exact to its first order: its ratio to E
+    is 0.003.
     """
     (without, u), (stressed, _) = (element(element_type, stressed=given) for given in (False, True))
     tangents = [evaluate(Request.NORMAL, 0 * u, 0 * u, nlgeom=True) for evaluate in (without, stressed)]
     found = stressed(Request.BASE_STRESS, 0 * u, 0 * u, nlgeom=True)
     assert abs(found).max() > 0
-    np.testing.assert_allclose(found, tangents[1] - tangents[0], atol=1e-12 * abs(tangents[0]).max())
+    tolerance = 1e-12 * abs(tangents[0]).max()
+    if KINDS[element_type].incompatible:
+        tolerance = 3e-3 * abs(found).max()
+    np.testing.assert_allclose(found, tangents[1] - tangents[0], rtol=0, atol=tolerance)
