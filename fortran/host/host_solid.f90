@@ -37,6 +37,7 @@ module host_solid
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
   use core_mode_search, only: find_modes, mode_search, most_passes
   use core_rotation, only: about_mean
+  use core_small_matrix, only: invert_general
   use core_strains, only: condense
   use host_axes, only: carry_axes, turn_heat, turn_matrix, values_of_axes
   use host_context, only: added_stress, current, heat_t, initial_stresses, stress_matrix
@@ -185,6 +186,7 @@ contains
     integer(i4), intent(in), optional :: layers(:, :)
     real(dp), dimension(rule%dim*rule%nodes + modes) :: all_force
     real(dp), dimension(rule%dim*rule%nodes + modes, rule%dim*rule%nodes + modes) :: all_stiffness
+    real(dp) :: exact(modes, modes)          !< what the stiffness leaves out of the modes' own
     real(dp) :: inverse(modes, modes), svars_start(size(svars)), energy_start(8), follow(modes, rule%dim*rule%nodes)
     real(dp), allocatable :: axes_start(:, :, :, :)
     real(dp) :: unknowns(rule%dim*rule%nodes + modes), all_work, pnewdt
@@ -206,9 +208,10 @@ contains
       enhanced%now = alpha
       all_force = 0
       all_stiffness = 0
+      exact = 0
       call integrate(rule, rule%dim, strains, modes, merge(request, 1_i4, request == initial_stresses), finite, material, &
                      thickness, 0.0_dp, .false., x, fields, predef, u, du, all_force, all_stiffness, svars, energy, &
-                     modes=enhanced, axes=axes, functions=functions, layers=layers)
+                     modes=enhanced, exact=exact, axes=axes, functions=functions, layers=layers)
       if (request == initial_stresses) then
         force = all_force(:n)
         return
@@ -217,10 +220,13 @@ contains
       unknowns = abs([about_mean(rule%dim, u), alpha])
       all_work = dot_product(unknowns, matmul(abs(all_stiffness), unknowns)) + &
                  sum(all_force(:n)**2)/max(maxval(abs(all_stiffness)), tiny(1.0_dp))
-      call find_modes(search, all_force(n + 1:), all_stiffness(n + 1:, n + 1:), all_work, alpha, inverse, settled, good)
+      exact = exact + all_stiffness(n + 1:, n + 1:)
+      call find_modes(search, all_force(n + 1:), exact, all_work, alpha, inverse, settled, good)
       if (settled .or. .not. good) exit
     end do
     if (.not. (settled .and. good)) call not_solved('the incompatible modes are not in equilibrium')
+    ! with what the stiffness has, so that the tangent is of one kind
+    if (good) call invert_general(all_stiffness(n + 1:, n + 1:), inverse, good)
     call condense(n, inverse, all_force, all_stiffness, force, stiffness)
     if (.not. stress_matrix(request)) return
     follow = -matmul(inverse, all_stiffness(n + 1:, :n))
@@ -268,8 +274,8 @@ contains
   !> Force, tangent, state and energies; of the initial stresses without a tangent; or the matrix of a stress. The unknowns are
   !> those of the nodes, then others: incompatible modes, or those of two planes.
   subroutine integrate(rule, direct, strains, others, request, finite, material, thickness, hourglass, enhanced, x, fields, &
-                       predef, u, du, force, stiffness, svars, energy, coupling, modes, axes, functions, pressure, &
-                       added, moduli, layers, bounds)
+                       predef, u, du, force, stiffness, svars, energy, coupling, modes, exact, axes, functions, &
+                       pressure, added, moduli, layers, bounds)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: direct, strains, others, fields
     integer(i4), intent(in) :: request   !< LFLAGS(3)
@@ -282,6 +288,7 @@ contains
     real(dp), intent(inout) :: svars(values_of_point(rule%dim), rule%points), energy(8)
     type(coupling_t), intent(inout), optional :: coupling
     type(modes_t), intent(in), optional :: modes
+    real(dp), intent(inout), optional :: exact(others, others)     !< stiffness of the modes by which the tangent is not exact
     real(dp), intent(inout), optional :: axes(3, 3, 2, rule%points)   !< of the points (host_axes), if the material is in them
     integer, intent(in), optional :: functions                 !< of the pressure, on which the mean stress is projected
     type(pressure_t), intent(inout), optional :: pressure      !< with the unknowns; then there is no initial stress
@@ -498,9 +505,9 @@ contains
         call add_stress_of_fibres(bounds, rule, p, g(:, :, p), by_unknowns(:, 3), ratio(p), stress, weight, modulus, stiffness)
       else if (finite .and. present(modes)) then
         ! the search for the modes needs their exact derivatives
-        if (.not. (present(axes) .or. allocated(here%hyperelastic))) then
+        if (present(exact) .and. .not. (present(axes) .or. allocated(here%hyperelastic))) then
           call add_by_modes(modes, dim, strains, p, gradient, g_modes(nodes + 1:, :, p), by_unknowns(n + 1:, :), stress, modulus, &
-                            weight, stiffness(n + 1:, n + 1:))
+                            weight, exact)
         end if
         call add_enhanced(p, by_unknowns, stress, weight, modulus, stiffness)
       else if (finite) then
