@@ -229,7 +229,7 @@ def _clip(polygon: FloatArray, inside: FloatArray, scale: FloatArray) -> FloatAr
     begins = np.where((inside >= 0.0)[..., None], polygon, np.where(crosses[..., None], cut, following))
     ends = np.where((after >= 0.0)[..., None], following, cut)
     outside = (inside < 0.0) & ~crosses & (after < 0.0)
-    found = np.stack([begins, ends], axis=2).reshape(len(polygon), -1, 2)
+    found = np.stack([begins, ends], axis=2).reshape(len(polygon), 2 * polygon.shape[1], 2)
     away = np.repeat(outside, 2, axis=1)
     # in place of corners outside: one that stays, whichever comes first
     first = np.argmax(~away, axis=1)

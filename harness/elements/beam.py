@@ -24,7 +24,7 @@ from harness.elements.node_normals import mean_normals
 from harness.elements.routine import PARALLEL, Linearity, Routine
 from harness.elements.solid import history_names, history_of
 from harness.errors import DeckError, Source
-from harness.model.arrays import FloatArray
+from harness.model.arrays import FloatArray, flat_rows
 from harness.model.element_types import LINE2, BeamType, Tensor
 from harness.model.mesh import ElementGroup, Mesh
 from harness.model.model import Model
@@ -197,7 +197,7 @@ def start_directions(model: Model, group: ElementGroup, kind: BeamType, section:
     """(m, values) directions t, 1, 2 at the integration points, then at those of the mass. Raises DeckError."""
     points = kind.points, _mass_points(kind)
     parts = [local_axes(group, kind, section, model.mesh.coordinates, count)[0] for count in points]
-    return np.concatenate(parts, axis=1).reshape(len(group.labels), -1)
+    return flat_rows(np.concatenate(parts, axis=1))
 
 
 def with_normals(groups: tuple[ElementGroup, ...], mesh: Mesh) -> tuple[ElementGroup, ...]:

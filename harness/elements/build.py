@@ -48,6 +48,7 @@ from harness.elements.routine import Linearity, Routine
 from harness.elements.shell import check_normals, directors, shell_routine, shell_variables
 from harness.elements.solid import history_of, solid_routine, solid_variables
 from harness.errors import DeckError, all_of
+from harness.model.arrays import flat_rows
 from harness.model.element_types import (
     BUILT_IN,
     PLANES,
@@ -387,7 +388,7 @@ def _shell_block(model: Model, group: ElementGroup, kind: ShellType, library: Li
     variables = shell_variables(section, kind, routine)
     block = _nodal_block(model, group, kind, routine, library, variables, unsymmetric=turns)
     check_normals(model, group, kind, library)
-    block.initial.set_last(directors(model, group).reshape(len(group.labels), -1))
+    block.initial.set_last(flat_rows(directors(model, group)))
     _begin_surface_axes(model, group, kind, block, routine, library)
     return block
 

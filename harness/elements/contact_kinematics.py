@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.elements.contact_frames import TURN, Jet, components, make_variables, turning_axes
-from harness.model.arrays import FloatArray, IntArray
+from harness.model.arrays import FloatArray, IntArray, flat_rows
 from harness.model.contact import ContactPair
 from harness.model.restart import Saved
 
@@ -144,7 +144,9 @@ class SmallSliding:
         self._normals = pair.normals[:, :dimension]
         # the tangents of the face and d are these sums over the nodes
         sums = np.concatenate([pair.slopes[..., : dimension - 1], pair.shares[..., None]], axis=2)
-        self._sums = np.einsum("mna,de->madne", sums, np.eye(dimension)).reshape(len(sums), dimension**2, -1)
+        self._sums = np.einsum("mna,de->madne", sums, np.eye(dimension)).reshape(
+            len(sums), dimension**2, sums.shape[1] * dimension
+        )
         base = self._base(self._vectors(self._places)[:-1])
         self._parts = np.asarray(np.linalg.solve(base, self._normals[..., None])[..., 0], dtype=np.float64)
         self._first = np.asarray(np.linalg.solve(base, self._first_direction()[..., None])[..., 0], dtype=np.float64)
@@ -232,7 +234,7 @@ class SmallSliding:
     def _vectors(self, places: FloatArray) -> list[FloatArray]:
         """Tangents (m, dimension) of the face at the anchor point, then d."""
         m, dimension = self._shape[0], self._shape[2]
-        found = np.einsum("mku,mu->mk", self._sums, places.reshape(m, -1)).reshape(m, -1, dimension)
+        found = np.einsum("mku,mu->mk", self._sums, flat_rows(places)).reshape(m, dimension, dimension)
         return [found[:, number] for number in range(found.shape[1])]
 
     def _axes(self, places: FloatArray, *, constant: bool = False) -> tuple[list[Jet], Jet]:

@@ -104,7 +104,8 @@ class Routine:
         """
         if not self.stress:
             raise ValueError("do not take an initial stress")
-        states = svars[:, : svars.shape[1] - self.hidden].reshape(len(svars), -1, self.stress[-1] + 1)
+        count, size = svars.shape[1] - self.hidden, self.stress[-1] + 1
+        states = svars[:, :count].reshape(len(svars), count // size, size)
         return states, np.array(self.stress)
 
     def set_stress(self, svars: FloatArray, rows: IntArray, values: FloatArray) -> None:

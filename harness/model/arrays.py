@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Array types used in signatures, and the choice among equal entries."""
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,6 +13,11 @@ ComplexArray = NDArray[np.complex128]
 
 _EQUAL = 1e-6
 """Entries that differ by this part of the largest magnitude are equal: rounding, which depends on the processor."""
+
+
+def flat_rows(values: FloatArray) -> FloatArray:
+    """Return the values of each row one after the other, (m, k) of (m, ...); m may be 0."""
+    return values.reshape(len(values), math.prod(values.shape[1:]))
 
 
 def first_largest(values: FloatArray) -> IntArray:

@@ -340,7 +340,9 @@ def _element_values(
                 chosen = of_section[:, :, [place for *_, place in places] or [0]][..., [known[name] for name in some]]
                 if some:
                     numbers = tuple(number for _, number, _ in places)
-                    found.append((some, chosen.reshape(len(values), -1, len(some)), numbers))
+                    found.append(
+                        (some, chosen.reshape(len(values), chosen.shape[1] * chosen.shape[2], len(some)), numbers)
+                    )
     if group.definition is None:
         return found
     names = [f"SDV{k}" for k in range(1, svars.shape[1] + 1)]

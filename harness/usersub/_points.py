@@ -39,7 +39,8 @@ def uvarm(
     uvar (m, points, NUVARM); local: the history is in these directions.
     """
     m, points, _ = uvar.shape
-    svars = np.ascontiguousarray(arrays.svars[:, : arrays.svars.shape[1] - hidden]).reshape(m, points, -1)
+    count = arrays.svars.shape[1] - hidden
+    svars = np.ascontiguousarray(arrays.svars[:, :count]).reshape(m, points, count // points)
     history = arrays.history if arrays.history.shape[1] == points else np.zeros((m, points, 1))
     left, element, point = host.host_uvarm_pass(
         address,

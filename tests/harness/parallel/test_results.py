@@ -85,6 +85,41 @@ def shortened(deck: str, end: float) -> str:
     return re.sub(r"(\*STATIC\n.*?), 2\.5,", rf"\1, {end},", deck)
 
 
+def single_elements() -> str:
+    """One element of each kind that keeps directions or takes an initial stress: a rank has none of most of them."""
+    square, cube = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    middles = [(0.5, 0, 0), (1, 0.5, 0), (0.5, 1, 0), (0, 0.5, 0)]
+    kinds = {
+        "C3D8": [*square, *cube],
+        "SC8R": [*square, *cube],
+        "S4": square,
+        "S8R": [*square, *middles],
+        "M3D4": square,
+        "B31": square[:2],
+        "B32": [square[0], middles[0], square[1]],
+        "C3D4": [*square[:2], square[3], cube[0]],
+    }
+    sections = {
+        "B": "*BEAM SECTION, ELSET={0}, MATERIAL=M, SECTION=RECT\n0.1, 0.1\n",
+        "M": "*MEMBRANE SECTION, ELSET={0}, MATERIAL=M\n0.1\n",
+        "S": "*SHELL SECTION, ELSET={0}, MATERIAL=M\n0.1, 5\n",
+        "C": "*SOLID SECTION, ELSET={0}, MATERIAL=M\n",
+    }
+    text, held = "", ""
+    for place, (kind, cell) in enumerate(kinds.items()):
+        first = 100 * place + 1
+        text += "*NODE, NSET=ALL\n"
+        text += "".join(f"{first + k}, {x + 10 * place}, {y}, {z}\n" for k, (x, y, z) in enumerate(cell))
+        nodes = ", ".join(str(first + k) for k in range(len(cell)))
+        text += f"*ELEMENT, TYPE={kind}, ELSET=E{kind}\n{place + 1}, {nodes}\n" + sections[kind[0]].format(f"E{kind}")
+        last = 6 if kind[0] in "BS" and kind != "SC8R" else 3
+        held += f"{first}, 1, {last}\n" + "".join(f"{first + k}, 2, 3\n" for k in range(1, len(cell)))
+    ends = "".join(f"{100 * place + 2}, 1, 0.01\n" for place in range(len(kinds)))
+    stress = "*INITIAL CONDITIONS, TYPE=STRESS\nEC3D8, 1., 1.\nEC3D4, 2.\n"
+    step = f"*STEP, NLGEOM\n*STATIC\n0.5, 1.\n*CLOAD\n{ends}"
+    return f"{text}{ELASTIC}{stress}*BOUNDARY\n{held}{step}{OUTPUT}"
+
+
 TIE = "*EQUATION\n2\n45, 1, 1., 36, 1, -1.\n*EQUATION\n3\n9, 1, 1., 18, 1, -0.5, 27, 1, -0.5\n"
 FACE = "*ELSET, ELSET=TOP, GENERATE\n25, 32, 1\n*SURFACE, NAME=TOP\nTOP, S3\n"
 CASES = {
@@ -117,6 +152,7 @@ CASES = {
         block("CPE4", ELASTIC, "*STEP\n*STATIC\n1., 1.\n*BOUNDARY\nRIGHT, 2, 2, 0.1\n", cells=(1, 1)),
         {},
     ),
+    "ranks without elements of a type": (single_elements(), {}),
     "U1 and U2": (INPUTS / "patch_horizontal" / "perturbed_u2.inp", {}),
     "substructures": (
         block("CPE4", ELASTIC, "*STEP\n*STATIC\n0.5, 1.\n*BOUNDARY\nRIGHT, 2, 2, 0.1\n", TIE),
