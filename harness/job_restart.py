@@ -56,8 +56,8 @@ def find_state(
     for part in state.decks:
         _check_unchanged(part, oldjob)
     if read is None:
-        return Resumption(state.analysis), state.decks
-    return Resumption(state.analysis, read.end_step), (*state.decks, part_of(deck, given, state.step))
+        return Resumption(state.analysis, state.file), state.decks
+    return Resumption(state.analysis, state.file, read.end_step), (*state.decks, part_of(deck, given, state.step))
 
 
 def _check_unchanged(part: DeckPart, oldjob: Path) -> None:

@@ -88,17 +88,20 @@ class KeptState:
     step, increment  at the end of which it was kept
     decks            where its model comes from
     analysis         the state itself
+    file             path of the file
     """
 
     step: int
     increment: int
     decks: tuple[DeckPart, ...]
     analysis: Saved
+    file: str
 
 
 @dataclass(frozen=True, slots=True)
 class Resumption:
-    """What an analysis goes on from: a kept state; end_step: its step ends there."""
+    """What an analysis goes on from: a kept state of a file; end_step: its step ends there."""
 
     analysis: Saved
+    file: str
     end_step: bool = False

@@ -8,16 +8,18 @@ and the state at the start of the last one.
 
 from __future__ import annotations
 
+import numpy as np
+
 from harness.assembly import System
 from harness.errors import UelError
 from harness.model.model import Model
 from harness.model.restart import Resumption
 from harness.procedures.general import GeneralStep
 from harness.procedures.registry import run_of
-from harness.procedures.state import BegunStep, ConvergedState
+from harness.procedures.state import ARRAYS, BegunStep, ConvergedState
 from harness.procedures.step_setting import Setting, UserRoutines
 
-ANOTHER_MODEL = "the state of the old job is of another model: {0} differ"
+ANOTHER_MODEL = "{0}: the state of the old job is of another model: {1} differ"
 
 
 def resume(
@@ -45,6 +47,9 @@ def resume(
         The state is not one of the model; or a user routine ends the analysis.
     """
     saved = resumed.analysis
+    for name in ARRAYS:
+        if not np.isfinite(saved["state"][name]).all():
+            raise UelError(f"{resumed.file}: the state of the old job holds numbers that are not finite: {name}")
     step = model.steps[saved["step"] - 1]
     begun = [BegunStep(*one) for one in saved["state"]["begun"]]
     times = saved["step_time"], saved["state"]["total_time"]
@@ -64,5 +69,5 @@ def resume(
         assert isinstance(running, GeneralStep)
         running.resume(saved)
     except ValueError as error:
-        raise UelError(ANOTHER_MODEL.format(error)) from None
+        raise UelError(ANOTHER_MODEL.format(resumed.file, error)) from None
     return running

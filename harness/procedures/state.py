@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import astuple, dataclass, field
-from typing import Self
+from typing import Final, Self
 
 import numpy as np
 
@@ -28,7 +28,7 @@ from harness.solver.descent import Majoriser
 from harness.solver.linear import Effort
 from harness.solver.newton import Factoriser, Iterate
 
-_ARRAYS = ("displacement", "reaction", "load", "external", "velocity", "acceleration", "unbalanced", "energy")
+ARRAYS: Final = ("displacement", "reaction", "load", "external", "velocity", "acceleration", "unbalanced", "energy")
 _NUMBERS = ("total_time", "work", "damage", "stabilization")
 
 
@@ -112,7 +112,7 @@ class ConvergedState:
 
     def kept(self) -> Saved:
         """Its arrays and numbers; prescribed values and loads follow from the steps that have begun."""
-        saved = {name: getattr(self, name) for name in (*_ARRAYS, *_NUMBERS)}
+        saved = {name: getattr(self, name) for name in (*ARRAYS, *_NUMBERS)}
         return {
             **saved,
             "flux": [list(astuple(history)) for history in self.flux],
@@ -122,10 +122,10 @@ class ConvergedState:
 
     def resume(self, saved: Saved) -> None:
         """Take over what `kept` returned. Raises ValueError if it is not of this model."""
-        for name in _ARRAYS:
+        for name in ARRAYS:
             if np.shape(saved[name]) != np.shape(getattr(self, name)):
                 raise ValueError("degrees of freedom")
-        for name in (*_ARRAYS, *_NUMBERS):
+        for name in (*ARRAYS, *_NUMBERS):
             setattr(self, name, saved[name])
         self.flux = [FluxHistory(*history) for history in saved["flux"]]
         self.begun = [BegunStep(*step) for step in saved["begun"]]

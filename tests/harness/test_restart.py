@@ -21,7 +21,7 @@ import harness
 from harness.cli import main
 from harness.errors import DeckError, UelError, UsageError
 from harness.model.records import StateKept
-from harness.output.state_files import FORMAT, StateFiles, folder_of, read_state
+from harness.output.state_files import FORMAT, StateFiles, array_digest, folder_of, read_state
 
 USER = Path(__file__).with_name("restart.f90")
 DCB = Path(__file__).parents[2] / "abaqus_inputs" / "dcb" / "dcb_u4_1e6.inp"
@@ -389,13 +389,15 @@ def test_old_jobs_that_cannot_be_taken_up(folder):
 
 
 def tampered(job, change):
-    """Change the tree, or an array, of the last state of a job."""
+    """Change the tree, or an array, of the last state of a job, as if it had been written so."""
     path = max(folder_of(Path(job)).glob("*.npz"))
     with np.load(path) as file:
         arrays = {name: file[name] for name in file.files}
     tree = json.loads(arrays["tree"].tobytes())
     change(tree, arrays)
+    tree["digests"] = [array_digest(arrays[f"array{k}"]) for k in range(len(arrays) - 2)]
     arrays["tree"] = np.frombuffer(json.dumps(tree).encode(), np.uint8)
+    arrays["check"] = np.array(array_digest(arrays["tree"]))
     np.savez(path, **arrays)
     return path
 
@@ -409,7 +411,10 @@ def test_states_of_another_version_or_model_and_damaged_ones(folder):
         arrays[name] = arrays[name][:, 1:]
 
     tampered("bar", cut)
-    with pytest.raises(UelError, match="the state of the old job is of another model: elements of type CPS4 differ"):
+    with pytest.raises(
+        UelError,
+        match=r"increment0004\.npz: the state of the old job is of another model: elements of type CPS4 differ",
+    ):
         run(written("new", f"*RESTART, READ\n*STEP\n*STATIC\n1., 1.\n{OUTPUT}*END STEP\n"), oldjob="bar")
     run(deck)
     path = tampered("bar", lambda tree, _: tree.update(format=FORMAT + 1))
