@@ -33,6 +33,7 @@ class StepContext:
     times_of_solver  of the linear solver in this step
     beginning   arrays of the state from which the step's prescribed values and loads follow
     choice      which linear solver was chosen and why; '' if that of the last step is kept
+    advice      what would be faster, '' for nothing
     """
 
     constraints: Constraints
@@ -61,7 +62,7 @@ class StepContext:
                 raise DeckError(field.source, f"*{keyword}, USER needs {routine}, which the job does not have")
         self.released = fading_forces(state.reaction, self.unknowns, step, state.unbalanced)
         state.unbalanced = np.zeros_like(state.unbalanced)
-        self.choice = ""
+        self.choice = self.advice = ""
         self.times_of_solver = SolverTimes(state.effort)
         self._constrain(setting, fallback=fallback)
         length = length_of_moments(system, setting.model.mesh)
@@ -88,6 +89,7 @@ class StepContext:
             chosen = choose()
             # the search handles a singular matrix itself
             solver = chosen if fallback else tolerate(chosen, _renewing(setting, constraints))
+            self.advice = "" if isinstance(chosen, RankSolver) else chosen.advice
             self.choice = f"LINEAR SOLVER {chosen.name.upper()}: {chosen.reason}"
             state.majoriser.use(self.system, constraints, choose)
         state.constraints = self.constraints = constraints

@@ -107,6 +107,8 @@ class GeneralStep:
         if context.choice:
             yield Noted(context.choice)
         yield from warn_overconstrained(context.constraints)
+        if context.advice:
+            yield Warned(context.advice)
         while not self.finished:
             if context.increment == self._step.increments:
                 limit = f"step {self._step.number}, INC={self._step.increments}"

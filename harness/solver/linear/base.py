@@ -174,6 +174,7 @@ class LinearSolver(ABC):
     module, distribution  that it needs: to import, and to install
     widest_band  half bandwidths, in the plane and in space, up to which the band solver beats it, see `choice`
     reason       why this solver was chosen, a phrase for the message file
+    advice       what would be faster, '' for nothing
     effort       what it has done so far
     """
 
@@ -194,7 +195,7 @@ class LinearSolver(ABC):
             numbered.
         """
         self.pattern = pattern
-        self.reason = "requested"
+        self.reason, self.advice = "requested", ""
         self.effort = Effort()
         self._name_of = name_of or (lambda unknown: (f"of unknown {unknown}", 0))
         self._scale = 0.0

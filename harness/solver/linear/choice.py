@@ -39,6 +39,12 @@ LARGEST_BAND: Final = 2**33
 """Largest band storage in bytes. What other solvers need for slender bodies of this size is more."""
 
 
+SLOW: Final = 10_000
+"""Unknowns in space from which on superlu takes three times as long as pardiso (solvers.md)."""
+
+FAST: Final = "pip install pypardiso"
+
+
 @dataclass(frozen=True, slots=True)
 class Availability:
     """A row of the table of solvers; note says when it is used, or why it cannot be."""
@@ -121,6 +127,8 @@ def _quickest(pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None
     usable = next(solver for solver in others if not _obstacle(solver))
     solver = usable(pattern, name_of)
     solver.reason = f"half bandwidth {ordering.width} of {pattern.size} unknowns is too wide for the band solver"
+    if isinstance(solver, SuperLUSolver) and pattern.in_space and pattern.size >= SLOW:
+        solver.advice = f"pardiso takes a third of the time of superlu for {pattern.size} unknowns: {FAST}"
     return solver
 
 

@@ -13,6 +13,7 @@ from scipy import sparse
 from scipy.linalg import lu_factor, lu_solve
 from scipy.sparse.linalg import splu
 
+import harness
 from harness.errors import SingularMatrixError, UelError
 from harness.solver.linear import LinearSolver, available, choose, singular, superlu
 from harness.solver.linear.base import Pattern
@@ -319,6 +320,26 @@ def test_auto_takes_a_sparse_solver_where_the_band_would_fill_the_memory(monkeyp
     assert solver_for("auto", matrix, coordinates).name == "band"
     monkeypatch.setattr(choice, "LARGEST_BAND", storage - 1)
     assert solver_for("auto", matrix, coordinates).name != "band"
+
+
+@pytest.mark.parametrize(("only", "slow", "advised"), [("superlu", 1, True), ("superlu", 10**9, False)])
+def test_slow_solver_advises_a_faster_one(tmp_path, monkeypatch, only, slow, advised) -> None:
+    """A warning of the run, which the terminal shows too."""
+    from harness.output.ending import ending  # noqa: PLC0415
+    from harness.solver.linear import choice  # noqa: PLC0415
+
+    monkeypatch.setattr(choice, "SLOW", slow)
+    monkeypatch.setattr(choice, "_obstacle", lambda solver: "" if solver.name == only else "not installed")
+    monkeypatch.setattr(choice, "_band_is_quicker", lambda *_: False)
+    nodes = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+    text = "*NODE\n" + "".join(f"{k}, {x}., {y}., {z}.\n" for k, (x, y, z) in enumerate(nodes, start=1))
+    text += "*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 4, 3, 5, 6, 8, 7\n*SOLID SECTION, ELSET=E, MATERIAL=M\n"
+    text += "*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*STEP\n*STATIC\n1., 1.\n*BOUNDARY\n1, 1, 3\n2, 2, 3\n3, 3\n"
+    (tmp_path / "brick.inp").write_text(f"{text}*CLOAD\n8, 1, 1.\n5, 1, -1.\n*END STEP\n")
+    result = harness.run(tmp_path / "brick.inp", output_dir=tmp_path)
+    advice = "pardiso takes a third of the time of superlu for 18 unknowns: pip install pypardiso"
+    assert (advice in result.warnings) == advised
+    assert (f"warning: {advice}" in ending(result)) == advised
 
 
 def test_named_solver_is_taken_and_unknown_names_are_refused() -> None:
