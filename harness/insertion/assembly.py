@@ -34,13 +34,18 @@ from harness.usersub.layout import element_layouts
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """Elements of one *ELEMENT or *ELGEN line: where they are in the whole model, and their nodes there."""
+    """Elements of one *ELEMENT or *ELGEN line: where they are in the whole model, and their nodes there.
+
+    family  of solids, None for other elements
+    face    of elements that may lie on faces of the solids, None for others
+    """
 
     owner: Owner
     run: ElementRun
     positions: IntArray
     nodes: IntArray
     family: Family | None
+    face: Family | None
 
 
 class Deck:
@@ -95,13 +100,16 @@ class Deck:
 
     def _read_elements(self) -> None:
         self.runs: list[Run] = []
-        for owner in self.first.values():
-            for run in owner.mesh.runs:
-                if len(run.labels):
-                    nodes = node_indices(owner, run)
-                    # an element of the assembly with nodes of instances is in no part's mesh
-                    family = None if np.any(run.nodes < 0) else _solid_family(run)
-                    self.runs.append(Run(owner, run, owner.find_elements(run.labels), self.node_of[nodes], family))
+        runs = [(owner, run) for owner in self.first.values() for run in owner.mesh.runs if len(run.labels)]
+        # an element of the assembly with nodes of instances is in no part's mesh
+        families = [None if np.any(run.nodes < 0) else _solid_family(run) for _, run in runs]
+        # plane elements beside bricks, as Gmsh exports groups of faces, are no solids
+        dimension = max((family.dimension for family in families if family), default=0)
+        for (owner, run), family in zip(runs, families, strict=True):
+            solid = family if family and family.dimension == dimension else None
+            nodes = self.node_of[node_indices(owner, run)]
+            face = _face_family(run, dimension - 1)
+            self.runs.append(Run(owner, run, owner.find_elements(run.labels), nodes, solid, face))
         count = 0
         self.numbers = np.full(len(self.element_of), -1)
         indices: list[IntArray] = []
@@ -128,19 +136,26 @@ class Deck:
             raise DeckError(self.start, "the mesh has no solids, between which elements could be inserted")
         if not self.solids.manifold:
             names = ", ".join(self.name(number) for number in self.solids.shared_by_three().tolist())
-            raise DeckError(self.start, f"elements {names} share a face, which can belong to two elements at most")
+            last = int(self.solids.shared_by_three().max())
+            raise self.error(last, f"elements {names} share a face, which can belong to two elements at most")
 
     def _read_sections(self) -> None:
         """Section of each solid, -1 for none, and the keywords that give them."""
         self.section_blocks: list[tuple[Owner, Block]] = []
         self.sections = np.full(self.solids.count, -1)
+        self._sectioned = np.zeros(len(self.element_of), dtype=bool)
         for owner in self.first.values():
             for block in owner.blocks:
                 if block.name in SECTION_KEYWORDS:
                     elements = self.flat.elements(block.options.text("ELSET"), block.source, owner.name)
+                    self._sectioned[elements] = True
                     numbers = self.numbers[self.element_of[elements]]
                     self.sections[numbers[numbers >= 0]] = len(self.section_blocks)
                     self.section_blocks.append((owner, block))
+
+    def lacks_section(self, positions: IntArray) -> NDArray[np.bool_]:
+        """Whether elements of the whole model have no section."""
+        return ~self._sectioned[positions]
 
     def surface_names(self) -> list[str]:
         """Names of all surfaces."""
@@ -172,7 +187,7 @@ class Deck:
 
     def solids_of(self, name: str, option: str) -> IntArray | None:
         """Solids of an element set, None where there is no set of this name; UsageError where it has no solids."""
-        key = self._key(name, self.flat.elsets)
+        key = self._key(name, self.flat.elsets, option)
         if key is None:
             return None
         numbers = self.numbers[self.element_of[self.flat.elsets[key]]]
@@ -181,15 +196,15 @@ class Deck:
             raise UsageError(f"{option}: element set {name} has no solids")
         return numbers
 
-    def nodes_of(self, name: str) -> IntArray | None:
+    def nodes_of(self, name: str, option: str) -> IntArray | None:
         """Nodes of a node set, None where there is no set of this name."""
-        key = self._key(name, self.flat.nsets)
+        key = self._key(name, self.flat.nsets, option)
         return None if key is None else np.unique(self.node_of[self.flat.nsets[key]])
 
-    def surface(self, name: str) -> tuple[Owner, Block] | None:
+    def surface(self, name: str, option: str) -> tuple[Owner, Block] | None:
         """*SURFACE of a name, and who has it."""
         blocks = self._surfaces()
-        key = self._key(name, blocks)
+        key = self._key(name, blocks, option)
         return None if key is None else blocks[key]
 
     def faces_of(self, owner: Owner, block: Block) -> NDArray[np.bool_]:
@@ -221,7 +236,7 @@ class Deck:
         listed = ", ".join(names[:20]) + (", ..." if len(names) > 20 else "") if names else "none"
         return UsageError(f"{option}: the mesh has no {what} {name} (it has: {listed}){nearest(name.upper(), names)}")
 
-    def _key(self, name: str, known: Container[str]) -> str | None:
+    def _key(self, name: str, known: Container[str], option: str) -> str | None:
         """The name of a set as the whole model has it: SET, INSTANCE.SET, PART.SET, or SET of one part."""
         name = " ".join(name.replace('"', "").upper().split())
         if name in known:
@@ -230,8 +245,18 @@ class Deck:
         owners = [owner.name for key, owner in self.first.items() if owner.name and part in ("", key)]
         found = [f"{owner}.{local}" for owner in owners if f"{owner}.{local}" in known]
         if len(found) > 1:
-            raise UsageError(f"{name} is in several parts: write one of {', '.join(found)}")
+            raise UsageError(f"{option}: {name} is in several parts: write one of {', '.join(found)}")
         return found[0] if found else None
+
+
+def _face_family(run: ElementRun, dimension: int) -> Family | None:
+    """Family of shells, membranes, rigid and other elements of a dimension; None for other elements."""
+    kind = None if run.type.definition else BUILT_IN[run.type.name]
+    family: Family | None = getattr(kind, "family", None)
+    if family is None or family.dimension != dimension:
+        return None
+    # the middle of a beam is not its last node
+    return family if dimension == 2 or family.nodes == 2 else None
 
 
 def _solid_family(run: ElementRun) -> Family | None:

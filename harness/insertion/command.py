@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from harness.delamination.keywords import element_block, keyword
 from harness.errors import DeckError, UsageError
@@ -16,6 +17,7 @@ from harness.insertion.assembly import Deck, Run
 from harness.insertion.connectivity import (
     InterfaceType,
     attached,
+    beside,
     element_nodes,
     face_nodes,
     face_normals,
@@ -36,7 +38,7 @@ from harness.insertion.properties import (
 from harness.insertion.rewriting import Rewriting, quoted
 from harness.insertion.sections import Faces, Sections
 from harness.insertion.selection import Selection, Wanted, select
-from harness.insertion.topology import Cut, cut
+from harness.insertion.topology import NONE, Cells, Cut, cut
 from harness.model.arrays import IntArray
 from harness.model.element_types import BUILT_IN, DISCRETE, FAMILIES, ContinuumType, Family
 
@@ -136,7 +138,7 @@ def insert(
         warnings += _meeting(deck, selection)
     rewriting = Rewriting(deck, pieces)
     rewriting.write_nodes()
-    rewriting.write_elements(_changed(deck, pieces))
+    rewriting.write_elements(_changed(deck, pieces, warnings))
     rewriting.write_sets()
     rewriting.write_nodal_lines()
     rewriting.write_equations()
@@ -236,8 +238,8 @@ def _face_families(deck: Deck, faces: IntArray) -> list[Family]:
     return [by_size[size] for size in sizes.tolist()]
 
 
-def _changed(deck: Deck, pieces: Cut) -> dict[int, IntArray]:
-    """New nodes of the elements that have doubles, by their place in the whole model."""
+def _changed(deck: Deck, pieces: Cut, warnings: list[str]) -> dict[int, IntArray]:
+    """New nodes of the elements that have doubles, by their place in the whole model; adds to the warnings."""
     found: dict[int, IntArray] = {}
     for before, after in zip(deck.solids.cells, pieces.cells, strict=True):
         rows = np.flatnonzero(np.any(before.nodes != after.nodes, axis=1))
@@ -252,15 +254,50 @@ def _changed(deck: Deck, pieces: Cut) -> dict[int, IntArray]:
             raise _unknown_element(run, row, "nodes of instances, in an element of the assembly, cannot be doubled")
         if len(rows) and run.family is None:
             kind = _interface_type(run)
-            nodes, lost = (run.nodes[rows], np.ones(len(rows), dtype=bool))
-            if kind is not None:
+            if run.face is not None:
+                nodes, lost = _on_faces(deck, run, rows, cells, warnings)
+            elif kind is not None:
                 nodes, lost = attached(kind, deck.solids, run.nodes[rows], cells)
+            else:
+                nodes, lost = run.nodes[rows], np.ones(len(rows), dtype=bool)
             if lost.any():
                 row = int(rows[np.argmax(lost)])
                 reason = "neither a solid of this program nor an interface element between two of them"
+                if run.face is not None:
+                    reason = "it lies on no face, or on one that is cut"
                 raise _unknown_element(run, row, f"it is not known on which side it is: {reason}")
             found |= dict(zip(run.positions[rows].tolist(), nodes, strict=True))
     return found
+
+
+def _on_faces(
+    deck: Deck, run: Run, rows: IntArray, cells: Mapping[int, Cells], warnings: list[str]
+) -> tuple[IntArray, NDArray[np.bool_]]:
+    """Nodes after the cut of shells and the like on faces of solids, and which of them are on no side.
+
+    Those without a section, groups of faces of a mesh, stay where both sides have them.
+    """
+    assert run.face is not None
+    solids, nodes = deck.solids, run.nodes[rows]
+    first = solids.faces_at(nodes[:, : run.face.corners])
+    on = first != NONE
+    partner = np.arange(len(solids.element))
+    partner[solids.pairs] = solids.pairs[:, ::-1]
+    found, lost = nodes.copy(), ~on
+    if on.any():
+        found[on] = beside(solids, first[on], nodes[on], cells)
+        other = beside(solids, partner[first[on]], nodes[on], cells)
+        lost[on] = (found[on] != other).any(axis=1)
+    without = deck.lacks_section(run.positions[rows])
+    stay = lost & without
+    if stay.any():
+        row = int(rows[np.argmax(stay)])
+        warnings.append(
+            f"{run.run.source(row)}: {int(stay.sum())} elements {run.run.type.name} without a section, such as "
+            f"element {int(run.run.labels[row])}, are on faces that are cut: they stay on the old nodes"
+        )
+        found[stay] = nodes[stay]
+    return found, lost & ~without
 
 
 def _interface_type(run: Run) -> InterfaceType | None:
@@ -339,7 +376,7 @@ def _ties(deck: Deck, pieces: Cut) -> list[str]:
     doubled[pieces.origins] = True
     found = []
     for row in (row for block in deck.blocks if block.name == "TIE" for row in block.rows()):
-        surface = deck.surface(row.name(1, "surface"))
+        surface = deck.surface(row.name(1, "surface"), f"{row.source}: *TIE")
         if surface is None or surface[1].options.text("TYPE") != "ELEMENT":
             continue
         if doubled[deck.solids.nodes[deck.faces_of(*surface)]].any():

@@ -171,6 +171,20 @@ def attached(
     return found, lost
 
 
+def beside(solids: Solids, faces: IntArray, nodes: IntArray, after: Mapping[int, Cells]) -> IntArray:
+    """Nodes after the cut of elements on faces of solids, as those solids have them.
+
+    Parameters
+    ----------
+    faces
+        (elements,) numbers of the faces.
+    nodes
+        (elements, k) nodes of the elements before the cut, which are on these faces.
+    """
+    old, new = _rows(solids, after, solids.element[faces])
+    return np.take_along_axis(new, _local(old, nodes), axis=1)
+
+
 def _rows(solids: Solids, after: Mapping[int, Cells], numbers: IntArray) -> tuple[IntArray, IntArray]:
     """Nodes of solids before and after the cut, filled with -1 where there are types with fewer nodes."""
     widest = max(group.nodes.shape[1] for group in solids.cells)

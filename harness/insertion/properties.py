@@ -78,11 +78,14 @@ def element_values(kind: InterfaceType, given: Mapping[str, float], below: Side,
         values["ALPHAT"] = given["ALPHAN"]
     if "THICKNESS" in known and "THICKNESS" not in values:
         if None in (below.thickness, above.thickness) or below.thickness != above.thickness:
-            raise UsageError(f"{kind.name} needs THICKNESS=VALUE: the sections on its sides give no common one")
+            given_ones = " and ".join(f"{_number(side.thickness)} {_place(side)}" for side in (below, above))
+            raise UsageError(f"{kind.name} needs THICKNESS=VALUE: the sections on its sides have {given_ones}")
         values["THICKNESS"] = below.thickness or 1.0
     if "PLANE" in known and "PLANE" not in values:
         if below.plane is None or below.plane != above.plane:
-            raise UsageError(f"{kind.name} needs PLANE=0 (plane stress) or 1 (plane strain): its sides do not say it")
+            places = " and ".join(_place(side) for side in (below, above))
+            which = "PLANE=0 (plane stress) or 1 (plane strain)"
+            raise UsageError(f"{kind.name} needs {which}: its sides differ or do not say it {places}")
         values["PLANE"] = below.plane
     if kind.solid:
         for word, side in (("BOTTOM", below), ("TOP", above)):
@@ -97,6 +100,14 @@ def element_values(kind: InterfaceType, given: Mapping[str, float], below: Side,
                     f"{words} and the others of {word}, or the section a material with *ELASTIC"
                 )
     return {name: value for name, value in values.items() if name in known}
+
+
+def _number(value: float | None) -> str:
+    return "no thickness" if value is None else f"{value:g}"
+
+
+def _place(side: Side) -> str:
+    return f"({side.place or 'without a section'})"
 
 
 def property_lines(kind: InterfaceType, elset: str, material: str, values: Mapping[str, float]) -> list[str]:

@@ -54,12 +54,14 @@ class Side:
     plane      0 plane stress, 1 plane strain; None in space
     constants  elastic constants by name (E1, NU12, G12, ...), with ANGLE; {} if they are not known
     why        why they are not known
+    place      of the section in the deck, '' without one
     """
 
     thickness: float | None
     plane: int | None
     constants: Mapping[str, float]
     why: str
+    place: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,7 +198,7 @@ class Sections:
         section = self.section(number, type)
         thickness = _thickness(block)
         if isinstance(section, str):
-            yield Side(thickness, plane, {}, section), every
+            yield Side(thickness, plane, {}, section, str(block.source)), every
             return
         place = f"(*SOLID SECTION at {block.source})"
         if isinstance(section, SolidSection):
@@ -206,15 +208,15 @@ class Sections:
             for layer, rows in self._layers(section, faces):
                 if layer is None:
                     why = f"the interface runs across the layers of element {self._name(faces, rows)} {place}"
-                    yield Side(thickness, plane, {}, why), rows
+                    yield Side(thickness, plane, {}, why, str(block.source)), rows
                 else:
                     layers.append((layer, rows))
         for layer, rows in layers:
             try:
                 for constants, inside in self._constants(owner, section, layer, faces.take(rows)):
-                    yield Side(thickness, plane, constants, ""), rows[inside]
+                    yield Side(thickness, plane, constants, "", str(block.source)), rows[inside]
             except ValueError as error:
-                yield Side(thickness, plane, {}, f"{error} {place}"), rows
+                yield Side(thickness, plane, {}, f"{error} {place}", str(block.source)), rows
 
     def _name(self, faces: Faces, rows: IntArray) -> str:
         return self._deck.name(int(self._deck.solids.element[faces.numbers[rows[0]]]))

@@ -87,7 +87,7 @@ def select(deck: Deck, wanted: Wanted) -> Selection:
         faces = _surface(deck, name, "--surface")
         _take(found, f"--surface {name}", faces[:, 0] | faces[:, 1], (~faces[:, 0]).astype(np.int64))
     for name in wanted.nodes:
-        nodes = deck.nodes_of(name)
+        nodes = deck.nodes_of(name, "--nodes")
         if nodes is None:
             raise deck.unknown("--nodes", "node set", name, deck.flat.nsets)
         _take(found, f"--nodes {name}", _within(deck, nodes))
@@ -153,7 +153,7 @@ def _within(deck: Deck, nodes: IntArray) -> Mask:
 
 def _surface(deck: Deck, name: str, option: str) -> Mask:
     """(pairs, 2) which faces belong to a surface of elements."""
-    at = deck.surface(name)
+    at = deck.surface(name, option)
     if at is None:
         raise deck.unknown(option, "surface", name, deck.surface_names())
     block = at[1]
@@ -204,10 +204,10 @@ def _meeting(deck: Deck, cuts: Mask) -> Mask:
 
 def _crack(deck: Deck, name: str) -> Mask:
     """Pairs of faces in a node set, at the elements of a set, or in a surface."""
-    nodes = deck.nodes_of(name)
+    nodes = deck.nodes_of(name, "--crack")
     if nodes is not None:
         return _within(deck, nodes)
-    if deck.surface(name) is not None:
+    if deck.surface(name, "--crack") is not None:
         faces = _surface(deck, name, "--crack")
         return faces[:, 0] | faces[:, 1]
     numbers = deck.solids_of(name, "--crack")

@@ -444,6 +444,91 @@ def test_an_element_of_the_assembly_at_a_doubled_node_of_an_instance_is_refused(
         insert_between(parts(tmp_path, model))
 
 
+def test_sides_of_different_thickness_are_named(tmp_path):
+    path = deck(tmp_path, strip())
+    sections = "*SOLID SECTION, ELSET=LOW, MATERIAL=M\n1.\n*SOLID SECTION, ELSET=HIGH, MATERIAL=M\n2.\n"
+    path.write_text(path.read_text().replace("*SOLID SECTION, ELSET=BODY, MATERIAL=M\n1.\n", sections))
+    message = r"U4 needs THICKNESS=VALUE: the sections on its sides have 1 \(.*deck.inp:\d+\) and 2 \(.*deck.inp:\d+\)"
+    with pytest.raises(UsageError, match=message):
+        insert_between(path)
+    mixed = strip()
+    lines = mixed.lines()
+    first = lines.index("*ELEMENT, TYPE=CPS4, ELSET=BODY")
+    lines.insert(first + 4, "*ELEMENT, TYPE=CPE4, ELSET=BODY")
+    path.write_text("\n".join([*lines, *END, *STEP, "*END STEP"]) + "\n")
+    message = r"U4 needs PLANE=0 .*: its sides differ or do not say it \(.*deck.inp:\d+\) and \(.*deck.inp:\d+\)"
+    with pytest.raises(UsageError, match=message):
+        insert_between(path)
+
+
+def test_a_face_of_three_solids_has_its_place(tmp_path):
+    lines = ["*ELEMENT, TYPE=CPS4", "70, 1, 2, 6, 5"]
+    message = r"deck.inp:\d+: element 70 \(CPS4\): elements 1, 70, 2 share a face, which can belong to two"
+    with pytest.raises(DeckError, match=message):
+        insert_between(deck(tmp_path, strip(), lines))
+
+
+def test_a_set_of_several_parts_names_the_option(tmp_path):
+    path = parts(tmp_path, second="")
+    text = path.read_text()
+    part = text[: text.index("*ASSEMBLY")]
+    other = part.replace("NAME=P", "NAME=Q")
+    instance = "*INSTANCE, NAME=ONE, PART=P\n*END INSTANCE\n"
+    text = other + text.replace(instance, f"{instance}*INSTANCE, NAME=THREE, PART=Q\n*END INSTANCE\n")
+    path.write_text(text.replace("*NSET, NSET=END, INSTANCE=TWO\n6\n", ""))
+    with pytest.raises(UsageError, match=r"--between: LOW is in several parts: write one of ONE.LOW, THREE.LOW"):
+        insert_between(path)
+
+
+GROUPS = ["*ELEMENT, TYPE=CPS4, ELSET=CUT", "70, {cut}", "*ELEMENT, TYPE=CPS4, ELSET=OUTER", "71, {outer}"]
+
+
+def gmsh(folder, *lines, cut="70, {cut}"):
+    """Two bricks as Gmsh writes them, with groups of faces as plane elements and of edges as trusses."""
+    mesh = strip("C3D8", (1, 1, 2))
+    model = read_deck(deck(folder, mesh))
+    faces = {}
+    for group in model.groups:
+        for number, nodes in zip(group.labels, group.nodes, strict=True):
+            faces[int(number)] = model.mesh.labels[nodes].tolist()
+    # the top of the lower one, and the side of the upper one that has two of its nodes
+    upper = faces[2]
+    words = {"cut": ", ".join(map(str, faces[1][4:])), "outer": f"{upper[0]}, {upper[1]}, {upper[5]}, {upper[4]}"}
+    edges = ["*ELEMENT, TYPE=T3D2, ELSET=EDGE", f"72, {upper[0]}, {upper[1]}"]
+    return deck(folder, mesh, [line.format(**words) for line in (*GROUPS, *lines)] + edges), upper
+
+
+def test_groups_of_faces_and_edges_of_a_mesh(tmp_path):
+    """On the cut both sides have the face: it stays. Elsewhere a face goes with its solid."""
+    path, upper = gmsh(tmp_path)
+    output = tmp_path / "out.inp"
+    done = inserted(path, output, between=[("LOW", "HIGH")])
+    assert done.kind == "U8" and done.elements == 1
+    (warning,) = done.warnings
+    assert re.match(
+        r".*deck.inp:\d+: 1 elements CPS4 without a section, such as element 70, are on faces that", warning
+    )
+    blocks = re.findall(r"^\*ELEMENT, .*\n((?:[^*].*\n)*)", output.read_text(), re.MULTILINE)
+    lines = [list(map(int, line.split(","))) for line in "".join(blocks).splitlines()]
+    rows = {number: nodes for number, *nodes in lines}
+    new = rows[2]
+    assert new[:4] != upper[:4] and new[4:] == upper[4:]
+    assert rows[71] == [new[0], new[1], new[5], new[4]]
+    assert set(rows[70]) == set(upper[:4])
+    assert rows[72] == upper[:2]
+
+
+def test_a_shell_on_a_face_that_is_cut_is_refused(tmp_path):
+    path, _ = gmsh(
+        tmp_path, "*ELEMENT, TYPE=S4, ELSET=SHELL", "80, {cut}", "*SHELL SECTION, ELSET=SHELL, MATERIAL=M", "0.1"
+    )
+    message = (
+        r"deck.inp:\d+: element 80 \(S4\) has a node that is doubled; .*: it lies on no face, or on one that is cut"
+    )
+    with pytest.raises(DeckError, match=message):
+        insert_between(path)
+
+
 def test_springs_stay_on_the_old_node(tmp_path):
     model = ["*ELEMENT, TYPE=SPRING1, ELSET=SPRINGS", "70, 5", "*SPRING, ELSET=SPRINGS", "1", "3."]
     after = read_deck(insert_between(deck(tmp_path, strip(), model)))
