@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import re
+import textwrap
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -19,11 +20,10 @@ STATEMENT = 6  # blanks before a statement
 CONTINUED = "     &"
 LONGEST_PIECE = 40
 TITLE = """\
-! Cohesive interface elements for Abaqus/Standard: U1 continuum quad
-! and U9 brick (UELMAT); U2 standard, U3 four-node and U4 eight-node
-! stabilised interface, U5 and U6 standard and stabilised interface of
-! quadratic quads, U7 standard, U8 and U10 stabilised interface in
-! space (UEL).
+! Cohesive interface elements for Abaqus/Standard, with UEL and, where
+! (UELMAT) follows the type, UELMAT:
+!
+{types}
 !
 !   abaqus job=NAME user=FILE
 !
@@ -45,11 +45,19 @@ def amalgamate(sources: Sequence[Path]) -> str:
     """Text of the single file; modules come before what uses them, procedures outside modules last."""
     texts = [path.read_text() for path in sources]
     licence = [line for line in texts[0].splitlines() if line.startswith("! SPDX")]
-    lines = [*licence, *TITLE.splitlines()]
+    lines = [*licence, *TITLE.format(types="\n".join(types_of(texts))).splitlines()]
     for text in in_order(texts):
         lines.append("")
         lines += fixed_form(text)
     return "\n".join(lines) + "\n"
+
+
+def types_of(texts: Sequence[str]) -> Iterator[str]:
+    """Comment lines with each element type and its meaning, from the rows of the layout."""
+    for text in texts:
+        for number, family, meaning in re.findall(r"^ *element_item\((\d+), (\w+),.*!< (.*)$", text, re.MULTILINE):
+            name = f"U{number} (UELMAT)" if family.startswith("continuum") else f"U{number}"
+            yield from textwrap.wrap(f"{name}: {meaning}", 70, initial_indent="!   ", subsequent_indent="!     ")
 
 
 def in_order(texts: Sequence[str]) -> list[str]:

@@ -15,6 +15,7 @@ from harness import usersub
 from harness.assembly import System, TolerantSystem
 from harness.deck import read_deck
 from harness.elements.earlier_zeros import warn_of_earlier_zeros
+from harness.elements.neighbour_data import judge_neighbours
 from harness.elements.process_zone import LongElements
 from harness.elements.threads import MOST_THREADS, known_routines, refuse_shared_stress, use_threads
 from harness.elements.unsymmetric_matrices import warn_of_missing_unsymm
@@ -236,6 +237,7 @@ def _analyse(
     try:
         warn_of_earlier_zeros(model, library)
         warn_of_missing_unsymm(model, library)
+        ranks.agree(lambda: judge_neighbours(model, library))
         system = ranks.agree(assemble)
         long_elements = LongElements(model, library)
 

@@ -15,6 +15,7 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   use abaqus_layout, only: elements, every_continuum, reals, integers, variables_of
   use abaqus_lflags, only: asks_for_nothing, asks_for_tangent, give_answer, large_displacements, weight_of_start
   use abaqus_report, only: fatal
+  use abaqus_temperatures, only: warn_if_heated
   implicit none(type, external)
   integer, intent(in) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, npredf, mlvarx
   integer, intent(in) :: mdload, njprop, jdltyp(mdload, *), lflags(*), jprops(*)
@@ -40,6 +41,7 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
     values, options)
   if (.not. good) return
   if (asks_for_nothing(lflags)) return
+  call warn_if_heated(jtype, jelem, npredf, predef)
 
   n = min(nsvars, size(state))
   state = 0.0_dp

@@ -7,6 +7,7 @@ subroutine uexternaldb(lop, lrestart, time, dtime, kstep, kinc)
   use abaqus_bulk_exchange, only: clear_bulk_records
   use abaqus_long_elements, only: forget_long_elements
   use abaqus_raised_beta, only: forget_raised_beta
+  use abaqus_temperatures, only: forget_temperatures
   implicit none(type, external)
   integer, intent(in) :: lop, lrestart, kstep, kinc
   real(dp), intent(in) :: time(2), dtime
@@ -16,5 +17,6 @@ subroutine uexternaldb(lop, lrestart, time, dtime, kstep, kinc)
     call clear_bulk_records()
     call forget_long_elements()
     call forget_raised_beta()
+    call forget_temperatures()
   end if
 end subroutine uexternaldb

@@ -10,9 +10,9 @@
 !>
 !> A law is a softening curve tau(lambda) for every direction c of the separation, w = lambda c with c = (|w_tau|, w_n)/
 !> lambda, from which the traction follows as t_i = tau ratio_i c_i. It is continued towards smaller separations than that
-!> at the onset of damage, down to none; the straight line lambda/flexibility meets it at the onset. To add a law, add a module with
-!> `_softening`, `_steepest` and `_loss` and a line in each select case below. The PPR law is different: each of its components has its own
-!> damage, and it brings its own routines.
+!> at the onset of damage, down to none; the straight line lambda/flexibility meets it at the onset. To add a law, add a module
+!> with `_softening`, `_steepest` and `_loss` and a line in each select case below. The PPR law is different: each of its
+!> components has its own damage, and it brings its own routines.
 module cohesive_law
   use core_kinds, only: dp
   use core_status, only: status_type, ok, small_beta

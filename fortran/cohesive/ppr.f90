@@ -312,8 +312,8 @@ contains
   !> The same in a step.
   !>
   !> A component dissipates -w_i**2 dK_i/2. While it grows alone, the share c_j that the other leaves it stays, and `loss_of` is
-  !> the integral; meanwhile the secant of the other falls with c_i, at the separation that it has. This is the mean of the two paths
-  !> that let one component grow after the other. Their sums are the same where the traction has a potential.
+  !> the integral; meanwhile the secant of the other falls with c_i, at the separation that it has. This is the mean of the two
+  !> paths that let one component grow after the other. Their sums are the same where the traction has a potential.
   pure function work_of_step(law, before, after, start, finish) result(work)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: before(2), after(2)   !< largest separations

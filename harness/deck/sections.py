@@ -229,6 +229,14 @@ def _check_material(block: Block, material: Material) -> None:
     if material.elastic is None:
         if block.name == "SOLID SECTION" and material.user is None:
             raise block.error(f"material {material.name} has no *ELASTIC, *HYPERELASTIC or *USER MATERIAL")
+        if cohesive and material.user is not None:
+            message = (
+                f"material {material.name} has *USER MATERIAL ({material.user.source}), for which Abaqus calls UMAT"
+            )
+            raise block.error(
+                f"{message} with separations and tractions; that is not supported in cohesive elements: expected "
+                "*ELASTIC, TYPE=TRACTION with *DAMAGE INITIATION and *DAMAGE EVOLUTION, or a user element instead"
+            )
         if cohesive:
             raise block.error(f"material {material.name} has no *ELASTIC, TYPE=TRACTION")
         return

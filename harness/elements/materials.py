@@ -250,7 +250,7 @@ def define_material(
     if hybrid and is_incompressible(material):
         return _define_incompressible(elastic, tensor)
     axes = _axes(orientation, tensor)
-    compliance = _rotated(_compliance(elastic, tensor), axes)
+    compliance = rotated_compliance(_compliance(elastic, tensor), axes)
     components = _COMPONENTS[tensor]
     if tensor <= Tensor.PLANE_STRESS:
         reduced = compliance[np.ix_(components, components)]
@@ -324,7 +324,7 @@ def global_compliance(material: Material, orientation: Orientation | None, tenso
     elastic = material.elastic
     if elastic is None or elastic.type is ElasticType.TRACTION:
         return None
-    return _rotated(_compliance(elastic, tensor), directions(orientation)[0])
+    return rotated_compliance(_compliance(elastic, tensor), directions(orientation)[0])
 
 
 def _define_hyperelastic(
@@ -573,17 +573,18 @@ def define_expansion(number: int, material: Material, orientation: Orientation |
     _materials.set_expansion(number, table, material.expansion.zero)
 
 
-def _rotated(compliance: FloatArray, axes: FloatArray) -> FloatArray:
-    """Compliance in global axes. Local stress = T global stress, so S_global = T^T S_local T."""
+def rotated_compliance(compliance: FloatArray, axes: FloatArray) -> FloatArray:
+    """(..., 6, 6) compliance in global axes. Local stress = T global stress, so S_global = T^T S_local T."""
     t = _turn(axes)
-    rotated: FloatArray = t.T @ compliance @ t
+    rotated: FloatArray = np.swapaxes(t, -1, -2) @ compliance @ t
     return rotated
 
 
 def _turn(axes: FloatArray) -> FloatArray:
-    """(6, 6) components of a stress in global axes to those in the axes of the material."""
-    t = np.zeros((6, 6))
+    """(..., 6, 6) components of a stress in global axes to those in the axes of the material (..., 3, 3)."""
+    t = np.zeros((*axes.shape[:-2], 6, 6))
+    a = np.moveaxis(axes, (-2, -1), (0, 1))
     for row, (i, j) in enumerate(_PAIRS):
         for column, (k, m) in enumerate(_PAIRS):
-            t[row, column] = axes[i, k] * axes[j, m] + (axes[i, m] * axes[j, k] if k != m else 0.0)
+            t[..., row, column] = a[i, k] * a[j, m] + (a[i, m] * a[j, k] if k != m else 0.0)
     return t

@@ -209,7 +209,7 @@ class _Plies:
         # the material of a node; the faces of an interface have nodes of their own, so that it is unique there
         self._owner = np.full(count, -1)
         for group in model.groups:
-            compliance = _compliance(group)
+            compliance = compliance_of(group)
             if compliance is not None:
                 self._owner[group.nodes] = len(self._compliances)
                 self._compliances.append(compliance)
@@ -228,7 +228,7 @@ class _Plies:
         return found
 
 
-def _compliance(group: ElementGroup) -> FloatArray | None:
+def compliance_of(group: ElementGroup) -> FloatArray | None:
     """Compliance (6, 6) of continuum elements; None where it is not known, or differs from point to point."""
     section, kind = group.section, group.built_in
     turns = False

@@ -139,9 +139,7 @@ class Element:
         equations, entries = (np.arange(count * size, dtype=np.int32) for size in (n, n * n))
         self.block.bind(equations.reshape(count, n), entries.reshape(count, n, n))
 
-    def evaluate(
-        self, u, *, du=None, dtime=1.0, request=1, flags=(1, 0, 0, 0), increment=1, params=(0.0, 0.0, 0.0)
-    ):
+    def evaluate(self, u, *, du=None, dtime=1.0, request=1, flags=(1, 0, 0, 0), increment=1, params=(0.0, 0.0, 0.0)):
         """RHS and AMATRX at u; flags are LFLAGS(1), (2), (4), (5), params PARAMS."""
         told = Flags(flags[0], bool(flags[1]), Request(request), bool(flags[2]), bool(flags[3]))
         call = Call(

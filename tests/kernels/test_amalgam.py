@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from harness.usersub.built import path_of_amalgam
+from harness.usersub.layout import element_layouts
 
 ROOT = Path(__file__).parents[2]
 
@@ -22,6 +23,15 @@ def amalgamate():
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+def test_header_has_every_type():
+    header = path_of_amalgam().read_text().split("! Written from")[0]
+    found = re.findall(r"^!   U(\d+)( \(UELMAT\))?: (\w+)", header, re.MULTILINE)
+    assert [int(number) for number, _, _ in found] == list(element_layouts())
+    assert [int(number) for number, uelmat, _ in found if uelmat] == [1, 9]
+    for (_, _, word), layout in zip(found, element_layouts().values(), strict=True):
+        assert layout.meaning.startswith(word)
 
 
 def test_form():

@@ -274,8 +274,8 @@ def test_viscous_overstress(element, interface, reference, law, ply, alpha):
 @pytest.mark.parametrize("alpha", STIFFNESSES)
 @pytest.mark.parametrize("viscosity", [0.0, 0.05])
 def test_energies_sum_up_to_the_work_on_the_separation(element, interface, alpha, viscosity):
-    """Stored + damage + viscous = work of T over w; the viscous part by backward Euler, the rest by trapezia, which err in
-    the increments that hold onset, failure and the turn of the path: by 60 MPa times half of one, 2e-4 mm, at each."""
+    """Stored + damage + viscous = work of T over w; the viscous part by backward Euler, the rest by trapezia, which err
+    in the increments that hold onset, failure and the turn of the path: by 60 MPa times half of one, 2e-4 mm."""
     item = element(4, interface.eight, **rigid(alpha), VISCOSITY=viscosity)
     length, thickness = np.linalg.norm(np.diff(interface.edge, axis=0)), 2.0
     steps = [(0.3 * g, g) for g in (*np.linspace(0, 0.012, 60)[1:], *np.linspace(0.012, 0, 10)[1:])]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What damage dissipates in increments of any size: that of the law, whatever the path within them, and never negative."""
+"""Energy that damage dissipates in increments of any size: that of the law, and never negative."""
 
 import numpy as np
 import pytest
@@ -31,7 +31,7 @@ pytestmark = one_library
 
 
 class Point:
-    """An element, or copies of it, whose points all have one separation (tau, n); in space, shear is at 30 degrees to s."""
+    """An element, or copies of it, whose points all have one separation (tau, n), in space with shear at 30 degrees."""
 
     def __init__(self, element, interface, variant, copies=None, **values):
         self.jtype, given = VARIANTS[variant]
@@ -144,7 +144,7 @@ def test_no_increment_dissipates_a_negative_energy(element, interface, variant, 
     rng = np.random.default_rng(11)
     friction = {"FRICTION": 0.4} if "consistent" in variant or "rigid" in variant else {}
     point = Point(element, interface, variant, 64, **LAWS[law], **friction, VISCOSITY=viscosity)
-    before = {name: 0.0 for name in ("DISSI", "DISSII", "DISSV", "DISSF")}
+    before = dict.fromkeys(("DISSI", "DISSII", "DISSV", "DISSF"), 0.0)
     for _ in range(12):
         gaps = rng.normal(size=(64, 2)) * 10 ** rng.uniform(-4, -1.3, (64, 1))
         state = point.advance(gaps, dtime=0.1)

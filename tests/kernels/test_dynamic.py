@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """RHS and AMATRX in *DYNAMIC: the weights of the operator of Hilber, Hughes and Taylor.
 
-Abaqus Theory Guide, "Implicit dynamic analysis", and User Subroutines Reference Guide, UEL: with the static residual G, at
-the end of the increment and at its start, RHS is -M A + (1 + alpha) G - alpha G_start; with LFLAGS(3) = 6 it is G.
+Abaqus Theory Guide, "Implicit dynamic analysis", and User Subroutines Reference Guide, UEL: with the static residual G,
+at the end of the increment and at its start, RHS is -M A + (1 + alpha) G - alpha G_start; with LFLAGS(3) = 6 it is G.
 """
 
 import numpy as np
@@ -24,7 +24,9 @@ class Solid:
     """U1 or U9, in the place of a crowd."""
 
     def __init__(self, element, jtype, formulation=0):
-        self.item = element(jtype, QUAD if jtype == 1 else BRICK, **({"FORMULATION": formulation} if jtype == 9 else {}))
+        self.item = element(
+            jtype, QUAD if jtype == 1 else BRICK, **({"FORMULATION": formulation} if jtype == 9 else {})
+        )
 
     def call(self, method, u, dtime, **options):
         return getattr(self.item, method)(u, dtime=dtime, **options)

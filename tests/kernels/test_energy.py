@@ -12,8 +12,8 @@ ELASTIC, DAMAGE, VISCOUS = 1, 3, 4
 
 @pytest.mark.parametrize("viscosity", [0.0, 0.5])
 def test_energies_sum_up_to_the_work(element, interface, viscosity):
-    """Trapezoidal work of the nodal forces = stored + dissipated, on any path: to 0.5 %, for the trapezoidal rule errs in
-    increments that hold an onset, a failure or a closing, one in a hundred. `test_dissipation.py` has large ones."""
+    """Trapezoidal work of the nodal forces = stored + dissipated, on any path: to 0.5 %, for the trapezoidal rule errs
+    in increments that hold an onset, a failure or a closing. `test_dissipation.py` has large ones."""
     item = element(2, interface.four, VISCOSITY=viscosity)
     rng = np.random.default_rng(4)
     corners = [np.zeros((4, 2))]

@@ -116,6 +116,12 @@ MISTAKES = {
         "*USER MATERIAL, CONSTANTS=1\n1.\n*DAMAGE INITIATION",
         r"19: .*material GLUE has \*USER MATERIAL, at deck.inp:29, which is not supported",
     ),
+    "user material alone": (
+        "*ELASTIC, TYPE=TRACTION\n1e4, 2e4, 3e4\n",
+        "*USER MATERIAL, CONSTANTS=1\n1.\n",
+        r"19: .*GLUE has \*USER MATERIAL \(deck.inp:27\), for which Abaqus calls UMAT with separations and tractions; "
+        r"that is not supported in cohesive elements: expected \*ELASTIC, TYPE=TRACTION with",
+    ),
     "damage of a solid": (
         "210000., 0.3\n",
         "210000., 0.3\n*DAMAGE INITIATION, CRITERION=MAXS\n1., 1.\n",

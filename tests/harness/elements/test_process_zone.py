@@ -46,6 +46,12 @@ def square(x: float, y: float, dimension: int, length: float) -> list[tuple[floa
     return [(0.0, 0.0, y), (x, 0.0, y), (x, 2.0 * length, y), (0.0, 2.0 * length, y)]
 
 
+def axes_at(angle: float) -> str:
+    """*ORIENTATION with axis 1 at an angle from x, in degrees."""
+    c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    return f"*ORIENTATION, NAME=AXES\n{c:.9g}, {s:.9g}, 0., {-s:.9g}, {c:.9g}, 0."
+
+
 def pulled(
     folder: Path,
     kind: str,
@@ -53,6 +59,7 @@ def pulled(
     height: float,
     opening: float = 0.05,
     ply: str = "",
+    upper: str = "",
     axes: str = "",
     across: bool = False,
     columns: int = 1,
@@ -63,7 +70,7 @@ def pulled(
     """Columns of two solids with an interface element between them, pulled apart by `opening`, or sheared.
 
     The interface elements have the labels 3, 6, 9 and so on; `first` is the size of the increments, `values` are
-    properties of the elements.
+    properties of the elements, `upper` is the material UPPER of the upper solids.
     """
     space = kind in ("COH3D8", "U7", "U8")
     dimension = 3 if space else 2
@@ -93,13 +100,23 @@ def pulled(
         lines += user_element(int(kind[1:]))
     lines += elements(kind, "INTERFACE", (0, 1, 2, 3) if kind in ("U4", "U8") else (1, 2))
     named = ", ORIENTATION=AXES" if axes else ""
-    lines += [*axes.splitlines(), f"*SOLID SECTION, ELSET=SOLID, MATERIAL=PLY{named}", "1."]
+    tops = [str(3 * k + 2) for k in range(columns)]
+    sets = {"LOWER": [str(3 * k + 1) for k in range(columns)] + ([] if upper else tops), "UPPER": tops if upper else []}
+    lines += axes.splitlines()
+    for (name, labels), material in zip(sets.items(), ("PLY", "UPPER"), strict=True):
+        if labels:
+            lines += [
+                f"*ELSET, ELSET={name}",
+                *labels,
+                f"*SOLID SECTION, ELSET={name}, MATERIAL={material}{named}",
+                "1.",
+            ]
     if own:
         moduli = {f"{name} {side}": value for name, value in MODULI[dimension].items() for side in ("BOTTOM", "TOP")}
         lines += uel_property(int(kind[1:]), "INTERFACE", LAW | {"THICKNESS": 1.0} | moduli | values)
     else:
         lines += COHESIVE.splitlines()
-    lines += (ply or PLIES[dimension]).splitlines()
+    lines += [*(ply or PLIES[dimension]).splitlines(), *upper.splitlines()]
     for name, level in (("BASE", 0), ("CROWN", 3)):
         lines += [f"*NSET, NSET={name}", *(", ".join(map(str, numbers(k, level))) for k in range(columns))]
     lines += ["*BOUNDARY", f"BASE, 1, {dimension}"]
@@ -238,7 +255,7 @@ def test_element_takes_the_modulus_across(angle: float, tmp_path: Path) -> None:
     c, s = math.sin(math.radians(angle)), math.cos(math.radians(angle))
     across = 1.0 / (c**4 / E1 + s**4 / E3 + c**2 * s**2 / 500.0)
     angles = {"ANGLE BOTTOM": angle, "ANGLE TOP": angle}
-    (warning,) = pulled(tmp_path, "U4", 0.5, 1.0, **angles).warnings
+    (warning,) = pulled(tmp_path, "U4", 0.5, 1.0, axes=axes_at(angle), **angles).warnings
     assert told(warning, "U4")[2] == pytest.approx(0.5 * across * TOUGHNESS / STRENGTH**2, rel=1e-5)
 
 
@@ -247,14 +264,16 @@ def test_element_takes_the_modulus_along(kind: str, angle: float, tmp_path: Path
     """In mode II; at 45 degrees that of two axes with E1 each, without contraction."""
     along = E1 if angle == 0.0 else 1.0 / (0.5 / E1 + 0.25 / 500.0)
     values = {"TAUMAX": 30.0, "GIIC": 0.05, "ANGLE BOTTOM": angle, "ANGLE TOP": angle}
-    (warning,) = pulled(tmp_path, kind, 2.0, 1.0, opening=0.3, across=True, **values).warnings
+    axes = axes_at(angle)
+    (warning,) = pulled(tmp_path, kind, 2.0, 1.0, opening=0.3, axes=axes, across=True, **values).warnings
     _, length, zone, share = told(warning, kind)
     assert (length, share) == (2.0, 100.0)
     assert zone == pytest.approx(0.5 * math.sqrt(E3 * along) * 0.05 / 30.0**2, rel=1e-5)
 
 
 def test_softer_of_two_solids_counts(tmp_path: Path) -> None:
-    (warning,) = pulled(tmp_path, "U4", 0.1, 1.0, **{"E2 TOP": 0.5 * E3}).warnings
+    upper = "*MATERIAL, NAME=UPPER\n*ELASTIC, TYPE=LAMINA\n4000., 500., 0., 500., 500., 500.\n"
+    (warning,) = pulled(tmp_path, "U4", 0.1, 1.0, upper=upper, **{"E2 TOP": 0.5 * E3}).warnings
     assert told(warning, "U4")[2] == pytest.approx(0.5 * LARGE, rel=1e-5)
 
 
