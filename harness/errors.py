@@ -15,13 +15,13 @@ from typing import IO, Final
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """Place in a deck, for messages: file as the user named it, and line number from 1."""
+    """Place in a deck, for messages: file as the user named it, and line number from 1; 0 stands for the whole file."""
 
     file: str
     line: int
 
     def __str__(self) -> str:
-        return f"{self.file}:{self.line}"
+        return f"{self.file}:{self.line}" if self.line else self.file
 
 
 class UelError(Exception):

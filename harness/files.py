@@ -14,6 +14,12 @@ _MADE_BY_THE_KERNEL: Final = ("/proc/", "/sys/")
 """Folders whose entries look like files: some wait for events, some are as large as the memory."""
 
 
+def deck_named(path: Path) -> Path:
+    """Return the deck that a user names, who may leave out its ending, .inp, as in the name of a job."""
+    whole = path.with_name(f"{path.name}.inp") if path.name else path
+    return whole if not path.exists() and whole.exists() else path
+
+
 def read_whole(path: Path) -> bytes:
     """Content of a file.
 

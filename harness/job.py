@@ -20,6 +20,7 @@ from harness.elements.process_zone import LongElements
 from harness.elements.threads import MOST_THREADS, known_routines, refuse_shared_stress, use_threads
 from harness.elements.unsymmetric_matrices import warn_of_missing_unsymm
 from harness.errors import ConvergenceError, ElementError, UelError, UsageError, in_words, note_warnings
+from harness.files import deck_named
 from harness.interrupts import held, settle
 from harness.job_on_ranks import files_of_job, messages_of, refuse_unshared
 from harness.job_restart import decks_of, find_state, refuse_nothing_left, refuse_on_ranks
@@ -35,6 +36,7 @@ from harness.procedures import run_steps
 from harness.procedures.incrementation import FIXED_TOO_LARGE, TOO_MANY_ATTEMPTS, TOO_MANY_INCREMENTS
 from harness.solver.threads import one_blas_thread
 from harness.usersub import Library, Message, guard_values
+from harness.usersub.layout import without_user
 
 
 def run(
@@ -61,7 +63,7 @@ def run(
     Parameters
     ----------
     deck
-        Abaqus input file.
+        Abaqus input file; its ending, .inp, may be left out.
     user
         File with UEL, UELMAT, UEXTERNALDB in Fortran, C or C++, or several in compilation order, or a compiled
         library; None takes the project's own elements.
@@ -124,7 +126,7 @@ def run(
         raise UsageError(f"--cpus {cpus}: expected a number from 1 to {MOST_THREADS}")
     if cpus > 1 and debug:
         raise UsageError(f"--cpus {cpus}: run-time checks (--debug) need one thread")
-    deck = Path(deck)
+    deck = deck_named(Path(deck))
     stem = job_stem(deck.stem if job is None else job, output_dir)
     job, folder = stem.name, stem.parent
     refuse_on_ranks(oldjob, ranks)
@@ -161,6 +163,8 @@ def run(
         except ElementError as error:
             if not debug and _debug_helps(sources, str(error)):
                 error.add_note("run again with --debug to see file and line")
+            if not sources and (note := without_user(error.element_type)):
+                error.add_note(note)
             raise
         finally:
             usersub.set_threads(1)

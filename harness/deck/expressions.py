@@ -38,11 +38,11 @@ def assign(statement: str, parameters: Mapping[str, Value]) -> tuple[str, Value]
         raise ValueError(f"'{statement.strip()}' is not of the form name = expression") from None
     if len(tree.body) != 1 or not isinstance(tree.body[0], ast.Assign):
         raise ValueError(f"'{statement.strip()}' is not of the form name = expression")
-    target = tree.body[0].targets[0]
+    target, source = tree.body[0].targets[0], statement.strip()
     if len(tree.body[0].targets) != 1 or not isinstance(target, ast.Name):
         raise ValueError(f"'{statement.strip()}' is not of the form name = expression")
     try:
-        return target.id, _evaluate(tree.body[0].value, parameters)
+        return target.id, _evaluate(tree.body[0].value, parameters, source)
     except OverflowError:
         raise ValueError(f"'{statement.strip()}' cannot be evaluated: a number is too large") from None
     except (ArithmeticError, TypeError, RecursionError) as error:
@@ -57,7 +57,8 @@ def find(name: str, parameters: Mapping[str, Value]) -> Value | None:
     return alike[0] if len(alike) == 1 else None
 
 
-def _evaluate(node: ast.expr, parameters: Mapping[str, Value]) -> Value:
+def _evaluate(node: ast.expr, parameters: Mapping[str, Value], source: str) -> Value:
+    """Value of a part of the statement whose text is the source."""
     match node:
         case ast.Constant(value=str() | float() | int() as value):
             return value
@@ -67,44 +68,48 @@ def _evaluate(node: ast.expr, parameters: Mapping[str, Value]) -> Value:
                 raise ValueError(f"parameter '{name}' is not defined")
             return found
         case ast.UnaryOp(op=ast.USub(), operand=operand):
-            return -_number(operand, parameters)
+            return -_number(operand, parameters, source)
         case ast.UnaryOp(op=ast.UAdd(), operand=operand):
-            return _number(operand, parameters)
+            return _number(operand, parameters, source)
         case ast.BinOp(left=left, op=op, right=right):
-            value = _binary(op, _number(left, parameters), _number(right, parameters))
+            text = ast.get_source_segment(source, node)
+            value = _binary(op, _number(left, parameters, source), _number(right, parameters, source), f"'{text}'")
             # integers without bound would double their digits with every x = x*x
             value = float(value) if abs(value) > _LARGEST_INTEGER else value
             if math.isinf(value):
-                raise ValueError(f"'{ast.unparse(node)}' is too large for a number")
+                raise ValueError(f"'{text}' is too large for a number")
             return value
         case ast.Call(func=ast.Name(id=name), args=arguments, keywords=[]) if name in _FUNCTIONS:
-            return _FUNCTIONS[name](*(_number(argument, parameters) for argument in arguments))
-    raise ValueError(f"'{ast.unparse(node)}' is not an expression that *PARAMETER can evaluate here")
+            return _FUNCTIONS[name](*(_number(argument, parameters, source) for argument in arguments))
+    text = ast.get_source_segment(source, node)
+    raise ValueError(f"'{text}' is not an expression that *PARAMETER can evaluate here")
 
 
-def _number(node: ast.expr, parameters: Mapping[str, Value]) -> float | int:
-    value = _evaluate(node, parameters)
+def _number(node: ast.expr, parameters: Mapping[str, Value], source: str) -> float | int:
+    value = _evaluate(node, parameters, source)
     if isinstance(value, str):
         raise ValueError(f"'{value}' is text, expected a number")
     return value
 
 
-def _binary(op: ast.operator, left: float, right: float) -> float:
+def _binary(op: ast.operator, left: float, right: float, text: str) -> float:
+    """Value of an operation; text: what stands for it in the deck, in quotes."""
     if isinstance(op, ast.Div):
         if isinstance(left, int) and isinstance(right, int) and right and left % right:
             # releases of Abaqus differ: Python 2 truncates, Python 3 does not
-            raise ValueError(f"{left}/{right} of two integers depends on the release of Abaqus; write {left}./{right}")
+            message = f"{text} divides the integers {left} and {right}, which depends on the release of Abaqus"
+            raise ValueError(f"{message}; give one of them a point, as in {left}.")
         return left // right if isinstance(left, int) and isinstance(right, int) else left / right
     if isinstance(op, ast.Pow):
-        return _power(left, right)
+        return _power(left, right, text)
     if type(op) not in _BINARY:
         raise ValueError("expected one of the operators + - * / // % **")
     return _BINARY[type(op)](left, right)
 
 
-def _power(left: float, right: float) -> float:
+def _power(left: float, right: float, text: str) -> float:
     exact = isinstance(left, int) and isinstance(right, int) and abs(left) < 10**9 and 0 <= right <= 64
     value: float | complex = left**right if exact else float(left) ** float(right)
     if isinstance(value, complex):
-        raise ValueError(f"{left}**{right} is not real")
+        raise ValueError(f"{text} is not real")
     return value

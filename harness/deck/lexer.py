@@ -95,7 +95,7 @@ def read_passages(
     """
     lexer = _Lexer(files[-1], keywords, problems, {})
     for file in files:
-        lexer.read(made[file] if file in made else _load(file, Source(str(file), 1)), str(file), (file.resolve(),))
+        lexer.read(made[file] if file in made else _load(file, Source(str(file), 0)), str(file), (file.resolve(),))
     lexer.close()
     return lexer.blocks, lexer.passages
 
@@ -117,10 +117,10 @@ def unknown_parameter(name: str, deck: Path, defined: Sequence[str]) -> str:
 
 def _read(deck: Path, keywords: Mapping[str, Keyword], problems: Problems, given: Mapping[str, Value]) -> _Lexer:
     lexer = _Lexer(deck, keywords, problems, given)
-    start = Source(str(deck), 1)
+    start = Source(str(deck), 0)
     lines = _load(deck, start)
     if not any(line and not line.startswith("**") for line in lines):
-        raise DeckError(start, "the deck is empty")
+        raise DeckError(Source(str(deck), 1), "the deck is empty")
     lexer.read(lines, str(deck), (deck.resolve(),))
     lexer.close()
     return lexer
@@ -128,13 +128,16 @@ def _read(deck: Path, keywords: Mapping[str, Keyword], problems: Problems, given
 
 def _load(path: Path, source: Source) -> list[str]:
     """Lines of a text file in UTF-8 or Latin-1, with any kind of line end; without the blanks around each."""
+    # one that is not there has no first line either; another one has the place of its *INCLUDE
+    name = str(path) if source.line else "the file"
     try:
         raw = read_whole(path)
     except OSError as error:
         reason = error.strerror or type(error).__name__
-        raise DeckError(source, f"cannot read {path}: {reason}") from None
+        raise DeckError(source, f"cannot read {name}: {reason}") from None
     except ValueError as error:
-        raise DeckError(source, f"cannot read {path}: {error}") from None
+        raise DeckError(source, f"cannot read {name}: {error}") from None
+    source = source if source.line else Source(source.file, 1)
     if raw.startswith(_UTF16):
         raise DeckError(source, f"{path} is UTF-16 text, which Abaqus does not read: save it as UTF-8")
     if b"\0" in raw:

@@ -156,11 +156,12 @@ def _misplaced(block: Block, open_scopes: list[Scope], problems: Problems) -> No
 def _check_instances(structure: Structure, problems: Problems) -> None:
     for scope in structure.instances.values():
         part = scope.head.options.text("PART")
-        if part not in structure.parts:
+        # without a name the keyword line has an error already
+        if part and part not in structure.parts:
             problems.add(scope.head.source, f"*INSTANCE: unknown part {part}{nearest(part, structure.parts)}")
     used = {scope.head.options.text("PART") for scope in structure.instances.values()}
     for name, scope in structure.parts.items():
-        if name not in used:
+        if name and name not in used:
             problems.warn(scope.head.source, f"part {name} has no instance and is left out")
 
 

@@ -4,17 +4,19 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
 
 from harness.deck.abaqus_elements import is_abaqus_element
 from harness.deck.blocks import PER_LINE, Block
 from harness.deck.element_names import read_names
-from harness.deck.error_report import Problems, nearest
+from harness.deck.error_report import Problems
 from harness.deck.numbers import LARGEST_INTEGER
 from harness.deck.table import Keyword, Kind, Option, Where, one_of, refused
 from harness.errors import DeckError, Source
@@ -75,6 +77,11 @@ def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[frozenset[i
     return [sets[bits] for bits in of_nodes]
 
 
+_NEAREST: Final = 3
+LISTED: Final = f"harness/deck/keywords.md, *ELEMENT, lists all {len(BUILT_IN)} types"
+"""Where a user finds what is supported."""
+
+
 def find_type(name: str, definitions: Definitions, source: Source) -> ElementType:
     """The element type of a name; DeckError where it is neither built in nor defined."""
     if name in BUILT_IN:
@@ -84,11 +91,10 @@ def find_type(name: str, definitions: Definitions, source: Source) -> ElementTyp
     if _USER_TYPE.fullmatch(name):
         defined = ", ".join(definitions) or "none"
         raise DeckError(source, f"element type {name} is not defined by *USER ELEMENT (defined: {defined})")
-    supported = f"(supported: {', '.join(BUILT_IN)} and user elements)"
-    if is_abaqus_element(name):
-        raise DeckError(source, f"element type {name} of Abaqus is not supported here {supported}")
-    hint = nearest(name, [*BUILT_IN, *definitions])
-    raise DeckError(source, f"element type {name} is not supported {supported}{hint}")
+    near = difflib.get_close_matches(name, [*BUILT_IN, *definitions], n=_NEAREST, cutoff=0.6)
+    what = "of Abaqus is not supported here" if is_abaqus_element(name) else "is not supported"
+    hint = f"; the nearest are {', '.join(near)}" if near else ""
+    raise DeckError(source, f"element type {name} {what}{hint}; {LISTED}")
 
 
 def refuse_types(blocks: Sequence[Block], problems: Problems) -> None:

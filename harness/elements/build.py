@@ -186,8 +186,7 @@ def _block_of(
             return _discrete_block(model, group, library)
     near = get_close_matches(group.type.upper(), BUILT_IN, n=1)
     hint = f"; did you mean {near[0]}?" if near else ""
-    message = f"element type {group.type} is not supported; built-in types: {', '.join(BUILT_IN)}{hint}"
-    raise DeckError(group.source, message)
+    raise DeckError(group.source, f"element type {group.type} is not supported{hint}")
 
 
 def _user_block(

@@ -129,14 +129,15 @@ class DataFile:
         """Text of a user routine, unchanged."""
         self._file.write_lines(text)
 
-    def close(self, error: str | None) -> None:
-        """Verdict of the job."""
+    def close(self, error: str | None, others: int = 0) -> None:
+        """Verdict of the job; others: warnings in .msg, which .dat does not have."""
         if error is not None:
             self.remark("ERROR", error)
         verdict = "BEEN COMPLETED" if error is None else "NOT BEEN COMPLETED"
         self._file.write(
             f"\n\n          THE ANALYSIS HAS {verdict}\n\n\n"
             f"                              WITH {len(self.warnings):6d} WARNING MESSAGES ON THE DAT FILE\n"
+            f"                              AND  {others:6d} WARNING MESSAGES ON THE MSG FILE\n"
         )
         self._file.close()
 

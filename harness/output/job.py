@@ -237,7 +237,7 @@ class JobOutput:
         closing: list[Callable[[], None]] = [
             self._progress.close,
             lambda: self._message.close(text, lost),
-            lambda: self._data.close(text),
+            lambda: self._data.close(text, len(self._message.warnings)),
             self._history.close,
             self._interface.close,
         ]

@@ -62,6 +62,8 @@ _OTHER_FORM: Final = (
 _FREE_STATEMENT: Final = re.compile(
     r"^ {0,4}(?:module|subroutine|function|program|end|use|implicit|integer|real)\b", re.IGNORECASE | re.MULTILINE
 )
+# not where column 6 continues the line too, which is valid in both forms
+_FREE_CONTINUATION: Final = re.compile(r"^(?![cC*!])[^!\n]*&[ \t]*\n(?! {5}[^ 0\n])", re.MULTILINE)
 _FIXED_CONTINUATION: Final = re.compile(r"^ {5}[1-9&+]", re.MULTILINE)
 
 
@@ -123,8 +125,11 @@ def _missing_module(module: str, name: str, texts: Mapping[str, str]) -> str:
 
 
 def _looks_free(text: str) -> bool:
-    """Whether many statements, or program units, begin in the first five columns, where fixed form has only labels."""
-    if len(_FREE_STATEMENT.findall(text)) > 1:
+    """Whether statements go on after a & at the end of a line, or many begin in the first five columns.
+
+    There fixed form has only labels, and it continues lines by column 6.
+    """
+    if len(_FREE_STATEMENT.findall(text)) > 1 or _FREE_CONTINUATION.search(text):
         return True
     lines = [line for line in text.splitlines() if line.strip() and line[0] not in "cC*!#dD"]
     early = [line for line in lines if not line[:5].strip().isdigit() and line[:5].strip() and "\t" not in line[:6]]

@@ -23,6 +23,9 @@ from harness.usersub.built import path_of_layout
 MARKER: Final = "delamination_layout_version"
 """Symbol of a library that holds these elements."""
 
+PLANE: Final = 2
+"""Dimension of elements in the plane."""
+
 RULES: Final = {
     "positive": "> 0",
     "not_negative": ">= 0, default 0",
@@ -94,6 +97,20 @@ class ElementLayout:
 def element_layouts() -> dict[int, ElementLayout]:
     """Every element type of the project by its JTYPE."""
     return read_layouts(path_of_layout().read_text(encoding="utf-8"))
+
+
+def without_user(name: str) -> str:
+    """Return what a type Un is in a job without a user's file, in words; '' for a type that is built in."""
+    number = name[1:] if name[:1] == "U" else ""
+    if not number.isdecimal():
+        return ""
+    layout = element_layouts().get(int(number))
+    if layout is None:
+        known = ", ".join(f"U{number}" for number in element_layouts())
+        return f"no --user was given: name the file that has {name}; this project itself has {known}"
+    where = "the plane" if layout.dimension == PLANE else "space"
+    own = f"{layout.meaning} ({layout.nodes} nodes in {where})"
+    return f"no --user was given, so {name} is that of this project: {own}; another {name} needs its file, by --user"
 
 
 def read_layouts(text: str) -> dict[int, ElementLayout]:

@@ -217,7 +217,7 @@ def test_unknown_option_of_abaqus(capsys: pytest.CaptureFixture[str]) -> None:
 def test_folder_with_an_equals_sign_is_no_option(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     deck = tmp_path / "k=1" / "deck.inp"
     assert main(["run", str(deck)]) == 1
-    assert f"{deck}:1: cannot read {deck}: No such file" in " ".join(capsys.readouterr().err.split())
+    assert f"{deck}: cannot read the file: No such file" in " ".join(capsys.readouterr().err.split())
 
 
 def test_deck_error_is_one_line_with_its_place(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

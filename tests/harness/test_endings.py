@@ -180,3 +180,55 @@ def test_demo_that_cannot_write_says_so(tmp_path: Path, capsys: pytest.CaptureFi
     (tmp_path / "file").touch()
     assert demo.main(["--output-dir", str(tmp_path / "file")]) == 1
     assert capsys.readouterr().err == f"uel: {tmp_path}/file: File exists\n"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "note"),
+    [
+        (
+            "",
+            "",
+            "no --user was given, so U1 is that of this project: continuum quad, .*4 nodes in the plane",
+        ),
+        ("U1", "U99", "no --user was given: name the file that has U99; this project itself has U1, U2, .*U12$"),
+    ],
+)
+def test_user_element_without_a_file(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], old: str, new: str, note: str
+) -> None:
+    """The deck's own U1 is a spring; without a file it would be the quad of the project, whose message tells little."""
+    deck = pulled(tmp_path)
+    deck.write_text(deck.read_text().replace(old, new) if old else deck.read_text())
+    assert main(["run", str(deck), "--quiet", "--output-dir", str(tmp_path)]) == 1
+    assert re.search(f"(?m)^uel: {note}", capsys.readouterr().err)
+    # with a file nothing is said about that
+    if not old:
+        assert main(["run", str(deck), "--user", str(SPRINGS), "--quiet", "--output-dir", str(tmp_path)]) == 0
+        assert "--user" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["pulled", "my.job"])
+def test_deck_by_the_name_of_its_job(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    pulled(tmp_path).rename(tmp_path / f"{name}.inp")
+    monkeypatch.chdir(tmp_path)
+    assert main(["run", name, "--user", str(SPRINGS)]) == 0
+    assert Path(f"{name}.sta").exists()
+    # a file of this very name counts first, and a missing one is called as it was given
+    Path(name).write_text("*NODDE\n")
+    assert main(["run", name]) == 1
+    assert "unknown keyword *NODDE" in capsys.readouterr().err
+    assert main(["run", "nope"]) == 1
+    assert "uel: nope: cannot read the file: No such file or directory\n" in capsys.readouterr().err
+
+
+def test_dat_counts_the_warnings_of_both_files(tmp_path: Path) -> None:
+    """A part that nothing holds, on which no force acts: a singular matrix, of which .msg warns."""
+    deck = pulled(tmp_path)
+    deck.write_text(deck.read_text().replace("*BOUNDARY\n1, 1\n2, 1, 1, 0.1\n", ""))
+    assert main(["run", str(deck), "--user", str(SPRINGS), "--quiet", "--output-dir", str(tmp_path)]) == 0
+    counts = [(tmp_path / f"pulled{ending}").read_text().count("***WARNING") for ending in (".dat", ".msg")]
+    assert counts[1] > 0
+    printed = " ".join((tmp_path / "pulled.dat").read_text().split())
+    assert f"WITH {counts[0]} WARNING MESSAGES ON THE DAT FILE AND {counts[1]} WARNING MESSAGES ON THE MSG" in printed

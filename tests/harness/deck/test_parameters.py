@@ -95,5 +95,5 @@ def test_survey_of_a_deck_with_mistakes(deck: Path) -> None:
     found = survey_deck(deck)
     assert found.files == (deck, Path("rest.inp"))
     assert "a" in found.parameters
-    with pytest.raises(DeckError, match=r"cannot read none\.inp"):
+    with pytest.raises(DeckError, match=r"none\.inp: cannot read the file"):
         survey_deck(Path("none.inp"))

@@ -95,9 +95,9 @@ def test_user_elements_have_one_orientation_of_built_in_materials(build, user_gr
         build(group, (HERE / "point.f").read_text() + components)
 
 
-@pytest.mark.parametrize("element_type, hint", [("CPS5", "did you mean CPS8"), ("SAX1", "")])
+@pytest.mark.parametrize("element_type, hint", [("CPS5", "; did you mean CPS8"), ("SAX1", "$")])
 def test_unsupported_element_type(build, solid_group, element_type, hint):
-    message = rf"test.inp:7: element type {element_type} is not supported; built-in types: CPS3, .*, MASS.*{hint}"
+    message = rf"test.inp:7: element type {element_type} is not supported{hint}"
     with pytest.raises(DeckError, match=message):
         build(solid_group(element_type, np.array([[0, 1, 2, 3]]), 1.0))
 

@@ -267,6 +267,7 @@ def test_automatic_arrays_are_on_the_stack(load, cache):
     assert "malloc" not in symbols
 
 
+CONTINUED = "      subroutine uexternaldb(lop, &\n        lrestart)\n      integer :: lop\n      lop = 1\n      end\n"
 HINTS = {
     "an Intel module": ("      use ifport\n      end\n", "user.f", "it belongs to Intel's compiler: use Fortran's own"),
     "MKL as a module": (
@@ -329,6 +330,12 @@ HINTS = {
     ),
     "free form in .for": (
         "subroutine uexternaldb(lop, &\n  lrestart)\ninteger :: lop\nlop = 1\nend subroutine\n",
+        "user.for",
+        "it looks like free form: call it .f90, or begin it with !DIR[$] FREEFORM",
+    ),
+    # nothing of it begins in the columns of labels
+    "continued as in free form": (
+        CONTINUED,
         "user.for",
         "it looks like free form: call it .f90, or begin it with !DIR[$] FREEFORM",
     ),
