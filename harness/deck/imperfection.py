@@ -12,6 +12,7 @@ import numpy as np
 from harness.deck.blocks import Block, Row
 from harness.deck.error_report import Problems
 from harness.deck.flatten import FlatMesh
+from harness.deck.repetition import overlaps
 from harness.deck.table import INPUT, Keyword, Kind, Option, Where, one_of
 from harness.errors import UelError
 from harness.model.arrays import FloatArray, IntArray
@@ -41,22 +42,25 @@ def displace(blocks: Iterable[Block], flat: FlatMesh, problems: Problems, earlie
             continue
         with problems.gather():
             if not block.options.given("FILE"):
-                _by_nodes(block, flat, change)
+                _by_nodes(block, flat, change, problems)
             elif earlier is not None:
                 _by_shapes(block, flat, change, earlier)
     if change.any():
         flat.displace(change)
 
 
-def _by_nodes(block: Block, flat: FlatMesh, change: FloatArray) -> None:
+def _by_nodes(block: Block, flat: FlatMesh, change: FloatArray, problems: Problems) -> None:
     if block.options.given("STEP") or block.options.given("INC") or block.options.given("NSET"):
         raise block.error("STEP, INC and NSET are about FILE")
     rows = list(block.rows())
     if not rows:
         raise block.error("needs FILE, or data lines with nodes")
-    for row in rows:
+    moved = [flat.nodes(row.name(0, "node"), row.source) for row in rows]
+    for before, later, node in overlaps(moved):
+        message = f"node {flat.mesh.name(node)} is moved here and at {rows[before].source}: by the sum, which Abaqus"
+        problems.warn(rows[later].source, f"*IMPERFECTION: {message} does not document")
+    for row, nodes in zip(rows, moved, strict=True):
         row.at_most(4)
-        nodes = flat.nodes(row.name(0, "node"), row.source)
         first, second, third = (row.real(k, "change of a coordinate", 0.0) for k in (1, 2, 3))
         if block.options.text("SYSTEM") == "C":
             x, y, _ = flat.mesh.coordinates[nodes].T

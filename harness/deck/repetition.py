@@ -79,9 +79,9 @@ RULES: Final[dict[str, Rule]] = {
     **dict.fromkeys(("NSET", "ELSET"), _SET),
     "SYSTEM": Rule(Repeat.LAST, "the nodes that follow"),
     "PARAMETER": Rule(Repeat.LAST, "the lines that follow"),
-    "IMPERFECTION": Rule(Repeat.ADD, "a node"),
+    "IMPERFECTION": Rule(Repeat.ADD, "a node", note="of data lines with a warning, since Abaqus does not say"),
     "TRANSFORM": Rule(Repeat.ONCE, "a node", apart=True, note="the same directions are accepted"),
-    "DISTRIBUTION": _NAMED,
+    "DISTRIBUTION": Rule(Repeat.ONCE, "a name", by=("NAME",), note="in one the last value of an element counts"),
     # what has a name
     **dict.fromkeys(("AMPLITUDE", "DISTRIBUTION TABLE", "MATERIAL", "ORIENTATION", "SECTION CONTROLS"), _NAMED),
     **dict.fromkeys(("SURFACE", "SURFACE INTERACTION", "SURFACE SMOOTHING", "CONTACT INITIALIZATION DATA"), _NAMED),

@@ -334,6 +334,24 @@ def test_loads_add_up(run, lines):
     assert result.field("RF")[:, 1].sum() == pytest.approx(-3.0, rel=1e-9)
 
 
+def test_imperfections_add_up_with_a_warning(read):
+    model = read(elastic("", model="*IMPERFECTION\n6, 0.1\nTOP, 0.2\n"))
+    assert model.mesh.coordinates[3:, 0].tolist() == pytest.approx([0.2, 1.2, 2.3])
+    (warning,) = model.warnings
+    assert_match(
+        warning, r"\*IMPERFECTION: node 6 is moved here and at deck\.inp:\d+: by the sum, which Abaqus does not"
+    )
+
+
+def test_the_last_value_of_a_distribution_counts(read):
+    lines = "*DISTRIBUTION TABLE, NAME=T\nANGLE\n*DISTRIBUTION, NAME=D, LOCATION=ELEMENT, TABLE=T\n"
+    lines += ", 0.\nBODY, 30.\n2, 60.\n"
+    lines += "*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n3, D\n"
+    text = elastic("", model=lines).replace("BODY, MATERIAL=M", "BODY, MATERIAL=M, ORIENTATION=O")
+    (group,) = read(text).groups
+    assert group.section.orientation.system.angle.tolist() == [30.0, 60.0]
+
+
 CONDUCTIVITY, SIGMA, ZERO = 1e7, 5.67e-8, -273.15
 HEAT = (
     f"*MATERIAL, NAME=M\n*CONDUCTIVITY\n{CONDUCTIVITY}\n"
