@@ -212,7 +212,17 @@ class ConstraintReader:
         coupling = self._coupling
         assert coupling is not None
         nodes, _ = self._coupled(coupling, owner)
-        yield from self._follow_all(nodes, self._reference(coupling, owner), _chosen(block), block.source)
+        chosen = self._global(_chosen(block), block, owner)
+        yield from self._follow_all(nodes, self._reference(coupling, owner), chosen, block.source)
+
+    def _global(self, chosen: set[int], block: Block, owner: Owner) -> set[int]:
+        """Return the chosen dofs, with a warning where a turned instance would turn some of them into others."""
+        groups = ({1, 2, 3}, set(ROTATIONS)) if self._solid else ({1, 2},)
+        if owner.placement.rotates and chosen and any(0 < len(chosen & group) < len(group) for group in groups):
+            dofs = ", ".join(map(str, sorted(chosen)))
+            message = f"dofs {dofs} are those of the global axes, which do not turn with instance {owner.name}"
+            self._problems.warn(block.source, f"*{block.name}: {message}")
+        return chosen
 
     def _coupled(self, coupling: Block, owner: Owner) -> tuple[IntArray, FloatArray]:
         """Nodes of *COUPLING, and their tributary areas."""
@@ -232,7 +242,7 @@ class ConstraintReader:
         nodes, weights = self._coupled(coupling, owner)
         if self._axisymmetric[nodes].any():
             raise block.error("is not supported for axisymmetric elements")
-        reference, chosen = self._reference(coupling, owner), _chosen(block)
+        reference, chosen = self._reference(coupling, owner), self._global(_chosen(block), block, owner)
         distance = np.linalg.norm(self._points[nodes] - self._points[reference], axis=1)
         method = block.options.text("WEIGHTING METHOD")
         if distance.max() > 0.0:
@@ -269,7 +279,7 @@ class ConstraintReader:
         reference = self._reference(block, owner)
         for row in block.rows():
             nodes = self._flat.nodes(row.name(0, "node or set"), row.source, owner.name)
-            yield from self._follow_all(nodes, reference, _dofs(row, 1), row.source)
+            yield from self._follow_all(nodes, reference, self._global(_dofs(row, 1), block, owner), row.source)
 
     def _follow_all(self, nodes: IntArray, reference: int, chosen: set[int], source: Source) -> Iterator[Equation]:
         """All nodes follow, in the dofs chosen, or in all of them."""

@@ -7,6 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import harness
+from harness.deck import read_deck
 
 AXIS, ANGLE = np.array([1.0, 2.0, -0.5]), 70.0
 TURN = Rotation.from_rotvec(np.radians(ANGLE) * AXIS / np.linalg.norm(AXIS)).as_matrix()
@@ -189,3 +190,24 @@ def test_springs_along_global_axes_are_told(tmp_path):
     path.write_text(deck(body, turned=True, outside=MATERIAL))
     warnings = harness.run(path, output_dir=tmp_path).warnings
     assert any("dofs 1 are those of the global axes, which do not turn with instance I" in text for text in warnings)
+
+
+@pytest.mark.parametrize(
+    ("constraint", "told"),
+    [
+        ("*KINEMATIC\n1, 2\n", True),
+        ("*KINEMATIC\n1, 3\n", False),
+        ("*KINEMATIC\n", False),
+        ("*DISTRIBUTING\n4, 5\n", True),
+        ("*DISTRIBUTING\n4, 6\n", False),
+    ],
+)
+def test_some_dofs_of_a_coupling_are_told(tmp_path, constraint, told):
+    def body(points, directions):
+        return coupled(points, directions).replace("*DISTRIBUTING\n", constraint)
+
+    path = tmp_path / "coupling.inp"
+    for turned in (True, False):
+        path.write_text(deck(body, turned=turned, outside=FIBRES + HELD.format("I." if turned else "")))
+        warnings = " ".join(read_deck(path).warnings)
+        assert ("are those of the global axes, which do not turn with instance I" in warnings) == (told and turned)
