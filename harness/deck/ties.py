@@ -375,7 +375,9 @@ class TieReader:
         given = self._points[:, :dimension], places[:, :dimension]
         reach = min(reach, float(own.edge(self._points) + faces.edge(places)))
         round_axis = bool(self._axisymmetric[second].all())
-        found, valid = surface_weights(own.nodes, faces.nodes, given, reach, round_axis=round_axis)
+        entries = nearest.tocoo()
+        every = sparse.coo_array((entries.data, (second[entries.row], entries.col)), shape=(len(places),) * 2).tocsr()
+        found, valid = surface_weights(own.nodes, faces.nodes, given, every, reach, round_axis=round_axis)
         mean = valid[second].astype(np.float64)
         means = sparse.csr_array(sparse.diags_array(mean) @ found[second] + sparse.diags_array(1.0 - mean) @ nearest)
         means.eliminate_zeros()

@@ -7,7 +7,7 @@ from harness.elements.build import build_blocks
 from harness.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from harness.elements.contact import ContactBlock, contact_blocks
 from harness.elements.contact_sliding import FiniteSliding, normals_of
-from harness.elements.contact_surface import FaceSurface, monomials, weights_of
+from harness.elements.contact_surface import FaceSurface, monomials
 from harness.elements.contact_surfaces import FACING, SurfaceSliding
 from harness.elements.distributing import DistributingBlock, distributing_blocks
 from harness.elements.fields import COUPLED, FIELD_NAMES, MULTIPLIER, PRESSURE, REFERENCE, VOLUME, field_of
@@ -51,5 +51,4 @@ __all__ = [
     "normals_of",
     "rotation_matrices",
     "spin_matrices",
-    "weights_of",
 ]

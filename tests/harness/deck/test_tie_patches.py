@@ -269,3 +269,91 @@ def test_adjust(run, adjust, height):
     assert top == pytest.approx(height * PULL / YOUNG, rel=1e-9)
     points = result.mesh().points
     assert np.sort(np.unique(np.round(points[:, 1], 9))).tolist() == [0.0, 1.0, *([1.2] if adjust == "NO" else []), 2.2]
+
+
+# ------------------------------------------------------------ surfaces around corners, and curved ones
+
+
+class Grid:
+    """Quadrilaterals of a part of a regular mesh; `place` maps (x, y) of the mesh."""
+
+    def __init__(self, name, kind, cells, first, place=lambda x, y: (x, y)):
+        self.name, self.kind, self.first, self.numbers, self.rows = name, kind, first, {}, []
+        half = [(0.5, 0), (1, 0.5), (0.5, 1), (0, 0.5)] if kind.endswith("8") else []
+        for x, y, size in cells:
+            corners = [(x + a * size[0], y + b * size[1]) for a, b in [*QUAD, *half]]
+            self.rows.append(
+                [self.numbers.setdefault(tuple(np.round(p, 9)), first + len(self.numbers)) for p in corners]
+            )
+        self.mesh = np.array(list(self.numbers))
+        self.nodes = np.array([place(*p) for p in self.mesh])
+
+    def lines(self, on):
+        """on: mesh places (n, 2) on the surface, which is made of the faces all of whose nodes are."""
+        name, chosen = self.name, on(self.mesh)
+        lines = ["*NODE", *(f"{self.first + k}, {x!r}, {y!r}" for k, (x, y) in enumerate(self.nodes.tolist()))]
+        lines.append(f"*ELEMENT, TYPE={self.kind}, ELSET={name}")
+        lines += [", ".join(map(str, [self.first + k, *row])) for k, row in enumerate(self.rows)]
+        lines.append(f"*SURFACE, NAME={name}_ON")
+        for k, row in enumerate(self.rows):
+            corners = np.array(row[:4]) - self.first
+            for face in range(4):
+                ends = corners[[face, (face + 1) % 4]]
+                # an edge from one side of a corner to another is not on it
+                if chosen[ends].all() and on(self.mesh[ends].mean(axis=0)[None])[0]:
+                    lines.append(f"{self.first + k}, S{face + 1}")
+        return [*lines, f"*SOLID SECTION, ELSET={name}, MATERIAL=M\n1."]
+
+
+@pytest.mark.parametrize("order", ["OUT_ON, IN_ON", "IN_ON, OUT_ON"])
+@pytest.mark.parametrize(("inner", "outer"), list(itertools.product(["CPE4", "CPE8"], repeat=2)))
+def test_inclusion_with_corners(run, inner, outer, order):
+    """A square of 2 by 2 elements in a frame of 3 for each of its sides: any constant strain passes.
+
+    A node at a corner has forces of both sides.
+    """
+    squares = {
+        "IN": (inner, [(1 + i / 2, 1 + j / 2, (1 / 2, 1 / 2)) for i in range(2) for j in range(2)], 1),
+        "OUT": (
+            outer,
+            [(i / 3, j / 3, (1 / 3, 1 / 3)) for i in range(9) for j in range(9) if not 3 <= i < 6 or not 3 <= j < 6],
+            5001,
+        ),
+    }
+    grids = [Grid(name, *given) for name, given in squares.items()]
+    lines = [line for grid in grids for line in grid.lines(lambda x: np.isclose(np.abs(x - 1.5).max(axis=1), 0.5))]
+    lines += [f"*MATERIAL, NAME=M\n*ELASTIC\n{YOUNG}, 0.3\n*TIE, NAME=T\n{order}", "*STEP\n*STATIC\n1., 1.\n*BOUNDARY"]
+    strain = 1e-3 * np.array([[1.0, 0.4], [0.3, -0.7]])
+    for k, x in enumerate(grids[1].nodes):
+        if np.isclose(np.abs(x - 1.5).max(), 1.5):
+            lines += [f"{5001 + k}, {d + 1}, {d + 1}, {u!r}" for d, u in enumerate((strain @ x).tolist())]
+    result = run("\n".join([*lines, "*OUTPUT, FIELD\n*END STEP"]) + "\n")
+    np.testing.assert_allclose(result.field("U")[:, :2], result.mesh().points[:, :2] @ strain.T, atol=1e-14)
+
+
+@pytest.mark.parametrize("order", ["OUT_ON, IN_ON", "IN_ON, OUT_ON"])
+def test_tube_of_two_layers(run, order):
+    """Radial displacements of a tube under internal pressure, by Lame's solution in plane strain.
+
+    Eight quadratic faces of a quarter on eleven: 2e-5 is what a few elements of second order leave.
+    """
+
+    def ring(name, low, count, first):
+        cells = [(low + i / 8, j / count, (1 / 8, 1 / count)) for i in range(4) for j in range(count)]
+        quarter = np.pi / 2
+        return Grid(name, "CPE8", cells, first, lambda r, t: (r * np.cos(quarter * t), r * np.sin(quarter * t)))
+
+    grids = [ring("IN", 1.0, 8, 1), ring("OUT", 1.5, 11, 5001)]
+    lines = [line for grid in grids for line in grid.lines(lambda x: np.isclose(x[:, 0], 1.5))]
+    lines += ["*SURFACE, NAME=BORE", *(f"{1 + k}, S4" for k in range(8))]
+    lines += [f"*MATERIAL, NAME=M\n*ELASTIC\n{YOUNG}, 0.3\n*TIE, NAME=T\n{order}\n*BOUNDARY"]
+    for grid in grids:
+        for level, dof in ((0.0, 2), (1.0, 1)):
+            lines += [f"{grid.first + k}, {dof}" for k in np.flatnonzero(np.isclose(grid.mesh[:, 1], level)).tolist()]
+    result = run("\n".join([*lines, "*STEP\n*STATIC\n1., 1.\n*DSLOAD\nBORE, P, 10.\n*OUTPUT, FIELD\n*END STEP"]) + "\n")
+    x, u = result.mesh().points[:, :2], result.field("U")[:, :2]
+    r = np.hypot(*x.T)
+    # S11 = A - B/r^2, A = p a^2/(b^2 - a^2), B = A b^2, with a = 1, b = 2
+    a, b = 10.0 / 3.0, 40.0 / 3.0
+    wanted = 1.3 / YOUNG * (0.4 * a * r + b / r)
+    np.testing.assert_allclose(np.einsum("nd,nd->n", u, x) / r, wanted, rtol=2e-5)

@@ -378,10 +378,11 @@ def test_nodes_far_away_stay_untied(run, tmp_path, tie):
     np.testing.assert_allclose(moved, run(joined).field("U"), atol=1e-12)
 
 
-def test_tied_nset(run):
+@pytest.mark.parametrize("gap", [0.5, 500.0])
+def test_tied_nset(run, gap):
     """Its nodes are tied whatever their distance, and no others."""
     held = "*BOUNDARY\nLOWER_BOTTOM, 2\nLOWER_LEFT, 1"
-    result = run(tied(*boxes(*APART), [PULL], tie="TIED NSET=UPPER_BOTTOM, ADJUST=NO", model=held))
+    result = run(tied(*boxes(*APART[:3], gap), [PULL], tie="TIED NSET=UPPER_BOTTOM, ADJUST=NO", model=held))
     np.testing.assert_allclose(result.field("S22"), YOUNG * 0.005, rtol=1e-9)
 
 
