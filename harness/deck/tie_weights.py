@@ -11,7 +11,8 @@ is biorthogonal to the shape functions N of each face (B.I. Wohlmuth, SIAM Journ
 The sum of psi is 1, so that a constant traction gives the main nodes the forces that it has on their faces; and psi_s
 reproduces linear functions at the node, so that both surfaces follow any linear displacement. Constant stress thus
 passes between any faces. A node at which faces meet at an edge follows its nearest point, and the other nodes of its
-faces make up for what that leaves (`_moves`). The integrals are exact on flat faces: Gauss points of the parts that two faces share.
+faces make up for what that leaves (`_moves`). The integrals are exact on flat faces: Gauss points of the parts that
+two faces share.
 """
 
 from __future__ import annotations
