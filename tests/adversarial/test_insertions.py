@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random decks of other programs through `uel insert`: each runs with the displacements of the uncut one or is refused."""
+"""Random decks of other programs: `uel insert` refuses them, or they run with the displacements of the uncut one."""
 
 import insertions
 import pytest
