@@ -36,7 +36,7 @@ static int is_real(int argument)
 {
     switch (argument) {
     case PROPS: case COORDS: case U: case DU: case V: case A: case TIME: case DTIME: case PARAMS: case ADLMAG: case PREDEF:
-    case DDLMAG: case PERIOD: case PNEWDT:
+    case DDLMAG: case PERIOD: case PNEWDT: case SVARS:
         return 1;
     default:
         return 0;
@@ -47,8 +47,13 @@ static size_t entries(int argument, void *const *given)
 {
 #define COUNT(number) ((size_t)*(const int32_t *)given[number])
     switch (argument) {
-    case RHS: case AMATRX: case SVARS: case ENERGY: case PNEWDT:
+    case RHS: case AMATRX: case ENERGY: case PNEWDT:
         return 0;   // the element's to change
+    case SVARS: {
+        // in calls for a mass matrix (4) or a residual (5) alone they are no state to be kept
+        const int32_t request = ((const int32_t *)given[LFLAGS])[2];
+        return request == 4 || request == 5 ? COUNT(NSVARS) : 0;
+    }
     case PROPS:
         return COUNT(NPROPS);
     case COORDS:

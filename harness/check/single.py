@@ -88,6 +88,10 @@ class Single:
         """A copy of the element in the same committed state; calls of it do not affect this one."""
         return Single(self.block.split(strict=strict)[0])
 
+    def placed(self, coordinates: FloatArray) -> Single:
+        """A copy of the element in the same committed state, with other coordinates (nodes of the model, 3)."""
+        return Single(self.block.split(strict=False, coordinates=coordinates)[0])
+
     def evaluate(
         self, call: Call, u: FloatArray, du: FloatArray, motion: Motion | None, *, matrix: bool = True, nrhs: int = 1
     ) -> Returned:

@@ -212,27 +212,29 @@ class ElementBlock:
         fields = self._unknown_fields
         self._forces = len(equations) * np.bincount(fields.of, minlength=fields.number + 1)[1:]
 
-    def split(self, *, strict: bool = True) -> list[ElementBlock]:
+    def split(self, *, strict: bool = True, coordinates: FloatArray | None = None) -> list[ElementBlock]:
         """Its elements, each in its own unbound block and in its committed state, for calls in any order.
 
         Parameters
         ----------
         strict
             A write outside an array is an error, otherwise a warning.
+        coordinates
+            Other coordinates (nodes of the model, 3) than those of the model.
 
         Returns
         -------
         list[ElementBlock]
             In the order of the elements; changes of their states do not affect this block.
         """
-        return [self._part(np.array([k]), strict=strict) for k in range(len(self.group.labels))]
+        return [self._part(np.array([k]), coordinates, strict=strict) for k in range(len(self.group.labels))]
 
-    def _part(self, places: IntArray, *, strict: bool) -> ElementBlock:
+    def _part(self, places: IntArray, coordinates: FloatArray | None = None, *, strict: bool = True) -> ElementBlock:
         """Some of its elements, places from 0, in a new unbound block and in their committed state."""
         group = self.group
         part = ElementBlock(
             replace(group, labels=group.labels[places], nodes=group.nodes[places]),
-            self._coordinates,
+            self._coordinates if coordinates is None else coordinates,
             self.unknowns,
             self._routine,
             self._library,
@@ -394,7 +396,7 @@ class ElementBlock:
         """
         places = np.unique(np.linspace(0, len(matrices) - 1, MOST_TRIED).round().astype(np.int64))
         matrices = matrices[places]
-        part, (m, n) = self._part(places, strict=True), matrices.shape[:2]
+        part, (m, n) = self._part(places), matrices.shape[:2]
         # all elements apart, so that their forces do not add up
         part.bind(np.arange(m * n, dtype=np.int32).reshape(m, n), np.arange(m * n * n, dtype=np.int32).reshape(m, n, n))
         stiffness = np.abs(matrices)

@@ -10,8 +10,10 @@ from typing import Final
 
 import numpy as np
 
+from harness.check.checks.capacity import TRANSIENT, check_capacity
 from harness.check.checks.damping import check_damping
 from harness.check.checks.perturbation import check_perturbation
+from harness.check.checks.turned import check_turned
 from harness.check.finding import Finding, Verdict, failed, not_applicable, passed
 from harness.check.recording import Pass
 from harness.check.state import DYNAMIC, ElementState
@@ -20,7 +22,7 @@ from harness.check.ties import first_largest
 from harness.elements import Damping, Flags, Motion, Request
 from harness.model.arrays import FloatArray
 from harness.model.perturbations import Frequency, SteadyState
-from harness.usersub import UNSET, guard_values
+from harness.usersub import UNSET, guard_values, watched_inputs
 
 PERTURBATIONS: Final = Frequency().lflag, SteadyState().lflag
 """LFLAGS(1) of procedures that ask for the mass matrix alone."""
@@ -55,8 +57,13 @@ def _findings(subject: Subject) -> Iterator[Finding]:
     static = [state for state in subject.all_states if not state.dynamic]
     if static and any(request is Request.RESIDUAL and kind not in DYNAMIC for kind, request in requests):
         yield _residual(static)
+    transient = next((state for state in static if state.call.flags.procedure in TRANSIENT), None)
+    if transient is not None and (finding := check_capacity(subject, transient)) is not None:
+        yield finding
     if moving:
         yield _mass(subject, moving[0])
+        if (finding := _written(moving)) is not None:
+            yield finding
         if moving[0].call.params[0]:
             yield _weights(subject, moving)
         if any((kind, Request.RESIDUAL) in requests for kind in DYNAMIC):
@@ -70,7 +77,7 @@ def _findings(subject: Subject) -> Iterator[Finding]:
         if base and request is Request.STIFFNESS:
             yield _stiffness(base[0], flags)
         if base and request is Request.MASS and flags.procedure in PERTURBATIONS:
-            yield _mass_alone(base[0], flags)
+            yield _mass_alone(subject, base[0], flags)
         if base and request is Request.DAMPING:
             yield check_damping(subject, base[0], moving[0] if moving else None, flags)
 
@@ -178,7 +185,7 @@ def _mass(subject: Subject, state: ElementState) -> Finding:
         )
     row, column = np.unravel_index(first_largest(np.abs(mass - inertia)), mass.shape)
     deviation = float(abs(mass[row, column] - inertia[row, column]))
-    wrong = _indefinite(state, mass)
+    wrong = _indefinite(state, mass) or check_turned(subject, state, state.asked(Request.MASS))
     if wrong is None and deviation > LINEAR * max(size, float(np.abs(mass).max())):
         return failed(
             f"{state}: AMATRX({row + 1},{column + 1}) is {mass[row, column]:.6g} with LFLAGS(3) = 4; "
@@ -189,10 +196,11 @@ def _mass(subject: Subject, state: ElementState) -> Finding:
     return wrong or passed("mass (4 and 6)")
 
 
-def _mass_alone(state: ElementState, flags: Flags) -> Finding:
+def _mass_alone(subject: Subject, state: ElementState, flags: Flags) -> Finding:
     """The mass matrix for eigenfrequencies and harmonic responses."""
+    asking = state.called(flags=flags)
     with guard_values({UNSET: float("nan")}):
-        mass = state.called(flags=flags).evaluate().amatrx
+        mass = asking.evaluate().amatrx
     if not mass.any():
         return passed("no mass (4)")
     if np.abs(mass - state.evaluate().amatrx).max() <= TOLERANCE * np.abs(mass).max():
@@ -200,7 +208,25 @@ def _mass_alone(state: ElementState, flags: Flags) -> Finding:
             f"{state}: AMATRX with LFLAGS(3) = 4 is the stiffness, as with 1",
             "Test LFLAGS(3) at the beginning of UEL: with 4, AMATRX is the mass matrix, or zero without mass.",
         )
-    return _indefinite(state, mass) or passed("mass (4)")
+    return _indefinite(state, mass) or check_turned(subject, state, asking) or passed("mass (4)")
+
+
+def _written(states: list[ElementState]) -> Finding | None:
+    """A finding if calls of a dynamic step that end no increment write SVARS."""
+    for state in states:
+        for request in (Request.RESIDUAL, Request.MASS):
+            with watched_inputs() as made:
+                state.asked(request).evaluate(matrix=request is Request.MASS)
+            for change in (change for change in made() if change.argument == "SVARS"):
+                return failed(
+                    f"{state}: SVARS({change.entry}) is {change.before:.6g} before a call with LFLAGS(3) = {request}, "
+                    f"{change.after:.6g} after it",
+                    "Write SVARS only with LFLAGS(3) = 1 and 6: they are the state at the end of an increment, and the "
+                    "residual at half an increment (5) and the mass matrix (4) belong to no end. What such a call "
+                    "stores is not kept; if RHS needs it, the formula is wrong.",
+                    entries=(f"SVARS({change.entry})",),
+                )
+    return None
 
 
 def _indefinite(state: ElementState, mass: FloatArray) -> Finding | None:
