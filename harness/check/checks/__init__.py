@@ -81,7 +81,7 @@ CHECKS: Final = (
     Check("rotation", rotation.check, forces=True, unless="translation"),
     Check("zero-modes", zero_modes.check, forces=True, unless="translation"),
     Check("shear", shear.check, forces=True, unless="translation"),
-    Check("rest", rest.check, forces=True),
+    Check("rest", rest.check, forces=True, unless="repeat"),
     Check("patch", patch_test.check, forces=True),
     Check("energy", energy.check, forces=True),
     Check("increments", increments.check, forces=True, unless="repeat"),

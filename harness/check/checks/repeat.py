@@ -22,6 +22,15 @@ ADVICE: Final = (
     "iterations; keep in SVARS what the element has to remember."
 )
 
+TIMES: Final = (
+    "What a call returns depends on the time increment of the call before it: look for SAVE, COMMON or a module "
+    "variable that keeps DTIME, or a rate, and is used before this call has set it. DTIME of the last increment is not "
+    "passed to UEL: keep it in SVARS if a formula needs it."
+)
+
+OTHER: Final = 0.37
+"""Factor of DTIME, as after a cutback."""
+
 RESIDUALS: Final = (
     "Abaqus discards calls with LFLAGS(3) = 5 (line search, middle of an increment of *DYNAMIC): they must leave no "
     "trace, in SAVE, COMMON or modules either."
@@ -32,9 +41,11 @@ def check(subject: Subject) -> Finding:
     """As in the iterations of an increment: different U in between, SVARS on entry always those of its start."""
     others = subject.states[0], subject.states[-1], *subject.random[:2]
     alone = [other.asked(Request.RESIDUAL) for other in others]
+    shorter = [other.called(time_increment=OTHER * other.call.time_increment) for other in others]
     for between, what, advice in (
         (others, "after calls other than in the run", ADVICE),
         (alone, "after calls with LFLAGS(3) = 5", RESIDUALS),
+        (shorter, "after calls with another DTIME", TIMES),
     ):
         for state, first in zip(subject.states, subject.returned, strict=True):
             _call(between)

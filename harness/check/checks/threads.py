@@ -58,7 +58,9 @@ def _growing(subject: Subject, state: ElementState, seed: int) -> Iterator[Eleme
     """Ever larger random displacements, so that a variable that keeps the largest value of all calls changes too."""
     rng = np.random.default_rng(seed)
     for number in range(ROUNDS):
-        yield state.moved(GROWTH**number * subject.scales * rng.uniform(-1.0, 1.0, len(subject.scales)))
+        shift = GROWTH**number * subject.scales * rng.uniform(-1.0, 1.0, len(subject.scales))
+        # the same DTIME for both elements, as in a run: one that is kept shows as a change by the first of them
+        yield state.moved(shift).called(time_increment=GROWTH**-number * state.call.time_increment)
 
 
 def _changes(
