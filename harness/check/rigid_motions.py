@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import combinations
 from typing import Final
 
 import numpy as np
@@ -89,6 +90,19 @@ class Body:
             forces[~self.displacement, ~self.displacement] = 1.0
             found.append((motion, forces))
         return found
+
+
+def uniform_strains(body: Body) -> FloatArray:
+    """(strains, n) displacements of unit strains: normal ones, then engineering shear strains, without rotation."""
+    fields = []
+    for i, j in [(i, i) for i in range(body.dimensions)] + list(combinations(range(body.dimensions), 2)):
+        field = np.zeros(len(body.axis))
+        # half of each: without rotation
+        for row, column in ((i, j), (j, i)):
+            moved = body.displacement & (body.axis == row)
+            field[moved] += 0.5 * body.points[body.local[moved], column]
+        fields.append(field)
+    return np.array(fields)
 
 
 def body_of(subject: Subject, state: ElementState) -> Body | None:

@@ -133,7 +133,7 @@ class Subject:
         found: FloatArray = np.abs(self.differences(state).matrix)
         if not state.inertia:
             return found
-        others = self._largest()
+        others = self.largest_stiffness
         largest: FloatArray = np.maximum.reduce([np.abs(state.evaluate().amatrx), found, YIELDING * others])
         return largest
 
@@ -144,10 +144,11 @@ class Subject:
     @property
     def usual_forces(self) -> FloatArray:
         """(n,) forces that AMATRX makes of the displacements of the run, at its states."""
-        forces: FloatArray = self._largest() @ self.scales
+        forces: FloatArray = self.largest_stiffness @ self.scales
         return forces
 
-    def _largest(self) -> FloatArray:
+    @property
+    def largest_stiffness(self) -> FloatArray:
         """(n, n) largest magnitude of each entry of AMATRX at the states of the run. Raises KernelError."""
         if not self._magnitudes:
             self._magnitudes.append(np.max([np.abs(state.evaluate().amatrx) for state in self.states], axis=0))

@@ -64,9 +64,9 @@ def check(subject: Subject) -> Finding:
 
 def _judge(states: tuple[ElementState, ...], unwritten: np.ndarray) -> Finding:
     """Finding for state variables (nsvars,) that none of the calls has written."""
-    if any(state.depends_on(~unwritten) for state in states):
-        return passed("RHS depends on state variables that are written")
     if not any(state.depends_on(unwritten) for state in states):
+        if any(state.depends_on(~unwritten) for state in states):
+            return passed("RHS depends on state variables that are written")
         return passed("RHS depends on no state variable")
     alone = {place: np.arange(len(unwritten)) == place for place in np.flatnonzero(unwritten).tolist()}
     read = [place for place, chosen in alone.items() if any(state.depends_on(chosen) for state in states)]

@@ -25,6 +25,9 @@ DYNAMIC: Final = "a dynamic step, whose forces include inertia: take a deck with
 TOLERANCE: Final = 1e-6
 """Of the largest force: smaller differences count as zero."""
 
+LATER: Final = 3
+"""Number by which KINC is changed."""
+
 
 def check(subject: Subject) -> Finding:
     """The forces of 16 and of 8 increments differ by less than those of 2 and of one."""
@@ -32,6 +35,12 @@ def check(subject: Subject) -> Finding:
     if not states:
         moves = any(state.du.any() for state in subject.states)
         return not_applicable(DYNAMIC if moves else NOT_MOVING)
+    if (counted := next(filter(_depends_on_number, states), None)) is not None:
+        return failed(
+            f"{counted}: RHS changes if KINC is larger by {LATER} and all else is the same",
+            "KINC counts increments, whatever their size, and starts again in each step: use TIME, or a state in "
+            "SVARS. A test for the first increment, KINC = 1, has to hold in the first step only.",
+        )
     largest = 0.0
     for state in states:
         once, twice, eight, sixteen = (_in_pieces(state, pieces) for pieces in PIECES)
@@ -50,6 +59,14 @@ def check(subject: Subject) -> Finding:
             )
             return failed(message, advice, figure=last, limit=CLOSER * first)
     return passed(f"forces change by {100 * largest:.2g} % when the increment is halved, then by less", largest)
+
+
+def _depends_on_number(state: ElementState) -> bool:
+    """Whether RHS depends on KINC, apart from the first increment, in which an element may begin."""
+    if state.call.increment < 2:
+        return False
+    later = state.called(increment=state.call.increment + LATER)
+    return not np.array_equal(later.evaluate(matrix=False).rhs, state.evaluate(matrix=False).rhs)
 
 
 def _in_pieces(state: ElementState, pieces: int) -> FloatArray:

@@ -37,7 +37,8 @@ def check(subject: Subject) -> Finding:
     message = f"{where[unread[0]]}: RHS does not change when the magnitude of {', '.join(names)} is doubled"
     advice = (
         "*DLOAD of type Un arrives as JDLTYP(k,1) = n with the magnitude ADLMAG(k,1), for k from 1 to NDLOAD; add its "
-        "nodal forces to RHS, with a positive sign. Or remove the load from the deck."
+        "nodal forces to RHS, with a positive sign (DDLMAG is only the change of ADLMAG in this increment). Or remove "
+        "the load from the deck."
     )
     return failed(message, advice, entries=names)
 
@@ -61,8 +62,8 @@ def _changes(state: ElementState, kind: int) -> bool:
     """Whether RHS depends on loads of a type."""
     loads = state.call.distributed
     assert loads is not None
-    factor = np.where(_mine(state) & (loads.kinds == kind), TWICE, 1.0)
-    more = replace(loads, end=factor * loads.end, increment=factor * loads.increment)
+    # DDLMAG stays: the load is ADLMAG, not its change in this increment
+    more = replace(loads, end=np.where(_mine(state) & (loads.kinds == kind), TWICE, 1.0) * loads.end)
     try:
         found = state.called(distributed=more).evaluate(matrix=False).rhs
     except KernelError:

@@ -4,13 +4,13 @@
 
 from __future__ import annotations
 
-from itertools import combinations
+from itertools import combinations, product
 from typing import Final
 
 import numpy as np
 
 from harness.check.finding import Finding, failed, not_applicable, passed
-from harness.check.rigid_motions import Body, body_at_rest
+from harness.check.rigid_motions import Body, body_at_rest, uniform_strains
 from harness.check.state import ElementState
 from harness.check.subject import Subject
 from harness.model.arrays import FloatArray
@@ -29,8 +29,14 @@ def check(subject: Subject) -> Finding:
         return found
     state, body = found
     planes = list(combinations(range(body.dimensions), 2))
-    moduli = _moduli(subject, state, body, planes)
+    moduli = _moduli(subject, state, body)
     isotropic = _isotropic(moduli, body.dimensions)
+    if not isotropic and not body.coincident and planes and (rows := _exchanged(moduli, body.dimensions, planes)):
+        return failed(
+            f"{state}: the stiffness is that of an isotropic material only if {rows} are exchanged",
+            "Rows of the strain-displacement matrix and of the material's stiffness have to stand in the same order, "
+            "in Abaqus 11, 22, 33, 12, 13, 23: compare which derivatives each row has.",
+        )
     if body.coincident or not planes or not isotropic:
         return not_applicable(
             "extension is not the same in all directions: it is for elements with a volume and an isotropic material"
@@ -66,17 +72,24 @@ def _judge(state: ElementState, isotropic: float, moduli: dict[tuple[int, int], 
     return passed("shear and extension are not a factor of 2 or 4 off an isotropic material")
 
 
-def _moduli(subject: Subject, state: ElementState, body: Body, planes: list[tuple[int, int]]) -> FloatArray:
+def _exchanged(moduli: FloatArray, count: int, planes: list[tuple[int, int]]) -> str:
+    """A normal and a shear strain with which the stiffness is isotropic if they are exchanged; '' if there are none.
+
+    It has to be isotropic in shear, too: two anisotropic stiffnesses are not alike by chance.
+    """
+    for normal, plane in product(range(count), range(len(planes))):
+        order = np.arange(len(moduli))
+        order[[normal, count + plane]] = order[[count + plane, normal]]
+        other = moduli[np.ix_(order, order)]
+        shear = _isotropic(other, count)
+        if shear and np.abs(np.diag(other)[count:] - shear).max() <= EQUAL * shear:
+            return f"strain {normal + 1}{normal + 1} and shear strain {planes[plane][0] + 1}{planes[plane][1] + 1}"
+    return ""
+
+
+def _moduli(subject: Subject, state: ElementState, body: Body) -> FloatArray:
     """Work of unit strains, first normal and then engineering shear strains, on each other's forces."""
     matrix = subject.differences(state).matrix if state.dynamic else state.evaluate().amatrx
-    fields = []
-    for i, j in [(i, i) for i in range(body.dimensions)] + planes:
-        field = np.zeros(len(body.axis))
-        # half of each: without rotation
-        for row, column in ((i, j), (j, i)):
-            moved = body.displacement & (body.axis == row)
-            field[moved] += 0.5 * body.points[body.local[moved], column]
-        fields.append(field)
-    strains = np.array(fields)
+    strains = uniform_strains(body)
     work: FloatArray = strains @ matrix @ strains.T
     return work

@@ -42,6 +42,10 @@ SLOWER: Final = 0.1
 SILENT: Final = 1e-6
 """Of the forces of the run's displacements: smaller forces count as zero."""
 
+SMOOTH: Final = 10.0
+"""Factor of the forces that the stiffness makes of the further part: a smaller change is that part's own. Where the
+forces of the terms of an element cancel, the rest of its RHS is no scale for it."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Jump:
@@ -130,11 +134,17 @@ def _without_history(state: ElementState) -> ElementState:
     return state.called(params=(0.0, *state.call.params[1:]))
 
 
+def _stiffness(subject: Subject, state: ElementState) -> FloatArray:
+    """(n, n) magnitudes of the stiffness; in a dynamic step, where AMATRX includes mass, from differences."""
+    return np.abs(subject.differences(state).matrix) if state.dynamic else subject.largest_stiffness
+
+
 def _jump(subject: Subject, state: ElementState, parts: int, beyond: float) -> _Jump:
     """The jump at the end of the increment, made in equal parts with another part after them."""
     *_, last, next_one = in_pieces(state, [*(k / parts for k in range(1, parts + 1)), 1.0 + beyond / parts])
     before, after = last.rhs[0], next_one.rhs[0]
     kind, least = kinds(subject.dofs), SILENT * subject.usual_forces
+    own = SMOOTH * beyond / parts * (_stiffness(subject, state) @ np.abs(state.du))
     worst = _Jump(0.0, 0, 0.0, 0.0)
     for one in np.unique(kind):
         mine = kind == one
@@ -143,6 +153,6 @@ def _jump(subject: Subject, state: ElementState, parts: int, beyond: float) -> _
             continue
         change: FloatArray = np.where(mine, np.abs(after - before), 0.0)
         row = first_largest(change)
-        if change[row] > worst.ratio * size:
+        if change[row] > max(worst.ratio * size, float(own[mine].max())):
             worst = _Jump(float(change[row]) / size, row, float(before[row]), float(after[row]))
     return worst

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Does `uel check` find the mistakes of faults.toml and unusual.toml, and do the correct elements pass?
 
-    python tests/programs/adversarial/faults.py [WORD ...]
+    python tests/programs/adversarial/faults.py [--write] [WORD ...]
 
 tries the faults and correct elements whose names contain one of the words (default: all) and prints which checks fail.
-A fault of unusual.toml counts as found if the checks that fail give the right advice, too. The exit code is 1 if a
-correct element fails, or if more faults of a file are not found than MISSED allows.
+A fault of unusual.toml counts as found if the checks that fail give the right advice, too. --write puts the table of
+all into faults.md. The exit code is 1 if a correct element fails, or if more faults of a file are not found than MISSED
+allows.
 """
 
 from __future__ import annotations
@@ -23,9 +24,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from rich.console import Console
-from rich.table import Table
-
 import harness.project
 from harness.check.apart import examine_apart
 from harness.check.finding import Verdict
@@ -39,6 +37,17 @@ MISSED: Final = {"faults.toml": 2, "unusual.toml": 7}
 """How many of the faults of a file may go unnoticed."""
 
 CALL_LIMIT: Final = 20.0
+
+PAGE: Final = HERE / "faults.md"
+
+HEADING: Final = """\
+<!-- SPDX-FileCopyrightText: The uel-harness authors -->
+<!-- SPDX-License-Identifier: BSD-3-Clause -->
+# Seeded mistakes and what `uel check` says of them
+
+Written by `python tests/programs/adversarial/faults.py --write`.
+
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,36 +139,80 @@ def check(element: str, fault: Fault | None = None) -> Outcome:
     return Outcome(failed)
 
 
+@dataclass(frozen=True, slots=True)
+class _Row:
+    """A row of the table: fault is None for a correct element."""
+
+    element: str
+    fault: Fault | None
+    outcome: Outcome
+
+    @property
+    def right(self) -> bool:
+        """The mistake is found, or the correct element passes."""
+        return self.outcome.finds(self.fault) if self.fault else not self.outcome.found
+
+    @property
+    def words(self) -> tuple[str, str, str]:
+        """Element, mistake and what was said of it."""
+        if self.fault is None:
+            return self.element, "none", f"{'' if self.right else 'FALSE ALARM: '}{self.outcome}"
+        wrong = f"WRONG ADVICE: {self.outcome}" if self.outcome.found else "NOT FOUND"
+        return self.element, self.fault.name, str(self.outcome) if self.right else wrong
+
+
+def tried(words: list[str]) -> Iterator[_Row]:
+    """Check the correct elements and the faults whose names contain one of the words; without words, all."""
+    for element in elements():
+        every = not words or element in words
+        if every:
+            yield _Row(element, None, check(element))
+        for fault in (fault for fault in faults() if fault.element == element):
+            if every or any(word in fault.name for word in words):
+                yield _Row(element, fault, check(element, fault))
+
+
+def figures(rows: list[_Row]) -> list[str]:
+    """How many correct elements pass, and how many faults of each file are found, as sentences."""
+    correct = [row for row in rows if row.fault is None]
+    said = [f"correct elements that pass: {sum(row.right for row in correct)} of {len(correct)}"]
+    for file in MISSED:
+        mine = [row for row in rows if row.fault is not None and row.fault.file == file]
+        if mine:
+            said.append(f"faults of {file} that are found: {sum(row.right for row in mine)} of {len(mine)}")
+    return said
+
+
 def main() -> int:
     """The command; returns its exit code."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("words", nargs="*", metavar="WORD")
-    words = parser.parse_args().words
-    table = Table("element", "mistake", "found by")
-    alarms, tried, missed = 0, Counter[str](), Counter[str]()
-    for element in elements():
-        right = not words or element in words
-        if right:
-            outcome = check(element)
-            alarms += outcome.found
-            table.add_row(element, "none", f"FALSE ALARM: {outcome}" if outcome.found else str(outcome))
-        for fault in (fault for fault in faults() if fault.element == element):
-            if right or any(word in fault.name for word in words):
-                outcome = check(element, fault)
-                tried[fault.file] += 1
-                missed[fault.file] += not outcome.finds(fault)
-                table.add_row(element, fault.name, _verdict(outcome, fault))
-    Console(width=None if sys.stdout.isatty() else 160).print(table)
-    print(f"false alarms: {alarms}")
-    for file in tried:
-        print(f"{file}: {tried[file] - missed[file]} of {tried[file]} faults found")
-    return int(alarms > 0 or any(missed[file] > most for file, most in MISSED.items()))
+    parser.add_argument("--write", action="store_true", help=f"write the table to {PAGE.name}")
+    options = parser.parse_args()
+    if options.write and options.words:
+        parser.error("--write takes all faults")
+    rows = []
+    for row in tried(options.words):
+        rows.append(row)
+        print(": ".join(row.words), flush=True)
+    print(*figures(rows), sep="\n")
+    if options.write:
+        PAGE.write_text(page(rows), "utf-8")
+    missed = Counter(row.fault.file for row in rows if row.fault and not row.right)
+    alarms = any(row.fault is None and not row.right for row in rows)
+    return int(alarms or any(missed[file] > most for file, most in MISSED.items()))
 
 
-def _verdict(outcome: Outcome, fault: Fault) -> str:
-    if outcome.finds(fault):
-        return str(outcome)
-    return f"WRONG ADVICE: {outcome}" if outcome.found else "NOT FOUND"
+def page(rows: list[_Row]) -> str:
+    """The figures and the table in Markdown."""
+    lines = [
+        *(f"- {sentence}" for sentence in figures(rows)),
+        "",
+        "| element | mistake | checks that fail |",
+        "|---|---|---|",
+    ]
+    lines += [f"| {' | '.join(row.words)} |" for row in rows]
+    return HEADING + "\n".join(lines) + "\n"
 
 
 if __name__ == "__main__":

@@ -59,6 +59,7 @@
       subroutine put(number, place, value, new)
       use exchange
       include 'aba_param.inc'
+      integer place
       logical new
       if (new) then
         given(place,number) = value

@@ -1,0 +1,33 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The project's own single file, as any user's, in its own decks: no check but the intended ones fails."""
+
+from pathlib import Path
+
+import pytest
+
+from harness.check.apart import examine_apart
+from harness.check.finding import Verdict
+from harness.usersub.built import path_of_amalgam
+
+DECKS = sorted(
+    deck
+    for deck in (Path(__file__).parents[2] / "abaqus_inputs").glob("*/*.inp")
+    if "*USER ELEMENT" in deck.read_text("utf-8").upper()
+)
+
+INTENDED = {("U3", "order"), ("U10", "order"), ("U4", "energy")}
+"""Results of harness/check/README.md, 'The project's own elements'."""
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("deck", DECKS, ids=lambda deck: f"{deck.parent.name}-{deck.stem}")
+def test_no_false_alarm(deck):
+    outcome = examine_apart(deck, [path_of_amalgam()], increments=1)
+    failed = {
+        (report.type, name): finding.message
+        for report in outcome.types
+        for name, finding in report.findings.items()
+        if finding.verdict is Verdict.FAILED and (report.type, name) not in INTENDED
+    }
+    assert not failed
