@@ -8,10 +8,11 @@
 !> Components are in the order (n, s, t), (n, s) in the plane. With g = (<delta_n>, delta_s, delta_t) the effective
 !> displacement is delta = |g|. The onset criterion f(g) = 1 is homogeneous, so that the ray of g meets it at
 !> delta_o = delta/f with the effective traction T_o = |K g|/f, and damage follows from delta, delta_o, T_o and from the
-!> fracture energy G at the mode mix of g. The mode mix is that of the energies of "the current state of deformation only,
-!> not the deformation history" (Keywords Guide, *DAMAGE EVOLUTION, MODE MIX RATIO=ENERGY, the default). The manual leaves open how
-!> delta_o and T_o follow a mode mix that changes during damage: here they are those of the current one. The damage is the largest
-!> so far, which along a straight path is the manual's form in delta_max.
+!> fracture energy G. Its mode mix is that of the energies of "the current state of deformation only, not the deformation
+!> history" (Keywords Guide, *DAMAGE EVOLUTION, MODE MIX RATIO=ENERGY, the default), at the start of the increment, as
+!> harness/procedures/fidelity.md infers from jobs of Abaqus; that of g while a point has no deformation then, and where its G
+!> would be too small for the onset. The manual leaves open how delta_o and T_o follow a mode mix that changes during damage: here
+!> they are those of g. The damage is the largest so far, which along a straight path is the manual's form in delta_max.
 module host_traction_separation
   use host_kinds, only: dp, i4
   implicit none (type, external)
@@ -54,6 +55,9 @@ module host_traction_separation
     real(dp) :: criterion = 0        !< QUADSCRT and the like: largest so far, 1 from the onset on where damage evolves
   end type cohesive_point
 
+  !> Onset criterion at the start of an increment below which a deformation is rounding alone.
+  real(dp), parameter :: least = 1e-6_dp
+
   !> A quantity that depends on g, and its gradient.
   type :: varying
     real(dp) :: value = 0
@@ -86,8 +90,8 @@ contains
     real(dp), intent(out) :: tangent(3, 3)
     integer, intent(out) :: status
     real(dp), intent(out) :: fault
-    real(dp) :: stiffness(3), secant(3), g(3), slope(3), share
-    type(varying) :: damage, f
+    real(dp) :: stiffness(3), secant(3), g(3), g0(3), slope(3), share
+    type(varying) :: damage, f, f0
     integer :: j
     status = fine
     fault = 0
@@ -102,7 +106,10 @@ contains
       if (law%type > 0) then
         new%criterion = min(new%criterion, 1.0_dp)
         if (f%value > 1) then
-          call damage_at(law, stiffness, g, f, damage, status, fault)
+          g0 = [max(0.0_dp, old%separation(1)), old%separation(2:3)]
+          f0 = onset(law, thickness, g0)
+          if (f0%value < least) g0 = 0
+          call damage_at(law, stiffness, g0, g, f, damage, status, fault)
           if (status /= fine) return
           if (damage%value >= law%most) damage = varying(law%most)
           if (damage%value > old%largest) then
@@ -148,10 +155,10 @@ contains
     end if
   end function onset
 
-  !> Damage beyond the onset, without history.
-  pure subroutine damage_at(law, stiffness, g, f, damage, status, fault)
+  !> Damage beyond the onset, without history but that of the mode mix: g0 is g at the start of the increment.
+  pure subroutine damage_at(law, stiffness, g0, g, f, damage, status, fault)
     type(cohesive_law), intent(in) :: law
-    real(dp), intent(in) :: stiffness(3), g(3)
+    real(dp), intent(in) :: stiffness(3), g0(3), g(3)
     type(varying), intent(in) :: f
     type(varying), intent(out) :: damage
     integer, intent(out) :: status
@@ -168,9 +175,13 @@ contains
       traction%value = norm2(stiffness*g)
       traction%by = stiffness**2*g/traction%value
       traction = ratio(traction, f)
-      energy = fracture_energy(law, stiffness, g)
       stored = varying(0.5_dp*traction%value*at_onset%value, &
                        0.5_dp*(traction%by*at_onset%value + traction%value*at_onset%by))
+      if (norm2(g0) > 0) then
+        energy = fracture_energy(law, stiffness, g0)
+        energy%by = 0
+      end if
+      if (.not. energy%value > stored%value) energy = fracture_energy(law, stiffness, g)
       if (.not. energy%value > stored%value) then
         status = too_brittle
         fault = stored%value - energy%value

@@ -6,6 +6,7 @@ Defining the constitutive response of cohesive elements using a traction-separat
 """
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -122,6 +123,49 @@ def test_damage_of_the_manual(layer, element_type, evolution):
             item.move(distance * c)
             expected = expected_damage(evolution_of(evolution), stiffness, c, distance)
             assert item.value("DAMAGE") == pytest.approx(expected, rel=1e-8)
+
+
+@pytest.mark.parametrize("element_type", TYPES)
+@pytest.mark.parametrize("evolution", ["bk", "power", "exponential bk"])
+def test_mode_mix_is_that_at_the_start_of_the_increment(layer, element_type, evolution):
+    """That of the fracture energy; the onset is that of the present separation. A point at rest has the present one.
+
+    harness/procedures/fidelity.md has the evidence. In compression only shear counts.
+    """
+    law, stiffness = evolution_of(evolution), (1e4, 2e4, 2e4)
+    dimension = 3 if element_type == "COH3D8" else 2
+    found = layer(element_type, EVOLUTIONS[evolution], stiffness=stiffness)
+    path = [(0.4, 0.001), (1.2, 0.006), (0.3, 0.009), (0.9, 0.02)]
+    start, damage = None, 0.0
+    for angle, distance in path:
+        c = np.array([np.cos(angle), np.sin(angle), 0.0])[:dimension]
+        mixed = without_mix(law, c if start is None else start, stiffness)
+        if distance > 0.002:
+            damage = max(damage, expected_damage(mixed, stiffness, c, distance))
+        found.move(distance * c)
+        assert found.value("DAMAGE") == pytest.approx(damage, rel=1e-5)
+        start = c
+    found.move(np.array([-1e-4, 1e-4, 0.0])[:dimension])
+    c, shear = np.array([0.6, 0.8, 0.0])[:dimension], np.array([0.0, 1.0, 0.0])[:dimension]
+    found.move(0.1 * c)
+    assert found.value("DAMAGE") == pytest.approx(
+        expected_damage(without_mix(law, shear, stiffness), stiffness, c, 0.1), rel=1e-5
+    )
+
+
+def without_mix(law, c, stiffness):
+    """A law without mode mix, with the fracture energy at that of c."""
+    return replace(law, mixed_mode="", values=(fracture_energy(law, stiffness, c),))
+
+
+def test_fracture_energy_that_is_too_small_for_the_onset(layer):
+    """Opened first, then sheared: 0.1 of mode I is less than 60^2/(2 1e4) at the onset by shear, whose own G holds."""
+    evolution = (ENERGY, "LINEAR", "BK", (0.1, 1.0, 1.0), 1.8)
+    law = DamageEvolution(*evolution, Source("test.inp", 7))
+    found = layer("COH2D4", evolution)
+    found.move(np.array([1e-3, 0.0]))
+    found.move(np.array([0.0, 0.012]))
+    assert found.value("DAMAGE") == pytest.approx(expected_damage(law, STIFFNESS, np.array([0.0, 1.0]), 0.012))
 
 
 @pytest.mark.sample(2)
