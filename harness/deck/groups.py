@@ -88,7 +88,7 @@ def make_groups(
     elements = _Elements(flat, problems)
     problems.check()
     sections: list[tuple[Block, Owner]] = []
-    given: dict[tuple[str, int], Source] = {}
+    given: dict[tuple[str, int], Block] = {}
     hourglass: dict[int, float] = {}
     shear: dict[int, tuple[tuple[float, ...], float | None]] = {}
     for owner in flat.owners:
@@ -121,11 +121,11 @@ def make_groups(
     return _cut(elements, made)
 
 
-def _refuse_second(block: Block, section: int, given: dict[tuple[str, int], Source]) -> None:
+def _refuse_second(block: Block, section: int, given: dict[tuple[str, int], Block]) -> None:
     """Refuse a keyword that the section before has already."""
-    place = given.setdefault((block.name, section), block.source)
-    if place != block.source:
-        raise block.error(f"the section has one already, at {place}")
+    first = given.setdefault((block.name, section), block)
+    if first is not block:
+        raise block.error(f"the section has one already, at {first.source}")
 
 
 def _last_section(block: Block, sections: list[tuple[Block, Owner]], *names: str) -> int:

@@ -152,26 +152,33 @@ _ALIKE: Final = {"ANISOTROPIC HYPERELASTIC": "HYPERELASTIC", "DISTRIBUTING": "KI
 """Keywords that set the same thing as another one."""
 
 
+_MEMBERS: Final = {
+    opener: [_ALIKE.get(name, name) for name, rule in RULES.items() if opener in rule.within]
+    for opener in {opener for rule in RULES.values() for opener in rule.within}
+}
+"""What may be given once in what a keyword begins."""
+
+
 def check_once(blocks: Iterable[Block], problems: Problems) -> None:
     """Add a problem for each keyword of one scope that says again what may be said once."""
-    seen: dict[tuple[str, ...], Source] = {}
+    seen: dict[str, dict[tuple[str, ...], Block]] = {}
     for block in blocks:
-        for key in [key for key in seen if block.name in RULES[key[0]].within]:
-            del seen[key]
+        for name in _MEMBERS.get(block.name, ()):
+            seen.pop(name, None)
         rule = RULES.get(block.name)
         if rule is None or rule.repeat is not Repeat.ONCE or rule.apart:
             continue
         values = tuple(block.options.values.get(option, "") for option in rule.by)
-        key = _ALIKE.get(block.name, block.name), *values
-        if key not in seen:
-            seen[key] = block.source
+        first = seen.setdefault(_ALIKE.get(block.name, block.name), {}).setdefault(values, block)
+        # not by their places: a file may be included twice
+        if first is block:
             continue
         if rule.by and not rule.within:
             message = f"{values[0]} is defined already"
         else:
             given = ", ".join(f"{name}={value}" for name, value in zip(rule.by, values, strict=True) if value)
             message = f"{given} is given already" if given else f"{rule.of} has one already"
-        problems.add(block.source, f"*{block.name}: {message}, at {seen[key]}")
+        problems.add(block.source, f"*{block.name}: {message}, at {first.source}")
 
 
 def overlaps(places: Sequence[IntArray]) -> Iterator[tuple[int, int, int]]:

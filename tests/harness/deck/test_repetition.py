@@ -182,6 +182,14 @@ def test_two_keywords_for_one_thing(tmp_path, opener, first, second):
         checked(tmp_path, opener, first, second)
 
 
+def test_a_file_that_is_included_twice(read, tmp_path):
+    """Its lines have the same places both times."""
+    (tmp_path / "m.inp").write_text(ELASTIC)
+    include = "*INCLUDE, INPUT=m.inp\n"
+    with pytest.raises(DeckError, match=r"m\.inp:1: \*MATERIAL: M is defined already, at .*m\.inp:1"):
+        read(elastic("").replace(ELASTIC, include * 2))
+
+
 def test_overlaps():
     """Each pair of neighbours at a place, once, with its first place."""
     places = [np.array(own) for own in ([1, 5, 7], [5, 7, 9], [7])]
