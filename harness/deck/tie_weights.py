@@ -48,6 +48,8 @@ NONE: Final = 1e-3
 """Integral of a shape function over its node's faces, over their area, that has no dual one (corners of six-node
 triangles): such a node carries no force of a constant traction."""
 
+SINGULAR: Final = 1e10
+"""Condition of the products of the shape functions of a face that has no dual ones."""
 LARGEST: Final = 10.0
 """Sum of the magnitudes of weights from which on faces are so distorted that their dual functions mean nothing."""
 
@@ -138,9 +140,14 @@ class _Side:
         """(p, k) shape functions of the faces at points (p, d), each above a cell (p,)."""
         corners, face = self.corners[cell], self.face[cell]
         along = corners[:, 1:] - corners[:, :1]
-        metric = np.einsum("pad,pbd->pab", along, along)
-        right = np.einsum("pad,pd->pa", along, points - corners[:, 0])
-        parts = np.linalg.solve(metric, right[..., None])[..., 0]
+        parts, left = np.zeros(along.shape[:2]), points - corners[:, 0]
+        first, length = _unit(along[:, 0])
+        if along.shape[1] == 2:
+            slope = np.einsum("pd,pd->p", along[:, 1], first)
+            second, height = _unit(along[:, 1] - slope[:, None] * first)
+            parts[:, 1] = np.einsum("pd,pd->p", left, second) / height
+            left = left - parts[:, 1:] * along[:, 1]
+        parts[:, 0] = np.einsum("pd,pd->p", left, first) / length
         steps = self.natural[:, 1:] - self.natural[:, :1]
         natural = self.natural[cell, 0] + np.einsum("pa,pab->pb", parts, steps[cell])
         other = np.flatnonzero(~self.affine[face])
@@ -148,6 +155,12 @@ class _Side:
             natural[other] = self.surface.locate(face[other], points[other])
         shapes = self.surface.pieces.shapes
         return np.asarray(np.einsum("pki,pi->pk", shapes[face], monomials(natural, shapes.shape[2])[0]))
+
+
+def _unit(vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return vectors (p, d) over their lengths, and the lengths, which are not 0."""
+    length = np.maximum(np.linalg.norm(vectors, axis=1), np.finfo(float).tiny)
+    return vectors / length[:, None], np.asarray(length)
 
 
 def surface_weights(
@@ -197,7 +210,9 @@ def surface_weights(
     np.add.at(dual, face, squares)
     # nodes that fill a row have no shape function
     filled = np.asarray(~own.surface.pieces.shapes.any(axis=2))
-    dual[filled[:, :, None] & np.eye(nodes.shape[1], dtype=np.bool_)] = 1.0
+    dual += (area[:, None] * filled)[:, :, None] * np.eye(nodes.shape[1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        covered &= np.linalg.cond(dual) < SINGULAR
     dual[~covered] = np.eye(nodes.shape[1])
     dual = integral[:, :, None] * np.linalg.inv(dual)
     edge = own.edge_nodes(len(places[0]))[nodes] & ~filled

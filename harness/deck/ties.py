@@ -285,6 +285,8 @@ class TieReader:
         if block.options.given("TIED NSET"):
             tolerance = np.inf
             second = np.intersect1d(second, self._flat.nodes(block.options.text("TIED NSET"), block.source, owner.name))
+            if not len(second):
+                raise row.error("no node of the first surface is in TIED NSET")
         thick = 0.0
         if not block.options.flag("NO THICKNESS"):
             thick = sum(side.half_thickness for side in (own, faces) if side is not None)
@@ -294,7 +296,7 @@ class TieReader:
         tries = [(turn, *self._nearest(second, main, faces, self._turned(main, turn))) for turn in ways]
         turn, nearest, distance = min(tries, key=lambda one: float(np.minimum(one[2], size).sum()))
         near = distance - thick <= tolerance
-        if not near.any():
+        if len(second) and not near.any():
             raise row.error(
                 f"no node of the first surface is within {tolerance:g} of the second one; expected surfaces that "
                 "touch, or a larger POSITION TOLERANCE"

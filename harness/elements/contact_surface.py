@@ -247,7 +247,9 @@ class FaceSurface:
             from scipy.spatial import KDTree  # noqa: PLC0415 (takes 0.1 s, and few decks have contact)
 
             _, near = KDTree(places).query(points, k=min(NEAREST, len(places)))
-            near = self._of_node[near.reshape(len(points), -1)].reshape(len(points), -1)
+            count = near.size // max(len(points), 1)
+            near = self._of_node[near.reshape(len(points), count)]
+            near = near.reshape(len(points), count * near.shape[2])
             found = self._nearest(present, points, looks, np.concatenate([before[:, None], near], axis=1))[0]
         natural, above = np.zeros((len(points), self._along)), np.zeros(len(points), dtype=np.bool_)
         rows = np.arange(len(points))

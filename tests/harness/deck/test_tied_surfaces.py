@@ -352,6 +352,7 @@ def test_surfaces_apart(run, kind):
     [
         ("TIED NSET=UPPER_BOTTOM, POSITION TOLERANCE=1.", "POSITION TOLERANCE and TIED NSET exclude each other"),
         ("TIED NSET=NONE", "unknown node set NONE"),
+        ("TIED NSET=UPPER_TOP", r"\*TIE: no node of the first surface is in TIED NSET"),
     ],
 )
 def test_wrong_options(run, option, message):
@@ -404,6 +405,18 @@ def test_face_whose_area_is_lost_in_rounding(tmp_path):
         assert at == pytest.approx(points[first, dof - 1], abs=0.01)
     untied = 4 - len(nodes)
     assert sum("stay untied" in warning for warning in model.warnings) == (untied > 0)
+
+
+@pytest.mark.parametrize(
+    ("node", "place", "x"), [(2, "0.0, 0.0", "1e6"), (4, "0.0, 1.0", "1e8"), (6, "2.0, 0.0", "-1e6")]
+)
+def test_needle_of_a_face(tmp_path, node, place, x):
+    """A side of the main face is a million times as long as the others: no integral is an error."""
+    lower, upper = boxes("C3D8", (1, 1), (2, 2))
+    text = tied(lower, upper, ["*STEP\n*STATIC\n*END STEP"], tie="TYPE=SURFACE TO SURFACE")
+    needle = text.replace(f"\n{node}, {place}, 1.0", f"\n{node}, {x}, {place.split(', ')[1]}, 1.0")
+    assert needle != text
+    assert read(tmp_path, needle).equations
 
 
 # ------------------------------------------------------------ shells
