@@ -211,6 +211,8 @@ class ElementBlock:
         )
         fields = self._unknown_fields
         self._forces = len(equations) * np.bincount(fields.of, minlength=fields.number + 1)[1:]
+        # unknowns within elements are displacements
+        self._forces[0] += len(equations) * self._routine.internal
 
     def split(self, *, strict: bool = True, coordinates: FloatArray | None = None) -> list[ElementBlock]:
         """Its elements, each in its own unbound block and in its committed state, for calls in any order.
@@ -323,7 +325,7 @@ class ElementBlock:
         energy, damage = outcome.energy, 0.0
         if self._routine.damages:
             damage, energy[PLASTIC] = float(energy[PLASTIC]), 0.0
-        return self._report(outcome, energy, damage)
+        return self._report(outcome, energy, damage, call)
 
     def _count_interrupted(self, outcome: Outcome) -> None:
         """Give threads up where they keep being interrupted: each time costs a part of a pass."""
@@ -379,10 +381,12 @@ class ElementBlock:
             matrices, self._arrays.equations, self._first, u, self._floor(call), self._unknown_fields, residual
         )
         energy = outcome.energy if self.can_wait else np.zeros(8)
-        return self._report(outcome, energy, 0.0)
+        return self._report(outcome, energy, 0.0, call)
 
-    def _report(self, outcome: Outcome, energy: FloatArray, damage: float) -> BlockReport:
-        return BlockReport.of(outcome, self._forces, energy, damage)
+    def _report(self, outcome: Outcome, energy: FloatArray, damage: float, call: Call) -> BlockReport:
+        # forces of inertia, which RHS has too, are terms of their own
+        own = 2 * self._forces if self._routine.massive and call.flags.dynamic else self._forces
+        return BlockReport.of(outcome, own, energy, damage)
 
     def has_forces_of(self, matrices: FloatArray, call: Call) -> bool:
         """Return whether RHS is minus the matrix times U, in some elements of the block and for trial values of U.

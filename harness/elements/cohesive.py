@@ -40,6 +40,7 @@ def cohesive_routine(model: Model, group: ElementGroup, section: CohesiveSection
         mcrd=kind.dimension,
         svars=kind.face.nodes * (5 * kind.dimension + 5) + hidden,
         hidden=hidden,
+        massive=bool(section.material.density),
         props=np.array(reals),
         jprops=np.array([kind.face.number, *integers]),
         damages=True,

@@ -84,6 +84,11 @@ class Flags:
         return replace(self, request=request, damping=damping)
 
     @property
+    def dynamic(self) -> bool:
+        """Whether a dynamic step asks."""
+        return self.procedure in (11, 12)
+
+    @property
     def lflags(self) -> tuple[int, ...]:
         """LFLAGS(1..7)."""
         told = self.procedure, self.nlgeom, self.request, self.linear, self.extrapolated, 0, self.damping

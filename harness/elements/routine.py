@@ -45,6 +45,8 @@ class Routine:
     uvarm     UVARM to call after each increment, None for none, or if the elements call it themselves
     outputs   number of UVAR that elements which call UVARM themselves keep in the history, before STATEV
     density   place of the density in PROPS, from 0; -1 without one
+    internal  unknowns within each element, on which no force acts
+    massive   whether forces of inertia are terms of the average flux of their own
     hidden    number of SVARS at the end that do not belong to a point, which output leaves out
     tensor    stress components of the material: 3 plane stress, 4 plane strain, 6 three-dimensional; 0 without one
     mcrd      coordinates per node
@@ -78,6 +80,8 @@ class Routine:
     viscous: int = -1
     hidden: int = 0
     density: int = -1
+    internal: int = 0
+    massive: bool = False
     uvarm: OutputVariables | None = None
     outputs: int = 0
     family: int = 0

@@ -111,6 +111,8 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
         svars=of_points + hidden,
         hidden=hidden,
         density=1,
+        internal=kind.modes,
+        massive=bool(material.density),
         props=np.array([section_depth(kind, section), material.density, hourglass]),
         jprops=np.array(
             [kind.family.number, kind.points, kind.direct, enhanced, kind.mass_points, kind.modes, kind.pressures]
