@@ -24,9 +24,9 @@ contains
 
   !> Energies dissipated up to the end of an increment where the damage is that of the displacement jump.
   !>
-  !> With VISCOSITY the damage lags behind, and t = (1 - d) alpha g lies above the envelope: its excess dissipates what is left of
-  !> the work less the change of the stored energy, (t0 g1 - t1 g0)/2 = alpha g0 g1 (d1 - d0)/2 by the trapezoidal rule, but
-  !> nothing where that is negative. A damage that still grows after the point has unloaded dissipates what was stored.
+  !> With VISCOSITY the damage lags behind, and t = (1 - d) alpha g lies off the envelope. Both parts together are the work less the
+  !> change of the stored energy, (t0 g1 - t1 g0)/2 = alpha g0 g1 (d1 - d0)/2 by the trapezoidal rule, but nothing where that is
+  !> negative. Damage has of it what the law dissipates, at most, and the overstress the rest.
   pure subroutine dissipate(law, history, separation, state, dissipated, viscous)
     type(law_parameters), intent(in) :: law
     type(point_history), intent(in) :: history
@@ -34,7 +34,7 @@ contains
     type(damage_state), intent(in) :: state
     real(dp), intent(out) :: dissipated(2)   !< by sliding and by opening
     real(dp), intent(out) :: viscous
-    real(dp), dimension(2) :: before, after, direction, growth, work, reach
+    real(dp), dimension(2) :: before, after, direction, growth, work, most
     real(dp), dimension(3) :: g0, g1, of_component
     real(dp) :: reached, ends, not_used(2)
 
@@ -49,20 +49,19 @@ contains
     if (law%kind == ppr_law) then
       growth = state%acting - ppr_damage_of_components(law, history%largest)
       work = ppr_work_of_damage(law, history%largest, state%largest, before, after)
-      reach = max(before, after)
     else
       call damage_envelope(law, before, reached, not_used)
       call damage_envelope(law, after, ends, not_used)
       direction = direction_of_growth(before, after, reached, history%damage, ends)
       work = work_of_damage(law, direction, [1.0_dp - history%damage, law%flexibility*history%damage], &
         [1.0_dp - state%damage, law%flexibility*state%damage])
-      reach = direction*max(norm2(before), norm2(after))
     end if
     if (law%viscosity > 0.0_dp) then
       growth = 0.5_dp*stiffness_of(law)*growth
-      work = min(work, max(0.0_dp, growth)*reach**2)
       of_component = growth(mode_of)*g0*g1
-      viscous = viscous + max(0.0_dp, sum(of_component) - sum(work))
+      most = max(0.0_dp, [sum(of_component(shears)), of_component(2)])
+      work = min(work, most)
+      viscous = viscous + sum(most - work)
     end if
     dissipated = dissipated + work
   end subroutine dissipate

@@ -178,15 +178,16 @@ def test_paths_that_turn_balance_as_increments_shrink(element, interface, varian
     assert errors[1] < max(errors[0] / 20, 1e-4)
 
 
-def test_slow_viscosity_dissipates_the_fracture_energy_and_more(element, interface, law):
-    """The share of damage is that of the law, the overstress comes on top: with time to spare it vanishes."""
+def test_viscosity_dissipates_the_fracture_energy_and_more(element, interface, law):
+    """With time to spare the share of the overstress vanishes; that of damage is G_Ic but for the trapezoidal rule at
+    onset and failure, 30 MPa times half an increment of 2.5e-5 mm each."""
     excess = []
-    for dtime in (1e2, 1.0, 1e-2):
+    for time in (1e3, 1e1, 1e-1):
         point = Point(element, interface, "U2", **LAWS["linear criterion"], VISCOSITY=0.1)
-        for gap in np.linspace(0.0, 0.05, 201)[1:]:
-            point.advance((0.0, gap), dtime=dtime / 200)
-        while point.item.state["DMAX"].min() > point.item.state["DAMAGE"].max() + 1e-12:
-            point.advance((0.0, 0.05), dtime=1.0)
-        assert point.dissipated[1] == pytest.approx(law["GIC"], rel=1e-9)
+        for gap in np.linspace(0.0, 0.05, 2001)[1:]:
+            point.advance((0.0, gap), dtime=time / 2000)
+        for _ in range(60):
+            point.advance((0.0, 0.05), dtime=0.1)
+        assert point.dissipated[1] == pytest.approx(law["GIC"], abs=2 * 30 * 1.25e-5)
         excess.append(point.item.state["DISSV"][0])
     assert 0 <= excess[0] < excess[1] < excess[2]

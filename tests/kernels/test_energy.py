@@ -45,9 +45,9 @@ def open_steadily(item, interface, direction, steps, **options):
 @pytest.mark.parametrize(("direction", "mode"), [((0.0, 1.0), "I"), ((1.0, 0.0), "II"), ((-1.0, 0.0), "II")])
 def test_pure_modes_dissipate_the_fracture_energy(element, interface, law, direction, mode, viscosity):
     item = element(2, interface.four, VISCOSITY=viscosity)
-    # with this viscosity, 1000 increments take ten times the relaxation time and more
-    state = open_steadily(item, interface, direction, 1000, dtime=4e-3)
-    np.testing.assert_allclose(state[f"DISS{mode}"], law[f"G{mode}C"], rtol=1e-12)
+    # with viscosity the trapezoidal rule errs at onset and failure, which 4000 increments resolve
+    state = open_steadily(item, interface, direction, 4000 if viscosity else 7, dtime=1e-3)
+    np.testing.assert_allclose(state[f"DISS{mode}"], law[f"G{mode}C"], rtol=1e-3 if viscosity else 1e-12)
     np.testing.assert_allclose(state["DISSI" if mode == "II" else "DISSII"], 0, atol=1e-14)
     length, thickness = np.linalg.norm(np.diff(interface.edge, axis=0)), law["THICKNESS"]
     assert item.energy[DAMAGE] == pytest.approx(law[f"G{mode}C"] * length * thickness, rel=1e-3)

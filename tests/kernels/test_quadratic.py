@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Interfaces between eight-node quads: U5 with six nodes, U6 with sixteen, on straight and on curved edges."""
 
-from itertools import product
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
@@ -156,33 +156,35 @@ def test_rigid_motion_gives_no_force(element, interface, jtype, values):
 
 @pytest.mark.parametrize("viscosity", [0.0, 0.5])
 def test_energies_sum_up_to_the_work(element, interface, viscosity):
-    """Trapezoidal work of the nodal forces = stored + dissipated, to rounding."""
+    """Trapezoidal work of the nodal forces = stored + dissipated, to 0.5 %: the trapezoidal rule errs in increments that
+    hold an onset or a failure."""
     item = element(5, nodes_of(interface, 5, bend=0.05), VISCOSITY=viscosity)
     rng = np.random.default_rng(4)
-    path = []
-    for _ in range(10):
-        path += [displacements(interface, 5, *rng.uniform((-0.01, 0.002), (0.01, 0.015), (2, 2)), 7) for _ in range(3)]
-        path.append(np.zeros((6, 2)))
+    corners = [np.zeros((6, 2))]
+    for _ in range(4):
+        ends = rng.uniform((-0.01, 0.002), (0.01, 0.015), (3, 2, 2))
+        corners += [*(displacements(interface, 5, *pair, 7) for pair in ends), np.zeros((6, 2))]
+    path = [a + f * (b - a) for a, b in pairwise(corners) for f in np.linspace(0, 1, 31)[1:]]
     for work in item.follow(path):
-        assert sum(item.energy[[1, 3, 4]]) == pytest.approx(work, rel=1e-9, abs=1e-12)
+        assert sum(item.energy[[1, 3, 4]]) == pytest.approx(work, rel=5e-3, abs=1e-4)
     assert item.energy[3] > 0 and (item.energy[4] > 0) == (viscosity > 0)
 
 
 @pytest.mark.parametrize("closure", [2, 1])
 @pytest.mark.parametrize("jtype", [5, 6])
 def test_fracture_energy(element, interface, law, jtype, closure):
-    """Opened evenly to failure, an element dissipates G_Ic at every point: of its area, to the trapezoidal rule."""
+    """Opened evenly to failure, an element dissipates G_Ic at every point of its area."""
     values = {"CLOSURE": closure} if jtype == 6 else {}
     item = element(jtype, nodes_of(interface, jtype), **values)
     tau = np.diff(interface.edge, axis=0)[0] / np.linalg.norm(np.diff(interface.edge, axis=0))
     u = np.zeros((item.n // 2, 2))
     top = EDGES[5][1] if jtype == 5 else range(8, 16)
-    for gap in np.linspace(0, 0.03, 1501)[1:]:
+    for gap in np.linspace(0, 0.03, 11)[1:]:
         u[top] = gap * np.array([-tau[1], tau[0]])
         item.advance(u)
-    np.testing.assert_allclose(item.state["DISSI"], law["GIC"], rtol=2e-3)
+    np.testing.assert_allclose(item.state["DISSI"], law["GIC"], rtol=1e-11)
     area = np.linalg.norm(np.diff(interface.edge, axis=0)) * law["THICKNESS"]
-    assert item.energy[3] == pytest.approx(law["GIC"] * area, rel=2e-3)
+    assert item.energy[3] == pytest.approx(law["GIC"] * area, rel=1e-11)
     np.testing.assert_array_equal(item.state["DAMAGE"], 1)
 
 

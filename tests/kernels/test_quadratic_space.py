@@ -128,12 +128,12 @@ def test_strip_is_the_plane_element(element, plane, space, closure, law, rule):
 
 @pytest.mark.parametrize(("jtype", "closure"), [(11, 2), (12, 2), (12, 1)])
 def test_fracture_energy(element, law, jtype, closure):
-    """Opened evenly to failure, an element dissipates G_Ic at every point: of its area, to the trapezoidal rule."""
+    """Opened evenly to failure, an element dissipates G_Ic at every point of its area."""
     item = element(jtype, nodes_of(jtype, "flat", 0.0), **({"CLOSURE": closure} if jtype == 12 else {}))
-    for gap in np.linspace(0, 0.03, 501)[1:]:
+    for gap in np.linspace(0, 0.03, 11)[1:]:
         item.advance(opened(jtype, [0.0, 0.0, gap], 0))
-    np.testing.assert_allclose(item.state["DISSI"], law["GIC"], rtol=2e-3)
-    assert item.energy[3] == pytest.approx(law["GIC"], rel=2e-3)
+    np.testing.assert_allclose(item.state["DISSI"], law["GIC"], rtol=1e-11)
+    assert item.energy[3] == pytest.approx(law["GIC"], rel=1e-11)
     np.testing.assert_array_equal(item.state["DAMAGE"], 1)
 
 

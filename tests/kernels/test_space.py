@@ -210,21 +210,23 @@ def test_strip_is_the_plane_element(element, law, closure, integration):
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("name", ["standard", "viscous", "nodal", "quadratic, standard", "quadratic, viscous, nodal"])
 def test_energies_sum_up_to_the_work(element, name, law):
-    """Stored, dissipated and viscous energy are the work of the traction by the trapezoidal rule, in any direction."""
+    """Stored, dissipated and viscous energy are the work of the traction, in any direction, to 0.5 %: the trapezoidal
+    rule errs in increments that hold an onset or a failure."""
     jtype, options = ELEMENTS[name]
     rng = np.random.default_rng(12)
     item = element(jtype, nodes_of(jtype, "flat"), **{**LAWS[law], **options})
     work, old, before = 0.0, np.zeros((item.n // 3, 3)), np.zeros(item.n)
     gap = np.zeros((4, 3))
     for _ in range(12):
-        gap = gap + np.array([1.5e-3, 1.5e-3, 1e-3]) * rng.normal(size=(4, 3))
+        start, gap = gap, gap + np.array([1.5e-3, 1.5e-3, 1e-3]) * rng.normal(size=(4, 3))
         gap[:, 2] = abs(gap[:, 2])
-        u = opened(jtype, gap, 0)
-        force = item.advance(u, dtime=0.2)[0]
-        work -= 0.5 * (force + before) @ (u - old).ravel()
-        old, before = u, force
+        for part in np.linspace(0, 1, 31)[1:]:
+            u = opened(jtype, start + part * (gap - start), 0)
+            force = item.advance(u, dtime=0.2 / 30)[0]
+            work -= 0.5 * (force + before) @ (u - old).ravel()
+            old, before = u, force
     assert item.energy[3] > 0.01 * work
-    np.testing.assert_allclose(item.energy[[1, 3, 4]].sum(), work, rtol=1e-10)
+    np.testing.assert_allclose(item.energy[[1, 3, 4]].sum(), work, rtol=5e-3)
     assert (item.energy[4] > 0) == ("VISCOSITY" in options)
 
 

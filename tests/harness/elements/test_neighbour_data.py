@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from harness.deck.reader import read_deck
-from harness.delamination.kernels import uel_property, user_element
+from harness.delamination.kernels import uel_property
 from harness.elements.neighbour_data import compare
 from harness.errors import DeckError
 from harness.job import run
@@ -26,7 +26,9 @@ def interface_lines(jtype, nodes, plies, **values):
     layout = element_layouts()[jtype]
     sides = {f"{name} {side}": value for name, value in plies.items() for side in ("BOTTOM", "TOP")}
     return [
-        *user_element(jtype, "UNSYMM"),
+        f"*USER ELEMENT, TYPE=U{jtype}, NODES={layout.nodes}, COORDINATES={layout.dimension}, UNSYMM, "
+        f"PROPERTIES={len(layout.reals)}, I PROPERTIES={len(layout.integers)}, VARIABLES={layout.svars}",
+        "1, 2, 3" if layout.dimension == 3 else "1, 2",
         f"*ELEMENT, TYPE=U{jtype}, ELSET=INTERFACE",
         "3, " + ", ".join(map(str, nodes)),
         *uel_property(
