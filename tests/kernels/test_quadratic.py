@@ -156,8 +156,8 @@ def test_rigid_motion_gives_no_force(element, interface, jtype, values):
 
 @pytest.mark.parametrize("viscosity", [0.0, 0.5])
 def test_energies_sum_up_to_the_work(element, interface, viscosity):
-    """Trapezoidal work of the nodal forces = stored + dissipated, to 0.5 %: the trapezoidal rule errs in increments that
-    hold an onset or a failure."""
+    """Trapezoidal work of the nodal forces = stored + dissipated, to 0.5 %: the trapezoidal rule errs in increments
+    that hold an onset or a failure."""
     item = element(5, nodes_of(interface, 5, bend=0.05), VISCOSITY=viscosity)
     rng = np.random.default_rng(4)
     corners = [np.zeros((6, 2))]
