@@ -9,8 +9,10 @@
 !>
 !> Transverse shear is elastic, and not that of the section points (Analysis User's Guide, Shell section behavior): its
 !> stiffness comes with the factor 1/(1 + slenderness area/thickness^2). It and the drilling are integrated fully, the shear of
-!> eight nodes at the integration points. S4R has one point; its hourglass modes have the stiffness that the elastic section has
-!> in S4.
+!> eight nodes at the integration points. S4R has one point, for the shear as well, and the hourglass control and the drilling of
+!> host_shell_hourglass. With the enhanced control its hourglass modes have the stiffness that the elastic section has in S4.
+!>
+!> PROPS end with two moduli of the hourglass control, zero where there is none or an enhanced one.
 !>
 !> With NLGEOM all of it is in axes that turn with the element (host_corotation), of eight nodes with its points
 !> (host_shell_directors).
@@ -27,6 +29,7 @@ module host_shell
   use host_polar, only: polar_axes, step
   use host_shape, only: parent_place, rule_of, rule_t
   use host_shell_directors, only: director_stiffness, director_strains, mean_directors, shell_stress
+  use host_shell_hourglass, only: drilling_of_corners, hourglass_of_shell
   use host_shell_section, only: add_section_points, elastic_section, identity, integrate_section, motion_t, operators_t, &
                                 prepare_operators, report_shape, section_head, set_direction, shear_energy, &
                                 shear_matrix, shear_stiffness, values_of_section_point
@@ -86,7 +89,8 @@ contains
         energy(6) = 0.5_dp*props(3)*sum(full%point%weight*motion%drill**2)
       else
         motion = motion_of(int(nnode), n, coords, at_points, u, change, lflags(2) /= 0)
-        call add_elastic(int(nnode), n, props, shear, at_points, full, motion, rhs, amatrx, stored, energy(6))
+        call add_elastic(int(nnode), n, coords, svars(nsvars - 3*nnode + 1), props, props(nprops - 1), shear, at_points, full, &
+                         motion, rhs, amatrx, stored, energy(6))
       end if
       energy(2) = energy(2) - stored(1)
       call integrate_section(rule_of(int(jprops(1)), int(jprops(2))), int(jprops(3)), jprops(5), props(section_head + 1), shear, &
@@ -288,28 +292,39 @@ contains
   end subroutine add_mass
 
   !> What is linear: transverse shear, drilling, and hourglass modes of four nodes with one point.
-  subroutine add_elastic(nodes, n, props, k, at_points, full, motion, force, stiffness, stored, spurious)
+  subroutine add_elastic(nodes, n, x, v, props, moduli, k, at_points, full, motion, force, stiffness, stored, spurious)
     integer, intent(in) :: nodes, n
-    real(dp), intent(in) :: props(section_head), k(2, 2)
+    real(dp), intent(in) :: x(3, nodes), v(3, nodes), props(section_head), k(2, 2)
+    real(dp), intent(in) :: moduli(2)      !< of the hourglass control
     type(operators_t), intent(in) :: at_points, full
     type(shell_motion), intent(in) :: motion
     real(dp), intent(inout) :: force(n), stiffness(n, n)
     real(dp), intent(out) :: stored(2)     !< energy of the shear, before and now
     real(dp), intent(out) :: spurious      !< energy of drilling and hourglass modes
-    real(dp) :: shear(n, n), artificial(n, n), drill(n)
+    real(dp) :: shear(n, n), artificial(n, n), drill(n), area
+    logical :: reduced
     integer :: p
     artificial = 0
-    if (nodes == 8) then
+    reduced = nodes == 4 .and. size(at_points%point) == 1
+    if (nodes == 8 .or. (reduced .and. any(moduli > 0))) then
       shear = shear_matrix(at_points, n, k)
     else
       shear = shear_matrix(full, n, k)
     end if
-    do p = 1, size(full%point)
-      drill = reshape(drilling_strain(nodes, full%point(p)), [n])
-      artificial = artificial + full%point(p)%weight*props(3)*spread(drill, 2, n)*spread(drill, 1, n)
-    end do
-    if (size(at_points%point) == 1 .and. nodes == 4) then
-      artificial = artificial + hourglass_stiffness(n, elastic_section(props), at_points, full)
+    if (reduced) then
+      area = sum(full%point%weight)
+      artificial = drilling_of_corners(x, motion%middle, area, props(1), props(3))
+      if (any(moduli > 0)) then
+        artificial = artificial + hourglass_of_shell(x, v, motion%middle, area, moduli, 0.5_dp*(k(1, 1) + k(2, 2)), &
+                                                     at_points%b(7:8, :, 1))
+      else
+        artificial = artificial + hourglass_stiffness(n, elastic_section(props), at_points, full)
+      end if
+    else
+      do p = 1, size(full%point)
+        drill = reshape(drilling_strain(nodes, full%point(p)), [n])
+        artificial = artificial + full%point(p)%weight*props(3)*spread(drill, 2, n)*spread(drill, 1, n)
+      end do
     end if
     stiffness = stiffness + shear + artificial
     associate (u => motion%u, old => motion%old)
@@ -319,7 +334,8 @@ contains
     end associate
   end subroutine add_elastic
 
-  !> Stiffness of hourglass modes: what the elastic section has at the points of full integration more than at the only point.
+  !> Enhanced stiffness of hourglass modes: what the elastic section has at the points of full integration more than at the only
+  !> point.
   pure function hourglass_stiffness(n, elastic, at_points, full) result(stiffness)
     integer, intent(in) :: n
     real(dp), intent(in) :: elastic(6, 6)

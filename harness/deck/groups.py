@@ -89,7 +89,7 @@ def make_groups(
     problems.check()
     sections: list[tuple[Block, Owner]] = []
     given: dict[tuple[str, int], Block] = {}
-    hourglass: dict[int, float] = {}
+    hourglass: dict[int, tuple[float, float, float]] = {}
     shear: dict[int, tuple[tuple[float, ...], float | None]] = {}
     for owner in flat.owners:
         for block in owner.blocks:
@@ -113,7 +113,10 @@ def make_groups(
     for (section, kind), found in made.items():
         controlled = SolidSection | CompositeSection | ShellSection | MembraneSection
         if section in hourglass and isinstance(found, controlled):
-            made[section, kind] = replace(found, hourglass=hourglass[section])
+            control, rotation, drilling = hourglass[section]
+            made[section, kind] = replace(found, hourglass=control)
+            if isinstance(found, ShellSection):
+                made[section, kind] = replace(found, hourglass=control, hourglass_rotation=rotation, drilling=drilling)
     for (section, kind), found in made.items():
         if section in shear and isinstance(found, ShellSection | BeamSection):
             stiffness, slenderness = shear[section]
@@ -134,12 +137,18 @@ def _last_section(block: Block, sections: list[tuple[Block, Owner]], *names: str
     return len(sections) - 1
 
 
-def _hourglass_stiffness(block: Block) -> float:
+def _hourglass_stiffness(block: Block) -> tuple[float, float, float]:
+    """Stiffness, that of rotations of shells, 0 where not given, and the factor of the drilling stiffness."""
     row = next(block.rows(), None)
-    stiffness = row.real(0, "hourglass stiffness", 0.0) if row is not None else 0.0
-    if stiffness < 0:
-        raise block.error(f"stiffness {stiffness:g} must not be negative")
-    return stiffness
+    if row is None:
+        return 0.0, 0.0, 1.0
+    stiffness = row.real(0, "hourglass stiffness", 0.0)
+    rotation = row.real(2, "rotational hourglass stiffness", 0.0)
+    drilling = row.real(3, "factor of the drilling stiffness", 1.0) or 1.0
+    for value in (stiffness, rotation, drilling):
+        if value < 0:
+            raise block.error(f"stiffness {value:g} must not be negative")
+    return stiffness, rotation, drilling
 
 
 def _assign(elements: _Elements, sections: list[tuple[Block, Owner]], block: Block, owner: Owner) -> None:
@@ -266,10 +275,14 @@ KEYWORDS = (
         "squared hourglass displacement q is r V sum(B^2)/16 in the plane, in direction i of space 0.2357 r V "
         "sum(B_i^2); with NLGEOM F^T q takes the place of q, F the mean deformation gradient. Results of Abaqus R2018x "
         "and 2024 show it for square CPS4R, skewed CAX4RT and skewed C3D8RT; for CPE4R and skewed CPS4R it is inferred "
-        "from CAX4RT. After *SHELL SECTION, the hourglass modes of S4R and SC8R have the stiffness of an elastic shell "
+        "from CAX4RT. After *SHELL SECTION it is r_F G of S4R, whose rotations have r_theta G: "
+        "the stiffness per squared hourglass displacement is r_F G t A sum(B^2)/16, "
+        "per squared rotation 4 r_theta G t^3 A sum(B^2)/16, as "
+        "public jobs of Abaqus show for rectangles. The hourglass modes of SC8R have the stiffness of an elastic shell "
         "with the shear modulus r/0.005 and a Poisson's ratio of zero. After *MEMBRANE SECTION it is that of M3D4R: "
         "that of CPS4R in its plane and, which is inferred, along its normal.",
         Where.MODEL,
-        data="stiffness parameter in place of 0.005 times the shear modulus; further entries are not read",
+        data="stiffness parameter in place of 0.005 times the shear modulus; empty; of shells that of rotations in "
+        "place of 0.00375 times the shear modulus, and a factor of the drilling stiffness (1) of S4R",
     ),
 )

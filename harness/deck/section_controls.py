@@ -29,10 +29,14 @@ def _read_controls(block: Block) -> SectionControls:
     enhanced = options.text("HOURGLASS") == "ENHANCED" if options.given("HOURGLASS") else None
     row = next(block.rows(), None)
     # "any data given on the data line will be ignored" where it is enhanced (Abaqus Keywords Guide)
-    factor = 1.0 if row is None or enhanced else row.real(0, "factor of the hourglass stiffness", 1.0)
-    if factor <= 0:
-        raise block.error(f"factor {factor:g} of the hourglass stiffness must be positive")
-    return SectionControls(deletion, degradation, viscosity, enhanced, factor)
+    factors = [1.0, 1.0]
+    for k, name in enumerate(("", "rotational ")):
+        if row is None or enhanced:
+            break
+        factors[k] = row.real(k, f"factor of the {name}hourglass stiffness", 1.0)
+        if factors[k] <= 0:
+            raise block.error(f"factor {factors[k]:g} of the {name}hourglass stiffness must be positive")
+    return SectionControls(deletion, degradation, viscosity, enhanced, *factors)
 
 
 KEYWORDS = (
@@ -45,7 +49,8 @@ KEYWORDS = (
         "method, and a warning says so. It needs *ELASTIC, TYPE=ISOTROPIC with constant values, *HYPERELASTIC, whose "
         "initial moduli it takes, or UMAT, of whose first DDSDDE it takes the isotropic part (not if it is "
         "incompressible). Axisymmetric elements have that of plane strain: the strain around the axis by hourglass "
-        "displacements, of the order of the size over the radius, is left out.",
+        "displacements, of the order of the size over the radius, is left out. The hourglass modes of S4R have the "
+        "stiffness of S4 with ENHANCED, those of SC8R always.",
         Where.MODEL,
         (
             NAME,
@@ -60,6 +65,6 @@ KEYWORDS = (
             ),
             *ignored("DISTORTION CONTROL", "KINEMATIC SPLIT", "LENGTH RATIO", "SECOND ORDER ACCURACY"),
         ),
-        "factor of the hourglass stiffness with STIFFNESS (1); factors of shells and of Abaqus/Explicit, not read",
+        "factor of the hourglass stiffness with STIFFNESS (1), of that of rotations of S4R (1); others are not read",
     ),
 )

@@ -23,6 +23,7 @@ from harness.elements.materials import (
     refuse_hyperelastic,
     refuse_user_hardening,
     refuse_viscous,
+    shear_modulus,
     state_variables,
     user_outputs,
 )
@@ -50,6 +51,9 @@ SLENDERNESS: Final = 0.25e-4
 
 OPPOSITE_ANGLE: Final = 160.0
 """Degrees between a normal of the deck and that of an element above which Abaqus turns the element over."""
+
+ROTATIONAL_FRACTION: Final = 0.00375
+"""r_theta: rotational hourglass stiffness over the shear modulus (Abaqus Analysis User's Guide, Section controls)."""
 
 DRILLING: Final = 1e-3
 """Stiffness against drilling over that of transverse shear; with more, coarse meshes of thin warped shells lock."""
@@ -80,19 +84,16 @@ def shell_routine(
     stiffness = section_stiffness(section, points)
     shear = section.shear or shear_stiffness(section, stiffness)
     layers, common = define_section(section, points, kind.points, library)
+    drilling = _drilling_of_reduced(section) if kind.hourglass_control else DRILLING * (shear[0] + shear[1]) / 2
+    of_element = drilling, -section.offset * section.thickness
+    of_section = section_properties(section, points, of_element, shear, hourglass_modulus(kind, section, stiffness))
     return replace(
         common,
         address=_binding.address_of("shell"),
         jtype=kind.nodes,
         svars=of_points + hidden,
         hidden=hidden,
-        props=section_properties(
-            section,
-            points,
-            (DRILLING * (shear[0] + shear[1]) / 2, -section.offset * section.thickness),
-            shear,
-            hourglass_modulus(kind, section, stiffness),
-        ),
+        props=np.concatenate([of_section, _hourglass_moduli(kind, section)]),
         jprops=np.array([kind.family.number, kind.points, len(points.place), axes is not None, *layers]),
         axes=axes,
     )
@@ -271,7 +272,10 @@ def _bending_force(modulus: FloatArray, strains: FloatArray, start: float, end: 
 
 
 def hourglass_modulus(kind: ShellType | ContinuumShellType, section: ShellSection, stiffness: FloatArray) -> FloatArray:
-    """(6, 6) elastic stiffness of the section that hourglass modes and enhanced modes have. Raises DeckError."""
+    """(6, 6) elastic stiffness of the section that enhanced modes and the enhanced hourglass control have.
+
+    Raises DeckError.
+    """
     user = any(layer.material.user is not None for layer in section.layers)
     if kind.hourglass_control and user and not section.hourglass:
         message = f"elements of type {kind.name} with *USER MATERIAL need *HOURGLASS STIFFNESS after *SHELL SECTION"
@@ -283,6 +287,44 @@ def hourglass_modulus(kind: ShellType | ContinuumShellType, section: ShellSectio
     second = section.thickness**3 / 12 + section.thickness * middle**2
     parts = [[section.thickness, section.thickness * middle], [section.thickness * middle, second]]
     return np.asarray(np.kron(parts, shear * np.diag([2.0, 2.0, 1.0])), dtype=np.float64)
+
+
+def _shear_integrals(section: ShellSection) -> FloatArray:
+    """(2,) integrals of the shear modulus and of it times z^2 over the thickness, z from the surface of the nodes.
+
+    With layers of UMAT the modulus is that of *HOURGLASS STIFFNESS over 0.005.
+    """
+    bottom = -(0.5 + section.offset) * section.thickness
+    found = np.zeros(2)
+    for layer in section.layers:
+        elastic, top = layer.material.elastic, bottom + layer.thickness
+        modulus = section.hourglass / HOURGLASS_FRACTION
+        if elastic is not None and layer.material.user is None:
+            modulus = shear_modulus(elastic, Tensor.PLANE_STRESS)
+        found += modulus * np.array([layer.thickness, (top**3 - bottom**3) / 3])
+        bottom = top
+    return found
+
+
+def _hourglass_moduli(kind: ShellType, section: ShellSection) -> FloatArray:
+    """(2,) moduli of the membrane and of the rotations in the total stiffness of S4R, zero if it is not that.
+
+    They are in fortran/host/host_shell_hourglass.f90.
+    """
+    controls = section.controls
+    if not kind.hourglass_control or controls.enhanced:
+        return np.zeros(2)
+    integrals = _shear_integrals(section)
+    membrane = section.hourglass * section.thickness or controls.hourglass * HOURGLASS_FRACTION * integrals[0]
+    rotations = controls.hourglass_rotation * 48 * ROTATIONAL_FRACTION * integrals[1]
+    if section.hourglass_rotation:
+        rotations = 4 * section.hourglass_rotation * section.thickness**3
+    return np.array([membrane, rotations])
+
+
+def _drilling_of_reduced(section: ShellSection) -> float:
+    """D of fortran/host/host_shell_hourglass.f90: a sixth of the shear stiffness of the section in its plane."""
+    return float(section.drilling * _shear_integrals(section)[0] / 6)
 
 
 def _layer_modulus(layer: ShellLayer) -> FloatArray:

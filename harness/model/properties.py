@@ -351,6 +351,7 @@ class SectionControls:
 
     enhanced     HOURGLASS=ENHANCED, else STIFFNESS; None if not given
     hourglass    factor of the hourglass stiffness
+    hourglass_rotation  that of the rotations of shells
     """
 
     deletion: bool = True
@@ -358,6 +359,7 @@ class SectionControls:
     viscosity: float | None = None
     enhanced: bool | None = None
     hourglass: float = 1.0
+    hourglass_rotation: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -451,7 +453,8 @@ class ShellSection:
     gauss        whether section points are those of Gauss, else of Simpson
     shear        K11, K22 and K12 of *TRANSVERSE SHEAR STIFFNESS; none: those of the elastic layers
     slenderness  its factor; None: the default
-    hourglass    *HOURGLASS STIFFNESS; 0: not given
+    hourglass, hourglass_rotation  *HOURGLASS STIFFNESS; 0: not given
+    drilling     its factor of the drilling stiffness
 
     Of continuum shells:
     stack        parent coordinate from SNEG to SPOS, 1 to 3; None: STACK DIRECTION=ORIENTATION
@@ -469,6 +472,8 @@ class ShellSection:
     shear: tuple[float, ...] = ()
     slenderness: float | None = None
     hourglass: float = 0.0
+    hourglass_rotation: float = 0.0
+    drilling: float = 1.0
     stack: int | None = 3
     poisson: float | Literal["ELASTIC"] | None = None
     modulus: float = 0.0
