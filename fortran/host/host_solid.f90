@@ -304,7 +304,7 @@ contains
     real(dp), dimension(rule%points) :: volume, volume_mid, volume_now, volume_before
     real(dp) :: stresses(strains, rule%points)
     real(dp) :: by_unknowns(rule%dim*rule%nodes + others, strains)
-    real(dp) :: first_tangent(strains, strains)    !< of all points
+    real(dp) :: tangent(strains, strains)    !< mean of all points, for the hourglass control
     real(dp) :: now(rule%dim, rule%nodes), g_start(rule%nodes, direct), volume_start, deformation(3, 3, 2, rule%points)
     real(dp) :: strain(strains), stress(strains), modulus(strains, strains), thermal(6, 2), weight, elastic, work, flowed
     real(dp) :: now_axes(3, 3), middle(3, 3), gradient(3, 3), rate(6), by_temperature(strains + 1), expanded
@@ -387,7 +387,7 @@ contains
       volume = volume_before*sum(volume)/sum(volume_before)
     end if
     here => material
-    first_tangent = 0
+    tangent = 0
     do p = 1, rule%points
       if (present(layers)) then
         here => find_material(layers(1, p))
@@ -463,7 +463,7 @@ contains
         call point_update(dim, strains, here, int(p, i4), weight, finite, strain, thermal, rate, svars(:, p), stress, modulus, &
                           by_temperature, elastic, work, mean)
         if (allocated(here%networks)) flowed = flowed + weight*current%dissipated
-        if (present(moduli)) first_tangent = first_tangent + volume(p)*modulus
+        if (rule%reduced) tangent = tangent + volume(p)/sum(volume)*modulus
         if (present(axes)) then
           call turn_response(here, strains, axes(:, :, 2, p), stress, modulus)
           call turn_mean(strains, axes(:, :, 2, p), mean)
@@ -588,11 +588,12 @@ contains
     energy(2) = elastic
     energy(dissipated) = work - elastic
     if (present(moduli)) then
-      if (.not. any(abs(moduli) > 0)) moduli = isotropic_part(dim, first_tangent/sum(volume))
+      if (.not. any(abs(moduli) > 0)) moduli = isotropic_part(dim, tangent)
     end if
     if (rule%reduced) then
       call resist_hourglass(rule, g_start(:, :dim), volume_start*merge(thickness, 1.0_dp, dim == 2), hourglass, &
-                            enhanced_constants(material, enhanced, moduli), finite, x, u, force(:n), stiffness(:n, :n), energy(6))
+                            enhanced_constants(material, enhanced, dim, tangent, moduli), finite, x, u, force(:n), &
+                            stiffness(:n, :n), energy(6))
     end if
 
   contains
@@ -655,13 +656,16 @@ contains
   end subroutine compare_volumes
 
   !> Young's modulus and Poisson's ratio of an isotropic material for the enhanced hourglass control, the modulus in plane
-  !> strain over 1 - nu^2; none without that control.
-  pure function enhanced_constants(material, enhanced, moduli) result(constants)
+  !> strain over 1 - nu^2; none without that control. Of hyperelastic materials the shear modulus is that of the present tangent,
+  !> as long as it is positive, and Poisson's ratio the initial one.
+  pure function enhanced_constants(material, enhanced, dim, tangent, moduli) result(constants)
     type(material_t), intent(in) :: material
     logical, intent(in) :: enhanced
+    integer, intent(in) :: dim
+    real(dp), intent(in) :: tangent(:, :)
     real(dp), intent(in), optional :: moduli(2)    !< the constants, if the material has none
     real(dp), allocatable :: constants(:)
-    real(dp) :: young, poisson
+    real(dp) :: young, poisson, shear
     allocate (constants(0))
     if (.not. enhanced) return
     if (present(moduli)) then
@@ -670,31 +674,39 @@ contains
     end if
     young = 1/material%compliance(1, 1)
     poisson = -material%compliance(1, 2)*young
+    if (allocated(material%hyperelastic) .and. .not. allocated(material%networks)) then
+      shear = shear_part(dim, tangent)
+      if (shear > 0) young = 2*(1 + poisson)*shear
+    end if
     if (material%ntens == 4) young = young/(1 - poisson**2)
     constants = [young, poisson]
   end function enhanced_constants
 
-  !> Young's modulus and Poisson's ratio of the isotropic part of a tangent, which is its mean over all directions (Voigt); in the
-  !> plane the modulus along an edge whose other direction is free, and 0. Zero unless the part is positive.
+  !> Shear modulus of the isotropic part of a tangent, which is its mean over all directions (Voigt), or those of the plane.
+  pure real(dp) function shear_part(dim, tangent)
+    integer, intent(in) :: dim
+    real(dp), intent(in) :: tangent(:, :)    !< direct components, then engineering shears
+    real(dp) :: trace, cross
+    integer :: i, n
+    n = size(tangent, 1)
+    trace = sum([(tangent(i, i), i=1, dim)])
+    cross = sum(tangent(:dim, :dim)) - trace
+    if (dim == 2) then
+      shear_part = (trace - cross + 4*tangent(n, n))/8
+    else
+      shear_part = (trace - cross/2 + 3*(tangent(4, 4) + tangent(5, 5) + tangent(6, 6)))/15
+    end if
+  end function shear_part
+
+  !> Young's modulus and Poisson's ratio of the isotropic part of a tangent; in the plane the modulus along an edge whose other
+  !> direction is free, and 0. Zero unless the part is positive.
   pure function isotropic_part(dim, tangent) result(moduli)
     integer, intent(in) :: dim
     real(dp), intent(in) :: tangent(:, :)    !< direct components, then engineering shears
-    real(dp) :: moduli(2), bulk, shear, trace, cross
-    integer :: i, n
+    real(dp) :: moduli(2), bulk, shear
     moduli = 0
-    trace = 0
-    n = size(tangent, 1)
-    do i = 1, dim
-      trace = trace + tangent(i, i)
-    end do
-    cross = sum(tangent(:dim, :dim)) - trace
-    if (dim == 2) then
-      bulk = (trace + cross)/4
-      shear = (trace - cross + 4*tangent(n, n))/8
-    else
-      bulk = (trace + cross)/9
-      shear = (trace - cross/2 + 3*(tangent(4, 4) + tangent(5, 5) + tangent(6, 6)))/15
-    end if
+    bulk = sum(tangent(:dim, :dim))/dim**2
+    shear = shear_part(dim, tangent)
     if (.not. (bulk > 0 .and. shear > 0)) return
     if (dim == 2) then
       moduli(1) = 4*bulk*shear/(bulk + shear)

@@ -695,7 +695,7 @@ class ElementBlock:
             case Fault.OUTSIDE:
                 message = self._outside(outcome, nrhs)
             case Fault.DISTORTED:
-                message = distortion(outcome)
+                message = distortion(outcome, getattr(self.group.built_in, "points", 0))
             case _:
                 message = wrong_entry(outcome, len(self.unknowns))
         return ERRORS.get(outcome.fault, KernelError)(element, self.group.type, f"{message} ({call.place})")

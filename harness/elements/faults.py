@@ -44,10 +44,13 @@ def at_point(routine: str, point: int) -> str:
     return f"{routine} at integration point {point} "
 
 
-def distortion(outcome: Outcome) -> str:
-    """A built-in element whose current shape is inside out, or crosses the axis (at -index)."""
+def distortion(outcome: Outcome, points: int) -> str:
+    """Name what is wrong with the shape of a built-in element now: it is inside out, or crosses the axis (at -index).
+
+    points: of its stress; an element of one point has its volume from more, which are not named.
+    """
     what = "turns inside out" if outcome.item > 0 else "crosses the axis"
-    return f"{what} at its integration point {abs(outcome.item)}"
+    return f"{what} at its integration point {abs(outcome.item)}" if abs(outcome.item) <= points else what
 
 
 def write_outside(outcome: Outcome, n: int, nrhs: int, sizes: Mapping[str, str]) -> str:

@@ -235,3 +235,45 @@ def test_warning_of_enhanced_control_of_a_umat_names_the_tangent(tmp_path):
     reactions(tmp_path, lines, POINTS)
     text = " ".join((tmp_path / "bent.msg").read_text().split())
     assert "with the isotropic part of the first DDSDDE of UMAT (material M)" in text
+
+
+PRINTED = {
+    (-0.175, -0.175, 0.375): (0.8898, 1.450, 0.8429, 1.030, -0.0424, -0.0130, -0.0317, -0.0097, -0.1849),
+    (-0.175, -0.175, 0.025): (0.8541, 1.526, 0.8541, 1.129, 0.0531, -0.0265, -0.0265, 0.0531, 1.129),
+    (-0.175, -0.125, 0.025): (0.7215, 1.975, 0.7215, 0.7079, 0.0551, -0.0714, -0.0714, 0.0551, 0.7079),
+    (-0.125, -0.025, 0.175): (0.7240, 1.936, 0.7482, 0.5036, 0.0000, -0.0326, -0.0712, 0.0044, 0.5182),
+    (-0.025, 0.175, 0.025): (0.9367, 1.342, 0.8625, 0.4029, -0.0111, -0.0255, -0.0031, 0.0160, -0.2713),
+}
+"""Middle of an element; DG11, 22, 33, 12, 13, 23, 21, 31, 32 that Abaqus 2020 prints (AkshayJoshi108/HexElVerify,
+Job-5-1.dat)."""
+
+
+@pytest.mark.long
+def test_deformation_gradients_of_a_rubber_block(tmp_path):
+    """A cube of 0.4 in 512 C3D8R of a neo-Hookean material, clamped at one face; the other one moves by 0.2, 0.3, 0.2.
+
+    The largest difference of the entries is 0.028 here, beside the edges of the clamped face, and was 0.13 with the
+    initial modulus in the hourglass control; the mean of all entries of the job is 0.003 (regression).
+    """
+    axis = np.linspace(-0.2, 0.2, 9)
+    nodes = np.stack(np.meshgrid(axis, axis, axis + 0.2, indexing="ij"), axis=-1).reshape(-1, 3)
+    first = np.array([81 * i + 9 * j + k for i in range(8) for j in range(8) for k in range(8)])
+    elements = first[:, None] + np.array([0, 81, 90, 9, 1, 82, 91, 10])
+    lines = body_lines("C3D8R", nodes, elements)
+    for name, side in (("LOW", -0.2), ("HIGH", 0.2)):
+        lines += [f"*NSET, NSET={name}", *map(str, np.flatnonzero(np.isclose(nodes[:, 1], side)) + 1)]
+    lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", "*MATERIAL, NAME=M", "*HYPERELASTIC, NEO HOOKE", "100., 0.0008"]
+    lines += ["*STEP, NLGEOM", "*STATIC", "1., 1., 1e-05, 1.", "*BOUNDARY", "LOW, 1, 3", "HIGH, 1, 1, 0.2"]
+    lines += ["HIGH, 2, 2, 0.3", "HIGH, 3, 3, 0.2", "*OUTPUT, FIELD", "*NODE OUTPUT", "U", "*END STEP", ""]
+    (tmp_path / "block.inp").write_text("\n".join(lines))
+    result = harness.run(tmp_path / "block.inp", output_dir=tmp_path)
+    message = " ".join((tmp_path / "block.msg").read_text().split())
+    assert "deformation gradients of a public job of Abaqus differ by 0.003 in the mean" in message
+    u = result.mesh(-1).point_data["U"]
+    signs = np.sign(nodes[elements[0]] - nodes[elements[0]].mean(axis=0))
+    for middle, printed in PRINTED.items():
+        (k,) = np.flatnonzero(np.isclose(nodes[elements].mean(axis=1), middle).all(axis=1))
+        # the mean gradients of the shape functions of a cube of 0.05
+        f = np.eye(3) + u[elements[k]].T @ signs / (4 * 0.05)
+        found = f[[0, 1, 2, 0, 0, 1, 1, 2, 2], [0, 1, 2, 1, 2, 2, 0, 0, 1]]
+        np.testing.assert_allclose(found, printed, rtol=0, atol=0.03)

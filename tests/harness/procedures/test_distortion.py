@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Built-in elements that turn inside out in an iteration: the attempt is given up, as in Abaqus."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import harness
+from harness.elements.faults import distortion
 from harness.errors import ConvergenceError, KernelError
 
 YOUNG, PRESSURE = 1000.0, 1500.0
@@ -69,3 +72,10 @@ def test_a_fixed_increment_ends_with_the_element(run):
 def test_a_mesh_that_is_inside_out_stays_an_error_of_the_mesh(run, options):
     with pytest.raises(KernelError, match=r"element 101 .* nodes must run counter-clockwise"):
         run(deck("CPE4", PLANE, options=options, order=-1))
+
+
+def test_a_point_that_the_element_does_not_have_is_not_named():
+    """C3D8R has one point; its volume, by which it is inside out, comes from eight."""
+    assert distortion(SimpleNamespace(item=7), 1) == "turns inside out"
+    assert distortion(SimpleNamespace(item=7), 8) == "turns inside out at its integration point 7"
+    assert distortion(SimpleNamespace(item=-1), 1) == "crosses the axis at its integration point 1"
