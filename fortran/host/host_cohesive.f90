@@ -11,9 +11,9 @@
 !> the start; separations are those of the present positions in this frame, less those at the start, and tractions are per
 !> initial area.
 !>
-!> Mass per area is density times constitutive thickness (Analysis User's Guide, Defining the constitutive response of cohesive
-!> elements using a traction-separation description: with the thickness 1 the density is a mass per area), by halves at the two nodes
-!> of each point.
+!> Mass per area is density times constitutive thickness, by halves at the two nodes of each point (Analysis User's Guide, Defining
+!> the constitutive response of cohesive elements using a traction-separation description: with the thickness 1 the density is a
+!> mass per area).
 !>
 !> An element is deleted at the end of the increment in which the damage of all its points has reached MAX DEGRADATION with
 !> none of them in compression (Analysis User's Guide, Maximum degradation and choice of element removal).
