@@ -55,7 +55,9 @@ def test_unloading(layer, element_type):
     assert 0 < damage < 1
     for share in (0.5, 0.0, 0.7, 1.0):
         np.testing.assert_allclose(item.move(share * far, steps=7), share * traction, rtol=1e-12, atol=1e-12)
-        assert (item.value("DAMAGE"), item.dissipated) == (damage, pytest.approx(spent, rel=1e-12))
+        # the mode mix is that of another separation of the same direction: they differ by rounding
+        assert item.value("DAMAGE") == pytest.approx(damage, rel=1e-12)
+        assert item.dissipated == pytest.approx(spent, rel=1e-12)
 
 
 @pytest.mark.parametrize("element_type", TYPES)
