@@ -216,7 +216,7 @@ class System:
             linear.fill(data)
         elif data is not None:
             data.fill(0.0)
-        reports: list[BlockReport] = []
+        reports: list[BlockReport] = [*call.load_terms]
         for block in self.blocks:
             kept = columns if block.group.definition or not call.flags.linear else np.zeros_like(columns)
             if spared and block in linear:

@@ -55,6 +55,7 @@ class Call:
     unsymmetric  AMATRX of UEL is used as it is, UNSYMM or not, as in coupled temperature-displacement steps: Abaqus
                  2023 says in their message file that it uses unsymmetric storage, and a public element without UNSYMM
                  reproduces its residuals there in one iteration, which it does not with (A + A^T)/2
+    load_terms   nodal loads that are terms of the average flux
     """
 
     flags: Flags
@@ -70,6 +71,7 @@ class Call:
     flux_floor: FloatArray | None = None
     iteration: int = 0
     unsymmetric: bool = False
+    load_terms: tuple[BlockReport, ...] = ()
 
     def asking(self, request: Request, damping: Damping = Damping.NONE) -> Self:
         """The same call with another request; parameters of `Flags.asking`."""

@@ -105,7 +105,7 @@ class FollowerBlock(ElementBlock):
 
         Loads normal to shells are SHELL_PRESSURE times the components of their nodal forces, others none.
         """
-        if not isinstance(self._parent, ShellType):
+        if not isinstance(self._parent, ShellType) or self.load.kind is not LoadKind.PRESSURE:
             none = np.zeros_like(self._forces)
             return report._replace(flux=np.zeros(len(none)), flux_count=none, largest=np.zeros(len(none)), entries=none)
         loaded = np.count_nonzero(self.holds(distributed.elements[distributed.kinds == 1]))

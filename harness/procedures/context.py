@@ -166,6 +166,7 @@ class StepContext:
             distributed=self.load.with_faces(distributed, self.times, end, self._at(u)),
             predefined=predefined,
             flux_floor=self.checker.flux_floor,
+            load_terms=self.load.terms(end, self.checker.flux_floor),
         )
 
 

@@ -19,12 +19,14 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from harness.assembly import System
-from harness.elements import Distributed, FollowerBlock
+from harness.elements import FIELD_NAMES, BlockReport, Distributed, FollowerBlock
+from harness.elements.followers import SHELL_PRESSURE
 from harness.elements.load_vectors import unit_forces
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
+from harness.model.element_types import ShellType
 from harness.model.model import Model
-from harness.model.steps import ElementLoad, Load, LoadType, Step
+from harness.model.steps import ElementLoad, Load, LoadKind, LoadType, Step
 from harness.model.user_values import GivesValues, UserValues
 from harness.parallel.ranks import Ranks
 from harness.procedures.heat_loads import HeatLoads, StepHeat
@@ -38,6 +40,31 @@ class FactorTimes:
     end: float
     difference: float
     change: float
+
+
+@dataclass(frozen=True, slots=True)
+class _ShellTerms:
+    """Loads normal to shells as terms of the average force.
+
+    forces  (n, slots) magnitudes of the nodal forces of loads of one
+    terms   (slots,) of the average that a load is, 0 of those that do not act or are on other elements
+    """
+
+    forces: sparse.csc_array
+    terms: IntArray
+
+    def at(self, magnitudes: FloatArray, floor: float) -> BlockReport:
+        """Their report at magnitudes (slots,); floor: below which forces are left out of the average."""
+        found = abs(self.forces.data) * np.abs(np.repeat(magnitudes, np.diff(self.forces.indptr)))
+        here = np.repeat(self.terms > 0, np.diff(self.forces.indptr))
+        counted = here & (found > floor)
+        values, field = np.zeros(len(FIELD_NAMES)), FIELD_NAMES.index("force")
+        count = np.zeros(len(FIELD_NAMES), dtype=np.int64)
+        flux, largest, entries, above = values.copy(), values.copy(), count.copy(), count.copy()
+        flux[field], largest[field] = found[counted].sum(), found[here].max(initial=0.0)
+        above[field] = SHELL_PRESSURE * np.count_nonzero(counted)
+        entries[field] = self.terms.sum()
+        return BlockReport(flux, above, np.inf, np.zeros(8), 0.0, largest, entries)
 
 
 @dataclass(slots=True)
@@ -79,6 +106,12 @@ class StepLoads:
         if not self.distributed:
             return concentrated
         return concentrated + self.ranks.sum(self._on_elements(step_time, total_time))
+
+    def terms(self, times: tuple[float, float], floor: FloatArray) -> tuple[BlockReport, ...]:
+        """Loads on shells of this rank that are terms of the average force at a step and a total time."""
+        loads = (load for load in self.distributed if load.shells.terms.any())
+        force = float(floor[FIELD_NAMES.index("force")])
+        return tuple(load.shells.at(load.magnitudes.at(*times), force) for load in loads)
 
     def _on_elements(self, step_time: float, total_time: float) -> FloatArray:
         """Nodal forces (n,) of the loads on the elements of this rank."""
@@ -209,6 +242,7 @@ class _StepElementLoads:
     chosen        points whose magnitude DLOAD gives
     reference     magnitudes by number as the deck gives them, for DLOAD
     user_faces    faces whose pressures it gives
+    shells        of the loads on shells, in the average force
     faces, slots  positions of other faces among the elements, after those of the model, and numbers of their magnitudes
     """
 
@@ -221,6 +255,7 @@ class _StepElementLoads:
     user_faces: tuple[_UserFaces, ...]
     faces: IntArray
     slots: IntArray
+    shells: _ShellTerms
 
 
 class AllLoads:
@@ -308,6 +343,7 @@ class _Points:
     moved   (3 points, n) their displacements from those of the nodes
     slot    (points,) number of the magnitude, jltyp (points,) as LoadType has it
     places  (points, 3) element number, point, JLTYP; coords (points, 3), at the start of the analysis
+    terms   (points,) of the average force that the load of the point is
     """
 
     forces: sparse.csr_array
@@ -315,6 +351,7 @@ class _Points:
     slot: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     places: NDArray[np.int32] = field(default_factory=lambda: np.zeros((0, 3), dtype=np.int32))
     coords: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+    terms: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
     def asked(self, chosen: IntArray, u: FloatArray | None) -> tuple[NDArray[np.int32], FloatArray]:
         """Places (k, 3) of chosen points, and their coordinates at displacements u (n,), or in the initial shape."""
@@ -365,7 +402,15 @@ class _ElementLoads:
                 np.concatenate([part.slot for part in parts]),
                 np.concatenate([part.places for part in parts]),
                 np.concatenate([part.coords for part in parts]),
+                np.concatenate([part.terms for part in parts]),
             )
+        points = np.flatnonzero(self._points.terms)
+        pairs = points, self._points.slot[points]
+        shape = len(self._points.terms), len(self._slots)
+        of_slots = sparse.csr_array((np.ones(len(points)), pairs), shape=shape)
+        self._of_shells = sparse.csc_array(self._points.forces @ of_slots)
+        self._shell_terms = np.zeros(len(self._slots), dtype=np.int64)
+        self._shell_terms[pairs[1]] = self._points.terms[points]
 
     def start_step(
         self, entries: Sequence[ElementLoad], new: bool, step: Step, total_time: float
@@ -383,7 +428,8 @@ class _ElementLoads:
         by_user = [k for k, kind in enumerate(self._types) if kind.jltyp]
         turning, of_user = (self._has(kinds) for kinds in (self._turning, by_user))
         given = turning, of_user, chosen, self._reference.copy(), self._faces_of_user()
-        return _StepElementLoads(self._points, varying, *given, self._faces, self._face_slots)
+        shells = _ShellTerms(self._of_shells, np.where(self._active, self._shell_terms, 0))
+        return _StepElementLoads(self._points, varying, *given, self._faces, self._face_slots, shells)
 
     def _has(self, kinds: list[int]) -> bool:
         """Whether the step has loads of some types."""
@@ -447,7 +493,9 @@ class _ElementLoads:
             places = _numbered(block.group.labels[rows], points, entry.type)
             # only DLOAD needs to know where the points are
             moved = _moved(system, nodes, shapes if entry.type.jltyp else 0.0 * shapes)
-            found.append(_Points(matrix, moved, np.repeat(mine, points), places, coords.reshape(-1, 3)))
+            counts = isinstance(block.group.built_in, ShellType) and entry.type.kind is LoadKind.PRESSURE
+            terms = np.full(elements * points, counts * SHELL_PRESSURE * 3 * block.group.nodes.shape[1])
+            found.append(_Points(matrix, moved, np.repeat(mine, points), places, coords.reshape(-1, 3), terms))
         return found
 
 
