@@ -98,10 +98,10 @@ def _at_nodes(subject: Subject) -> Finding:
         return not_applicable(NO_FIELD)
     if figure <= TOLERANCE:
         return passed(f"forces balance at {len(subject.patches)} nodes, to {figure:.1e}", figure, TOLERANCE)
-    if _alone(subject).verdict is Verdict.PASSED:
+    if _alone(subject).verdict is Verdict.PASSED and all(_scattered(subject, patch) for patch in subject.patches):
         return passed(
-            "forces of single elements are those of a uniform stress or flux, which differs from element to element of "
-            "one property: they do not balance",
+            "forces of single elements are those of a uniform stress or flux, which differs from element to element by "
+            "a factor: they do not balance",
         )
     return failed(message, ADVICE, figure=figure, limit=TOLERANCE)
 
@@ -149,8 +149,37 @@ def _alone(subject: Subject) -> Finding:
     return failed(message, ADVICE, figure=figure, limit=TOLERANCE)
 
 
+def _scattered(subject: Subject, patch: Patch) -> bool:
+    """Whether the stresses of the elements differ by one factor for all gradients: their stiffness scatters."""
+    size = _size(subject, patch.states[0])
+    stresses: list[dict[bytes, list[FloatArray]]] = []
+    for state in patch.states:
+        mine: dict[bytes, list[FloatArray]] = {}
+        for field in _fields(subject, state, size):
+            found = _stress(subject, state, field)
+            if found is None:
+                return False
+            mine.setdefault(field.rows.tobytes(), []).append(found[0])
+        stresses.append(mine)
+    for kind, first in stresses[0].items():
+        one = np.array(first).ravel()
+        for other in (np.array(mine.get(kind, [])).ravel() for mine in stresses[1:]):
+            if len(other) != len(one):
+                return False
+            factor = float(one @ other) / max(float(one @ one), 1e-300)
+            if np.abs(other - factor * one).max() > TOLERANCE * np.abs(other).max():
+                return False
+    return True
+
+
 def _deviation(subject: Subject, state: ElementState, field: _Field) -> float | None:
     """Deviation of the nodal forces from those of any uniform stress, over the largest; None if there is no cell."""
+    found = _stress(subject, state, field)
+    return None if found is None else found[1]
+
+
+def _stress(subject: Subject, state: ElementState, field: _Field) -> tuple[FloatArray, float] | None:
+    """The uniform stress (components) that explains the nodal forces best, and what is left over the largest force."""
     local, forces = subject.local_nodes, field.forces(state)
     nodes = np.unique(local[field.rows])
     if not np.array_equal(nodes, np.arange(len(nodes))):
@@ -158,14 +187,15 @@ def _deviation(subject: Subject, state: ElementState, field: _Field) -> float | 
     integrals = gradient_integrals(subject.coordinates(state)[nodes])
     if integrals is None:
         return None
-    largest, left = float(np.abs(forces[field.rows]).max()), 0.0
+    largest, left, stresses = float(np.abs(forces[field.rows]).max()), 0.0, []
     for dof in np.unique(subject.dofs[field.rows]).tolist():
         mine = np.zeros(len(nodes))
         rows = np.flatnonzero(field.rows & (subject.dofs == dof))
         mine[local[rows]] = forces[rows]
         stress = np.linalg.lstsq(integrals, mine, rcond=None)[0]
+        stresses.append(stress)
         left = max(left, float(np.abs(mine - integrals @ stress).max()))
-    return left / (largest or 1.0)
+    return np.concatenate(stresses), left / (largest or 1.0)
 
 
 def _resisted(subject: Subject, state: ElementState, fields: list[_Field]) -> bool:
