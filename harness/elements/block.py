@@ -185,8 +185,7 @@ class ElementBlock:
         rows
             Of the group, from 0, ascending.
         """
-        group = self.group
-        self.group = replace(group, labels=group.labels[rows], nodes=group.nodes[rows])
+        self.group = self.group.take(rows)
         self.rows, self._arrays = rows, self._arrays.of(rows)
         self._watch = Watch(self.group, self._library)
         if self._uvar is not None:
@@ -233,9 +232,8 @@ class ElementBlock:
 
     def _part(self, places: IntArray, coordinates: FloatArray | None = None, *, strict: bool = True) -> ElementBlock:
         """Some of its elements, places from 0, in a new unbound block and in their committed state."""
-        group = self.group
         part = ElementBlock(
-            replace(group, labels=group.labels[places], nodes=group.nodes[places]),
+            self.group.take(places),
             self._coordinates if coordinates is None else coordinates,
             self.unknowns,
             self._routine,

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -66,6 +66,12 @@ class ElementGroup:
     source: Source
     n2: FloatArray | None = None
     orienting: IntArray | None = None
+
+    def take(self, rows: IntArray) -> ElementGroup:
+        """Return a group of some of its elements, by their rows."""
+        n2 = None if self.n2 is None else self.n2[rows]
+        orienting = None if self.orienting is None else self.orienting[rows]
+        return replace(self, labels=self.labels[rows], nodes=self.nodes[rows], n2=n2, orienting=orienting)
 
     @property
     def built_in(self) -> BuiltInType | None:

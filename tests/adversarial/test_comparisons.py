@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import bodies
 import comparisons
+import mpiexec
 import numpy as np
 import pytest
 
@@ -35,6 +36,14 @@ def test_a_body_of_each_kind(tmp_path):
         rows = list(comparisons.compare(BODIES[name], tmp_path))
         assert len(rows) >= 6, (name, rows)
         assert {row.verdict for row in rows} == {"equal"}, [str(row) for row in rows]
+
+
+@mpiexec.NEEDED
+def test_two_ranks(tmp_path):
+    """Elements of a body are on both ranks, with the directions that beams have of their own."""
+    chosen = [BODIES[name] for name in ("C3D8 orthotropic", "S4R lamina", "B31 RECT", "U4 2D", "*TIE 3D")]
+    rows = list(comparisons.compare_ranks(chosen, tmp_path))
+    assert [row.verdict for row in rows] == ["equal"] * len(chosen), [str(row) for row in rows]
 
 
 def test_number_of_comparisons():
