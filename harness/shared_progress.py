@@ -14,6 +14,10 @@ import tempfile
 from enum import IntEnum
 
 
+BUILT_IN = "element"
+"""The host's name for the routine of a built-in element (fortran/host/host_element.f90)."""
+
+
 class Within(IntEnum):
     """User code that runs."""
 
@@ -58,7 +62,9 @@ class Slate(ctypes.Structure):
             return ""
         element, step, increment, iteration = self.place
         routine = self.routine.decode(errors="replace").strip()
-        place = f"in {routine} for element {element}, step {step}, increment {increment}, iteration {iteration}"
+        # a built-in element has no routine of the user's
+        of = f"in {routine} {element}" if routine == BUILT_IN else f"in {routine} for element {element}"
+        place = f"{of}, step {step}, increment {increment}, iteration {iteration}"
         reason = self.reason.decode(errors="replace")
         return f"{place}: {reason}" if reason else place
 

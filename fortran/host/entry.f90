@@ -12,6 +12,7 @@ subroutine host_evaluate(address, material, jtype, tensor, labels, jprops, equat
                          mload, mfield)
   use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
   use host_block, only: block_t, keeps_state, scalars_t
+  use host_built_in, only: is_built_in
   use host_context, only: initial_stresses
   use host_driver, only: run_block
   use host_kinds, only: dp, i4, i8
@@ -45,6 +46,7 @@ subroutine host_evaluate(address, material, jtype, tensor, labels, jprops, equat
   real(dp), target :: by_unknown(ndofel, 3)
   type(block_t), target :: block
   block%address = transfer(int(address, c_intptr_t), block%address)
+  block%built_in = is_built_in(block%address)
   block%tensor = tensor
   block%symmetric = symmetric /= 0
   block%want_matrix = want_matrix /= 0
@@ -233,33 +235,15 @@ subroutine host_define_heat_load(law, address, surface, jltyp, absolute_zero, st
   number = define_heat_load(load)
 end subroutine host_define_heat_load
 
-!> Address of built-in elements: 1 continuum, 2 coupled temperature-displacement, 3 cohesive, 4 springs and masses, 5 heat
-!> transfer, 6 heat that enters, 7 shells, 8 beams, 9 piezoelectric, 10 trusses, 11 generalised plane strain, 12 beams whose
-!> material is integrated over the section, 13 membranes, 14 mass diffusion, 15 continuum shells.
+!> Address of a built-in element by its number in `built_in_elements`.
 subroutine host_element_address(elements, address)
-  use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_intptr_t
-  use host_beam, only: beam_uel, beam_uelmat
-  use host_cohesive, only: cohesive_uel
-  use host_conduction, only: heat_uelmat
-  use host_continuum_shell, only: continuum_shell_uelmat
-  use host_coupled, only: coupled_uelmat
-  use host_discrete, only: discrete_uel
-  use host_generalised, only: generalised_uelmat
-  use host_heat_loads, only: heat_load_uel
+  use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
+  use host_built_in, only: built_in_elements
   use host_kinds, only: i4, i8
-  use host_mass_diffusion, only: mass_diffusion_uelmat
-  use host_membrane, only: membrane_uelmat
-  use host_piezoelectric, only: piezoelectric_uelmat
-  use host_shell, only: shell_uelmat
-  use host_solid, only: solid_uelmat
-  use host_truss, only: truss_uelmat
   implicit none (type, external)
   integer(i4), intent(in) :: elements
   integer(i8), intent(out) :: address
   type(c_funptr) :: all(15)
-  all = [c_funloc(solid_uelmat), c_funloc(coupled_uelmat), c_funloc(cohesive_uel), c_funloc(discrete_uel), c_funloc(heat_uelmat), &
-         c_funloc(heat_load_uel), c_funloc(shell_uelmat), c_funloc(beam_uel), c_funloc(piezoelectric_uelmat), &
-         c_funloc(truss_uelmat), c_funloc(generalised_uelmat), c_funloc(beam_uelmat), c_funloc(membrane_uelmat), &
-         c_funloc(mass_diffusion_uelmat), c_funloc(continuum_shell_uelmat)]
+  all = built_in_elements()
   address = int(transfer(all(elements), 1_c_intptr_t), i8)
 end subroutine host_element_address

@@ -50,6 +50,7 @@ contains
     current%deformed = .false.
     current%distorted = 0
     current%routine = merge('UELMAT', 'UEL   ', block%scalars%material > 0)
+    if (block%built_in) current%routine = 'element'
     current%time = block%scalars%time - block%scalars%dtime
     current%dtime = block%scalars%dtime
     current%flags = block%scalars%lflags(:4)

@@ -14,6 +14,7 @@ import pytest
 from harness.isolation import supervise
 from harness.output.sta_file import read_status
 from harness.output.verdict import close_ended_run
+from harness.shared_progress import Within, new_slate
 
 CRASHES = Path(__file__).parent / "usersub" / "crashes.cpp"
 LONG_RUN = Path(__file__).parents[2] / "abaqus_inputs" / "dcb" / "dcb_u4_1e8.inp"
@@ -261,3 +262,12 @@ def test_program_goes_on_after_a_call_was_left_inside_a_write(tmp_path: Path) ->
     assert re.fullmatch(
         "True an abandoned call inside a WRITE has .*since an earlier run: text printed there is lost", second
     )
+
+
+@pytest.mark.parametrize(("routine", "place"), [(b"UMAT", "in UMAT for element 7"), (b"element", "in element 7")])
+def test_place_of_the_last_call(routine: bytes, place: str) -> None:
+    """A built-in element, which is not called by the name of a user routine."""
+    _, slate = new_slate()
+    assert slate.where() == ""
+    slate.within, slate.routine, slate.place[:] = Within.CALL, routine, (7, 1, 2, 3)
+    assert slate.where() == f"{place}, step 1, increment 2, iteration 3"
