@@ -13,7 +13,6 @@ import os
 import tempfile
 from enum import IntEnum
 
-
 BUILT_IN = "element"
 """The host's name for the routine of a built-in element (fortran/host/host_element.f90)."""
 

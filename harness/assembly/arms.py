@@ -270,7 +270,7 @@ class Arms:
         return found
 
     def curvature(self, u: FloatArray, residual: FloatArray) -> FloatArray:
-        """What forces (n,) add to the stiffness (references, 6, 6) of what is left of reference nodes, as arms turn.
+        """Stiffness (references, 6, 6) that forces (n,) add to reference nodes as their arms turn.
 
         Prescribed displacements of nodes that follow act with the forces that they pass on.
         """

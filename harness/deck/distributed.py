@@ -206,7 +206,7 @@ def keep_last(entries: Sequence[Load], flat: FlatMesh, problems: Problems) -> tu
 
 
 def _value(entry: Load) -> str:
-    """What an entry gives, for messages."""
+    """Value of an entry, for messages."""
     return "what the user routine says" if entry.user else of_amplitude(entry)
 
 

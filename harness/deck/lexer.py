@@ -302,7 +302,7 @@ class _Lexer:
         return any(compact(option.name) == compact(first) for option in keyword.options)
 
     def _gather(self, header: _Header) -> AbstractContextManager[None]:
-        """What keeps the error of a keyword line: one in a material counts if something uses the material."""
+        """Collector of the errors of a keyword line; those in a material count if something uses it."""
         name = abaqus_name(split_fields(header.text[1:])[0])
         if name in MATERIAL_KEYWORDS and self._material:
             return self._problems.gather_of(self._material)

@@ -64,7 +64,7 @@ def _list_unused(names: Sequence[str], structure: Structure) -> None:
 
 
 def _label(material: str) -> str:
-    """What the list of ignored keywords calls a material."""
+    """Name of a material in the list of ignored keywords."""
     return f"MATERIAL, NAME={material}"
 
 

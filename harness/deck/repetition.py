@@ -23,7 +23,7 @@ from harness.model.arrays import IntArray
 
 
 class Repeat(StrEnum):
-    """What several values for the same thing are."""
+    """Meaning of several values for the same thing."""
 
     ADD = "all of them count"
     LAST = "the last one counts"

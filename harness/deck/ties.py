@@ -77,7 +77,7 @@ class _Sector:
 
 @dataclass(frozen=True, slots=True)
 class _Weights:
-    """What secondary nodes (m,) follow: weights (m, n) of all nodes, at their nearest points and as means."""
+    """Weights (m, n) of the nodes that secondary nodes (m,) follow, at their nearest points and as means."""
 
     nearest: sparse.csr_array
     means: sparse.csr_array

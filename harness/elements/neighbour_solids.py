@@ -77,7 +77,7 @@ class Neighbours:
 
 @dataclass(frozen=True, slots=True)
 class States:
-    """What a deck gives solids besides displacements.
+    """Fields and initial states that a deck gives solids besides displacements.
 
     temperatures  nodes whose temperature changes, and the place that says so
     stresses      positions of elements with initial stress, and its place

@@ -352,7 +352,7 @@ def _write_interface(
 def _values(
     kind: InterfaceType, sections: Sections, sides: tuple[Faces, Faces], given: Mapping[str, float]
 ) -> dict[Items, IntArray]:
-    """Which elements have which properties: those between like solids have the same."""
+    """Elements by their properties, which those between like solids have in common."""
     (below, first), (above, second) = (sections.sides(faces) for faces in sides)
     found: dict[Items, list[IntArray]] = {}
     pairs, which = np.unique(np.column_stack([first, second]), axis=0, return_inverse=True)

@@ -48,7 +48,7 @@ _NAMES = ("E1", "E2", "E3", "NU12", "NU13", "NU23", "G12", "G13", "G23")
 
 @dataclass(frozen=True, slots=True)
 class Side:
-    """What solids give an interface next to them.
+    """Data of the solids on one side of an interface.
 
     thickness  out of the plane; None if it is not known
     plane      0 plane stress, 1 plane strain; None in space
@@ -134,7 +134,7 @@ class Sections:
 
     @property
     def warnings(self) -> list[str]:
-        """What is odd but understood."""
+        """Warnings about sections that are odd but understood."""
         return list(self._oblique.values())
 
     def section(self, number: int, type: ElementType) -> SolidSection | CompositeSection | str:
@@ -170,7 +170,7 @@ class Sections:
             yield section, type, np.sort(np.concatenate(parts))
 
     def sides(self, faces: Faces) -> tuple[list[Side], IntArray]:
-        """What the solids give at each face.
+        """Return the data of the solids at each face.
 
         Returns
         -------

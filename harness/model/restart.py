@@ -100,7 +100,7 @@ class KeptState:
 
 @dataclass(frozen=True, slots=True)
 class Resumption:
-    """What an analysis goes on from: a kept state of a file; end_step: its step ends there."""
+    """Kept state from which an analysis goes on; end_step: its step ends there."""
 
     analysis: Saved
     file: str

@@ -241,7 +241,7 @@ def test_other_files(state, kind):
 
 
 def test_command(whole, state, capsys):
-    """What a user sees: one line, and no traceback."""
+    """The user sees one line, and no traceback."""
     state.write_bytes(state.read_bytes()[:-50])
     shutil.copy(whole / "old.inp", state.parent.with_name("old.inp"))
     words = ["run", str(whole / "old.inp"), "--oldjob", str(state.parent.with_name("old")), "--job", "new"]

@@ -155,8 +155,7 @@ def hyperelastic(lines: list[str]) -> list[str]:
     ],
 )
 def test_a_specimen_that_turns_while_it_is_loaded(build: Build, solid: str, kind: str, tmp_path: Path) -> None:
-    """Of a hyperelastic material no element knows its path: what is left is the tolerance of the residual, 1e-7 of the
-    mean force."""
+    """A hyperelastic material knows no path: what differs is the tolerance of the residual, 1e-7 of the mean force."""
     lines, places, sets = build(solid, kind)
     assert deviation((hyperelastic(lines), places, sets), tmp_path) < 1e-6
 

@@ -107,7 +107,7 @@ def _at_nodes(subject: Subject) -> Finding:
 
 
 def _left(subject: Subject, patch: Patch, members: tuple[_Field, ...]) -> float:
-    """What is left of the forces at a node, over those of the single elements."""
+    """Unbalanced force at a node, over the largest force of a single element there."""
     sums: dict[int, float] = {}
     largest = 0.0
     for state, field in zip(patch.states, members, strict=True):

@@ -106,7 +106,7 @@ def _judge(
 
 
 def _advice(stiffness: _Stiffness, uniform: FloatArray, count: int) -> str:
-    """What to change for this number of deformations that cost no energy."""
+    """Advice for an element with this number of deformations that cost no energy."""
     symmetric = 0.5 * (stiffness.matrix + stiffness.matrix.T)
     values = np.linalg.eigvalsh(uniform @ symmetric @ uniform.T)
     if values[0] <= SHEARED * values[-1]:

@@ -78,7 +78,7 @@ RIGHT = [
 
 @pytest.fixture
 def findings(tmp_path):
-    """What some checks say about an element, with some text replaced."""
+    """Findings of some checks about an element, with some text replaced."""
 
     def findings(element, checks, old="", new=""):
         text = (ELEMENTS / f"{element}.f").read_text("utf-8")
@@ -96,7 +96,7 @@ def findings(tmp_path):
 
 @pytest.fixture
 def finding(findings):
-    """What one check says about an element, with some text replaced."""
+    """Finding of one check about an element, with some text replaced."""
     return lambda element, check, *mistake: findings(element, [check], *mistake)[check]
 
 

@@ -101,7 +101,7 @@ def rubber(bound, load, call):
 
 @pytest.mark.parametrize("element_type", ["CPE4I", "C3D8I"])
 def test_hyperelastic_forces_are_derivatives(rubber, element_type):
-    """Of the energy by the displacements, where the modes are in equilibrium; the matrix is their derivative."""
+    """Forces are derivatives of the energy where the modes are in equilibrium; the matrix is theirs."""
     check_energy(rubber(element_type))
 
 

@@ -76,7 +76,7 @@ def bricks(axes=None, turned=0.0, **values):
 
 
 def compared(folder, text):
-    """What is found, with its weight and the line of the deck where it is."""
+    """Findings with their weight and their line of the deck."""
     path = folder / "deck.inp"
     path.write_text(text)
     model = read_deck(path)

@@ -37,7 +37,7 @@ def quads(kind="CPS4", material="", model="", step="", section=""):
 
 
 def examined(folder, text):
-    """What is found, and the line of the deck where it is."""
+    """Findings with their line of the deck."""
     path = folder / "deck.inp"
     path.write_text(re.sub(r"\n+", "\n", text))
     model = read_deck(path)

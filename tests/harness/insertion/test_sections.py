@@ -82,8 +82,8 @@ def arc(counts=(4, 2, 2)):
 
 
 def test_traction_of_a_curved_ply_is_that_of_its_stress(tmp_path):
-    """Of a homogeneous strain, the stress in the middle of a face times the normal, which no angle but the right one
-    gives: the fibres run at 25 degrees around the cylinder."""
+    """Traction is the stress of a homogeneous strain in the middle of a face times the normal, which no angle but the
+    right one gives: the fibres run at 25 degrees around the cylinder."""
     mesh = arc()
     gradient = 1e-3 * np.array([[1.0, 0.4, -0.2], [0.3, -0.5, 0.1], [0.2, 0.1, 0.6]])
     loads = [

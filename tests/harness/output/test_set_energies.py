@@ -72,7 +72,7 @@ def test_sets_without_variables_have_all_of_them(run):
 
 
 def test_kinetic_energy_of_each_part(run):
-    """Of a free flight m v^2/2."""
+    """Energy of a free flight: m v^2/2."""
     text = BAR[: BAR.index("*BOUNDARY")] + "*NSET, NSET=EACH, GENERATE\n1, 6\n"
     text += "*INITIAL CONDITIONS, TYPE=VELOCITY\nEACH, 1, 3.\n*STEP\n*DYNAMIC\n0.1, 0.1\n"
     history, _ = run(text + OUTPUT.format(", ELSET=SHORT\nALLKE") + "*ENERGY OUTPUT, ELSET=LONG\nALLKE\n*END STEP\n")

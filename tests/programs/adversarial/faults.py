@@ -173,7 +173,7 @@ def tried(words: list[str]) -> Iterator[_Row]:
 
 
 def figures(rows: list[_Row]) -> list[str]:
-    """How many correct elements pass, and how many faults of each file are found, as sentences."""
+    """Sentences that count the correct elements that pass and the faults of each file that are found."""
     correct = [row for row in rows if row.fault is None]
     said = [f"correct elements that pass: {sum(row.right for row in correct)} of {len(correct)}"]
     for file in MISSED:

@@ -398,7 +398,7 @@ def _place(words: list[str]) -> tuple[float, ...]:
 
 
 def judge(case: Case, folder: Path) -> str:
-    """What becomes of a case: 'runs', 'refused: ...', 'uncut deck: ...', or 'WRONG: ...'."""
+    """Verdict of a case: 'runs', 'refused: ...', 'uncut deck: ...', or 'WRONG: ...'."""
     deck, plain, cut = (folder / f"{name}.inp" for name in ("deck", "plain", "cut"))
     text = "\n".join(case.lines) + "\n"
     deck.write_text(text)
