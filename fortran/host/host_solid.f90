@@ -68,6 +68,9 @@ module host_solid
   public :: solid_uelmat, solid_element, values_of_point
 
   integer, parameter :: head = 7    !< values of JPROPS before those of layers
+  !> Share of the coordinates that counts as displacement in large displacements: the deformation gradient is rounded to 1e-16 of
+  !> one, and forces on modes that come from strains of 1e-15 are none (find_modes has the square root of its limit, 1e-10).
+  real(dp), parameter :: rounded = 1e-5_dp
 
 contains
 
@@ -218,6 +221,7 @@ contains
       end if
       ! stresses at rest, thermal or initial, do none: there it is that of the nodal forces where nothing holds the nodes
       unknowns = abs([about_mean(rule%dim, u), alpha])
+      if (finite) unknowns(:n) = unknowns(:n) + rounded*abs(about_mean(rule%dim, x))
       all_work = dot_product(unknowns, matmul(abs(all_stiffness), unknowns)) + &
                  sum(all_force(:n)**2)/max(maxval(abs(all_stiffness)), tiny(1.0_dp))
       exact = exact + all_stiffness(n + 1:, n + 1:)

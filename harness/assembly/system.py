@@ -249,7 +249,8 @@ class System:
             data,
             sum((report.flux for report in reports), np.zeros(fields)),
             sum((report.flux_count for report in reports), np.zeros(fields, dtype=np.int64)),
-            min((report.pnewdt for report in reports), default=np.inf),
+            # NaN, which .msg warns of, asks for nothing
+            min((report.pnewdt for report in reports if report.pnewdt <= np.inf), default=np.inf),
             energy,
             load,
             damage,

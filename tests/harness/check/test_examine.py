@@ -220,11 +220,13 @@ def test_element_that_never_returns_by_itself(patch):
     assert re.search(r"no element returns from a call by itself: element \d .*: stopped the analysis", tangent.message)
 
 
-@pytest.mark.parametrize("name", ["perturbed_u2", "perturbed_u4"])
-def test_elements_of_the_project_pass(name):
+@pytest.mark.parametrize(("name", "intended"), [("perturbed_u2", set()), ("perturbed_u4", {"energy"})])
+def test_elements_of_the_project_pass(name, intended):
+    """The paper's element damages by the jump, and passes on another traction: its forces do not do the law's work."""
     outcome = examine(DECKS / "patch_horizontal" / f"{name}.inp")
-    assert outcome.passed
     bulk, interface = (report.findings for report in outcome.types)
+    failed = {name for name, finding in (bulk | interface).items() if finding.verdict is Verdict.FAILED}
+    assert failed == intended
     assert bulk["zero-modes"].message == "3 zero modes, the 3 rigid-body motions"
     assert re.search("nodes coincide", interface["zero-modes"].message)
 

@@ -268,7 +268,7 @@ def test_deformation_gradients_of_a_rubber_block(tmp_path):
     (tmp_path / "block.inp").write_text("\n".join(lines))
     result = harness.run(tmp_path / "block.inp", output_dir=tmp_path)
     message = " ".join((tmp_path / "block.msg").read_text().split())
-    assert "deformation gradients of a public job of Abaqus differ by 0.003 in the mean" in message
+    assert "the rule was chosen by one public job of Abaqus, whose deformation gradients it meets to 0.03" in message
     u = result.mesh(-1).point_data["U"]
     signs = np.sign(nodes[elements[0]] - nodes[elements[0]].mean(axis=0))
     for middle, printed in PRINTED.items():

@@ -48,6 +48,14 @@ def force_of(result):
     return sum(values[-1] for name, values in result.history.items() if name.startswith("RF1["))
 
 
+@pytest.mark.parametrize("element_type", PULLED)
+def test_elements_that_hardly_move(run, element_type):
+    """Beside an element of size 1 a strain of 1e-9 is rounded to 1e-7 of itself: no force on modes is left of it."""
+    text = pulled(element_type, f"*ELASTIC\n{YOUNG}, {POISSON}", 1 + 1e-9).replace("1e-9, 1.", "5e-3, 1e-2")
+    modulus = YOUNG / (1 - POISSON**2) if element_type.startswith("CPE") else YOUNG
+    assert force_of(run(text)) == pytest.approx(1e-9 * modulus, rel=1e-5)
+
+
 @pytest.mark.parametrize("stretch", [1.3, 0.8])
 @pytest.mark.parametrize("element_type", PULLED)
 def test_force_of_a_large_stretch(run, element_type, stretch):

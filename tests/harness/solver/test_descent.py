@@ -20,6 +20,7 @@ class Landscape:
     """System, constraints and linear solver in one: unknowns without constraints in a given energy."""
 
     prescribed = np.zeros(0, dtype=np.int64)
+    arms = ()
 
     def __init__(self, gradient, hessian, n):
         self._gradient, self._hessian = gradient, hessian
@@ -43,6 +44,9 @@ class Landscape:
 
     def follow(self, u, residual):
         pass
+
+    def along(self, direction):
+        return direction
 
     def reduce_vector(self, vector):
         return vector
