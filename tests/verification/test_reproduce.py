@@ -92,7 +92,7 @@ def test_energies_explain_a_difference_of_loads() -> None:
 @pytest.mark.parametrize("coarse", [True, False])
 def test_pairs_have_one_mesh(coarse: bool) -> None:
     for built_in, ours in convergence.pairs(coarse=coarse):
-        assert (built_in.element, ours.element) == ("COH2D4", "consistent_bk")
+        assert (built_in.element, ours.element) == ("standard_bk", "consistent_bk")
         assert (built_in.element_size, built_in.rows) == (ours.element_size, ours.rows)
 
 

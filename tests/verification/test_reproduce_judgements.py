@@ -315,7 +315,7 @@ def test_trends_follow_from_the_numbers() -> None:
 def test_changes_of_the_usual_case_have_names() -> None:
     for _, case in (pairs := convergence.pairs(coarse=False)):
         assert case.element == "consistent_bk"
-    usual = replace(PaperCase("dcb", "0/90", "COH2D4", "1e6"), element="consistent_bk")
+    usual = PaperCase("dcb", "0/90", "consistent_bk", "1e6")
     names = [convergence.difference_of(case, usual) for _, case in pairs]
     assert names == ["elements of 0.25 mm", "", "8 rows an arm", "16 rows an arm", "10 times beta", "equal weights"]
 

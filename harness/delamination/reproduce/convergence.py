@@ -24,12 +24,19 @@ from harness.delamination.reproduce.runs import Run, Runs
 MESHES = ((4, 1.0), (4, 10.0), (8, 1.0), (8, 3.0))
 """Rows of quads over the height of an arm and factor of beta, of the curves that are compared."""
 CURVES_TEXT = (
-    "Consistent element with the criterion of Benzeggagh and Kenane, 1e6 N/mm³, over the whole load curve, snaps "
-    "included, and up to 98 % of the displacement at the peak. Distances are over the peak load. Finer quads and a "
-    "larger beta make the gap smaller that Nitsche's method leaves between unlike plies."
+    "Standard and consistent element with the criterion of Benzeggagh and Kenane, 1e6 N/mm³, over the whole load "
+    "curve, snaps included, and up to 98 % of the displacement at the peak. Distances are over the peak load. Finer "
+    "quads and a larger beta make the gap smaller that Nitsche's method leaves between unlike plies."
 )
 CURVES_HEAD = (
-    *("specimen", "rows an arm", "factor of beta", "COH2D4: peak load (N)", "ours: peak load (N)", "difference"),
+    *(
+        "specimen",
+        "rows an arm",
+        "factor of beta",
+        "standard: peak load (N)",
+        "consistent: peak load (N)",
+        "difference",
+    ),
     *("largest distance of the curves", "before the peak"),
 )
 STRETCH = (4.0, 7.9)
@@ -37,20 +44,25 @@ STRETCH = (4.0, 7.9)
 GROWN = 40.0
 """Points behind this place have failed in steady growth (mm)."""
 TEXT = (
-    "Consistent element with the criterion of Benzeggagh and Kenane, 1e6 N/mm³, in steady growth. Its load is "
-    "lower where its law dissipates more than the specimen gives. What is missing is the work of the gap (T - "
-    "<sigma>)/beta between the separation that the law sees and the displacement jump. Between unlike plies the "
-    "weights (22) take <sigma> from the first quads of the softer side, half a quad away from the interface; over "
-    "a process zone of a few quads it lags behind the traction T. The gap goes with 1/beta, and by (21) beta with "
-    "1 over the height of the quads. Last column: load ~ (energy release rate)^(3/4) at equal displacement, from "
-    "the energies alone."
+    "Standard and consistent element with the criterion of Benzeggagh and Kenane, 1e6 N/mm³, in steady growth. The "
+    "load of the consistent one is lower where its law dissipates more than the specimen gives. What is missing is "
+    "the work of the gap (T - <sigma>)/beta between the separation that the law sees and the displacement jump. "
+    "Between unlike plies the weights (22) take <sigma> from the first quads of the softer side, half a quad away "
+    "from the interface; over a process zone of a few quads it lags behind the traction T. The gap goes with 1/beta, "
+    "and by (21) beta with 1 over the height of the quads. Last column: load ~ (energy release rate)^(3/4) at equal "
+    "displacement, from the energies alone."
 )
 FALLS = 0.2
 """A difference of the loads that is smaller by this share of it counts as smaller."""
 HEAD = (
     *("elements (mm)", "rows an arm", "factor of beta", "weights"),
-    *("COH2D4: mean load (N)", "ours: mean load (N)", "difference"),
-    *("energy given over dissipated, COH2D4", "ours", "dissipated at failed points (N/mm), COH2D4", "ours"),
+    *("standard: mean load (N)", "consistent: mean load (N)", "difference"),
+    *(
+        "energy given over dissipated, standard",
+        "consistent",
+        "dissipated at failed points (N/mm), standard",
+        "consistent",
+    ),
     "difference by these energies",
 )
 
@@ -70,8 +82,11 @@ class Steady:
 
 
 def curves(problem: str, *, coarse: bool) -> list[tuple[PaperCase, PaperCase]]:
-    """COH2D4 and our element with its criterion on finer quads and with a larger beta; with `coarse`, on one mesh."""
-    base = PaperCase(problem, "0/90", "COH2D4", "1e6", coarse=coarse)
+    """Return pairs of the standard and the consistent element on finer quads and with a larger beta.
+
+    With `coarse`, on one mesh.
+    """
+    base = PaperCase(problem, "0/90", "standard_bk", "1e6", coarse=coarse)
     built_in = [(replace(base, rows=rows), factor) for rows, factor in (MESHES[:1] if coarse else MESHES)]
     return [(case, replace(case, element="consistent_bk", beta=factor)) for case, factor in built_in]
 
@@ -94,11 +109,12 @@ def curve_rows(runs: Runs, problem: str, *, coarse: bool) -> list[list[str]]:
 
 
 def pairs(*, coarse: bool) -> list[tuple[PaperCase, PaperCase]]:
-    """COH2D4 and our element with its criterion, on equal meshes; ours with a larger beta and equal weights too.
+    """Return pairs of the standard and the consistent element on equal meshes; the latter with a larger beta and equal
+    weights too.
 
     With `coarse`, on one mesh with beta and weights by (21) and (22).
     """
-    base = PaperCase("dcb", "0/90", "COH2D4", "1e6", coarse=coarse)
+    base = PaperCase("dcb", "0/90", "standard_bk", "1e6", coarse=coarse)
     ours = replace(base, element="consistent_bk")
     if coarse:
         return [(base, ours)]
