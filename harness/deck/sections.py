@@ -363,7 +363,7 @@ KEYWORDS = (
     ),
     Keyword(
         "COHESIVE SECTION",
-        "Section of cohesive elements; in *DYNAMIC they have no mass.",
+        "Section of cohesive elements.",
         Where.MODEL,
         (
             _ELSET,
