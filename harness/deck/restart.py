@@ -27,12 +27,13 @@ MAY_BE_ADDED = ("AMPLITUDE", "NSET", "ELSET")
 def find_restart(deck: Path, keywords: Mapping[str, Keyword], given: Mapping[str, float] | None) -> RestartRead | None:
     """*RESTART, READ of a deck, None if it has none; what else is wrong with the deck is for `read_deck`.
 
-    Raises DeckError if the deck cannot be read, UsageError if a given parameter is none of its own.
+    Raises DeckError if the deck cannot be read or has two of them, UsageError if a given parameter is none of its own.
     """
-    for block in read_blocks(deck, keywords, Problems(), given):
-        if block.name == "RESTART" and block.options.flag("READ"):
-            return _read(block)
-    return None
+    blocks = read_blocks(deck, keywords, Problems(), given)
+    reads = [block for block in blocks if block.name == "RESTART" and block.options.flag("READ")]
+    for again in reads[1:]:
+        raise again.error(f"*RESTART, READ is there already, at {reads[0].source}")
+    return _read(reads[0]) if reads else None
 
 
 def digest_of(deck: Path, keywords: Mapping[str, Keyword], given: Mapping[str, float] | None) -> str:

@@ -30,6 +30,9 @@ from harness.model.element_types import (
 from harness.model.mesh import ElementGroup
 from harness.model.properties import ShellSection
 
+FACE: Final = 2
+"""Dimension of a face in space; an edge has 1."""
+
 LINEAR: Final = {(1, 2): LINE2, (2, 3): TRI3, (2, 4): QUAD4}
 """Families between corners, by dimension and number of corners."""
 
@@ -93,7 +96,9 @@ def read_faces(surfaces: Surfaces, row: Row, column: int, owner: Owner) -> TiedF
         if family not in (LINE2, LINE3, TRI3, TRI6, QUAD4, QUAD8):
             raise DeckError(source, f"*TIE: faces of elements of type {group.type} are not supported")
         found.setdefault(family, []).append(group.nodes[rows][:, list(local)])
-        half = max(half, _half_thickness(group))
+        if family.dimension == FACE:
+            # the thickness of a shell lies across its faces, not along them
+            half = max(half, _half_thickness(group))
     if len({family.dimension for family in found}) > 1:
         raise row.error(f"surface {name} has faces and edges; expected a surface of one kind")
     return TiedFaces({family: np.concatenate(parts) for family, parts in found.items()}, half)

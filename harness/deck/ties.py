@@ -210,6 +210,11 @@ class TieReader:
             if turned and nlgeom:
                 message = "nodes beside the main surface follow its rotations as small ones, also with NLGEOM"
                 self._problems.warn(tie.row.source, f"*TIE: {message}")
+            elif nlgeom and tie.offsets.any():
+                message = (
+                    "the gap between the surfaces does not turn with them: it resists large rotations; ADJUST closes it"
+                )
+                self._problems.warn(tie.row.source, f"*TIE: {message}")
 
     def _row(self, tie: _Tie, k: int, dof: int, *, exactly: bool) -> tuple[list[int], list[float]] | None:
         """Nodes that the k-th secondary node follows in a dof, and their weights; None where they do not have it."""

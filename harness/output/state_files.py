@@ -20,7 +20,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Final
-from zipfile import BadZipFile
+from zipfile import BadZipFile, is_zipfile
 
 import numpy as np
 from numpy.lib.npyio import NpzFile
@@ -125,6 +125,8 @@ def read_state(stem: Path, step: int | None = None, increment: int | None = None
     step = found[-1][0] if step is None else step
     place = found[find_written(folder, "state", found, step, -1 if increment is None else increment)]
     path = folder / f"step{place[0]}_increment{place[1]:04d}.npz"
+    if not is_zipfile(path):
+        raise UelError(f"{path} is damaged, or is not a state of a job: it is no archive of arrays")
     try:
         with path.open("rb") as stream, np.load(stream, allow_pickle=False) as file:
             tree, version = _tree(file)

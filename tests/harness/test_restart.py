@@ -344,6 +344,11 @@ def test_wrong_options(folder, line, message):
     [
         ("*RESTART, READ, STEP=0\n", DeckError, "STEP=0 must be positive"),
         ("*RESTART, READ, INC=2\n", DeckError, "INC needs STEP"),
+        (
+            "*RESTART, READ, STEP=1, INC=2\n*RESTART, READ, STEP=1, INC=1\n",
+            DeckError,
+            r"new\.inp:2: \*RESTART: \*RESTART, READ is there already, at .*new\.inp:1",
+        ),
         ("*RESTART, READ, STEP=2\n", UelError, "bar_restart: no state of step 2"),
         ("*RESTART, READ, STEP=1, INC=9\n", UelError, "bar_restart: no state of step 1, increment 9"),
         ("*RESTART, READ\n", UsageError, "step 1, increment 4 is that of the end of the analysis: .* adds steps"),

@@ -499,7 +499,7 @@ def test_thickness_does_not_count(tmp_path):
 def test_edges_of_shells(tmp_path):
     """The edge of a plate follows that of another one, at its points."""
     body = "S4", "14, 13, 17, 18", "E1", "*SHELL SECTION, ELSET=BODY, MATERIAL=M\n0.02"
-    text = SHELL % (*body, ", POSITION TOLERANCE=0.15", "S_BODY, S_PLATE", "")
+    text = SHELL % (*body, ", POSITION TOLERANCE=0.15, ADJUST=NO", "S_BODY, S_PLATE", "")
     model = read(tmp_path, text.replace("PLATE, SPOS", "PLATE, E3"))
     shares = {(e.terms[0][0], e.terms[0][1]): {(n, d): -c for n, d, c in e.terms[1:]} for e in model.equations}
     assert len(shares) == 12
@@ -508,6 +508,29 @@ def test_edges_of_shells(tmp_path):
     assert row[2, 1] == pytest.approx(0.75)
     assert row[3, 1] == pytest.approx(0.25)
     assert row[2, 5] == pytest.approx(0.075)
+
+
+def test_edges_that_coincide(tmp_path):
+    """The thickness of plates lies across their faces: it neither closes a gap of edges nor calls for a warning."""
+    body = "S4", "2, 3, 17, 16", "E1", "*SHELL SECTION, ELSET=BODY, MATERIAL=M\n0.2"
+    text = SHELL % (*body, "", "S_BODY, S_PLATE", "")
+    text = text.replace("PLATE, SPOS", "PLATE, E2").replace("2, 2, 3, 17, 16", "2, 12, 13, 17, 16")
+    touching = text.replace("12, 1.5, 0., 0.1", "12, 2., 0., 0.").replace("13, 1.5, 1., 0.1", "13, 2., 1., 0.")
+    assert [warning for warning in read(tmp_path, touching).warnings if "*TIE" in warning] == []
+    apart = text.replace("12, 1.5, 0., 0.1", "12, 2.09, 0., 0.").replace("13, 1.5, 1., 0.1", "13, 2.09, 1., 0.")
+    with pytest.raises(DeckError, match=r"\*TIE: no node of the first surface is within 0\.05 of the second one"):
+        read(tmp_path, apart)
+
+
+def test_gap_of_solids_with_nlgeom(tmp_path):
+    """A gap that ADJUST=NO leaves keeps its direction in space: two blocks that turn together are strained."""
+    lower, upper = boxes(*APART)
+    step = "*STEP, NLGEOM\n*STATIC\n1., 1.\n*END STEP"
+    text = tied(lower, upper, [step], tie="TIED NSET=UPPER_BOTTOM, ADJUST=NO", model="*BOUNDARY\nLOWER_BOTTOM, 1, 2")
+    message = "*TIE: the gap between the surfaces does not turn with them: it resists large rotations"
+    assert any(message in warning for warning in read(tmp_path, text).warnings)
+    assert not any(message in warning for warning in read(tmp_path, text.replace(", NLGEOM", "")).warnings)
+    assert not any(message in warning for warning in read(tmp_path, text.replace("ADJUST=NO", "ADJUST=YES")).warnings)
 
 
 def test_faces_and_edges_in_one_surface(tmp_path):
