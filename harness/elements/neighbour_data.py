@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.elements.materials import rotated_compliance
-from harness.elements.neighbour_solids import NONE, Finding, examine, group_starts, owns_solids, solids_of
+from harness.elements.neighbour_solids import NONE, OBLIQUE, Finding, examine, group_starts, owns_solids, solids_of
 from harness.elements.process_zone import compliance_of
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
@@ -181,18 +181,19 @@ class _Pair:
         angle = f"ANGLE {word} = {given[f'ANGLE {word}']:g}"
         axes, numbers = self._axes(np.radians(given[f"ANGLE {word}"]))
         local = rotated_compliance(compliance, np.swapaxes(axes, -1, -2))
-        constants = _constants(local)
         plane = (Tensor.PLANE_STRESS, Tensor.PLANE_STRAIN)[int(given.get("PLANE", 0.0))]
         tensor = plane if "PLANE" in given else Tensor.SOLID
+        straight = _straightened(local, tensor)
+        constants, nearest = _constants(local), _constants(straight)
         for name in _NEEDED[tensor]:
             value, theirs = given[f"{name} {word}"], constants[name]
-            apart = abs(value - theirs) > TOLERANCE * (1.0 if name.startswith("NU") else theirs)
+            apart = abs(value - nearest[name]) > TOLERANCE * (1.0 if name.startswith("NU") else nearest[name])
             if apart.any():
                 at = int(np.flatnonzero(apart[numbers])[0])
                 has = f"has {theirs[numbers[at]]:.6g} there (material {material.name})"
                 yield self._finding(at, f"{name} {word} = {value:g} at {angle}", has)
                 return
-        turned = _is_turned(local if tensor is Tensor.SOLID else local[:, :4, :4])
+        turned = _is_turned(straight, tensor)
         if turned.any():
             at = int(np.flatnonzero(turned[numbers])[0])
             yield self._finding(at, angle, f"has its material ({material.name}) along other axes")
@@ -231,12 +232,40 @@ def _unit(vectors: FloatArray) -> FloatArray:
     return np.asarray(vectors / np.where(length > 0.0, length, 1.0)[:, None])
 
 
-def _is_turned(compliance: FloatArray) -> NDArray[np.bool_]:
-    """Whether (k,) compliances couple extension with shear, or one shear with another."""
-    size = np.sqrt(np.einsum("...ii->...i", compliance))
-    coupled = abs(compliance) > TOLERANCE * size[:, :, None] * size[:, None, :]
-    coupled[:, :3, :3] = False
-    return np.asarray((coupled & ~np.eye(compliance.shape[-1], dtype=bool)).any(axis=(1, 2)))
+def _straightened(compliance: FloatArray, tensor: Tensor) -> FloatArray:
+    """Turn (k, 6, 6) compliances by at most OBLIQUE degrees so that they couple extension and shear the least."""
+    about = np.eye(3) if tensor is Tensor.SOLID else np.eye(3)[2:]
+    angle = np.radians(OBLIQUE)
+    more, less = (rotated_compliance(compliance[:, None], _rotation(sign * angle * about)) for sign in (1.0, -1.0))
+    # couplings by a turn about each axis (k, axes, couplings), and those that there are (k, couplings)
+    change = _couplings(0.5 * (more - less), compliance[:, None], tensor)
+    there = _couplings(compliance, compliance, tensor)
+    size = (change**2).sum(axis=-1)
+    # a turn that changes nothing is none
+    share = -np.einsum("kac,kc->ka", change, there) / np.where(size > 0.0, size, 1.0)
+    share /= np.maximum(np.linalg.norm(share, axis=-1, keepdims=True), 1.0)
+    return rotated_compliance(compliance, _rotation(angle * share @ about))
+
+
+def _rotation(vectors: FloatArray) -> FloatArray:
+    """Return the (..., 3, 3) rotations of small rotation vectors (..., 3)."""
+    half = 0.5 * np.cross(np.eye(3), vectors[..., None, :])
+    return np.asarray(np.linalg.solve(np.eye(3) - half, np.eye(3) + half))
+
+
+def _couplings(compliance: FloatArray, of: FloatArray, tensor: Tensor) -> FloatArray:
+    """Return the (..., c) couplings of extension and shear, and of shears, in proportion to the diagonal of others."""
+    count = 6 if tensor is Tensor.SOLID else 4
+    size = np.sqrt(np.einsum("...ii->...i", of))
+    rows, columns = np.triu_indices(count, 1)
+    shear = columns > 2
+    rows, columns = rows[shear], columns[shear]
+    return np.asarray(compliance[..., rows, columns] / (size[..., rows] * size[..., columns]))
+
+
+def _is_turned(compliance: FloatArray, tensor: Tensor) -> NDArray[np.bool_]:
+    """Whether (k, 6, 6) compliances couple extension with shear, or one shear with another."""
+    return np.asarray((abs(_couplings(compliance, compliance, tensor)) > TOLERANCE).any(axis=-1))
 
 
 def _constants(compliance: FloatArray) -> dict[str, FloatArray]:

@@ -27,6 +27,7 @@ from harness.deck.section_controls import read_section_controls
 from harness.deck.sections import make_section
 from harness.deck.user_elements import ElementType
 from harness.elements.composite import turned_directions
+from harness.elements.neighbour_solids import OBLIQUE
 from harness.errors import DeckError, Source
 from harness.insertion.assembly import Deck
 from harness.model.arrays import FloatArray, IntArray
@@ -36,8 +37,6 @@ from harness.model.properties import CompositeSection, ElasticType, Material, Or
 
 PARALLEL = 1e-4
 """Radians between an axis of a material and the normal of the interface that are rounding."""
-OBLIQUE = 0.5
-"""Degrees from which on no axis counts as normal: a fibre stress has sin(0.5 degrees), 0.9 %, of it as a traction."""
 _DECIMALS = 4
 """Of angles in degrees: coordinates of seven digits give no more."""
 _STACK = {1: (5, 3), 2: (2, 4), 3: (0, 1)}

@@ -10,6 +10,7 @@ import pytest
 from harness.deck.reader import read_deck
 from harness.delamination.kernels import uel_property
 from harness.elements.neighbour_data import compare
+from harness.elements.neighbour_solids import OBLIQUE
 from harness.errors import DeckError
 from harness.job import run
 from harness.usersub.layout import element_layouts
@@ -110,6 +111,44 @@ def test_plies_that_are_turned(tmp_path, angle, turned):
     ):
         ((message, wrong, _),) = compared(tmp_path, text)
         assert wrong and re.search(rf"at ANGLE TOP = {angle + 20:g}, but the C.* element 2 above", message)
+
+
+def tilted(angle, about, degrees):
+    """Axes 1 and 2 of a ply at an angle from x whose normal is turned from z about a direction in its plane."""
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    x, y = np.cos(np.radians(about)), np.sin(np.radians(about))
+    k = np.array([[0.0, 0.0, y], [0.0, 0.0, -x], [-y, x, 0.0]])
+    turn = np.eye(3) + np.sin(np.radians(degrees)) * k + (1.0 - np.cos(np.radians(degrees))) * k @ k
+    return np.array([[c, s, 0.0], [-s, c, 0.0]]) @ turn.T
+
+
+@pytest.mark.parametrize("angle", [0.0, 30.0, 90.0])
+@pytest.mark.parametrize("about", [0.0, 45.0, 90.0])
+def test_plies_that_are_inclined(tmp_path, angle, about):
+    """Up to the angle at which `uel insert` writes them axes are those of the element, beyond it they are not."""
+    same = {"ANGLE BOTTOM": angle, "ANGLE TOP": angle}
+    for tilt in (0.1, 0.2, 0.3, 0.4, 0.999 * OBLIQUE):
+        assert compared(tmp_path, bricks(tilted(angle, about, tilt), **same)) == []
+    # about its fibre a ply is almost isotropic
+    if abs(np.sin(np.radians(about - angle))) < 0.5:
+        return
+    for tilt in (2.0, -2.0):
+        (first, *others) = compared(tmp_path, bricks(tilted(angle, about, tilt), **same))
+        assert first[1] and len(others) == 1 and others[0][1]
+        assert re.search(rf"U8 element 3: .*ANGLE BOTTOM = {angle:g}, but the C3D8I element 1 below", first[0])
+
+
+def test_plies_whose_angle_is_rounded(tmp_path):
+    """50.3 for 50: E1 along the axis is less than 1 % smaller."""
+    c, s = np.cos(np.radians(50.0)), np.sin(np.radians(50.0))
+    solid = bricks(np.array([[c, s, 0.0], [-s, c, 0.0]]), **{"ANGLE BOTTOM": 50.0, "ANGLE TOP": 50.3})
+    for text in (solid, quads(**{"ANGLE BOTTOM": 0.3, "ANGLE TOP": -0.3})):
+        assert compared(tmp_path, text) == []
+    ((message, wrong, _),) = compared(tmp_path, quads(**{"ANGLE TOP": 2.0}))
+    # E1 along x is 2.3 % smaller
+    assert wrong and re.search(r"E1 TOP = 138000 at ANGLE TOP = 2, but the CPE4 element 2 above .* has 134831", message)
+    ((message, wrong, _),) = compared(tmp_path, quads(**{"ANGLE TOP": 1.0}))
+    assert wrong and re.search(r": ANGLE TOP = 1, but the CPE4 element 2 above .* along other axes$", message)
 
 
 @pytest.mark.parametrize(

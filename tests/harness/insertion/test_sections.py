@@ -10,6 +10,7 @@ from solid_grids import LAW, grid, inserted
 
 import harness
 from harness.deck.reader import read_deck
+from harness.elements.neighbour_data import compare
 from harness.errors import DeckError, UsageError
 
 PLY = (9.0e3, 8.0e4, 7.0e3, 0.05, 0.25, 0.3, 4.0e3, 3.0e3, 5.0e3)
@@ -224,6 +225,17 @@ def test_an_oblique_axis_is_refused_or_said(tmp_path):
     )
     _, done = properties(deck(tmp_path, halves(), *ply(), *tilted(0.001), *section), "U8")
     assert done.warnings == ()
+
+
+@pytest.mark.parametrize("degrees", [0.2, 0.499])
+def test_what_is_written_for_an_oblique_axis_agrees_with_its_solids(tmp_path, degrees):
+    """Of a ply with E1/G = 22, 0.14 degrees couple extension with shear by 1 %."""
+    carbon = ply(constants=(138e3, 10.5e3, 10.5e3, 0.3, 0.3, 0.45, 6.3e3, 6.3e3, 3.5e3))
+    section = ["*SOLID SECTION, ELSET=BODY, MATERIAL=PLY, ORIENTATION=O"]
+    _, done = properties(deck(tmp_path, halves(), *carbon, *tilted(degrees), *section), "U8")
+    assert len(done.warnings) == 1
+    model = read_deck(tmp_path / "out.inp")
+    assert compare(model, model.groups) == []
 
 
 @pytest.mark.parametrize(
