@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from harness.elements.materials import rotated_compliance
 from harness.elements.neighbour_solids import NONE, OBLIQUE, Finding, examine, group_starts, owns_solids, solids_of
-from harness.elements.process_zone import compliance_of
+from harness.elements.process_zone import compliance_of, tensor_of
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import ContinuumType, Tensor
@@ -159,12 +159,13 @@ class _Pair:
     def differences(self) -> Iterator[Finding]:
         """Report each kind of difference once."""
         given, section = _given(self.group), self.beside.section
-        kind = self.beside.built_in
-        tensor = kind.tensor if isinstance(kind, ContinuumType) else None
+        tensor = tensor_of(self.beside)
         if tensor in _PLANES and _PLANES[tensor] != list(_PLANES.values())[int(given["PLANE"])]:
             mine = list(_PLANES.values())[int(given["PLANE"])]
             yield self._finding(0, f"PLANE = {given['PLANE']:g}, {mine}", f"is in {_PLANES[tensor]}")
         thickness = section.thickness if isinstance(section, SolidSection) else None
+        if isinstance(section, UserProperty):
+            thickness = _given(self.beside).get("THICKNESS")
         if tensor in _PLANES and thickness and abs(given["THICKNESS"] - thickness) > TOLERANCE * thickness:
             text = f"has a thickness of {thickness:g}"
             yield self._finding(0, f"THICKNESS = {given['THICKNESS']:g}", text, wrong=False)

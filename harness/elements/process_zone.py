@@ -228,19 +228,20 @@ class _Plies:
         return found
 
 
+def tensor_of(group: ElementGroup) -> Tensor | None:
+    """Return the state of stress of continuum elements, built in or with UELMAT; None of others."""
+    if group.definition is not None:
+        return TENSORS.get(group.definition.tensor.upper())
+    return group.built_in.tensor if isinstance(group.built_in, ContinuumType) else None
+
+
 def compliance_of(group: ElementGroup) -> FloatArray | None:
     """Compliance (6, 6) of continuum elements; None where it is not known, or differs from point to point."""
-    section, kind = group.section, group.built_in
-    turns = False
-    tensor: Tensor | None
-    if isinstance(section, SolidSection) and isinstance(kind, ContinuumType):
-        tensor = kind.tensor
-    elif isinstance(section, UserProperty) and group.definition is not None:
-        tensor = TENSORS.get(group.definition.tensor.upper())
-        # in space UELMAT may have directions of its own, as the project's brick has in each element
-        turns = tensor is Tensor.SOLID
-    else:
+    section, tensor = group.section, tensor_of(group)
+    if not isinstance(section, SolidSection | UserProperty):
         return None
+    # in space UELMAT may have directions of its own, as the project's brick has in each element
+    turns = isinstance(section, UserProperty) and tensor is Tensor.SOLID
     material, orientation = section.material, section.orientation
     if material is None or tensor is None:
         return None

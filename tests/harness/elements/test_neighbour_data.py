@@ -54,6 +54,19 @@ def quads(kind="CPE4", orientation="", section="1.", nodes=range(1, 9), step="",
     return re.sub(r"\n+", "\n", "\n".join(lines) + "\n")
 
 
+def user_quads(tensor="PSTRAIN", thickness=1.0, **values):
+    """The same with U1, whose stresses are those of UELMAT."""
+    solids = [
+        f"*USER ELEMENT, TYPE=U1, NODES=4, COORDINATES=2, PROPERTIES=1, I PROPERTIES=2, VARIABLES=32, INTEGRATION=4, "
+        f"TENSOR={tensor}",
+        "1, 2",
+        "*ELEMENT, TYPE=U1, ELSET=SOLIDS",
+    ]
+    properties = f"*UEL PROPERTY, ELSET=SOLIDS, MATERIAL=PLY\n{thickness}, {int(tensor == 'PSTRAIN')}, 0"
+    text = quads(section="", **values).replace("*ELEMENT, TYPE=CPE4, ELSET=SOLIDS", "\n".join(solids))
+    return text.replace("*SOLID SECTION, ELSET=SOLIDS, MATERIAL=PLY", properties)
+
+
 def bricks(axes=None, turned=0.0, **values):
     """Two bricks, elements 1 and 2, with U8 between them; axes of their *ORIENTATION, all turned about y."""
     c, s = np.cos(turned), np.sin(turned)
@@ -190,6 +203,21 @@ def test_another_thickness_is_doubtful(tmp_path):
     found = compared(tmp_path, quads(section="20."))
     assert [wrong for _, wrong, _ in found] == [False, False]
     assert re.match(r"U4 element 3: THICKNESS = 1, but the CPE4 element 1 below .* has a thickness of 20$", found[0][0])
+
+
+@pytest.mark.parametrize(("tensor", "plane"), [("PSTRAIN", 1), ("PSTRESS", 0)])
+def test_state_of_stress_and_thickness_of_user_solids(tmp_path, tensor, plane):
+    assert compared(tmp_path, user_quads(tensor, PLANE=plane)) == []
+    found = compared(tmp_path, user_quads(tensor, PLANE=1 - plane))
+    names = ("plane stress", "plane strain")
+    assert [wrong for _, wrong, _ in found] == [True, True]
+    assert re.match(
+        rf"U4 element 3: PLANE = {1 - plane}, {names[1 - plane]}, but the U1 element 1 below .* is in {names[plane]}$",
+        found[0][0],
+    )
+    found = compared(tmp_path, user_quads(tensor, 20.0, PLANE=plane))
+    assert [wrong for _, wrong, _ in found] == [False, False]
+    assert re.match(r"U4 element 3: THICKNESS = 1, but the U1 element 1 below .* has a thickness of 20$", found[0][0])
 
 
 def test_nodes_of_another_row_are_wrong(tmp_path):
