@@ -71,10 +71,10 @@ contains
     ! a secant that has all but vanished, which 1/K could not hold
     if (.not. stiff > tiny(1.0_dp)*(lost/h + 1.0_dp)) return
     more = lost/stiff
+    loss = 0.0_dp
+    if (.not. more > 0.0_dp) return
     ! exp(x) >= 1, and flexibility + h x >= flexibility + h for x >= 1
     upper = min(more/h, max(1.0_dp, log((law%flexibility + more)/(law%flexibility + h))))
-    loss = 0.0_dp
-    if (.not. upper > 0.0_dp) return
     search = search_between(0.0_dp, upper, upper, geometric=.false.)
     do while (searching(search))
       length = law%flexibility + h*search%x
