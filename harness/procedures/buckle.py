@@ -57,21 +57,19 @@ class BuckleStep(PerturbationStep):
 
     def _buckle(self) -> tuple[FloatArray, FloatArray]:
         """Eigenvalues, and vectors (n, k) of all unknowns."""
-        system, at = self._system, self._state.displacement
-        call = self._call(Request.NORMAL)
         evaluation = self._pass(Request.NORMAL)
         assert evaluation.data is not None
         data = evaluation.data.copy()
         stiffness = self._symmetric(data)
         change = self._response(data, stiffness, self._loads(self._step))
         load_stiffness = self._load_stiffness()
-        added = self._symmetric(system.stress_matrix(call, at, change) + load_stiffness)
+        added = self._symmetric(self._stress_matrix(change) + load_stiffness)
         skew = self._constraints.reduce(load_stiffness) - self._symmetric(load_stiffness)
         if np.abs(skew).max(initial=0.0) > UNSYMMETRIC * np.abs(added).max(initial=0.0):
             self._remarks.append(Warned(FREE_EDGE))
         if not np.any(added):
             raise DeckError(self._step.source, "*BUCKLE: the loads of the step cause no stress")
-        if not self._step.nlgeom and np.any(stress := self._symmetric(system.stress_matrix(call, at))):
+        if not self._step.nlgeom and np.any(stress := self._symmetric(self._stress_matrix())):
             stiffness += stress
             self._solver.factorise(stiffness)
         pattern = self._constraints.reduced_indptr, self._constraints.reduced_indices

@@ -4,18 +4,24 @@
 perturbation procedures"), including *STATIC.
 
 Elements get LFLAGS(4) = 1, and the base state in U. No time passes, and nothing of the step outlasts it.
+
+With NLGEOM, rotations of a linear step are spins: small rotations about the global axes, which add to the finite
+rotations of the base state. Moments do work on them, and rotary inertia resists their accelerations. Neither is so of
+changes of rotation vectors, by which elements give their stiffness (`harness/elements/rotations.py`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
 
 from harness.assembly import Constraints, Evaluation
-from harness.elements import Call, Flags, Request
+from harness.elements import Call, Flags, Request, spin_matrices
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, first_largest
 from harness.model.records import (
@@ -41,6 +47,9 @@ BASE_FORCES = (
 
 LAST_DISPLACEMENT = 3
 """Dof."""
+
+ROTATIONS = np.array([4, 5, 6])
+"""Dofs of nodes in space."""
 
 ROUNDING = 1e-8
 """Of the average force of the elements."""
@@ -174,6 +183,16 @@ class PerturbationStep:
             largest.append(measured[first_largest(np.abs(measured))])
         return np.array(largest)
 
+    def _refuse_single_rotations(self, matrix: sparse.coo_array, lost: NDArray[np.bool_]) -> None:
+        """Raise DeckError if a matrix by spins has entries that are `lost`: the pattern has no places for them."""
+        sizes = np.where(lost, np.abs(matrix.data), 0.0)
+        if sizes.max(initial=0.0) <= ROUNDING * np.abs(matrix.data).max(initial=0.0):
+            return
+        node, dof = self._system.dofs.name(int(matrix.col[sizes.argmax()]))
+        message = f"an element acts on rotations of node {node}, which has turned, but not on dof {dof}"
+        keyword = self._step.procedure.keyword
+        raise DeckError(self._step.source, f"*{keyword}: {message}; expected elements that act on dofs 4 to 6 of it")
+
     def _unloaded(self, evaluation: Evaluation) -> bool:
         """Whether user elements return forces in a step without loads on them."""
         count = max(int(evaluation.flux_count.sum()), 1)
@@ -183,8 +202,52 @@ class PerturbationStep:
     def _pass(self, request: Request, change: FloatArray | None = None) -> Evaluation:
         """A pass over the elements in the base state, also for the matrix unless a perturbation is given."""
         at = self._state.displacement
-        du = np.zeros_like(at) if change is None else change
-        return self._system.evaluate(self._call(request), at, du, matrix=change is None)
+        du = np.zeros_like(at) if change is None else self._by_vectors(change)
+        evaluation = self._system.evaluate(self._call(request), at, du, matrix=change is None)
+        if evaluation.data is None or request is Request.MASS:
+            return evaluation
+        return replace(evaluation, data=self._by_spins(evaluation.data))
+
+    def _stress_matrix(self, change: FloatArray | None = None) -> FloatArray:
+        """CSR values (nnz,) of the initial stress matrix of a perturbation (n,), or of the base state."""
+        added = None if change is None else self._by_vectors(change)
+        return self._by_spins(self._system.stress_matrix(self._call(Request.NORMAL), self._state.displacement, added))
+
+    @cached_property
+    def _vectors_by_spins(self) -> sparse.csr_array | None:
+        """(n, n) changes of all unknowns by those with spins in place of rotation vectors; None: they are the same."""
+        dofs, u = self._system.dofs, self._state.displacement
+        nodes = np.unique(dofs.node[np.isin(dofs.dof, ROTATIONS)])
+        unknowns = dofs.find(nodes[:, None], ROTATIONS)
+        unknowns = unknowns[(unknowns >= 0).all(axis=1)]
+        unknowns = unknowns[np.any(u[unknowns], axis=1)]
+        if not self._step.nlgeom or not len(unknowns):
+            return None
+        others = np.setdiff1d(np.arange(len(u)), unknowns)
+        inverse = np.linalg.inv(spin_matrices(u[unknowns]))
+        rows = np.concatenate([others, np.repeat(unknowns, 3, axis=1).ravel()])
+        columns = np.concatenate([others, np.tile(unknowns, (1, 3)).ravel()])
+        values = np.concatenate([np.ones(len(others)), inverse.ravel()])
+        return sparse.coo_array((values, (rows, columns)), shape=(len(u), len(u))).tocsr()
+
+    def _by_vectors(self, change: FloatArray) -> FloatArray:
+        """Changes (n,) of all unknowns, of rotation vectors in place of spins."""
+        return change if self._vectors_by_spins is None else np.asarray(self._vectors_by_spins @ change)
+
+    def _by_spins(self, data: FloatArray) -> FloatArray:
+        """CSR values of a matrix whose columns are derivatives by spins, from those by rotation vectors."""
+        if self._vectors_by_spins is None:
+            return data
+        system, n = self._system, len(self._system)
+        found = (system.matrix(data) @ self._vectors_by_spins).tocoo()
+        own = np.repeat(np.arange(n), np.diff(system.indptr)) * n + system.indices
+        entries = found.row.astype(np.int64) * n + found.col
+        places = np.minimum(np.searchsorted(own, entries), len(own) - 1)
+        inside = own[places] == entries
+        system.ranks.agree(partial(self._refuse_single_rotations, found, ~inside & (found.data != 0.0)))
+        by_spins = np.zeros_like(data)
+        by_spins[places[inside]] = found.data[inside]
+        return by_spins
 
     def _call(self, request: Request) -> Call:
         step, period = self._step, self._step.procedure.period

@@ -84,7 +84,7 @@ class HarmonicStep(PerturbationStep, ABC):
         call, at = self._call(request).asking(request, damping), self._state.displacement
         evaluation = self._system.evaluate(call, at, np.zeros_like(at))
         assert evaluation.data is not None
-        return evaluation.data.copy()
+        return (self._by_spins(evaluation.data) if request is Request.STIFFNESS else evaluation.data).copy()
 
     @property
     def _step_time(self) -> float:
