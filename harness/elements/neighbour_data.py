@@ -9,21 +9,22 @@ in Abaqus compares the two: with moduli ten times too small, tractions are halve
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.elements.materials import rotated_compliance
+from harness.elements.materials import global_compliance, rotated_compliance
+from harness.elements.neighbour_plies import Ply, SolidFaces, plies_at
 from harness.elements.neighbour_solids import NONE, OBLIQUE, Finding, examine, group_starts, owns_solids, solids_of
-from harness.elements.process_zone import compliance_of, tensor_of
+from harness.elements.process_zone import tensor_of
 from harness.errors import DeckError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.element_types import ContinuumType, Tensor
 from harness.model.mesh import ElementGroup, full_name
 from harness.model.model import Model
-from harness.model.properties import Material, SolidSection, UserProperty
+from harness.model.properties import SolidSection, UserProperty
 from harness.usersub import Library
 from harness.usersub.layout import element_layouts
 
@@ -164,7 +165,7 @@ class _Pair:
             mine = list(_PLANES.values())[int(given["PLANE"])]
             yield self._finding(0, f"PLANE = {given['PLANE']:g}, {mine}", f"is in {_PLANES[tensor]}")
         thickness = section.thickness if isinstance(section, SolidSection) else None
-        if isinstance(section, UserProperty):
+        if isinstance(section, UserProperty) and _is_continuum(self.beside):
             thickness = _given(self.beside).get("THICKNESS")
         if tensor in _PLANES and thickness and abs(given["THICKNESS"] - thickness) > TOLERANCE * thickness:
             text = f"has a thickness of {thickness:g}"
@@ -173,15 +174,41 @@ class _Pair:
 
     def _moduli(self, given: dict[str, float]) -> Iterator[Finding]:
         """Compare elastic constants along the axes of the ply that an element has."""
-        material: Material | None = getattr(self.beside.section, "material", None)
-        if material is None or material.elastic is None or material.elastic.table is not None:
+        tensor = tensor_of(self.beside)
+        if tensor is None:
             return
-        if material.hyperelastic is not None or (compliance := compliance_of(self.beside)) is None:
-            return
+        axes = self._axes(np.radians(given[f"ANGLE {_SIDES[self.side][0]}"]))
+        assert self.group.definition is not None
+        layout = element_layouts()[self.group.definition.number]
+        corners = list(layout.faces[self.side][: 2 * layout.dimension - 2])
+        outward = axes[:, 2] * (1.0 if self.side == 0 else -1.0)
+        faces = SolidFaces(self.beside, self.solids, self.group.nodes[self.rows][:, corners], outward)
+        for ply in plies_at(self.model, faces, tensor):
+            part = replace(self, rows=self.rows[ply.rows], solids=self.solids[ply.rows])
+            if ply.why:
+                name = _named(self.model, self.group, int(part.rows[0]))
+                solid = part._solid(0)
+                message = f"{name}: its elastic constants are not compared with those of the {solid}: {ply.why}"
+                yield Finding(message, self.group.section.source, wrong=False)
+                continue
+            found = part._constants_of(ply, axes[ply.rows], given, tensor)
+            if found is not None:
+                yield found
+                return
+
+    def _constants_of(self, ply: Ply, axes: FloatArray, given: dict[str, float], solid: Tensor) -> Finding | None:
+        """Compare the constants of elements, whose axes are (m, 3, 3), with those of a ply beside each of them."""
+        material = ply.material
+        compliance = global_compliance(material, None, solid)
+        if compliance is None:
+            return None
+        turns = ply.axes @ np.swapaxes(axes, -1, -2)
+        # those of faces of one direction differ by rounding
+        _, one, numbers = np.unique(turns.round(6).reshape(-1, 9), axis=0, return_index=True, return_inverse=True)
+        numbers = numbers.ravel()
+        local = rotated_compliance(compliance, turns[one])
         word = _SIDES[self.side][0]
         angle = f"ANGLE {word} = {given[f'ANGLE {word}']:g}"
-        axes, numbers = self._axes(np.radians(given[f"ANGLE {word}"]))
-        local = rotated_compliance(compliance, np.swapaxes(axes, -1, -2))
         plane = (Tensor.PLANE_STRESS, Tensor.PLANE_STRAIN)[int(given.get("PLANE", 0.0))]
         tensor = plane if "PLANE" in given else Tensor.SOLID
         straight = _straightened(local, tensor)
@@ -192,21 +219,21 @@ class _Pair:
             if apart.any():
                 at = int(np.flatnonzero(apart[numbers])[0])
                 has = f"has {theirs[numbers[at]]:.6g} there (material {material.name})"
-                yield self._finding(at, f"{name} {word} = {value:g} at {angle}", has)
-                return
+                return self._finding(at, f"{name} {word} = {value:g} at {angle}", has)
         turned = _is_turned(straight, tensor)
         if turned.any():
             at = int(np.flatnonzero(turned[numbers])[0])
-            yield self._finding(at, angle, f"has its material ({material.name}) along other axes")
+            return self._finding(at, angle, f"has its material ({material.name}) along other axes")
+        return None
 
-    def _axes(self, angle: float) -> tuple[FloatArray, IntArray]:
-        """Return the different axes of the plies (k, 3, 3), rows, and which of them each element has (m,)."""
+    def _axes(self, angle: float) -> FloatArray:
+        """Return the axes (m, 3, 3) of the plies of the elements, in rows."""
         c, s = np.cos(angle), np.sin(angle)
         turn = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
         assert self.group.definition is not None
         layout = element_layouts()[self.group.definition.number]
         if layout.dimension == 2:
-            return turn[None], np.zeros(len(self.rows), dtype=np.int64)
+            return np.broadcast_to(turn, (len(self.rows), 3, 3))
         corners = [self.group.nodes[self.rows][:, np.array(face[:4])] for face in layout.faces]
         middle = self.model.mesh.coordinates[corners[0]] + self.model.mesh.coordinates[corners[1]]
         along = middle[:, 1] + middle[:, 2] - middle[:, 0] - middle[:, 3]
@@ -215,17 +242,17 @@ class _Pair:
         steep = abs(normal[:, 0]) > np.cos(np.radians(0.1))
         beside = np.where(steep[:, None], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0])
         first = _unit(beside - (beside * normal).sum(axis=1)[:, None] * normal)
-        axes = turn @ np.stack([first, np.cross(normal, first), normal], axis=1)
-        # faces of one direction differ by rounding
-        _, one, numbers = np.unique(axes.round(6).reshape(-1, 9), axis=0, return_index=True, return_inverse=True)
-        return axes[one], numbers.ravel()
+        return np.asarray(turn @ np.stack([first, np.cross(normal, first), normal], axis=1))
 
     def _finding(self, at: int, mine: str, theirs: str, *, wrong: bool = True) -> Finding:
         name = _named(self.model, self.group, int(self.rows[at]))
-        solid = _named(self.model, self.beside, int(self.solids[at]))
-        where = _SIDES[self.side][1]
-        message = f"{name}: {mine}, but the {solid} {where} ({self.beside.section.source}) {theirs}"
+        message = f"{name}: {mine}, but the {self._solid(at)} {theirs}"
         return Finding(message, self.group.section.source, wrong)
+
+    def _solid(self, at: int) -> str:
+        """Name, side and place of a solid."""
+        name, where = _named(self.model, self.beside, int(self.solids[at])), _SIDES[self.side][1]
+        return f"{name} {where} ({self.beside.section.source})"
 
 
 def _unit(vectors: FloatArray) -> FloatArray:

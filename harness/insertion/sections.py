@@ -27,6 +27,7 @@ from harness.deck.section_controls import read_section_controls
 from harness.deck.sections import make_section
 from harness.deck.user_elements import ElementType
 from harness.elements.composite import turned_directions
+from harness.elements.neighbour_plies import STACK_FACES
 from harness.elements.neighbour_solids import OBLIQUE
 from harness.errors import DeckError, Source
 from harness.insertion.assembly import Deck
@@ -39,8 +40,6 @@ PARALLEL = 1e-4
 """Radians between an axis of a material and the normal of the interface that are rounding."""
 _DECIMALS = 4
 """Of angles in degrees: coordinates of seven digits give no more."""
-_STACK = {1: (5, 3), 2: (2, 4), 3: (0, 1)}
-"""Faces, from 0, at the first and the last layer of each stack direction: S6 and S4, S3 and S5, S1 and S2."""
 _PLANES = {Tensor.PLANE_STRESS: 0, Tensor.PLANE_STRAIN: 1, Tensor.SOLID: None}
 _NAMES = ("E1", "E2", "E3", "NU12", "NU13", "NU23", "G12", "G13", "G23")
 
@@ -222,7 +221,7 @@ class Sections:
 
     def _layers(self, section: CompositeSection, faces: Faces) -> Iterator[tuple[SolidLayer | None, IntArray]]:
         """Layer of a solid at each face, None where the face crosses them."""
-        first, last = _STACK[section.direction]
+        first, last = STACK_FACES[section.direction]
         side = self._deck.solids.side[faces.numbers]
         for layer, rows in (
             (section.layers[0], side == first),
@@ -322,7 +321,7 @@ class Sections:
         if layer.angle is None:
             return axes
         # the stack goes from the first layer to the last
-        last = deck.solids.side[faces.numbers] == _STACK[_direction_of(section)][1]
+        last = deck.solids.side[faces.numbers] == STACK_FACES[_direction_of(section)][1]
         outward = -faces.normals if faces.above else faces.normals
         upright = np.where(last[:, None], outward, -outward)
         try:

@@ -183,6 +183,40 @@ def test_moduli_that_differ_are_wrong(tmp_path, values, message):
     assert wrong and line.startswith("*UEL PROPERTY")
 
 
+def test_axes_that_differ_from_element_to_element(tmp_path):
+    """Circles about a point far to the left and below run at 30 degrees through the middle of the interface."""
+    far = 1e4
+    place = f"{0.5 - far * np.sin(np.radians(30.0)):.9g}, {1.0 + far * np.cos(np.radians(30.0)):.9g}"
+    orientation = f"*ORIENTATION, NAME=O, SYSTEM=CYLINDRICAL\n{place}, 0., {place}, 1."
+    # axis 1 is radial
+    assert compared(tmp_path, quads(orientation=orientation, **{"ANGLE BOTTOM": -60.0, "ANGLE TOP": 120.0})) == []
+    ((message, wrong, _),) = compared(tmp_path, quads(orientation=orientation, **{"ANGLE BOTTOM": -60.0}))
+    assert wrong and re.search(r"E1 TOP = 138000 at ANGLE TOP = 0, but the CPE4 element 2 above", message)
+
+
+def test_axes_of_user_bricks_are_not_known(tmp_path):
+    """U9 has its material along its own faces: one warning for each side, and none for an isotropic material."""
+    layout = element_layouts()[9]
+    solids = [
+        f"*USER ELEMENT, TYPE=U9, NODES=8, COORDINATES=3, PROPERTIES=1, I PROPERTIES=2, VARIABLES={layout.svars}, "
+        "INTEGRATION=8, TENSOR=THREED",
+        "1, 2, 3",
+        "*ELEMENT, TYPE=U9, ELSET=SOLIDS",
+    ]
+    properties = "*UEL PROPERTY, ELSET=SOLIDS, MATERIAL=PLY\n0., 1, 0"
+    text = bricks().replace("*ELEMENT, TYPE=C3D8I, ELSET=SOLIDS", "\n".join(solids))
+    text = text.replace("*SOLID SECTION, ELSET=SOLIDS, MATERIAL=PLY", properties)
+    found = compared(tmp_path, text)
+    assert [wrong for _, wrong, _ in found] == [False, False]
+    assert re.match(
+        r"U8 element 3: its elastic constants are not compared with those of the U9 element 1 below "
+        r"\(.*deck.inp:\d+\): UELMAT may have directions of its own$",
+        found[0][0],
+    )
+    found = compared(tmp_path, text.replace(ELASTIC, "*ELASTIC\n138000., 0.3"))
+    assert len(found) == 2 and all(wrong and "E2 " in message for message, wrong, _ in found)
+
+
 def test_moduli_of_bricks(tmp_path):
     ((found, wrong, _),) = compared(tmp_path, bricks(**{"G23 TOP": 6.3e3}))
     assert wrong and re.search(r"U8 element 3: G23 TOP = 6300 at .* C3D8I element 2 above .* has 3500 there", found)

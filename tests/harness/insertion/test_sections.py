@@ -44,7 +44,10 @@ def properties(path, element, **wanted):
     output = path.with_name("out.inp")
     done = inserted(path, output, wanted.pop("values", LAW), **(wanted or {"between": [("LOW", "HIGH")]}))
     names = re.findall(r"\w+ (?:BOTTOM|TOP)", " ".join(_captions(output)))
-    groups = [group for group in read_deck(output).groups if group.type == element]
+    model = read_deck(output)
+    # what is written agrees with its solids
+    assert [each for each in compare(model, model.groups) if each.wrong] == []
+    groups = [group for group in model.groups if group.type == element]
     first = len(groups[0].section.values) - len(names)
     return [dict(zip(names, group.section.values[first:].tolist(), strict=True)) for group in groups], done
 
@@ -170,7 +173,7 @@ LAYERS = ["1., 1, A, 10.", "1., 1, B, 20.", "1., 1, C, 30."]
 )
 def test_the_layer_at_the_interface_counts(tmp_path, direction, angles):
     """Below, the last layer in the stack direction, above it the first one; angles about the direction across."""
-    materials = [line for name, e in (("A", 1.0), ("B", 2.0), ("C", 3.0)) for line in ply(name, (e, e, *PLY[2:]))]
+    materials = [line for name, e in (("A", 1e4), ("B", 2e4), ("C", 3e4)) for line in ply(name, (e, e, *PLY[2:]))]
     path = deck(
         tmp_path,
         halves(axis=direction - 1),
@@ -180,8 +183,18 @@ def test_the_layer_at_the_interface_counts(tmp_path, direction, angles):
         *LAYERS,
     )
     ((found,), _) = properties(path, "U8")
-    assert (found["E1 BOTTOM"], found["E1 TOP"]) == (3.0, 1.0)
+    output = tmp_path / "out.inp"
+    model = read_deck(output)
+    assert compare(model, model.groups) == []
+    assert (found["E1 BOTTOM"], found["E1 TOP"]) == (3e4, 1e4)
     assert (found["ANGLE BOTTOM"], found["ANGLE TOP"]) == angles
+    # the materials of other layers are not those at the interface
+    for old, new, name in (("1., 1, C", "1., 1, A", "A"), ("1., 1, A", "1., 1, B", "B")):
+        changed = tmp_path / "changed.inp"
+        changed.write_text(output.read_text().replace(old, new))
+        model = read_deck(changed)
+        (first,) = compare(model, model.groups)
+        assert first.wrong and re.search(rf"U8 element \d+: E\d .* but the C3D8 .* \(material {name}\)$", first.message)
 
 
 def test_angles_of_layers_are_those_of_plain_sections(tmp_path):
@@ -203,8 +216,14 @@ def test_an_interface_across_the_layers_has_no_layer(tmp_path):
     section = ["*SOLID SECTION, ELSET=BODY, COMPOSITE, ORIENTATION=O", *LAYERS]
     lines = [*ply("A"), *ply("B"), *ply("C"), *orientation, *section]
     message = r"the interface runs across the layers of element 1 \(\*SOLID SECTION at .*deck.inp:\d+\); give E1_BOTTOM"
+    path = deck(tmp_path, halves(axis=0), *lines)
     with pytest.raises(UsageError, match=message):
-        properties(deck(tmp_path, halves(axis=0), *lines), "U8")
+        properties(path, "U8")
+    values = [f"{name}_{side}=1" for side in ("BOTTOM", "TOP") for name in ("E1", "E2", "E3", "G12", "G13", "G23")]
+    properties(path, "U8", values=[*LAW, *values])
+    model = read_deck(tmp_path / "out.inp")
+    (reason, _) = [each.message for each in compare(model, model.groups)]
+    assert re.search(r"constants are not compared with .*: the interface runs across its layers$", reason)
 
 
 def tilted(degrees):
@@ -234,25 +253,29 @@ def test_what_is_written_for_an_oblique_axis_agrees_with_its_solids(tmp_path, de
     section = ["*SOLID SECTION, ELSET=BODY, MATERIAL=PLY, ORIENTATION=O"]
     _, done = properties(deck(tmp_path, halves(), *carbon, *tilted(degrees), *section), "U8")
     assert len(done.warnings) == 1
-    model = read_deck(tmp_path / "out.inp")
-    assert compare(model, model.groups) == []
 
 
 @pytest.mark.parametrize(
-    ("orientation", "message"),
+    ("orientation", "message", "said"),
     [
-        (["*ORIENTATION, NAME=O, SYSTEM=USER"], "orientation O is that of ORIENT"),
+        (
+            ["*ORIENTATION, NAME=O, SYSTEM=USER"],
+            "orientation O is that of ORIENT",
+            "orientation O: its directions are those of ORIENT$",
+        ),
         (
             ["*ORIENTATION, NAME=O, SYSTEM=CYLINDRICAL", "0.5, 0.5, 0., 0.5, 0.5, 1."],
             "orientation O: element 1: it is on the polar axis",
+            "orientation O: it is on the polar axis in element 1$",
         ),
         (
             ["*ORIENTATION, NAME=O, DEFINITION=OFFSET TO NODES", "1, 2, 9"],
             "orientation O: local node 9 of 8",
+            "orientation O: local node 9 of 8$",
         ),
     ],
 )
-def test_directions_that_are_not_known(tmp_path, orientation, message):
+def test_directions_that_are_not_known(tmp_path, orientation, message, said):
     section = "*SOLID SECTION, ELSET=BODY, MATERIAL=PLY, ORIENTATION=O"
     with pytest.raises(UsageError, match=rf"{message} \(\*SOLID SECTION at .*deck.inp:\d+\)"):
         properties(deck(tmp_path, halves(), *ply(), *orientation, section), "U8")
@@ -260,6 +283,13 @@ def test_directions_that_are_not_known(tmp_path, orientation, message):
     values = [f"{name}_{side}=1" for side in ("BOTTOM", "TOP") for name in ("E1", "E2", "E3", "G12", "G13", "G23")]
     found, _ = properties(deck(tmp_path, halves(), *ply(), *orientation, section), "U8", values=[*LAW, *values])
     assert len(found) == 1
+    model = read_deck(tmp_path / "out.inp")
+    reasons = [each.message for each in compare(model, model.groups)]
+    assert len(reasons) == 2
+    assert re.match(
+        r"U8 element 9: its elastic constants are not compared with those of the C3D8 element 1", reasons[0]
+    )
+    assert re.search(said, reasons[0])
 
 
 def parts(folder, turn, material):
