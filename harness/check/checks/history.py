@@ -4,14 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from itertools import product
+from itertools import chain, product
 from typing import Final
 
 import numpy as np
 
-from harness.check.finding import Finding, failed, not_applicable, passed
+from harness.check.finding import Finding, Verdict, failed, not_applicable, passed
 from harness.check.state import CHANGES, ElementState
 from harness.check.subject import Subject, diagonal
 from harness.errors import KernelError
@@ -30,6 +30,13 @@ FEWEST: Final = 4
 PATHS: Final = 4
 """Number of random directions, half of them opposite to the others."""
 
+MORE: Final = 16
+"""Number of further directions before a state variable is said not to be written: one integration point may yield or
+break much later than another."""
+
+REACH: Final = 1000.0
+"""Their largest displacements over those of the first ones: to break, a stiff and strong interface moves far."""
+
 MOVES: Final = 3
 """Largest dof that is a displacement."""
 
@@ -47,19 +54,28 @@ def check(subject: Subject) -> Finding:
             "SVARS have initial values, which may be constants: take a deck without *INITIAL CONDITIONS, TYPE=SOLUTION"
         )
     unwritten, far = np.ones(subject.definition.variables, dtype=np.bool_), False
-    for state, large in _tried(subject):
-        with suppress(KernelError):
-            returned = state.evaluate(matrix=False)
-            unwritten &= returned.svars.view(np.int64) == state.single.svars.view(np.int64)
-            far |= large and returned.pnewdt >= 1.0
-    if not unwritten.any():
-        return passed("every state variable is written")
-    if not far:
-        return not_applicable(
-            "no call returns with displacements large enough to change a state: take a deck in which these "
-            "elements yield or break"
-        )
-    return _judge((subject.states[0], subject.states[-1], *subject.random[-1:]), unwritten)
+    finding = None
+    for tried in (
+        chain(_of_run(subject), _paths(subject, range(PATHS), 1.0)),
+        _paths(subject, range(PATHS, PATHS + MORE), REACH),
+    ):
+        for state, large in tried:
+            with suppress(KernelError):
+                returned = state.evaluate(matrix=False)
+                unwritten &= returned.svars.view(np.int64) == state.single.svars.view(np.int64)
+                far |= large and returned.pnewdt >= 1.0
+        if not unwritten.any():
+            return passed("every state variable is written")
+        if not far:
+            return not_applicable(
+                "no call returns with displacements large enough to change a state: take a deck in which these "
+                "elements yield or break"
+            )
+        finding = _judge((subject.states[0], subject.states[-1], *subject.random[-1:]), unwritten)
+        if finding.verdict is not Verdict.FAILED:
+            break
+    assert finding is not None
+    return finding
 
 
 def _judge(states: tuple[ElementState, ...], unwritten: np.ndarray) -> Finding:
@@ -83,20 +99,25 @@ def _judge(states: tuple[ElementState, ...], unwritten: np.ndarray) -> Finding:
     return failed(message, advice, entries=names)
 
 
-def _tried(subject: Subject) -> Iterator[tuple[ElementState, bool]]:
-    """States with negative zeros, which any sum changes, and whether displacements are large.
-
-    They are those of the run, and increments of ever larger displacements, the last of which are in a later step.
-    """
+def _of_run(subject: Subject) -> Iterator[tuple[ElementState, bool]]:
+    """States of the run with negative zeros, which any sum changes; their displacements are not large."""
     for state in subject.all_states:
         yield state.with_svars(_negative_zeros(state.single.svars)), False
+
+
+def _paths(subject: Subject, numbers: Iterable[int], reach: float) -> Iterator[tuple[ElementState, bool]]:
+    """States with negative zeros on random paths, and whether displacements are large.
+
+    They are increments of ever larger displacements, up to the size of the element times `reach`, the last of which are
+    in a later step.
+    """
     moves = subject.dofs <= MOVES
-    for number, state in product(range(PATHS), (subject.states[0], subject.states[-1])):
+    for number, state in product(numbers, (subject.states[0], subject.states[-1])):
         direction = subject.scales * np.random.default_rng(number // 2).uniform(-1.0, 1.0, len(subject.scales))
         direction *= (-1.0) ** number
         size = diagonal(subject.coordinates(state))
         largest = float(np.abs(direction[moves]).max(initial=0.0)) or size
-        count = max(FEWEST, int(np.ceil(np.log(size / largest) / np.log(GROWTH))) + 1)
+        count = max(FEWEST, int(np.ceil(np.log(reach * size / largest) / np.log(GROWTH))) + 1)
         on_path = state.part(0.0).with_svars(_negative_zeros(state.single.svars))
         for later, step in product((0, 1), range(count)):
             on_path = on_path.moved_on(GROWTH**step * direction).called(step=state.call.step + later)
