@@ -68,8 +68,9 @@ contains
     parent = merge([1.0_dp, 1.0_dp]/3, [0.0_dp, 0.0_dp], nodes == 3)
   end function middle_of
 
-  !> A point by its parent coordinates; weight: of the parent area. Its e1 is the closest to that of the middle, which is along the
-  !> first parent coordinate: so the response does not depend on the global axes.
+  !> A point by its parent coordinates; weight: of the parent area. Its axes are those of the middle, where e1 is along the first
+  !> parent coordinate, turned by the smallest rotation that takes the normal there to the one here: so the response depends neither
+  !> on the global axes nor on the node that comes first.
   pure function shell_place(nodes, x, parent, weight) result(point)
     integer, intent(in) :: nodes
     real(dp), intent(in) :: x(3, nodes), parent(2), weight
@@ -89,7 +90,10 @@ contains
     if (.not. dot_product(point%frame(3, :), normal) > 0) return
     point%good = .true.
     point%frame(3, :) = point%frame(3, :)/area
-    first = middle - dot_product(middle, point%frame(3, :))*point%frame(3, :)
+    normal = normal/norm2(normal)
+    associate (here => point%frame(3, :))
+      first = middle - dot_product(middle, here)/(1 + dot_product(normal, here))*(normal + here)
+    end associate
     point%frame(1, :) = first/norm2(first)
     point%frame(2, :) = cross(point%frame(3, :), point%frame(1, :))
     point%weight = weight*area
