@@ -248,7 +248,7 @@ def test_an_oblique_axis_is_refused_or_said(tmp_path):
 
 @pytest.mark.parametrize("degrees", [0.2, 0.499])
 def test_what_is_written_for_an_oblique_axis_agrees_with_its_solids(tmp_path, degrees):
-    """Of a ply with E1/G = 22, 0.14 degrees couple extension with shear by 1 %."""
+    """A ply with E1/G = 22 couples extension with shear by 1 % at 0.14 degrees."""
     carbon = ply(constants=(138e3, 10.5e3, 10.5e3, 0.3, 0.3, 0.45, 6.3e3, 6.3e3, 3.5e3))
     section = ["*SOLID SECTION, ELSET=BODY, MATERIAL=PLY, ORIENTATION=O"]
     _, done = properties(deck(tmp_path, halves(), *carbon, *tilted(degrees), *section), "U8")
