@@ -90,7 +90,7 @@ def test_decks_and_manual(uel, tmp_path):
         (["run", f"{DECKS}/patch_horizontal/flat_u4.inp"], ["flat_u4.sta", "flat_u4_interface.csv"]),
         (["batch", f"{DECKS}/patch_horizontal/flat_u2.inp"], ["batch/results.csv"]),
         (["law", "CLOSURE=1", "--element", "U4", "--angles", "0"], ["law.csv", "law.png"]),
-        (["check", f"{DECKS}/patch_horizontal/flat_u4.inp", "--increments", "1"], []),
+        (["check", f"{DECKS}/patch_horizontal/flat_u2.inp", "--increments", "1"], []),
         (["new", "my_uel"], ["my_uel/my_uel.for"]),
         (["amalgamate", "-o", "delamination.for"], ["delamination.for"]),
         (["reproduce", "law", "--quick"], ["reproduce/quick/index.html"]),
