@@ -467,22 +467,24 @@ contains
     end do
   end function shear_and_across
 
-  !> Hourglass modes: what the strains of the section are at the points of full integration less their mean. Triangles have none.
+  !> Hourglass modes: the strains of the section at the points of full integration less their mean, along the axes of the points,
+  !> which move with the element. Directions projected from global axes would make the mean depend on them. Triangles have none.
   pure function hourglass_of(nodes, full, elastic) result(found)
     integer, intent(in) :: nodes
     type(forms_t), intent(in) :: full
     real(dp), intent(in) :: elastic(6, 6)
     type(elastic_t) :: found
-    real(dp) :: mean(6, nodes**2)
+    real(dp) :: mean(6, nodes**2), turn(8, 8)
     integer :: count, p
     count = merge(size(full%point), 0, nodes == 8)
     allocate (found%form(6*count, nodes**2), found%modulus(6*count, 6*count))
     found%modulus = 0
     mean = 0
     do p = 1, count
-      associate (turn => section_turn(full, p), k => 6*(p - 1), weight => full%point(p)%weight)
-        found%form(k + 1:k + 6, :) = matmul(turn(:6, :6), full%form(:6, :, p))
-        found%modulus(k + 1:k + 6, k + 1:k + 6) = weight*elastic
+      turn = section_turn(full, p)
+      associate (k => 6*(p - 1), weight => full%point(p)%weight)
+        found%form(k + 1:k + 6, :) = full%form(:6, :, p)
+        found%modulus(k + 1:k + 6, k + 1:k + 6) = weight*matmul(transpose(turn(:6, :6)), matmul(elastic, turn(:6, :6)))
         mean = mean + weight/sum(full%point%weight)*found%form(k + 1:k + 6, :)
       end associate
     end do

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 from shell_decks import ThickDeck
 from test_shell_jobs import PATCH, UMAT
 
@@ -89,6 +90,30 @@ def test_patch(run, element_type, bending):
     for side, sign in (("SPOS", -1 if bending else 1), ("SNEG", 1)):
         for name, value in zip(("S11", "S22", "S12"), top, strict=True):
             np.testing.assert_allclose(result.field(f"{name}_{side}"), sign * value, rtol=1e-5)
+
+
+@pytest.mark.parametrize("element_type", TYPES)
+def test_turned(run, element_type):
+    """A warped plate of an isotropic material deflects by the same vectors wherever it points."""
+    load = np.array([2.0, 1.0, 0.2])
+
+    def found(turn):
+        deck = ThickDeck(
+            element_type,
+            *(2, 2),
+            lambda a, b, c: tuple(turn.apply([2 * a, 1.5 * b + 0.2 * a, 0.8 * a * b + 0.1 * c])),
+            section(0.1),
+            ISOTROPIC.format(1e4, 0.3),
+            moved={(1, 1): (0.06, -0.04)},
+        )
+        forces = "".join(f"\nP, {i + 1}, {value:.17g}" for i, value in enumerate(turn.apply(load)))
+        sets = {"P": deck.line(i=2), "FIX": deck.line(i=0)}
+        history = run(deck, f"*BOUNDARY\nFIX, 1, 3\n*CLOAD{forces}", sets).history
+        return turn.inv().apply([[history[f"U{i}[P:{node}]"][-1] for i in (1, 2, 3)] for node in sets["P"]])
+
+    first = found(Rotation.identity())
+    turned = found(Rotation.from_rotvec([0.7, -0.4, 1.1]))
+    np.testing.assert_allclose(turned, first, rtol=0, atol=1e-8 * np.abs(first).max())
 
 
 @pytest.mark.parametrize("element_type", TYPES)
