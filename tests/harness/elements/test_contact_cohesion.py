@@ -106,6 +106,16 @@ def test_peeled_as_cohesive_elements_are(run, boxes, element_type, pair):
         np.testing.assert_allclose(found.history[name][1:], wanted.history[name][1:], rtol=1e-4 if exact else 0.1)
 
 
+@PAIRS
+def test_torn_in_one_increment(run, pair):
+    """Bonds that an increment takes from intact to failed have dissipated the fracture energy of mode I, 0.06."""
+    tear = pulled(0.2, "1., 1.", "*OUTPUT, HISTORY\n*ENERGY OUTPUT\nALLDMD")
+    law = LAW[: LAW.index("\n*DAMAGE STABILIZATION")]
+    result = run(two_boxes(*plane(), [HELD, tear], nu=0.0, behavior=f"{BOND}\n{law}", pair=pair))
+    assert len(result.history["ALLDMD"]) == 1
+    assert result.history["ALLDMD"][-1] == pytest.approx(0.06 * 2 * THICKNESS, rel=1e-9)
+
+
 def test_friction_takes_over(run):
     """Pressed and drawn: the bond alone at first, K_s s on both nodes; friction mu N alone when it has failed."""
     stiff = f"*ELASTIC\n{1e7}, 0."
