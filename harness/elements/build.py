@@ -29,7 +29,7 @@ from harness.elements.fields import PRESSURE, REFERENCE
 from harness.elements.followers import follower_blocks
 from harness.elements.generalised import generalised_routine
 from harness.elements.heat_loads import heat_load_blocks
-from harness.elements.hybrid import pressure_unknowns
+from harness.elements.hybrid import has_unsymmetric_pressure, pressure_unknowns
 from harness.elements.mass_diffusion import (
     depends_on_concentration,
     mass_diffusion_routine,
@@ -303,6 +303,7 @@ def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library
     unknowns += tuple((node, POTENTIAL) for node in range(kind.nodes) if kind.electrical)
     unknowns += tuple((REFERENCE, dof) for dof in PLANES if kind.generalised)
     unknowns += tuple((kind.nodes, PRESSURE + k) for k in range(pressure_unknowns(kind, section.material)))
+    unsymmetric = has_unsymmetric_tangent(section.material) or has_unsymmetric_pressure(kind, section.material)
     block = ElementBlock(
         group,
         model.mesh.coordinates,
@@ -311,7 +312,7 @@ def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library
         library,
         # Abaqus stores the matrix of coupled steps as unsymmetric, UNSYMM or not (Analysis User's Guide, Fully coupled
         # thermal-stress analysis), as thermal expansion and the heat terms of UMAT need
-        unsymmetric=has_unsymmetric_tangent(section.material) or (coupled and _interacts(section.material)),
+        unsymmetric=unsymmetric or (coupled and _interacts(section.material)),
         variables=piezoelectric_variables(group) if kind.electrical else solid_variables(group, routine),
     )
     if routine.axes is not None:

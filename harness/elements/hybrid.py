@@ -22,6 +22,15 @@ def pressure_unknowns(kind: ContinuumType, material: Material) -> int:
     return kind.pressures if with_energy or is_incompressible(material) else 0
 
 
+def has_unsymmetric_pressure(kind: ContinuumType, material: Material) -> bool:
+    """Whether the elimination of the pressure may leave an unsymmetric matrix, whatever the material's tangent is.
+
+    The pressure is that of equal weights with user routines, which tell no bulk modulus (fortran/host/host_hybrid.f90).
+    """
+    by_routine = material.user is not None or isinstance(material.hyperelastic, UserPotential)
+    return bool(kind.pressures) and by_routine and not pressure_unknowns(kind, material)
+
+
 def check_hybrid(name: str, kind: ContinuumType, material: Material) -> None:
     """Raise DeckError if the material needs hybrid elements and these are none, or if it has what they cannot have."""
     user = material.user or (material.hyperelastic if isinstance(material.hyperelastic, UserPotential) else None)

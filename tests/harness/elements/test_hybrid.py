@@ -393,6 +393,51 @@ def test_tangent_with_umat(element, element_type, formulation):
         np.testing.assert_allclose(slope, matrix @ d, atol=2e-7 * abs(matrix).max())
 
 
+def coupled_moduli(skew):
+    """DDSDDE that couples volume and shape, (6, 6), with a positive definite symmetric part."""
+    random = np.random.default_rng(1).standard_normal((6, 6))
+    moduli = 10 * np.eye(6) + (random + random.T) / 2 + skew * (random - random.T)
+    moduli[:3, :3] += 8
+    return moduli
+
+
+@pytest.mark.parametrize(("skew", "unsymm"), [(1.0, True), (0.0, False)])
+@pytest.mark.parametrize("element_type", HYBRID)
+def test_whole_tangent_of_umat(element, element_type, skew, unsymm):
+    """An unsymmetric DDSDDE, and the projection of the pressure with a symmetric one, are in the matrix as they are."""
+    moduli = coupled_moduli(skew)
+    law = Material("M", SOURCE, user=UserMaterial(moduli.T.ravel(), unsymm, SOURCE))
+    solid = element(element_type, law, user="linear_umat.f", nlgeom=False)
+    random = np.random.default_rng(6)
+    _, matrix, _ = solid.evaluate(np.zeros(solid.size))
+    changes = random.standard_normal((4, solid.size))
+    if solid.kind.hourglass_control:
+        changes = [solid.moved(np.eye(3) + gradient) for gradient in random.standard_normal((4, 3, 3))]
+    for d in changes:
+        np.testing.assert_allclose(solid.evaluate(d)[0], matrix @ d, atol=1e-12 * abs(matrix).max() * abs(d).max())
+    if skew and element_type not in FIXED:
+        assert abs(matrix - matrix.T).max() > 0.02 * abs(matrix).max()
+
+
+def test_perturbation_of_umat(run):
+    """A linear job: one iteration, and the same displacements in a perturbation step, without UNSYMM."""
+    rows = coupled_moduli(0.0).T.ravel()
+    law = [", ".join(f"{value:.17g}" for value in rows[k : k + 8]) for k in range(0, 36, 8)]
+    lines = ["*NODE"]
+    places = [(x, y, z) for z in range(2) for y in range(2) for x in range(3)]
+    lines += [f"{k}, {x + 0.2 * y * z}, {y}, {z + 0.1 * x * y}" for k, (x, y, z) in enumerate(places, start=1)]
+    lines += ["*ELEMENT, TYPE=C3D8H, ELSET=ALL", "1, 1, 2, 5, 4, 7, 8, 11, 10", "2, 2, 3, 6, 5, 8, 9, 12, 11"]
+    lines += ["*SOLID SECTION, ELSET=ALL, MATERIAL=M", "*MATERIAL, NAME=M", "*USER MATERIAL, CONSTANTS=36", *law]
+    lines += ["*NSET, NSET=HELD", "1, 4, 7, 10", "*BOUNDARY", "HELD, 1, 3"]
+    load = ["*CLOAD", "12, 1, 0.3", "12, 3, 0.5", "*OUTPUT, FIELD", "*NODE OUTPUT", "U", "*END STEP"]
+    found = []
+    for begin in (["*STEP", "*STATIC", "1., 1."], ["*STEP, PERTURBATION", "*STATIC"]):
+        result = run([*lines, *begin, *load], HERE / "linear_umat.f")
+        assert [row.iterations for row in result.status] == [1]
+        found.append(result.field("U")[-1])
+    np.testing.assert_allclose(found[1], found[0], rtol=1e-9, atol=1e-12)
+
+
 @pytest.mark.parametrize("formulation", HybridFormulation)
 def test_cube_of_umat(run, formulation):
     """As the built-in potential in all formulations, which STRESS(NTENS+1) and DDSDDE follow."""
