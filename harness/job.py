@@ -23,7 +23,7 @@ from harness.errors import ConvergenceError, ElementError, UelError, UsageError,
 from harness.files import deck_named
 from harness.interrupts import held, settle
 from harness.job_on_ranks import files_of_job, messages_of, refuse_unshared
-from harness.job_restart import decks_of, find_state, refuse_nothing_left, refuse_on_ranks
+from harness.job_restart import decks_of, find_state, goes_on, refuse_nothing_left, refuse_on_ranks, refuse_options
 from harness.model.model import Model, constraints_with_multipliers
 from harness.model.records import AttemptEnded, IncrementDone, ModeShape, Record, StepDone
 from harness.model.restart import Resumption
@@ -139,6 +139,7 @@ def run(
         earlier = EarlierJobs([Path(), folder, deck.parent])
         model = ranks.agree(lambda: read_deck(deck, parameters, parts, earlier))
         refuse_nothing_left(model, resumed, oldjob)
+        refuse_options(resumed, oldjob, fallback=fallback, energy_control=energy_control)
         decks = ranks.agree(lambda: decks_of(model, parameters, parts))
         if ranks.size > 1:
             refuse_unshared(model, ranks)
@@ -282,9 +283,11 @@ def _analyse(
             error.add_note(far)
         error.add_note(f"{output.job} ended {output.reached}; what was written is readable")
         if isinstance(error, ConvergenceError):
-            # contact and distributing couplings take neither of the two
-            taken = {"fallback": True, "energy_control": True} if constraints_with_multipliers(model) else {}
-            error.add_note(_advice(str(error), **{"fallback": fallback, "energy_control": energy_control} | taken))
+            # contact and distributing couplings take neither of the two, a restart at most the second
+            neither = bool(constraints_with_multipliers(model))
+            begun = neither or (resumed is not None and goes_on(resumed))
+            taken = {"fallback": fallback or neither or resumed is not None, "energy_control": energy_control or begun}
+            error.add_note(_advice(str(error), **taken))
         raise
 
 

@@ -75,10 +75,32 @@ def refuse_nothing_left(model: Model, resumed: Resumption | None, oldjob: str | 
     """Raise UsageError if no step follows the state from which a job goes on."""
     if resumed is None:
         return
-    step, increment, finished = (resumed.analysis[name] for name in ("step", "increment", "finished"))
-    if (finished or resumed.end_step) and step == len(model.steps):
+    step, increment = (resumed.analysis[name] for name in ("step", "increment"))
+    if not goes_on(resumed) and step == len(model.steps):
         message = f"its state after step {step}, increment {increment} is that of the end of the analysis"
         raise UsageError(f"--oldjob {oldjob}: {message}: a deck with *RESTART, READ adds steps")
+
+
+def refuse_options(
+    resumed: Resumption | None, oldjob: str | Path | None, *, fallback: bool, energy_control: bool
+) -> None:
+    """Raise UsageError for options that a restart, or the step that goes on, does not take."""
+    if resumed is None:
+        return
+    if fallback:
+        reason = "its search compares with the matrix of the start of the analysis, which no state has"
+        raise UsageError(
+            f"--fallback: {reason}; go on from --oldjob {oldjob} without it, or run the whole analysis with it"
+        )
+    if energy_control and goes_on(resumed):
+        step = resumed.analysis["step"]
+        message = f"step {step} of --oldjob {oldjob} goes on as it began, in time"
+        raise UsageError(f"--control energy: {message}; expected *RESTART, READ with END STEP")
+
+
+def goes_on(resumed: Resumption) -> bool:
+    """Whether a restart begins within a step."""
+    return not (resumed.analysis["finished"] or resumed.end_step)
 
 
 def decks_of(model: Model, given: Mapping[str, float] | None, parts: Sequence[DeckPart]) -> Sequence[DeckPart]:

@@ -23,6 +23,7 @@ import meshio
 import numpy as np
 from meshio._mesh import topological_dimension
 
+from harness.errors import UelError
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Model
 from harness.model.nodal import NodalIndex
@@ -186,5 +187,7 @@ def read_field_mesh(pvd: Path, step: int | None = None, increment: int = -1) -> 
         The increment was not written.
     """
     frames = read_frames(pvd)
+    if not frames:
+        raise UelError(f"{pvd}: no field output; it is written only if the deck has *OUTPUT, FIELD")
     places = [(frame.step, frame.increment) for frame in frames]
     return meshio.read(frames[find_written(pvd, "field output", places, step, increment)].path)

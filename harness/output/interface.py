@@ -108,7 +108,8 @@ def read_interface(path: Path, step: int | None = None, increment: int = -1) -> 
 def _read_blocks(path: Path) -> tuple[list[str], dict[tuple[int, int], FloatArray]]:
     """Rows by step and increment. A last block that a killed run left unfinished is left out."""
     if not path.exists():
-        raise UelError(f"{path}: no such file; it is written only if the model has interface elements of the project")
+        needed = "interface elements of the project, or cohesive elements, and the deck has *OUTPUT, FIELD"
+        raise UelError(f"{path}: no such file; it is written only if the model has {needed}")
     head, *lines = [line for line in path.read_text("utf-8").splitlines(keepends=True) if line.endswith("\n")]
     names = head.rstrip().split(",")
     if not lines:

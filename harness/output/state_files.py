@@ -121,7 +121,8 @@ def read_state(stem: Path, step: int | None = None, increment: int | None = None
         (int(name[1]), int(name[2])) for path in folder.glob("*.npz") if (name := _NAME.fullmatch(path.name))
     )
     if not found:
-        raise UelError(f"{stem}: the job has kept no state; *RESTART, WRITE keeps them, in {folder}")
+        where = f"in {folder}; a warning in {stem}.dat says where it has no effect"
+        raise UelError(f"{stem}: the job has kept no state; *RESTART, WRITE keeps them, {where}")
     step = found[-1][0] if step is None else step
     place = found[find_written(folder, "state", found, step, -1 if increment is None else increment)]
     path = folder / f"step{place[0]}_increment{place[1]:04d}.npz"

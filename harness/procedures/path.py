@@ -142,7 +142,8 @@ class TimePath(Path):
     @property
     def obstacle(self) -> str:
         """With the fall-back it cannot: the search compares with the start of the analysis."""
-        return "" if self._descent is None else "the search of --fallback compares with the start of the analysis"
+        reason = "the search of --fallback compares with the start of the analysis; to keep states, run without it"
+        return "" if self._descent is None else reason
 
     def kept(self) -> Saved:
         """Sizes, extrapolation, and the matrix where the next increment may reuse it."""

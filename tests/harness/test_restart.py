@@ -16,10 +16,11 @@ from bent_beams import beam as bent_beam
 from bent_beams import step as bending
 from contact_decks import plane, two_boxes
 from contact_decks import step as contact_step
+from small_decks import snapping
 
 import harness
 from harness.cli import main
-from harness.errors import DeckError, UelError, UsageError
+from harness.errors import ConvergenceError, DeckError, UelError, UsageError
 from harness.model.records import StateKept
 from harness.output.state_files import FORMAT, StateFiles, array_digest, folder_of, read_state
 
@@ -371,7 +372,7 @@ def test_old_jobs_that_cannot_be_taken_up(folder):
         "bar", BAR.replace("*NODE", "*PARAMETER\nforce = 4.\n*NODE", 1).replace("RIGHT, 1, 4.", "RIGHT, 1, <force>")
     )
     again = {"oldjob": "bar", "job": "again"}
-    with pytest.raises(UelError, match=r"bar: the job has kept no state; \*RESTART, WRITE keeps them, in bar_restart"):
+    with pytest.raises(UelError, match=r"bar: the job has kept no state; .* in bar_restart; a warning in bar\.dat"):
         run(deck, **again)
     run(deck, parameters={"force": 2.0})
     with pytest.raises(
@@ -453,7 +454,7 @@ def test_kill_while_a_state_is_written_leaves_the_one_before(folder, monkeypatch
     [
         ("*STATIC, DIRECT\n0.25, 1.", "*STATIC, RIKS\n0.25, 1., , , 1.", {}, "THE LOAD FACTOR IS PART OF THE SOLUTION"),
         ("", "", {"energy_control": True}, "THE LOAD FACTOR IS PART OF THE SOLUTION"),
-        ("", "", {"fallback": True}, "THE SEARCH OF --FALLBACK COMPARES WITH THE START OF THE ANALYSIS"),
+        ("", "", {"fallback": True}, "THE SEARCH OF --FALLBACK .*; TO KEEP STATES, RUN WITHOUT IT"),
     ],
 )
 def test_steps_that_keep_no_states(folder, old, new, options, reason):
@@ -464,6 +465,33 @@ def test_steps_that_keep_no_states(folder, old, new, options, reason):
         re.search(rf"\*RESTART, WRITE HAS NO EFFECT IN STEP 1: {reason}", text.upper()) for text in result.warnings
     )
     assert states("bar") == []
+
+
+@pytest.mark.parametrize(
+    ("options", "end_step", "message"),
+    [
+        ({"fallback": True}, ", END STEP", "--fallback: its search compares .* go on from --oldjob bar without it"),
+        ({"fallback": True}, "", "--fallback: its search compares .* or run the whole analysis with it"),
+        ({"energy_control": True}, "", "step 1 of --oldjob bar goes on as it began, in time; expected .* END STEP"),
+    ],
+)
+def test_options_that_a_restart_does_not_take(folder, options, end_step, message):
+    run(written("bar", BAR))
+    more = f"*STEP\n*STATIC, DIRECT\n0.5, 1.\n*CLOAD\nRIGHT, 1, 8.\n{OUTPUT}*END STEP\n"
+    with pytest.raises(UsageError, match=message):
+        run(written("more", f"*RESTART, READ, STEP=1, INC=2{end_step}\n{more}"), oldjob="bar", **options)
+
+
+def test_advice_where_a_restart_does_not_converge(folder):
+    """Neither of the two options that the step of the state does not take."""
+    deck = snapping(folder, "*RESTART, WRITE\n*STATIC, DIRECT\n0.1, 1.\n")
+    springs = Path(__file__).parent / "procedures" / "springs.f"
+    with pytest.raises(ConvergenceError) as first:
+        run(deck, springs)
+    assert "what may help: --fallback, " in first.value.__notes__[-1]
+    with pytest.raises(ConvergenceError) as second:
+        run(deck, springs, oldjob="snap", job="again")
+    assert re.match(r"what may help: \*STATIC without DIRECT.*; VISCOSITY", second.value.__notes__[-1])
 
 
 def test_restart_on_several_ranks_is_refused(folder):

@@ -150,7 +150,10 @@ def test_what_was_not_written_is_named(model: Model, records: Records, tmp_path:
     with pytest.raises(UelError, match=r"_interface\.csv: no interface profile of step 1, increment 9"):
         result.interface(increment=9, step=1)
     result.file("_interface.csv").unlink()
-    with pytest.raises(UelError, match=r"_interface\.csv: no such file; it is written only if"):
+    result.file(".pvd").unlink()
+    with pytest.raises(UelError, match=r"job\.pvd: no field output; .* the deck has \*OUTPUT, FIELD"):
+        result.field("U")
+    with pytest.raises(UelError, match=r"_interface\.csv: no such file; .* cohesive elements, .* \*OUTPUT, FIELD"):
         result.interface()
 
 
