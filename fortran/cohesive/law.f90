@@ -70,17 +70,23 @@ contains
   !> Raises a beta that is an estimate, and less than twice what one beta for both components has to exceed, to that.
   !>
   !> Twice the slope k is the least beta at which the traction never falls faster than p rises: dT/dp = -k/(beta - k) >= -1. It also
-  !> is more than `check_beta` demands of any pair.
+  !> is more than `check_beta` demands of any pair. Beside a beta of the deck between k and that, the other one is raised to the
+  !> same: a larger one would demand more of that of the deck.
   pure subroutine raise_beta(law, estimated, beta)
     type(law_parameters), intent(in) :: law
     logical, intent(in) :: estimated(2)        !< not a value of the deck
     real(dp), intent(inout) :: beta(2)         !< (tau, n), stress/length
+    real(dp) :: slope, other, enough
 
     if (law%kind == ppr_law) then
       call raise_ppr_beta(law, estimated, beta)
-    else
-      where (estimated) beta = max(beta, 2.0_dp*law%ratio*steepest(law))
+      return
     end if
+    slope = steepest(law)
+    enough = 2.0_dp*slope
+    other = minval(beta/law%ratio, mask=.not. estimated)   ! the largest number if both are estimates
+    if (other > slope) enough = min(enough, other)
+    where (estimated) beta = max(beta, law%ratio*enough)
   end subroutine raise_beta
 
   !> Largest softening slope -d tau/d lambda of a law.

@@ -88,6 +88,36 @@ def test_an_estimate_of_beta_is_raised_to_twice_the_softening_slope(
     assert len(library.messages()) == 1
 
 
+@pytest.mark.parametrize(("given", "other"), [("N", "T"), ("T", "N")])
+@pytest.mark.parametrize("ratio", [1.0, 0.4])
+@pytest.mark.parametrize(("times", "expected"), [(1.05, 1.05), (1.6, 1.6), (3.0, 2.0)])
+def test_an_estimate_beside_a_beta_of_the_deck(
+    element, interface, reference, law, given, other, ratio, times, expected
+):
+    """Raised to the b = beta/ratio of the deck where that exceeds the slope, at most to twice the slope.
+
+    With one b for both components b > k is the condition (fortran/README.md); a larger b beside it would demand more.
+    """
+    stiffness = {"ALPHAN": 1e8, "ALPHAT": ratio * 1e8, "CLOSURE": 1}
+    ratios = {"N": 1.0, "T": ratio}
+    slope = (reference.softening_slopes({**law, **stiffness, **BRITTLE}) / [ratio, 1.0]).max()
+    values = {**stiffness, **BRITTLE, "GAMMABOT": 0.5, f"BETA{given}": times * slope * ratios[given]}
+    u = interface.displacements(8, *interface.states["softening"], seed=1)
+    found = element(4, interface.eight, **values, **{f"BETA{other}": 0.0}).advance(u)
+    wanted = element(4, interface.eight, **values, **{f"BETA{other}": expected * slope * ratios[other]}).advance(u)
+    for a, b in zip(found, wanted, strict=True):
+        np.testing.assert_allclose(a, b, rtol=1e-12, atol=1e-12 * abs(b).max())
+
+
+@pytest.mark.parametrize(("given", "other"), [("N", "T"), ("T", "N")])
+def test_a_beta_of_the_deck_below_the_slope_is_refused(element, interface, reference, law, given, other):
+    """It, and not the estimate beside it, is named."""
+    slope = reference.softening_slopes({**law, **rigid(0.0), **BRITTLE}).max()
+    item = element(4, interface.eight, label=42, **rigid(0.0), **BRITTLE, **{f"BETA{given}": 0.95 * slope})
+    with pytest.raises(KernelError, match=rf"U4 element 42: PROPS\(\d+\) BETA{given}: beta = .*, too small for the"):
+        item.evaluate(np.zeros(16))
+
+
 @pytest.mark.parametrize("kind", [2, 3, 4])
 @pytest.mark.parametrize("jtype", [4, 6, 8, 12])
 def test_raised_beta_suits_every_law(element, interface, library, jtype, kind):
