@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.assembly.dofs import DofMap
-from harness.assembly.held_followers import COLUMNS, SMALLEST, choose
+from harness.assembly.held_followers import COLUMNS, SMALLEST, HeldFollowers, choose
 from harness.elements import PERMUTATION, rotation_matrices, spin_matrices
 from harness.errors import DeckError, SingularMatrixError, Source
 from harness.model.arrays import FloatArray, IntArray
@@ -100,7 +100,8 @@ class Arms:
         free = (self.columns >= 0) & ~np.isin(self.columns, prescribed)
         self._idle = self._find_idle(free & ~stiff[self.columns])
         free[self._idle] = False
-        self.held = choose(self.slopes(start), self._length[self.of], self.own, self.of, held, free)
+        self._held, self._free = held, free
+        self.held = self._choose(start)
         self._follows = (self.own >= 0) & ~held
         solved = self.held.solved
         width = max((len(equations) for _, equations in solved), default=0)
@@ -109,6 +110,13 @@ class Arms:
         for row, equations in solved:
             self.sources[row, self.held.eliminated[equations]] = -1
             self.sources[row, COLUMNS : COLUMNS + len(equations)] = self.held.unknown[equations]
+
+    def _choose(self, start: FloatArray) -> HeldFollowers:
+        return choose(self.slopes(start), self._length[self.of], self.own, self.of, self._held, self._free)
+
+    def suit(self, start: FloatArray) -> bool:
+        """Whether prescribed displacements would choose the same unknowns to eliminate at unknowns (n,)."""
+        return np.array_equal(self._choose(start).eliminated, self.held.eliminated)
 
     @property
     def eliminated(self) -> IntArray:

@@ -97,7 +97,9 @@ class Constraints:
         if self._pattern is not self._system.indices:
             self._find_pattern()
 
-    def matches(self, prescribed: IntArray, equations: Sequence[Equation] = (), arms: Sequence[Arm] = ()) -> bool:
+    def matches(
+        self, prescribed: IntArray, equations: Sequence[Equation], arms: Sequence[Arm], start: FloatArray
+    ) -> bool:
         """True if these constraints also serve the given ones, so that symbolic work need not be repeated.
 
         Parameters
@@ -108,6 +110,8 @@ class Constraints:
             Compared in this order, with their places in the deck.
         arms
             Those of the equations with finite rotations.
+        start
+            (n,) unknowns at which a step begins.
         """
         same = self._equations == tuple(equations) and self.arms == tuple(arms)
         return same and np.array_equal(self.prescribed, prescribed)

@@ -78,6 +78,12 @@ class TurningConstraints(Constraints):
         self._curved = self._find_curved()
         self._curvature = np.zeros(len(self._curved[1]))
 
+    def matches(
+        self, prescribed: IntArray, equations: Sequence[Equation], arms: Sequence[Arm], start: FloatArray
+    ) -> bool:
+        """As of `Constraints`, if they would be built alike at the start: so that a restart of the step builds them."""
+        return super().matches(prescribed, equations, arms, start) and self._turning.suit(start)
+
     def place(self, start: FloatArray, increment: FloatArray) -> FloatArray:
         """With the arms at their finite rotations."""
         return self._turning.place(start, increment)

@@ -77,10 +77,9 @@ class StepContext:
         """Constraints and linear solver of the step, those of the last one if they are the same."""
         state, equations = self.state, setting.model.equations
         arms = setting.model.arms if self.step.nlgeom else ()
-        constraints, solver = state.constraints, state.solver
-        if constraints is None or solver is None or not constraints.matches(self.unknowns, equations, arms):
+        constraints, solver, start = state.constraints, state.solver, self.beginning["displacement"]
+        if constraints is None or solver is None or not constraints.matches(self.unknowns, equations, arms, start):
             given = self.system, self.unknowns, equations, state.boundaries.sources
-            start = self.beginning["displacement"]
             constraints = TurningConstraints(*given, arms, start) if arms else Constraints(*given)
             find = choose_solver if self.system.ranks.size == 1 else choose_rank_solver
             choose = partial(find, setting.solver, constraints, state.effort)

@@ -133,9 +133,10 @@ def test_matches_tells_when_to_build_again(springs) -> None:
     system = System(*springs(4))
     equations = [equation(1, (1, 1, 1.0), (2, 1, -1.0))]
     constraints = Constraints(system, np.array([3, 0]), equations)
-    assert constraints.matches(np.array([3, 0]), equations)
-    assert not constraints.matches(np.array([0]), equations)
-    assert not constraints.matches(np.array([3, 0]))
+    start = np.zeros(len(constraints.free) + len(constraints.prescribed) + len(equations))
+    assert constraints.matches(np.array([3, 0]), equations, (), start)
+    assert not constraints.matches(np.array([0]), equations, (), start)
+    assert not constraints.matches(np.array([3, 0]), (), (), start)
     assert constraints.name_of(0) == ("30", 1)
     assert constraints.coordinates.tolist() == [[2.0, 0.0, 0.0]]
 
