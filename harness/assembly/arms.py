@@ -138,6 +138,13 @@ class Arms:
         return turns[turns >= 0]
 
     @property
+    def units(self) -> FloatArray:
+        """(references, 6) units in which movements of reference nodes have the size of those of their nodes."""
+        found = np.ones(self.columns.shape)
+        found[:, _TURNS] = 1.0 / np.where(self._length > 0.0, self._length, 1.0)[:, None]
+        return found
+
+    @property
     def curved(self) -> IntArray:
         """(references, 6) unknowns of `curvature` that are left, -1 for those between which it is always zero."""
         found = self.sources[:, :COLUMNS].copy()
@@ -277,12 +284,13 @@ class Arms:
         found[len(self.own) :] = reduction
         return found
 
-    def curvature(self, u: FloatArray, residual: FloatArray) -> FloatArray:
+    def curvature(self, u: FloatArray, residual: FloatArray, slopes: FloatArray) -> FloatArray:
         """Stiffness (references, 6, 6) that forces (n,) add to reference nodes as their arms turn.
 
-        Prescribed displacements of nodes that follow act with the forces that they pass on.
+        Prescribed displacements of nodes that follow act with the forces that they pass on. The arms are those of
+        unknowns u (n,), the turns are about the position of `slopes`.
         """
-        levers, slopes = self.levers(u), self.slopes(u)
+        levers = self.levers(u)
         force = np.where(self._follows, _gathered(residual, self.own), 0.0)
         total = _gathered(residual, self.columns)
         np.add.at(total, self.of, np.einsum("kac,ka->kc", levers, force))

@@ -137,8 +137,8 @@ class Constraints:
                     f"{excess:.2g} of their size ({moment})",
                 )
 
-    def refuse_unbalanced(self, u: FloatArray, residual: FloatArray) -> None:
-        """Raise DeckError if forces (n,) at unknowns u (n,) work on a motion that moves nothing else."""
+    def refuse_unbalanced(self, residual: FloatArray) -> None:
+        """Raise DeckError if forces (n,) work on a motion that moves nothing else, in the last state of `follow`."""
 
     @property
     def ranks(self) -> Ranks:
@@ -187,7 +187,9 @@ class Constraints:
         del start
         return increment
 
-    def follow(self, u: FloatArray, residual: FloatArray) -> None:
+    def follow(
+        self, u: FloatArray, residual: FloatArray, increment: FloatArray | None = None, weight: float = 1.0
+    ) -> None:
         """Take T and P of a state, and what the tangent has of forces that act as T changes.
 
         Parameters
@@ -196,6 +198,11 @@ class Constraints:
             (n,) unknowns.
         residual
             (n,) external minus internal forces.
+        increment
+            (n,) change of the unknowns over the time between the forces of which `residual` is the mean.
+        weight
+            Of the forces at u in this mean, the others are those at u - increment: the mean passes on in the directions
+            of the mean unknowns, u - (1 - weight) increment.
         """
 
     def expand(self, dq: FloatArray, dprescribed: FloatArray) -> FloatArray:
@@ -234,6 +241,30 @@ class Constraints:
             (n,): its product with forces is their work on the path that fulfils the constraints.
         """
         return self.expand(direction[self.free], direction[self.prescribed])
+
+    def inertia(self, mass: sparse.csr_array) -> sparse.csr_array:
+        """Return what `tangential` needs of a mass matrix (n, n)."""
+        return sparse.csr_array(mass.shape)
+
+    def tangential(self, velocity: FloatArray, inertia: sparse.csr_array) -> FloatArray:
+        """Return the velocities that fulfil the constraints in the state of the last `follow`, with the same momenta.
+
+        Parameters
+        ----------
+        velocity
+            (n,) velocities v that fulfil them up to the error of an integration.
+        inertia
+            M, from `inertia`.
+
+        Returns
+        -------
+        FloatArray
+            (n,): T dq/dt + P dp/dt, with T^T M times it equal to T^T M v for the free unknowns of reference nodes. So
+            has P^T M with their prescribed rotations, about which the velocities of other nodes are not those of dp/dt.
+            All other free unknowns and the prescribed ones have theirs.
+        """
+        del inertia
+        return velocity
 
     def convective(self, u: FloatArray, velocity: FloatArray) -> FloatArray:
         """Accelerations (n,) at unknowns u (n,) with velocities (n,), where the free and prescribed ones have none."""

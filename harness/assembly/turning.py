@@ -14,10 +14,14 @@ from scipy import sparse
 
 from harness.assembly.arms import Arms
 from harness.assembly.constraints import Constraints, products, reduced_pattern
+from harness.assembly.held_followers import COLUMNS
 from harness.assembly.system import System
 from harness.errors import DeckError, Source
 from harness.model.arrays import FloatArray, IntArray
 from harness.model.model import Arm, Equation
+
+MASSLESS = 1e-10
+"""Mass over the largest one of a reference node below which a movement of it has none."""
 
 ANGLE = 1e-5
 """Rotation in radians over which T is differenced: its error is the square of that."""
@@ -88,16 +92,66 @@ class TurningConstraints(Constraints):
         """With the arms at their finite rotations."""
         return self._turning.place(start, increment)
 
-    def follow(self, u: FloatArray, residual: FloatArray) -> None:
+    def follow(
+        self, u: FloatArray, residual: FloatArray, increment: FloatArray | None = None, weight: float = 1.0
+    ) -> None:
         """As of `Constraints`."""
         self._follow_pattern()
         assert self._t is not None
-        self._set(self._turning.levers(u))
+        self._acting = u if increment is None else u - (1.0 - weight) * increment
+        self._set(self._turning.levers(self._acting))
         self._t_transposed, self._p_transposed = self._t.T.tocsr(), self._p.T.tocsr()
         left = self._t.data[self._left]
-        self._set(self._turning.slopes(u))
+        slopes = self._turning.slopes(u)
+        self._set(slopes)
         self._map.data[self._changing] = left * self._t.data[self._right]
-        self._curvature = self._turning.curvature(u, residual)[self._curved[0]]
+        self._curvature = weight * self._turning.curvature(self._acting, residual, slopes)[self._curved[0]]
+
+    def inertia(self, mass: sparse.csr_array) -> sparse.csr_array:
+        """As of `Constraints`: the part between nodes that follow, also without an arm, and reference nodes."""
+        moving = np.zeros(mass.shape[0])
+        moving[np.unique(self._of_bodies()[0].indices)] = 1.0
+        chosen = sparse.dia_array((moving[None, :], [0]), shape=mass.shape)
+        found = (chosen @ mass @ chosen).tocsr()
+        found.eliminate_zeros()
+        return found
+
+    def tangential(self, velocity: FloatArray, inertia: sparse.csr_array) -> FloatArray:
+        """As of `Constraints`, each body by itself: what consistent masses couple between bodies is left out."""
+        following = self.along(velocity)
+        moving, columns, body, own = self._of_bodies()
+        units = self._turning.units
+        masses = (moving.T @ (inertia @ moving)).tocoo()
+        same = body[masses.row] == body[masses.col]
+        row, column = masses.row[same], masses.col[same]
+        of_bodies = np.zeros((len(units), COLUMNS, COLUMNS))
+        of_bodies[body[row], own[row], own[column]] = masses.data[same]
+        of_bodies *= units[:, :, None] * units[:, None, :]
+        momenta = np.zeros(units.shape)
+        momenta[body, own] = moving.T @ (inertia @ (velocity - following))
+        # no momentum tells a velocity about a line on which all masses of a body lie
+        inverse = np.linalg.pinv(of_bodies, MASSLESS, hermitian=True)
+        changes = units * np.einsum("mab,mb->ma", inverse, units * momenta)
+        rates = np.zeros(len(self.free) + len(self.prescribed))
+        rates[columns] = changes[body, own]
+        found = following + self.expand(*np.split(rates, [len(self.free)]))
+        found[self.prescribed] = velocity[self.prescribed]
+        return found
+
+    def _of_bodies(self) -> tuple[sparse.csc_array, IntArray, IntArray, IntArray]:
+        """Columns of (T P) that move bodies, which ones they are, and row and column of each in `units`.
+
+        Those of prescribed rotations count: the velocities that an integration gives them and nodes on arms differ by
+        the error of chords for arcs. Those of prescribed displacements do not, of which the others are sums.
+        """
+        number = np.full(len(self._system) + 1, -1)
+        turns = np.isin(self.prescribed, self._turning.rotations)
+        number[self.prescribed] = np.where(turns, len(self.free) + np.arange(len(turns)), -1)
+        number[self.free] = np.arange(len(self.free))
+        columns = number[self._turning.sources[:, :COLUMNS]]
+        body, own = np.nonzero(columns >= 0)
+        both = sparse.hstack([self._t, self._p]).tocsc()
+        return both[:, columns[body, own]], columns[body, own], body, own
 
     def convective(self, u: FloatArray, velocity: FloatArray) -> FloatArray:
         """As of `Constraints`: centripetal, by central differences of T and P; these are those of u afterwards."""
@@ -119,9 +173,9 @@ class TurningConstraints(Constraints):
         np.add.at(reduced, self._curved[1], self._curvature)
         return reduced
 
-    def refuse_unbalanced(self, u: FloatArray, residual: FloatArray) -> None:
+    def refuse_unbalanced(self, residual: FloatArray) -> None:
         """As of `Constraints`."""
-        self._turning.refuse_idle_moments(u, residual)
+        self._turning.refuse_idle_moments(self._acting, residual)
 
     @property
     def overconstraints(self) -> list[tuple[int, Source]]:

@@ -31,7 +31,7 @@ from harness.model.records import StateKept
 from harness.model.restart import DeckPart, KeptState
 from harness.output.schedule import find_written
 
-FORMAT: Final = 2
+FORMAT: Final = 3
 """Of the files: a change of what they hold, or of what it means, gets another number."""
 
 _NAME: Final = re.compile(r"step(\d+)_increment(\d+)\.npz")

@@ -300,9 +300,8 @@ class GeneralStep:
         """Commit the state of the last pass, and choose the next increment."""
         context, number, attempt = self._context, self._step.number, self._control.attempts
         moment = f"step {number}, increment {context.increment}"
-        end = self._state.displacement + last.increment
-        context.constraints.refuse_contradictions(end, moment)
-        context.constraints.refuse_unbalanced(end, last.residual)
+        context.constraints.refuse_contradictions(self._state.displacement + last.increment, moment)
+        context.constraints.refuse_unbalanced(last.residual)
         # the states of the increment before are gone now, and those of this one are not recorded
         hold()
         self._system.commit()

@@ -182,7 +182,10 @@ class TimePath(Path):
         # show it for increments of equal size, and abaqus_inputs/dcb_3d is cut back as in Abaqus only if that holds for
         # all sizes. What the parts of a step add to the matrix depends on the size.
         alike = self._linear is not None and (self._linear == size or not self._parts)
-        again = alike and self.control.attempts == 1
+        # the inertia of nodes on arms is that of rotation vectors, and another one after each turn: where nothing else
+        # holds a body, a matrix of an increment before enlarges the errors of its rotations about other axes
+        turning = self._context.step.procedure.inertia and self._context.constraints.arms
+        again = alike and self.control.attempts == 1 and not turning
         return self._newton.iterates(given, same_matrix=again), given.guess is not None
 
     def _given(self, size: float) -> Increment:

@@ -164,8 +164,13 @@ class Descent(Newton):
         if abs(float(self._constraints.along(correction) @ new.residual)) <= slope + noise:
             return new
         self.take_over(iteration, GROWING)
-        self._constraints.follow(given.displacement + state.increment, state.residual)
+        self._restore(given, state)
         return self._descend(given, state, missing, self._downhill(state, correction))
+
+    def _restore(self, given: Increment, state: Iterate) -> None:
+        """Set the constraints to a state, after trials."""
+        at = given.displacement + state.increment
+        self._constraints.follow(at, state.residual, state.increment, given.weight)
 
     def _lift(self, missing: FloatArray) -> FloatArray:
         """Missing part of the prescribed values, (n,)."""
@@ -198,7 +203,7 @@ class Descent(Newton):
 
         scale, tried = descend(component, float(direction @ state.residual))
         if scale == 0.0:
-            self._constraints.follow(given.displacement + state.increment, state.residual)
+            self._restore(given, state)
             direction = self._majoriser.direction(state.reduced)
             scale, more = descend(component, float(direction @ state.residual))
             tried += more

@@ -57,7 +57,8 @@ class Increment:
     prescribed    (n_p,) increment of each prescribed unknown
     load          (n,) external load at the end
     acting        what acts besides, at displacements (n,), in place of the loads of the call; None: nothing does
-    weight        of the forces that act besides
+    weight        of the forces at the end in their mean with those at the start, which is in equilibrium: by it count
+                  the forces that act besides, and constraints act in the directions of its time
     damping       (nnz,) CSR values of a matrix whose product with the increment is also a force; None: no such force
     motion        velocities and accelerations at the end that go with an increment (n,); None: at rest
     """
@@ -170,7 +171,7 @@ class Newton:
         increment = self._constraints.place(given.displacement, increment)
         evaluation, load = self._pass(replace(call, iteration=iteration), given, increment)
         residual = evaluation.residual + load
-        self._constraints.follow(given.displacement + increment, residual)
+        self._constraints.follow(given.displacement + increment, residual, increment, given.weight)
         reduced = self._constraints.reduce_vector(residual)
         return Iterate(iteration, increment, correction, residual, reduced, evaluation)
 
@@ -197,7 +198,7 @@ class Newton:
         increment = self._constraints.place(given.displacement, increment)
         evaluation, load = self._pass(given.call.asking(Request.RESIDUAL), given, increment, matrix=False)
         residual = evaluation.residual + load
-        self._constraints.follow(given.displacement + increment, residual)
+        self._constraints.follow(given.displacement + increment, residual, increment, given.weight)
         return evaluation, residual
 
     def _pass(

@@ -152,9 +152,15 @@ HELD = "\n".join(
 
 They eliminate its rotations in another order in the second step than in the first.
 """
+SPINNING = "\n".join(
+    [
+        *bent_beam(constraint="*RESTART, WRITE\n" + COUPLING),
+        *bending("*CLOAD", "900, 6, 5.", how="*DYNAMIC, HAFTOL=100.", name="*STEP, NLGEOM, INC=100, AMPLITUDE=RAMP"),
+    ]
+).replace("*ELASTIC", "*DENSITY\n1.\n*ELASTIC")
 DECKS = {
     **{"dynamic": DYNAMIC, "rubber": RUBBER, "heat": HEAT, "umat": UMAT, "steps": STEPS, "delamination": DELAMINATION},
-    **{"contact": CONTACT, "sliding": SLIDING, "turning": TURNING, "held": HELD},
+    **{"contact": CONTACT, "sliding": SLIDING, "turning": TURNING, "held": HELD, "spinning": SPINNING},
     "surfaces": SLIDING.replace("NODE TO", "SURFACE TO"),
 }
 

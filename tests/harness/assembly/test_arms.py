@@ -75,7 +75,7 @@ def test_derivatives(angle):
         np.testing.assert_allclose(found, moment)
         return moment
 
-    found = arms.curvature(start, force)[0, 3:, 3:]
+    found = arms.curvature(start, force, arms.slopes(start))[0, 3:, 3:]
     for k, one in enumerate(step * np.eye(3)):
         np.testing.assert_allclose(found[:, k], -(moments(one) - moments(-one)) / (2 * step), atol=1e-8)
 
@@ -162,9 +162,12 @@ HELD = {
 """Nodes and dofs of the body that are prescribed: they eliminate unknowns of its reference node."""
 
 
+@pytest.mark.parametrize("weight", [1.0, 0.7])
 @pytest.mark.parametrize("name", HELD)
-def test_tangent(tmp_path, name):
+def test_tangent(tmp_path, name, weight):
     """It is the derivative of the reduced forces, of bars whose own tangent is exact.
+
+    With a weight they act in the directions of a time before the end.
 
     Prescribed displacements of the body stay as they are in any position, and all distances in it: of two nodes with
     all of theirs prescribed one is redundant.
@@ -193,7 +196,7 @@ def test_tangent(tmp_path, name):
         u = start + change
         evaluation = system.evaluate(call, u, u)
         residual = evaluation.residual + load
-        constraints.follow(u, residual)
+        constraints.follow(u, residual, change, weight)
         return constraints.reduce_vector(residual), evaluation.data
 
     constraints.follow(start, zero)
@@ -207,6 +210,36 @@ def test_tangent(tmp_path, name):
     for k, one in enumerate(1e-6 * np.eye(len(q))):
         slope = (reduced(q + one)[0] - reduced(q - one)[0]) / 2e-6
         np.testing.assert_allclose(tangent[:, k], -slope, atol=1e-6 * abs(tangent).max())
+
+
+@pytest.mark.parametrize("name", HELD)
+def test_tangential_velocities(tmp_path, name):
+    """They are those of a movement of the body, and the movements that are left keep their momenta.
+
+    Nodes have any masses, and what is prescribed keeps its velocity.
+    """
+    (tmp_path / "bars.inp").write_text(bars("*RIGID BODY, REF NODE=9, PIN NSET=BODY"))
+    model = read_deck(tmp_path / "bars.inp")
+    library = usersub.load(None, job="bars", output_dir=tmp_path)
+    system = System(model.mesh, build_blocks(model, library), model.equations)
+    of_body = [int(system.dofs.find(model.mesh.labels.tolist().index(node), dof)) for node, dof in HELD[name]]
+    turned = np.zeros(len(system))
+    turned[-6:] = [0.1, -0.2, 0.3, 1.2, 0.3, -0.5]
+    free = TurningConstraints(system, np.array([], dtype=int), model.equations, {}, model.arms)
+    u = free.place(np.zeros(len(system)), turned)
+    constraints = TurningConstraints(system, np.array(of_body, dtype=int), model.equations, {}, model.arms, u)
+    constraints.follow(u, np.zeros(len(system)))
+    numbers = np.random.default_rng(4)
+    # moments are about the global axes, velocities those of rotation vectors: rotary inertia would mix both
+    masses = np.where(system.dofs.dof > 3, 0.0, numbers.uniform(1.0, 2.0, len(system)))
+    mass = sparse.dia_array((masses[None, :], [0]), shape=2 * (len(system),)).tocsr()
+    velocity = numbers.standard_normal(len(system))
+    found = constraints.tangential(velocity, constraints.inertia(mass))
+    np.testing.assert_allclose(constraints.along(found), found, atol=1e-12)
+    np.testing.assert_allclose(constraints.reduce_vector(mass @ (found - velocity)), 0, atol=1e-12)
+    np.testing.assert_allclose(found[of_body], velocity[of_body])
+    again = constraints.tangential(found, constraints.inertia(mass))
+    np.testing.assert_allclose(again, found, atol=1e-12)
 
 
 QUASI = "*DYNAMIC, APPLICATION=QUASI-STATIC"

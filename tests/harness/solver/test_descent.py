@@ -42,7 +42,7 @@ class Landscape:
     def place(self, start, increment):
         return increment
 
-    def follow(self, u, residual):
+    def follow(self, u, residual, increment, weight):
         pass
 
     def along(self, direction):
