@@ -16,7 +16,7 @@ from harness.check.patch import patches_of
 from harness.check.recording import Pass, Recording
 from harness.check.replay import Elements, Results, abaqus_order, replay
 from harness.check.shuffle import TypeVerdict
-from harness.check.single import Returned
+from harness.check.single import Returned, first_difference
 from harness.check.state import ElementState, state_of
 from harness.check.ties import first_largest
 from harness.errors import KernelError
@@ -153,6 +153,14 @@ class Subject:
         if not self._magnitudes:
             self._magnitudes.append(np.max([np.abs(state.evaluate().amatrx) for state in self.states], axis=0))
         return self._magnitudes[0]
+
+    @property
+    def carries_on(self) -> bool:
+        """UEXTERNALDB hands data on from increment to increment, which after the run are those of its end."""
+        if self.library.uexternaldb is None:
+            return False
+        pairs = zip(self.states, self.returned, strict=True)
+        return any(first_difference(returned, state.evaluate()) for state, returned in pairs)
 
     @property
     def idle(self) -> bool:

@@ -27,6 +27,8 @@ def check(subject: Subject) -> Finding:
     mechanical = subject.dofs <= MECHANICAL
     if not states or not mechanical.any():
         return not_applicable(AT_REST if mechanical.any() else "no displacements or rotations among the dofs")
+    if subject.carries_on:
+        return not_applicable("UEXTERNALDB hands data on: here they are those of the end of the run")
     figure, message = 0.0, ""
     for state in states:
         forces = np.where(mechanical, np.abs(state.still().evaluate().rhs[0]), 0.0)
