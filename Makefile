@@ -28,7 +28,7 @@ COPY := $(BUILD)-copy
 # the build backend and the tools it calls are found through PATH
 RUN := PATH="$(CURDIR)/$(BIN):$$PATH"
 # the package in $(COPY); known after it is there
-SITE = $(shell find $(CURDIR)/$(COPY) -type d -name harness -prune -exec dirname {} +)
+SITE = $(shell find $(CURDIR)/$(COPY) -type d -name uel -prune -exec dirname {} +)
 # the processes share the cores: one thread of linear algebra each
 PYTEST = $(RUN) PYTHONPATH=$(SITE) MESONPY_EDITABLE_SKIP=$(CURDIR)/$(BUILD) \
 	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 MKL_NUM_THREADS=1 \
@@ -62,7 +62,7 @@ $(INSTALLED): pyproject.toml meson.build .ci/toolchain
 	@touch $@
 
 demo: $(INSTALLED)
-	$(RUN) $(BIN)/python -m harness.delamination.demo --output-dir demo
+	$(RUN) $(BIN)/python -m uel.paper.demo --output-dir demo
 
 ranks: $(RANKS)
 
@@ -113,7 +113,7 @@ docs: $(INSTALLED)
 	@echo 'build/site/docs/index.html'
 
 decks: $(INSTALLED)
-	$(RUN) $(BIN)/python -m harness.delamination.decks
+	$(RUN) $(BIN)/python -m uel.paper.decks
 
 clean:
 	rm -rf .venv .venv-debug build demo

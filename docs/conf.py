@@ -17,11 +17,11 @@ include_patterns = [
     "docs/**.md",
     "*.md",
     "fortran/*.md",
-    "harness/**.md",
+    "harness/uel/**.md",
     "abaqus_inputs/**.md",
 ]
 # the README says in short what the manual says
-exclude_patterns = ["harness/project/template", "README.md"]
+exclude_patterns = ["harness/uel/project/template", "README.md"]
 
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4

@@ -18,8 +18,8 @@ from pygments.lexer import RegexLexer
 from pygments.token import Comment, Keyword, Number, Text
 from sphinx.application import Sphinx
 
-from harness.cli import build_parser
-from harness.delamination.gallery import EXAMPLES, PICTURE
+from uel.cli import build_parser
+from uel.paper.gallery import EXAMPLES, PICTURE
 
 ROOT = Path(__file__).parents[1]
 PAGES = Path(__file__).with_name("generated")

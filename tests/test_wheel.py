@@ -56,7 +56,7 @@ def uel(environment, tmp_path):
 
 
 def test_it_is_the_wheel(environment, tmp_path):
-    command = [str(environment / "python"), "-c", "import harness.cli; print(harness.cli.__file__)"]
+    command = [str(environment / "python"), "-c", "import uel.cli; print(uel.cli.__file__)"]
     variables = {"PATH": str(environment)}
     done = subprocess.run(command, cwd=tmp_path, env=variables, capture_output=True, text=True, check=True)
     assert Path(done.stdout.strip()).is_relative_to(environment.parent)

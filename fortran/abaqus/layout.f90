@@ -8,7 +8,7 @@
 !> up to it that the family has. New rows go to the end of the table, where they are the last of each family that has them: no
 !> position in an existing deck moves. In a deck without a value for them they are 0, and its PROPERTIES stays what `elements` says.
 !>
-!> harness/usersub/layout.py reads this file line by line: one row per line, its meaning after the row, on the same or the next
+!> harness/uel/usersub/layout.py reads this file line by line: one row per line, its meaning after the row, on the same or the next
 !> line.
 module abaqus_layout
   use, intrinsic :: iso_c_binding, only: c_int

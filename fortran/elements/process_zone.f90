@@ -5,7 +5,8 @@
 !>     l_II = sqrt(E_n E_t) G_IIc/(2 t**2),    l_I = E_n G_Ic/(2 s**2),
 !>
 !> with the moduli across (E_n) and along the interface (E_t) and the strengths t and s. Between slender arms, whose height the
-!> element does not know, it is shorter. harness/elements/process_zone.py has the sources, and the formulas of the arms.
+!> element does not know, it is shorter. harness/uel/elements/interfaces/process_zone.py has the sources, and the formulas of
+!> the arms.
 module elements_process_zone
   use core_kinds, only: dp
   use cohesive_parameters, only: law_parameters

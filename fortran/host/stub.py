@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Write `harness/usersub/_host.pyi`, the types of what Python calls: `python fortran/host/stub.py`.
+"""Write `harness/uel/usersub/_host.pyi`, the types of what Python calls: `python fortran/host/stub.py`.
 
 They follow from the declarations of the procedures, as f2py's own parser reads them.
 """
@@ -16,16 +16,16 @@ from typing import Any, Final
 from numpy.f2py import crackfortran
 
 HERE: Final = Path(__file__).parent
-STUB: Final = HERE.parents[1] / "harness" / "usersub" / "_host.pyi"
+STUB: Final = HERE.parents[1] / "harness" / "uel" / "usersub" / "_host.pyi"
 SOURCES: Final = (
-    "entry.f90",
-    "entry_materials.f90",
-    "entry_points.f90",
-    "entry_shape.f90",
-    "entry_watch.f90",
-    "bare_loop.f90",
-    "linear_elements.f90",
-    "scatter_map.f90",
+    "entry/elements.f90",
+    "entry/materials.f90",
+    "entry/points.f90",
+    "entry/shape.f90",
+    "entry/watch.f90",
+    "entry/bare_loop.f90",
+    "entry/linear_elements.f90",
+    "entry/scatter_map.f90",
 )
 """As in meson.build."""
 

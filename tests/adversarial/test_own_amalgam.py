@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from harness.check.apart import examine_apart
-from harness.check.finding import Verdict
-from harness.usersub.built import path_of_amalgam
+from uel.check.apart import examine_apart
+from uel.check.finding import Verdict
+from uel.usersub.built import path_of_amalgam
 
 DECKS = sorted(
     deck
@@ -16,8 +16,8 @@ DECKS = sorted(
     if "*USER ELEMENT" in deck.read_text("utf-8").upper()
 )
 
-INTENDED = {("U3", "order"), ("U10", "order"), ("U4", "energy")}
-"""Results of harness/check/README.md, 'The project's own elements'."""
+INTENDED = {("U3", "order"), ("U10", "order"), *((kind, "energy") for kind in ("U4", "U6", "U8", "U12"))}
+"""Results of harness/uel/check/README.md, 'The project's own elements'."""
 
 
 @pytest.mark.long

@@ -14,11 +14,11 @@ import pytest
 from kills import write_deck
 from readable import complaints
 
-from harness.output import Result
-from harness.output.sta_file import NOT_COMPLETED
-from harness.usersub.built import path_of_kernels
+from uel.output import Result
+from uel.output.files.sta_file import NOT_COMPLETED
+from uel.usersub.built import path_of_kernels
 
-UEL = f"{shlex.quote(sys.executable)} -m harness.cli"
+UEL = f"{shlex.quote(sys.executable)} -m uel.cli"
 BEAM = Path(__file__).parents[2] / "abaqus_inputs" / "dcb" / "dcb_u4_1e8.inp"
 SPRING = Path(__file__).parents[1] / "harness" / "usersub" / "spring.c"
 SPRING_DECK = (

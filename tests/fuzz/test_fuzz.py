@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-import harness
-from harness.deck.keywords import KEYWORDS
-from harness.deck.table import Support
-from harness.errors import DeckError
+import uel
+from uel.deck.keywords import KEYWORDS
+from uel.deck.language.table import Support
+from uel.errors import DeckError
 
 HERE = Path(__file__).parent
 PROGRAMS = HERE.parent / "programs" / "fuzz"
@@ -67,9 +67,9 @@ def test_decks_to_damage_are_sound(tmp_path, deck):
     """Damage to a deck that is refused anyway would reach nothing behind the place of its error."""
     if deck.stem in REASONS:
         with pytest.raises(DeckError, match=REASONS[deck.stem]):
-            harness.run(deck, output_dir=tmp_path)
+            uel.run(deck, output_dir=tmp_path)
     else:
-        assert harness.run(deck, output_dir=tmp_path).completed
+        assert uel.run(deck, output_dir=tmp_path).completed
 
 
 @pytest.mark.nan

@@ -18,9 +18,9 @@ import guide
 import numpy as np
 import pytest
 
-import harness
-from harness.cli import build_parser, from_abaqus
-from harness.cli import main as uel
+import uel
+from uel.cli import build_parser, from_abaqus
+from uel.cli import main as run_command
 
 ROOT = Path(__file__).parents[2]
 LISTED = subprocess.run(["git", "ls-files", "*.md"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
@@ -92,7 +92,7 @@ def test_tutorial_of_the_fit(replayed, assert_same):
     made = deck.replace("20., 0., 0., 30., 60., 0.26,", f"20., 0., 0., {strength}, 60., {toughness},")
     assert made != deck
     Path("made.inp").write_text(made)
-    history = harness.run("made.inp", fallback=True).history
+    history = uel.run("made.inp", fallback=True).history
     x, y = np.loadtxt("measured.csv", delimiter=",", skiprows=1).T
     noise = y - np.interp(x, 2 * history["U2[LOAD]"], history["RF2[LOAD]"])
     assert np.std(noise) == pytest.approx(0.01 * history["RF2[LOAD]"].max(), rel=0.2)
@@ -193,7 +193,7 @@ def stage(tmp_path_factory):
     """A folder with the files that pages take as examples."""
     folder = tmp_path_factory.mktemp("stage")
     with contextlib.chdir(folder):
-        assert uel(["new", "my_uel"]) == 0
+        assert run_command(["new", "my_uel"]) == 0
         Path("decks").mkdir()
         for place in ("job.inp", "beam.inp", "decks/one.inp", "decks/two.inp"):
             shutil.copy("my_uel/my_uel.inp", place)
@@ -215,7 +215,7 @@ restarts in tests/harness/test_restart.py."""
 def test_examples_run(command, stage, monkeypatch):
     """What stands outside of tutorials, with stand-ins for the files."""
     monkeypatch.chdir(stage)
-    assert uel(words_of(command)) == 0
+    assert run_command(words_of(command)) == 0
 
 
 @pytest.mark.parametrize("page", PAGES, ids=str)

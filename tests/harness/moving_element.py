@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 from reference_cells import unit_cell
 
-from harness.elements import Flags
-from harness.model.element_types import CONTINUUM
+from uel.elements import Flags
+from uel.model.element_types import CONTINUUM
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1.2, 0.9, 0], [0.1, 1, 0]])
 CUBE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from harness.interrupts import ENDS, Interrupted, collected, held, raise_interrupts
-from harness.isolation import _GLANCE, HANGS, End, _state, _Watch, run_apart
-from harness.shared_progress import Within, new_slate
+from uel.interrupts import ENDS, Interrupted, collected, held, raise_interrupts
+from uel.running.isolation import _GLANCE, HANGS, End, _state, _Watch, run_apart
+from uel.shared_progress import Within, new_slate
 
 
 @pytest.fixture
@@ -83,7 +83,7 @@ def test_interrupt_within_an_import(module) -> None:
 def test_process_that_waits_for_ever_after_a_call_was_left(module, tmp_path: Path) -> None:
     (tmp_path / "user.f").write_text("      subroutine uexternaldb(lop)\n      call xit\n      end\n")
     text = (
-        "import time\nfrom pathlib import Path\nfrom harness.errors import UelError\nfrom harness.usersub import load\n"
+        "import time\nfrom pathlib import Path\nfrom uel.errors import UelError\nfrom uel.usersub import load\n"
         "def main(words):\n    folder = Path(words[0])\n"
         "    library = load(folder / 'user.f', job='job', output_dir=folder)\n"
         "    try:\n        library.external_database(0, 0, (0.0, 0.0), 0.0, 3, 4)\n"
@@ -165,7 +165,7 @@ def test_signals_that_are_ignored_stay_so(own_signals: None) -> None:
 
 def test_command_as_a_module() -> None:
     result = subprocess.run(
-        [sys.executable, "-m", "harness", "solvers"], capture_output=True, text=True, check=True, env=os.environ
+        [sys.executable, "-m", "uel", "solvers"], capture_output=True, text=True, check=True, env=os.environ
     )
     assert "superlu" in result.stdout
 

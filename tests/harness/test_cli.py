@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from small_decks import pulled, snapping
 
-from harness.cli import main
-from harness.output import Result
+from uel.cli import main
+from uel.output import Result
 
 DECKS = Path(__file__).parents[2] / "abaqus_inputs"
 SPRINGS = Path(__file__).parent / "procedures" / "springs.f"
@@ -251,7 +251,7 @@ def test_no_memory(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixtur
     def exhausted(*_: object, **__: object) -> None:
         raise MemoryError
 
-    monkeypatch.setattr("harness.job.run", exhausted)
+    monkeypatch.setattr("uel.running.job.run", exhausted)
     assert main(["run", str(FLAT)]) == 1
     assert "uel: not enough memory for this model" in capsys.readouterr().err
 
@@ -332,21 +332,21 @@ def test_path_that_is_none(path: str, capsys: pytest.CaptureFixture[str], tmp_pa
 def test_command_loads_little_before_it_can_be_interrupted() -> None:
     """An interrupt in the imports would show a traceback."""
     program = (
-        "import sys, harness.cli, harness.apart; harness.cli.build_parser();"
-        "print([m for m in ('numpy', 'scipy', 'rich', 'shtab', 'harness.doctor') if m in sys.modules])"
+        "import sys, uel.cli, uel.running.apart; uel.cli.build_parser();"
+        "print([m for m in ('numpy', 'scipy', 'rich', 'shtab', 'uel.doctor') if m in sys.modules])"
     )
     result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert result.stdout == "[]\n"
 
 
 def test_package_loads_nothing_before_interrupts_are_taken() -> None:
-    """`harness.__main__` lets them end the process, but `harness` comes first."""
-    program = "import sys; before = set(sys.modules); import harness; print(sorted(set(sys.modules) - before))"
+    """`uel.__main__` lets them end the process, but `harness` comes first."""
+    program = "import sys; before = set(sys.modules); import uel; print(sorted(set(sys.modules) - before))"
     # an editable installation has a finder that loads more
     result = subprocess.run(
         [sys.executable, "-S", "-c", program], capture_output=True, text=True, check=True, cwd=Path(__file__).parents[2]
     )
-    assert result.stdout == "['harness']\n"
+    assert result.stdout == "['uel']\n"
 
 
 @pytest.mark.parametrize("late", [False, True], ids=["within an import", "elsewhere"])
@@ -361,7 +361,7 @@ def test_interrupt_within_an_import_ends_the_process(tmp_path: Path, late: bool)
         "class Owner: odd = Odd()\n"
     )
     program = (
-        "import sys; from harness.interrupts import take_interrupts; take_interrupts()\n"
+        "import sys; from uel.interrupts import take_interrupts; take_interrupts()\n"
         "try:\n    import slow; slow.interrupt()\n"
         "except KeyboardInterrupt: print('caught', flush=True); sys.exit(3)\n"
     )

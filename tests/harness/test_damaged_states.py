@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import harness
-from harness.cli import main
-from harness.errors import UelError
-from harness.output.state_files import FORMAT, array_digest, folder_of, read_state
+import uel
+from uel.cli import main
+from uel.errors import UelError
+from uel.output.files.state_files import FORMAT, array_digest, folder_of, read_state
 
 DECK = """*NODE
 1, 0., 0.
@@ -49,7 +49,7 @@ def whole(tmp_path_factory):
     """Folder of a job that is over."""
     folder = tmp_path_factory.mktemp("job")
     (folder / "old.inp").write_text(DECK)
-    harness.run(folder / "old.inp", output_dir=folder)
+    uel.run(folder / "old.inp", output_dir=folder)
     return folder
 
 
@@ -271,4 +271,4 @@ def test_numbers_that_are_not_finite(whole, state):
     more.write_text("*RESTART, READ\n*STEP\n*STATIC\n1., 1.\n*END STEP\n")
     message = r"step1_increment0002\.npz: the state of the old job holds numbers that are not finite: displacement"
     with pytest.raises(UelError, match=message):
-        harness.run(more, output_dir=state.parent, oldjob=Path(state.parent.with_name("old")))
+        uel.run(more, output_dir=state.parent, oldjob=Path(state.parent.with_name("old")))

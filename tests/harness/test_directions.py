@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from small_decks import body_lines
 
-import harness
-from harness.errors import DeckError, KernelError
+import uel
+from uel.errors import DeckError, KernelError
 
 HERE = Path(__file__).parent
 CARRIED = HERE / "elements" / "carried.f"
@@ -71,7 +71,7 @@ def run(tmp_path):
         (tmp_path / "ring.inp").write_text(text)
         if user is not None:
             (tmp_path / "user.f").write_text(user)
-        return harness.run(tmp_path / "ring.inp", tmp_path / "user.f" if user else None, output_dir=tmp_path)
+        return uel.run(tmp_path / "ring.inp", tmp_path / "user.f" if user else None, output_dir=tmp_path)
 
     return run
 

@@ -10,8 +10,8 @@ from importlib import metadata
 
 import pytest
 
-from harness import doctor
-from harness.cli import main
+from uel import doctor
+from uel.cli import main
 
 COMPILERS = ("gfortran", "gcc", "g++")
 
@@ -36,7 +36,7 @@ def test_version(capsys):
     with pytest.raises(SystemExit) as stop:
         main(["--version"])
     assert stop.value.code == 0
-    assert capsys.readouterr().out == f"uel {metadata.version('uel-harness')}\n"
+    assert capsys.readouterr().out == f"uel {metadata.version('uel')}\n"
 
 
 def test_version_without_an_installation(capsys, monkeypatch):
@@ -55,8 +55,8 @@ def test_all_that_the_tests_need_works(examined, tmp_path):
         for part in ("uel", "numpy", "meshio", "the project's elements", "linear solver superlu", *COMPILERS):
             assert rows[part][0] == "ok", rows[part]
         assert all(rows[compiler][1].endswith("compiles, and the result loads") for compiler in COMPILERS)
-    assert rows["cache of compiled files"] == ("ok", str(tmp_path / "cache" / "uel-harness" / "compiled"))
-    assert list((tmp_path / "cache" / "uel-harness" / "compiled").iterdir()) == []
+    assert rows["cache of compiled files"] == ("ok", str(tmp_path / "cache" / "uel" / "compiled"))
+    assert list((tmp_path / "cache" / "uel" / "compiled").iterdir()) == []
 
 
 def test_without_compilers(examined, tmp_path, monkeypatch):
@@ -98,7 +98,7 @@ def test_package_that_is_missing(examined, monkeypatch):
 
 
 def test_host_that_is_missing(examined, monkeypatch):
-    monkeypatch.setitem(sys.modules, "harness.usersub", None)
+    monkeypatch.setitem(sys.modules, "uel.usersub", None)
     code, rows, last = examined()
     assert code == 1
     assert last == "broken: compiled host"
@@ -111,11 +111,11 @@ from importlib.abc import MetaPathFinder
 
 class Finder(MetaPathFinder):
     def find_spec(self, name, path, target=None):
-        if name == "harness.usersub._host":
+        if name == "uel.usersub._host":
             raise ImportError("libgfortran.so.5: cannot open shared object file: No such file or directory")
 
 sys.meta_path.insert(0, Finder())
-from harness.cli import main
+from uel.cli import main
 sys.exit(main(sys.argv[1:]))
 """
 
@@ -153,7 +153,7 @@ def test_no_folder_for_temporary_files(examined, tmp_path, monkeypatch):
 
 
 def test_cache_that_others_can_write(examined, tmp_path):
-    folder = tmp_path / "cache" / "uel-harness" / "compiled"
+    folder = tmp_path / "cache" / "uel" / "compiled"
     folder.mkdir(parents=True)
     folder.chmod(0o777)
     code, rows, _ = examined()

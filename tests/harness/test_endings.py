@@ -14,9 +14,9 @@ import meshio
 import pytest
 from small_decks import pulled, snapping
 
-from harness.cli import main
-from harness.delamination import demo
-from harness.output import Result
+from uel.cli import main
+from uel.output import Result
+from uel.paper import demo
 
 DECKS = Path(__file__).parents[2] / "abaqus_inputs"
 SPRINGS = Path(__file__).parent / "procedures" / "springs.f"
@@ -91,7 +91,7 @@ def test_second_run_of_a_name_in_a_folder_is_refused(tmp_path: Path, capsys: pyt
     """The lock of a process that is gone holds nothing."""
     deck = pulled(tmp_path)
     words = ["run", str(deck), "--user", str(SPRING_IN_C), "--quiet", "--output-dir", str(tmp_path)]
-    holder = "import sys; from pathlib import Path; from harness.output.lock import locked\n"
+    holder = "import sys; from pathlib import Path; from uel.output.lock import locked\n"
     holder += "with locked(Path(sys.argv[1])):\n print('held', flush=True)\n sys.stdin.read()"
     command = [sys.executable, "-c", holder, str(tmp_path / "pulled")]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
@@ -151,7 +151,7 @@ def test_killed_run_leaves_readable_files(tmp_path: Path, after: float) -> None:
     slow = text.replace("0.01, 1., 1e-07, 0.01\n", "0.0005, 1., 1e-07, 0.0005\n")
     assert slow != text
     deck.write_text(slow)
-    command = [sys.executable, "-m", "harness.cli", "run", str(deck), "--output-dir", str(tmp_path), "--quiet"]
+    command = [sys.executable, "-m", "uel.cli", "run", str(deck), "--output-dir", str(tmp_path), "--quiet"]
     process = subprocess.Popen(command)
     status = tmp_path / "dcb_u4_1e8.sta"
     started = time.monotonic()

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from harness.cli import main
-from harness.output import Result
+from uel.cli import main
+from uel.output import Result
 
 USER = Path(__file__).with_name("ends_of_increments.f90")
 DECK = """\
@@ -87,8 +87,8 @@ def test_xit_while_the_states_change(tmp_path: Path, capsys: pytest.CaptureFixtu
 
 SIGNAL = """
 import os, signal, sys
-from harness import cli, interrupts
-from harness.assembly import system
+from uel import cli, interrupts
+from uel.assembly import system
 interrupts.raise_interrupts()
 commit = system.System.commit
 def committing(self):

@@ -11,10 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from harness.isolation import supervise
-from harness.output.sta_file import read_status
-from harness.output.verdict import close_ended_run
-from harness.shared_progress import Within, new_slate
+from uel.output.files.sta_file import read_status
+from uel.output.verdict import close_ended_run
+from uel.running.isolation import supervise
+from uel.shared_progress import Within, new_slate
 
 CRASHES = Path(__file__).parent / "usersub" / "crashes.cpp"
 LONG_RUN = Path(__file__).parents[2] / "abaqus_inputs" / "dcb" / "dcb_u4_1e8.inp"
@@ -86,7 +86,7 @@ PLACE = STOPPED.format(": {}")
 def test_the_end_is_reported(tmp_path: Path, way: int, message: str) -> None:
     deck = tmp_path / "crash.inp"
     deck.write_text(DECK.format(way=way))
-    command = [sys.executable, "-m", "harness.cli", "run", "crash.inp", "--user", str(USER), "--call-limit", "2"]
+    command = [sys.executable, "-m", "uel.cli", "run", "crash.inp", "--user", str(USER), "--call-limit", "2"]
     result = subprocess.run([*command, "--quiet"], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert result.returncode == 1
     assert "Traceback" not in result.stderr
@@ -102,7 +102,7 @@ KILLED = r"uel: the run was {}, in UEL for element 7, step 1, increment 2, itera
 def begin(folder: Path, user: Path, way: int, *words: str) -> subprocess.Popen[str]:
     """A run of the spring."""
     (folder / "crash.inp").write_text(DECK.format(way=way))
-    command = [sys.executable, "-m", "harness.cli", "run", "crash.inp", "--user", str(user), "--quiet", *words]
+    command = [sys.executable, "-m", "uel.cli", "run", "crash.inp", "--user", str(user), "--quiet", *words]
     return subprocess.Popen(command, cwd=folder, stderr=subprocess.PIPE, text=True)
 
 
@@ -163,7 +163,7 @@ def test_signal_to_the_parent_alone_ends_an_endless_loop(tmp_path: Path, signum:
 
 def test_signal_between_calls_ends_the_run_at_once(tmp_path: Path) -> None:
     """The run writes its verdict itself."""
-    command = [sys.executable, "-m", "harness.cli", "run", str(LONG_RUN), "--output-dir", str(tmp_path), "--quiet"]
+    command = [sys.executable, "-m", "uel.cli", "run", str(LONG_RUN), "--output-dir", str(tmp_path), "--quiet"]
     # in the folder of the deck: elsewhere Abaqus would not find the files it includes, of which a run warns
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, cwd=LONG_RUN.parent)
     wait_for(tmp_path / f"{LONG_RUN.stem}.sta", "   1     3   1 ", process)
@@ -179,7 +179,7 @@ def test_signal_between_calls_ends_the_run_at_once(tmp_path: Path) -> None:
 
 LATE_SIGNAL = """
 import os, signal, sys
-from harness import cli, interrupts, output
+from uel import cli, interrupts, output
 interrupts.raise_interrupts()
 close = output.JobOutput.close
 def send():
@@ -188,7 +188,7 @@ def closing(job, error):
     close(job, error)
     {during}
 output.JobOutput.close = closing
-from harness import job
+from uel.running import job
 whole = job.Result
 job.Result = lambda *args, **more: ({after}, whole(*args, **more))[1]
 sys.exit(cli.main(["run", "--same-process", sys.argv[1], "--output-dir", sys.argv[2]]))
@@ -218,7 +218,7 @@ def wait_for(file: Path, text: str, process: subprocess.Popen[str]) -> None:
 def test_process_that_is_killed_takes_the_other_along(tmp_path: Path) -> None:
     inner = "import time; print('begun', flush=True); time.sleep(60)"
     (tmp_path / "sleeper.py").write_text(f"def main(words):\n    {inner}\n")
-    outer = "from harness.isolation import run_apart; run_apart('sleeper', [], 0.0)"
+    outer = "from uel.running.isolation import run_apart; run_apart('sleeper', [], 0.0)"
     with subprocess.Popen([sys.executable, "-c", outer], stdout=subprocess.PIPE, text=True, cwd=tmp_path) as process:
         assert process.stdout is not None
         assert process.stdout.readline() == "begun\n"
@@ -240,13 +240,13 @@ def test_a_run_that_ends_well_or_closes_its_files_is_left_alone(tmp_path: Path) 
 
 
 AGAIN = """\
-import sys, harness
-from harness.errors import UelError
+import sys, uel
+from uel.errors import UelError
 try:
-    harness.run("crash.inp", sys.argv[1], job="first")
+    uel.run("crash.inp", sys.argv[1], job="first")
 except UelError as error:
     print(error)
-result = harness.run("sound.inp", sys.argv[1])
+result = uel.run("sound.inp", sys.argv[1])
 print(result.completed, *result.warnings)
 """
 

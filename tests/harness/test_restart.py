@@ -18,12 +18,12 @@ from contact_decks import plane, two_boxes
 from contact_decks import step as contact_step
 from small_decks import snapping
 
-import harness
-from harness.assembly.arms import Arms
-from harness.cli import main
-from harness.errors import ConvergenceError, DeckError, UelError, UsageError
-from harness.model.records import StateKept
-from harness.output.state_files import FORMAT, StateFiles, array_digest, folder_of, read_state
+import uel
+from uel.assembly.arms import Arms
+from uel.cli import main
+from uel.errors import ConvergenceError, DeckError, UelError, UsageError
+from uel.model.records import StateKept
+from uel.output.files.state_files import FORMAT, StateFiles, array_digest, folder_of, read_state
 
 USER = Path(__file__).with_name("restart.f90")
 DCB = Path(__file__).parents[2] / "abaqus_inputs" / "dcb" / "dcb_u4_1e6.inp"
@@ -178,7 +178,7 @@ def written(name, text):
 
 
 def run(deck, user=None, **options):
-    return harness.run(deck, user, **options)
+    return uel.run(deck, user, **options)
 
 
 def states(job):
@@ -222,7 +222,7 @@ def assert_goes_on(job, new, place):
         assert_alike(*kept)
     all_rows, own = rows(job), rows(new)
     assert own == all_rows[len(all_rows) - len(own) :]
-    history = [harness.output.Result(name).history for name in (job, new)]
+    history = [uel.output.Result(name).history for name in (job, new)]
     for name, values in history[1].items():
         whole = history[0][name]
         size = np.nanmax(np.abs(whole), initial=0.0)
@@ -278,7 +278,7 @@ def test_run_that_is_killed_goes_on_with_one_command(folder):
     """kill -9 before an increment of the second step: the deck itself, with other user routines, ends the analysis."""
     deck = written("steps", STEPS)
     run(deck, USER, job="whole")
-    words = [sys.executable, "-m", "harness", "run", str(deck), "--user", str(USER), "--quiet"]
+    words = [sys.executable, "-m", "uel", "run", str(deck), "--user", str(USER), "--quiet"]
     killed = subprocess.run(
         words, env={**os.environ, "KILL_BEFORE": "2 3"}, capture_output=True, text=True, check=False
     )
@@ -342,7 +342,7 @@ def test_restart_deck_adds_steps_sets_and_amplitudes(folder, options, times, for
         written("new", f"*HEADING\nmore load\n*RESTART, READ, STEP=1{options}\n*NSET, NSET=OTHERS\n5, 10\n{new}"),
         oldjob="bar",
     )
-    history = harness.output.Result("new").history
+    history = uel.output.Result("new").history
     assert history["time"] == pytest.approx(times)
     assert history["U1[RIGHT:5]"] == pytest.approx(2 * np.array(forces) / 250)
     assert Path("new.dat").read_text().count("more load")
@@ -350,7 +350,7 @@ def test_restart_deck_adds_steps_sets_and_amplitudes(folder, options, times, for
     third = f"*STEP\n*STATIC\n1., 1.\n*CLOAD, AMPLITUDE=HALF\nOTHERS, 1, 6.\n{OUTPUT}*END STEP\n"
     written("third", f"*RESTART, READ\n*AMPLITUDE, NAME=HALF\n0., 0.5, 1., 0.5\n{third}")
     assert main(["run", "job=third", "oldjob=new", "--quiet"]) == 0
-    assert harness.output.Result("third").history["U1[RIGHT:5]"] == pytest.approx([2 * 3.0 / 250])
+    assert uel.output.Result("third").history["U1[RIGHT:5]"] == pytest.approx([2 * 3.0 / 250])
 
 
 @pytest.mark.parametrize(
@@ -440,7 +440,7 @@ def test_old_jobs_that_cannot_be_taken_up(folder):
         run(read, oldjob="bar")
     deck.write_text(text)
     run(read, oldjob="bar")
-    assert harness.output.Result("new").history["U1[RIGHT:5]"][-1] == pytest.approx(2 * 2.0 / 250)
+    assert uel.output.Result("new").history["U1[RIGHT:5]"][-1] == pytest.approx(2 * 2.0 / 250)
 
 
 def tampered(job, change):

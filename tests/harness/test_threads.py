@@ -11,10 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import harness
-from harness.cli import main
-from harness.delamination.bricks import BRICKS, CONSISTENT, STABILISED_BRICKS, STANDARD, dcb_of_bricks
-from harness.errors import CallLimitError, KernelError, UsageError
+import uel
+from uel.cli import main
+from uel.errors import CallLimitError, KernelError, UsageError
+from uel.paper.bricks import BRICKS, CONSISTENT, STABILISED_BRICKS, STANDARD, dcb_of_bricks
 
 HEAD = Path(__file__).parent / "uel.inc"
 SPRINGS = 700
@@ -68,7 +68,7 @@ def chain(tmp_path):
         )
         (folder / "spring.f").write_text(SPRING.format(head=HEAD, mistake=statement.replace("\n", "\n      ")))
         options = {"thread_safe": ["u1"], "output_dir": folder} | options
-        return harness.run(folder / "chain.inp", folder / "spring.f", cpus=cpus, **options)
+        return uel.run(folder / "chain.inp", folder / "spring.f", cpus=cpus, **options)
 
     return run
 
@@ -99,7 +99,7 @@ def test_same_bits_of_user_elements(chain):
 def test_same_bits_in_space(tmp_path, deck):
     file = tmp_path / "dcb.inp"
     file.write_text(re.sub(r"(\*STATIC\n.*?), 2\.5,", r"\1, 0.4,", deck()))
-    results = [harness.run(file, job=f"on{cpus}", output_dir=tmp_path, cpus=cpus) for cpus in (1, 2)]
+    results = [uel.run(file, job=f"on{cpus}", output_dir=tmp_path, cpus=cpus) for cpus in (1, 2)]
     one, two = (
         [text.replace(f"on{k}", "job") for text in files_of(each)] for k, each in zip((1, 2), results, strict=True)
     )
@@ -172,7 +172,7 @@ def test_threads_give_up(chain):
 def test_stress_that_elements_share(tmp_path):
     deck = Path(__file__).parents[2] / "abaqus_inputs" / "dcb" / "dcb_u3_1e8.inp"
     with pytest.raises(UsageError, match=r"--cpus 2: elements of type U[13] .* in memory that all threads share; run"):
-        harness.run(deck, output_dir=tmp_path, cpus=2)
+        uel.run(deck, output_dir=tmp_path, cpus=2)
 
 
 @pytest.mark.parametrize(

@@ -12,24 +12,16 @@ import pytest
 import reference as independent
 from random_states import Tools
 
-from harness import usersub
-from harness.elements import Call, Flags, Request, build_blocks
-from harness.errors import Source
-from harness.model.mesh import ElementGroup, Mesh
-from harness.model.model import Model
-from harness.model.procedures import Static
-from harness.model.properties import (
-    Elastic,
-    ElasticType,
-    Material,
-    Orientation,
-    SolidSection,
-    UserElement,
-    UserProperty,
-)
-from harness.model.steps import Step
-from harness.usersub.built import path_of_amalgam
-from harness.usersub.layout import element_layouts
+from uel import usersub
+from uel.elements import Call, Flags, Request, build_blocks
+from uel.errors import Source
+from uel.model.mesh import ElementGroup, Mesh
+from uel.model.model import Model
+from uel.model.procedures import Static
+from uel.model.properties import Elastic, ElasticType, Material, Orientation, SolidSection, UserElement, UserProperty
+from uel.model.steps import Step
+from uel.usersub.built import path_of_amalgam
+from uel.usersub.layout import element_layouts
 
 SOURCE = Source("test.inp", 1)
 

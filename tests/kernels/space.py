@@ -6,7 +6,7 @@ import numpy as np
 from reference import ply_stress, serendipity
 from reference_cells import EDGES, SQUARE_EDGES, with_middles
 
-from harness.usersub import layout
+from uel.usersub import layout
 
 STANDARD, QUADRATIC = (7, 11), (11, 12)
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])

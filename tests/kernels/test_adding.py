@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness import usersub
-from harness.errors import KernelError
-from harness.usersub.layout import element_layouts, read_layouts
+from uel import usersub
+from uel.errors import KernelError
+from uel.usersub.layout import element_layouts, read_layouts
 
 ROOT = Path(__file__).parents[2]
 BRANCH = Path(__file__).parent / "branch"

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from harness.usersub.built import path_of_amalgam
-from harness.usersub.layout import element_layouts
+from uel.usersub.built import path_of_amalgam
+from uel.usersub.layout import element_layouts
 
 ROOT = Path(__file__).parents[2]
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from harness.errors import KernelError, Source
-from harness.model.properties import Elastic, ElasticType, Material, Plastic
+from uel.errors import KernelError, Source
+from uel.model.properties import Elastic, ElasticType, Material, Plastic
 
 SOURCE = Source("test.inp", 1)
 STEEL = Material("STEEL", SOURCE, Elastic(ElasticType.ISOTROPIC, (2.0e5, 0.3), SOURCE))

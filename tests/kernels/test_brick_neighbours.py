@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from neighbours import BOTTOM, FACES, INTERFACE, Sandwich, numberings
 
-from harness.errors import KernelError, Source
-from harness.model.properties import Elastic, ElasticType, Material
+from uel.errors import KernelError, Source
+from uel.model.properties import Elastic, ElasticType, Material
 
 SOURCE = Source("test.inp", 1)
 YOUNG, NU = 8.0e4, 0.3

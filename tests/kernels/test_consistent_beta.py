@@ -9,7 +9,7 @@ import pytest
 from space import nodes_of as space_nodes
 from space import opened
 
-from harness.errors import KernelError
+from uel.errors import KernelError
 
 
 def quadratic(corners):

@@ -7,7 +7,7 @@ import ctypes
 import numpy as np
 import pytest
 
-from harness.usersub.layout import element_layouts
+from uel.usersub.layout import element_layouts
 
 QUAD = [[0.0, 0.0], [1.1, 0.2], [0.9, 1.3], [-0.2, 0.8]]
 

@@ -11,7 +11,7 @@ from reference_cells import EDGES, SQUARE_EDGES, with_middles
 from reference_cells import nodes_of as cell_nodes
 from scipy.linalg import eigh
 
-from harness.errors import KernelError
+from uel.errors import KernelError
 
 README = Path(__file__).parents[2] / "fortran/README.md"
 PLY_90 = {"E1": 1.05e4, "E2": 1.05e4, "E3": 1.2e5, "NU12": 0.51, "NU13": 0.02625, "NU23": 0.02625, "G12": 3.48e3}

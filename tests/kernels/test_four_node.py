@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from harness.errors import KernelError
+from uel.errors import KernelError
 
 BOTTOM, TOP, INTERFACE = 11, 12, 400
 OFFSETS = {"OFFSETBOTTOM": BOTTOM - INTERFACE, "OFFSETTOP": TOP - INTERFACE}

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from harness.errors import Source
-from harness.model.properties import Elastic, ElasticType, Material, Plastic
+from uel.errors import Source
+from uel.model.properties import Elastic, ElasticType, Material, Plastic
 
 NLGEOM = (1, 1, 0, 0)
 SOURCE = Source("test.inp", 1)

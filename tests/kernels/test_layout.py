@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from harness import usersub
-from harness.usersub import layout
+from uel import usersub
+from uel.usersub import layout
 
 ROOT = Path(__file__).parents[2]
 

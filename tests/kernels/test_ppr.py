@@ -10,8 +10,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from harness import usersub
-from harness.errors import KernelError
+from uel import usersub
+from uel.errors import KernelError
 
 FLAT = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 0.0]])
 EDGE = np.array([[0.3, 0.1], [-0.1, 0.3]]) / np.sqrt(0.1)  # tangent of the edge and its normal

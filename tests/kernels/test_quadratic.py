@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from harness.errors import KernelError
-from harness.usersub import layout
+from uel.errors import KernelError
+from uel.usersub import layout
 
 STATES = ("elastic", "softening", "sliding", "closed", "failed", "mixed", "unloading")
 GAUSS = {

@@ -12,7 +12,7 @@ from reference_cells import EDGES, SQUARE_EDGES, share_of_nodes, with_middles
 from reference_cells import nodes_of as cell_nodes
 from space import FACE, bottom_of, frames, nodes_of, opened, points_of, stress_of
 
-from harness.errors import KernelError
+from uel.errors import KernelError
 
 HEXAHEDRON = cell_nodes("hexahedron20")
 RIGID = {"ALPHAN": 0.0, "ALPHAT": 0.0, "CLOSURE": 1}

@@ -22,7 +22,7 @@ from space import (
     weights_of,
 )
 
-from harness.errors import KernelError
+from uel.errors import KernelError
 
 LAWS = {
     "bilinear": {"LAW": 1},

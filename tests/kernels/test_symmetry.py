@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from space import bottom_of, top_of
 
-from harness.usersub.layout import element_layouts
+from uel.usersub.layout import element_layouts
 
 EDGE = np.array([[0.0, 0.0], [1.0, 0.1]])
 FACE = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.1], [1.1, 0.9, 0.2], [0.0, 1.0, 0.1]])

@@ -8,7 +8,7 @@ from neighbours import Sandwich
 from reference_cells import SQUARE_EDGES, with_middles
 from space import nodes_of
 
-from harness.usersub.layout import element_layouts
+from uel.usersub.layout import element_layouts
 
 ZEROS = {"LAW": 0, "CLOSURE": 0, "BETAN": 0.0, "BETAT": 0.0, "ALPHAN": 0.0, "ALPHAT": 0.0}
 CONSISTENT = {"LAW": 1, "CLOSURE": 1, "BETAN": -1.0, "BETAT": -1.0, "ALPHAN": 0.0, "ALPHAT": 0.0}

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import harness
+import uel
 
 FOLDER = os.environ.get("UEL_PUBLIC", "")
 DECKS = Path(FOLDER) / "CzmTestKit" / "Examples" / "ADCB_AbqImp"
@@ -36,7 +36,7 @@ def test_loads_of_a_delamination(tmp_path, point):
     Residuals of 5 % of the average force are accepted, which is 0.5 % of the load. In the last increment of point_00
     the crack snaps: its load is left out.
     """
-    result = harness.run(DECKS / point / "ADCB_AbqImp.inp", output_dir=tmp_path)
+    result = uel.run(DECKS / point / "ADCB_AbqImp.inp", output_dir=tmp_path)
     displacement, load = published(point)
     assert result.completed
     np.testing.assert_allclose(result.history["U3[TOPL]"], displacement, rtol=1e-6)

@@ -19,11 +19,11 @@ from pathlib import Path
 
 import numpy as np
 
-from harness.delamination.blocks import BY_EQUATION_21, Interface, Specimen, element_blocks
-from harness.delamination.keywords import integer_table, node_block, node_set, number, text
-from harness.delamination.materials import PLY_0, Cohesive, Ply
-from harness.delamination.mesh import TwoArmMesh, two_arms
-from harness.model.arrays import FloatArray, IntArray
+from uel.delamination.blocks import BY_EQUATION_21, Interface, Specimen, element_blocks
+from uel.delamination.keywords import integer_table, node_block, node_set, number, text
+from uel.delamination.materials import PLY_0, Cohesive, Ply
+from uel.delamination.mesh import TwoArmMesh, two_arms
+from uel.model.arrays import FloatArray, IntArray
 
 # so stiff that its separation is negligible, so strong that it stays elastic
 STIFF = Cohesive(1.0e12, 1.0e12, strength_normal=1e6, strength_shear=1e6, toughness_1=1e6, toughness_2=1e6)

@@ -5,7 +5,7 @@
 A file holds a table `[[value]]` for each quantity:
 
 decks      decks it holds for
-quantity   name in `harness.delamination.measures`, or a column of the history, or RF3[SET] for the sum over a node set;
+quantity   name in `uel.paper.measures`, or a column of the history, or RF3[SET] for the sum over a node set;
            of columns the last value is meant, or that at the time `at`
 against    deck to compare with, where the quantity is a comparison
 value, unit
@@ -28,9 +28,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from harness.delamination.measures import COMPARISONS, QUANTITIES
-from harness.model.arrays import FloatArray
-from harness.output import Result
+from uel.model.arrays import FloatArray
+from uel.output import Result
+from uel.paper.measures import COMPARISONS, QUANTITIES
 
 ENTRIES = {"decks", "quantity", "value", "unit", "why", "kind", "source"}
 KINDS = ("analytic", "paper figure", "other code", "regression")

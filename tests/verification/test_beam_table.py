@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from harness.delamination import beam_table
+from uel.paper import beam_table
 
 
 @pytest.mark.long

@@ -9,8 +9,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from harness.delamination import benchmarks, literature, literature_measures
-from harness.delamination.benchmarks import DECKS, PAGE, Benchmark, Row, calm_iterations, kept_rows, main, page
+from uel.paper import benchmarks, literature, literature_measures
+from uel.paper.benchmarks import DECKS, PAGE, Benchmark, Row, calm_iterations, kept_rows, main, page
 
 PULLED = """*NODE
 1, 0., 0., 0.

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from harness.delamination.materials import SolidPly, isotropic
-from harness.delamination.run_deck import run_deck
-from harness.delamination.study.beta import (
+from uel.delamination.materials import SolidPly, isotropic
+from uel.paper.run_deck import run_deck
+from uel.paper.study.beta import (
     MULTIPLES,
     PLATES,
     PLY_0,

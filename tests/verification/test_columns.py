@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from harness.delamination import columns, decks
-from harness.usersub.layout import Item, element_layouts
+from uel.paper import columns, decks
+from uel.usersub.layout import Item, element_layouts
 
 FOLDER = Path("properties")
 LAYOUTS = element_layouts()

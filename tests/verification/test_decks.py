@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.delamination import decks, specimens
-from harness.delamination.mesh import TwoArmMesh, crack_columns, graded_columns
+from uel.delamination import specimens
+from uel.delamination.mesh import TwoArmMesh, crack_columns, graded_columns
+from uel.paper import decks
 
 COMMITTED = {path.relative_to(decks.FOLDER) for path in decks.FOLDER.rglob("*.inp")}
 MESHES = {"patch": specimens.patch_mesh(0.003), "dcb": specimens.dcb_mesh(), "dcb_ref": specimens.dcb_ref_mesh()}

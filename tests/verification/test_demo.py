@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from harness.delamination import demo
-from harness.delamination.reproduce.cases import PaperCase
+from uel.paper import demo
+from uel.paper.reproduce.cases import PaperCase
 
 HERE = Path(demo.__file__).parent
 PAGE = HERE / "demo.md"
@@ -62,7 +62,7 @@ def test_readme_says_what_the_page_has() -> None:
     assert float(ahead.group(1)) == round(kept["paper's"][5])
     snap = re.findall(rf"^\| ({NUMBER}) .*\| ({NUMBER}) \|$", PAGE.read_text("utf-8"), re.MULTILINE)[-1]
     assert float(stopped.group(1)) == round(100 * float(snap[0]) / float(snap[1]))
-    for name in re.findall(r"harness/delamination/pictures/(\S+\.png)", text):
+    for name in re.findall(r"harness/uel/paper/pictures/(\S+\.png)", text):
         assert (HERE / demo.PICTURES / name).exists()
 
 

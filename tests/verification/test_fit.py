@@ -10,12 +10,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.cli import main
-from harness.delamination import measures
-from harness.delamination.materials import TABLE_2
-from harness.delamination.steps import Increments
-from harness.delamination.study.cases import KINDS, deck_files, interface_of
-from harness.job import run
+from uel.cli import main
+from uel.delamination.materials import TABLE_2
+from uel.delamination.steps import Increments
+from uel.paper import measures
+from uel.paper.study.cases import KINDS, deck_files, interface_of
+from uel.running.job import run
 
 NOISE, POINTS, OPENING, INCREMENTS = 0.01, 80, 2.0, 60
 

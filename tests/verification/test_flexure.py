@@ -8,15 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.delamination import flexure
-from harness.delamination.blocks import BY_EQUATION_21, Interface, Specimen
-from harness.delamination.materials import PLY_0, PLY_90, TABLE_2
-from harness.delamination.mesh import TwoArmMesh, refined
-from harness.delamination.specimens import ARMS, CRACK, WIDTH, mesh_files
-from harness.delamination.steps import LINEAR
-from harness.delamination.theory import enf_compliance, enf_load, frmm_compliance, frmm_load
-from harness.job import run
-from harness.output import Result
+from uel.delamination import flexure
+from uel.delamination.blocks import BY_EQUATION_21, Interface, Specimen
+from uel.delamination.materials import PLY_0, PLY_90, TABLE_2
+from uel.delamination.mesh import TwoArmMesh, refined
+from uel.delamination.specimens import ARMS, CRACK, WIDTH, mesh_files
+from uel.delamination.steps import LINEAR
+from uel.delamination.theory import enf_compliance, enf_load, frmm_compliance, frmm_load
+from uel.output import Result
+from uel.running.job import run
 
 
 def test_meshes_are_those_of_the_problems() -> None:

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-import harness
-from harness.delamination.decks import FOLDER
-from harness.errors import ConvergenceError
-from harness.output import Result
+import uel
+from uel.errors import ConvergenceError
+from uel.output import Result
+from uel.paper.decks import FOLDER
 
 INTEGERS = "0., 1, 0, 0, 0, -5000, -4000, 2"
 
@@ -24,6 +24,6 @@ def test_it_converges_too_slowly(tmp_path: Path) -> None:
     assert text.count(INTEGERS) == 1
     deck.write_text(text.replace(INTEGERS, "0., 1, 0, 1, 0, -5000, -4000, 2"))
     with pytest.raises(ConvergenceError, match=r"LESS THAN THE MINIMUM|TOO MANY ATTEMPTS"):
-        harness.run(deck, output_dir=tmp_path)
+        uel.run(deck, output_dir=tmp_path)
     # regression: 760 increments when it was written, where the whole analysis takes 156 with the consistent tangent
     assert len(Result(tmp_path / "dcb_u3_1e8").status) > 3 * 156

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.delamination import gallery
-from harness.delamination.decks import FOLDER
-from harness.delamination.gallery import EXAMPLES, PICTURE
-from harness.output.plots import Curve
+from uel.output.pictures.plots import Curve
+from uel.paper import gallery
+from uel.paper.decks import FOLDER
+from uel.paper.gallery import EXAMPLES, PICTURE
 
 PROBLEMS = sorted(page.parent for page in FOLDER.glob("*/README.md"))
 

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from harness.cli import main
-from harness.delamination import law
-from harness.delamination.decks import FOLDER
-from harness.delamination.law_report import Exploration, explore, path_points
-from harness.errors import KernelError, UelError
+from uel.cli import main
+from uel.delamination import law
+from uel.delamination.law_report import Exploration, explore, path_points
+from uel.errors import KernelError, UelError
+from uel.paper.decks import FOLDER
 
 COMPLIANT = ("ALPHAN=2e4", "ALPHAT=3e4")
 PAPER = ("CLOSURE=2", "BETAN=-2", "BETAT=-2")

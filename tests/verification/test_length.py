@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from harness.delamination.study.length import CASES, LengthResult, beam
+from uel.paper.study.length import CASES, LengthResult, beam
 
 PAGE = Path(__file__).parents[2] / "fortran" / "stabilised.md"
 # beam theory of a sharp crack, 52.32 N: a process zone takes a few per cent off, and nothing can add to it

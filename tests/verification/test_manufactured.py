@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from manufactured import Field, errors, plate, write_plate_deck
 
-from harness.job import run
+from uel.running.job import run
 
 FIELD = Field()
 

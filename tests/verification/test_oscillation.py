@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.special import ellipe
 
-from harness.delamination.oscillation import (
+from uel.delamination.oscillation import (
     cancelled,
     error_index,
     oscillation_index,
@@ -21,7 +21,7 @@ from harness.delamination.oscillation import (
     total_variation,
     turns,
 )
-from harness.model.arrays import FloatArray
+from uel.model.arrays import FloatArray
 
 STRENGTH = 60.0
 

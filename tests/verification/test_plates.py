@@ -9,18 +9,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.cli import main
-from harness.deck import read_deck
-from harness.delamination import plate_specimens as build
-from harness.delamination import space_beams
-from harness.delamination.blocks import Interface
-from harness.delamination.keywords import text
-from harness.delamination.materials import Cohesive, SolidPly, isotropic
-from harness.delamination.plates import Laminate, TwoPlateMesh, two_plates
-from harness.delamination.theory import Arms, dcb_compliance, enf_compliance
-from harness.job import run
-from harness.output import Result
-from harness.output.front import fronts
+from uel.cli import main
+from uel.deck import read_deck
+from uel.delamination import plate_specimens as build
+from uel.delamination.blocks import Interface
+from uel.delamination.keywords import text
+from uel.delamination.materials import Cohesive, SolidPly, isotropic
+from uel.delamination.plates import Laminate, TwoPlateMesh, two_plates
+from uel.delamination.theory import Arms, dcb_compliance, enf_compliance
+from uel.output import Result
+from uel.output.pictures.front import fronts
+from uel.paper import space_beams
+from uel.running.job import run
 
 PLY = SolidPly("PLY_0", (1.2e5, 1.05e4, 1.05e4), (0.3, 0.3, 0.51), (5.52e3, 5.52e3, 3.48e3))
 CROSS = replace(PLY, name="PLY_90", angle=90.0)

@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.delamination import flexure, specimens
-from harness.delamination.blocks import BY_EQUATION_21, Interface, Specimen
-from harness.delamination.materials import PLY_0, TABLE_2
-from harness.delamination.measures import iterations
-from harness.delamination.steps import Increments
-from harness.job import run
+from uel.delamination import flexure, specimens
+from uel.delamination.blocks import BY_EQUATION_21, Interface, Specimen
+from uel.delamination.materials import PLY_0, TABLE_2
+from uel.delamination.steps import Increments
+from uel.paper.measures import iterations
+from uel.running.job import run
 
 INCREMENTS = Increments(initial=0.02, smallest=1e-7, largest=0.02, limit=200)
 

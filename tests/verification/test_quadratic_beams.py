@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from reference_cells import nodes_of
 
-from harness.delamination.kernels import uel_property, user_element
-from harness.delamination.keywords import element_block, node_block, node_set, text
-from harness.job import run
-from harness.model.arrays import FloatArray, IntArray
+from uel.delamination.kernels import uel_property, user_element
+from uel.delamination.keywords import element_block, node_block, node_set, text
+from uel.model.arrays import FloatArray, IntArray
+from uel.running.job import run
 
 LENGTH, CRACK, HEIGHT = 30.0, 10.0, 2.0
 """Of the beam and of the crack, and height of an arm, mm."""

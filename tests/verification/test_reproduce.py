@@ -14,21 +14,21 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from harness import cli
-from harness.delamination import theory
-from harness.delamination.beams import RIGID_ROOT, growth
-from harness.delamination.materials import PLY_0, PLY_90, TABLE_2
-from harness.delamination.patches import ANGLE, COLLINEAR, COLUMNS, inclined_mesh, stabilisation
-from harness.delamination.reproduce import command, convergence, curves, findings, parameters, patch_cases, sensitivity
-from harness.delamination.reproduce.cases import LONGER, PROBLEMS, PaperCase, longer_cases, paper_cases
-from harness.delamination.reproduce.convergence import Steady
-from harness.delamination.reproduce.curves import to_line
-from harness.delamination.reproduce.findings import Evidence
-from harness.delamination.reproduce.page import Content, Table, write_page
-from harness.delamination.reproduce.runs import AnyCase, Runs
-from harness.delamination.reproduce.statements import JudgedStatement, Number, Statement, judge, read_statements
-from harness.delamination.specimens import ARMS, CRACK
-from harness.errors import UelError
+from uel import cli
+from uel.delamination import theory
+from uel.delamination.beams import RIGID_ROOT, growth
+from uel.delamination.materials import PLY_0, PLY_90, TABLE_2
+from uel.delamination.specimens import ARMS, CRACK
+from uel.errors import UelError
+from uel.paper.patches import ANGLE, COLLINEAR, COLUMNS, inclined_mesh, stabilisation
+from uel.paper.reproduce import command, convergence, curves, findings, parameters, patch_cases, sensitivity
+from uel.paper.reproduce.cases import LONGER, PROBLEMS, PaperCase, longer_cases, paper_cases
+from uel.paper.reproduce.convergence import Steady
+from uel.paper.reproduce.curves import to_line
+from uel.paper.reproduce.findings import Evidence
+from uel.paper.reproduce.page import Content, Table, write_page
+from uel.paper.reproduce.runs import AnyCase, Runs
+from uel.paper.reproduce.statements import JudgedStatement, Number, Statement, judge, read_statements
 
 
 def quiet() -> Console:
@@ -287,7 +287,7 @@ def test_page_is_one_file(tmp_path: Path) -> None:
 @pytest.mark.long
 def test_command_runs_once_and_decides(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(patch_cases, "STIFF", (1.0e6,))
-    monkeypatch.setattr("harness.delamination.reproduce.basics.STIFF", (1.0e6,))
+    monkeypatch.setattr("uel.paper.reproduce.basics.STIFF", (1.0e6,))
     verdicts = command.reproduce(["law", "patch"], tmp_path, quick=False, console=quiet(), workers=1)
     found = {verdict.statement.id: verdict for verdict in verdicts}
     # prototype of the equations (formulation of the paper's 10 x 10 patch): deviations 168 and 25 MPa of 1050

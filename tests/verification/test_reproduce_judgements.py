@@ -18,29 +18,19 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from harness import usersub
-from harness.delamination import law
-from harness.delamination.damage import stiffness_lost, toughness_spent
-from harness.delamination.materials import TABLE_2, Cohesive
-from harness.delamination.reproduce import (
-    advice,
-    convergence,
-    curves,
-    figures,
-    findings,
-    parameters,
-    runs,
-    sensitivity,
-    tables,
-)
-from harness.delamination.reproduce.advice import Point, settled
-from harness.delamination.reproduce.cases import ELEMENTS, SHOWN, PaperCase
-from harness.delamination.reproduce.findings import Evidence
-from harness.delamination.reproduce.runs import AnyCase, Entry, Run, Runs
-from harness.delamination.reproduce.statements import JudgedStatement, read_statements
-from harness.model.arrays import FloatArray
-from harness.output import Result
-from harness.output.plots import Panel
+from uel import usersub
+from uel.delamination import law
+from uel.delamination.damage import stiffness_lost, toughness_spent
+from uel.delamination.materials import TABLE_2, Cohesive
+from uel.model.arrays import FloatArray
+from uel.output import Result
+from uel.output.pictures.plots import Panel
+from uel.paper.reproduce import advice, convergence, curves, figures, findings, parameters, runs, sensitivity, tables
+from uel.paper.reproduce.advice import Point, settled
+from uel.paper.reproduce.cases import ELEMENTS, SHOWN, PaperCase
+from uel.paper.reproduce.findings import Evidence
+from uel.paper.reproduce.runs import AnyCase, Entry, Run, Runs
+from uel.paper.reproduce.statements import JudgedStatement, read_statements
 
 ENDED = Entry("", 1, 1, 0, 0.0)
 

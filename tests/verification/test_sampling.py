@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from harness.delamination.study.sampling import flexure
+from uel.paper.study.sampling import flexure
 
 PAGE = Path(__file__).parents[2] / "fortran" / "stabilised.md"
 

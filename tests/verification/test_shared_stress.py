@@ -5,9 +5,9 @@
 import numpy as np
 import pytest
 
-import harness
-from harness.delamination.kernels import uel_property, user_element
-from harness.delamination.keywords import element_block, keyword, node_block, node_set, text
+import uel
+from uel.delamination.kernels import uel_property, user_element
+from uel.delamination.keywords import element_block, keyword, node_block, node_set, text
 
 COLUMNS, TIP = 12, 4  # elements along the beam, and those along the crack
 LENGTH, HEIGHT, WIDTH = 6.0, 0.5, 0.3
@@ -96,7 +96,7 @@ def curve(folder, kind, closure, *, nlgeom=False):
     """Opening over that of the end, and load, of each increment."""
     path = folder / f"u{kind}.inp"
     path.write_text(deck(kind, closure, nlgeom))
-    result = harness.run(path, output_dir=folder)
+    result = uel.run(path, output_dir=folder)
     assert result.completed
     load = sum(values for name, values in result.history.items() if name.startswith("RF"))
     return np.array([line.total_time for line in result.status]), load

@@ -9,16 +9,16 @@ from pathlib import Path
 
 import pytest
 
-from harness.delamination.study import cases as study
-from harness.delamination.study.__main__ import main
-from harness.delamination.study.cases import StudyCase, all_cases, select
-from harness.delamination.study.criteria import check, index_ratios
-from harness.delamination.study.digests import ratios, variations, viscosity
-from harness.delamination.study.reference import FOLDER, ReferenceRun, reference_of
-from harness.delamination.study.rows import StudyRow
-from harness.delamination.study.runner import reference_store, row_store
-from harness.delamination.study.tables import csv_table, markdown_tables
-from harness.errors import UelError
+from uel.errors import UelError
+from uel.paper.study import cases as study
+from uel.paper.study.__main__ import main
+from uel.paper.study.cases import StudyCase, all_cases, select
+from uel.paper.study.criteria import check, index_ratios
+from uel.paper.study.digests import ratios, variations, viscosity
+from uel.paper.study.reference import FOLDER, ReferenceRun, reference_of
+from uel.paper.study.rows import StudyRow
+from uel.paper.study.runner import reference_store, row_store
+from uel.paper.study.tables import csv_table, markdown_tables
 
 CASE = StudyCase("frmm", "0/0", "1e6", "paper", "structured", "newton")
 GOOD = StudyRow(

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from harness.delamination.measures import peak_load
-from harness.delamination.run_deck import run_deck
-from harness.delamination.study.blend import Beam, described
-from harness.delamination.study.cases import SOLUTIONS, StudyCase, all_cases
-from harness.delamination.study.criteria import check
-from harness.delamination.study.rows import StudyRow, measure
-from harness.delamination.study.tables import csv_table, markdown_tables
+from uel.paper.measures import peak_load
+from uel.paper.run_deck import run_deck
+from uel.paper.study.blend import Beam, described
+from uel.paper.study.cases import SOLUTIONS, StudyCase, all_cases
+from uel.paper.study.criteria import check
+from uel.paper.study.rows import StudyRow, measure
+from uel.paper.study.tables import csv_table, markdown_tables
 
 PAGE = Path(__file__).parents[2] / "fortran" / "study.md"
 # regression: quick rows

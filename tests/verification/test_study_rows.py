@@ -8,19 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.delamination.oscillation import total_variation
-from harness.delamination.study.cases import StudyCase
-from harness.delamination.study.reference import restricted
-from harness.delamination.study.refinement import Bonded, bonded, facet_means, on_facets, turned
-from harness.delamination.study.rows import (
-    at_tenths,
-    bonded_part,
-    damage_variation,
-    measure,
-    oscillations,
-    same_moments,
-)
-from harness.output.sta_file import StatusRow
+from uel.delamination.oscillation import total_variation
+from uel.output.files.sta_file import StatusRow
+from uel.paper.study.cases import StudyCase
+from uel.paper.study.reference import restricted
+from uel.paper.study.refinement import Bonded, bonded, facet_means, on_facets, turned
+from uel.paper.study.rows import at_tenths, bonded_part, damage_variation, measure, oscillations, same_moments
 
 CASE = StudyCase("frmm", "0/0", "1e6", "paper", "structured", "newton")
 

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.delamination.oscillation import surface_variation
-from harness.delamination.plates import TwoPlateMesh, refined
-from harness.delamination.run_deck import run_deck
-from harness.delamination.study import surface
-from harness.delamination.study.reference import FOLDER, run_reference
-from harness.delamination.study.spatial import field, restricted
-from harness.delamination.study.surface import ALLOWED, COLUMNS, SurfaceCase, SurfaceMesh
+from uel.delamination.oscillation import surface_variation
+from uel.delamination.plates import TwoPlateMesh, refined
+from uel.paper.run_deck import run_deck
+from uel.paper.study import surface
+from uel.paper.study.reference import FOLDER, run_reference
+from uel.paper.study.spatial import field, restricted
+from uel.paper.study.surface import ALLOWED, COLUMNS, SurfaceCase, SurfaceMesh
 
 PAGE = Path(__file__).parents[2] / "fortran" / "stabilised.md"
 

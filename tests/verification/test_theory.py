@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from harness.delamination.materials import PLY_0, TABLE_2
-from harness.delamination.theory import (
+from uel.delamination.materials import PLY_0, TABLE_2
+from uel.delamination.theory import (
     Arms,
     dcb_compliance,
     dcb_crack,

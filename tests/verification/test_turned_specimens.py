@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from harness.delamination.blocks import Interface, cohesive_section, law_values
-from harness.delamination.kernels import uel_property, user_element
-from harness.delamination.keywords import element_block, keyword, node_block, node_set, number, text, wrapped
-from harness.delamination.materials import Cohesive, isotropic
-from harness.delamination.plates import Laminate, TwoPlateMesh, mesh_blocks, property_blocks
-from harness.job import run
-from harness.output import Result
+from uel.delamination.blocks import Interface, cohesive_section, law_values
+from uel.delamination.kernels import uel_property, user_element
+from uel.delamination.keywords import element_block, keyword, node_block, node_set, number, text, wrapped
+from uel.delamination.materials import Cohesive, isotropic
+from uel.delamination.plates import Laminate, TwoPlateMesh, mesh_blocks, property_blocks
+from uel.output import Result
+from uel.running.job import run
 
 LENGTH, WIDTH, HEIGHT, CRACK, SIZE = 10.0, 0.5, 1.0, 3.2, 0.4
 METAL = isotropic("METAL", 200.0, 0.3)

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-import harness
+import uel
 
 LENGTH, HEIGHT, E, DENSITY = 20.0, 0.5, 1000.0, 3.0
 INERTIA = HEIGHT**3 / 12
@@ -46,7 +46,7 @@ def test_period_and_energy_of_a_cantilever_let_go(tmp_path):
         f"*STEP\n*DYNAMIC, ALPHA=0., DIRECT\n{size!r}, {64 * size!r}\n*CLOAD, OP=NEW\n{HISTORY}\n*END STEP"
     )
     (tmp_path / "beam.inp").write_text(beam(steps))
-    history = harness.run(tmp_path / "beam.inp", output_dir=tmp_path).history
+    history = uel.run(tmp_path / "beam.inp", output_dir=tmp_path).history
     u, time = history["U2[TIP]"][1:], history["time"][1:] - 1.0
     assert len(u) == 64
     static = 1e-3 * LENGTH**3 / (3 * E * INERTIA)
@@ -73,7 +73,7 @@ def test_large_bending_of_a_cantilever(tmp_path):
         "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=TIP\nU1, U2\n*END STEP"
     )
     (tmp_path / "bend.inp").write_text(beam(steps))
-    history = harness.run(tmp_path / "bend.inp", output_dir=tmp_path).history
+    history = uel.run(tmp_path / "bend.inp", output_dir=tmp_path).history
     assert history["U2[TIP]"][-1] / LENGTH == pytest.approx(0.30172, rel=0.01)
     assert -history["U1[TIP]"][-1] / LENGTH == pytest.approx(0.05643, rel=0.02)
 
@@ -115,7 +115,7 @@ U1, A1
 *END STEP
 """
     (tmp_path / "bar.inp").write_text(deck)
-    history = harness.run(tmp_path / "bar.inp", output_dir=tmp_path).history
+    history = uel.run(tmp_path / "bar.inp", output_dir=tmp_path).history
     # half of the mass 2 at the tip, stiffness E A/L = 1000, force 10
     angle = 2 * np.arctan(np.sqrt(1000.0) * 0.001 / 2) * np.arange(1, 201)
     column = next(name for name in history if name.startswith("U1[TIP"))

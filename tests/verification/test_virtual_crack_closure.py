@@ -10,15 +10,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.delamination import front_measures
-from harness.delamination.blocks import Interface
-from harness.delamination.keywords import node_block, node_set, table, text
-from harness.delamination.materials import Cohesive, isotropic
-from harness.delamination.mesh import crack_columns
-from harness.delamination.plate_specimens import HALF, dcb_deck, enf_deck
-from harness.delamination.plates import Laminate, TwoPlateMesh
-from harness.job import run
-from harness.output.front import fronts
+from uel.delamination import front_measures
+from uel.delamination.blocks import Interface
+from uel.delamination.keywords import node_block, node_set, table, text
+from uel.delamination.materials import Cohesive, isotropic
+from uel.delamination.mesh import crack_columns
+from uel.delamination.plate_specimens import HALF, dcb_deck, enf_deck
+from uel.delamination.plates import Laminate, TwoPlateMesh
+from uel.output.pictures.front import fronts
+from uel.running.job import run
 
 LENGTH, WIDTH, HEIGHT, CRACK, SIZE = 40.0, 10.0, 1.0, 15.0, 0.1
 STRENGTH, TOUGHNESS = 60.0, 2.0

@@ -8,10 +8,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from harness.elements import FIELD_NAMES, BlockReport, Call, ElementBlock, Flags
-from harness.errors import Source
-from harness.model.mesh import ElementGroup, Mesh
-from harness.model.properties import UserProperty
+from uel.elements import FIELD_NAMES, BlockReport, Call, ElementBlock, Flags
+from uel.errors import Source
+from uel.model.mesh import ElementGroup, Mesh
+from uel.model.properties import UserProperty
 
 PLACE = Source("fake.inp", 1)
 

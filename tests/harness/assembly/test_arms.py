@@ -12,14 +12,14 @@ from scipy import sparse
 from scipy.spatial.transform import Rotation
 from small_decks import bars
 
-import harness
-from harness import usersub
-from harness.assembly import System, TurningConstraints
-from harness.assembly.arms import Arms
-from harness.deck import read_deck
-from harness.elements import Call, Flags, build_blocks, rotation_matrices, spin_matrices
-from harness.errors import DeckError, Source
-from harness.model.model import Arm
+import uel
+from uel import usersub
+from uel.assembly import System, TurningConstraints
+from uel.assembly.arms import Arms
+from uel.deck import read_deck
+from uel.elements import Call, Flags, build_blocks, rotation_matrices, spin_matrices
+from uel.errors import DeckError, Source
+from uel.model.model import Arm
 
 ANGLES = [[0, 0, 0], [1e-5, -2e-5, 1e-5], [0.02, 0.02, 0.01], [0.03, 0.01, 0.0], [1.0, -2.0, 0.5], [0, 0, 3.0]]
 
@@ -84,7 +84,7 @@ def test_derivatives(angle):
 def run(tmp_path):
     def run(lines, name="arms", **options):
         (tmp_path / f"{name}.inp").write_text("\n".join(lines) + "\n")
-        return harness.run(tmp_path / f"{name}.inp", output_dir=tmp_path, **options)
+        return uel.run(tmp_path / f"{name}.inp", output_dir=tmp_path, **options)
 
     return run
 

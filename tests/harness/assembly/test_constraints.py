@@ -5,9 +5,9 @@
 import numpy as np
 import pytest
 
-from harness.assembly import Constraints, System
-from harness.errors import DeckError, Source
-from harness.model.model import Equation
+from uel.assembly import Constraints, System
+from uel.errors import DeckError, Source
+from uel.model.model import Equation
 
 
 def equation(line: int, *terms: tuple[int, int, float]) -> Equation:

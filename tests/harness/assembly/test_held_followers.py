@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from bent_beams import COUPLING, LENGTH, YOUNG, beam, last, step
 
-import harness
-from harness.errors import DeckError
+import uel
+from uel.errors import DeckError
 
 ANGLE = 0.7
 
@@ -16,7 +16,7 @@ ANGLE = 0.7
 def run(tmp_path):
     def run(lines, name="arms", **options):
         (tmp_path / f"{name}.inp").write_text("\n".join(lines) + "\n")
-        result = harness.run(tmp_path / f"{name}.inp", output_dir=tmp_path, **options)
+        result = uel.run(tmp_path / f"{name}.inp", output_dir=tmp_path, **options)
         result.message = (tmp_path / f"{name}.msg").read_text()
         return result
 
@@ -66,7 +66,7 @@ def test_a_displacement_that_contradicts(run):
 
 def test_a_displacement_out_of_reach(run):
     """Node 1 is 5 from node 900: it cannot go to the right by 9."""
-    with pytest.raises(harness.errors.UelError, match="no position of it gives the prescribed displacements"):
+    with pytest.raises(uel.errors.UelError, match="no position of it gives the prescribed displacements"):
         run(rigid("1, 1, 1, 9.", increments=1))
 
 

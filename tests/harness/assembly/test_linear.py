@@ -11,23 +11,23 @@ import numpy as np
 import pytest
 from reference_cells import patch_of
 
-import harness
-from harness import usersub
-from harness.assembly import System
-from harness.assembly.linear import LinearElements
-from harness.cli import main
-from harness.deck import read_deck
-from harness.delamination.blocks import BY_EQUATION_21, Interface
-from harness.delamination.keywords import element_block, node_block
-from harness.delamination.materials import TABLE_2
-from harness.delamination.mesh import two_arms
-from harness.delamination.specimens import ARM_HEIGHT, dcb_deck, dcb_specimen, mesh_files
-from harness.delamination.steps import Increments
-from harness.elements import build_blocks
-from harness.errors import ElementError, UelError, UsageError
-from harness.model.element_types import CONTINUUM
-from harness.model.records import IncrementDone
-from harness.procedures import run_steps
+import uel
+from uel import usersub
+from uel.assembly import System
+from uel.assembly.linear import LinearElements
+from uel.cli import main
+from uel.deck import read_deck
+from uel.delamination.blocks import BY_EQUATION_21, Interface
+from uel.delamination.keywords import element_block, node_block
+from uel.delamination.materials import TABLE_2
+from uel.delamination.mesh import two_arms
+from uel.delamination.specimens import ARM_HEIGHT, dcb_deck, dcb_specimen, mesh_files
+from uel.delamination.steps import Increments
+from uel.elements import build_blocks
+from uel.errors import ElementError, UelError, UsageError
+from uel.model.element_types import CONTINUUM
+from uel.model.records import IncrementDone
+from uel.procedures import run_steps
 
 SPRING = """! a spring of a node to the ground along x: PROPS(1) U + PROPS(2) U**3
       include '{include}'
@@ -85,7 +85,7 @@ def always_called(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(LinearElements, "applies", lambda *_: False)
 
 
-def assert_same(found: harness.Result, expected: harness.Result) -> None:
+def assert_same(found: uel.Result, expected: uel.Result) -> None:
     """The same increments and iterations; all results to 1e-10 of the largest value."""
     assert [line.total_iterations for line in found.status] == [line.total_iterations for line in expected.status]
     for increment in range(1, len(expected.status) + 1):
@@ -107,7 +107,7 @@ def test_built_in_elements_are_called_once_and_at_the_end_of_increments(
 ):
     deck = tmp_path / "patch.inp"
     deck.write_text(deck_of(element_type))
-    found = harness.run(deck, spring, output_dir=tmp_path / "spared")
+    found = uel.run(deck, spring, output_dir=tmp_path / "spared")
     increments, iterations = len(found.status), sum(line.total_iterations for line in found.status)
     assert iterations > increments
     # the analysis begins with a pass of its own, an increment with one, and each iteration makes one; another compares
@@ -115,7 +115,7 @@ def test_built_in_elements_are_called_once_and_at_the_end_of_increments(
     assert calls[element_type] == 1 + 2 + increments
     assert calls["U1"] == 1 + increments + iterations
     always_called(monkeypatch)
-    assert_same(found, harness.run(deck, spring, output_dir=tmp_path / "called"))
+    assert_same(found, uel.run(deck, spring, output_dir=tmp_path / "called"))
     assert calls[element_type] == 3 + increments + 1 + increments + iterations
 
 
@@ -129,14 +129,14 @@ def test_own_quads_are_called_in_each_pass_only_where_u3_reads_their_stress(tmp_
     files = mesh_files("beam", mesh, (4,)) | {"dcb.inp": dcb_deck("DCB", specimen, 1.5, increments, 1)}
     for name, content in files.items():
         (tmp_path / name).write_text(content)
-    found = harness.run(tmp_path / "dcb.inp", output_dir=tmp_path / "spared")
+    found = uel.run(tmp_path / "dcb.inp", output_dir=tmp_path / "spared")
     passes = calls[kind]
     groups = {"BOTTOM", "TOP", "BOTTOM_FACE", "TOP_FACE"} if stored else {"BOTTOM", "TOP"}
     spared = len(groups) - len(stored)
     assert calls["U1"] == spared * (3 + len(found.status)) + len(stored) * passes
     assert found.interface()["DAMAGE"].max() > 0.1
     always_called(monkeypatch)
-    assert_same(found, harness.run(tmp_path / "dcb.inp", output_dir=tmp_path / "called"))
+    assert_same(found, uel.run(tmp_path / "dcb.inp", output_dir=tmp_path / "called"))
     assert calls["U1"] == spared * (3 + len(found.status)) + len(stored) * passes + len(groups) * passes
 
 
@@ -157,7 +157,7 @@ def test_elements_are_called_in_each_pass(tmp_path, spring, calls, reason):
         text = text.replace("*STEP", "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\n*STEP")
     deck = tmp_path / "patch.inp"
     deck.write_text(text)
-    harness.run(deck, spring, output_dir=tmp_path)
+    uel.run(deck, spring, output_dir=tmp_path)
     assert calls["CPS4"] == calls["U1"] > 5
 
 
@@ -170,10 +170,10 @@ def linear_springs(folder: Path, cubic: float) -> Path:
 def test_elements_that_the_user_says_are_linear(tmp_path, monkeypatch, spring, calls):
     """They are called once, and at the end of each increment, with the state of its start."""
     deck = linear_springs(tmp_path, 0.0)
-    found = harness.run(deck, spring, output_dir=tmp_path / "spared", linear=["u1"])
+    found = uel.run(deck, spring, output_dir=tmp_path / "spared", linear=["u1"])
     assert calls["U1"] == calls["CPS4"] - 1 == 2 + len(found.status)
     always_called(monkeypatch)
-    assert_same(found, harness.run(deck, spring, output_dir=tmp_path / "called"))
+    assert_same(found, uel.run(deck, spring, output_dir=tmp_path / "called"))
 
 
 def test_elements_that_are_not_linear_are_named(tmp_path, spring):
@@ -183,9 +183,9 @@ def test_elements_that_are_not_linear_are_named(tmp_path, spring):
         r"\(step 1, increment 1, iteration \d\); run without --linear U1"
     )
     with pytest.raises(ElementError, match=message) as error:
-        harness.run(deck, spring, output_dir=tmp_path, linear=["U1"])
+        uel.run(deck, spring, output_dir=tmp_path, linear=["U1"])
     # the softest of the springs is the least wrong: the one that moves most is named
-    found = harness.run(deck, spring, output_dir=tmp_path / "called")
+    found = uel.run(deck, spring, output_dir=tmp_path / "called")
     moved = np.abs(found.mesh(1).point_data["U"][:, 0])
     assert error.value.element == 1000 + found.mesh(1).point_data["NODE"][moved.argmax()]
 
@@ -194,7 +194,7 @@ def test_a_type_that_the_deck_does_not_have(tmp_path, spring, capsys):
     deck = linear_springs(tmp_path, 0.0)
     message = "--linear U7: the deck has no elements of this type; its user elements are U1"
     with pytest.raises(UsageError, match=re.escape(message)):
-        harness.run(deck, spring, output_dir=tmp_path, linear=["U7"])
+        uel.run(deck, spring, output_dir=tmp_path, linear=["U7"])
     arguments = ["run", str(deck), "--user", str(spring), "--output-dir", str(tmp_path), "--linear"]
     assert main([*arguments, "U1", "--quiet"]) == 0
     assert main([*arguments, "U7"]) == 2
@@ -209,13 +209,13 @@ def test_states_are_brought_up_to_date_when_they_are_read(tmp_path, monkeypatch,
     files = mesh_files("beam", mesh, (4,)) | {"dcb.inp": dcb_deck("DCB", specimen, 1.5, increments, 7)}
     for name, content in files.items():
         (tmp_path / name).write_text(content)
-    found = harness.run(tmp_path / "dcb.inp", output_dir=tmp_path / "spared")
+    found = uel.run(tmp_path / "dcb.inp", output_dir=tmp_path / "spared")
     written = len(found.frames)
     assert 2 < written < len(found.status) / 3
     # in the first increment .dat compares what it is asked for with what there is
     assert calls["U1"] == 2 * (3 + 1 + written)
     always_called(monkeypatch)
-    expected = harness.run(tmp_path / "dcb.inp", output_dir=tmp_path / "called")
+    expected = uel.run(tmp_path / "dcb.inp", output_dir=tmp_path / "called")
     for name, column in expected.history.items():
         np.testing.assert_allclose(found.history[name], column, rtol=0, atol=1e-10 * (1 + np.abs(column).max()))
     for name, parts in expected.mesh(-1).cell_data.items():

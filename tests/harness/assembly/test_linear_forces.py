@@ -9,13 +9,13 @@ import pytest
 from reference_cells import patch_of
 from small_decks import body_lines
 
-import harness
-from harness import usersub
-from harness.assembly import System
-from harness.assembly.linear import LinearElements
-from harness.deck import read_deck
-from harness.elements import Call, ElementBlock, Flags, build_blocks
-from harness.model.element_types import BEAM, CONTINUUM, CONTINUUM_SHELL, GENERALISED, HYBRID, MEMBRANE, SHELL
+import uel
+from uel import usersub
+from uel.assembly import System
+from uel.assembly.linear import LinearElements
+from uel.deck import read_deck
+from uel.elements import Call, ElementBlock, Flags, build_blocks
+from uel.model.element_types import BEAM, CONTINUUM, CONTINUUM_SHELL, GENERALISED, HYBRID, MEMBRANE, SHELL
 
 TYPES = {**CONTINUUM, **GENERALISED, **SHELL, **CONTINUUM_SHELL, **MEMBRANE, **BEAM}
 SOLID_LAWS = {
@@ -112,7 +112,7 @@ def test_anisotropic_hybrid_elements_are_linear(tmp_path, element_type):
     for name, step in {"spared": "", "called": "*TEMPERATURE\nALL, 0."}.items():
         deck = tmp_path / f"{name}.inp"
         deck.write_text(deck_of(element_type, "orthotropic", step=step))
-        found[name] = harness.run(deck, output_dir=tmp_path)
+        found[name] = uel.run(deck, output_dir=tmp_path)
     for result in found.values():
         assert [line.total_iterations for line in result.status] == [1]
     for name, column in found["called"].history.items():
@@ -132,10 +132,10 @@ def test_elements_whose_matrix_is_not_the_derivative_are_called(tmp_path, monkey
     monkeypatch.setattr(ElementBlock, "evaluate_apart", wrong)
     deck = tmp_path / "patch.inp"
     deck.write_text(deck_of("CPE4", "isotropic"))
-    found = harness.run(deck, output_dir=tmp_path)
+    found = uel.run(deck, output_dir=tmp_path)
     passes = calls["CPE4"]
     monkeypatch.setattr(LinearElements, "applies", lambda *_: False)
-    expected = harness.run(deck, output_dir=tmp_path / "called")
+    expected = uel.run(deck, output_dir=tmp_path / "called")
     assert found.status[-1].total_iterations > 1
     # the pass that begins the analysis, that of the matrices, that of the comparison, and one for each iteration
     assert passes == 3 + found.status[-1].total_iterations

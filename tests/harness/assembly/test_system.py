@@ -5,12 +5,12 @@
 import numpy as np
 import pytest
 
-from harness.assembly import DofMap, System
-from harness.assembly.system import build_pattern
-from harness.elements import FIELD_NAMES
-from harness.errors import Source
-from harness.model.model import Equation
-from harness.usersub._binding import scatter_map
+from uel.assembly import DofMap, System
+from uel.assembly.system import build_pattern
+from uel.elements import FIELD_NAMES
+from uel.errors import Source
+from uel.model.model import Equation
+from uel.usersub._binding import scatter_map
 
 
 def dense(system, blocks):

@@ -15,13 +15,13 @@ from pathlib import Path
 import pytest
 from batch_decks import CRASHES, MESH, PULLED, SPRING
 
-from harness.batch import command
-from harness.batch.command import cores
-from harness.cli import main
-from harness.output.lock import locked
+from uel.batch import command
+from uel.batch.command import cores
+from uel.cli import main
+from uel.output.lock import locked
 
 Results = Callable[[], list[dict[str, str]]]
-UEL = [sys.executable, "-m", "harness", "batch"]
+UEL = [sys.executable, "-m", "uel", "batch"]
 
 
 @pytest.fixture

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from harness.batch import engine
-from harness.batch.engine import Store, StoredRow, complete
-from harness.batch.progress import BatchProgress, clock, time_left
+from uel.batch import engine
+from uel.batch.engine import Store, StoredRow, complete
+from uel.batch.progress import BatchProgress, clock, time_left
 
 
 @dataclass(frozen=True)
@@ -122,8 +122,8 @@ def test_sources_of_all_that_computes_results(tmp_path: Path, monkeypatch: pytes
     layers = tomllib.loads((Path(__file__).parents[3] / "pyproject.toml").read_text())["tool"]["importlinter"][
         "contracts"
     ]
-    below_job = layers[0]["layers"][layers[0]["layers"].index("harness.job") + 1 :]
-    expected = {name for layer in below_job for name in layer.split(" | ")} - {"harness.output", "harness.errors"}
+    below_job = layers[0]["layers"][layers[0]["layers"].index("uel.running") + 1 :]
+    expected = {name for layer in below_job for name in layer.split(" | ")} - {"uel.output", "uel.errors"}
     assert {package.__name__ for package in engine._PACKAGES} == expected
     before = engine.fingerprint(DECKS[0])
     package = tmp_path / "batch_sources"

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from harness.batch.records import Entry, Records, measure
-from harness.batch.runs import BatchRun
-from harness.output.lock import locked
-from harness.output.sta_file import COMPLETED, NOT_COMPLETED, StatusRow, head
-from harness.sanitizer import NOT_USED
+from uel.batch.records import Entry, Records, measure
+from uel.batch.runs import BatchRun
+from uel.output.files.sta_file import COMPLETED, NOT_COMPLETED, StatusRow, head
+from uel.output.lock import locked
+from uel.running.sanitizer import NOT_USED
 
 CONVERGED = StatusRow(1, 1, 1, False, 3, 0.5, 0.5, 0.5)
 CUT_BACK = StatusRow(1, 2, 1, True, 8, 0.5, 0.5, 0.5)

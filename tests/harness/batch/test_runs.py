@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from batch_decks import MESH, PULLED, SPRING
 
-from harness.batch.runs import Settings, list_runs
-from harness.errors import CompileError, DeckError, UsageError
+from uel.batch.runs import Settings, list_runs
+from uel.errors import CompileError, DeckError, UsageError
 
 
 def inputs(*, table: bool = False, user: Path = SPRING, options: tuple[str, ...] = ()) -> list[dict[str, str]]:
@@ -81,7 +81,7 @@ def test_inputs_are_the_same_on_another_machine(
         (tmp_path / machine / "user.c").write_text(header + SPRING.read_text())
         monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / machine / "cache"))
         seen += [inputs(user=tmp_path / machine / "user.c") for _ in range(2)]
-    (tmp_path / "two" / "cache" / "uel-harness" / "compiled").chmod(0o777)
+    (tmp_path / "two" / "cache" / "uel" / "compiled").chmod(0o777)
     seen.append(inputs(user=tmp_path / "two" / "user.c"))
     assert seen == [seen[0]] * 5
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from harness.batch.table import Row, read_table
-from harness.batch.values import value_of
-from harness.errors import DeckError, UsageError
+from uel.batch.table import Row, read_table
+from uel.batch.values import value_of
+from uel.errors import DeckError, UsageError
 
 NAMES = ("length", "count")
 

@@ -14,14 +14,14 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from harness.check.apart import EndedError, call_apart, examine_apart
-from harness.check.checks import CHECKS
-from harness.check.command import display
-from harness.check.examine import examine
-from harness.check.finding import Verdict
-from harness.check.progress import Running, Snapshot
-from harness.errors import UelError
-from harness.usersub import limit_calls
+from uel.check.apart import EndedError, call_apart, examine_apart
+from uel.check.checks import CHECKS
+from uel.check.command import display
+from uel.check.examine import examine
+from uel.check.finding import Verdict
+from uel.check.progress import Running, Snapshot
+from uel.errors import UelError
+from uel.usersub import limit_calls
 
 QUAD = Path(__file__).parent / "quad.f"
 
@@ -31,7 +31,7 @@ PATHS = os.pathsep.join(filter(None, (os.environ.get("PYTHONPATH"), str(Path(__f
 
 def uel_check(deck, *words):
     """Exit code, output and messages of the command."""
-    command = [sys.executable, "-m", "harness.cli", "check", str(QUAD), deck.name, *words]
+    command = [sys.executable, "-m", "uel.cli", "check", str(QUAD), deck.name, *words]
     result = subprocess.run(command, cwd=deck.parent, capture_output=True, text=True, check=False)
     assert "Traceback" not in result.stderr
     return result.returncode, " ".join(result.stdout.split()), result.stderr
@@ -194,7 +194,7 @@ def test_interruption_keeps_findings(patch, monkeypatch):
     def interrupt(*_, **__):
         raise EndedError("interrupted", Snapshot(Running("a check", "filled"), examination), interrupted=True)
 
-    monkeypatch.setattr("harness.check.apart.call_apart", interrupt)
+    monkeypatch.setattr("uel.check.apart.call_apart", interrupt)
     found = examine_apart(patch(), [QUAD])
     assert found.types[0].findings["run"].verdict is Verdict.PASSED
     assert found.types[0].findings["filled"].advice == "The checks after this one did not run."

@@ -7,17 +7,17 @@ from pathlib import Path
 
 import pytest
 
-from harness.check.apart import examine_apart
-from harness.check.checks import CHECKS
-from harness.check.examine import examine
-from harness.check.finding import Verdict
-from harness.cli import main
-from harness.errors import KernelError, UelError
-from harness.usersub import suspicions
-from harness.usersub.built import path_of_amalgam
+from uel.check.apart import examine_apart
+from uel.check.checks import CHECKS
+from uel.check.examine import examine
+from uel.check.finding import Verdict
+from uel.cli import main
+from uel.errors import KernelError, UelError
+from uel.usersub import suspicions
+from uel.usersub.built import path_of_amalgam
 
 TESTS = Path(__file__).parents[1]
-TEMPLATE = Path(__file__).parents[3] / "harness" / "project" / "template" / "my_uel.for"
+TEMPLATE = Path(__file__).parents[3] / "harness" / "uel" / "project" / "template" / "my_uel.for"
 ROUTINE = """\
       subroutine stiffness(props, n, d, y)
       implicit real*8(a-h,o-z)

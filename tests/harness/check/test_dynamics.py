@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from harness.check.examine import examine
-from harness.check.finding import Verdict
+from uel.check.examine import examine
+from uel.check.finding import Verdict
 
 QUAD = Path(__file__).parent / "dynamic_quad.f"
 

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from harness.check.checks import CHECKS
-from harness.check.examine import examine
-from harness.check.finding import Verdict
-from harness.cli import main
-from harness.errors import UelError
+from uel.check.checks import CHECKS
+from uel.check.examine import examine
+from uel.check.finding import Verdict
+from uel.cli import main
+from uel.errors import UelError
 
 QUAD = Path(__file__).parent / "quad.f"
 DECKS = Path(__file__).parents[3] / "abaqus_inputs"

@@ -4,11 +4,11 @@
 
 import pytest
 
-from harness.check.checks import CHECKS
-from harness.check.examine import examine
-from harness.check.finding import Verdict
-from harness.delamination.kernels import uel_property
-from harness.usersub.layout import element_layouts
+from uel.check.checks import CHECKS
+from uel.check.examine import examine
+from uel.check.finding import Verdict
+from uel.delamination.kernels import uel_property
+from uel.usersub.layout import element_layouts
 
 PLY = {"E1": 138e3, "E2": 10.5e3, "E3": 10.5e3, "NU12": 0.3, "NU13": 0.3, "NU23": 0.45}
 PLY |= {"G12": 6.3e3, "G13": 6.3e3, "G23": 3.5e3}

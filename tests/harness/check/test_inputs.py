@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from harness.check.checks import CHECKS
-from harness.check.examine import examine
-from harness.usersub.inputs import NAMES
+from uel.check.checks import CHECKS
+from uel.check.examine import examine
+from uel.usersub.inputs import NAMES
 
 USER = Path(__file__).parent / "all_inputs.f"
 OUTPUTS = {"RHS", "AMATRX", "SVARS", "ENERGY", "PNEWDT"}

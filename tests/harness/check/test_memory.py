@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from harness.check.checks import CHECKS
-from harness.check.examine import examine
-from harness.check.finding import Verdict
+from uel.check.checks import CHECKS
+from uel.check.examine import examine
+from uel.check.finding import Verdict
 
 HEAD = Path(__file__).parents[1] / "uel.inc"
 SPRING = """\

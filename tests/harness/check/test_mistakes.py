@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from harness.check.checks import CHECKS
-from harness.check.examine import examine
-from harness.check.finding import Verdict
+from uel.check.checks import CHECKS
+from uel.check.examine import examine
+from uel.check.finding import Verdict
 
 TESTS = Path(__file__).parents[2]
 ELEMENTS = TESTS / "programs" / "adversarial" / "elements"

@@ -54,6 +54,6 @@ def test_nothing_can_be_checked(patch, words, code, message):
 
 
 def test_other_tests_of_the_environment_do_not_wait_for_the_checks():
-    program = "import sys, harness.check.plugin; print([m for m in ('numpy', 'harness.usersub') if m in sys.modules])"
+    program = "import sys, uel.check.plugin; print([m for m in ('numpy', 'uel.usersub') if m in sys.modules])"
     result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert result.stdout == "[]\n"

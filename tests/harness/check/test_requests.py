@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from harness.check.examine import examine
-from harness.check.finding import Verdict
-from harness.check.recording import Pass, record
-from harness.elements import Flags, Request
+from uel.check.examine import examine
+from uel.check.finding import Verdict
+from uel.check.recording import Pass, record
+from uel.elements import Flags, Request
 
 QUAD = Path(__file__).parent / "quad.f"
 OSCILLATORS = Path(__file__).parents[1] / "procedures" / "oscillators.f"
@@ -181,7 +181,7 @@ def test_requests_for_eigenfrequencies(patch, monkeypatch, mistake, message, adv
         ]
         return replace(recording, events=(*recording.events, *(replace(last, call=call) for call in calls)))
 
-    monkeypatch.setattr("harness.check.recording.record", recorded)
+    monkeypatch.setattr("uel.check.recording.record", recorded)
     requests = findings(patch(mistake))["requests"]
     if advice is None:
         assert requests.message == message

@@ -5,8 +5,8 @@
 import re
 from pathlib import Path
 
-from harness.check.examine import examine
-from harness.check.finding import Verdict
+from uel.check.examine import examine
+from uel.check.finding import Verdict
 
 QUAD = Path(__file__).parent / "quad.f"
 

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.assembly import System
-from harness.check.recording import Pass, opened, record
-from harness.check.replay import abaqus_order, replay
-from harness.check.shuffle import ORDERS, TypeVerdict, advice_on_order, shuffle
-from harness.cli import main
-from harness.elements import build_blocks
-from harness.errors import KernelError
+from uel.assembly import System
+from uel.check.recording import Pass, opened, record
+from uel.check.replay import abaqus_order, replay
+from uel.check.shuffle import ORDERS, TypeVerdict, advice_on_order, shuffle
+from uel.cli import main
+from uel.elements import build_blocks
+from uel.errors import KernelError
 
 PATCH = Path(__file__).parents[3] / "abaqus_inputs" / "patch_horizontal"
 COUNTER = Path(__file__).parent / "counter.f"

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from harness.check.examine import examine
-from harness.check.finding import Verdict
-from harness.cli import main
+from uel.check.examine import examine
+from uel.check.finding import Verdict
+from uel.cli import main
 
 FOLDER = Path(__file__).parents[1]
 

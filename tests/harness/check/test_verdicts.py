@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pytest
 
-from harness.check.examine import examine
-from harness.check.finding import Conclusion, Verdict
-from harness.cli import main
+from uel.check.examine import examine
+from uel.check.finding import Conclusion, Verdict
+from uel.cli import main
 
 QUAD = Path(__file__).parent / "quad.f"
 INCLUDE = QUAD.parents[1] / "uel.inc"
-TEMPLATE = Path(__file__).parents[3] / "harness" / "project" / "template"
+TEMPLATE = Path(__file__).parents[3] / "harness" / "uel" / "project" / "template"
 
 SPRING = f"""\
       include '{INCLUDE}'
@@ -201,8 +201,8 @@ def test_findings_of_an_earlier_run_do_not_stay(springs, tmp_path, capsys):
 
 
 def test_folder_of_the_json_file_is_looked_for_first(springs, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("harness.check.command.examine_apart", lambda *_, **__: pytest.fail("the checks were made"))
-    monkeypatch.setattr("harness.check.command.examine", lambda *_, **__: pytest.fail("the checks were made"))
+    monkeypatch.setattr("uel.check.command.examine_apart", lambda *_, **__: pytest.fail("the checks were made"))
+    monkeypatch.setattr("uel.check.command.examine", lambda *_, **__: pytest.fail("the checks were made"))
     words = ["check", *map(str, springs()), "--json"]
     assert main([*words, str(tmp_path / "missing" / "found.json")]) == 2
     assert re.search(r"uel: --json .*missing.found.json: No such file or directory", capsys.readouterr().err)
@@ -247,7 +247,7 @@ def test_plugin_tells_where_nothing_was_looked_at(springs, tmp_path):
     deck, user = springs()
     user.write_text(NEEDS_A_NEIGHBOUR)
     (tmp_path / "conftest.py").write_text(
-        "from harness.check import apart, examine\n"
+        "from uel.check import apart, examine\n"
         "def look(deck, user, **options):\n"
         "    options.pop('call_limit', None)\n"
         "    return examine.examine(deck, user, skip=['order'], **options)\n"

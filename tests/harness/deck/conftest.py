@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from harness.deck import read_deck
-from harness.errors import DeckError
-from harness.model.model import Model
+from uel.deck import read_deck
+from uel.errors import DeckError
+from uel.model.model import Model
 
 Read = Callable[[str], Model]
 Refuse = Callable[[str, tuple[str, str, str]], None]

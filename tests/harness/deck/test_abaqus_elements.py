@@ -4,8 +4,8 @@
 
 import pytest
 
-from harness.deck.abaqus_elements import is_abaqus_element
-from harness.model.element_types import BUILT_IN
+from uel.deck.language.abaqus_elements import is_abaqus_element
+from uel.model.element_types import BUILT_IN
 
 NAMES = """
 CPE3E CPE4H CPE4I CPE4IH CPE4RH CPE4RHT CPE4P CPE4RPH CPE6M CPE6MHT CPE8RHT CPE8RPH CPEG4I CPS4I CPS6MT CPS8RE CAX4I

@@ -5,11 +5,11 @@
 import numpy as np
 import pytest
 
-import harness
-from harness.deck import read_deck
-from harness.elements.beam import local_axes
-from harness.errors import DeckError
-from harness.report.model_tables import property_tables
+import uel
+from uel.deck import read_deck
+from uel.elements.families.beam import local_axes
+from uel.errors import DeckError
+from uel.report.model_tables import property_tables
 
 DECK = """\
 *NODE
@@ -121,7 +121,7 @@ def test_normal_along_the_axis(tmp_path, given):
     (tmp_path / "turned.inp").write_text(TURNED.format(n1="0., 0., -1.", **values))
     message = r"turned\.inp:\d+: element 1 \(type B31\) lies along n1 of its additional node, or n2 of its nodes"
     with pytest.raises(DeckError, match=message):
-        harness.run(tmp_path / "turned.inp", output_dir=tmp_path)
+        uel.run(tmp_path / "turned.inp", output_dir=tmp_path)
 
 
 def test_section(deck):
@@ -287,7 +287,7 @@ def test_materials_that_beams_do_not_take(deck, material, message):
 )
 def test_refused(deck, options, message, tmp_path):
     with pytest.raises(DeckError, match=message):
-        harness.run(deck(**options), output_dir=tmp_path)
+        uel.run(deck(**options), output_dir=tmp_path)
 
 
 def test_section_of_another_kind_of_element(deck):

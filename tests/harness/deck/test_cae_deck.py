@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from harness.model.model import Model
-from harness.model.properties import SolidSection
-from harness.model.restart import RestartWrite
-from harness.model.steps import Boundary
+from uel.model.model import Model
+from uel.model.properties import SolidSection
+from uel.model.restart import RestartWrite
+from uel.model.steps import Boundary
 
 Read = Callable[[str], Model]
 CAE = Path(__file__).with_name("cae.inp").read_text()

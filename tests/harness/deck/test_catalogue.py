@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from harness.deck.expressions import Value, assign
-from harness.deck.table import split_fields
-from harness.errors import DeckError
-from harness.model.amplitude import Amplitude
-from harness.model.model import Model
-from harness.model.properties import Material, Orientation, UserProperty
+from uel.deck.language.expressions import Value, assign
+from uel.deck.language.table import split_fields
+from uel.errors import DeckError
+from uel.model.amplitude import Amplitude
+from uel.model.model import Model
+from uel.model.properties import Material, Orientation, UserProperty
 
 Read = Callable[[str], Model]
 FLAT = Path(__file__).with_name("flat.inp").read_text()

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from harness import usersub
-from harness.elements import build_blocks
-from harness.errors import DeckError
-from harness.model.model import Model
-from harness.model.properties import CohesiveSection, SectionControls
+from uel import usersub
+from uel.elements import build_blocks
+from uel.errors import DeckError
+from uel.model.model import Model
+from uel.model.properties import CohesiveSection, SectionControls
 
 Read = Callable[[str], Model]
 Refuse = Callable[[str, tuple[str, str, str]], None]

@@ -7,9 +7,9 @@ import itertools
 import numpy as np
 import pytest
 
-import harness
-from harness.errors import DeckError
-from harness.model.properties import SectionControls
+import uel
+from uel.errors import DeckError
+from uel.model.properties import SectionControls
 
 # two squares side by side with nodes of their own on the common edge: 2, 3 and 5, 8; stretched along x, nu = 0.3
 SQUARES = """*NODE, NSET=ALL
@@ -59,7 +59,7 @@ U
 def run(tmp_path):
     def run(text):
         (tmp_path / "deck.inp").write_text(text)
-        history = harness.run(tmp_path / "deck.inp", output_dir=tmp_path).history
+        history = uel.run(tmp_path / "deck.inp", output_dir=tmp_path).history
         return {name: float(history[name][-1]) for name in history if name.startswith("U")}
 
     return run

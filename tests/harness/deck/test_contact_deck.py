@@ -5,10 +5,10 @@
 import numpy as np
 import pytest
 
-from harness.deck.anchors import find_anchors
-from harness.deck.pieces import make_pieces
-from harness.errors import DeckError
-from harness.model.contact import SlidingPair
+from uel.deck.contact.anchors import find_anchors
+from uel.deck.contact.pieces import make_pieces
+from uel.errors import DeckError
+from uel.model.contact import SlidingPair
 
 DECK = """\
 *HEADING

@@ -4,9 +4,9 @@
 
 import pytest
 
-import harness
-from harness.deck import read_deck
-from harness.errors import DeckError
+import uel
+from uel.deck import read_deck
+from uel.errors import DeckError
 
 DECK = """\
 *NODE
@@ -111,7 +111,7 @@ def test_wrong_options(deck, options, message):
 )
 def test_what_is_refused(deck, tmp_path, options, message):
     with pytest.raises(DeckError, match=message):
-        harness.run(deck(**options), output_dir=tmp_path)
+        uel.run(deck(**options), output_dir=tmp_path)
 
 
 @pytest.mark.parametrize("type", ["SC8R", "SC6R"])
@@ -121,7 +121,7 @@ def test_pressure_across(deck, tmp_path, type):
     The stress across, -p, is the thickness modulus E/(1 + nu) times the strain across and, with Poisson's ratio 0.5 of
     the section, those of the plane, on which it acts as well: they are p (1 - nu)/E each.
     """
-    history = harness.run(deck(type=type), output_dir=tmp_path).history
+    history = uel.run(deck(type=type), output_dir=tmp_path).history
     aside, down = 0.7 / 100, -1.3 / 100 - 2 * 0.7 / 100
     for node in (5, 6, 7):
         assert history[f"U3[TOP:{node}]"][-1] == pytest.approx(down)

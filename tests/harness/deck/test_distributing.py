@@ -5,11 +5,11 @@
 import numpy as np
 import pytest
 
-import harness
-from harness.deck.distributing import METHODS, average_motion
-from harness.deck.surfaces import tributary_areas
-from harness.errors import DeckError
-from harness.model.element_types import HEX8, HEX20, QUAD4, TET10
+import uel
+from uel.deck.constraints.distributing import METHODS, average_motion
+from uel.deck.mesh.surfaces import tributary_areas
+from uel.errors import DeckError
+from uel.model.element_types import HEX8, HEX20, QUAD4, TET10
 
 RIGID = np.array([0.3, -0.2, 0.5]), np.array([1e-3, -2e-3, 3e-3])
 
@@ -131,7 +131,7 @@ def run(tmp_path, load, rotations="", changes=()):
         assert old in deck
         deck = deck.replace(old, new)
     (tmp_path / "cube.inp").write_text(deck)
-    history = harness.run(tmp_path / "cube.inp", output_dir=tmp_path).history
+    history = uel.run(tmp_path / "cube.inp", output_dir=tmp_path).history
     last = {(name.split("[")[0], int(name[-2])): float(history[name][-1]) for name in history if name.endswith("]")}
     return lambda name, node: last.get((name, node))
 
@@ -196,4 +196,4 @@ def test_axisymmetric_elements_are_refused(tmp_path):
     deck += "*COUPLING, CONSTRAINT NAME=C, REF NODE=9, SURFACE=TOP\n*DISTRIBUTING\n*STEP\n*STATIC\n1., 1.\n*END STEP\n"
     (tmp_path / "ring.inp").write_text(deck)
     with pytest.raises(DeckError, match=r"ring.inp:16: \*DISTRIBUTING: is not supported for axisymmetric elements"):
-        harness.run(tmp_path / "ring.inp", output_dir=tmp_path)
+        uel.run(tmp_path / "ring.inp", output_dir=tmp_path)

@@ -5,10 +5,10 @@
 import numpy as np
 import pytest
 
-import harness
-from harness.deck import read_deck
-from harness.errors import DeckError
-from harness.output.earlier_jobs import EarlierJobs
+import uel
+from uel.deck import read_deck
+from uel.errors import DeckError
+from uel.output.earlier_jobs import EarlierJobs
 
 MESH = """*NODE, NSET=ALL
 1, 0., 0.
@@ -43,7 +43,7 @@ U
 def run(tmp_path):
     def run(text, name):
         (tmp_path / f"{name}.inp").write_text(text)
-        return harness.run(tmp_path / f"{name}.inp", output_dir=tmp_path)
+        return uel.run(tmp_path / f"{name}.inp", output_dir=tmp_path)
 
     return run
 

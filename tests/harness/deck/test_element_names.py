@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness import run
-from harness.deck import read_deck
-from harness.model.properties import ElementNames, UserElement
-from harness.project import TEMPLATE
+from uel import run
+from uel.deck import read_deck
+from uel.model.properties import ElementNames, UserElement
+from uel.project import TEMPLATE
 
 DECK = """\
 *NODE, NSET=ALL

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from harness.errors import DeckError
-from harness.model.model import Model
+from uel.errors import DeckError
+from uel.model.model import Model
 
 Read = Callable[[str], Model]
 Refuse = Callable[[str, tuple[str, str, str]], None]

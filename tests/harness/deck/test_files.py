@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 from numpy.testing import assert_array_equal
 
-from harness.deck import read_deck
-from harness.errors import DeckError
-from harness.model.model import Model
-from harness.output import JobOutput
+from uel.deck import read_deck
+from uel.errors import DeckError
+from uel.model.model import Model
+from uel.output import JobOutput
 
 Read = Callable[[str], Model]
 FLAT = Path(__file__).with_name("flat.inp").read_text()
@@ -192,7 +192,7 @@ def test_include_of_what_only_looks_like_a_file(read: Read, name: str) -> None:
 @pytest.mark.parametrize(("command", "name"), [("run", "pipe.inp"), ("check", "pipe.inp"), ("run", "/dev/zero")])
 def test_deck_that_is_no_file(tmp_path: Path, command: str, name: str) -> None:
     os.mkfifo(tmp_path / "pipe.inp")
-    words = [sys.executable, "-m", "harness.cli", command, name, *(["--quiet"] if command == "run" else [])]
+    words = [sys.executable, "-m", "uel.cli", command, name, *(["--quiet"] if command == "run" else [])]
     result = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
     assert result.returncode in (1, 2)
     assert f"uel: {name}: cannot read the file: not a file" in result.stderr

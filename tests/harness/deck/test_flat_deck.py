@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from harness.deck import read_deck
-from harness.errors import DeckError
-from harness.model.model import Model
-from harness.model.properties import ElasticType, UserProperty
+from uel.deck import read_deck
+from uel.errors import DeckError
+from uel.model.model import Model
+from uel.model.properties import ElasticType, UserProperty
 
 Read = Callable[[str], Model]
 FLAT = Path(__file__).with_name("flat.inp").read_text()

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from harness.errors import DeckError
+from uel.errors import DeckError
 
 # three squares, one on the other, the third one above a gap
 DECK = """\

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from columns import LONG, column, head
 
-import harness
-from harness.deck import read_deck
-from harness.errors import DeckError
+import uel
+from uel.deck import read_deck
+from uel.errors import DeckError
 
 TOP, LOAD = head("CPS8R")
 COLUMN = column("CPS8R") + TOP
@@ -46,7 +46,7 @@ TRUSS = """*NODE, NSET=ALL
 def run(tmp_path):
     def run(text, name):
         (tmp_path / f"{name}.inp").write_text(text)
-        return harness.run(tmp_path / f"{name}.inp", output_dir=tmp_path)
+        return uel.run(tmp_path / f"{name}.inp", output_dir=tmp_path)
 
     return run
 
@@ -81,8 +81,8 @@ def test_sum_of_shapes(run, tmp_path):
 
     def moved(data, options=""):
         path.write_text(imperfect(BUCKLE, data, options))
-        harness.run(path, output_dir=tmp_path)
-        return harness.output.Result(tmp_path / "sum").mesh().points - straight
+        uel.run(path, output_dir=tmp_path)
+        return uel.output.Result(tmp_path / "sum").mesh().points - straight
 
     np.testing.assert_allclose(moved("1, 0.1\n2, -0.02"), 0.1 * modes[0] - 0.02 * modes[1], atol=1e-14)
     chosen = np.zeros((len(straight), 1))

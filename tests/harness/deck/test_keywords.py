@@ -7,15 +7,15 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from harness.deck.abaqus_names import ABAQUS_KEYWORDS
-from harness.deck.keywords import KEYWORDS, MARKDOWN, markdown
-from harness.deck.table import Keyword, Kind, Option, Options, Support, Where, compact, read_options, refused
-from harness.errors import Source
-from harness.model.element_types import BUILT_IN
+from uel.deck.keywords import KEYWORDS, MARKDOWN, markdown
+from uel.deck.language.abaqus_names import ABAQUS_KEYWORDS
+from uel.deck.language.table import Keyword, Kind, Option, Options, Support, Where, compact, read_options, refused
+from uel.errors import Source
+from uel.model.element_types import BUILT_IN
 
 
 def test_page_is_current() -> None:
-    assert MARKDOWN.read_text(encoding="utf-8") == markdown(), "run python -m harness.deck"
+    assert MARKDOWN.read_text(encoding="utf-8") == markdown(), "run python -m uel.deck"
 
 
 def test_every_keyword_is_one_of_abaqus() -> None:
@@ -91,7 +91,11 @@ def entries(code: str) -> Iterator[str]:
                 yield name
 
 
-CODES = {path.stem: path.read_text(encoding="utf-8") for path in MARKDOWN.parent.glob("*.py")}
+CODES = {
+    path.relative_to(MARKDOWN.parent).with_suffix("").as_posix(): path.read_text(encoding="utf-8")
+    for path in MARKDOWN.parent.rglob("*.py")
+}
+"""Sources of the deck, by their path without ending."""
 
 
 def test_every_entry_is_in_the_table_once() -> None:
@@ -112,8 +116,8 @@ def test_every_option_that_a_reader_asks_for_is_of_an_entry_beside_it() -> None:
                 elsewhere.add((stem, name))
     assert asked > 100
     # what is asked for again, or of several keywords
-    named = {("groups", "ELSET"), ("lexer", "NAME")}
-    assert elsewhere == {*named, ("procedures", "PERTURBATION"), ("steps", "OP")}
+    named = {("mesh/groups", "ELSET"), ("language/lexer", "NAME")}
+    assert elsewhere == {*named, ("steps/procedures", "PERTURBATION"), ("steps/step", "OP")}
 
 
 def test_page_names_all_built_in_elements() -> None:

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from harness.errors import DeckError
-from harness.model.model import Model
-from harness.model.properties import UserProperty
+from uel.errors import DeckError
+from uel.model.model import Model
+from uel.model.properties import UserProperty
 
 Read = Callable[[str], Model]
 FLAT = Path(__file__).with_name("flat.inp").read_text()

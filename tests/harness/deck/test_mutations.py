@@ -8,8 +8,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from harness.deck import read_deck
-from harness.errors import DeckError
+from uel.deck import read_deck
+from uel.errors import DeckError
 
 DECKS = [Path(__file__).with_name(name).read_text() for name in ("flat.inp", "cae.inp")]
 LINES = [line for deck in DECKS for line in deck.splitlines()]

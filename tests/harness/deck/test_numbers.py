@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
-from harness.deck.numbers import integer_table, read_integer, read_real, real_table
-from harness.deck.table import split_fields
+from uel.deck.language.numbers import integer_table, read_integer, read_real, real_table
+from uel.deck.language.table import split_fields
 
 
 @pytest.mark.parametrize(

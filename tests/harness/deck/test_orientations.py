@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from harness.errors import DeckError
-from harness.model.arrays import FloatArray
-from harness.model.model import Model
-from harness.model.properties import SolidSection
+from uel.errors import DeckError
+from uel.model.arrays import FloatArray
+from uel.model.model import Model
+from uel.model.properties import SolidSection
 
 Read = Callable[[str], Model]
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from harness.deck import read_deck, survey_deck
-from harness.errors import DeckError, UsageError
-from harness.model.mesh import Mesh
+from uel.deck import read_deck, survey_deck
+from uel.errors import DeckError, UsageError
+from uel.model.mesh import Mesh
 
 DECK = """\
 *PARAMETER

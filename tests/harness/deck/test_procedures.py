@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from harness.errors import DeckError
-from harness.model.procedures import (
+from uel.errors import DeckError
+from uel.model.procedures import (
     CoupledTemperatureDisplacement,
     Dynamic,
     HeatTransfer,

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-import harness
-from harness.deck.error_report import Problems
-from harness.deck.keywords import KEYWORDS
-from harness.deck.lexer import read_blocks
-from harness.deck.repetition import RULES, STRUCTURE, Repeat, check_once, overlaps
-from harness.deck.table import Support
-from harness.errors import DeckError
+import uel
+from uel.deck.error_report import Problems
+from uel.deck.keywords import KEYWORDS
+from uel.deck.language.lexer import read_blocks
+from uel.deck.language.repetition import RULES, STRUCTURE, Repeat, check_once, overlaps
+from uel.deck.language.table import Support
+from uel.errors import DeckError
 
 MESH = """*NODE, NSET=ALL
 1, 0., 0.
@@ -46,7 +46,7 @@ END = "*OUTPUT, FIELD\n*NODE OUTPUT\nU, RF, NT\n*END STEP\n"
 def run(tmp_path):
     def run(text):
         (tmp_path / "deck.inp").write_text(text)
-        return harness.run(tmp_path / "deck.inp", output_dir=tmp_path)
+        return uel.run(tmp_path / "deck.inp", output_dir=tmp_path)
 
     return run
 

@@ -7,9 +7,9 @@ import re
 import numpy as np
 import pytest
 
-import harness
-from harness.deck import read_deck
-from harness.errors import DeckError
+import uel
+from uel.deck import read_deck
+from uel.errors import DeckError
 
 DECK = """\
 *NODE
@@ -256,7 +256,7 @@ def test_refused(deck, options, message, tmp_path):
         user = tmp_path / "none.f"
         user.write_text(UMAT)
     with pytest.raises(DeckError, match=message):
-        harness.run(deck(**options), user, output_dir=tmp_path)
+        uel.run(deck(**options), user, output_dir=tmp_path)
 
 
 def test_pressure_without_a_face_on_solids(deck):
@@ -272,7 +272,7 @@ def test_sdvini(deck, tmp_path):
     more = "*INITIAL CONDITIONS, TYPE=SOLUTION, USER\n"
     text = deck(SHEAR + "\n*HOURGLASS STIFFNESS\n1.", material=USER + "\n*DEPVAR\n1", more=more)
     with pytest.raises(DeckError, match=r"shell\.inp:\d+: SDVINI is not supported for elements of type S4R"):
-        harness.run(text, user, output_dir=tmp_path)
+        uel.run(text, user, output_dir=tmp_path)
 
 
 def test_nodes_of_an_element(deck):

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from harness.errors import DeckError
-from harness.model.model import Model
-from harness.model.procedures import Riks, Static
-from harness.model.steps import Controls, FieldControls, LineSearchControls, Position, Step, TimeControls
+from uel.errors import DeckError
+from uel.model.model import Model
+from uel.model.procedures import Riks, Static
+from uel.model.steps import Controls, FieldControls, LineSearchControls, Position, Step, TimeControls
 
 Read = Callable[[str], Model]
 FLAT = Path(__file__).with_name("flat.inp").read_text()

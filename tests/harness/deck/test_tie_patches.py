@@ -11,9 +11,9 @@ import itertools
 import numpy as np
 import pytest
 
-import harness
-from harness.deck import read_deck
-from harness.model.element_types import BUILT_IN
+import uel
+from uel.deck import read_deck
+from uel.model.element_types import BUILT_IN
 
 YOUNG, PULL = 1000.0, 5.0
 
@@ -115,7 +115,7 @@ def columns(second, main, cells, counts, **shape):
 def run(tmp_path):
     def run(text):
         (tmp_path / "deck.inp").write_text(text)
-        return harness.run(tmp_path / "deck.inp", output_dir=tmp_path)
+        return uel.run(tmp_path / "deck.inp", output_dir=tmp_path)
 
     return run
 

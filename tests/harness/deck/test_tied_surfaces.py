@@ -9,17 +9,17 @@ from reference_cells import nodes_of
 from scipy.spatial.transform import Rotation
 from small_decks import body_lines
 
-import harness
-from harness.deck import read_deck
-from harness.errors import DeckError
-from harness.model.element_types import BUILT_IN
+import uel
+from uel.deck import read_deck
+from uel.errors import DeckError
+from uel.model.element_types import BUILT_IN
 
 
 @pytest.fixture
 def run(tmp_path):
     def run(text, name="deck"):
         (tmp_path / f"{name}.inp").write_text(text)
-        return harness.run(tmp_path / f"{name}.inp", output_dir=tmp_path)
+        return uel.run(tmp_path / f"{name}.inp", output_dir=tmp_path)
 
     return run
 

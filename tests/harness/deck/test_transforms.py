@@ -7,8 +7,8 @@ from itertools import product
 import numpy as np
 import pytest
 
-import harness
-from harness.errors import DeckError
+import uel
+from uel.errors import DeckError
 
 SQUARE = np.array([[0, 0, 0], [2, 0, 0], [2.2, 1, 0], [0, 1, 0]], dtype=float)
 CUBE = np.vstack([SQUARE, SQUARE + np.array([0, 0.1, 1])])
@@ -51,7 +51,7 @@ def deck(element_type, step, turned):
 def run(tmp_path):
     def run(text):
         (tmp_path / "turned.inp").write_text(text)
-        return harness.run(tmp_path / "turned.inp", output_dir=tmp_path)
+        return uel.run(tmp_path / "turned.inp", output_dir=tmp_path)
 
     return run
 

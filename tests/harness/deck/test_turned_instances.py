@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-import harness
-from harness.deck import read_deck
+import uel
+from uel.deck import read_deck
 
 AXIS, ANGLE = np.array([1.0, 2.0, -0.5]), 70.0
 TURN = Rotation.from_rotvec(np.radians(ANGLE) * AXIS / np.linalg.norm(AXIS)).as_matrix()
@@ -131,7 +131,7 @@ def test_as_flat(tmp_path, name):
         path = tmp_path / f"{'part' if turned else 'flat'}.inp"
         held = HELD.format("I." if turned else "") if material is FIBRES else ""
         path.write_text(deck(body, turned=turned, outside=material + held))
-        found.append(harness.run(path, output_dir=tmp_path).field("U"))
+        found.append(uel.run(path, output_dir=tmp_path).field("U"))
     # one system of equations, but for the rounding of the places
     np.testing.assert_allclose(found[1], found[0], rtol=1e-7, atol=1e-9 * np.abs(found[0]).max())
 
@@ -176,7 +176,7 @@ def test_flat_beam_stands_upright(tmp_path):
     # the width of 1 is along n1, which is y after the turn
     shear = 2e5 / 2.6
     expected = 100.0**3 / (3 * 2e5 * 4 * 1.0**3 / 12) + 100.0 / (0.85 * shear * 4)
-    deflection = harness.run(tmp_path / "beam.inp", output_dir=tmp_path).field("U")[2, 1]
+    deflection = uel.run(tmp_path / "beam.inp", output_dir=tmp_path).field("U")[2, 1]
     # slenderness compensation of the shear stiffness: less than the whole part of shear, 8e-5
     assert deflection == pytest.approx(expected, rel=1e-4)
 
@@ -188,7 +188,7 @@ def test_springs_along_global_axes_are_told(tmp_path):
 
     path = tmp_path / "spring.inp"
     path.write_text(deck(body, turned=True, outside=MATERIAL))
-    warnings = harness.run(path, output_dir=tmp_path).warnings
+    warnings = uel.run(path, output_dir=tmp_path).warnings
     assert any("dofs 1 are those of the global axes, which do not turn with instance I" in text for text in warnings)
 
 

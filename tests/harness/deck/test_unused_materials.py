@@ -4,9 +4,9 @@
 
 import pytest
 
-from harness.deck.abaqus_names import ABAQUS_KEYWORDS, MATERIAL_KEYWORDS
-from harness.deck.materials import MATERIAL_OPTIONS
-from harness.errors import DeckError
+from uel.deck.language.abaqus_names import ABAQUS_KEYWORDS, MATERIAL_KEYWORDS
+from uel.deck.materials.material import MATERIAL_OPTIONS
+from uel.errors import DeckError
 
 DECK = """*NODE
 1, 0., 0., 0.

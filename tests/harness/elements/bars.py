@@ -4,7 +4,7 @@
 
 import numpy as np
 
-from harness.model.element_types import BUILT_IN
+from uel.model.element_types import BUILT_IN
 
 
 def held(nodes, values, dof=11):

@@ -10,14 +10,14 @@ import pytest
 import scipy.sparse as sp
 from material_point import COMPONENTS, MaterialPoint
 
-import harness
-from harness import usersub
-from harness.elements import Call, Flags, Request, build_blocks
-from harness.errors import Source
-from harness.model.element_types import CONTINUUM
-from harness.model.mesh import ElementGroup, Mesh
-from harness.model.model import Model
-from harness.model.properties import (
+import uel
+from uel import usersub
+from uel.elements import Call, Flags, Request, build_blocks
+from uel.errors import Source
+from uel.model.element_types import CONTINUUM
+from uel.model.mesh import ElementGroup, Mesh
+from uel.model.model import Model
+from uel.model.properties import (
     Elastic,
     ElasticType,
     Material,
@@ -33,11 +33,11 @@ SOURCE = Source("test.inp", 7)
 
 @pytest.fixture
 def run(tmp_path):
-    """Run the text of a deck; options as those of `harness.run`."""
+    """Run the text of a deck; options as those of `uel.run`."""
 
     def run(text, **options):
         (tmp_path / "deck.inp").write_text(text)
-        return harness.run(tmp_path / "deck.inp", output_dir=tmp_path, **options)
+        return uel.run(tmp_path / "deck.inp", output_dir=tmp_path, **options)
 
     return run
 

@@ -7,11 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from harness.elements import ContactBlock, Flags, Request
-from harness.errors import Source
-from harness.model.mesh import ElementGroup, Mesh
-from harness.model.model import Model
-from harness.model.properties import UserProperty
+from uel.contact import ContactBlock
+from uel.elements import Flags, Request
+from uel.errors import Source
+from uel.model.mesh import ElementGroup, Mesh
+from uel.model.model import Model
+from uel.model.properties import UserProperty
 
 SOURCE = Source("test.inp", 1)
 

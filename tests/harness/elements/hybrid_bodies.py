@@ -5,7 +5,7 @@
 import numpy as np
 from small_decks import body_lines
 
-from harness.model.element_types import CONTINUUM
+from uel.model.element_types import CONTINUUM
 
 INNER, OUTER = 1.0, 2.0
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from harness.model.element_types import SHELL
+from uel.model.element_types import SHELL
 
 Place = Callable[[float, float], tuple[float, float, float]]
 

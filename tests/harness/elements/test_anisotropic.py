@@ -10,12 +10,12 @@ from differences import check_energy
 from moving_element import CUBE, NODES, SQUARE, MovingElement, turn
 from small_decks import body_lines
 
-import harness
-from harness.errors import DeckError, KernelError, Source
-from harness.model.mesh import ElementGroup
-from harness.model.procedures import Static
-from harness.model.properties import Holzapfel, Material, Orientation, SolidSection, UserPotential
-from harness.model.steps import Step
+import uel
+from uel.errors import DeckError, KernelError, Source
+from uel.model.mesh import ElementGroup
+from uel.model.procedures import Static
+from uel.model.properties import Holzapfel, Material, Orientation, SolidSection, UserPotential
+from uel.model.steps import Step
 
 HERE = Path(__file__).parent
 SOURCE = Source("test.inp", 1)
@@ -169,7 +169,7 @@ TISSUE = "*ANISOTROPIC HYPERELASTIC, HOLZAPFEL, LOCAL DIRECTIONS=2\n0.5, 0.4, 0.
 def run(tmp_path):
     def run(text, user=None):
         (tmp_path / "tissue.inp").write_text(text)
-        return harness.run(tmp_path / "tissue.inp", user and HERE / user, output_dir=tmp_path)
+        return uel.run(tmp_path / "tissue.inp", user and HERE / user, output_dir=tmp_path)
 
     return run
 

@@ -14,12 +14,12 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 
-import harness
-from harness.errors import DeckError
-from harness.usersub.library import ENTRY_POINTS
+import uel
+from uel.errors import DeckError
+from uel.usersub.library import ENTRY_POINTS
 
 HERE = Path(__file__).parent
-PAGE = Path(harness.__file__).parent / "usersub" / "calls.md"
+PAGE = Path(uel.__file__).parent / "usersub" / "calls.md"
 DECK = """*NODE, NSET=ALL
 1, 0., 0.
 2, 1., 0.
@@ -158,7 +158,7 @@ def calls(tmp_path_factory):
         given |= {"procedure": procedure, "options": options, "loads": loads} | changed
         text = deck.format(**given)
         (folder / "told.inp").write_text(text)
-        harness.run(folder / "told.inp", HERE / "told.f", output_dir=folder)
+        uel.run(folder / "told.inp", HERE / "told.f", output_dir=folder)
         found = []
         for line in (folder / "told.dat").read_text().splitlines():
             word, _, rest = line.strip().partition(" ")

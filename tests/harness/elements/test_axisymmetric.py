@@ -10,11 +10,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from harness.elements import Request
-from harness.elements.solid import HOURGLASS_FRACTION
-from harness.errors import DeckError, Source
-from harness.model.element_types import CONTINUUM
-from harness.model.properties import Elastic, ElasticType, Orientation, Plastic
+from uel.elements import Request
+from uel.elements.families.solid import HOURGLASS_FRACTION
+from uel.errors import DeckError, Source
+from uel.model.element_types import CONTINUUM
+from uel.model.properties import Elastic, ElasticType, Orientation, Plastic
 
 E, NU, DENSITY = 1000.0, 0.3, 3.0
 TYPES = [name for name in CONTINUUM if name.startswith("CAX")]

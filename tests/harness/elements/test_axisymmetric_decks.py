@@ -9,9 +9,9 @@ import pytest
 from scipy.integrate import quad
 from small_decks import body_lines
 
-import harness
-from harness.errors import ConvergenceError, DeckError
-from harness.model.element_types import CONTINUUM, COUPLED
+import uel
+from uel.errors import ConvergenceError, DeckError
+from uel.model.element_types import CONTINUUM, COUPLED
 
 TYPES = [name for name in CONTINUUM if name.startswith("CAX")]
 INNER, OUTER, PRESSURE, YOUNG, DENSITY = 1.0, 2.0, 10.0, 1000.0, 3.0
@@ -63,7 +63,7 @@ def deck(element_type, mesh, step, *, material=f"*ELASTIC\n{YOUNG}, 0.3", option
 def run(tmp_path):
     def run(text, user=None):
         (tmp_path / "ring.inp").write_text(text)
-        return harness.run(tmp_path / "ring.inp", user, output_dir=tmp_path)
+        return uel.run(tmp_path / "ring.inp", user, output_dir=tmp_path)
 
     return run
 

@@ -9,8 +9,8 @@ import pytest
 from material_point import COMPONENTS
 from moving_element import NODES, SQUARE, MovingElement, turn
 
-from harness.errors import DeckError, Source
-from harness.model.properties import Elastic, ElasticType, Material, Plastic
+from uel.errors import DeckError, Source
+from uel.model.properties import Elastic, ElasticType, Material, Plastic
 
 SOURCE = Source("deck.inp", 15)
 E, NU, SIZE = 200e3, 0.3, 250.0

@@ -16,11 +16,11 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
-import harness
-from harness.elements.beam_profiles import SHEAR_FACTORS, profile_of, rectangle_torsion
-from harness.errors import Source
-from harness.model.element_types import BEAM
-from harness.model.properties import BeamSection
+import uel
+from uel.elements.families.beam_profiles import SHEAR_FACTORS, profile_of, rectangle_torsion
+from uel.errors import Source
+from uel.model.element_types import BEAM
+from uel.model.properties import BeamSection
 
 TYPES = tuple(BEAM)
 SPACE = tuple(name for name, kind in BEAM.items() if kind.dimension == 3)
@@ -78,7 +78,7 @@ def run(tmp_path):
     def run(line: Line, data: str, *, step: str = STEP, text: str = ""):
         file = tmp_path / "beam.inp"
         file.write_text(text or line.text(step.format(data=data)))
-        return harness.run(file, output_dir=tmp_path / "out")
+        return uel.run(file, output_dir=tmp_path / "out")
 
     return run
 
@@ -465,7 +465,7 @@ def test_joints(tmp_path, joint, offset):
     file = tmp_path / "joined.inp"
     text = JOINED.format(offset=offset, joint=joint, section=rect(1.0, 2.0))
     file.write_text(text + STEP.format(data=CLAMPED + "*CLOAD\nEND, 1, 1.\nEND, 2, 1.\nEND, 3, 1."))
-    found = harness.run(file, output_dir=tmp_path / "out").history
+    found = uel.run(file, output_dir=tmp_path / "out").history
     moments = np.cross([10.0, offset, 0.0], [1.0, 1.0, 1.0])
     for k in (1, 2, 3):
         assert found[f"RF{k}[ALL:1]"][-1] == pytest.approx(-1.0, abs=1e-9)
@@ -495,7 +495,7 @@ def test_beam_at_a_shell(tmp_path):
     ]
     file = tmp_path / "stiffened.inp"
     file.write_text("\n".join(lines) + "\n" + STEP.format(data=CLAMPED + "*CLOAD\nEND, 5, 0.5"))
-    found = harness.run(file, output_dir=tmp_path / "out").history
+    found = uel.run(file, output_dir=tmp_path / "out").history
     bending = 1000 * (0.5 + 2 * 0.2) * 0.3**3 / 12
     assert found[f"UR2[ALL:{n + 1}]"][-1] == pytest.approx(10 / bending, rel=1e-9)
     assert found[f"U3[ALL:{n + 1}]"][-1] == pytest.approx(-50 / bending, rel=1e-9)

@@ -11,16 +11,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import harness
-from harness.elements import Flags, Request
-from harness.elements.beam_points import rectangle_shear, section_points
-from harness.elements.beam_profiles import profile_of
-from harness.errors import DeckError, Source
-from harness.model.element_types import BEAM
-from harness.model.mesh import ElementGroup
-from harness.model.procedures import Static
-from harness.model.properties import BeamSection, Elastic, ElasticType, Material, Plastic
-from harness.model.steps import Step
+import uel
+from uel.elements import Flags, Request
+from uel.elements.families.beam_points import rectangle_shear, section_points
+from uel.elements.families.beam_profiles import profile_of
+from uel.errors import DeckError, Source
+from uel.model.element_types import BEAM
+from uel.model.mesh import ElementGroup
+from uel.model.procedures import Static
+from uel.model.properties import BeamSection, Elastic, ElasticType, Material, Plastic
+from uel.model.steps import Step
 
 HERE = Path(__file__).parents[1]
 SOURCE = Source("test.inp", 7)
@@ -407,7 +407,7 @@ def run(tmp_path):
         if user:
             file = tmp_path / "user.f"
             file.write_text(user)
-        return harness.run(tmp_path / "job.inp", file, output_dir=tmp_path)
+        return uel.run(tmp_path / "job.inp", file, output_dir=tmp_path)
 
     return run
 

@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from harness.elements import Flags, Request
-from harness.elements.beam import SLENDERNESS, section_mass
-from harness.elements.beam_profiles import SHEAR_FACTORS, profile_of, rectangle_torsion
-from harness.errors import DeckError, Source
-from harness.model.element_types import BEAM
-from harness.model.mesh import ElementGroup
-from harness.model.procedures import Static
-from harness.model.properties import BeamSection
-from harness.model.steps import Step
+from uel.elements import Flags, Request
+from uel.elements.families.beam import SLENDERNESS, section_mass
+from uel.elements.families.beam_profiles import SHEAR_FACTORS, profile_of, rectangle_torsion
+from uel.errors import DeckError, Source
+from uel.model.element_types import BEAM
+from uel.model.mesh import ElementGroup
+from uel.model.procedures import Static
+from uel.model.properties import BeamSection
+from uel.model.steps import Step
 
 SOURCE = Source("test.inp", 7)
 E, G, DENSITY = 1000.0, 400.0, 3.0

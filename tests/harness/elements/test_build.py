@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.elements import FIELD_NAMES, build_blocks, field_of
-from harness.errors import DeckError, Source
-from harness.model.local_systems import LocalSystem, SystemKind
-from harness.model.mesh import Mesh
-from harness.model.model import Model
-from harness.model.procedures import Dynamic, Static
-from harness.model.properties import Elastic, ElasticType, Material, Orientation, UserMaterial
-from harness.model.steps import Step
+from uel.elements import FIELD_NAMES, build_blocks, field_of
+from uel.errors import DeckError, Source
+from uel.model.local_systems import LocalSystem, SystemKind
+from uel.model.mesh import Mesh
+from uel.model.model import Model
+from uel.model.procedures import Dynamic, Static
+from uel.model.properties import Elastic, ElasticType, Material, Orientation, UserMaterial
+from uel.model.steps import Step
 
 HERE = Path(__file__).parent
 SPRING = ((0, 1), (1, 1))

@@ -1,15 +1,15 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""LFLAGS of the calls that a user element gets, as the table of harness/usersub/calls.md says."""
+"""LFLAGS of the calls that a user element gets, as the table of harness/uel/usersub/calls.md says."""
 
 from itertools import groupby
 from pathlib import Path
 
 import pytest
 
-import harness
+import uel
 
-PAGE = Path(harness.__file__).parent / "usersub" / "calls.md"
+PAGE = Path(uel.__file__).parent / "usersub" / "calls.md"
 DECK = """*NODE
 1, 0.
 2, 1.
@@ -67,8 +67,8 @@ def test_calls_of_a_step(tmp_path, step, code, requests, linear):
     (tmp_path / "calls.inp").write_text(deck)
     (tmp_path / "calls.f").write_text(UEL)
     try:
-        result = harness.run(tmp_path / "calls.inp", tmp_path / "calls.f", output_dir=tmp_path)
-    except harness.errors.ConvergenceError:
+        result = uel.run(tmp_path / "calls.inp", tmp_path / "calls.f", output_dir=tmp_path)
+    except uel.errors.ConvergenceError:
         assert "RIKS" in step  # has no end of its own
         result = None
     lines = (tmp_path / "calls.msg").read_text().splitlines()

@@ -10,11 +10,11 @@ import pytest
 from reference_cells import affine, patch_of, unit_cell
 from small_decks import body_lines
 
-from harness.elements import Flags, Request
-from harness.errors import DeckError, Source
-from harness.model.element_types import CONTINUUM, LAYERED
-from harness.model.mesh import ElementGroup
-from harness.model.properties import (
+from uel.elements import Flags, Request
+from uel.errors import DeckError, Source
+from uel.model.element_types import CONTINUUM, LAYERED
+from uel.model.mesh import ElementGroup
+from uel.model.properties import (
     CompositeSection,
     Elastic,
     ElasticType,

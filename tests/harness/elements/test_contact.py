@@ -11,16 +11,17 @@ import numpy as np
 import pytest
 from contact_decks import YOUNG, Box, plane, step, total, two_boxes
 
-from harness.deck import read_deck
-from harness.elements import ContactBlock, Flags, Request
-from harness.elements.contact import OPEN, SLIPPING, STICKING
-from harness.errors import ConvergenceError, DeckError, Source, UsageError
-from harness.job_on_ranks import refuse_unshared
-from harness.model.contact import Cohesion, ContactPair, ContactProperty
-from harness.model.damage import Damage, DamageEvolution
-from harness.model.mesh import ElementGroup, Mesh
-from harness.model.model import Model
-from harness.model.properties import UserProperty
+from uel.contact import ContactBlock
+from uel.contact.block import OPEN, SLIPPING, STICKING
+from uel.deck import read_deck
+from uel.elements import Flags, Request
+from uel.errors import ConvergenceError, DeckError, Source, UsageError
+from uel.model.contact import Cohesion, ContactPair, ContactProperty
+from uel.model.damage import Damage, DamageEvolution
+from uel.model.mesh import ElementGroup, Mesh
+from uel.model.model import Model
+from uel.model.properties import UserProperty
+from uel.running.ranks import refuse_unshared
 
 SOURCE = Source("test.inp", 1)
 THICKNESS = 1.5

@@ -11,9 +11,9 @@ from contact_points import SOURCE, Points
 from test_contact_sliding import pair_of as nodes_pair
 from test_contact_surfaces import pair_of as surfaces_pair
 
-from harness.errors import DeckError
-from harness.model.contact import Cohesion
-from harness.model.damage import Damage, DamageEvolution
+from uel.errors import DeckError
+from uel.model.contact import Cohesion
+from uel.model.damage import Damage, DamageEvolution
 
 THICKNESS = 1.5
 HELD = "*BOUNDARY\nLOWER_BOTTOM, 1, 2\nUPPER_TOP, 1"

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from contact_decks import YOUNG, Box, step, two_boxes
 
-from harness.deck import read_deck
-from harness.deck.pieces import make_pieces
-from harness.elements import SurfaceSliding
-from harness.elements.contact_correction import corrections
-from harness.model.contact import Rounded
+from uel.contact import SurfaceSliding
+from uel.contact.correction import corrections
+from uel.deck import read_deck
+from uel.deck.contact.pieces import make_pieces
+from uel.model.contact import Rounded
 
 INNER, MIDDLE, OUTER = 1.0, 2.0, 3.0
 

@@ -5,9 +5,9 @@
 import numpy as np
 import pytest
 
-from harness.deck.pieces import make_pieces, whole_pieces
-from harness.elements import FaceSurface
-from harness.model.element_types import QUAD8
+from uel.contact import FaceSurface
+from uel.deck.contact.pieces import make_pieces, whole_pieces
+from uel.model.element_types import QUAD8
 
 FACING = -0.5
 FINE = np.linspace(-1.0, 1.0, 41)

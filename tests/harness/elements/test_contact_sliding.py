@@ -7,9 +7,9 @@ import pytest
 from contact_decks import Box, step, total, two_boxes
 from contact_points import SOURCE, Points
 
-from harness.deck.pieces import make_pieces
-from harness.elements.contact import SLIPPING, STICKING
-from harness.model.contact import ContactProperty, SlidingPair
+from uel.contact.block import SLIPPING, STICKING
+from uel.deck.contact.pieces import make_pieces
+from uel.model.contact import ContactProperty, SlidingPair
 
 
 def arc(count=6, radius=4.0):

@@ -7,9 +7,9 @@ import pytest
 from contact_decks import YOUNG, Box, step, total, two_boxes
 from contact_points import SOURCE, Points
 
-from harness.deck.pieces import filled, make_pieces
-from harness.deck.smooth_parts import smooth_parts
-from harness.model.contact import ContactProperty, SurfacePair
+from uel.deck.contact.pieces import filled, make_pieces
+from uel.deck.mesh.smooth_parts import smooth_parts
+from uel.model.contact import ContactProperty, SurfacePair
 
 SURFACES = "TYPE=SURFACE TO SURFACE"
 

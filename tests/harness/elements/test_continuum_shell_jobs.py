@@ -17,9 +17,9 @@ from scipy.spatial.transform import Rotation
 from shell_decks import ThickDeck
 from test_shell_jobs import PATCH, UMAT
 
-import harness
-from harness.delamination import theory
-from harness.model.element_types import CONTINUUM_SHELL
+import uel
+from uel.delamination import theory
+from uel.model.element_types import CONTINUUM_SHELL
 
 TYPES = tuple(CONTINUUM_SHELL)
 STEP = "*STEP\n*STATIC\n{}\n*OUTPUT, FIELD\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=P\nU\nRF\n*END STEP"
@@ -38,7 +38,7 @@ def run(tmp_path):
     def run(deck, data, sets, *, user=None, step=STEP):
         file = tmp_path / "shell.inp"
         file.write_text(deck.text(step.format(data), sets))
-        result = harness.run(file, user, output_dir=tmp_path)
+        result = uel.run(file, user, output_dir=tmp_path)
         assert result.completed
         return result
 
@@ -212,7 +212,7 @@ PROBLEMS = {
 
 def rows_of_the_page():
     """Problem, published displacement, cells along the first side, ratios of SC8R and SC6R."""
-    page = (Path(__file__).parents[3] / "harness" / "elements" / "continuum-shells.md").read_text()
+    page = (Path(__file__).parents[3] / "harness" / "uel" / "elements" / "families" / "continuum-shells.md").read_text()
     name, exact = "", 0.0
     for what, number, mesh, *ratios in re.findall(
         r"^\| (?:([^|]+), ([\d.e-]+))? *\| (\d+) x \d+ \| ([\d.]+) \| ([\d.]+) \|$", page, re.MULTILINE
@@ -421,7 +421,7 @@ def test_double_cantilever_beam(tmp_path):
     lines += ["*BOUNDARY", f"HIGH, 3, 3, {opening / 2}", f"LOW, 3, 3, {-opening / 2}"]
     lines += ["*OUTPUT, HISTORY", "*NODE OUTPUT, NSET=HIGH", "U", "RF", "*END STEP", ""]
     (tmp_path / "dcb.inp").write_text("\n".join(lines))
-    result = harness.run(tmp_path / "dcb.inp", output_dir=tmp_path)
+    result = uel.run(tmp_path / "dcb.inp", output_dir=tmp_path)
     assert result.completed
     history = result.history
     force = sum(values for name, values in history.items() if name.startswith("RF3"))

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from shell_decks import values_of
 
-from harness.elements import Request
-from harness.errors import DeckError, KernelError, Source
-from harness.model.element_types import CONTINUUM_SHELL
-from harness.model.mesh import ElementGroup
-from harness.model.properties import (
+from uel.elements import Request
+from uel.errors import DeckError, KernelError, Source
+from uel.model.element_types import CONTINUUM_SHELL
+from uel.model.mesh import ElementGroup
+from uel.model.properties import (
     Elastic,
     ElasticType,
     Material,

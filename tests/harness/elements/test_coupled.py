@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from small_decks import body_lines
 
-import harness
-from harness.errors import DeckError
-from harness.model.element_types import COUPLED
+import uel
+from uel.errors import DeckError
+from uel.model.element_types import COUPLED
 
 CONDUCTIVITY, DENSITY, HEAT, THICKNESS = 3.0, 2.0, 0.7, 0.5
 MATERIAL = f"""*MATERIAL, NAME=M
@@ -91,7 +91,7 @@ HELD = "*BOUNDARY\nALL, 1, 3\n"
 def run(tmp_path):
     def run(text):
         (tmp_path / "heat.inp").write_text(text)
-        return harness.run(tmp_path / "heat.inp", output_dir=tmp_path).history
+        return uel.run(tmp_path / "heat.inp", output_dir=tmp_path).history
 
     return run
 

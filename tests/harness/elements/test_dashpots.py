@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from harness.errors import DeckError
+from uel.errors import DeckError
 
 K, C, M, FORCE = 5.0, 3.0, 2.0, 7.0
 DASHPOTS = {

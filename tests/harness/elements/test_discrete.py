@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import harness
-from harness.elements import Flags, Request
-from harness.errors import DeckError, KernelError, Source
-from harness.model.mesh import ElementGroup
-from harness.model.properties import Elastic, ElasticType, MassSection, Material, Plastic, SolidSection, SpringSection
+import uel
+from uel.elements import Flags, Request
+from uel.errors import DeckError, KernelError, Source
+from uel.model.mesh import ElementGroup
+from uel.model.properties import Elastic, ElasticType, MassSection, Material, Plastic, SolidSection, SpringSection
 
 SOURCE = Source("test.inp", 1)
 E, AREA, DENSITY = 200.0, 3.0, 5.0
@@ -172,7 +172,7 @@ ETOTAL
 def test_mass_on_a_spring(tmp_path):
     """omega = 4: the average acceleration method turns (u, v/omega) by 2 atan(omega h/2) in each increment."""
     (tmp_path / "mass.inp").write_text(DECK)
-    history = harness.run(tmp_path / "mass.inp", output_dir=tmp_path).history
+    history = uel.run(tmp_path / "mass.inp", output_dir=tmp_path).history
     angle = 2 * np.arctan(4 * 0.1 / 2) * np.arange(1, 41)
     assert history["U1[N]"] == pytest.approx(3 / 4 * np.sin(angle), abs=1e-9)
     assert history["V1[N]"] == pytest.approx(3 * np.cos(angle), abs=1e-8)
@@ -194,4 +194,4 @@ def test_what_is_wrong_with_springs_and_masses(tmp_path, old, new, message):
     assert old in DECK
     (tmp_path / "mass.inp").write_text(DECK.replace(old, new))
     with pytest.raises(DeckError, match=message):
-        harness.run(tmp_path / "mass.inp", output_dir=tmp_path)
+        uel.run(tmp_path / "mass.inp", output_dir=tmp_path)

@@ -14,12 +14,12 @@ from bent_beams import DISTRIBUTING, HIGH, LENGTH, YOUNG, beam, beam_of_quads, l
 from scipy.spatial.transform import Rotation
 from small_decks import BAR_ENDS, bars
 
-import harness
-from harness import usersub
-from harness.assembly import System
-from harness.deck import read_deck
-from harness.elements import COUPLED, Call, Flags, build_blocks, distributing_blocks
-from harness.errors import ConvergenceError, DeckError, UsageError
+import uel
+from uel import usersub
+from uel.assembly import System
+from uel.deck import read_deck
+from uel.elements import COUPLED, Call, Flags, build_blocks, distributing_blocks
+from uel.errors import ConvergenceError, DeckError, UsageError
 
 REFERENCE = np.array([1.5, 1.0, 3.0])
 DISTANCES = np.linalg.norm(BAR_ENDS - REFERENCE, axis=1)
@@ -34,7 +34,7 @@ class Bars:
         (folder / "bars.inp").write_text(bars(coupling, space=space, nlgeom=nlgeom))
         model = read_deck(folder / "bars.inp")
         blocks = build_blocks(model, usersub.load(None, job="bars", output_dir=folder))
-        self.coupled = distributing_blocks(model, blocks, ())
+        self.coupled = distributing_blocks(model, blocks, 0)
         self.system = System(model.mesh, blocks, model.equations, (), self.coupled)
         self._call = Call(
             Flags(1, nlgeom), step=1, increment=1, step_time=1.0, total_time=1.0, time_increment=1.0, period=1.0
@@ -139,7 +139,7 @@ def test_forces(coupled):
 def run(tmp_path):
     def run(lines, name="turned", **options):
         (tmp_path / f"{name}.inp").write_text("\n".join(lines) + "\n")
-        return harness.run(tmp_path / f"{name}.inp", output_dir=tmp_path, **options)
+        return uel.run(tmp_path / f"{name}.inp", output_dir=tmp_path, **options)
 
     return run
 

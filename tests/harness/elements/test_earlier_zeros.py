@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from harness.delamination.kernels import uel_property
-from harness.job import run
+from uel.delamination.kernels import uel_property
+from uel.running.job import run
 
 DECK = Path(__file__).parents[3] / "abaqus_inputs" / "properties" / "u4_given.inp"
 # of each point 18, of the element 4 that are new

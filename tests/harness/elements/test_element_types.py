@@ -9,20 +9,12 @@ import numpy as np
 import pytest
 from reference_cells import EDGES, FACES, SQUARE, integral, monomials, nodes_of, shape_of, unit_cell
 
-from harness.elements import build_blocks
-from harness.errors import KernelError
-from harness.model.element_types import (
-    BUILT_IN,
-    CONTINUUM,
-    COUPLED,
-    FAMILIES,
-    MODIFIED,
-    ContinuumType,
-    DiscreteKind,
-)
-from harness.model.mesh import Mesh
-from harness.model.model import Model
-from harness.usersub import _binding
+from uel.elements import build_blocks
+from uel.errors import KernelError
+from uel.model.element_types import BUILT_IN, CONTINUUM, COUPLED, FAMILIES, MODIFIED, ContinuumType, DiscreteKind
+from uel.model.mesh import Mesh
+from uel.model.model import Model
+from uel.usersub import _binding
 
 KNOWN = [family for family in FAMILIES.values() if family.number]
 RULES = sorted(

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from small_decks import body_lines
 
-import harness
-from harness.elements import build_blocks
-from harness.errors import DeckError, Source
-from harness.model.mesh import Mesh
-from harness.model.model import Model
-from harness.model.properties import Elastic, ElasticType, HybridFormulation, Material, SectionControls, UserMaterial
+import uel
+from uel.elements import build_blocks
+from uel.errors import DeckError, Source
+from uel.model.mesh import Mesh
+from uel.model.model import Model
+from uel.model.properties import Elastic, ElasticType, HybridFormulation, Material, SectionControls, UserMaterial
 
 SOURCE = Source("test.inp", 1)
 POINTS = Path(__file__).with_name("points.f")
@@ -74,7 +74,7 @@ def test_wall_of_a_cylinder_bends_in_one_element(tmp_path):
     half = np.pi * radius  # half of a force of one per length
     lines += [f"*CLOAD\n1, 1, {half}\n2, 1, {half}", "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nU\n*END STEP"]
     (tmp_path / "wall.inp").write_text("\n".join([*lines, ""]))
-    history = harness.run(tmp_path / "wall.inp", output_dir=tmp_path).history
+    history = uel.run(tmp_path / "wall.inp", output_dir=tmp_path).history
     found = (history["U1[ALL:1]"][-1] + history["U1[ALL:2]"][-1]) / 2
     # thin: of the order of the thickness over the radius
     assert found == pytest.approx(1 / (2 * beta**3 * rigidity), rel=0.02)
@@ -181,7 +181,7 @@ def bent(element_type, material, nodes, static="*STATIC\n1., 1.", nlgeom=""):
 def reactions(folder, lines, user=None):
     """Reactions (increments, dofs) of a deck."""
     (folder / "bent.inp").write_text("\n".join(lines) + "\n")
-    history = harness.run(folder / "bent.inp", user=user, output_dir=folder).history
+    history = uel.run(folder / "bent.inp", user=user, output_dir=folder).history
     return np.array([values for name, values in history.items() if name.startswith("RF")]).T
 
 
@@ -266,7 +266,7 @@ def test_deformation_gradients_of_a_rubber_block(tmp_path):
     lines += ["*STEP, NLGEOM", "*STATIC", "1., 1., 1e-05, 1.", "*BOUNDARY", "LOW, 1, 3", "HIGH, 1, 1, 0.2"]
     lines += ["HIGH, 2, 2, 0.3", "HIGH, 3, 3, 0.2", "*OUTPUT, FIELD", "*NODE OUTPUT", "U", "*END STEP", ""]
     (tmp_path / "block.inp").write_text("\n".join(lines))
-    result = harness.run(tmp_path / "block.inp", output_dir=tmp_path)
+    result = uel.run(tmp_path / "block.inp", output_dir=tmp_path)
     message = " ".join((tmp_path / "block.msg").read_text().split())
     assert "the rule was chosen by one public job of Abaqus, whose deformation gradients it meets to 0.03" in message
     u = result.mesh(-1).point_data["U"]

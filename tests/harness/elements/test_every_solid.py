@@ -14,10 +14,10 @@ from moving_element import turn
 from reference_cells import patch_of
 from small_decks import body_lines
 
-from harness.assembly import System
-from harness.deck import read_deck
-from harness.elements import Request, build_blocks
-from harness.model.element_types import BUILT_IN, ContinuumType, Tensor
+from uel.assembly import System
+from uel.deck import read_deck
+from uel.elements import Request, build_blocks
+from uel.model.element_types import BUILT_IN, ContinuumType, Tensor
 
 SOLIDS = {name: kind for name, kind in BUILT_IN.items() if type(kind) is ContinuumType}
 YOUNG, POISSON, DENSITY, THICKNESS = 1000.0, 0.3, 2.0, 0.7

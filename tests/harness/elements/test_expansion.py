@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from small_decks import body_lines
 
-import harness
-from harness.errors import DeckError
+import uel
+from uel.errors import DeckError
 
 YOUNG, NU, ALPHA, WARMER = 1000.0, 0.25, 2e-5, 50.0
 CUBE = np.array([[x, y, z] for z in (0.0, 1.0) for x, y in ((0, 0), (1.2, 0), (1, 1), (0, 1))])
@@ -39,7 +39,7 @@ def deck(element_type, held, *, material=ELASTIC, options="", more="", temperatu
 def run(tmp_path):
     def run(text, user=None):
         (tmp_path / "warm.inp").write_text(text)
-        return harness.run(tmp_path / "warm.inp", user, output_dir=tmp_path)
+        return uel.run(tmp_path / "warm.inp", user, output_dir=tmp_path)
 
     return run
 

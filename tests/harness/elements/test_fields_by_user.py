@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import harness
-from harness.errors import DeckError, UelError
+import uel
+from uel.errors import DeckError, UelError
 
 HERE = Path(__file__).parent
 DECK = """\
@@ -54,7 +54,7 @@ def run(tmp_path):
         (tmp_path / "square.inp").write_text(text)
         user = tmp_path / "user.f"
         user.write_text(routines.replace("'../umat.inc'", f"'{HERE.parent / 'umat.inc'}'"))
-        return harness.run(tmp_path / "square.inp", user, output_dir=tmp_path)
+        return uel.run(tmp_path / "square.inp", user, output_dir=tmp_path)
 
     return run
 

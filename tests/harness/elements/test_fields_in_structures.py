@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from shell_decks import ShellDeck
 
-import harness
-from harness.model.element_types import SHELL
+import uel
+from uel.model.element_types import SHELL
 
 HERE = Path(__file__).parents[1]
 USDFLD = f"""      INCLUDE '{HERE / "usdfld.inc"}'
@@ -28,7 +28,7 @@ def run(tmp_path):
         (tmp_path / "job.inp").write_text(text)
         source = USDFLD.replace("%s", "\n".join(f"      {line}" for line in body.split("\n")))
         (tmp_path / "user.f").write_text(source + more)
-        return harness.run(tmp_path / "job.inp", tmp_path / "user.f", output_dir=tmp_path)
+        return uel.run(tmp_path / "job.inp", tmp_path / "user.f", output_dir=tmp_path)
 
     return run
 

@@ -10,11 +10,11 @@ import pytest
 from reference_cells import affine, patch_of
 from small_decks import body_lines
 
-from harness.elements import REFERENCE, Flags, build_blocks
-from harness.errors import DeckError
-from harness.model.element_types import GENERALISED, PLANES
-from harness.model.mesh import Mesh
-from harness.model.model import Model
+from uel.elements import REFERENCE, Flags, build_blocks
+from uel.errors import DeckError
+from uel.model.element_types import GENERALISED, PLANES
+from uel.model.mesh import Mesh
+from uel.model.model import Model
 
 YOUNG, NU, LENGTH = 1000.0, 0.3, 2.0
 ELASTIC = f"*ELASTIC\n{YOUNG}, {NU}"

@@ -12,12 +12,12 @@ from differences import differences
 from reference_cells import patch_of
 from small_decks import body_lines
 
-import harness
-from harness.elements import Flags
-from harness.errors import ConvergenceError, DeckError, KernelError, Source
-from harness.model.element_types import BUILT_IN, COUPLED, HEAT
-from harness.model.mesh import ElementGroup
-from harness.model.properties import Material, SolidSection, UserMaterial
+import uel
+from uel.elements import Flags
+from uel.errors import ConvergenceError, DeckError, KernelError, Source
+from uel.model.element_types import BUILT_IN, COUPLED, HEAT
+from uel.model.mesh import ElementGroup
+from uel.model.properties import Material, SolidSection, UserMaterial
 
 HERE = Path(__file__).parent
 SOURCE = Source("test.inp", 1)
@@ -44,7 +44,7 @@ def deck(element_type, mesh, material, step, *, procedure=STEADY, before=""):
 def run(tmp_path):
     def run(text, user=None):
         (tmp_path / "heat.inp").write_text(text)
-        return harness.run(tmp_path / "heat.inp", user and HERE / user, output_dir=tmp_path)
+        return uel.run(tmp_path / "heat.inp", user and HERE / user, output_dir=tmp_path)
 
     return run
 
@@ -137,7 +137,7 @@ def test_specific_heat_is_that_of_the_end_of_the_increment(run, element_type):
 @pytest.mark.parametrize("element_type", ["DC2D4", "DC2D8", "DCAX4", "CPE4T"])
 def test_heat_that_melts(run, element_type):
     """All of it warms alike: the heat of each increment is density x (specific heat at its end x change + change of the
-    molten part x latent heat), as residuals of a public job of Abaqus have it (harness/procedures/fidelity.md)."""
+    molten part x latent heat), as residuals of a public job of Abaqus have it (harness/uel/procedures/fidelity.md)."""
     mesh = patch_of("quad8") if element_type == "DC2D8" else bar(element_type, 1)[:2]
     material = f"{CONDUCTIVITY}*DENSITY\n{DENSITY}\n*SPECIFIC HEAT\n0.5, 1.\n1.5, 3.\n*LATENT HEAT\n4., 2., 2.5\n"
     material += "*HEAT GENERATION\n*DEPVAR\n8"
@@ -320,7 +320,7 @@ COUPLED_TANGENTS = ["CPE8T", "CAX4T", "CPS4RT", "CAX3T", "C3D6T"]
 def test_matrix_of_heat_transfer_leaves_out_changes_of_the_material(load, bound, call, element_type):
     """It is symmetric; K(T) times T is the heat that is conducted, C(T) times the change the heat that is stored.
 
-    Four iterations of a public job of Abaqus show it (harness/procedures/fidelity.md).
+    Four iterations of a public job of Abaqus show it (harness/uel/procedures/fidelity.md).
     """
     kind = BUILT_IN[element_type]
     nodes, elements = patch_of(kind.family.cell)
@@ -360,9 +360,7 @@ def test_tangent_is_the_derivative_of_the_residual(load, bound, call, element_ty
     given = UserMaterial(np.array([3.0, 0.2, 0.7, 0.4]), True, SOURCE)
     material = Material("M", SOURCE, density=2.0, **tables, user_thermal=given if user else None)
     if element_type in COUPLED:
-        elastic = harness.model.properties.Elastic(
-            harness.model.properties.ElasticType.ISOTROPIC, (1000.0, 0.3), SOURCE
-        )
+        elastic = uel.model.properties.Elastic(uel.model.properties.ElasticType.ISOTROPIC, (1000.0, 0.3), SOURCE)
         material = replace(material, elastic=elastic)
     section = SolidSection("ALL", material, None, THICKNESS, SOURCE)
     group = ElementGroup(element_type, np.array([101]), np.arange(kind.nodes)[None], "", section, None, SOURCE)

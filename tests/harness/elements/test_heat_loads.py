@@ -10,9 +10,9 @@ from reference_cells import patch_of
 from scipy.optimize import brentq, newton
 from small_decks import body_lines
 
-import harness
-from harness.errors import DeckError, KernelError
-from harness.model.element_types import BUILT_IN, COUPLED, HEAT
+import uel
+from uel.errors import DeckError, KernelError
+from uel.model.element_types import BUILT_IN, COUPLED, HEAT
 
 HERE = Path(__file__).parent
 K, THICKNESS = 3.0, 0.5
@@ -76,7 +76,7 @@ class Body:
 def run(tmp_path):
     def run(text, user=None):
         (tmp_path / "heat.inp").write_text(text)
-        return harness.run(tmp_path / "heat.inp", user and HERE / user, output_dir=tmp_path)
+        return uel.run(tmp_path / "heat.inp", user and HERE / user, output_dir=tmp_path)
 
     return run
 

@@ -12,12 +12,12 @@ from moving_element import turn
 from reference_cells import unit_cell
 from small_decks import body_lines
 
-import harness
-from harness.elements import Flags
-from harness.errors import Source
-from harness.model.element_types import CONTINUUM, COUPLED
-from harness.model.mesh import ElementGroup
-from harness.model.properties import Expansion, Material, Orientation, SolidSection, UserMaterial
+import uel
+from uel.elements import Flags
+from uel.errors import Source
+from uel.model.element_types import CONTINUUM, COUPLED
+from uel.model.mesh import ElementGroup
+from uel.model.properties import Expansion, Material, Orientation, SolidSection, UserMaterial
 
 HERE = Path(__file__).parent
 SOURCE = Source("test.inp", 1)
@@ -75,7 +75,7 @@ def generating(*, a=0.0, b=0.0, c=0.0, d=0.0, nu=0.3, couplings=(1, 1, 1)):
 def run(tmp_path):
     def run(text, user="heat.f"):
         (tmp_path / "heat.inp").write_text(text)
-        return harness.run(tmp_path / "heat.inp", HERE / user, output_dir=tmp_path)
+        return uel.run(tmp_path / "heat.inp", HERE / user, output_dir=tmp_path)
 
     return run
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy.optimize import approx_fprime
 
-from harness.elements.solid import HOURGLASS_FRACTION
-from harness.errors import Source
-from harness.model.element_types import CONTINUUM
-from harness.model.properties import SectionControls
+from uel.elements.families.solid import HOURGLASS_FRACTION
+from uel.errors import Source
+from uel.model.element_types import CONTINUUM
+from uel.model.properties import SectionControls
 
 SOURCE = Source("test.inp", 1)
 SQUARE = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])

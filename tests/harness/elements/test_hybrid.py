@@ -16,14 +16,14 @@ from reference_cells import affine, patch_of
 from scipy.integrate import quad
 from small_decks import body_lines
 
-import harness
-from harness.assembly import DofMap
-from harness.elements import PRESSURE, Flags, build_blocks
-from harness.errors import DeckError, SingularMatrixError, Source
-from harness.model.element_types import CONTINUUM, HYBRID
-from harness.model.mesh import ElementGroup, Mesh
-from harness.model.model import Model
-from harness.model.properties import (
+import uel
+from uel.assembly import DofMap
+from uel.elements import PRESSURE, Flags, build_blocks
+from uel.errors import DeckError, SingularMatrixError, Source
+from uel.model.element_types import CONTINUUM, HYBRID
+from uel.model.mesh import ElementGroup, Mesh
+from uel.model.model import Model
+from uel.model.properties import (
     CreepLaw,
     Elastic,
     ElasticType,
@@ -215,7 +215,7 @@ def test_pressure_alone(element, element_type):
 def run(tmp_path):
     def run(lines, user=None, name="hybrid"):
         (tmp_path / f"{name}.inp").write_text("\n".join(lines) + "\n")
-        return harness.run(tmp_path / f"{name}.inp", user, output_dir=tmp_path)
+        return uel.run(tmp_path / f"{name}.inp", user, output_dir=tmp_path)
 
     return run
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Hybrid elements of anisotropic and of uneven elastic materials: their eliminated pressure.
 
-The energy is stationary in the pressure, so that forces are its derivatives (fortran/host/host_hybrid.f90).
+The energy is stationary in the pressure, so that forces are its derivatives (fortran/host/elements/solid/hybrid.f90).
 """
 
 from dataclasses import replace
@@ -13,10 +13,10 @@ import scipy.sparse as sp
 from reference_cells import patch_of
 from small_decks import body_lines
 
-from harness.assembly import System
-from harness.deck import read_deck
-from harness.elements import Call, Flags, Predefined, build_blocks
-from harness.model.element_types import BUILT_IN, HYBRID, ContinuumType
+from uel.assembly import System
+from uel.deck import read_deck
+from uel.elements import Call, Flags, Predefined, build_blocks
+from uel.model.element_types import BUILT_IN, HYBRID, ContinuumType
 
 STEEP = np.radians(20.0)
 AXES = {

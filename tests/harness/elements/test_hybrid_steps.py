@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from hybrid_bodies import INNER, OUTER, cube, cylinder, radial
 
-import harness
-from harness.errors import DeckError
+import uel
+from uel.errors import DeckError
 
 USER = Path(__file__).with_name("hybrid.f")
 YOUNG, DENSITY, PRESSURE = 3.0, 2.0, 0.1
@@ -31,7 +31,7 @@ LOAD = ["*DLOAD", f"FIRST, P4, {PRESSURE}"]
 def run(tmp_path):
     def run(lines, name="hybrid"):
         (tmp_path / f"{name}.inp").write_text("\n".join(lines) + "\n")
-        return harness.run(tmp_path / f"{name}.inp", output_dir=tmp_path)
+        return uel.run(tmp_path / f"{name}.inp", output_dir=tmp_path)
 
     return run
 
@@ -161,4 +161,4 @@ def test_initial_stress_of_an_incompressible_material(tmp_path, keyword, user):
     lines.insert(lines.index("*STEP, NLGEOM"), "*INITIAL CONDITIONS, TYPE=STRESS\nBODY, 1.")
     (tmp_path / "stressed.inp").write_text("\n".join(lines) + "\n")
     with pytest.raises(DeckError, match=r"stressed\.inp:\d+: .*TYPE=STRESS is not supported with an incompressible"):
-        harness.run(tmp_path / "stressed.inp", user, output_dir=tmp_path)
+        uel.run(tmp_path / "stressed.inp", user, output_dir=tmp_path)

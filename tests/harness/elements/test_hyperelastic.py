@@ -12,23 +12,15 @@ from moving_element import CUBE, EIGHT, NODES, SQUARE, MovingElement, turn
 from scipy.optimize import brentq
 from small_decks import body_lines
 
-import harness
-from harness.deck import read_deck
-from harness.elements import build_blocks
-from harness.elements.hyperelastic import initial_moduli
-from harness.errors import DeckError, Source
-from harness.model.mesh import ElementGroup, Mesh
-from harness.model.model import Model
-from harness.model.properties import (
-    Elastic,
-    ElasticType,
-    Hyperelastic,
-    Material,
-    Potential,
-    SectionControls,
-    SolidSection,
-)
-from harness.report import report
+import uel
+from uel.deck import read_deck
+from uel.elements import build_blocks
+from uel.elements.materials.hyperelastic import initial_moduli
+from uel.errors import DeckError, Source
+from uel.model.mesh import ElementGroup, Mesh
+from uel.model.model import Model
+from uel.model.properties import Elastic, ElasticType, Hyperelastic, Material, Potential, SectionControls, SolidSection
+from uel.report import report
 
 SOURCE = Source("test.inp", 1)
 D = 0.4
@@ -304,7 +296,7 @@ def deck(keyword, *, element_type="C3D8", step="*STEP, NLGEOM", more="", section
 def run(tmp_path):
     def run(text):
         (tmp_path / "rubber.inp").write_text(text)
-        return harness.run(tmp_path / "rubber.inp", None, output_dir=tmp_path)
+        return uel.run(tmp_path / "rubber.inp", None, output_dir=tmp_path)
 
     return run
 

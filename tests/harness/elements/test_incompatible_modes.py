@@ -5,9 +5,9 @@
 import numpy as np
 import pytest
 
-import harness
-from harness.model.element_types import CONTINUUM
-from harness.usersub import _binding
+import uel
+from uel.model.element_types import CONTINUUM
+from uel.usersub import _binding
 
 SQUARE = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
 CUBE = np.vstack([np.pad(SQUARE, ((0, 0), (0, 1))), np.pad(SQUARE, ((0, 0), (0, 1)), constant_values=1)])
@@ -212,7 +212,7 @@ def test_plastic_bending(tmp_path, element_type):
     deck.write_text(
         PLATE.format(type=element_type, nlgeom="").replace("*ELEMENT,", "*NSET, NSET=END\n13\n*ELEMENT,", 1)
     )
-    result = harness.run(deck, output_dir=tmp_path)
+    result = uel.run(deck, output_dir=tmp_path)
     assert result.completed
     assert max(line.total_iterations for line in result.status) <= 5
     moment = abs(result.history["RF1[END]"][-1])
@@ -281,7 +281,7 @@ def test_bending_far_beyond_yield_at_once(tmp_path, element_type, hardening, tur
         deck = tmp_path / "bent.inp"
         values = {"type": element_type, "hardening": hardening, "turned": turned, "increment": increment, "edge": edge}
         deck.write_text(BENT.format(**values, **lines))
-        result = harness.run(deck, output_dir=tmp_path)
+        result = uel.run(deck, output_dir=tmp_path)
         assert result.completed
         forces.append(sum(values[-1] for name, values in result.history.items() if name.startswith("RF1")))
     assert forces[0] == pytest.approx(forces[1], rel=5e-3)
@@ -337,7 +337,7 @@ def test_elastica(tmp_path, element_type, load, deflection, shortening):
         "tip": ", ".join(map(str, tip)),
     }
     deck.write_text(ELASTICA.format(type=element_type, load=force, **lines))
-    result = harness.run(deck, output_dir=tmp_path)
+    result = uel.run(deck, output_dir=tmp_path)
     assert result.completed
     found = {u: np.mean([v[-1] for name, v in result.history.items() if name.startswith(u)]) for u in ("U1", "U2")}
     assert found["U2"] / length == pytest.approx(deflection, rel=2e-3)

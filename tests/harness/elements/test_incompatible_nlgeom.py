@@ -15,10 +15,10 @@ from moving_element import CUBE, SQUARE, MovingElement
 from reference_cells import patch_of
 from small_decks import body_lines
 
-from harness.errors import Source
-from harness.model.element_types import CONTINUUM
-from harness.model.mesh import ElementGroup
-from harness.model.properties import Hyperelastic, Material, Potential, SolidSection
+from uel.errors import Source
+from uel.model.element_types import CONTINUUM
+from uel.model.mesh import ElementGroup
+from uel.model.properties import Hyperelastic, Material, Potential, SolidSection
 
 SOURCE = Source("test.inp", 1)
 YOUNG, POISSON = 1000.0, 0.3

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import harness
-from harness.errors import DeckError
+import uel
+from uel.errors import DeckError
 
 HERE = Path(__file__).parent
 YOUNG, STRESS, LENGTH = 1000.0, 10.0, 2.0
@@ -83,7 +83,7 @@ def run(tmp_path):
         }
         deck = tmp_path / "bar.inp"
         deck.write_text(DECK.format(**values).replace("*STEP", f"{lines}*STEP", 1))
-        return harness.run(deck, user, output_dir=tmp_path)
+        return uel.run(deck, user, output_dir=tmp_path)
 
     return run
 
@@ -321,7 +321,7 @@ def test_user_elements_are_not_told_and_the_run_says_so(tmp_path):
         "*INITIAL CONDITIONS, TYPE=STRESS\nALL, 1.\n"
         "*STEP\n*STATIC\n1., 1.\n*BOUNDARY\n1, 1\n2, 1, 1, 0.1\n*END STEP\n"
     )
-    result = harness.run(deck, HERE / "spring.f", output_dir=tmp_path)
+    result = uel.run(deck, HERE / "spring.f", output_dir=tmp_path)
     (warning,) = result.warnings
     message = r"spring\.inp:11: \*INITIAL CONDITIONS, TYPE=STRESS has no effect: user elements \(U1\) do not get"
     assert re.search(message, warning)

@@ -10,10 +10,10 @@ from differences import check_uniform_tangent
 from moving_element import AXISYMMETRIC, NODES, SPACE, SQUARE, TYPES, MovingElement, turn
 from reference_cells import unit_cell
 
-from harness.errors import DistortionError, Source
-from harness.model.element_types import CONTINUUM
-from harness.model.mesh import ElementGroup
-from harness.model.properties import Elastic, ElasticType, Material, Plastic, SolidSection, UserMaterial
+from uel.errors import DistortionError, Source
+from uel.model.element_types import CONTINUUM
+from uel.model.mesh import ElementGroup
+from uel.model.properties import Elastic, ElasticType, Material, Plastic, SolidSection, UserMaterial
 
 SOURCE = Source("test.inp", 1)
 E = 1000.0

@@ -7,7 +7,7 @@ import sys
 
 PROGRAM = """
 import numpy as np
-from harness.usersub import _materials
+from uel.usersub import _materials
 
 for _ in range(20000):
     number = _materials.define_material(np.eye(3), np.eye(3), np.zeros(3), np.eye(3), (1.0, 0.0), np.zeros((1, 2)))

@@ -14,15 +14,15 @@ from differences import differences
 from reference_cells import patch_of
 from small_decks import body_lines
 
-import harness
-from harness.elements import Flags, Predefined
-from harness.errors import DeckError, KernelError, Source
-from harness.model.element_types import BUILT_IN, HEAT
-from harness.model.mesh import ElementGroup
-from harness.model.model import CONCENTRATION
-from harness.model.procedures import MassDiffusion
-from harness.model.properties import Diffusivity, Material, SolidSection
-from harness.model.steps import Step
+import uel
+from uel.elements import Flags, Predefined
+from uel.errors import DeckError, KernelError, Source
+from uel.model.element_types import BUILT_IN, HEAT
+from uel.model.mesh import ElementGroup
+from uel.model.model import CONCENTRATION
+from uel.model.procedures import MassDiffusion
+from uel.model.properties import Diffusivity, Material, SolidSection
+from uel.model.steps import Step
 
 HERE = Path(__file__).parent
 SOURCE = Source("test.inp", 1)
@@ -47,7 +47,7 @@ def deck(element_type, mesh, step, *, material=PLAIN, procedure=STEADY, before="
 def run(tmp_path):
     def run(text, user=None):
         (tmp_path / "mass.inp").write_text(text)
-        return harness.run(tmp_path / "mass.inp", user and HERE / user, output_dir=tmp_path)
+        return uel.run(tmp_path / "mass.inp", user and HERE / user, output_dir=tmp_path)
 
     return run
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from material_point import COMPONENTS
 
-from harness.errors import DeckError, KernelError, Source
-from harness.model.properties import Elastic, ElasticType, Material, Orientation, Plastic
+from uel.errors import DeckError, KernelError, Source
+from uel.model.properties import Elastic, ElasticType, Material, Orientation, Plastic
 
 ELASTIC_LINE = Source("deck.inp", 12)
 SECTION_LINE = Source("test.inp", 7)

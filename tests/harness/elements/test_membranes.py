@@ -12,12 +12,12 @@ from moving_element import turn
 from reference_cells import affine, integral, patch_of, share_of_nodes
 from small_decks import body_lines
 
-from harness.elements import Flags, Request, build_blocks
-from harness.errors import ConvergenceError, DeckError, KernelError, Source
-from harness.model.element_types import MEMBRANE
-from harness.model.mesh import ElementGroup, Mesh
-from harness.model.model import Model
-from harness.model.properties import Elastic, ElasticType, Material, MembraneSection, Orientation, UserMaterial
+from uel.elements import Flags, Request, build_blocks
+from uel.errors import ConvergenceError, DeckError, KernelError, Source
+from uel.model.element_types import MEMBRANE
+from uel.model.mesh import ElementGroup, Mesh
+from uel.model.model import Model
+from uel.model.properties import Elastic, ElasticType, Material, MembraneSection, Orientation, UserMaterial
 
 HERE = Path(__file__).parent
 SOURCE = Source("test.inp", 7)

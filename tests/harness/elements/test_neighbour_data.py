@@ -7,13 +7,13 @@ import re
 import numpy as np
 import pytest
 
-from harness.deck.reader import read_deck
-from harness.delamination.kernels import uel_property
-from harness.elements.neighbour_data import compare
-from harness.elements.neighbour_solids import OBLIQUE
-from harness.errors import DeckError
-from harness.job import run
-from harness.usersub.layout import element_layouts
+from uel.deck.reader import read_deck
+from uel.delamination.kernels import uel_property
+from uel.elements.interfaces.neighbour_data import compare
+from uel.elements.interfaces.neighbour_solids import OBLIQUE
+from uel.errors import DeckError
+from uel.running.job import run
+from uel.usersub.layout import element_layouts
 
 PLY = {"E1": 138e3, "E2": 10.5e3, "E3": 10.5e3, "NU12": 0.3, "NU13": 0.3, "NU23": 0.45, "G12": 6.3e3}
 PLY_3D = PLY | {"G13": 6.3e3, "G23": 3.5e3}

@@ -7,10 +7,10 @@ import re
 import numpy as np
 import pytest
 
-from harness.deck.reader import read_deck
-from harness.delamination.kernels import uel_property, user_element
-from harness.elements.neighbour_solids import examine, owns_solids, solids_of, standard_type
-from harness.usersub.layout import element_layouts
+from uel.deck.reader import read_deck
+from uel.delamination.kernels import uel_property, user_element
+from uel.elements.interfaces.neighbour_solids import examine, owns_solids, solids_of, standard_type
+from uel.usersub.layout import element_layouts
 
 ELASTIC = "*ELASTIC\n1e4, 0.3"
 EXPANDING = f"{ELASTIC}\n*EXPANSION\n2e-5"

@@ -12,19 +12,11 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from small_decks import body_lines
 
-import harness
-from harness.elements import Flags
-from harness.errors import DeckError, KernelError, Source
-from harness.model.mesh import ElementGroup
-from harness.model.properties import (
-    CreepLaw,
-    Hyperelastic,
-    Material,
-    Network,
-    Orientation,
-    Potential,
-    SolidSection,
-)
+import uel
+from uel.elements import Flags
+from uel.errors import DeckError, KernelError, Source
+from uel.model.mesh import ElementGroup
+from uel.model.properties import CreepLaw, Hyperelastic, Material, Network, Orientation, Potential, SolidSection
 
 HERE = Path(__file__).parent
 SOURCE = Source("test.inp", 1)
@@ -273,7 +265,7 @@ def deck(*material, visco="*VISCO\n0.1, 1., , 0.1", element_type="C3D8", section
 def run(tmp_path):
     def run(text, user="networks.f90", **options):
         (tmp_path / "rubber.inp").write_text(text)
-        return harness.run(tmp_path / "rubber.inp", user and HERE / user, output_dir=tmp_path, **options)
+        return uel.run(tmp_path / "rubber.inp", user and HERE / user, output_dir=tmp_path, **options)
 
     return run
 
@@ -517,6 +509,6 @@ def test_a_shift_that_is_not_positive(run):
 def test_warnings_of_mistakes(run, tmp_path, way, text):
     try:
         run(deck(RUBBER, BY_USER.format(way=f"{way}.")))
-    except harness.errors.UelError:
+    except uel.errors.UelError:
         assert way == 3
     assert text in " ".join((tmp_path / "rubber.msg").read_text().split())

@@ -11,12 +11,12 @@ from moving_element import AXISYMMETRIC, NODES, SPACE, SQUARE, TYPES, MovingElem
 from scipy.linalg import polar
 from scipy.spatial.transform import Rotation
 
-from harness.errors import DeckError, DistortionError, Source
-from harness.model.element_types import CONTINUUM
-from harness.model.mesh import ElementGroup
-from harness.model.procedures import Static
-from harness.model.properties import Elastic, ElasticType, Material, Orientation, Plastic, SolidSection, UserMaterial
-from harness.model.steps import Step
+from uel.errors import DeckError, DistortionError, Source
+from uel.model.element_types import CONTINUUM
+from uel.model.mesh import ElementGroup
+from uel.model.procedures import Static
+from uel.model.properties import Elastic, ElasticType, Material, Orientation, Plastic, SolidSection, UserMaterial
+from uel.model.steps import Step
 
 SOURCE = Source("test.inp", 1)
 PLY = (1200.0, 300.0, 200.0, 0.3, 0.25, 0.4, 150.0, 120.0, 90.0)

@@ -9,9 +9,9 @@ import pytest
 from shell_decks import ShellDeck
 from truss_decks import LENGTH, PULL, truss
 
-import harness
-from harness.errors import KernelError
-from harness.model.element_types import MEMBRANE, SHELL
+import uel
+from uel.errors import KernelError
+from uel.model.element_types import MEMBRANE, SHELL
 
 HERE = Path(__file__).parents[1]
 SINGLE = 1e-6
@@ -50,7 +50,7 @@ def run(tmp_path):
         (tmp_path / "job.inp").write_text(text)
         source = UVARM.replace("%s", "\n".join(f"      {line}" for line in body.split("\n"))) if body else ""
         (tmp_path / "user.f").write_text(source + more)
-        return harness.run(tmp_path / "job.inp", tmp_path / "user.f", output_dir=tmp_path)
+        return uel.run(tmp_path / "job.inp", tmp_path / "user.f", output_dir=tmp_path)
 
     return run
 

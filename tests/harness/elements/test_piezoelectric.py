@@ -11,9 +11,9 @@ import pytest
 from reference_cells import patch_of
 from small_decks import body_lines
 
-import harness
-from harness.errors import DeckError
-from harness.model.element_types import PIEZOELECTRIC, Tensor
+import uel
+from uel.errors import DeckError
+from uel.model.element_types import PIEZOELECTRIC, Tensor
 
 PAIRS = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)]
 YOUNG, POISSON = (60.0, 50.0, 80.0), (0.3, 0.25, 0.2)
@@ -58,7 +58,7 @@ def deck(element_type, nodes, elements, given, *, step, orientation="", thicknes
 def run(tmp_path):
     def run(text):
         (tmp_path / "piezo.inp").write_text(text)
-        return harness.run(tmp_path / "piezo.inp", output_dir=tmp_path)
+        return uel.run(tmp_path / "piezo.inp", output_dir=tmp_path)
 
     return run
 

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from harness.delamination.kernels import uel_property, user_element
-from harness.errors import UelError
-from harness.job import run
-from harness.output import Result
+from uel.delamination.kernels import uel_property, user_element
+from uel.errors import UelError
+from uel.output import Result
+from uel.running.job import run
 
 E1, E3, STRENGTH, TOUGHNESS = 4000.0, 1000.0, 10.0, 0.05
 LAW = {"ALPHAN": 1e5, "ALPHAT": 1e5, "SIGMAMAX": STRENGTH, "TAUMAX": 3.0, "GIC": TOUGHNESS, "GIIC": 0.2, "LAW": 1}

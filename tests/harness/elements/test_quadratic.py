@@ -6,11 +6,11 @@ import meshio
 import numpy as np
 import pytest
 
-import harness
-from harness.delamination.kernels import uel_property, user_element
-from harness.elements import Request
-from harness.errors import KernelError
-from harness.output import read_interface
+import uel
+from uel.delamination.kernels import uel_property, user_element
+from uel.elements import Request
+from uel.errors import KernelError
+from uel.output import read_interface
 
 E, NU, ALPHA = 1000.0, 0.3, 2.0e4
 PLANE_STRESS = E / (1 - NU**2) * np.array([[1, NU, 0], [NU, 1, 0], [0, 0, (1 - NU) / 2]])
@@ -126,7 +126,7 @@ def test_mass_that_fails_leaves_the_properties(solid_group, bound, load, call, m
         solid_group("CPS6", np.arange(6)[None], 2.0), np.column_stack([TRIANGLE, np.zeros(6)]), load(None)
     )
     with monkeypatch.context() as broken:
-        broken.setattr("harness.usersub._binding.evaluate", _fail)
+        broken.setattr("uel.usersub._binding.evaluate", _fail)
         with pytest.raises(KernelError, match="fails"):
             block.artificial_mass(call, 12, matrix.data)
     block.evaluate(call.asking(Request.MASS), np.zeros(12), np.zeros(12), np.zeros(12), matrix.data)
@@ -196,7 +196,7 @@ def test_patch(tmp_path, jtype, quads):
     """Bar with a spring in series: the stress is 0.01/(2/E + 1/alpha) everywhere, and what is written says so."""
     deck = tmp_path / "stack.inp"
     deck.write_text(stack(jtype, quads))
-    result = harness.run(deck, output_dir=tmp_path / "out")
+    result = uel.run(deck, output_dir=tmp_path / "out")
     stress = 0.01 / (2 / E + 1 / ALPHA)
     profile = read_interface(tmp_path / "out/stack_interface.csv")
     np.testing.assert_allclose(profile["TN"], stress, rtol=1e-9)

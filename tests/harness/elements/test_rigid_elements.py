@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from contact_decks import YOUNG, Box, total
 
-from harness import usersub
-from harness.assembly import System
-from harness.deck import read_deck
-from harness.elements import Call, Flags, build_blocks, contact_blocks
-from harness.errors import DeckError
+from uel import usersub
+from uel.assembly import System
+from uel.contact import contact_blocks
+from uel.deck import read_deck
+from uel.elements import Call, Flags, build_blocks
+from uel.errors import DeckError
 
 THICKNESS = 1.5
 STRAIN = 1e-3

@@ -7,7 +7,7 @@ import pytest
 from contact_decks import YOUNG, Box, total
 from contact_points import SOURCE, Points
 
-from harness.model.contact import ContactProperty, RigidProfile, SlidingPair
+from uel.model.contact import ContactProperty, RigidProfile, SlidingPair
 
 THICKNESS = 1.5
 REDUCED = YOUNG / (1 - 0.3**2)

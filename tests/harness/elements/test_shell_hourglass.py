@@ -8,9 +8,9 @@ jrHoss/Abaqus-Scrypting, Job-1.odb (Abaqus 6.14): a frame of 600 S4R, all of the
 import numpy as np
 import pytest
 
-from harness.errors import Source
-from harness.model.mesh import ElementGroup
-from harness.model.properties import Elastic, ElasticType, Material, SectionControls, ShellLayer, ShellSection
+from uel.errors import Source
+from uel.model.mesh import ElementGroup
+from uel.model.properties import Elastic, ElasticType, Material, SectionControls, ShellLayer, ShellSection
 
 SOURCE = Source("test.inp", 7)
 E, NU = 210000.0, 0.3

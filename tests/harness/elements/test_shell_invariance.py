@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from shell_decks import ShellDeck
 
-import harness
+import uel
 
 OUTPUT = "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=END\nU"
 LOADS = "*BOUNDARY\nFIX, 1, 6\n*CLOAD\nEND, 1, 2.\nEND, 2, 1.\nEND, 3, 0.2"
@@ -47,7 +47,7 @@ def test_warped_plate(tmp_path, kind, control, nlgeom):
         step = f"*STEP{', NLGEOM' * nlgeom}\n*STATIC\n1., 1.\n{LOADS}\n{OUTPUT}\n*END STEP"
         file = tmp_path / f"plate{start}.inp"
         file.write_text(deck.text(step, {"FIX": deck.side(i=0), "END": deck.side(i=2)}))
-        history = harness.run(file, output_dir=tmp_path).history
+        history = uel.run(file, output_dir=tmp_path).history
         return np.array([values[-1] for name, values in history.items() if name.startswith("U")])
 
     first = found(0)

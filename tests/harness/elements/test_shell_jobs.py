@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 from shell_decks import ShellDeck
 
-import harness
-from harness.model.element_types import SHELL
+import uel
+from uel.model.element_types import SHELL
 
 TYPES = tuple(SHELL)
 STEP = "*STEP\n*STATIC\n{}\n*OUTPUT, FIELD\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=P\nU\nRF\n*END STEP"
@@ -32,7 +32,7 @@ def run(tmp_path):
     def run(deck, data, sets, *, user=None, step=STEP):
         file = tmp_path / "shell.inp"
         file.write_text(deck.text(step.format(data), sets))
-        return harness.run(file, user, output_dir=tmp_path)
+        return uel.run(file, user, output_dir=tmp_path)
 
     return run
 
@@ -107,7 +107,7 @@ def test_patch(run, element_type, bending):
 def test_patch_that_eight_nodes_fail(run, thickness):
     """What shells.md says of the patch of MacNeal and Harder in bending."""
     found, expected, stresses = solve_patch(run, "S8R", bending=True, thickness=thickness)
-    page = (Path(__file__).parents[3] / "harness" / "elements" / "shells.md").read_text()
+    page = (Path(__file__).parents[3] / "harness" / "uel" / "elements" / "families" / "shells.md").read_text()
     displacement, stress = re.search(rf"\| {thickness} \| ([\d.]+) % \| ([\d.]+) % \|", page).groups()
     assert 100 * abs(found - expected).max() / abs(expected).max() == pytest.approx(float(displacement), abs=0.06)
     assert 100 * abs(stresses).max() == pytest.approx(float(stress), abs=0.6)
@@ -226,7 +226,7 @@ PROBLEMS = {
 
 def rows_of_the_page():
     """Problem, published displacement, cells along the first side, ratios of S4, S4R, S3 and S8R."""
-    page = Path(__file__).parents[3] / "harness" / "elements" / "shells.md"
+    page = Path(__file__).parents[3] / "harness" / "uel" / "elements" / "families" / "shells.md"
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in page.read_text().splitlines() if "x" in line]
     name, exact = "", 0.0
     for what, mesh, *ratios in (row for row in rows if len(row) == 6 and row[1][:1].isdigit()):

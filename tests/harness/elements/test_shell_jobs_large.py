@@ -14,8 +14,8 @@ from scipy.integrate import solve_bvp
 from shell_decks import ShellDeck
 from test_shell_jobs import UMAT
 
-import harness
-from harness.model.element_types import SHELL
+import uel
+from uel.model.element_types import SHELL
 
 TYPES = tuple(SHELL)
 LIGHT = [pytest.param(name, marks=[pytest.mark.long] if name == "S8R" else []) for name in TYPES]
@@ -44,7 +44,7 @@ def ends(tmp_path):
     def ends(deck, data, sets, *, first=0.1):
         file = tmp_path / "shell.inp"
         file.write_text(deck.text(STEP.format(first=first, data=data), sets))
-        result = harness.run(file, output_dir=tmp_path)
+        result = uel.run(file, output_dir=tmp_path)
         assert result.completed
         return {name: values[-1] for name, values in result.history.items()}
 
@@ -153,7 +153,7 @@ def test_umat(tmp_path, element_type):
     data = f"*BOUNDARY\nFIX, 1, 4\nFIX, 6\nFIX, 5, 5, {-np.pi / 2!r}"
     file = tmp_path / "shell.inp"
     file.write_text(deck.text(STEP.format(first=0.1, data=data), {"P": [1], "FIX": deck.side(i=0)}))
-    result = harness.run(file, user, output_dir=tmp_path)
+    result = uel.run(file, user, output_dir=tmp_path)
     # the middle, and half of the thickness along the normal, which was 3 and is -1 now; traces of DROT and DFGRD1
     expected = {8: -0.05, 9: 0.5, 10: 1.0, 12: 3.0, 13: 3.0}
     for k, value in expected.items():
@@ -203,7 +203,7 @@ def test_published_shells_on_coarse_meshes(ends, problem, n):
 
 def rows_of_the_page():
     """Problem, element type, cells along the first side and ratios of shells.md."""
-    page = Path(__file__).parents[3] / "harness" / "elements" / "shells.md"
+    page = Path(__file__).parents[3] / "harness" / "uel" / "elements" / "families" / "shells.md"
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in page.read_text().splitlines()]
     for row in rows:
         if len(row) == 5 and row[0] in PROBLEMS:
@@ -244,5 +244,5 @@ def test_buckling_of_a_supported_plate(tmp_path, element_type, error, base):
         step = f"*STEP\n*STATIC\n1., 1.\n{HELD}\n{loads(base * critical)}\n*END STEP\n" + step.replace(f"{HELD}\n", "")
     file = tmp_path / "plate.inp"
     file.write_text(deck.text(step, sets))
-    factor = harness.run(file, output_dir=tmp_path).history["EIGVAL"][-1]
+    factor = uel.run(file, output_dir=tmp_path).history["EIGVAL"][-1]
     assert factor == pytest.approx((1 - base) * critical, abs=error * critical)

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from shell_decks import values_of
 
-from harness.elements import Request, build_blocks
-from harness.elements.shell import directors, section_points, section_stiffness, shear_stiffness
-from harness.elements.threads import known_routines
-from harness.errors import DeckError, KernelError, Source
-from harness.model.element_types import SHELL
-from harness.model.mesh import ElementGroup, Mesh
-from harness.model.model import Model
-from harness.model.properties import (
+from uel.elements import Request, build_blocks
+from uel.elements.families.shell import directors, section_points, section_stiffness, shear_stiffness
+from uel.elements.threads import known_routines
+from uel.errors import DeckError, KernelError, Source
+from uel.model.element_types import SHELL
+from uel.model.mesh import ElementGroup, Mesh
+from uel.model.model import Model
+from uel.model.properties import (
     Elastic,
     ElasticType,
     Material,

@@ -9,11 +9,11 @@ import pytest
 from scipy.spatial.transform import Rotation
 from test_shells import LAMINATE, ONE, SOURCE, STEEL, TYPES, WARPED, T, group_of, shell_section
 
-from harness.elements import Flags
-from harness.model.element_types import SHELL
-from harness.model.procedures import Static
-from harness.model.properties import Plastic, ShellLayer
-from harness.model.steps import Step
+from uel.elements import Flags
+from uel.model.element_types import SHELL
+from uel.model.procedures import Static
+from uel.model.properties import Plastic, ShellLayer
+from uel.model.steps import Step
 
 
 @pytest.fixture

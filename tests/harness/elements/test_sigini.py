@@ -8,8 +8,8 @@ from itertools import pairwise, product
 import numpy as np
 import pytest
 
-import harness
-from harness.errors import DeckError, KernelError
+import uel
+from uel.errors import DeckError, KernelError
 
 HEIGHTS, WEIGHT, AT_REST = (0.0, 1.0, 2.5, 4.0), 20.0, 0.4
 ELASTIC = "*ELASTIC\n1000., 0.25"
@@ -87,7 +87,7 @@ def run(tmp_path):
         (tmp_path / "soil.inp").write_text(text)
         if user:
             (tmp_path / "user.f").write_text(user)
-        return harness.run(tmp_path / "soil.inp", tmp_path / "user.f" if user else None, output_dir=tmp_path)
+        return uel.run(tmp_path / "soil.inp", tmp_path / "user.f" if user else None, output_dir=tmp_path)
 
     return run
 

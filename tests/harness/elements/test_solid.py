@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from reference_cells import patch_of
 
-from harness.elements import Request
-from harness.errors import KernelError, Source
-from harness.model.element_types import CONTINUUM
-from harness.model.properties import Elastic, ElasticType, Orientation, Plastic
+from uel.elements import Request
+from uel.errors import KernelError, Source
+from uel.model.element_types import CONTINUUM
+from uel.model.properties import Elastic, ElasticType, Orientation, Plastic
 
 E, NU, THICKNESS = 1000.0, 0.3, 2.0
 STRAIN = np.array([0.01, -0.004, 0.006])

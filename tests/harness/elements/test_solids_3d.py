@@ -9,12 +9,12 @@ import pytest
 from reference_cells import CUBE, affine, integral, nodes_of, patch_of
 from scipy.linalg import eigh
 
-from harness.elements import Request
-from harness.elements.solid import HOURGLASS_FRACTION
-from harness.errors import KernelError, Source
-from harness.model.element_types import CONTINUUM
-from harness.model.properties import Elastic, ElasticType, Orientation, Plastic
-from harness.usersub import _binding
+from uel.elements import Request
+from uel.elements.families.solid import HOURGLASS_FRACTION
+from uel.errors import KernelError, Source
+from uel.model.element_types import CONTINUUM
+from uel.model.properties import Elastic, ElasticType, Orientation, Plastic
+from uel.usersub import _binding
 
 SOURCE = Source("test.inp", 1)
 MATERIAL = Elastic(ElasticType.ISOTROPIC, (1e6, 0.25), SOURCE)

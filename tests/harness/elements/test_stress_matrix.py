@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from reference_cells import affine
 
-from harness.elements import Flags, Request, build_blocks
-from harness.model.element_types import CONTINUUM, GENERALISED, Tensor
-from harness.model.mesh import Mesh
-from harness.model.model import Model
-from harness.model.steps import InitialStress
+from uel.elements import Flags, Request, build_blocks
+from uel.model.element_types import CONTINUUM, GENERALISED, Tensor
+from uel.model.mesh import Mesh
+from uel.model.model import Model
+from uel.model.steps import InitialStress
 
 KINDS = CONTINUUM | GENERALISED
 TYPES = [name for name, kind in KINDS.items() if not kind.coupled]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from small_decks import body_lines
 
-import harness
+import uel
 
 HERE = Path(__file__).parent
 CUBE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
@@ -44,7 +44,7 @@ def test_matrix_is_the_half_sum_with_the_transpose(tmp_path):
     lines += ["*MATERIAL, NAME=M", "*USER MATERIAL, CONSTANTS=2", "47000., 0.35", "*STEP, NLGEOM"]
     lines += ["*STATIC", "1e-6, 2e-6, 1e-6, 1e-6", "*BOUNDARY", *HELD, *PULLED, "*END STEP"]
     (tmp_path / "upper.inp").write_text("\n".join(lines) + "\n")
-    harness.run(tmp_path / "upper.inp", user=source, output_dir=tmp_path)
+    uel.run(tmp_path / "upper.inp", user=source, output_dir=tmp_path)
     text = (tmp_path / "upper.msg").read_text()
     found = {what: list(map(float, re.findall(rf"^ {what} FORCE +(\S+)", text, re.MULTILINE))) for what in PRINTED}
     # the last digit that is printed

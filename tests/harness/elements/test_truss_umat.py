@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from truss_decks import LENGTH, PULL, truss
 
-import harness
+import uel
 
 HERE = Path(__file__).parents[1]
 FIELD = "*OUTPUT, FIELD\n*ELEMENT OUTPUT\nE, S, SDV\n*END STEP\n"
@@ -19,7 +19,7 @@ def run(tmp_path):
     def run(text, user):
         (tmp_path / "job.inp").write_text(text)
         (tmp_path / "user.f").write_text(user)
-        return harness.run(tmp_path / "job.inp", tmp_path / "user.f", output_dir=tmp_path)
+        return uel.run(tmp_path / "job.inp", tmp_path / "user.f", output_dir=tmp_path)
 
     return run
 

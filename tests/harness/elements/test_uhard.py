@@ -11,12 +11,12 @@ from moving_element import turn
 from reference_cells import unit_cell
 from small_decks import body_lines
 
-import harness
-from harness.elements import Flags
-from harness.errors import DeckError, KernelError, Source
-from harness.model.element_types import COUPLED
-from harness.model.mesh import ElementGroup
-from harness.model.properties import Elastic, ElasticType, Expansion, Material, Orientation, Plastic, SolidSection
+import uel
+from uel.elements import Flags
+from uel.errors import DeckError, KernelError, Source
+from uel.model.element_types import COUPLED
+from uel.model.mesh import ElementGroup
+from uel.model.properties import Elastic, ElasticType, Expansion, Material, Orientation, Plastic, SolidSection
 
 YOUNG, NU, SIZE, SLOPE, VISCOSITY = 1000.0, 0.3, 5.0, 80.0, 2.0
 CUBE = np.array([[x, y, z] for z in (0.0, 1.0) for x, y in ((0, 0), (1.2, 0), (1, 1), (0, 1))])
@@ -75,7 +75,7 @@ def run(tmp_path):
         (tmp_path / "hard.inp").write_text(text)
         if user:
             (tmp_path / "uhard.f").write_text(user)
-        return harness.run(tmp_path / "hard.inp", tmp_path / "uhard.f" if user else None, output_dir=tmp_path)
+        return uel.run(tmp_path / "hard.inp", tmp_path / "uhard.f" if user else None, output_dir=tmp_path)
 
     return run
 

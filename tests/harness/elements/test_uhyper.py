@@ -10,10 +10,10 @@ from differences import check_energy
 from moving_element import CUBE, NODES, SQUARE, MovingElement
 from small_decks import body_lines
 
-import harness
-from harness.errors import DeckError, KernelError, Source
-from harness.model.mesh import ElementGroup
-from harness.model.properties import Hyperelastic, Material, Potential, SolidSection, UserPotential
+import uel
+from uel.errors import DeckError, KernelError, Source
+from uel.model.mesh import ElementGroup
+from uel.model.properties import Hyperelastic, Material, Potential, SolidSection, UserPotential
 
 HERE = Path(__file__).parent
 SOURCE = Source("test.inp", 1)
@@ -71,7 +71,7 @@ def deck(keyword, *, element_type="C3D8", more="", section="", step="*STEP, NLGE
 def run(tmp_path):
     def run(text, user="potential.f90"):
         (tmp_path / "rubber.inp").write_text(text)
-        return harness.run(tmp_path / "rubber.inp", HERE / user, output_dir=tmp_path)
+        return uel.run(tmp_path / "rubber.inp", HERE / user, output_dir=tmp_path)
 
     return run
 

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import harness
+import uel
 
 HERE = Path(__file__).parents[1]
 UMAT = f"""      INCLUDE '{HERE}/umat.inc'
@@ -121,7 +121,7 @@ def told(tmp_path):
         given = {"type": "CPE4", "initial": FIELDS, "options": "", "given": VARY, "after": ""} | parts
         (tmp_path / "square.inp").write_text(DECK.format(**given))
         (tmp_path / "umat.f").write_text(UMAT.format(increment=increment, step=step))
-        harness.run(tmp_path / "square.inp", tmp_path / "umat.f", output_dir=tmp_path)
+        uel.run(tmp_path / "square.inp", tmp_path / "umat.f", output_dir=tmp_path)
         lines = (tmp_path / "square.dat").read_text().splitlines()
         found = {}
         for line in lines:

@@ -6,8 +6,8 @@ import re
 
 import pytest
 
-from harness import run
-from harness.delamination.kernels import uel_property, user_element
+from uel import run
+from uel.delamination.kernels import uel_property, user_element
 
 LAW = {"THICKNESS": 1.0, "ALPHAN": 1e5, "ALPHAT": 1e5, "SIGMAMAX": 30.0, "TAUMAX": 60.0, "GIC": 0.26, "GIIC": 1.0}
 

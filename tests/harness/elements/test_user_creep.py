@@ -10,10 +10,10 @@ import pytest
 from differences import asymmetry_along_a_path
 from small_decks import body_lines
 
-import harness
-from harness.elements import Flags
-from harness.errors import DeckError, KernelError, Source
-from harness.model.properties import Creep, Elastic, ElasticType, Material
+import uel
+from uel.elements import Flags
+from uel.errors import DeckError, KernelError, Source
+from uel.model.properties import Creep, Elastic, ElasticType, Material
 
 HERE = Path(__file__).parent
 SOURCE = Source("deck.inp", 15)
@@ -59,7 +59,7 @@ def run(tmp_path):
     def run(text, body=NORTON, more=""):
         (tmp_path / "flow.inp").write_text(text)
         (tmp_path / "user.f").write_text(CREEP.format(body) + more)
-        return harness.run(tmp_path / "flow.inp", tmp_path / "user.f", output_dir=tmp_path)
+        return uel.run(tmp_path / "flow.inp", tmp_path / "user.f", output_dir=tmp_path)
 
     return run
 
@@ -236,4 +236,4 @@ def test_a_job_without_creep(run, tmp_path):
     (tmp_path / "nothing.f").write_text("      SUBROUTINE NOTHING\n      END\n")
     (tmp_path / "flow.inp").write_text(deck("C3D8", BY_USER))
     with pytest.raises(DeckError, match=message):
-        harness.run(tmp_path / "flow.inp", tmp_path / "nothing.f", output_dir=tmp_path)
+        uel.run(tmp_path / "flow.inp", tmp_path / "nothing.f", output_dir=tmp_path)

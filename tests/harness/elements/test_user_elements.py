@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import harness
-from harness.elements import FIELD_NAMES, Flags, Request
-from harness.errors import KernelError
+import uel
+from uel.elements import FIELD_NAMES, Flags, Request
+from uel.errors import KernelError
 
 HERE = Path(__file__).parent
 ROW = np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]])
@@ -237,7 +237,7 @@ def test_a_job_goes_on_after_a_write_outside_an_array(tmp_path):
     for option in (0, 1):
         deck = tmp_path / f"outside{option}.inp"
         deck.write_text(OUTSIDE.format(option=option))
-        results[option] = harness.run(deck, HERE / "faults.f", output_dir=tmp_path)
+        results[option] = uel.run(deck, HERE / "faults.f", output_dir=tmp_path)
     np.testing.assert_array_equal(results[1].field("U"), results[0].field("U"))
     assert len(results[1].status) == 4
     text = " ".join(results[1].file(".msg").read_text().split())
@@ -253,7 +253,7 @@ def test_a_job_goes_on_where_entries_are_not_set(tmp_path):
     for option in (0, 1):
         deck = tmp_path / f"adds{option}.inp"
         deck.write_text(OUTSIDE.format(option=option))
-        results[option] = harness.run(deck, HERE / "adds.f", output_dir=tmp_path)
+        results[option] = uel.run(deck, HERE / "adds.f", output_dir=tmp_path)
     np.testing.assert_array_equal(results[1].field("U"), results[0].field("U"))
     np.testing.assert_array_equal(results[1].history["ALLSE"], results[0].history["ALLSE"])
     text = " ".join(results[1].file(".msg").read_text().split())
@@ -268,5 +268,5 @@ def test_local_variables_without_a_value_are_zero_in_a_job(tmp_path):
     """A chain of two springs of stiffness 1: the middle goes half as far as the end."""
     deck = tmp_path / "forgets.inp"
     deck.write_text(OUTSIDE.format(option=0))
-    result = harness.run(deck, HERE / "forgets.f", output_dir=tmp_path)
+    result = uel.run(deck, HERE / "forgets.f", output_dir=tmp_path)
     np.testing.assert_allclose(result.field("U")[:, 0], [0.0, 0.5, 1.0], rtol=1e-14)

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import harness
-from harness.errors import DeckError, UelError
+import uel
+from uel.errors import DeckError, UelError
 
 SQUARE = "1, 0., 0.\n2, 1., 0.\n3, 1., 1.\n4, 0., 1."
 CUBE = SQUARE.replace(".\n", "., 0.\n") + ", 0.\n5, 0., 0., 1.\n6, 1., 0., 1.\n7, 1., 1., 1.\n8, 0., 1., 1."
@@ -79,7 +79,7 @@ def run(tmp_path):
         )
         (tmp_path / "field.inp").write_text(text)
         (tmp_path / "usdfld.f").write_text(user.replace("%s", "\n".join(f"      {line}" for line in body.split("\n"))))
-        return harness.run(tmp_path / "field.inp", tmp_path / "usdfld.f", output_dir=tmp_path)
+        return uel.run(tmp_path / "field.inp", tmp_path / "usdfld.f", output_dir=tmp_path)
 
     return run
 

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import harness
-from harness.elements.materials import USER_HISTORY_VALUES
-from harness.errors import DeckError, KernelError
+import uel
+from uel.elements.materials.library import USER_HISTORY_VALUES
+from uel.errors import DeckError, KernelError
 
 HERE = Path(__file__).parent
 DECK = """\
@@ -47,7 +47,7 @@ def run(tmp_path):
     def run(material, *, type="CPE4", last=2, orientation="", user=HERE / "points.f"):
         deck = tmp_path / "strip.inp"
         deck.write_text(DECK.format(material=material, type=type, last=last, orientation=orientation))
-        return harness.run(deck, user, output_dir=tmp_path)
+        return uel.run(deck, user, output_dir=tmp_path)
 
     return run
 
@@ -133,7 +133,7 @@ def test_without_uvarm_its_variables_are_left_out(run):
 
 
 def test_history_is_laid_out_as_in_fortran():
-    text = (Path(__file__).parents[3] / "fortran/host/host_umat.f90").read_text()
+    text = (Path(__file__).parents[3] / "fortran/host/routines/umat.f90").read_text()
     assert f"head = {USER_HISTORY_VALUES}," in text
 
 

@@ -12,9 +12,9 @@ from differences import asymmetry_along_a_path
 from material_point import COMPONENTS
 from moving_element import NODES, SQUARE, MovingElement, turn
 
-from harness.elements import Flags
-from harness.errors import DeckError, Source
-from harness.model.properties import Creep, Elastic, ElasticType, Material, Viscoelastic
+from uel.elements import Flags
+from uel.errors import DeckError, Source
+from uel.model.properties import Creep, Elastic, ElasticType, Material, Viscoelastic
 
 SOURCE = Source("deck.inp", 15)
 E, NU = 1000.0, 0.3

@@ -15,12 +15,12 @@ from differences import differences
 from reference_cells import unit_cell
 from small_decks import body_lines
 
-import harness
-from harness.elements import Flags
-from harness.errors import DeckError, Source
-from harness.model.element_types import COUPLED
-from harness.model.mesh import ElementGroup
-from harness.model.properties import (
+import uel
+from uel.elements import Flags
+from uel.errors import DeckError, Source
+from uel.model.element_types import COUPLED
+from uel.model.mesh import ElementGroup
+from uel.model.properties import (
     Expansion,
     Holzapfel,
     Hyperelastic,
@@ -58,7 +58,7 @@ def deck(element_type, held, *, law=NEO_HOOKE):
 def run(tmp_path):
     def run(text, user=None):
         (tmp_path / "warm.inp").write_text(text)
-        return harness.run(tmp_path / "warm.inp", user, output_dir=tmp_path)
+        return uel.run(tmp_path / "warm.inp", user, output_dir=tmp_path)
 
     return run
 

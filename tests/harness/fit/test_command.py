@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.cli import main
+from uel.cli import main
 
 MODULUS, YIELD, LENGTH = 200.0, 3.0, 10.0
 HARDENED = MODULUS / 20.0

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.errors import DeckError, UelError, UsageError
-from harness.fit.curve import Measurement, read_measurement
-from harness.output.column import Column
+from uel.errors import DeckError, UelError, UsageError
+from uel.fit.curve import Measurement, read_measurement
+from uel.output.pictures.column import Column
 
 
 def test_curve_of_a_file(tmp_path: Path) -> None:

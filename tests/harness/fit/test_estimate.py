@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from scipy.stats import t as student
 
-from harness.errors import UelError
-from harness.fit.curve import Measurement
-from harness.fit.estimate import CONVERGED, LEVEL, Fit, fit_curve
-from harness.fit.variables import Variable
-from harness.output.column import Column
+from uel.errors import UelError
+from uel.fit.curve import Measurement
+from uel.fit.estimate import CONVERGED, LEVEL, Fit, fit_curve
+from uel.fit.variables import Variable
+from uel.output.pictures.column import Column
 
 X = np.linspace(0.05, 2.0, 40)
 A, B = Variable("A", 0.5, 1.5, 8.0), Variable("B", 0.2, 0.5, 5.0)

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from harness.deck import read_deck, survey_deck
-from harness.delamination.reproduce.cases import PaperCase
-from harness.errors import UsageError
-from harness.fit.variables import Variable, prepare_deck, read_variable
-from harness.usersub.layout import element_layouts
+from uel.deck import read_deck, survey_deck
+from uel.errors import UsageError
+from uel.fit.variables import Variable, prepare_deck, read_variable
+from uel.paper.reproduce.cases import PaperCase
+from uel.usersub.layout import element_layouts
 
 GIC, SIGMAMAX = Variable("GIC", 0.1, 0.2, 0.5), Variable("sigmamax", 10.0, 20.0, 50.0)
 

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 from small_decks import body_lines
 
-from harness.insertion.command import insert
-from harness.insertion.selection import Wanted
-from harness.model.element_types import CONTINUUM
+from uel.insertion.command import insert
+from uel.insertion.selection import Wanted
+from uel.model.element_types import CONTINUUM
 
 # a square into two triangles, a cube into two wedges or six tetrahedra, by places 0 or 1 along each direction
 _TRIANGLES = (((0, 0), (1, 0), (1, 1)), ((0, 0), (1, 1), (0, 1)))

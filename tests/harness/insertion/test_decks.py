@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from solid_grids import LAW, grid, inserted
 
-from harness.deck.reader import read_deck
-from harness.errors import DeckError, UsageError
+from uel.deck.reader import read_deck
+from uel.errors import DeckError, UsageError
 
 END = ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", "1.", "*MATERIAL, NAME=M", "*ELASTIC", "1e4, 0.3"]
 STEP = ["*STEP", "*STATIC", "1., 1."]

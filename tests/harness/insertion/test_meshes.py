@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from solid_grids import LAW, grid
 
-from harness.cli import main
-from harness.deck.reader import read_deck
-from harness.errors import UsageError
-from harness.insertion.meshes import read_mesh
-from harness.model.element_types import CONTINUUM
+from uel.cli import main
+from uel.deck.reader import read_deck
+from uel.errors import UsageError
+from uel.insertion.meshes import read_mesh
+from uel.model.element_types import CONTINUUM
 
 STRONG = ("SIGMAMAX=30", "TAUMAX=60", "GIC=10", "GIIC=10")
 

@@ -7,7 +7,7 @@ import re
 import pytest
 from solid_grids import LAW, grid, inserted
 
-from harness.errors import DeckError
+from uel.errors import DeckError
 
 WARM = ["*EXPANSION", "1e-5"]
 STANDARD = (*LAW, "ALPHAN=1e6")

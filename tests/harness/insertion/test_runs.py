@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from solid_grids import grid, inserted
 
-import harness
-from harness.deck.reader import read_deck
-from harness.model.element_types import CONTINUUM
+import uel
+from uel.deck.reader import read_deck
+from uel.model.element_types import CONTINUUM
 
 YOUNG, POISSON = 1.0e4, 0.3
 
@@ -24,7 +24,7 @@ def write(path, mesh, loads, poisson=POISSON, model=()):
 
 def displacements(deck, folder):
     """(nodes, 3), by label."""
-    return harness.run(deck, output_dir=folder, quiet=True).field("U")
+    return uel.run(deck, output_dir=folder, quiet=True).field("U")
 
 
 def block(kind, distort=0.2, seed=1):

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from solid_grids import LAW, grid, inserted
 
-import harness
-from harness.deck.reader import read_deck
-from harness.elements.neighbour_data import compare
-from harness.errors import DeckError, UsageError
+import uel
+from uel.deck.reader import read_deck
+from uel.elements.interfaces.neighbour_data import compare
+from uel.errors import DeckError, UsageError
 
 PLY = (9.0e3, 8.0e4, 7.0e3, 0.05, 0.25, 0.3, 4.0e3, 3.0e3, 5.0e3)
 """E1, E2, E3, nu12, nu13, nu23, G12, G13, G23: fibres along 2, which is around the axis of a cylinder."""
@@ -105,7 +105,7 @@ def test_traction_of_a_curved_ply_is_that_of_its_stress(tmp_path):
     )
     done = inserted(path, tmp_path / "cut.inp", STRONG, between=[("LOW", "HIGH")])
     assert done.kind == "U8" and done.warnings == ()
-    result = harness.run(tmp_path / "cut.inp", output_dir=tmp_path, quiet=True)
+    result = uel.run(tmp_path / "cut.inp", output_dir=tmp_path, quiet=True)
     profile = result.interface()
     group = next(group for group in read_deck(tmp_path / "cut.inp").groups if group.type == "U8")
     assert len(profile["TN"]) == 4 * 8

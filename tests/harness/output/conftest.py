@@ -11,12 +11,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.errors import Source
-from harness.model.mesh import ElementGroup, Mesh
-from harness.model.model import Model
-from harness.model.procedures import Static
-from harness.model.properties import UserElement, UserProperty
-from harness.model.records import (
+from uel.errors import Source
+from uel.model.mesh import ElementGroup, Mesh
+from uel.model.model import Model
+from uel.model.procedures import Static
+from uel.model.properties import UserElement, UserProperty
+from uel.model.records import (
     AttemptStarted,
     Convergence,
     ElementState,
@@ -30,7 +30,7 @@ from harness.model.records import (
     StepDone,
     StepStarted,
 )
-from harness.model.steps import NodeRequest, OutputRequests, Step
+from uel.model.steps import NodeRequest, OutputRequests, Step
 
 SOURCE = Source("deck.inp", 1)
 DECK = """\

@@ -5,8 +5,8 @@
 import numpy as np
 import pytest
 
-from harness.errors import UsageError
-from harness.output.column import Column, read_column
+from uel.errors import UsageError
+from uel.output.pictures.column import Column, read_column
 
 
 @pytest.mark.parametrize(

@@ -9,15 +9,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.errors import Source
-from harness.model.mesh import Mesh
-from harness.model.model import Equation, Model
-from harness.model.nodal import NodalIndex
-from harness.model.properties import UserElement
-from harness.model.records import IncrementDone, PointVariables, Record, Solution, StepStarted
-from harness.model.steps import ElementRequest, NodeRequest
-from harness.output.dat_file import DataFile
-from harness.output.tables import element_tables, missing_variables, node_tables
+from uel.errors import Source
+from uel.model.mesh import Mesh
+from uel.model.model import Equation, Model
+from uel.model.nodal import NodalIndex
+from uel.model.properties import UserElement
+from uel.model.records import IncrementDone, PointVariables, Record, Solution, StepStarted
+from uel.model.steps import ElementRequest, NodeRequest
+from uel.output.files.dat_file import DataFile
+from uel.output.files.tables import element_tables, missing_variables, node_tables
 
 Records = Callable[..., Iterator[Record]]
 Requests = Callable[..., Model]

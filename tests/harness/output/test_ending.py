@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from small_decks import pulled, snapping
 
-from harness.cli import main
-from harness.output import Result
-from harness.output.ending import duration, ending
+from uel.cli import main
+from uel.output import Result
+from uel.output.ending import duration, ending
 
 FOLDER = Path(__file__).parents[1]
 SPRINGS = FOLDER / "procedures" / "springs.f"

@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 from reference_cells import nodes_of
 
-from harness.errors import Source
-from harness.model.element_types import CONTINUUM
-from harness.model.mesh import ElementGroup, Mesh
-from harness.model.model import Model
-from harness.model.properties import UserProperty
-from harness.model.records import ElementState, IncrementDone, PointVariables, Record, Solution
-from harness.output.cells import cells_of
-from harness.output.field_output import FieldFiles, read_field_mesh
+from uel.errors import Source
+from uel.model.element_types import CONTINUUM
+from uel.model.mesh import ElementGroup, Mesh
+from uel.model.model import Model
+from uel.model.properties import UserProperty
+from uel.model.records import ElementState, IncrementDone, PointVariables, Record, Solution
+from uel.output.cells import cells_of
+from uel.output.files.field_output import FieldFiles, read_field_mesh
 
 Records = Callable[..., Iterator[Record]]
 

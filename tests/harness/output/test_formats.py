@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from harness.output.formats import TextFile, exponential, general, status_number
+from uel.output.formats import TextFile, exponential, general, status_number
 
 DATA = Path(__file__).parents[2] / "data"
 

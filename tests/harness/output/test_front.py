@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from harness.cli import main
-from harness.errors import UelError
-from harness.output import Result
-from harness.output.field_output import Frame
-from harness.output.front import draw_fronts, fronts, write_fronts
+from uel.cli import main
+from uel.errors import UelError
+from uel.output import Result
+from uel.output.files.field_output import Frame
+from uel.output.pictures.front import draw_fronts, fronts, write_fronts
 
 RADIUS, ZONE = 6.0, 3.0
 STRENGTH, FINAL = np.array([30.0, 40.0, 50.0]), np.array([0.01, 0.02, 0.03])

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.model.mesh import Mesh
-from harness.model.model import Model
-from harness.model.records import IncrementDone, Record
-from harness.model.steps import NodeRequest
-from harness.output.history import HistoryFile, read_history
+from uel.model.mesh import Mesh
+from uel.model.model import Model
+from uel.model.records import IncrementDone, Record
+from uel.model.steps import NodeRequest
+from uel.output.files.history import HistoryFile, read_history
 
 Records = Callable[..., Iterator[Record]]
 Requests = Callable[..., Model]

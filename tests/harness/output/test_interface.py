@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from harness.model.model import Model
-from harness.model.records import ElementState, IncrementDone, PointVariables, Record
-from harness.output.interface import InterfaceFile, read_interface
+from uel.model.model import Model
+from uel.model.records import ElementState, IncrementDone, PointVariables, Record
+from uel.output.files.interface import InterfaceFile, read_interface
 
 Records = Callable[..., Iterator[Record]]
 

@@ -14,11 +14,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.errors import ConvergenceError, UelError
-from harness.model.model import Model
-from harness.model.records import AttemptAbandoned, IncrementDone, Record, Warned
-from harness.output import JobOutput, Result
-from harness.output.verdict import write_verdict
+from uel.errors import ConvergenceError, UelError
+from uel.model.model import Model
+from uel.model.records import AttemptAbandoned, IncrementDone, Record, Warned
+from uel.output import JobOutput, Result
+from uel.output.verdict import write_verdict
 
 Records = Callable[..., Iterator[Record]]
 Requests = Callable[..., Model]
@@ -161,8 +161,8 @@ KILLED = """
 import itertools, pickle, sys
 from pathlib import Path
 from dataclasses import replace
-from harness.model.records import IncrementDone
-from harness.output import JobOutput
+from uel.model.records import IncrementDone
+from uel.output import JobOutput
 model, records = pickle.load(sys.stdin.buffer)
 output = JobOutput(model, "job", Path(sys.argv[1]), quiet=True)
 output.write(records[0])

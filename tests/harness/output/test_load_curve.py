@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from harness.output.load_curve import load_curve
+from uel.output.pictures.load_curve import load_curve
 
 N = 4
 RAMP = np.arange(1.0, N + 1.0)

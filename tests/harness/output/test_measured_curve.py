@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from harness.errors import UelError
-from harness.output.column import Column, read_column
-from harness.output.measured_curve import read_curve
+from uel.errors import UelError
+from uel.output.pictures.column import Column, read_column
+from uel.output.pictures.measured_curve import read_curve
 
 
 @pytest.mark.parametrize(

@@ -13,9 +13,9 @@ import pytest
 from matplotlib.figure import Figure
 from reference_cells import CORNERS, FACES, SHARES, nodes_of, shape_of
 
-from harness.errors import UsageError
-from harness.model.element_types import FAMILIES
-from harness.output.mesh_picture import draw_mesh, fields_of, outer_faces, outline, visible_scale
+from uel.errors import UsageError
+from uel.model.element_types import FAMILIES
+from uel.output.pictures.mesh import draw_mesh, fields_of, outer_faces, outline, visible_scale
 
 SQUARE = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
 

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.model.mesh import ElementGroup, Mesh
-from harness.model.model import Model
-from harness.model.procedures import Static
-from harness.model.records import (
+from uel.model.mesh import ElementGroup, Mesh
+from uel.model.model import Model
+from uel.model.procedures import Static
+from uel.model.records import (
     AttemptAbandoned,
     AttemptStarted,
     Convergence,
@@ -24,8 +24,8 @@ from harness.model.records import (
     SearchHelped,
     StepStarted,
 )
-from harness.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
-from harness.output.msg_file import MessageFile
+from uel.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
+from uel.output.files.msg_file import MessageFile
 
 Records = Callable[..., Iterator[Record]]
 

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.cli import main
-from harness.errors import UelError, UsageError
-from harness.output import Result
-from harness.output.pictures import KINDS, Asked, draw
-from harness.output.plots import Curve
-from harness.output.sta_file import StatusRow, head
+from uel.cli import main
+from uel.errors import UelError, UsageError
+from uel.output import Result
+from uel.output.files.sta_file import StatusRow, head
+from uel.output.pictures.jobs import KINDS, Asked, draw
+from uel.output.pictures.plots import Curve
 
 HISTORY = (
     "step,increment,time,U2[TIP],RF2[TIP],ALLIE,ALLVD,ALLWK\n"
@@ -51,7 +51,7 @@ def drawn(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Callable[..., tupl
         kept.append((panels, x, y))
         return path
 
-    monkeypatch.setattr("harness.output.pictures.stacked", keep)
+    monkeypatch.setattr("uel.output.pictures.jobs.stacked", keep)
 
     def picture(kind: str, *results: Result, **asked: object) -> tuple[list[list[Curve]], str, list[str]]:
         draw(kind, results, tmp_path / "p.png", Asked(**asked))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
-from harness.output.plots import COLOURS, Curve, load_displacement, profiles
+from uel.output.pictures.plots import COLOURS, Curve, load_displacement, profiles
 
 X = np.linspace(0.0, 3.0, 50)
 

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from reference_cells import CORNERS, nodes_of, shape_of
 
-import harness
-from harness.elements.extrapolation import at_centroid, at_nodes
-from harness.model.element_types import CONTINUUM, COUPLED
+import uel
+from uel.elements.extrapolation import at_centroid, at_nodes
+from uel.model.element_types import CONTINUUM, COUPLED
 
 PATCH = """*NODE, NSET=ALL
 10, 0., 0.
@@ -57,7 +57,7 @@ def table(tmp_path):
     def table(request, type="CPE4"):
         deck = tmp_path / "patch.inp"
         deck.write_text(PATCH.format(type=type, request=request))
-        harness.run(deck, output_dir=tmp_path)
+        uel.run(deck, output_dir=tmp_path)
         text = (tmp_path / "patch.dat").read_text()
         assert text.count("THE FOLLOWING TABLE") == 1
         return [line.rstrip() for line in text[text.index("   THE FOLLOWING") :].splitlines()]
@@ -125,7 +125,7 @@ def test_elements_of_other_types_have_values_at_the_points_and_a_warning(tmp_pat
         "*STEP\n*STATIC\n1., 1.\n*BOUNDARY\n1, 1\n2, 1, 1, 0.1\n*EL PRINT, POSITION=NODES\nSDV\n*END STEP\n"
     )
     spring = Path(__file__).parents[1] / "elements" / "spring.f"
-    harness.run(deck, spring, output_dir=tmp_path)
+    uel.run(deck, spring, output_dir=tmp_path)
     text = " ".join((tmp_path / "user.dat").read_text().split())
     assert "TABLE IS PRINTED FOR ALL ELEMENTS WITH TYPE U1 AT THE INTEGRATION POINTS" in text
     warning = "*EL PRINT, POSITION=NODES: ELEMENTS OF TYPE U1 HAVE VALUES AT THE INTEGRATION POINTS ONLY"
@@ -180,7 +180,7 @@ def test_averages_are_over_the_elements_of_the_set_at_a_node(tmp_path):
     deck.write_text(
         quads.replace("1.E6, 0.25", "1.E6, 0.").replace("60, 0.14,", "60, 0.1,").replace("0.14E-3", "0.1E-3")
     )
-    harness.run(deck, output_dir=tmp_path)
+    uel.run(deck, output_dir=tmp_path)
     text = (tmp_path / "pair.dat").read_text()
     averages = text.split("AVERAGED AT THE NODES\n")[1].split("MAXIMUM")[0]
     found = {int(a): float(b) for a, b in re.findall(r"^ +(\d+) +(\S+) *$", averages, re.MULTILINE)}
@@ -192,7 +192,7 @@ def test_averages_are_over_the_elements_of_the_set_at_a_node(tmp_path):
 def test_what_is_not_there_is_named_once_in_a_step_of_one_increment(tmp_path):
     deck = tmp_path / "patch.inp"
     deck.write_text(PATCH.format(type="CPE4", request="*EL PRINT\nSDV\n*EL PRINT"))
-    harness.run(deck, output_dir=tmp_path)
+    uel.run(deck, output_dir=tmp_path)
     text = (tmp_path / "patch.dat").read_text()
     assert text.count("SDV IS NOT AVAILABLE AND IS LEFT OUT") == 1
     assert "WITH      1 WARNING MESSAGES ON THE DAT FILE" in text

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from harness.model.modal import FrequencyRange
-from harness.model.model import Model
-from harness.model.perturbations import Frequency, StaticPerturbation, SteadyState
-from harness.model.procedures import Procedure
-from harness.model.records import AttemptAbandoned, IncrementDone, Record, Solution, StepStarted
-from harness.output.progress import ProgressDisplay
+from uel.model.modal import FrequencyRange
+from uel.model.model import Model
+from uel.model.perturbations import Frequency, StaticPerturbation, SteadyState
+from uel.model.procedures import Procedure
+from uel.model.records import AttemptAbandoned, IncrementDone, Record, Solution, StepStarted
+from uel.output.progress import ProgressDisplay
 
 Records = Callable[..., Iterator[Record]]
 

@@ -3,11 +3,11 @@
 
 from dataclasses import replace
 
-from harness.errors import Source
-from harness.model.procedures import Static
-from harness.model.records import IncrementDone, Solution
-from harness.model.steps import OutputRequests, Step
-from harness.output.schedule import Schedule
+from uel.errors import Source
+from uel.model.procedures import Static
+from uel.model.records import IncrementDone, Solution
+from uel.model.steps import OutputRequests, Step
+from uel.output.schedule import Schedule
 
 
 def written(times: list[float], period: float = 1.0, step: int = 1, **requests: int) -> list[float]:

@@ -5,10 +5,10 @@
 import numpy as np
 import pytest
 
-import harness
-from harness.errors import DeckError
-from harness.model.records import ELEMENT_ENERGIES
-from harness.output.history import read_history
+import uel
+from uel.errors import DeckError
+from uel.model.records import ELEMENT_ENERGIES
+from uel.output.files.history import read_history
 
 YOUNG, FORCE = 1000.0, 10.0
 BAR = """*NODE
@@ -47,7 +47,7 @@ OUTPUT = "*OUTPUT, HISTORY\n*ENERGY OUTPUT{}\n"
 def run(tmp_path):
     def run(text):
         (tmp_path / "job.inp").write_text(text)
-        result = harness.run(tmp_path / "job.inp", output_dir=tmp_path)
+        result = uel.run(tmp_path / "job.inp", output_dir=tmp_path)
         return read_history(tmp_path / "job_history.csv"), result.warnings
 
     return run

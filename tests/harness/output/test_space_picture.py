@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from harness.cli import main
-from harness.output import Result
-from harness.output.mesh_picture import draw_mesh
-from harness.output.space_picture import SCREEN, Faces, RenderError, render_faces
+from uel.cli import main
+from uel.output import Result
+from uel.output.pictures.mesh import draw_mesh
+from uel.output.pictures.space import SCREEN, Faces, RenderError, render_faces
 
 SQUARE = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
 
@@ -41,8 +41,8 @@ def child(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
         script = tmp_path / "draws"
         script.write_text(f"#!/bin/sh\n{text}\n")
         script.chmod(0o755)
-        monkeypatch.setattr("harness.output.space_picture.sys.executable", str(script))
-        monkeypatch.setattr("harness.output.pictures.has_pyvista", lambda: True)
+        monkeypatch.setattr("uel.output.pictures.space.sys.executable", str(script))
+        monkeypatch.setattr("uel.output.pictures.jobs.has_pyvista", lambda: True)
 
     return stand_in
 
@@ -59,7 +59,7 @@ def plotted(job: Path, ending: str, capsys: pytest.CaptureFixture[str]) -> list[
 
 def test_without_pyvista(job: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     """The note says what to install; lines and polygons of .svg and .pdf are matplotlib's in any case."""
-    monkeypatch.setattr("harness.output.pictures.has_pyvista", lambda: False)
+    monkeypatch.setattr("uel.output.pictures.jobs.has_pyvista", lambda: False)
     (note,) = plotted(job, ".png", capsys)
     assert note == "drawn by matplotlib, which may take a face behind for one in front; PyVista: pip install pyvista"
     assert plotted(job, ".svg", capsys) == []
@@ -88,7 +88,7 @@ def test_pyvista_that_cannot_draw(script: str, note: str, job: Path, child, caps
 
 def test_display_that_does_not_answer(child, monkeypatch: pytest.MonkeyPatch) -> None:
     child("exec sleep 60")
-    monkeypatch.setattr("harness.output.space_picture._SECONDS", 0.1)
+    monkeypatch.setattr("uel.output.pictures.space._SECONDS", 0.1)
     with pytest.raises(RenderError, match=r"PyVista has not drawn within 0\.1 s"):
         render_faces([Faces(SQUARE[None], np.zeros(1))], [], (0.0, 1.0), edges=False)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from harness.output.sta_file import StatusFile, StatusRow, has_completed, read_status
+from uel.output.files.sta_file import StatusFile, StatusRow, has_completed, read_status
 
 DATA = Path(__file__).parents[2] / "data"
 

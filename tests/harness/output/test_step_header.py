@@ -4,10 +4,10 @@
 
 import pytest
 
-from harness.errors import Source
-from harness.model.procedures import CoupledTemperatureDisplacement, Dynamic, HeatTransfer, Procedure, Visco
-from harness.model.steps import Step
-from harness.output.step_header import procedure, tolerances
+from uel.errors import Source
+from uel.model.procedures import CoupledTemperatureDisplacement, Dynamic, HeatTransfer, Procedure, Visco
+from uel.model.steps import Step
+from uel.output.step_header import procedure, tolerances
 
 
 def head(given: Procedure) -> str:

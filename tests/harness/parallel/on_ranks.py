@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs several decks on the ranks of one `mpiexec`, which saves the start of Python for each.
 
-python on_ranks.py JOBS.json: a list of arguments of `harness.run` by name. Rank 0 prints what each run ends with.
+python on_ranks.py JOBS.json: a list of arguments of `uel.run` by name. Rank 0 prints what each run ends with.
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ import json
 import sys
 from pathlib import Path
 
-import harness
-from harness.errors import SilentError, UelError
-from harness.parallel import launched
-from harness.parallel.mpi import MpiRanks
+import uel
+from uel.errors import SilentError, UelError
+from uel.parallel import launched
+from uel.parallel.mpi import MpiRanks
 
 
 class SeveralJobs(MpiRanks):
@@ -27,7 +27,7 @@ class SeveralJobs(MpiRanks):
 ranks = SeveralJobs(launched())
 for job in json.loads(Path(sys.argv[1]).read_text()):
     try:
-        harness.run(**job, ranks=ranks)
+        uel.run(**job, ranks=ranks)
         end = "completed"
     except SilentError:
         continue

@@ -14,11 +14,11 @@ import sys
 import numpy as np
 from scipy import sparse
 
-from harness.errors import SingularMatrixError
-from harness.model.arrays import FloatArray
-from harness.parallel import launched
-from harness.parallel.mpi import MpiRanks
-from harness.solver.linear import Effort, Pattern, RankSolver
+from uel.errors import SingularMatrixError
+from uel.model.arrays import FloatArray
+from uel.parallel import launched
+from uel.parallel.mpi import MpiRanks
+from uel.solver.linear import Effort, Pattern, RankSolver
 
 ELEMENTS = 40
 SIZE = 2 * ELEMENTS + 2

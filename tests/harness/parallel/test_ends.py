@@ -15,11 +15,11 @@ import numpy as np
 import pytest
 from mpiexec import NEEDED, PETSC_NEEDED, run
 
-from harness.errors import UsageError
-from harness.output.sta_file import NOT_COMPLETED
-from harness.parallel import Launch, forget_word, launched, leave_word, read_word, without_launch
-from harness.parallel.partition import owners_of
-from harness.parallel.ranks import begin
+from uel.errors import UsageError
+from uel.output.files.sta_file import NOT_COMPLETED
+from uel.parallel import Launch, forget_word, launched, leave_word, read_word, without_launch
+from uel.parallel.partition import owners_of
+from uel.parallel.ranks import begin
 
 INPUTS = Path(__file__).parents[3] / "abaqus_inputs"
 HEAD = Path(__file__).parents[1] / "uel.inc"
@@ -54,7 +54,7 @@ def fails(tmp_path):
     def fails(mistake: str, element: int, options: Sequence[str] = ()) -> tuple[int, str]:
         (tmp_path / "chain.inp").write_text(CHAIN)
         (tmp_path / "spring.f").write_text(SPRING.format(head=HEAD, mistake=mistake, element=element))
-        words = ["-m", "harness", "run", "chain.inp", "--user", "spring.f", "--quiet", *options]
+        words = ["-m", "uel", "run", "chain.inp", "--user", "spring.f", "--quiet", *options]
         code, _, errors = run(2, words, tmp_path)
         return code, errors
 
@@ -141,14 +141,14 @@ def test_mistakes_are_told_once(messages, name):
 @NEEDED
 def test_command_tells_a_mistake_once(tmp_path):
     (tmp_path / "wrong.inp").write_text("*NODDE\n")
-    code, output, errors = run(2, ["-m", "harness", "run", "wrong.inp"], tmp_path)
+    code, output, errors = run(2, ["-m", "uel", "run", "wrong.inp"], tmp_path)
     assert (code, output) == (1, "")
     assert errors == "uel: wrong.inp:1: unknown keyword *NODDE; did you mean NODE?\n"
 
 
 @NEEDED
 def test_wrong_usage_is_told_once(tmp_path):
-    code, _, errors = run(2, ["-m", "harness", "run", "deck.inp", "--sover", "band"], tmp_path)
+    code, _, errors = run(2, ["-m", "uel", "run", "deck.inp", "--sover", "band"], tmp_path)
     assert code == 2
     assert errors.count("unrecognized arguments: --sover band") == 1
 

@@ -14,9 +14,9 @@ import pytest
 from mpiexec import NEEDED, PETSC_NEEDED, run
 from small_decks import body_lines
 
-import harness
-from harness.delamination.bricks import BRICKS, CONSISTENT, STABILISED_BRICKS, STANDARD, dcb_of_bricks
-from harness.output import Result
+import uel
+from uel.output import Result
+from uel.paper.bricks import BRICKS, CONSISTENT, STABILISED_BRICKS, STANDARD, dcb_of_bricks
 
 pytestmark = NEEDED
 
@@ -186,7 +186,7 @@ def pairs(tmp_path_factory):
     found = {}
     for name, job in zip(CASES, jobs, strict=True):
         # the one process has the solvers of any installation
-        one = harness.run(**{**job, "solver": "auto"}, output_dir=folder / "one")
+        one = uel.run(**{**job, "solver": "auto"}, output_dir=folder / "one")
         found[name] = one, Result(folder / "two" / job["job"])
     return found
 
@@ -269,7 +269,7 @@ LONG = {
 )
 def test_decks_of_the_folder(tmp_path, name):
     deck, words = LONG[name]
-    one = harness.run(deck, output_dir=tmp_path / "one")
-    code, _, errors = run(2, ["-m", "harness", "run", deck, "--output-dir", "two", "--quiet", *words], tmp_path)
+    one = uel.run(deck, output_dir=tmp_path / "one")
+    code, _, errors = run(2, ["-m", "uel", "run", deck, "--output-dir", "two", "--quiet", *words], tmp_path)
     assert (errors, code) == ("", 0)
     compare(one, Result(tmp_path / "two" / deck.stem))

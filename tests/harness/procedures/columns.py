@@ -5,7 +5,7 @@
 import numpy as np
 from small_decks import body_lines
 
-from harness.model.element_types import CONTINUUM
+from uel.model.element_types import CONTINUUM
 
 HIGH, WIDE, LONG, YOUNG = 1.0, 1.0, 20.0, 1e6
 

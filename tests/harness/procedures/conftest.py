@@ -8,17 +8,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness import usersub
-from harness.assembly import System
-from harness.elements import build_blocks
-from harness.errors import Source
-from harness.model.mesh import ElementGroup, Mesh
-from harness.model.model import Equation, Model
-from harness.model.procedures import Static
-from harness.model.properties import UserElement, UserProperty
-from harness.model.records import AttemptAbandoned, IncrementDone, IterationDone
-from harness.model.steps import Boundary, InitialValue, Load, Step
-from harness.procedures import run_steps
+from uel import usersub
+from uel.assembly import System
+from uel.elements import build_blocks
+from uel.errors import Source
+from uel.model.mesh import ElementGroup, Mesh
+from uel.model.model import Equation, Model
+from uel.model.procedures import Static
+from uel.model.properties import UserElement, UserProperty
+from uel.model.records import AttemptAbandoned, IncrementDone, IterationDone
+from uel.model.steps import Boundary, InitialValue, Load, Step
+from uel.procedures import run_steps
 
 HERE = Path(__file__).parent
 

@@ -4,14 +4,14 @@
 
 import pytest
 
-from harness.assembly import System
-from harness.deck import read_deck
-from harness.elements import build_blocks
-from harness.model.records import IterationDone
-from harness.model.steps import FieldControls
-from harness.procedures import run_steps
-from harness.procedures.convergence import FluxHistory
-from harness.usersub import load
+from uel.assembly import System
+from uel.deck import read_deck
+from uel.elements import build_blocks
+from uel.model.records import IterationDone
+from uel.model.steps import FieldControls
+from uel.procedures import run_steps
+from uel.procedures.general.convergence import FluxHistory
+from uel.usersub import load
 
 DECK = """\
 *NODE

@@ -9,9 +9,9 @@ import pytest
 from columns import YOUNG, column, euler, head
 from small_decks import body_lines
 
-import harness
-from harness.errors import DeckError
-from harness.solver import buckling
+import uel
+from uel.errors import DeckError
+from uel.solver import buckling
 
 STEP = "*STEP\n*BUCKLE{how}\n{numbers}\n{loads}\n*OUTPUT, FIELD\n"
 STEP += "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nU\n*END STEP\n"
@@ -47,7 +47,7 @@ def run(tmp_path):
     def run(model, loads, *, numbers="2", how="", before="", name="buckle", step=STEP):
         text = model + before + step.format(how=how, numbers=numbers, loads=loads)
         (tmp_path / f"{name}.inp").write_text(text)
-        return harness.run(tmp_path / f"{name}.inp", output_dir=tmp_path)
+        return uel.run(tmp_path / f"{name}.inp", output_dir=tmp_path)
 
     return run
 

@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness import usersub
-from harness.assembly import System
-from harness.deck import read_deck
-from harness.elements import build_blocks
-from harness.errors import DeckError
-from harness.model.records import IncrementDone
-from harness.procedures import run_steps
+from uel import usersub
+from uel.assembly import System
+from uel.deck import read_deck
+from uel.elements import build_blocks
+from uel.errors import DeckError
+from uel.model.records import IncrementDone
+from uel.procedures import run_steps
 
 USER = Path(__file__).with_name("conditions.f")
 DECK = """\

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from harness.model.records import Convergence
-from harness.model.steps import FieldControls
-from harness.procedures.convergence import FieldMeasures, FluxHistory, judge, residual_tolerance
+from uel.model.records import Convergence
+from uel.model.steps import FieldControls
+from uel.procedures.general.convergence import FieldMeasures, FluxHistory, judge, residual_tolerance
 
 DATA = Path(__file__).parents[2] / "data"
 I_P = 9

@@ -7,13 +7,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from harness.assembly import Evaluation
-from harness.model.records import Convergence, Largest
-from harness.model.steps import Controls, FieldControls, TimeControls
-from harness.procedures import incrementation
-from harness.procedures.convergence import FluxHistory
-from harness.procedures.convergence_checks import Checker
-from harness.solver.newton import Iterate
+from uel.assembly import Evaluation
+from uel.model.records import Convergence, Largest
+from uel.model.steps import Controls, FieldControls, TimeControls
+from uel.procedures.general import incrementation
+from uel.procedures.general.convergence import FluxHistory
+from uel.procedures.general.convergence_checks import Checker
+from uel.solver.newton import Iterate
 
 FORCE, TEMPERATURE = 0, 4
 # nodes 0 and 1 with dofs 1 and 11; the first unknown is prescribed

@@ -5,8 +5,8 @@
 import numpy as np
 import pytest
 
-import harness
-from harness.errors import DeckError, UelError
+import uel
+from uel.errors import DeckError, UelError
 
 NODES = np.array([[0, 0], [2, 0], [2, 1], [0, 1.0]])
 DECK = """*NODE, NSET=ALL
@@ -55,7 +55,7 @@ def run(tmp_path):
     def run(body, magnitude="0.", more="", user=DISP):
         (tmp_path / "square.inp").write_text(DECK.format(magnitude=magnitude, more=more))
         (tmp_path / "disp.f").write_text(user.replace("%s", body))
-        return harness.run(tmp_path / "square.inp", tmp_path / "disp.f", output_dir=tmp_path).history
+        return uel.run(tmp_path / "square.inp", tmp_path / "disp.f", output_dir=tmp_path).history
 
     return run
 

@@ -7,9 +7,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-import harness
-from harness.elements.faults import distortion
-from harness.errors import ConvergenceError, KernelError
+import uel
+from uel.elements.faults import distortion
+from uel.errors import ConvergenceError, KernelError
 
 YOUNG, PRESSURE = 1000.0, 1500.0
 """A first solve shortens the element by 1.5 of its length."""
@@ -38,7 +38,7 @@ def deck(element_type, nodes, *, options=", NLGEOM", order=1):
 def run(tmp_path):
     def run(text, **options):
         (tmp_path / "pushed.inp").write_text(text)
-        return harness.run(tmp_path / "pushed.inp", output_dir=tmp_path, **options)
+        return uel.run(tmp_path / "pushed.inp", output_dir=tmp_path, **options)
 
     return run
 

@@ -9,9 +9,9 @@ The average acceleration method turns the state (u, v/omega) by theta in each in
 import numpy as np
 import pytest
 
-from harness.errors import ConvergenceError
-from harness.model.procedures import Dynamic, Integrator, Static
-from harness.procedures.dynamic import HALF_INCREMENT
+from uel.errors import ConvergenceError
+from uel.model.procedures import Dynamic, Integrator, Static
+from uel.procedures.general.dynamic import HALF_INCREMENT
 
 K, M = 4.0, 0.25
 OMEGA = np.sqrt(K / M)

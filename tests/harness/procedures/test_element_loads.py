@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from reference_cells import FACES, affine, area_vector, face_of, integral, patch_of, shape_of, share_of_nodes
 
-import harness
-from harness.errors import DeckError, UelError
-from harness.model.element_types import CONTINUUM
+import uel
+from uel.errors import DeckError, UelError
+from uel.model.element_types import CONTINUUM
 
 THICKNESS, DENSITY = 0.5, 3.0
 TYPES = {
@@ -65,7 +65,7 @@ def forces(tmp_path):
         if user is not None:
             (tmp_path / "dload.f").write_text(DLOAD.replace("%s", user))
         routines = tmp_path / "dload.f" if user is not None else None
-        history = harness.run(tmp_path / "load.inp", routines, output_dir=tmp_path).history
+        history = uel.run(tmp_path / "load.inp", routines, output_dir=tmp_path).history
         nodes = nodes_of(element_type)
         dofs, labels = range(1, nodes.shape[1] + 1), range(1, len(nodes) + 1)
         return -np.array([[history[f"RF{dof}[ALL:{label}]"][-1] for dof in dofs] for label in labels])
@@ -131,7 +131,7 @@ def copies(element_type, loads, options=""):
 def forces_of_copies(folder, element_type, loads, options=""):
     """Forces (copies, nodes, dimension) of the loads at the end."""
     (folder / "copies.inp").write_text(copies(element_type, loads, options))
-    history = harness.run(folder / "copies.inp", output_dir=folder).history
+    history = uel.run(folder / "copies.inp", output_dir=folder).history
     kind = CONTINUUM[element_type]
     names = [[f"RF{d}[ALL:{k}]" for d in range(1, kind.dimension + 1)] for k in range(1, len(loads) * kind.nodes + 1)]
     found = -np.array([[history[name][-1] for name in of_node] for of_node in names])
@@ -204,7 +204,7 @@ def test_body_pulled_at_one_side(tmp_path, element_type):
         "S",
     ]
     (tmp_path / "pull.inp").write_text("\n".join(line for line in [*lines, "*END STEP"] if line) + "\n")
-    result = harness.run(tmp_path / "pull.inp", output_dir=tmp_path)
+    result = uel.run(tmp_path / "pull.inp", output_dir=tmp_path)
     found = [[result.history[f"U{axis + 1}[ALL:{k + 1}]"][-1] for axis in range(d)] for k in range(len(nodes))]
     np.testing.assert_allclose(found, np.outer(nodes[:, 0] * 4e-3, np.eye(d)[0]), atol=1e-14)
     np.testing.assert_allclose(result.field("S11"), 4.0, rtol=1e-11)
@@ -241,7 +241,7 @@ RF
 def test_loads_of_a_quadratic_triangle(tmp_path, load, force):
     """Of a side 1/6, 1/6 and 2/3 go to its ends and middle; of the area a third to the middle of each side."""
     (tmp_path / "triangle.inp").write_text(TRIANGLE.format(load=load))
-    history = harness.run(tmp_path / "triangle.inp", output_dir=tmp_path).history
+    history = uel.run(tmp_path / "triangle.inp", output_dir=tmp_path).history
     found = [-history[f"RF1[ALL:{label}]"][-1] for label in range(1, 7)]
     # the nodes' order in the side of P2 is 2, 3, middle 5
     assert found == pytest.approx(force, abs=1e-12)

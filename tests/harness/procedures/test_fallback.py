@@ -8,15 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import harness
-from harness.errors import ConvergenceError, SingularMatrixError
-from harness.model.amplitude import Amplitude, AmplitudeType
-from harness.model.procedures import Static
-from harness.model.records import SearchHelped
-from harness.procedures.incrementation import DIVERGING, TOO_SLOW
-from harness.procedures.limit import PASSED
-from harness.solver import descent
-from harness.solver.descent import GROWING, SINGULAR, UPHILL
+import uel
+from uel.errors import ConvergenceError, SingularMatrixError
+from uel.model.amplitude import Amplitude, AmplitudeType
+from uel.model.procedures import Static
+from uel.model.records import SearchHelped
+from uel.procedures.general.incrementation import DIVERGING, TOO_SLOW
+from uel.procedures.general.limit import PASSED
+from uel.solver import descent
+from uel.solver.descent import GROWING, SINGULAR, UPHILL
 
 STIFFNESS, PEAK, END = 10.0, 0.1, 1.0
 DAMAGE = (1, 2, 6, (STIFFNESS, PEAK, END))
@@ -157,7 +157,7 @@ def test_where_newtons_method_does_the_fallback_changes_nothing(bench):
 
 def test_search_without_end_is_cut_back(bench, monkeypatch):
     """Nothing carries the load: no equilibrium, and the error is that of a run without the fall-back."""
-    monkeypatch.setattr("harness.procedures.general.ITERATIONS", 20)
+    monkeypatch.setattr("uel.procedures.general.increments.ITERATIONS", 20)
     step = bench.step(static=Static(1.0, 1.0), boundaries=(bench.fix(0),), loads=(bench.force(1, 3.0),))
     result = bench.run([(0, 1, 6, (STIFFNESS, PEAK, END))], [step], fallback=True)
     assert "HAS NOT CONVERGED" in result.abandoned[0].reason
@@ -220,8 +220,8 @@ def test_a_snap_through_a_coupling_that_turns(tmp_path):
     deck, springs = tmp_path / "lever.inp", Path(__file__).parent / "springs.f"
     deck.write_text(LEVER)
     with pytest.raises(ConvergenceError):
-        harness.run(deck, user=springs, output_dir=tmp_path)
-    result = harness.run(deck, user=springs, output_dir=tmp_path, fallback=True)
+        uel.run(deck, user=springs, output_dir=tmp_path)
+    result = uel.run(deck, user=springs, output_dir=tmp_path, fallback=True)
     u, force = (result.history[f"{name}[END]"] for name in ("U1", "RF1"))
     whole = u / (1 / 0.1 + 16 / 10)
     np.testing.assert_allclose(force, np.where(u < 2.9, whole, 0), atol=1e-4)

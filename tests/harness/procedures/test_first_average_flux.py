@@ -10,7 +10,7 @@ Abaqus 2018 prints 0.186, 0.0720 and 0.0715 in the three iterations of a job wit
 import pytest
 from small_decks import body_lines
 
-import harness
+import uel
 
 CUBE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -33,7 +33,7 @@ def test_terms(tmp_path, element_type, dynamic):
     lines += ["*STEP", "*DYNAMIC, APPLICATION=QUASI-STATIC" if dynamic else "*STATIC", "1., 1."]
     lines += ["*CLOAD", *(f"{k}, 1, {FORCE / len(pulled)}" for k in pulled), "*END STEP"]
     (tmp_path / "pull.inp").write_text("\n".join(lines) + "\n")
-    harness.run(tmp_path / "pull.inp", output_dir=tmp_path)
+    uel.run(tmp_path / "pull.inp", output_dir=tmp_path)
     message = (tmp_path / "pull.msg").read_text().splitlines()
     printed = next(line for line in message if line.startswith(" AVERAGE FORCE "))
     terms = (TERMS[element_type] + MODES[element_type]) * (2 if dynamic else 1)

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from reference_cells import unit_cell
 
-import harness
-from harness import usersub
-from harness.assembly import System
-from harness.deck import read_deck
-from harness.elements import Call, Distributed, Flags, build_blocks
-from harness.errors import DeckError
-from harness.model.element_types import CONTINUUM
+import uel
+from uel import usersub
+from uel.assembly import System
+from uel.deck import read_deck
+from uel.elements import Call, Distributed, Flags, build_blocks
+from uel.errors import DeckError
+from uel.model.element_types import CONTINUUM
 
 YOUNG, NU, DENSITY = 1000.0, 0.25, 2.0
 SQUARE = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
@@ -73,7 +73,7 @@ def run(tmp_path):
         (folder / "press.inp").write_text(text)
         if user is not None:
             (folder / "dload.f").write_text(DLOAD.format(user))
-        return harness.run(folder / "press.inp", user and folder / "dload.f", output_dir=folder, **options)
+        return uel.run(folder / "press.inp", user and folder / "dload.f", output_dir=folder, **options)
 
     return run
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from vibrating import PAIR, bar
 
-import harness
-from harness.errors import DeckError
+import uel
+from uel.errors import DeckError
 
 STEP = """*STEP{options}
 *FREQUENCY{how}
@@ -35,7 +35,7 @@ def run(tmp_path):
         if user:
             routines = tmp_path / "uel.f"
             routines.write_text(user)
-        return harness.run(tmp_path / "modes.inp", routines, output_dir=tmp_path)
+        return uel.run(tmp_path / "modes.inp", routines, output_dir=tmp_path)
 
     return run
 

@@ -7,9 +7,9 @@ import pytest
 from columns import CELLS
 from small_decks import body_lines
 
-import harness
-from harness.errors import DeckError
-from harness.model.element_types import CONTINUUM
+import uel
+from uel.errors import DeckError
+from uel.model.element_types import CONTINUUM
 
 HEIGHT, LOWEST, DENSITY, GRAVITY, YOUNG, NU = 4.0, -1.0, 2.0, 9.81, 1e4, 0.25
 WEIGHT = DENSITY * GRAVITY
@@ -53,7 +53,7 @@ def layer(element_type, *, stress=1.0, lateral=LATERAL):
 def run(tmp_path):
     def run(lines, user=None):
         (tmp_path / "soil.inp").write_text("\n".join(lines) + "\n")
-        return harness.run(tmp_path / "soil.inp", user, output_dir=tmp_path)
+        return uel.run(tmp_path / "soil.inp", user, output_dir=tmp_path)
 
     return run
 

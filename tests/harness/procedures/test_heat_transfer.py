@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.job import run
-from harness.model.procedures import CoupledTemperatureDisplacement, HeatTransfer, Visco
-from harness.model.records import Convergence
-from harness.model.steps import Controls, TimeControls
+from uel.model.procedures import CoupledTemperatureDisplacement, HeatTransfer, Visco
+from uel.model.records import Convergence
+from uel.model.steps import Controls, TimeControls
+from uel.running.job import run
 
 G, C = 2.0, 0.5
 ROD = (0, 1, 1, (G, C, 0.0))

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.model.procedures import HeatTransfer, Static, Visco
-from harness.model.steps import TimeControls
-from harness.procedures import incrementation
-from harness.procedures.incrementation import (
+from uel.model.procedures import HeatTransfer, Static, Visco
+from uel.model.steps import TimeControls
+from uel.procedures.general import incrementation
+from uel.procedures.general.incrementation import (
     Accuracy,
     Cutback,
     IncrementControl,

@@ -6,15 +6,15 @@ from pathlib import Path
 
 import pytest
 
-from harness import usersub
-from harness.assembly import System
-from harness.check.recording import record
-from harness.check.replay import abaqus_order, replay
-from harness.deck import read_deck
-from harness.elements import build_blocks
-from harness.errors import DeckError, KernelError
-from harness.model.records import IncrementDone
-from harness.procedures import run_steps
+from uel import usersub
+from uel.assembly import System
+from uel.check.recording import record
+from uel.check.replay import abaqus_order, replay
+from uel.deck import read_deck
+from uel.elements import build_blocks
+from uel.errors import DeckError, KernelError
+from uel.model.records import IncrementDone
+from uel.procedures import run_steps
 
 USER = Path(__file__).with_name("initial.f")
 SPRINGS = """*NODE, NSET=ALL

@@ -4,8 +4,8 @@
 
 import pytest
 
-from harness.model.steps import LineSearchControls
-from harness.solver.linesearch import REFINEMENTS, descend, search
+from uel.model.steps import LineSearchControls
+from uel.solver.linesearch import REFINEMENTS, descend, search
 
 
 def scales(g, **controls):

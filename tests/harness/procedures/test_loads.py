@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from harness.errors import Source
-from harness.model.amplitude import Amplitude, AmplitudeType
-from harness.model.procedures import Static
-from harness.model.steps import Boundary, Load, Step
-from harness.procedures.loads import Boundaries, Loads, fading_forces
+from uel.errors import Source
+from uel.model.amplitude import Amplitude, AmplitudeType
+from uel.model.procedures import Static
+from uel.model.steps import Boundary, Load, Step
+from uel.procedures.loads.nodal import Boundaries, Loads, fading_forces
 
 SOURCE = Source("loads.inp", 3)
 N = 4

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from vibrating import PAIR, bar
 
-import harness
-from harness.deck import read_deck
-from harness.errors import DeckError
+import uel
+from uel.deck import read_deck
+from uel.errors import DeckError
 
 CYCLES = 2 * np.pi
 K, M = 9.0, 4.0
@@ -50,7 +50,7 @@ def run(tmp_path):
     def run(model, procedure, more="", *, number="1", how="", options="", user=None):
         step = f"*STEP{options}\n{procedure}\n{more}\n{OUTPUT}"
         (tmp_path / "modal.inp").write_text(model + MODES.format(how=how, number=number) + step)
-        return harness.run(tmp_path / "modal.inp", user, output_dir=tmp_path)
+        return uel.run(tmp_path / "modal.inp", user, output_dir=tmp_path)
 
     return run
 
@@ -356,9 +356,9 @@ def test_modes_do_not_outlast_their_job(tmp_path, monkeypatch, procedure, how):
     modes = MODES.format(how="", number=1)
     text = f"{OSCILLATOR}*RESTART, WRITE\n{static}{modes}{static}*STEP\n{procedure}\n*END STEP\n"
     (tmp_path / "modal.inp").write_text(text)
-    harness.run("modal.inp")
+    uel.run("modal.inp")
     with pytest.raises(DeckError, match=rf"{how} needs a \*FREQUENCY step before it in the same job"):
-        harness.run("modal.inp", job="again", oldjob="modal")
+        uel.run("modal.inp", job="again", oldjob="modal")
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-import harness
+import uel
 
 HERE = Path(__file__).parent
 LENGTH, EA, EI = 1000.0, 2.1e9, 1.75e12
@@ -51,7 +51,7 @@ def run(tmp_path):
                 load=f"{count + 1}, {load}",
             )
         )
-        return harness.run(deck, HERE / "beam.f", output_dir=tmp_path)
+        return uel.run(deck, HERE / "beam.f", output_dir=tmp_path)
 
     return run
 

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from harness.errors import ConvergenceError, DeckError, KernelError
-from harness.model.amplitude import Amplitude, AmplitudeType
-from harness.model.procedures import Riks, Static
+from uel.errors import ConvergenceError, DeckError, KernelError
+from uel.model.amplitude import Amplitude, AmplitudeType
+from uel.model.procedures import Riks, Static
 
 # f = d (d - 1)(d - 2): limit points at d = 1 -+ 1/sqrt(3), f = +-2/(3 sqrt(3))
 TRUSS = (0, 1, 7, (1.0, 1.0))

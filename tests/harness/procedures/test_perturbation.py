@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import harness
-from harness.check.recording import Pass, record
-from harness.errors import DeckError
+import uel
+from uel.check.recording import Pass, record
+from uel.errors import DeckError
 
 SPRING = """*NODE, NSET=ALL
 1, 0.
@@ -51,7 +51,7 @@ def run(tmp_path):
     def run(*parts, user=UEL):
         (tmp_path / "linear.inp").write_text("".join(parts))
         (tmp_path / "spring.f").write_text(user)
-        return harness.run(tmp_path / "linear.inp", tmp_path / "spring.f", output_dir=tmp_path)
+        return uel.run(tmp_path / "linear.inp", tmp_path / "spring.f", output_dir=tmp_path)
 
     return run
 

@@ -11,20 +11,20 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
-import harness
-from harness.deck.keywords import KEYWORDS
-from harness.deck.procedures import PROCEDURES
-from harness.deck.table import Keyword, Kind, Option, Where
-from harness.errors import DeckError
-from harness.model import perturbations, procedures
-from harness.model.procedures import Procedure
-from harness.model.records import Noted
-from harness.procedures.context import StepContext
-from harness.procedures.general import GeneralStep
-from harness.procedures.path import TimePath
-from harness.procedures.registry import run_of
-from harness.procedures.step_parts import Part
-from harness.procedures.step_setting import Setting, StepRun
+import uel
+from uel.deck.keywords import KEYWORDS
+from uel.deck.language.table import Keyword, Kind, Option, Where
+from uel.deck.steps.procedures import PROCEDURES
+from uel.errors import DeckError
+from uel.model import perturbations, procedures
+from uel.model.procedures import Procedure
+from uel.model.records import Noted
+from uel.procedures.context import StepContext
+from uel.procedures.general.increments import GeneralStep
+from uel.procedures.general.path import TimePath
+from uel.procedures.general.step_parts import Part
+from uel.procedures.registry import run_of
+from uel.procedures.step_setting import Setting, StepRun
 
 KINDS = [
     kind
@@ -122,10 +122,10 @@ A step of its own
 def test_procedure_and_keyword_of_its_own(tmp_path, monkeypatch):
     """Spring of stiffness 2 and dashpot under a force of 1: 10 u' + 2 u = 1 by backward Euler in steps of 1."""
     monkeypatch.setitem(KEYWORDS, RELAXATION.name, RELAXATION)
-    monkeypatch.setattr("harness.deck.procedures.PROCEDURES", (*PROCEDURES, (RELAXATION, read)))
+    monkeypatch.setattr("uel.deck.steps.procedures.PROCEDURES", (*PROCEDURES, (RELAXATION, read)))
     deck = tmp_path / "relaxation.inp"
     deck.write_text(DECK)
-    result = harness.run(deck, output_dir=tmp_path, quiet=True)
+    result = uel.run(deck, output_dir=tmp_path, quiet=True)
     rates = [1.0 / 12.0]
     while rates[-1] >= 0.05:
         rates.append((1.0 - 2.0 * sum(rates)) / 12.0)
@@ -134,7 +134,7 @@ def test_procedure_and_keyword_of_its_own(tmp_path, monkeypatch):
     assert re.findall(r"NOTE: RATE (\S+)", message) == [f"{rate:.6f}" for rate in rates]
     assert re.search(r"R E L A X A T I O N\s+A step of its own\s+SLOWEST RATE +5.000E-02", message)
     deck.write_text(DECK.replace("SLOWEST", "SLOW"))
-    assert harness.run(deck, output_dir=tmp_path, quiet=True).status[-1].step_time == len(rates)
+    assert uel.run(deck, output_dir=tmp_path, quiet=True).status[-1].step_time == len(rates)
     deck.write_text(DECK.replace("SLOWEST", "SLOWLY"))
     with pytest.raises(DeckError, match=r"relaxation.inp:14: \*RELAXATION: unknown option SLOWLY"):
-        harness.run(deck, output_dir=tmp_path, quiet=True)
+        uel.run(deck, output_dir=tmp_path, quiet=True)

@@ -8,11 +8,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from harness.assembly import System
-from harness.errors import ConvergenceError
-from harness.model.mesh import Mesh
-from harness.model.model import Model
-from harness.procedures import run_steps
+from uel.assembly import System
+from uel.errors import ConvergenceError
+from uel.model.mesh import Mesh
+from uel.model.model import Model
+from uel.procedures import run_steps
 
 
 def test_error_before_the_first_step_begins_stays_itself(bench):

@@ -4,7 +4,7 @@
 
 import pytest
 
-from harness import job
+from uel.running import job
 
 DECK = """\
 *NODE

@@ -5,9 +5,9 @@
 import numpy as np
 import pytest
 
-import harness
-from harness.errors import DeckError
-from harness.procedures.stabilized import NOTHING_DAMPED
+import uel
+from uel.errors import DeckError
+from uel.procedures.general.stabilized import NOTHING_DAMPED
 
 K, M, H = 200.0, 1.0, 0.1
 DECK = """*NODE
@@ -42,7 +42,7 @@ U1
 def run(tmp_path):
     def run(options, deck=DECK):
         (tmp_path / "bar.inp").write_text(deck % options)
-        return harness.run(tmp_path / "bar.inp", output_dir=tmp_path).history, (tmp_path / "bar.msg").read_text()
+        return uel.run(tmp_path / "bar.inp", output_dir=tmp_path).history, (tmp_path / "bar.msg").read_text()
 
     return run
 

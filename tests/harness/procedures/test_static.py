@@ -5,12 +5,12 @@
 import numpy as np
 import pytest
 
-from harness.errors import ConvergenceError, KernelError, SingularMatrixError, Source
-from harness.model.amplitude import Amplitude, AmplitudeType
-from harness.model.procedures import Static
-from harness.model.records import AttemptStarted, Convergence, IterationDone, StepDone, StepStarted, Warned
-from harness.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
-from harness.procedures.extrapolation import Extrapolation
+from uel.errors import ConvergenceError, KernelError, SingularMatrixError, Source
+from uel.model.amplitude import Amplitude, AmplitudeType
+from uel.model.procedures import Static
+from uel.model.records import AttemptStarted, Convergence, IterationDone, StepDone, StepStarted, Warned
+from uel.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
+from uel.procedures.general.extrapolation import Extrapolation
 
 SOURCE = Source("springs.inp", 1)
 LINEAR = (0, 1, 1, (2.0, 0.0))

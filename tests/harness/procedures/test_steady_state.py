@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from vibrating import PAIR, bar
 
-import harness
-from harness.deck import read_deck
-from harness.errors import DeckError, SingularMatrixError
-from harness.output.formats import exponential
+import uel
+from uel.deck import read_deck
+from uel.errors import DeckError, SingularMatrixError
+from uel.output.formats import exponential
 
 UEL = Path(__file__).parent / "harmonic.f"
 K, C, S, M = 9.0, 0.6, 0.9, 4.0
@@ -44,7 +44,7 @@ def run(tmp_path):
     def run(model, frequencies="0.1, 0.5, 5", more=PUSHED, *, how="", user=UEL, before="", after=""):
         step = STEP.format(how=how, frequencies=frequencies, more=more)
         (tmp_path / "sweep.inp").write_text(model + before + step + after)
-        return harness.run(tmp_path / "sweep.inp", user, output_dir=tmp_path)
+        return uel.run(tmp_path / "sweep.inp", user, output_dir=tmp_path)
 
     return run
 

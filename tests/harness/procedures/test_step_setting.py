@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the message file says of the linear solver."""
 
-from harness.procedures.step_setting import SolverTimes
-from harness.solver.linear import Effort
+from uel.procedures.step_setting import SolverTimes
+from uel.solver.linear import Effort
 
 
 def test_times_of_a_step() -> None:

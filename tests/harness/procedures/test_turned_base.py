@@ -7,10 +7,10 @@ with it.
 import numpy as np
 import pytest
 
-import harness
-from harness.elements import rotation_matrices
-from harness.errors import DeckError
-from harness.model.element_types import SHELL
+import uel
+from uel.elements import rotation_matrices
+from uel.errors import DeckError
+from uel.model.element_types import SHELL
 
 AXIS = np.array([1.0, 2.0, -2.0]) / 3
 UNKNOWNS = ("U1", "U2", "U3", "UR1", "UR2", "UR3")
@@ -93,7 +93,7 @@ def run(tmp_path):
     def run(text):
         file = tmp_path / "turned.inp"
         file.write_text(text)
-        result = harness.run(file, output_dir=tmp_path)
+        result = uel.run(file, output_dir=tmp_path)
         assert result.completed
         return {name.split("[")[0]: np.array(values) for name, values in result.history.items()}
 

@@ -11,7 +11,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 from scipy.special import ellipk
 
-import harness
+import uel
 
 MASS, LENGTH, GRAVITY = 2.0, 0.8, 10.0
 CONSTRAINTS = {
@@ -68,7 +68,7 @@ def run(tmp_path):
         if not velocities:
             text = text.replace("*INITIAL CONDITIONS, TYPE=VELOCITY\n", "")
         (tmp_path / "turn.inp").write_text(text.replace("\n\n", "\n"))
-        result = harness.run(tmp_path / "turn.inp", output_dir=tmp_path)
+        result = uel.run(tmp_path / "turn.inp", output_dir=tmp_path)
         result.message = (tmp_path / "turn.msg").read_text()
         return result
 
@@ -224,7 +224,7 @@ def spin(tmp_path):
         }
         values |= {"control": "DIRECT, NOHAF", "boundary": ""}
         (tmp_path / "spin.inp").write_text(BODY.format(**(values | has)).replace("\n\n", "\n"))
-        return harness.run(tmp_path / "spin.inp", output_dir=tmp_path).history
+        return uel.run(tmp_path / "spin.inp", output_dir=tmp_path).history
 
     return spin
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy import sparse
 
-import harness
-from harness.errors import SingularMatrixError
-from harness.procedures.unconstrained import UnconstrainedSolver
-from harness.solver.linear import choose
+import uel
+from uel.errors import SingularMatrixError
+from uel.procedures.general.unconstrained import UnconstrainedSolver
+from uel.solver.linear import choose
 
 YOUNG, PULL = 1000.0, 3.0
 # a unit square pinned in one corner, which may turn about it, in balance under forces in its corners
@@ -78,7 +78,7 @@ U
 def run(tmp_path):
     def run(deck, more=""):
         (tmp_path / "free.inp").write_text(deck + STEP.format(pull=PULL, more=more))
-        history = harness.run(tmp_path / "free.inp", output_dir=tmp_path).history
+        history = uel.run(tmp_path / "free.inp", output_dir=tmp_path).history
         return history, " ".join((tmp_path / "free.msg").read_text().split())
 
     return run
@@ -146,7 +146,7 @@ def test_many_increments_of_a_body_free_to_turn(tmp_path, options, solver):
     rounding alone, and the run goes on, with one warning. So does a restart. The force is that of uniaxial stress.
     """
     (tmp_path / "free.inp").write_text(BRICK % options)
-    result = harness.run(tmp_path / "free.inp", output_dir=tmp_path, solver=solver)
+    result = uel.run(tmp_path / "free.inp", output_dir=tmp_path, solver=solver)
     assert len(result.status) == 100
     stretch = 1.01
     # of NLGEOM: E ln(l) l^(-2 nu) (logarithmic strain, Cauchy stress)
@@ -157,16 +157,14 @@ def test_many_increments_of_a_body_free_to_turn(tmp_path, options, solver):
     largest = max(np.abs(values).max() for name, values in result.history.items() if name.startswith("U"))
     assert largest < 0.02
     (tmp_path / "free_restart" / "step1_increment0100.npz").unlink()
-    again = harness.run(
-        tmp_path / "free.inp", output_dir=tmp_path, solver=solver, job="again", oldjob=tmp_path / "free"
-    )
+    again = uel.run(tmp_path / "free.inp", output_dir=tmp_path, solver=solver, job="again", oldjob=tmp_path / "free")
     assert again.completed
 
 
 def test_an_unknown_without_any_stiffness_stays(tmp_path):
     """Its displacement is exactly zero, and the others are those of the bar: F L/(E A)."""
     (tmp_path / "bar.inp").write_text(BAR + ALONG.format(pull=PULL, across=0.0))
-    history = harness.run(tmp_path / "bar.inp", output_dir=tmp_path).history
+    history = uel.run(tmp_path / "bar.inp", output_dir=tmp_path).history
     assert history["U2[ALL:2]"][-1] == 0.0
     np.testing.assert_allclose(history["U1[ALL:2]"][-1], PULL * 2.0 / YOUNG, rtol=1e-14)
     assert "NO FORCE ACTS ON THE FREE PART" in " ".join((tmp_path / "bar.msg").read_text().split())
@@ -177,7 +175,7 @@ def test_a_force_on_an_unknown_without_any_stiffness_is_an_error(tmp_path):
     with pytest.raises(
         SingularMatrixError, match=r"bar.inp:\d+: singular system matrix at node 2, dof 2: .* unconstrained"
     ):
-        harness.run(tmp_path / "bar.inp", output_dir=tmp_path)
+        uel.run(tmp_path / "bar.inp", output_dir=tmp_path)
 
 
 def test_a_soft_part_beside_what_moves_freely():

@@ -7,13 +7,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-import harness
-from harness.errors import DeckError, Source, UelError
-from harness.model.amplitude import AmplitudeType, UserAmplitude
-from harness.model.procedures import Static
-from harness.model.steps import Load, Step
-from harness.model.user_values import GivenAmplitude
-from harness.procedures.user_amplitudes import UserAmplitudes
+import uel
+from uel.errors import DeckError, Source, UelError
+from uel.model.amplitude import AmplitudeType, UserAmplitude
+from uel.model.procedures import Static
+from uel.model.steps import Load, Step
+from uel.model.user_values import GivenAmplitude
+from uel.procedures.loads.user_amplitudes import UserAmplitudes
 
 DECK = """*NODE, NSET=ALL
 1, 0.
@@ -71,7 +71,7 @@ def run(tmp_path):
         text = DECK.format(requests=requests, more=more, direct=direct, time=time)
         (tmp_path / "told.inp").write_text(text)
         (tmp_path / "uamp.f").write_text(user.replace("%s", "\n".join(f"      {line}" for line in body.split("\n"))))
-        return harness.run(tmp_path / "told.inp", tmp_path / "uamp.f", output_dir=tmp_path)
+        return uel.run(tmp_path / "told.inp", tmp_path / "uamp.f", output_dir=tmp_path)
 
     return run
 

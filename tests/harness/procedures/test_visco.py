@@ -7,8 +7,8 @@ import pytest
 from reference_cells import unit_cell
 from small_decks import body_lines
 
-import harness
-from harness.errors import DeckError
+import uel
+from uel.errors import DeckError
 
 CUBE = unit_cell("hexahedron")[0]
 E = 1000.0
@@ -41,7 +41,7 @@ def deck(material, visco, *, element_type="C3D8", first=("*BOUNDARY", *PULLED), 
 def run(tmp_path):
     def run(text):
         (tmp_path / "creep.inp").write_text(text)
-        return harness.run(tmp_path / "creep.inp", None, output_dir=tmp_path)
+        return uel.run(tmp_path / "creep.inp", None, output_dir=tmp_path)
 
     return run
 

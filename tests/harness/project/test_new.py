@@ -10,7 +10,7 @@ from importlib import metadata
 
 import pytest
 
-from harness.cli import main
+from uel.cli import main
 
 NAMES = {
     "beam_x.for",
@@ -48,7 +48,7 @@ def test_its_tests_pass_and_its_deck_runs(project):
     assert result.returncode == 0, result.stdout + result.stderr
     assert re.search(r"\b(\d\d) passed, \d skipped", result.stdout), result.stdout
     assert "test_beam_x.py" in result.stdout
-    command = [sys.executable, "-m", "harness.cli", "run", "beam_x.inp", "--user", "beam_x.for"]
+    command = [sys.executable, "-m", "uel.cli", "run", "beam_x.inp", "--user", "beam_x.for"]
     result = subprocess.run(command, cwd=project, capture_output=True, text=True, check=False)
     assert "beam_x: completed" in result.stdout, result.stderr
     # the stresses, by the name that the deck gives them
@@ -61,19 +61,19 @@ def test_its_tests_pass_and_its_deck_runs(project):
 @pytest.mark.parametrize(
     ("record", "expected"),
     [
-        (None, f"uel-harness=={metadata.version('uel-harness')}"),
-        ({"url": "file:///a/clone", "dir_info": {"editable": True}}, "uel-harness @ file:///a/clone"),
-        ({"url": "file:///a/uel.whl", "archive_info": {}}, "uel-harness @ file:///a/uel.whl"),
+        (None, f"uel=={metadata.version('uel')}"),
+        ({"url": "file:///a/clone", "dir_info": {"editable": True}}, "uel @ file:///a/clone"),
+        ({"url": "file:///a/uel.whl", "archive_info": {}}, "uel @ file:///a/uel.whl"),
         (
             {"url": "https://a.b/c.git", "vcs_info": {"vcs": "git", "commit_id": "0123abc"}},
-            "uel-harness @ git+https://a.b/c.git@0123abc",
+            "uel @ git+https://a.b/c.git@0123abc",
         ),
     ],
     ids=["index", "folder", "wheel", "git"],
 )
 def test_requirement_is_what_was_installed(tmp_path, monkeypatch, record, expected):
     """No name that an index might not have: the records are those of PEP 610."""
-    installed = type(metadata.distribution("uel-harness"))
+    installed = type(metadata.distribution("uel"))
     text = None if record is None else json.dumps(record)
     read = installed.read_text
     monkeypatch.setattr(

@@ -9,13 +9,13 @@ from pathlib import Path
 import pytest
 from small_decks import pulled, snapping
 
-from harness import run
-from harness.cli import main
-from harness.deck import read_deck
-from harness.errors import UelError
-from harness.report import report
-from harness.report.model_tables import property_tables
-from harness.usersub.layout import element_layouts
+from uel import run
+from uel.cli import main
+from uel.deck import read_deck
+from uel.errors import UelError
+from uel.report import report
+from uel.report.model_tables import property_tables
+from uel.usersub.layout import element_layouts
 
 FOLDER = Path(__file__).parents[1]
 FLAT = FOLDER.parents[1] / "abaqus_inputs" / "patch_horizontal" / "flat_u2.inp"

@@ -5,13 +5,13 @@
 import numpy as np
 import pytest
 
-from harness.assembly import Evaluation
-from harness.elements import Call, Flags
-from harness.errors import SingularMatrixError
-from harness.model.steps import LineSearchControls
-from harness.solver import descent
-from harness.solver.descent import Descent, Majoriser
-from harness.solver.newton import Increment
+from uel.assembly import Evaluation
+from uel.elements import Call, Flags
+from uel.errors import SingularMatrixError
+from uel.model.steps import LineSearchControls
+from uel.solver import descent
+from uel.solver.descent import Descent, Majoriser
+from uel.solver.newton import Increment
 
 CALL = Call(Flags(1), 1, 1, 1.0, 1.0, 1.0, 1.0)
 

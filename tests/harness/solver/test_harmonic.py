@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy import sparse
 
-from harness.errors import SingularMatrixError
-from harness.solver.harmonic import ComplexSolver
-from harness.solver.linear import available
+from uel.errors import SingularMatrixError
+from uel.solver.harmonic import ComplexSolver
+from uel.solver.linear import available
 
 SOLVERS = [row.name for row in available() if row.installed]
 

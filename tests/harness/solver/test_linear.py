@@ -13,14 +13,14 @@ from scipy import sparse
 from scipy.linalg import lu_factor, lu_solve
 from scipy.sparse.linalg import splu
 
-import harness
-from harness.errors import SingularMatrixError, UelError
-from harness.solver.linear import LinearSolver, available, choose, singular, superlu
-from harness.solver.linear.base import Pattern
-from harness.solver.linear.choice import SOLVERS
-from harness.solver.linear.mumps import MumpsSolver
-from harness.solver.linear.ordering import narrowest
-from harness.solver.linear.pardiso import FACTORISE, SYMMETRIC, PardisoError, call
+import uel
+from uel.errors import SingularMatrixError, UelError
+from uel.solver.linear import LinearSolver, available, choose, singular, superlu
+from uel.solver.linear.base import Pattern
+from uel.solver.linear.choice import SOLVERS
+from uel.solver.linear.mumps import MumpsSolver
+from uel.solver.linear.ordering import narrowest
+from uel.solver.linear.pardiso import FACTORISE, SYMMETRIC, PardisoError, call
 
 INSTALLED = [row.name for row in available() if row.installed]
 
@@ -312,7 +312,7 @@ def test_auto_takes_a_sparse_solver_on_a_square() -> None:
 
 
 def test_auto_takes_a_sparse_solver_where_the_band_would_fill_the_memory(monkeypatch) -> None:
-    from harness.solver.linear import choice  # noqa: PLC0415
+    from uel.solver.linear import choice  # noqa: PLC0415
 
     matrix, coordinates = clamped(100, 4)
     storage = 8 * matrix.shape[0] * (3 * 23 + 1)
@@ -325,8 +325,8 @@ def test_auto_takes_a_sparse_solver_where_the_band_would_fill_the_memory(monkeyp
 @pytest.mark.parametrize(("only", "slow", "advised"), [("superlu", 1, True), ("superlu", 10**9, False)])
 def test_slow_solver_advises_a_faster_one(tmp_path, monkeypatch, only, slow, advised) -> None:
     """A warning of the run, which the terminal shows too."""
-    from harness.output.ending import ending  # noqa: PLC0415
-    from harness.solver.linear import choice  # noqa: PLC0415
+    from uel.output.ending import ending  # noqa: PLC0415
+    from uel.solver.linear import choice  # noqa: PLC0415
 
     monkeypatch.setattr(choice, "SLOW", slow)
     monkeypatch.setattr(choice, "_obstacle", lambda solver: "" if solver.name == only else "not installed")
@@ -336,7 +336,7 @@ def test_slow_solver_advises_a_faster_one(tmp_path, monkeypatch, only, slow, adv
     text += "*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 4, 3, 5, 6, 8, 7\n*SOLID SECTION, ELSET=E, MATERIAL=M\n"
     text += "*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*STEP\n*STATIC\n1., 1.\n*BOUNDARY\n1, 1, 3\n2, 2, 3\n3, 3\n"
     (tmp_path / "brick.inp").write_text(f"{text}*CLOAD\n8, 1, 1.\n5, 1, -1.\n*END STEP\n")
-    result = harness.run(tmp_path / "brick.inp", output_dir=tmp_path)
+    result = uel.run(tmp_path / "brick.inp", output_dir=tmp_path)
     advice = "pardiso takes a third of the time of superlu for 18 unknowns: pip install pypardiso"
     assert (advice in result.warnings) == advised
     assert (f"warning: {advice}" in ending(result)) == advised
@@ -664,7 +664,7 @@ def test_mumps_without_memory_is_no_singular_matrix(code, error, monkeypatch) ->
 CUBE = """\
 import numpy as np
 from scipy import sparse
-from harness.solver.linear import choose
+from uel.solver.linear import choose
 one = sparse.diags_array([-1.0, 2.0, -1.0], offsets=[-1, 0, 1], shape=(24, 24))
 eye = sparse.eye_array(24)
 cube = sum(sparse.kron(sparse.kron(a, b), c) for a, b, c in ((one, eye, eye), (eye, one, eye), (eye, eye, one)))
@@ -748,7 +748,7 @@ def test_the_same_matrix_is_factorised_once(monkeypatch) -> None:
 
 
 def test_solver_that_is_not_installed_is_refused(monkeypatch) -> None:
-    from harness.solver.linear import choice  # noqa: PLC0415
+    from uel.solver.linear import choice  # noqa: PLC0415
 
     monkeypatch.setattr(
         choice, "_obstacle", lambda solver: f"{solver.distribution} is not installed" * (solver.name == "mumps")

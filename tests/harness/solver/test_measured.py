@@ -6,8 +6,8 @@ from itertools import groupby
 
 import scaling
 
-from harness.solver.linear.choice import SOLVERS
-from harness.solver.linear.measured import PAGE, Measured, page, read
+from uel.solver.linear.choice import SOLVERS
+from uel.solver.linear.measured import PAGE, Measured, page, read
 
 
 def test_page_has_the_rows_kept() -> None:

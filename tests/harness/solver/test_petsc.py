@@ -8,11 +8,11 @@ import numpy as np
 from scipy import sparse
 from small_decks import body_lines
 
-from harness import usersub
-from harness.assembly import System
-from harness.deck import read_deck
-from harness.elements import Call, Flags, build_blocks
-from harness.solver.linear import petsc
+from uel import usersub
+from uel.assembly import System
+from uel.deck import read_deck
+from uel.elements import Call, Flags, build_blocks
+from uel.solver.linear import petsc
 
 BRICKS = np.array([[x, y, z] for x in (0.0, 2.0, 3.5) for y in (0.0, 1.0) for z in (0.0, 1.5)])
 NODES = [[0, 4, 6, 2, 1, 5, 7, 3], [4, 8, 10, 6, 5, 9, 11, 7]]

@@ -3,7 +3,7 @@
 import scipy.linalg  # noqa: F401 (brings its own OpenBLAS)
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from harness.solver.threads import one_blas_thread
+from uel.solver.threads import one_blas_thread
 
 
 def openblas_threads() -> set[int]:

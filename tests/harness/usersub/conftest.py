@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import pytest
 
-from harness import usersub
+from uel import usersub
 
 
 @pytest.fixture(autouse=True)
 def cache(tmp_path, monkeypatch):
     """Every test compiles anew, into its own cache folder."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    return tmp_path / "cache" / "uel-harness" / "compiled"
+    return tmp_path / "cache" / "uel" / "compiled"
 
 
 @pytest.fixture

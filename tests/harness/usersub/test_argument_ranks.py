@@ -5,8 +5,8 @@
 import pytest
 from user_database import database, note, said
 
-from harness import usersub
-from harness.usersub import suspicions
+from uel import usersub
+from uel.usersub import suspicions
 
 FILL = "      subroutine fill(a, x)\n      implicit real*8(a-h,o-z)\n      dimension a(3), x(3)\n      a = x\n"
 WARNING = (

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from harness.usersub._extension import host
+from uel.usersub._extension import host
 
 ROOT = Path(__file__).parents[3]
 
@@ -15,11 +15,11 @@ ROOT = Path(__file__).parents[3]
 def test_types_of_the_host_are_those_of_its_declarations():
     """Else `python fortran/host/stub.py` has to be run, and mypy says which calls lack an argument."""
     written = runpy.run_path(str(ROOT / "fortran" / "host" / "stub.py"))["stub"]()
-    assert (ROOT / "harness" / "usersub" / "_host.pyi").read_text(encoding="utf-8") == written
+    assert (ROOT / "harness" / "uel" / "usersub" / "_host.pyi").read_text(encoding="utf-8") == written
 
 
 def test_compiled_host_has_what_the_types_say():
-    declared = (ROOT / "harness" / "usersub" / "_host.pyi").read_text(encoding="utf-8").split("def ")[1:]
+    declared = (ROOT / "harness" / "uel" / "usersub" / "_host.pyi").read_text(encoding="utf-8").split("def ")[1:]
     compiled = {name for name in dir(host) if name.startswith("host_")}
     assert {text.partition("(")[0] for text in declared} == compiled
 

@@ -12,16 +12,16 @@ from pathlib import Path
 import pytest
 from user_database import database, note, said
 
-from harness import usersub
-from harness.errors import CompileError
-from harness.usersub import cache as store
-from harness.usersub import compiler
+from uel import usersub
+from uel.errors import CompileError
+from uel.usersub.compilation import cache as store
+from uel.usersub.compilation import compiler
 
 VALUE = "      i = {}\n"
 SCRIPT = """\
 import os, sys
 from pathlib import Path
-from harness import usersub
+from uel import usersub
 library = usersub.load(Path("user.f"), job=f"job{os.getpid()}", output_dir=Path(sys.argv[1]))
 library.external_database(0, 0, (0.0, 0.0), 0.0, 1, 0)
 print([message.text for message in library.messages()])
@@ -188,7 +188,7 @@ def test_ten_processes_at_once(tmp_path):
     processes = [run_apart(tmp_path, XDG_CACHE_HOME=str(tmp_path / "cache")) for _ in range(10)]
     for process in processes:
         good(process)
-    left = sorted(file.suffix for file in (tmp_path / "cache" / "uel-harness" / "compiled").iterdir())
+    left = sorted(file.suffix for file in (tmp_path / "cache" / "uel" / "compiled").iterdir())
     assert set(left) == {".json", ".so"}
     assert left.count(".json") == left.count(".so")
 

@@ -5,7 +5,7 @@
 import pytest
 from user_database import database, note, said
 
-from harness.errors import CompileError
+from uel.errors import CompileError
 
 
 def test_logicals_compared_with_eq_compile_in_a_copy(load, tmp_path):

@@ -8,9 +8,9 @@ import subprocess
 import pytest
 from user_database import database, note, said
 
-from harness import usersub
-from harness.errors import CompileError
-from harness.usersub import suspicions
+from uel import usersub
+from uel.errors import CompileError
+from uel.usersub import suspicions
 
 
 def test_fixed_form_has_132_columns(load):

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from harness.cli import main
-from harness.errors import CallLimitError, KernelError
-from harness.job import run
-from harness.usersub import trap
-from harness.usersub.units import with_open_bounds
+from uel.cli import main
+from uel.errors import CallLimitError, KernelError
+from uel.running.job import run
+from uel.usersub import trap
+from uel.usersub.compilation.units import with_open_bounds
 
 ARGUMENTS = (
     "rhs,amatrx,svars,energy,ndofel,nrhs,nsvars,props,nprops,coords,mcrd,nnode,u,du,v,a,jtype,time,dtime,kstep,kinc,jelem,"

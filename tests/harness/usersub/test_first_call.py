@@ -15,7 +15,7 @@ USER = """\
 CALL = """\
 import sys
 from pathlib import Path
-from harness import usersub
+from uel import usersub
 library = usersub.load(Path(sys.argv[1]), job="job", output_dir=Path(sys.argv[2]))
 library.external_database(2, 1, (1.5, 2.5), 0.25, 3, 4)
 print(library.messages()[0].text)

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import pytest
 
-from harness.usersub.guards import ARRAYS, UNSET, guard_values, set_guard_values
+from uel.usersub.guards import ARRAYS, UNSET, guard_values, set_guard_values
 
 
 def test_guards_hold_the_values_given_and_then_the_old_ones() -> None:

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from harness import usersub
-from harness.errors import CompileError, DeckError
-from harness.job import run
+from uel import usersub
+from uel.errors import CompileError, DeckError
+from uel.running.job import run
 
 HERE = Path(__file__).parent
 NOTE = """

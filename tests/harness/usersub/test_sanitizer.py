@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from harness import sanitizer
-from harness.isolation import supervise
-from harness.sanitizer import NoSanitizerError, environment
+from uel.running import sanitizer
+from uel.running.isolation import supervise
+from uel.running.sanitizer import NoSanitizerError, environment
 
 FORTRAN = f"""\
       module store
@@ -176,8 +176,8 @@ CASES = [
 ]
 RUNS = """\
 import json, sys
-from harness.errors import UelError
-from harness.job import run
+from uel.errors import UelError
+from uel.running.job import run
 said = {}
 for name, way, debug in json.loads(sys.argv[1]):
     try:
@@ -249,7 +249,7 @@ def files(tmp_path):
 def test_commands(variables, files, tmp_path):
     source, deck = files
     expected = f"in UEL, my_uel.for line {line_of('my_uel.for', 'add')} (ADD): it reads outside the variable 'table'"
-    command = [sys.executable, "-m", "harness.cli"]
+    command = [sys.executable, "-m", "uel.cli"]
     run = [*command, "run", str(deck), "--user", str(source), "--debug", "--quiet", "--output-dir", str(tmp_path)]
     ended = subprocess.run(run, capture_output=True, text=True, check=False, timeout=300)
     assert ended.returncode == 1

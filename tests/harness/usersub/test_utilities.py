@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from harness.errors import UelError
-from harness.usersub import _host
+from uel.errors import UelError
+from uel.usersub import _host
 
 HOST = ctypes.CDLL(_host.__file__)
 RNG = np.random.default_rng(7)
@@ -247,7 +247,7 @@ def test_prints_to_units_6_and_7_become_messages(load, tmp_path):
 
 
 def test_prints_that_memory_does_not_hold_stay_on_disk(load, tmp_path, monkeypatch):
-    monkeypatch.setattr("harness.usersub.messages.MOST", 30)
+    monkeypatch.setattr("uel.usersub.messages.MOST", 30)
     library = load(program("      do k = 1, 4\n        write(7,'(a)') 'a line of twenty '\n      end do\n"))
     library.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)
     warning, text = library.messages()

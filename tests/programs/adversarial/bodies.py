@@ -15,8 +15,8 @@ from typing import Final
 import numpy as np
 from reference_cells import patch_of
 
-from harness.delamination.kernels import uel_property, user_element
-from harness.model.element_types import (
+from uel.delamination.kernels import uel_property, user_element
+from uel.model.element_types import (
     BEAM,
     CONTINUUM,
     CONTINUUM_SHELL,

@@ -29,13 +29,14 @@ sys.path.extend(str(ROOT / "tests" / folder) for folder in ("harness", "programs
 import mpiexec  # noqa: E402
 from bodies import ANGLE, Body, Frame, Lines, bodies, numbers, rotation  # noqa: E402
 
-from harness import job, usersub  # noqa: E402
-from harness.assembly import System  # noqa: E402
-from harness.deck import read_deck  # noqa: E402
-from harness.elements import Call, Flags, build_blocks  # noqa: E402
-from harness.errors import UelError  # noqa: E402
-from harness.output import Result  # noqa: E402
-from harness.parallel.launch import launched  # noqa: E402
+from uel import usersub  # noqa: E402
+from uel.assembly import System  # noqa: E402
+from uel.deck import read_deck  # noqa: E402
+from uel.elements import Call, Flags, build_blocks  # noqa: E402
+from uel.errors import UelError  # noqa: E402
+from uel.output import Result  # noqa: E402
+from uel.parallel.launch import launched  # noqa: E402
+from uel.running import job  # noqa: E402
 
 History = Mapping[str, np.ndarray]
 """Values (increments, nodes, components) by the name of the variable."""
@@ -61,7 +62,7 @@ EXPLAINED: Final = (
     (
         "turned",
         ("C3D8R",),
-        "Abaqus' hourglass stiffness of C3D8R differs along the global directions (host_hourglass.f90)",
+        "Abaqus' hourglass stiffness of C3D8R differs along the global directions (host/elements/solid/hourglass.f90)",
     ),
     ("both", ("C3D8R",), "as turned"),
     ("frequencies turned", ("C3D8R",), "as turned"),
@@ -347,7 +348,7 @@ def compare_ranks(chosen: Sequence[Body], folder: Path) -> Iterator[Row]:
 
 def run_decks(names: Sequence[str]) -> None:
     """Run decks of the current folder on the ranks of this process; what one is refused with goes to a file."""
-    from harness.parallel.mpi import MpiRanks  # noqa: PLC0415 (starts MPI)
+    from uel.parallel.mpi import MpiRanks  # noqa: PLC0415 (starts MPI)
 
     class Staying(MpiRanks):
         """Ranks that stay together after a job."""

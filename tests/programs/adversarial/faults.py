@@ -24,10 +24,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-import harness.project
-from harness.check.apart import examine_apart
-from harness.check.finding import Verdict
-from harness.errors import UelError
+import uel.project
+from uel.check.apart import examine_apart
+from uel.check.finding import Verdict
+from uel.errors import UelError
 
 HERE: Final = Path(__file__).parent
 ELEMENTS: Final = HERE / "elements"
@@ -105,7 +105,7 @@ def elements() -> Iterator[str]:
 def written(element: str, folder: Path, fault: Fault | None = None) -> tuple[Path, Path]:
     """Source and deck of an element in a folder, with the mistake in them."""
     if element == "quad":
-        harness.project.create(folder / "quad")
+        uel.project.create(folder / "quad")
         source, deck = folder / "quad" / "quad.for", folder / "quad" / "quad.inp"
     else:
         source, deck = folder / f"{element}.f", folder / f"{element}.inp"

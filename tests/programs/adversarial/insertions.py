@@ -22,12 +22,12 @@ from pathlib import Path
 
 import numpy as np
 
-from harness import run
-from harness.deck.reader import read_deck
-from harness.errors import UelError
-from harness.insertion.command import insert
-from harness.insertion.selection import Wanted
-from harness.model.element_types import CONTINUUM
+from uel import run
+from uel.deck.reader import read_deck
+from uel.errors import UelError
+from uel.insertion.command import insert
+from uel.insertion.selection import Wanted
+from uel.model.element_types import CONTINUUM
 
 KINDS = (
     *("CPS4", "CPE4", "CPS4I", "CPS3", "CPS8", "CPE8R", "CPS6", "CPS4R"),

@@ -39,9 +39,9 @@ from rewriting import (
     rewrite,
 )
 
-from harness import job
-from harness.deck import read_deck
-from harness.output import Result
+from uel.deck import read_deck
+from uel.output import Result
+from uel.running import job
 
 ROOT = Path(__file__).parents[3]
 UNITS = (Units("m, kg, s (Pa)", 1e-3, 1e3, 1.0), Units("mm, kg, ms (GPa)", 1.0, 1e3, 1e3))
@@ -251,7 +251,7 @@ def threaded(case: Case, folder: Path, threads: int) -> Answer:
     deck = folder / "job.inp"
     deck.write_text(rewrite(case.deck, properties=case.properties))
     names = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
-    command = [sys.executable, "-m", "harness.cli", "run", str(deck), "--quiet", "--output-dir", str(folder)]
+    command = [sys.executable, "-m", "uel.cli", "run", str(deck), "--quiet", "--output-dir", str(folder)]
     user = ["--user", str(case.user)] if case.user else []
     subprocess.run([*command, *user], env=os.environ | dict.fromkeys(names, str(threads)), check=True)
     return answer(Result(folder / "job"), deck)

@@ -23,8 +23,8 @@ from pathlib import Path
 
 from readable import complaints
 
-from harness.output import Result
-from harness.output.sta_file import NOT_COMPLETED
+from uel.output import Result
+from uel.output.files.sta_file import NOT_COMPLETED
 
 SOURCE = Path(__file__).parents[3] / "abaqus_inputs" / "patch_horizontal"
 SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
@@ -60,7 +60,7 @@ def trial(number: int, seed: int, longest: float) -> list[str]:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         deck = write_deck(folder)
-        command = [sys.executable, "-m", "harness.cli", "run", deck.name, "--quiet"]
+        command = [sys.executable, "-m", "uel.cli", "run", deck.name, "--quiet"]
         with _forking:
             run = subprocess.Popen(command, cwd=folder, stderr=subprocess.PIPE, text=True, start_new_session=True)
         time.sleep(chance.uniform(0.0, longest))
@@ -102,7 +102,7 @@ def _child(parent: int) -> int | None:
     """The process of a run, by its module: importing an editable installation briefly starts another child."""
     with suppress(OSError):
         for word in Path(f"/proc/{parent}/task/{parent}/children").read_text().split():
-            if b"harness.apart" in Path(f"/proc/{word}/cmdline").read_bytes():
+            if b"uel.running.apart" in Path(f"/proc/{word}/cmdline").read_bytes():
                 return int(word)
     return None
 
@@ -134,7 +134,7 @@ def main(count: int, jobs: int, seed: int, longest: float) -> int:
     """Make the trials; returns the number that found something."""
     # from now on the cache has the compiled files
     with tempfile.TemporaryDirectory() as name:
-        command = [sys.executable, "-m", "harness.cli", "run", str(write_deck(Path(name))), "--quiet"]
+        command = [sys.executable, "-m", "uel.cli", "run", str(write_deck(Path(name))), "--quiet"]
         subprocess.run([*command, "--output-dir", name], check=True)
     bad = 0
     with ThreadPoolExecutor(jobs) as pool:

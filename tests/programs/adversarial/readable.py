@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 
 import meshio
 
-from harness.output import Result
+from uel.output import Result
 
 TEXTS = (".sta", ".msg", ".dat", "_history.csv", "_interface.csv")
 

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from random import Random
 
-from harness.deck.blocks import Block, Row
-from harness.deck.error_report import Problems
-from harness.deck.keywords import KEYWORDS
-from harness.deck.lexer import read_blocks
+from uel.deck.error_report import Problems
+from uel.deck.keywords import KEYWORDS
+from uel.deck.language.blocks import Block, Row
+from uel.deck.language.lexer import read_blocks
 
 Dimension = tuple[int, int, int]
 """Exponents of length, mass and time."""

@@ -31,18 +31,18 @@ from rich.table import Table
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from harness import usersub
-from harness.assembly import Constraints, System, TolerantSystem
-from harness.deck import read_deck
-from harness.elements import Call, ElementBlock, Flags, build_blocks
-from harness.model.arrays import FloatArray
-from harness.model.mesh import ElementGroup
-from harness.model.model import Model
-from harness.model.records import IncrementDone, IterationDone
-from harness.model.restart import Saved
-from harness.procedures import run_steps
-from harness.solver.linear import available, choose
-from harness.solver.threads import one_blas_thread
+from uel import usersub
+from uel.assembly import Constraints, System, TolerantSystem
+from uel.deck import read_deck
+from uel.elements import Call, ElementBlock, Flags, build_blocks
+from uel.model.arrays import FloatArray
+from uel.model.mesh import ElementGroup
+from uel.model.model import Model
+from uel.model.records import IncrementDone, IterationDone
+from uel.model.restart import Saved
+from uel.procedures import run_steps
+from uel.solver.linear import available, choose
+from uel.solver.threads import one_blas_thread
 
 DECK = Path(__file__).parents[3] / "abaqus_inputs" / "dcb_ref" / "dcb_ref.inp"
 LARGEST_ITERATION = 1.5

@@ -23,17 +23,17 @@ from bench import DECK, in_turns, judged
 from rich.console import Console
 from scipy.linalg.lapack import dgbtrf, dgbtrs
 
-from harness import usersub
-from harness.assembly import Constraints, System, TolerantSystem
-from harness.deck import read_deck
-from harness.elements import Call, Flags, build_blocks
-from harness.model.arrays import FloatArray
-from harness.model.model import Model
-from harness.model.records import IncrementDone, IterationDone
-from harness.procedures import run_steps
-from harness.solver.linear.base import Pattern
-from harness.solver.linear.ordering import narrowest
-from harness.solver.threads import one_blas_thread
+from uel import usersub
+from uel.assembly import Constraints, System, TolerantSystem
+from uel.deck import read_deck
+from uel.elements import Call, Flags, build_blocks
+from uel.model.arrays import FloatArray
+from uel.model.model import Model
+from uel.model.records import IncrementDone, IterationDone
+from uel.procedures import run_steps
+from uel.solver.linear.base import Pattern
+from uel.solver.linear.ordering import narrowest
+from uel.solver.threads import one_blas_thread
 
 ITERATIONS = 673
 """Of a prototype in numpy: Newton's method with a search along a line, viscosity 3e-6, 4 cutbacks."""

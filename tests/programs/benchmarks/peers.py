@@ -31,9 +31,9 @@ from bench import DECK
 from rich.console import Console
 from rich.table import Table
 
-from harness.deck import read_deck
-from harness.model.arrays import IntArray
-from harness.model.model import Model
+from uel.deck import read_deck
+from uel.model.arrays import IntArray
+from uel.model.model import Model
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[2]

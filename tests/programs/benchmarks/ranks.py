@@ -23,8 +23,8 @@ from mpiexec import MPIEXEC, variables
 from rich.console import Console
 from rich.table import Table
 
-from harness.delamination.bricks import STANDARD, dcb_of_bricks
-from harness.output import Result
+from uel.output import Result
+from uel.paper.bricks import STANDARD, dcb_of_bricks
 
 BRICKS = (240, 16, 3)
 RANKS = 2
@@ -51,7 +51,7 @@ def measure(ranks: int, bricks: tuple[int, int, int], solver: str, *, nlgeom: bo
             deck = deck.replace("*STEP, ", "*STEP, NLGEOM=YES, ")
         (folder / "dcb.inp").write_text(deck)
         launcher = [str(MPIEXEC), "-n", str(ranks)] if ranks > 1 else []
-        words = [*launcher, sys.executable, "-m", "harness", "run", "dcb.inp", "--quiet", "--solver", solver]
+        words = [*launcher, sys.executable, "-m", "uel", "run", "dcb.inp", "--quiet", "--solver", solver]
         start = time.perf_counter()
         subprocess.run(words, cwd=folder, env=variables(), check=True)
         taken, result = time.perf_counter() - start, Result(folder / "dcb")

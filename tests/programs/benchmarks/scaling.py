@@ -6,7 +6,7 @@ Each beam runs in a process of its own, with the solver that `auto` takes, on on
 in the plane (the standard element), Krueger's specimen in space (U8 of infinite stiffness), fine around the front
 ("3D") or along the whole path of the crack ("3D, path"). In space ten increments go through the onset of the crack. An
 iteration is judged against a factorisation in full and a solution of its own matrix with the same solver. Times are
-those of the processor. With --write the rows replace those of scaling.json, and harness/solver/linear/solvers.md is
+those of the processor. With --write the rows replace those of scaling.json, and harness/uel/solver/linear/solvers.md is
 written again.
 """
 
@@ -31,15 +31,16 @@ import rich.table
 from rich.console import Console
 from solvers import in_plane
 
-from harness import usersub
-from harness.assembly import Constraints, System, TolerantSystem
-from harness.deck import read_deck
-from harness.delamination import literature, markdown
-from harness.elements import Call, Flags
-from harness.model.arrays import FloatArray
-from harness.model.model import Model
-from harness.solver.linear import LinearSolver, choose, measured
-from harness.solver.threads import one_blas_thread
+from uel import usersub
+from uel.assembly import Constraints, System, TolerantSystem
+from uel.deck import read_deck
+from uel.delamination import markdown
+from uel.elements import Call, Flags
+from uel.model.arrays import FloatArray
+from uel.model.model import Model
+from uel.paper import literature
+from uel.solver.linear import LinearSolver, choose, measured
+from uel.solver.threads import one_blas_thread
 
 ROWS = Path(__file__).with_name("scaling.json")
 BEGIN = "<!-- rows of tests/programs/benchmarks/scaling.py -->"

@@ -5,8 +5,8 @@
 CPU times of one process, so that other load counts little, with the threads that the environment allows. The solvers
 take turns, and each figure is the median of three: a machine that is slow for a second does not favour one of them. A
 matrix is that of the first pass. In part: the stiffness of the first elements of the interface is halved, and restored.
-In full: all entries change. With --write the rows replace those of harness/solver/linear/measured.json, and
-harness/solver/linear/solvers.md is written again; --kept writes the page of the rows that are there.
+In full: all entries change. With --write the rows replace those of harness/uel/solver/linear/measured.json, and
+harness/uel/solver/linear/solvers.md is written again; --kept writes the page of the rows that are there.
 """
 
 from __future__ import annotations
@@ -27,22 +27,23 @@ from rich.console import Console
 from scipy import sparse
 from scipy.sparse.linalg import LinearOperator, cg, gmres
 
-from harness import usersub
-from harness.assembly import Constraints, System, TolerantSystem
-from harness.deck import read_deck
-from harness.delamination import literature, specimens
-from harness.delamination.blocks import BY_EQUATION_21, Interface
-from harness.delamination.decks import DCB_REF_INCREMENTS
-from harness.delamination.materials import TABLE_2
-from harness.delamination.mesh import refined
-from harness.elements import Call, Flags
-from harness.model.arrays import FloatArray
-from harness.solver.linear import LinearSolver, available, choose
-from harness.solver.linear.base import Pattern
-from harness.solver.linear.choice import LARGEST_BAND
-from harness.solver.linear.measured import Measured, machine, read, write
-from harness.solver.linear.ordering import narrowest
-from harness.solver.threads import one_blas_thread
+from uel import usersub
+from uel.assembly import Constraints, System, TolerantSystem
+from uel.deck import read_deck
+from uel.delamination import specimens
+from uel.delamination.blocks import BY_EQUATION_21, Interface
+from uel.delamination.materials import TABLE_2
+from uel.delamination.mesh import refined
+from uel.elements import Call, Flags
+from uel.model.arrays import FloatArray
+from uel.paper import literature
+from uel.paper.decks import DCB_REF_INCREMENTS
+from uel.solver.linear import LinearSolver, available, choose
+from uel.solver.linear.base import Pattern
+from uel.solver.linear.choice import LARGEST_BAND
+from uel.solver.linear.measured import Measured, machine, read, write
+from uel.solver.linear.ordering import narrowest
+from uel.solver.threads import one_blas_thread
 
 ZONE = 1.5
 """Length (mm) of the process zone, behind the tip of the crack, in which the interface changes."""
@@ -271,7 +272,9 @@ def main() -> int:
     """Run the command; returns the exit code."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--largest", type=int, default=200_000, help="unknowns of the largest matrix (200000)")
-    parser.add_argument("--write", action="store_true", help="replace the rows and the page in harness/solver/linear")
+    parser.add_argument(
+        "--write", action="store_true", help="replace the rows and the page in harness/uel/solver/linear"
+    )
     parser.add_argument("--kept", action="store_true", help="measure nothing: write the page of the rows kept")
     options = parser.parse_args()
     if options.kept:

@@ -23,9 +23,9 @@ from rich.console import Console
 from rich.table import Table
 from solvers import in_plane
 
-import harness
-from harness.delamination import specimens
-from harness.delamination.steps import Increments
+import uel
+from uel.delamination import specimens
+from uel.delamination.steps import Increments
 
 FACTOR = 6
 """Each quad of DCB-ref is cut into FACTOR x FACTOR ones: 172,800, and 3,090 interface elements."""
@@ -33,7 +33,7 @@ TURNS = 12
 LIBRARIES = (
     "import os; os.environ['OPENBLAS_NUM_THREADS'] = '1'; import numpy, scipy.linalg, scipy.sparse.linalg, meshio"
 )
-READ = "import sys; from pathlib import Path; import harness.deck; harness.deck.read_deck(Path(sys.argv[1]))"
+READ = "import sys; from pathlib import Path; import uel.deck; uel.deck.read_deck(Path(sys.argv[1]))"
 
 
 def environment(folder: Path) -> Path:
@@ -43,7 +43,7 @@ def environment(folder: Path) -> Path:
     """
     venv.create(folder, with_pip=False)
     packages = Path(sysconfig.get_path("purelib", vars={"base": str(folder), "platbase": str(folder)}))
-    packages.joinpath("all.pth").write_text(f"{Path(harness.__file__).parents[1]}\n{sysconfig.get_path('purelib')}\n")
+    packages.joinpath("all.pth").write_text(f"{Path(uel.__file__).parents[1]}\n{sysconfig.get_path('purelib')}\n")
     return folder / "bin" / "python"
 
 
@@ -74,12 +74,12 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         python = str(environment(folder / "environment"))
-        uel = [python, "-m", "harness"]
+        command = [python, "-m", "uel"]
         large = str(in_plane(FACTOR, "U2", folder))
         cases: dict[str, tuple[float, list[str]]] = {
             "numpy, scipy and meshio alone": (np.inf, [python, "-c", LIBRARIES]),
-            "uel --help": (0.3, [*uel, "--help"]),
-            "uel run: 110 elements, 10 increments": (1.0, [*uel, "run", str(small(folder)), "--quiet"]),
+            "uel --help": (0.3, [*command, "--help"]),
+            "uel run: 110 elements, 10 increments": (1.0, [*command, "run", str(small(folder)), "--quiet"]),
             "reading 175,890 elements, imports included": (2.0, [python, "-c", READ, large]),
         }
         times = np.array([[seconds(command, folder) for _, command in cases.values()] for _ in range(TURNS + 1)])[1:]

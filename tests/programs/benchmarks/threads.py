@@ -28,12 +28,12 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from harness import usersub
-from harness.assembly import System
-from harness.deck import read_deck
-from harness.delamination.bricks import CONSISTENT, STANDARD, dcb_of_bricks
-from harness.elements import Call, Flags, build_blocks
-from harness.model.arrays import FloatArray
+from uel import usersub
+from uel.assembly import System
+from uel.deck import read_deck
+from uel.elements import Call, Flags, build_blocks
+from uel.model.arrays import FloatArray
+from uel.paper.bricks import CONSISTENT, STANDARD, dcb_of_bricks
 
 BRICKS = (120, 8, 2)
 BLOCKS = 2

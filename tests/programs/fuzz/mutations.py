@@ -8,8 +8,8 @@ import re
 from collections.abc import Callable, Sequence
 from random import Random
 
-from harness.deck.keywords import KEYWORDS
-from harness.deck.table import Keyword, Kind
+from uel.deck.keywords import KEYWORDS
+from uel.deck.language.table import Keyword, Kind
 
 NUMBERS = (
     *("", "0", "-1", "1", "-0.", "1e400", "-1e400", "1e308", "1e-320", "NaN", "inf", "-Infinity", "1d5", "1.E", "."),

@@ -20,17 +20,17 @@ from typing import Any
 from corpus import DECK, Case
 from mutations import ODD_FILES
 
-from harness import job
-from harness.assembly import System
-from harness.deck import read_deck
-from harness.errors import DeckError, UelError
-from harness.model.records import AttemptAbandoned, IncrementDone, Record
-from harness.procedures import run_steps
+from uel.assembly import System
+from uel.deck import read_deck
+from uel.errors import DeckError, UelError
+from uel.model.records import AttemptAbandoned, IncrementDone, Record
+from uel.procedures import run_steps
+from uel.running import job
 
 MOST_UNKNOWNS = 2000
 """A model with more is read, checked and built, but not solved."""
 _PLACE = re.compile(r"[^:]+:\d+: \S")
-OWN_FRAME = re.compile(r'File ".*/(harness/\S+\.py)", line (\d+)')
+OWN_FRAME = re.compile(r'File ".*/(harness/uel/\S+\.py)", line (\d+)')
 
 
 def first_attempt(system: System, *arguments: Any, **options: Any) -> Iterator[Record]:

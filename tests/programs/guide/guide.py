@@ -23,9 +23,9 @@ import sys
 import tempfile
 from pathlib import Path
 
-from harness.cli import main as uel
+from uel.cli import main as uel
 
-GUIDE = Path(__file__).parents[3] / "harness" / "project" / "ten-minutes.md"
+GUIDE = Path(__file__).parents[3] / "harness" / "uel" / "project" / "ten-minutes.md"
 COLUMNS = "110"
 _CONTINUES = re.compile(r"^<!-- continues (\S+) -->$", re.MULTILINE)
 _BLOCK = re.compile(r"^```(?P<language>\w+)(?: (?P<file>\S+))?\n(?P<body>.*?)^```$", re.MULTILINE | re.DOTALL)

@@ -24,10 +24,10 @@ HEAD = """\
 # What the checker finds in public user elements
 
 `uel check` on codes that others wrote for Abaqus, with their decks, unmodified. Their files are not part of this
-repository; `python tests/programs/public/check_table.py FOLDER -o harness/check/public-uels.md` writes this page from a
-folder of checkouts, by [the manifest](../../tests/programs/public/manifest.toml). A finding is not always a mistake: an
-approximate AMATRX can be deliberate, and an axisymmetric element resists translation. [This page](README.md) describes
-each check.
+repository; `python tests/programs/public/check_table.py FOLDER -o harness/uel/check/public-uels.md` writes this page
+from a folder of checkouts, by [the manifest](../../../tests/programs/public/manifest.toml). A finding is not always a
+mistake: an approximate AMATRX can be deliberate, and an axisymmetric element resists translation. [This
+page](README.md) describes each check.
 
 | code | deck | type | passed | failed | cause, where somebody looked for it |
 |---|---|---|---|---|---|
@@ -54,7 +54,7 @@ def check(folder: Path, row: Row, seconds: float) -> dict[str, Any]:
     with tempfile.TemporaryDirectory() as output:
         file = Path(output) / "findings.json"
         files = [str(root / name) for name in [*row["sources"], row["deck"]]]
-        command = [sys.executable, "-m", "harness.cli", "check", *files, "--json", str(file)]
+        command = [sys.executable, "-m", "uel.cli", "check", *files, "--json", str(file)]
         try:
             # user routines may write into the current folder
             done = subprocess.run(command, cwd=output, capture_output=True, text=True, timeout=seconds, check=False)

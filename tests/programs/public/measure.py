@@ -19,15 +19,15 @@ from typing import Any
 
 import numpy as np
 
-from harness import usersub
-from harness.assembly import TolerantSystem
-from harness.deck import read_deck
-from harness.errors import UelError
-from harness.model.model import Model
-from harness.model.records import AttemptAbandoned, IncrementDone, Solution
-from harness.output.sta_file import read_status
-from harness.procedures import run_steps
-from harness.usersub import guard_values
+from uel import usersub
+from uel.assembly import TolerantSystem
+from uel.deck import read_deck
+from uel.errors import UelError
+from uel.model.model import Model
+from uel.model.records import AttemptAbandoned, IncrementDone, Solution
+from uel.output.files.sta_file import read_status
+from uel.procedures import run_steps
+from uel.usersub import guard_values
 
 MANIFEST = Path(__file__).with_name("manifest.toml")
 Row = dict[str, Any]

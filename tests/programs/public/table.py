@@ -27,12 +27,12 @@ HEAD = """\
 # Public user elements, unmodified
 
 Codes that others wrote for Abaqus, with their decks, run by this harness as they are. Their files are not part of this
-repository; `python tests/programs/public/table.py FOLDER -o harness/usersub/public-uels.md` writes this page from a
-folder of checkouts, by [the manifest](../../tests/programs/public/manifest.toml). Grade of the expected value: **T**
+repository; `python tests/programs/public/table.py FOLDER -o harness/uel/usersub/public-uels.md` writes this page from a
+folder of checkouts, by [the manifest](../../../tests/programs/public/manifest.toml). Grade of the expected value: **T**
 theory, **A** real Abaqus, **M** the stored result of another code, **B** this harness' built-in element of the same
 formulation in place of the user's, in a second run (which shows that the harness drives both alike), **Q** an
 independent quick host: for small strains (plausibility only), or
-[kirigami.py](../../tests/programs/public/kirigami.py), which only uses the element's energy density.
+[kirigami.py](../../../tests/programs/public/kirigami.py), which only uses the element's energy density.
 
 """
 TABLE = """\

@@ -7,16 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from harness.errors import Source
-from harness.model.damage import Damage, DamageEvolution
-from harness.model.mesh import ElementGroup
-from harness.model.properties import (
-    CohesiveSection,
-    Elastic,
-    ElasticType,
-    Material,
-    SectionControls,
-)
+from uel.errors import Source
+from uel.model.damage import Damage, DamageEvolution
+from uel.model.mesh import ElementGroup
+from uel.model.properties import CohesiveSection, Elastic, ElasticType, Material, SectionControls
 
 SOURCE = Source("test.inp", 7)
 LENGTH, WIDTH = 2.0, 5.0

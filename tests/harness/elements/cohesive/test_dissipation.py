@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 import pytest
 
-from harness.model.properties import SectionControls
+from uel.model.properties import SectionControls
 
 STIFFNESS, ONSET, TOUGHNESS = (1e4, 1e4, 1e4), (30.0, 60.0, 50.0), (0.26, 1.002, 0.8)
 TABLE = (0.0, 0.2, 0.004, 0.7, 0.006, 0.7, 0.015, 1.0)

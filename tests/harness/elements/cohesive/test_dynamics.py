@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import harness
-from harness.elements import Request
+import uel
+from uel.elements import Request
 
 STIFFNESS, AREA, MASS, VELOCITY, SIZE = 100.0, 4.0, 0.5, 0.6, 0.02
 """Per area, of the whole layer, of each node on it; velocity at the start; time increment."""
@@ -54,7 +54,7 @@ def run(tmp_path):
         values |= {"mass": mass, "thickness": thickness}
         text = DECK.format(alpha=alpha, damage=damage, nlgeom=nlgeom, **values)
         (tmp_path / "layer.inp").write_text(text.replace("\n\n", "\n"))
-        return harness.run(tmp_path / "layer.inp", output_dir=tmp_path).history
+        return uel.run(tmp_path / "layer.inp", output_dir=tmp_path).history
 
     return run
 

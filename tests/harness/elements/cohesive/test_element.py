@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from harness.errors import KernelError
-from harness.model.element_types import COHESIVE
-from harness.model.properties import SectionControls
+from uel.errors import KernelError
+from uel.model.element_types import COHESIVE
+from uel.model.properties import SectionControls
 
 TYPES = ("COH2D4", "COH3D8")
 EXPONENTIAL = ("ENERGY", "EXPONENTIAL", "BK", (0.26, 1.002, 0.8), 1.8)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from harness.elements import Flags
+from uel.elements import Flags
 
 TYPES = ("COH2D4", "COH3D8")
 

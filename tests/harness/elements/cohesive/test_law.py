@@ -11,9 +11,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from harness.errors import KernelError, Source
-from harness.model.damage import DamageEvolution
-from harness.model.properties import SectionControls
+from uel.errors import KernelError, Source
+from uel.model.damage import DamageEvolution
+from uel.model.properties import SectionControls
 
 STIFFNESS, ONSET, TOUGHNESS = (1e4, 1e4, 1e4), (30.0, 60.0, 50.0), (0.26, 1.002, 0.8)
 ENERGY, DISPLACEMENT = "ENERGY", "DISPLACEMENT"
@@ -130,7 +130,7 @@ def test_damage_of_the_manual(layer, element_type, evolution):
 def test_mode_mix_is_that_at_the_start_of_the_increment(layer, element_type, evolution):
     """That of the fracture energy; the onset is that of the present separation. A point at rest has the present one.
 
-    harness/procedures/fidelity.md has the evidence. In compression only shear counts.
+    harness/uel/procedures/fidelity.md has the evidence. In compression only shear counts.
     """
     law, stiffness = evolution_of(evolution), (1e4, 2e4, 2e4)
     dimension = 3 if element_type == "COH3D8" else 2

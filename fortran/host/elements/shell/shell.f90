@@ -1,0 +1,361 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Built-in conventional shells (S3, S3R, S4, S4R, S8R) as a procedure with the arguments of UELMAT.
+!> harness/uel/elements/families/shell.py gives what they need.
+!>
+!> JPROPS: family of the surface (host_shape), its integration points, section points, 1 with *ORIENTATION; then those of
+!> host_shell_section. PROPS are there; values of the element are the stiffness against drilling and the place of the middle
+!> surface.
+!>
+!> Transverse shear is elastic, and not that of the section points (Analysis User's Guide, Shell section behavior): its
+!> stiffness comes with the factor 1/(1 + slenderness area/thickness^2). It and the drilling are integrated fully, the shear of
+!> eight nodes at the integration points. S4R has one point, for the shear as well, and the hourglass control and the drilling of
+!> host_shell_hourglass. With the enhanced control its hourglass modes have the stiffness that the elastic section has in S4.
+!>
+!> PROPS end with two moduli of the hourglass control, zero where there is none or an enhanced one.
+!>
+!> With NLGEOM all of it is in axes that turn with the element (host_corotation), of eight nodes with its points
+!> (host_shell_directors).
+!>
+!> SVARS hold the values of the section points; in dynamic analyses then the forces of the last two increments; then the directions
+!> of each integration point, with *ORIENTATION (host_axes); last the director of each node.
+module host_shell
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
+  use host_axes, only: values_of_axes
+  use host_context, only: added_stress, stress_matrix
+  use host_corotation, only: corotation_t, local_motion, turn_back
+  use host_inertia, only: respond
+  use host_kinds, only: dp, i4
+  use host_polar, only: polar_axes, step
+  use host_shape, only: parent_place, rule_of, rule_t
+  use host_shell_directors, only: director_stiffness, director_strains, mean_directors, shell_stress
+  use host_shell_hourglass, only: drilling_of_corners, hourglass_of_shell
+  use host_shell_section, only: add_section_points, elastic_section, identity, integrate_section, motion_t, operators_t, &
+                                prepare_operators, report_shape, section_head, set_direction, shear_energy, &
+                                shear_matrix, shear_stiffness, values_of_section_point
+  use host_shell_strains, only: by_rotations, drilling_strain, enhance, shell_middle, shell_point, shell_strains
+  implicit none (type, external)
+  private
+  public :: shell_uelmat
+
+  !> Motion of an element.
+  type, extends(motion_t) :: shell_motion
+    type(shell_point) :: middle             !< at the start
+    real(dp), allocatable :: before(:, :)   !< (8, points) strains before the increment, of host_shell_directors
+    real(dp), allocatable :: drill(:)       !< drilling strains of host_shell_directors
+  end type shell_motion
+
+contains
+
+  subroutine shell_uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
+                          v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
+                          lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period, materiallib)
+    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
+                   lflags(*), mlvarx, mdload, jprops(*), njprop, materiallib
+    real(dp), target :: svars(*)
+    real(dp) :: rhs(*), amatrx(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
+                params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
+    real(dp), pointer, contiguous :: axes(:, :, :, :)
+    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2), change(ndofel), shear(2, 2), stored(2)
+    integer :: n, first, behind
+    logical :: directors
+    type(operators_t) :: at_points, full
+    type(shell_motion) :: motion
+    type(shell_stress) :: stress
+    n = ndofel
+    first = jprops(2)*jprops(3)*values_of_section_point + 1
+    behind = nsvars + 1 - 3*nnode
+    axes => null()
+    if (jprops(4) /= 0) then
+      behind = behind - values_of_axes*jprops(2)
+      call c_f_pointer(c_loc(svars(behind)), axes, [3, 3, 2, int(jprops(2))])
+    end if
+    old = 0
+    if (behind > first) old = reshape(svars(first:behind - 1), [n, 2])
+    call prepare(int(jprops(:4)), int(nnode), n, coords, svars(nsvars - 3*nnode + 1), props, axes, at_points, full)
+    mass = 0
+    call add_mass(int(nnode), props(1), props(2), props(8), full%point, mass)
+    rhs(1:n*nrhs) = 0
+    amatrx(1:n*n) = 0
+    if (lflags(3) /= 3 .and. lflags(3) /= 4) then
+      ! no time passes where the matrix of a stress is asked for: DU is a perturbation
+      change = du(:n)
+      if (stress_matrix(lflags(3))) change = 0
+      shear = shear_stiffness(props, sum(full%point%weight))
+      directors = nnode == 8 .and. lflags(2) /= 0
+      if (directors) then
+        motion = motion_of_directors(int(nnode), coords, svars(nsvars - 3*nnode + 1), at_points, full%point, u, change)
+        stored = [shear_energy(at_points, shear, motion%before), shear_energy(at_points, shear, motion%strain)]
+        energy(6) = 0.5_dp*props(3)*sum(full%point%weight*motion%drill**2)
+      else
+        motion = motion_of(int(nnode), n, coords, at_points, u, change, lflags(2) /= 0)
+        call add_elastic(int(nnode), n, coords, svars(nsvars - 3*nnode + 1), props, props(nprops - 1), shear, at_points, full, &
+                         motion, rhs, amatrx, stored, energy(6))
+      end if
+      energy(2) = energy(2) - stored(1)
+      call integrate_section(rule_of(int(jprops(1)), int(jprops(2))), int(jprops(3)), jprops(5), props(section_head + 1), shear, &
+                             at_points, int(npredf), predef, motion, stress, svars, energy, &
+                             sqrt(sum(full%point%weight))*merge(0.5_dp, 1.0_dp, nnode == 8))
+      energy(2) = energy(2) + stored(2)
+      stress%drilling = props(3)
+      if (directors) stress%drill = props(3)*motion%drill
+      if (directors .or. (nnode == 8 .and. stress_matrix(lflags(3)))) then
+        call turn_directors(int(nnode), n, lflags, coords, svars(nsvars - 3*nnode + 1), at_points%point, full%point, u, du, &
+                            stress, rhs, amatrx)
+      else
+        call add_section_points(n, at_points, stress, rhs, amatrx)
+        if (stress_matrix(lflags(3))) then
+          call turn_stress(int(nnode), n, lflags, coords, motion%middle, u, du, rhs, amatrx)
+        else if (lflags(2) /= 0) then
+          call turn_back(int(nnode), coords, motion%middle%frame, motion%middle%gradient(:nnode, :), u, rhs, amatrx)
+        end if
+      end if
+    end if
+    call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
+    if (behind > first) svars(first:behind - 1) = reshape(old, [2*n])
+  end subroutine shell_uelmat
+
+  !> Displacements and rotations, with NLGEOM without the rotation of the element, and their strains.
+  pure function motion_of(nodes, n, x, at, u, du, large) result(found)
+    integer, intent(in) :: nodes, n
+    real(dp), intent(in) :: x(3, nodes), u(n), du(n)
+    type(operators_t), intent(in) :: at
+    logical, intent(in) :: large
+    type(shell_motion) :: found
+    type(corotation_t) :: before, now
+    real(dp) :: moved(6, nodes), gradient(nodes, 2), turn(3, 3), turn_before(3, 3)
+    integer :: p
+    moved = reshape(u, [6, nodes])
+    found%middle = shell_middle(nodes, x)
+    found%u = u
+    found%old = u - du
+    found%x = x
+    turn = identity
+    turn_before = identity
+    if (large) then
+      gradient = found%middle%gradient(:nodes, :)
+      before = local_motion(nodes, x, found%middle%frame, gradient, cmplx(reshape(found%old, [6, nodes]), kind=dp))
+      now = local_motion(nodes, x, found%middle%frame, gradient, cmplx(moved, kind=dp))
+      found%u = reshape(real(now%local, dp), [n])
+      found%old = reshape(real(before%local, dp), [n])
+      turn = real(now%rotation, dp)
+      turn_before = real(before%rotation, dp)
+      found%x = x + moved(:3, :)
+    end if
+    allocate (found%normal(3, size(at%point)), found%strain(8, size(at%point)), found%frame(3, 3, size(at%point)))
+    do p = 1, size(at%point)
+      found%normal(:, p) = matmul(turn, at%point(p)%frame(3, :))
+      found%frame(:, :, p) = matmul(at%point(p)%frame, transpose(turn_before))
+      found%strain(:, p) = matmul(at%b(:, :, p), found%u)
+    end do
+  end function motion_of
+
+  !> Strains of a shell whose directors turn.
+  pure function motion_of_directors(nodes, x, v, at, full, u, du) result(found)
+    integer, intent(in) :: nodes
+    real(dp), intent(in) :: x(3, nodes), v(3, nodes), u(6, nodes), du(6, nodes)
+    type(operators_t), intent(in) :: at
+    type(shell_point), intent(in) :: full(:)
+    type(shell_motion) :: found
+    complex(dp) :: strains(8, size(at%point)), drill(size(full))
+    integer :: p
+    found%x = x + u(:3, :)
+    found%normal = mean_directors(nodes, x, v, at%point, u)
+    call director_strains(nodes, x, v, at%point, full, cmplx(u - du, kind=dp), strains, drill)
+    found%before = real(strains, dp)
+    call director_strains(nodes, x, v, at%point, full, cmplx(u, kind=dp), strains, drill)
+    found%strain = real(strains, dp)
+    found%drill = real(drill, dp)
+    allocate (found%frame(3, 3, size(at%point)))
+    do p = 1, size(at%point)
+      associate (along => matmul(x + u(:3, :) - du(:3, :), at%point(p)%gradient(:nodes, :)))
+        found%frame(:, :, p) = transpose(real(polar_axes(cmplx(along, kind=dp)), dp))
+      end associate
+    end do
+  end function motion_of_directors
+
+  !> The matrix of a stress (host_context), from the forces and the stiffness by the motion of an element: what its forces change by
+  !> as it turns.
+  pure subroutine turn_stress(nodes, n, lflags, x, middle, u, du, force, stiffness)
+    integer, intent(in) :: nodes, n
+    integer(i4), intent(in) :: lflags(3)
+    real(dp), intent(in) :: x(3, nodes), u(n), du(n)
+    type(shell_point), intent(in) :: middle
+    real(dp), intent(inout) :: force(n), stiffness(n, n)
+    complex(dp) :: moved(n)
+    real(dp) :: at(n), gradient(nodes, 2)
+    type(corotation_t) :: now
+    gradient = middle%gradient(:nodes, :)
+    at = 0
+    if (lflags(2) /= 0) at = u
+    if (lflags(3) == added_stress) then
+      moved = cmplx(at, step*du, dp)
+      now = local_motion(nodes, x, middle%frame, gradient, reshape(moved, [6, nodes]))
+      force = matmul(stiffness, reshape(aimag(now%local), [n]))/step
+    end if
+    stiffness = 0
+    call turn_back(nodes, x, middle%frame, gradient, at, force, stiffness)
+  end subroutine turn_stress
+
+  !> Forces and stiffness of a shell whose directors turn, or the matrix of its stress.
+  pure subroutine turn_directors(nodes, n, lflags, x, v, points, full, u, du, stress, force, stiffness)
+    integer, intent(in) :: nodes, n
+    integer(i4), intent(in) :: lflags(3)
+    real(dp), intent(in) :: x(3, nodes), v(3, nodes), u(n), du(n)
+    type(shell_point), intent(in) :: points(:), full(:)
+    type(shell_stress), intent(inout) :: stress
+    real(dp), intent(out) :: force(n), stiffness(n, n)
+    complex(dp) :: moved(6, nodes), strains(8, size(points)), drill(size(full))
+    real(dp) :: at(n)
+    integer :: p
+    at = 0
+    if (lflags(2) /= 0) at = u
+    if (stress_matrix(lflags(3))) then
+      if (lflags(3) == added_stress) then
+        moved = reshape(cmplx(at, step*du, dp), [6, nodes])
+        call director_strains(nodes, x, v, points, full, moved, strains, drill)
+        do p = 1, size(points)
+          stress%force(:, p) = matmul(stress%modulus(:, :, p), aimag(strains(:, p)))/step
+        end do
+        stress%drill = stress%drilling*aimag(drill)/step
+      else if (lflags(2) == 0) then
+        call director_strains(nodes, x, v, points, full, reshape(cmplx(at, step*u, dp), [6, nodes]), strains, drill)
+        stress%drill = stress%drilling*aimag(drill)/step
+      end if
+      stress%modulus = 0
+      stress%drilling = 0
+    end if
+    call director_stiffness(nodes, x, v, points, full, reshape(at, [6, nodes]), stress, force, stiffness)
+  end subroutine turn_directors
+
+  !> Operators at the integration points, and at those of full integration. Leaves the pass if the surface is folded.
+  subroutine prepare(kind, nodes, n, x, v, props, axes, at_points, full)
+    integer, intent(in) :: kind(4), nodes, n
+    real(dp), intent(in) :: x(3, nodes), v(3, nodes), props(section_head)
+    real(dp), intent(in), pointer, contiguous :: axes(:, :, :, :)
+    type(operators_t), intent(out) :: at_points, full
+    integer :: points
+    call find_operators(rule_of(kind(1), kind(2)), n, x, v, props, axes, at_points)
+    points = merge(9, nodes, nodes == 8)
+    if (kind(2) == points) then
+      full = at_points
+    else
+      call find_operators(rule_of(kind(1), points), n, x, v, props, axes, full)
+    end if
+  end subroutine prepare
+
+  !> axes: of the integration points; the first ones count where there are more points.
+  subroutine find_operators(rule, n, x, v, props, axes, found)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(3, rule%nodes), v(3, rule%nodes), props(section_head)
+    real(dp), intent(in), pointer, contiguous :: axes(:, :, :, :)
+    type(operators_t), intent(out) :: found
+    real(dp) :: membrane(3, 3, rule%points), elastic(6, 6), b(8, 6, rule%nodes)
+    integer :: p
+    elastic = elastic_section(props)
+    call prepare_operators(8, n, rule%points, found)
+    do p = 1, rule%points
+      call shell_strains(rule%nodes, x, v, parent_place(rule, p), rule%weight(p), found%point(p), b)
+      if (.not. found%point(p)%good) call report_shape(p)
+      found%b(:, :, p) = reshape(by_rotations(rule%nodes, v, b), [8, n])
+      call set_direction(found, p, axes)
+      membrane(:, :, p) = matmul(transpose(found%turn(:, :, p)), matmul(elastic(:3, :3), found%turn(:, :, p)))
+    end do
+    if (rule%nodes == 4 .and. rule%points > 1) call enhance(found%point, membrane, found%b)
+  end subroutine find_operators
+
+  !> Mass, with the rotary inertia of the thickness for all rotations: lumped, of eight nodes consistent.
+  pure subroutine add_mass(nodes, thickness, density, middle, points, mass)
+    integer, intent(in) :: nodes
+    real(dp), intent(in) :: thickness, density, middle
+    type(shell_point), intent(in) :: points(:)
+    real(dp), intent(inout) :: mass(6, nodes, 6, nodes)
+    real(dp) :: area(nodes, nodes), inertia
+    integer :: i, k, p
+    area = 0
+    do p = 1, size(points)
+      associate (shape => points(p)%n(:nodes))
+        if (nodes == 8) then
+          area = area + points(p)%weight*spread(shape, 2, nodes)*spread(shape, 1, nodes)
+        else
+          do k = 1, nodes
+            area(k, k) = area(k, k) + points(p)%weight*shape(k)
+          end do
+        end if
+      end associate
+    end do
+    do i = 1, 6
+      inertia = density*thickness*merge(1.0_dp, thickness**2/12 + middle**2, i <= 3)
+      mass(i, :, i, :) = inertia*area
+    end do
+  end subroutine add_mass
+
+  !> What is linear: transverse shear, drilling, and hourglass modes of four nodes with one point.
+  subroutine add_elastic(nodes, n, x, v, props, moduli, k, at_points, full, motion, force, stiffness, stored, spurious)
+    integer, intent(in) :: nodes, n
+    real(dp), intent(in) :: x(3, nodes), v(3, nodes), props(section_head), k(2, 2)
+    real(dp), intent(in) :: moduli(2)      !< of the hourglass control
+    type(operators_t), intent(in) :: at_points, full
+    type(shell_motion), intent(in) :: motion
+    real(dp), intent(inout) :: force(n), stiffness(n, n)
+    real(dp), intent(out) :: stored(2)     !< energy of the shear, before and now
+    real(dp), intent(out) :: spurious      !< energy of drilling and hourglass modes
+    real(dp) :: shear(n, n), artificial(n, n), drill(n), area
+    logical :: reduced
+    integer :: p
+    artificial = 0
+    reduced = nodes == 4 .and. size(at_points%point) == 1
+    if (nodes == 8 .or. (reduced .and. any(moduli > 0))) then
+      shear = shear_matrix(at_points, n, k)
+    else
+      shear = shear_matrix(full, n, k)
+    end if
+    if (reduced) then
+      area = sum(full%point%weight)
+      artificial = drilling_of_corners(x, motion%middle, area, props(1), props(3))
+      if (any(moduli > 0)) then
+        artificial = artificial + hourglass_of_shell(x, v, motion%middle, area, moduli, 0.5_dp*(k(1, 1) + k(2, 2)), &
+                                                     at_points%b(7:8, :, 1))
+      else
+        artificial = artificial + hourglass_stiffness(n, elastic_section(props), at_points, full)
+      end if
+    else
+      do p = 1, size(full%point)
+        drill = reshape(drilling_strain(nodes, full%point(p)), [n])
+        artificial = artificial + full%point(p)%weight*props(3)*spread(drill, 2, n)*spread(drill, 1, n)
+      end do
+    end if
+    stiffness = stiffness + shear + artificial
+    associate (u => motion%u, old => motion%old)
+      force = force + matmul(shear + artificial, u)
+      stored = 0.5_dp*[dot_product(old, matmul(shear, old)), dot_product(u, matmul(shear, u))]
+      spurious = 0.5_dp*dot_product(u, matmul(artificial, u))
+    end associate
+  end subroutine add_elastic
+
+  !> Enhanced stiffness of hourglass modes: what the elastic section has at the points of full integration more than at the only
+  !> point.
+  pure function hourglass_stiffness(n, elastic, at_points, full) result(stiffness)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: elastic(6, 6)
+    class(operators_t), intent(in) :: at_points, full
+    real(dp) :: stiffness(n, n)
+    integer :: p
+    stiffness = -section_matrix(n, elastic, at_points, 1)
+    do p = 1, size(full%point)
+      stiffness = stiffness + section_matrix(n, elastic, full, p)
+    end do
+  end function hourglass_stiffness
+
+  !> Stiffness of the elastic section at a point.
+  pure function section_matrix(n, elastic, operators, p) result(stiffness)
+    integer, intent(in) :: n, p
+    real(dp), intent(in) :: elastic(6, 6)
+    class(operators_t), intent(in) :: operators
+    real(dp) :: stiffness(n, n), b(6, n)
+    b(:3, :) = matmul(operators%turn(:, :, p), operators%b(:3, :, p))
+    b(4:, :) = matmul(operators%turn(:, :, p), operators%b(4:6, :, p))
+    stiffness = operators%point(p)%weight*matmul(transpose(b), matmul(elastic, b))
+  end function section_matrix
+end module host_shell

@@ -1,8 +1,0 @@
-# SPDX-FileCopyrightText: The uel-harness authors
-# SPDX-License-Identifier: BSD-3-Clause
-"""Abaqus input decks: keyword table, lexer and reader."""
-
-from harness.deck.lexer import Survey
-from harness.deck.reader import part_of, read_deck, survey_deck, survey_restart
-
-__all__ = ["Survey", "part_of", "read_deck", "survey_deck", "survey_restart"]

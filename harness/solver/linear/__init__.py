@@ -1,9 +1,0 @@
-# SPDX-FileCopyrightText: The uel-harness authors
-# SPDX-License-Identifier: BSD-3-Clause
-"""Linear solvers: LAPACK's band solver, PARDISO, MUMPS, SuperLU; several ranks together."""
-
-from harness.solver.linear.base import Effort, LinearSolver, Pattern
-from harness.solver.linear.choice import Availability, available, choose
-from harness.solver.linear.ranks import RankSolver, with_ranks
-
-__all__ = ["Availability", "Effort", "LinearSolver", "Pattern", "RankSolver", "available", "choose", "with_ranks"]

@@ -1,0 +1,11 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""From elements to a system of equations: numbering, sparsity, scatter, constraints."""
+
+from uel.assembly.constraints import Constraints
+from uel.assembly.dofs import DofMap
+from uel.assembly.system import Evaluation, System
+from uel.assembly.tolerant import TolerantSystem
+from uel.assembly.turning import TurningConstraints
+
+__all__ = ["Constraints", "DofMap", "Evaluation", "System", "TolerantSystem", "TurningConstraints"]

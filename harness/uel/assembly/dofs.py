@@ -1,0 +1,165 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbering of the unknowns: which node and dof each of them is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Self, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.contact import ContactBlock
+from uel.elements import COUPLED, MULTIPLIER, PRESSURE, REFERENCE, DistributingBlock, ElementBlock, field_of
+from uel.model.arrays import ComplexArray, FloatArray, IntArray
+from uel.model.mesh import Mesh, full_name
+from uel.model.model import Equation, dof_in_deck, is_local
+
+Forces = TypeVar("Forces", FloatArray, ComplexArray)
+Block = ElementBlock | ContactBlock | DistributingBlock
+
+
+@dataclass(frozen=True, slots=True)
+class DofMap:
+    """Unknowns of a model, ordered by node, then by dof; those of elements, contact points and couplings, which are of
+    no node, come last.
+
+    node  (n,) node index of each unknown; the elements of the model follow the nodes, then its contact points
+          and distributing couplings
+    dof   (n,) its dof, as Abaqus numbers them (1-3 displacements, ...)
+    field (n,) its field, index into FIELD_NAMES
+    coordinates  (n, 3) original coordinates of its node, or of the middle of its element
+    """
+
+    mesh: Mesh
+    node: IntArray
+    dof: IntArray
+    field: IntArray
+    coordinates: FloatArray
+    _keys: IntArray
+    _base: int
+    _elements: dict[int, str]
+    _local: tuple[IntArray, IntArray, FloatArray]
+
+    @classmethod
+    def build(cls, mesh: Mesh, blocks: Sequence[Block], equations: Sequence[Equation] = ()) -> Self:
+        """Collect unknowns of elements, contact pairs and distributing couplings, and of *EQUATION.
+
+        Reference nodes need not belong to an element.
+        """
+        nodes = [np.zeros(0, dtype=np.int64)]
+        dofs = [np.zeros(0, dtype=np.int64)]
+        elements: dict[int, str] = {}
+        middles: dict[int, FloatArray] = {}
+        for block in blocks:
+            for local, dof in block.unknowns:
+                used = np.unique(_positions(mesh, block, local))
+                nodes.append(used)
+                dofs.append(np.full(len(used), dof))
+            if any(dof >= PRESSURE for _, dof in block.unknowns):
+                own = _positions(mesh, block, block.group.nodes.shape[1]).tolist()
+                names = _names(block) if isinstance(block, ElementBlock) else block.names
+                elements |= dict(zip(own, names, strict=True))
+                middles |= dict(zip(own, mesh.coordinates[block.group.nodes].mean(axis=1), strict=True))
+        terms = np.array([(node, dof) for equation in equations for node, dof, _ in equation.terms], dtype=np.int64)
+        nodes.append(terms.reshape(-1, 2)[:, 0])
+        dofs.append(terms.reshape(-1, 2)[:, 1])
+        all_dofs = np.concatenate(dofs)
+        base = int(all_dofs.max(initial=0)) + 1
+        keys = np.unique(np.concatenate(nodes) * base + all_dofs)
+        fields = np.array([field_of(dof) for dof in range(base)])
+        owners, numbers = keys // base, keys % base
+        # unknowns of elements come last
+        last = np.searchsorted(owners, len(mesh.labels))
+        others = [middles[owner] for owner in owners[last:].tolist()]
+        places = np.vstack([mesh.coordinates[owners[:last]], *others])
+        turning = [equation.terms for equation in equations if is_local(equation.terms[0][1])]
+        pairs = [(first[0] * base + first[1], node * base + dof) for first, *terms in turning for node, dof, _ in terms]
+        along, into = np.searchsorted(keys, np.array(pairs, dtype=np.int64).reshape(-1, 2).T)
+        turned = along, into, np.array([-cosine for _, *terms in turning for _, _, cosine in terms])
+        return cls(mesh, owners, numbers, fields[numbers], places, keys, base, elements, turned)
+
+    def __len__(self) -> int:
+        return len(self.node)
+
+    @property
+    def of_nodes(self) -> NDArray[np.bool_]:
+        """(n,) whether an unknown is of a node, which moves in space and time; of an element or contact it is not."""
+        found: NDArray[np.bool_] = self.node < len(self.mesh.labels)
+        return found
+
+    def find(self, nodes: IntArray | int, dof: IntArray | int) -> IntArray:
+        """Unknowns of (node, dof) pairs.
+
+        Parameters
+        ----------
+        nodes, dof
+            Indices of nodes in the mesh, from 0, and dofs as Abaqus numbers them; broadcast against each other.
+
+        Returns
+        -------
+        IntArray
+            Numbers from 0, of the shape to which the arguments broadcast; -1 where no element or equation uses the dof.
+        """
+        keys = np.asarray(nodes, dtype=np.int64) * self._base + dof
+        if not len(self._keys):
+            return np.full(keys.shape, -1)
+        found = np.minimum(np.searchsorted(self._keys, keys), len(self._keys) - 1)
+        known = (self._keys[found] == keys) & (np.asarray(dof) < self._base)
+        return np.asarray(np.where(known, found, -1), dtype=np.int64)
+
+    def equations_of(self, block: Block) -> NDArray[np.int32]:
+        """The unknowns of each element of a block.
+
+        Parameters
+        ----------
+        block
+            One of those from which the map was built, or of faces of their elements.
+
+        Returns
+        -------
+        NDArray[np.int32]
+            (m, element unknowns) numbers from 0; a row has the order of `block.unknowns`.
+        """
+        columns = [self.find(_positions(self.mesh, block, local), dof) for local, dof in block.unknowns]
+        return np.stack(columns, axis=1).astype(np.int32)
+
+    def element(self, unknown: int) -> str:
+        """Name of the element that has an unknown, '' for one of a node."""
+        return self._elements.get(int(self.node[unknown]), "")
+
+    def name(self, unknown: int) -> tuple[str, int]:
+        """Node name and dof of an unknown, for messages; a pressure is one of its element, or of a contact point."""
+        if (number := int(self.dof[unknown]) - COUPLED) >= 0:
+            return f"{self.element(unknown)}, forces of its distributing coupling", number + 1
+        if int(self.dof[unknown]) == MULTIPLIER:
+            return f"{self.element(unknown)}, contact pressure", 1
+        if element := self.element(unknown):
+            return f"of element {element}, pressure", int(self.dof[unknown]) - PRESSURE + 1
+        return self.mesh.name(int(self.node[unknown])), dof_in_deck(int(self.dof[unknown]))
+
+    def in_global(self, forces: Forces) -> Forces:
+        """Forces (n,) with those along directions of *TRANSFORM added to the global components of their nodes."""
+        along, into, cosines = self._local
+        if not len(along):
+            return forces
+        turned = forces.copy()
+        np.add.at(turned, into, cosines * forces[along])
+        return turned
+
+
+def _names(block: ElementBlock) -> list[str]:
+    return [full_name(block.group.instance, label) for label in block.group.labels.tolist()]
+
+
+def _positions(mesh: Mesh, block: Block, local: int) -> IntArray:
+    """(m,) nodes with this local number, or the reference node; behind those of an element it is the element, which
+    follows all nodes."""
+    if local == REFERENCE and isinstance(block, ElementBlock):
+        return np.full(len(block.group.labels), block.group.reference)
+    if local < block.group.nodes.shape[1]:
+        return block.group.nodes[:, local]
+    positions: IntArray = len(mesh.labels) + block.first + block.rows
+    return positions

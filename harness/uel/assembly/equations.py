@@ -1,0 +1,204 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*EQUATION, and equations of other constraints: elimination of an unknown of each, chains resolved."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import sparse
+
+from uel.assembly.dofs import DofMap
+from uel.errors import DeckError, Source
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.model import Equation
+
+ROUNDING = 1e-12
+"""Part of the largest coefficient of an equation that is none after elimination."""
+
+
+@dataclass(frozen=True, slots=True)
+class Redundant:
+    """An equation of prescribed unknowns alone, after elimination: it must hold by itself.
+
+    unknown       the prescribed unknown of its first term
+    unknowns      (k,) those of all terms
+    coefficients  (k,) theirs
+    source        the constraint
+    """
+
+    unknown: int
+    unknowns: IntArray
+    coefficients: FloatArray
+    source: Source
+
+    def excess(self, u: FloatArray) -> float:
+        """Sum of the terms at unknowns (n,), over that of their absolute values."""
+        terms = self.coefficients * u[self.unknowns]
+        size = float(np.abs(terms).sum())
+        return abs(float(terms.sum())) / size if size else 0.0
+
+
+def eliminate(
+    dofs: DofMap, equations: Sequence[Equation], prescribed: IntArray
+) -> tuple[IntArray, sparse.csr_array, list[Redundant]]:
+    """Dependent unknowns and their coefficients on all others, and equations without a dependent unknown.
+
+    The dependent unknown of an equation is that of its first term; if that is prescribed, another one of the equation.
+
+    Parameters
+    ----------
+    dofs
+        Numbers of the unknowns.
+    equations
+        In the order of the deck.
+    prescribed
+        Unknowns with a given value.
+
+    Returns
+    -------
+    tuple[IntArray, sparse.csr_array, list[Redundant]]
+        The k unknowns that depend on others, and C, (k, n), with u[dependent] = C u; columns of dependent unknowns are
+        empty. Then the equations all of whose unknowns are prescribed, or those of several equations together.
+
+    Raises
+    ------
+    DeckError
+        An unknown is the first one of two equations, or depends on itself.
+    """
+    held = set(prescribed.tolist())
+    by_unknown: dict[int, int] = {}
+    terms = [_terms(dofs, equation) for equation in equations]
+    others: list[int] = []
+    for row, equation in enumerate(equations):
+        first = next(iter(terms[row]))
+        if terms[row][first] == 0.0:
+            raise DeckError(equation.source, f"the coefficient of the first term, {named(dofs, first)}, is zero")
+        if first in held:
+            others.append(row)
+        elif first in by_unknown:
+            raise DeckError(
+                equation.source,
+                f"over-constrained: {named(dofs, first)} is the first term of this constraint and of the one at "
+                f"{equations[by_unknown[first]].source}; it can be eliminated only once",
+            )
+        else:
+            by_unknown[first] = row
+    redundant = _choose_others(dofs, equations, terms, others, by_unknown, held)
+    rows: list[int] = []
+    columns: list[int] = []
+    values: list[float] = []
+    for number, (unknown, row) in enumerate(by_unknown.items()):
+        pivot = terms[row].pop(unknown)
+        rows += [number] * len(terms[row])
+        columns += terms[row].keys()
+        values += [-value / pivot for value in terms[row].values()]
+    dependent = np.array(list(by_unknown), dtype=np.int64)
+    shape = (len(dependent), len(dofs))
+    direct = sparse.coo_array((values, (rows, columns)), shape=shape).tocsr()
+    sources = [equations[row].source for row in by_unknown.values()]
+    return dependent, _resolve(dofs, sources, dependent, direct), redundant
+
+
+def _choose_others(
+    dofs: DofMap,
+    equations: Sequence[Equation],
+    terms: list[dict[int, float]],
+    rows: list[int],
+    by_unknown: dict[int, int],
+    held: set[int],
+) -> list[Redundant]:
+    """Dependent unknowns of equations whose first one is prescribed: Gaussian elimination, the largest term as pivot.
+
+    It replaces in `terms` what the equations before it have made dependent, so that the choice of one leaves an unknown
+    to the next, as the six equations of an average motion need. Returns the equations that have none left.
+    """
+    chosen: dict[int, dict[int, float]] = {}
+    redundant: list[Redundant] = []
+    for row in rows:
+        own = terms[row]
+        size = max(map(abs, own.values()))
+        for unknown, equation in chosen.items():
+            _replace(own, unknown, equation)
+        pivot = _largest(own, held, by_unknown)
+        for _ in equations:
+            dependent = [unknown for unknown in own if unknown in by_unknown]
+            if (pivot >= 0 and abs(own[pivot]) > ROUNDING * size) or not dependent:
+                break
+            # what these depend on may be free
+            for unknown in dependent:
+                _replace(own, unknown, _solved(terms[by_unknown[unknown]], unknown))
+            pivot = _largest(own, held, by_unknown)
+        if pivot < 0 or abs(own[pivot]) <= ROUNDING * size:
+            left = {unknown: value for unknown, value in own.items() if unknown in held}
+            node, dof, _ = equations[row].terms[0]
+            of_terms = np.array(list(left), dtype=np.int64), np.array(list(left.values()))
+            redundant.append(Redundant(int(dofs.find(node, dof)), *of_terms, equations[row].source))
+            continue
+        by_unknown[pivot] = row
+        chosen[pivot] = _solved(own, pivot)
+    return redundant
+
+
+def _replace(own: dict[int, float], unknown: int, equation: Mapping[int, float]) -> None:
+    """Replace an unknown of an equation by what it depends on."""
+    if factor := own.pop(unknown, 0.0):
+        for other, value in equation.items():
+            own[other] = own.get(other, 0.0) - factor * value
+
+
+def _largest(own: Mapping[int, float], held: set[int], dependent: Mapping[int, int]) -> int:
+    """Unknown with the largest coefficient of those that are neither prescribed nor dependent; -1 without any."""
+    left = [unknown for unknown in own if unknown not in held and unknown not in dependent]
+    return max(left, key=lambda unknown: abs(own[unknown]), default=-1)
+
+
+def _solved(own: Mapping[int, float], pivot: int) -> dict[int, float]:
+    """Coefficients of an equation without that of the pivot, over it."""
+    return {unknown: value / own[pivot] for unknown, value in own.items() if unknown != pivot}
+
+
+def _terms(dofs: DofMap, equation: Equation) -> dict[int, float]:
+    """Coefficient of each unknown, terms in order, repeated ones added."""
+    terms: dict[int, float] = {}
+    for node, dof, coefficient in equation.terms:
+        unknown = int(dofs.find(node, dof))
+        if unknown < 0:
+            raise DeckError(equation.source, f"no element uses dof {dof} of node {dofs.mesh.name(node)}")
+        terms[unknown] = terms.get(unknown, 0.0) + coefficient
+    return terms
+
+
+def _resolve(
+    dofs: DofMap, sources: Sequence[Source], dependent: IntArray, direct: sparse.csr_array
+) -> sparse.csr_array:
+    """Replace dependent unknowns on the right-hand sides by what they depend on: the sum of N^k D over k >= 0."""
+    between = direct[:, dependent]
+    if between.nnz == 0:
+        return direct
+    _, label = sparse.csgraph.connected_components(between, connection="strong")
+    same = np.bincount(label)[label] > 1
+    if same.any():
+        row = int(np.flatnonzero(same)[0])
+        others = ", ".join(str(sources[k]) for k in np.flatnonzero(label == label[row]).tolist() if k != row)
+        raise DeckError(
+            sources[row],
+            f"over-constrained: {named(dofs, int(dependent[row]))} depends on itself through the constraint "
+            f"at {others}",
+        )
+    keep = np.ones(len(dofs))
+    keep[dependent] = 0.0
+    term = direct @ sparse.diags_array(keep)
+    total = term
+    while (term := between @ term).nnz:
+        total = total + term
+    total.eliminate_zeros()
+    return sparse.csr_array(total)
+
+
+def named(dofs: DofMap, unknown: int) -> str:
+    """Name an unknown in messages."""
+    node, dof = dofs.name(unknown)
+    return f"node {node}, dof {dof}"

@@ -1,0 +1,75 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The system of an ordinary run, which goes on after mistakes of user elements that Abaqus does not notice."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from contextlib import suppress
+from typing import Any
+
+from uel.assembly.system import Evaluation, System
+from uel.contact import contact_blocks
+from uel.elements import Call, build_blocks, distributing_blocks
+from uel.errors import NotFiniteError
+from uel.model.arrays import FloatArray
+from uel.model.model import Model
+from uel.parallel.ranks import ALONE, Ranks
+from uel.usersub import ARRAYS, AS_GOOD_AS_ZERO, Library, guard_values, set_guard_values
+
+
+class TolerantSystem(System):
+    """A system whose elements may read outside their arrays: if that makes NaN, they read zeros from then on."""
+
+    def __init__(self, model: Model, library: Library, linear: Collection[str] = (), ranks: Ranks = ALONE) -> None:
+        """Blocks of all elements of a model; linear: types of user elements that the user says are linear."""
+        blocks = build_blocks(model, library, strict=False, zeros=True, linear=linear)
+        contacts = contact_blocks(model, blocks)
+        coupled = distributing_blocks(model, blocks, sum(len(pair.rows) for pair in contacts))
+        super().__init__(model.mesh, blocks, model.equations, contacts, coupled, spare_linear=True, ranks=ranks)
+        self._library = library
+        self._tolerated = False
+
+    def evaluate(self, call: Call, u: FloatArray, du: FloatArray, **options: Any) -> Evaluation:
+        """As that of a system; reads outside arrays give a warning, once.
+
+        After the warning guards hold values that are as good as zero, until the `guard_values` around the run ends.
+
+        Parameters
+        ----------
+        call, u, du
+            As in `System.evaluate`.
+        **options
+            `matrix`, `nrhs` and `motion`, as there.
+
+        Returns
+        -------
+        Evaluation
+            Sums over all elements.
+
+        Raises
+        ------
+        NotFiniteError
+            An element returns NaN, or infinity, and not because it reads outside its arrays.
+        KernelError, CallLimitError
+            As in `System.evaluate`.
+        """
+        try:
+            return super().evaluate(call, u, du, **options)
+        except NotFiniteError as error:
+            culprits = () if self._tolerated else self._read_outside(call, u, du, options)
+            if not culprits:
+                raise
+            self._tolerated = True
+            where = culprits[0] if len(culprits) == 1 else "its arrays"
+            self._library.warn(f"{error}: it reads outside {where}, see uel check; the run goes on with zeros there")
+        set_guard_values(dict.fromkeys(ARRAYS, AS_GOOD_AS_ZERO))
+        return super().evaluate(call, u, du, **options)
+
+    def _read_outside(self, call: Call, u: FloatArray, du: FloatArray, options: dict[str, Any]) -> tuple[str, ...]:
+        """The array outside which zero in place of NaN lets the pass succeed; all of them if several do."""
+        for names in (*((name,) for name in ARRAYS), ARRAYS):
+            with guard_values(dict.fromkeys(names, AS_GOOD_AS_ZERO)), suppress(NotFiniteError):
+                super().evaluate(call, u, du, **options)
+                return names
+        return ()

@@ -1,0 +1,92 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""One check per file; each takes a Subject and returns a Finding."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+from uel.check.checks import (
+    compiler,
+    debug,
+    energy,
+    history,
+    increments,
+    inputs,
+    loads,
+    local_variables,
+    memory,
+    no_time,
+    order,
+    own_run,
+    patch_test,
+    pnewdt,
+    repeat,
+    requests,
+    resources,
+    rest,
+    rotation,
+    shear,
+    state_rule,
+    symmetry,
+    tangent,
+    threads,
+    translation,
+    values,
+    zero_modes,
+)
+from uel.check.finding import Finding
+from uel.check.subject import Subject
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """A check: its name on the command line and in the table, and its function.
+
+    function  judges one element type; a KernelError from it is a failure if the element returns at random displacements
+    calls     it calls elements, so it needs a state
+    forces    it judges RHS and AMATRX, so it needs one at which they are not all zero
+    unless    name of another check whose failure would explain one of this check too; '' for none
+    """
+
+    name: str
+    function: Callable[[Subject], Finding]
+    calls: bool = True
+    forces: bool = False
+    unless: str = ""
+
+
+CHECKS: Final = (
+    Check("run", own_run.check, calls=False),
+    Check("values", values.check, calls=False),
+    Check("compiler", compiler.check, calls=False),
+    Check("resources", resources.check),
+    Check("filled", memory.check_filled),
+    Check("outside", memory.check_outside),
+    Check("undeclared", memory.check_undeclared),
+    Check("inputs", inputs.check),
+    Check("locals", local_variables.check),
+    Check("repeat", repeat.check),
+    Check("order", order.check, calls=False, unless="locals"),
+    Check("threads", threads.check),
+    Check("no-time", no_time.check),
+    Check("requests", requests.check),
+    Check("pnewdt", pnewdt.check),
+    Check("loads", loads.check),
+    Check("tangent", tangent.check, forces=True),
+    Check("symmetry", symmetry.check, forces=True),
+    Check("translation", translation.check, forces=True),
+    Check("rotation", rotation.check, forces=True, unless="translation"),
+    Check("zero-modes", zero_modes.check, forces=True, unless="translation"),
+    Check("shear", shear.check, forces=True, unless="translation"),
+    Check("rest", rest.check, forces=True, unless="repeat"),
+    Check("patch", patch_test.check, forces=True),
+    Check("energy", energy.check, forces=True),
+    Check("increments", increments.check, forces=True, unless="repeat"),
+    Check("state", state_rule.check, forces=True, unless="repeat"),
+    Check("history", history.check, forces=True, unless="repeat"),
+    Check("debug", debug.check, calls=False),
+)
+"""All checks, in the order of the table: what invalidates later ones comes first."""

@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The capacity that LFLAGS(3) = 4 returns in steps of heat transfer, against RHS: part of `requests`."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from uel.check.finding import Finding, failed, passed
+from uel.check.rigid_motions import ROTATIONS
+from uel.check.state import ElementState
+from uel.check.subject import Subject
+from uel.elements import Request
+from uel.model.arrays import FloatArray
+from uel.usersub import UNSET, guard_values
+
+TRANSIENT: Final = 32, 33, 72, 73
+"""LFLAGS(1) of transient heat transfer, uncoupled and coupled."""
+
+TOLERANCE: Final = 1e-6
+"""Of the sum of a capacity matrix: differences of RHS."""
+
+
+def check_capacity(subject: Subject, state: ElementState) -> Finding | None:
+    """Sums over each dof that is no displacement: one matrix may be lumped and the other consistent.
+
+    None if the element has no such dof, or returns no capacity with LFLAGS(3) = 4.
+    """
+    still = state.still()
+    with guard_values({UNSET: float("nan")}):
+        given = still.asked(Request.MASS).evaluate().amatrx
+    rates = _of_rates(subject, still)
+    judged = []
+    for dof in np.unique(subject.dofs[(subject.dofs > 3) & ~np.isin(subject.dofs, ROTATIONS)]).tolist():
+        block = np.ix_(subject.dofs == dof, subject.dofs == dof)
+        if not given[block].any():
+            continue
+        judged.append(str(dof))
+        one, other = float(given[block].sum()), float(rates[block].sum())
+        if abs(one - other) > TOLERANCE * max(np.abs(given[block]).sum(), np.abs(rates[block]).sum()):
+            return failed(
+                f"{still}: the entries of AMATRX with LFLAGS(3) = 4 for dof {dof} add up to {one:.6g}, the capacity in "
+                f"RHS to {other:.6g}",
+                "The capacity matrix is -dRHS/d(rate of dof): both have the same density, specific heat, thickness and "
+                "integration points, and add up to the heat that one degree takes.",
+                figure=one - other,
+            )
+    return passed(f"capacity of dof {', '.join(judged)} (4)") if judged else None
+
+
+def _of_rates(subject: Subject, state: ElementState) -> FloatArray:
+    """(n, n) -dRHS/d(DU/DTIME) with the same U."""
+    columns = []
+    for step in np.diag(subject.scales):
+        there, back = (replace(state, du=sign * step).evaluate(matrix=False).rhs[0] for sign in (1.0, -1.0))
+        columns.append((back - there) * state.call.time_increment / (2.0 * step.sum()))
+    return np.array(columns).T

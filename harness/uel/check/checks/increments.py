@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Dependence on the size of the increments."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from uel.check.finding import Finding, failed, not_applicable, passed
+from uel.check.pieces import in_pieces
+from uel.check.state import ElementState
+from uel.check.subject import NOT_MOVING, Subject
+from uel.model.arrays import FloatArray
+
+PIECES: Final = 1, 2, 8, 16
+"""Numbers of parts in which the increment is made."""
+
+CLOSER: Final = 0.75
+"""Of the first difference: if the last one is larger, nothing converges."""
+
+DYNAMIC: Final = "a dynamic step, whose forces include inertia: take a deck with a static step"
+
+TOLERANCE: Final = 1e-6
+"""Of the largest force: smaller differences count as zero."""
+
+LATER: Final = 3
+"""Number by which KINC is changed."""
+
+
+def check(subject: Subject) -> Finding:
+    """The forces of 16 and of 8 increments differ by less than those of 2 and of one."""
+    states = [state for state in subject.states if state.du.any() and not state.dynamic and state.call.time_increment]
+    if not states:
+        moves = any(state.du.any() for state in subject.states)
+        return not_applicable(DYNAMIC if moves else NOT_MOVING)
+    if (counted := next(filter(_depends_on_number, states), None)) is not None:
+        return failed(
+            f"{counted}: RHS changes if KINC is larger by {LATER} and all else is the same",
+            "KINC counts increments, whatever their size, and starts again in each step: use TIME, or a state in "
+            "SVARS. A test for the first increment, KINC = 1, has to hold in the first step only.",
+        )
+    largest = 0.0
+    for state in states:
+        once, twice, eight, sixteen = (_in_pieces(state, pieces) for pieces in PIECES)
+        size = max(float(np.abs(once).max()), float(np.abs(sixteen).max()), 1e-300)
+        first, last = (float(np.abs(pair).max()) / size for pair in (twice - once, sixteen - eight))
+        largest = max(largest, first)
+        if last > max(CLOSER * first, TOLERANCE):
+            message = (
+                f"{state}: the forces change by {100 * first:.3g} % if the increment is made in 2 parts instead of 1, "
+                f"and by {100 * last:.3g} % if it is made in 16 instead of 8"
+            )
+            advice = (
+                "Smaller increments have to converge to one solution. Look for something that is added in every call "
+                "regardless of DU and DTIME, for a rate without DTIME, and for SVARS on entry that are not those of "
+                "the last increment."
+            )
+            return failed(message, advice, figure=last, limit=CLOSER * first)
+    return passed(f"forces change by {100 * largest:.2g} % when the increment is halved, then by less", largest)
+
+
+def _depends_on_number(state: ElementState) -> bool:
+    """Whether RHS depends on KINC, apart from the first increment, in which an element may begin."""
+    if state.call.increment < 2:
+        return False
+    later = state.called(increment=state.call.increment + LATER)
+    return not np.array_equal(later.evaluate(matrix=False).rhs, state.evaluate(matrix=False).rhs)
+
+
+def _in_pieces(state: ElementState, pieces: int) -> FloatArray:
+    """Forces at the end of the increment, made in equal parts from its start."""
+    *_, last = in_pieces(state, [k / pieces for k in range(1, pieces + 1)])
+    forces: FloatArray = last.rhs[0]
+    return forces

@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Distributed loads of the deck reach the elements."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from uel.check.finding import Finding, failed, not_applicable, passed
+from uel.check.state import ElementState
+from uel.check.subject import Subject
+from uel.errors import KernelError
+
+TWICE: Final = 2.0
+"""Factor of the load, with which RHS has to change."""
+
+
+def check(subject: Subject) -> Finding:
+    """RHS changes with the magnitude of each load of type Un that the deck puts on an element."""
+    changes: dict[int, bool] = {}
+    where: dict[int, ElementState] = {}
+    for state in subject.states:
+        for kind in _kinds(state):
+            changes[kind] = changes.get(kind, False) or _changes(state, kind)
+            where.setdefault(kind, state)
+    if not changes:
+        return not_applicable(
+            "no loads on the elements: if UEL takes loads of type Un, take a deck with *DLOAD that gives a magnitude"
+        )
+    unread = [kind for kind, changed in changes.items() if not changed]
+    names = tuple(f"U{kind}" for kind in unread or changes)
+    if not unread:
+        return passed(f"RHS changes with the magnitude of {', '.join(names)}")
+    message = f"{where[unread[0]]}: RHS does not change when the magnitude of {', '.join(names)} is doubled"
+    advice = (
+        "*DLOAD of type Un arrives as JDLTYP(k,1) = n with the magnitude ADLMAG(k,1), for k from 1 to NDLOAD; add its "
+        "nodal forces to RHS, with a positive sign (DDLMAG is only the change of ADLMAG in this increment). Or remove "
+        "the load from the deck."
+    )
+    return failed(message, advice, entries=names)
+
+
+def _mine(state: ElementState) -> np.ndarray:
+    """(loads,) True for those on the element of a state that have a magnitude."""
+    loads = state.call.distributed
+    if loads is None:
+        return np.zeros(0, dtype=np.bool_)
+    mine: np.ndarray = (loads.elements == state.single.block.first) & (loads.kinds > 0) & (loads.end != 0.0)
+    return mine
+
+
+def _kinds(state: ElementState) -> list[int]:
+    """Types of these loads."""
+    loads = state.call.distributed
+    return [] if loads is None else sorted(set(loads.kinds[_mine(state)].tolist()))
+
+
+def _changes(state: ElementState, kind: int) -> bool:
+    """Whether RHS depends on loads of a type."""
+    loads = state.call.distributed
+    assert loads is not None
+    # DDLMAG stays: the load is ADLMAG, not its change in this increment
+    more = replace(loads, end=np.where(_mine(state) & (loads.kinds == kind), TWICE, 1.0) * loads.end)
+    try:
+        found = state.called(distributed=more).evaluate(matrix=False).rhs
+    except KernelError:
+        return True
+    return not np.array_equal(found, state.evaluate(matrix=False).rhs)

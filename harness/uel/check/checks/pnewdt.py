@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""PNEWDT, by which an element asks for another time increment."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from uel.check.finding import Finding, failed, passed
+from uel.check.subject import Subject
+
+UNTOUCHED: Final = 1e30
+"""Larger values are the one on entry."""
+
+
+def check(subject: Subject) -> Finding:
+    """It is positive, and asks for no smaller increment if nothing has moved in this one."""
+    found: list[float] = []
+    for state in subject.all_states:
+        value = state.evaluate().pnewdt
+        if not value > 0.0:
+            advice = (
+                "PNEWDT multiplies DTIME: between 0 and 1 it asks for a smaller increment; otherwise do not set it."
+            )
+            return failed(f"{state}: PNEWDT is {value:g}", advice, figure=value, limit=0.0)
+        still = state.part(0.0).evaluate().pnewdt
+        if still < 1.0:
+            advice = (
+                "PNEWDT < 1 abandons the increment. Without displacements in it, a smaller one cannot do better, and "
+                "the analysis ends after five attempts. Set PNEWDT < 1 only because of what this increment has done."
+            )
+            return failed(f"{state}: PNEWDT is {still:g} with DU = 0", advice, figure=still, limit=1.0)
+        if value < UNTOUCHED:
+            found.append(value)
+    if not found:
+        return passed(f"never set at {len(subject.all_states)} states")
+    return passed(f"from {min(found):g} to {max(found):g} where it is set", min(found), 0.0)

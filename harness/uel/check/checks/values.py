@@ -1,0 +1,20 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What UEL returns beside RHS and AMATRX is finite."""
+
+from __future__ import annotations
+
+from uel.check.finding import Finding, failed, passed
+from uel.check.subject import Subject
+
+
+def check(subject: Subject) -> Finding:
+    """SVARS, ENERGY and PNEWDT of all elements of the type in all iterations of the run."""
+    if not subject.strange:
+        return passed("SVARS, ENERGY and PNEWDT are finite in all iterations of the run")
+    advice = (
+        "The run goes on with it, and the damage shows later: NaN in SVARS enters all further increments, ENERGY goes "
+        "into the energies of the model, and no comparison notices PNEWDT. Look for 0/0 without deformation, the root "
+        "or logarithm of a negative number, and a local variable without a value."
+    )
+    return failed(subject.strange, advice)

@@ -1,0 +1,124 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command `uel check`."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import stat
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import Final
+
+from rich.console import Console, Group
+
+from uel.check.apart import Tell, call_apart, examine_apart
+from uel.check.examine import examine
+from uel.check.finding import Conclusion
+from uel.check.progress import Progress, Running, untold
+from uel.check.report import as_json, error_as_json, table
+from uel.check.shuffle import report, shuffle
+from uel.errors import UelError, tell_failure
+from uel.usersub import limit_calls
+
+CODES: Final = {Conclusion.PASSED: 0, Conclusion.FAILED: 1, Conclusion.NOTHING: 2}
+"""Exit codes."""
+
+WIDEST: Final = 10_000
+"""Columns if neither a terminal nor COLUMNS gives their number: tables are as wide as their texts."""
+
+
+def check(options: argparse.Namespace, console: Console, *, apart: bool) -> int:
+    """Run the checks and print what they found; returns the exit code, see CODES.
+
+    apart: in a separate process, which user code may end; a terminal shows what it does.
+    """
+    if not console.is_terminal and "COLUMNS" not in os.environ:
+        console = Console(file=console.file, width=WIDEST)
+    try:
+        _clear(options.json, shuffle=options.shuffle)
+    except UelError as error:
+        print(f"uel: {error}", file=sys.stderr)
+        return CODES[Conclusion.NOTHING]
+    try:
+        deck, user = deck_and_user(options.files, options.user)
+        how = {"seed": options.seed, "increments": options.increments}
+        limit = options.call_limit
+        limit_calls(limit)
+        with display(shown=apart and not options.quiet) as tell:
+            if options.shuffle:
+                look_at_order = partial(call_apart, tell_order, call_limit=limit, tell=tell) if apart else tell_order
+                passed, told = look_at_order(deck, user, **how)
+                conclusion = Conclusion.PASSED if passed else Conclusion.FAILED
+            else:
+                look = partial(examine_apart, call_limit=limit, tell=tell) if apart else examine
+                outcome = look(deck, user, **how, skip=options.skip)
+                conclusion, told = outcome.conclusion, table(outcome)
+    except UelError as error:
+        tell_failure(error)
+        if options.json:
+            _write(options.json, error_as_json(error))
+        return CODES[Conclusion.NOTHING]
+    console.print(told)
+    if options.json and not _write(options.json, as_json(outcome)):
+        return CODES[Conclusion.NOTHING]
+    return CODES[conclusion]
+
+
+def _write(file: Path, findings: str) -> bool:
+    """Write the findings for other programs; if that fails, say so."""
+    try:
+        file.write_text(findings, encoding="utf-8")
+    except OSError as error:
+        print(f"uel: --json {file}: {error.strerror}", file=sys.stderr)
+        return False
+    return True
+
+
+def _clear(file: Path | None, *, shuffle: bool) -> None:
+    """Remove the findings of an earlier run, so that they are never taken for those of this one. Raises UelError."""
+    if file is None:
+        return
+    if shuffle:
+        raise UelError("--json writes the table of all checks, which --shuffle does not make")
+    try:
+        # before the checks, which take time
+        with file.open("a", encoding="utf-8"):
+            pass
+        # a device, or a link to one, stays: /dev/stdout
+        if stat.S_ISREG(file.lstat().st_mode):
+            file.unlink()
+    except (OSError, ValueError) as error:
+        raise UelError(f"--json {file}: {getattr(error, 'strerror', error)}") from None
+
+
+@contextmanager
+def display(*, shown: bool, console: Console | None = None) -> Iterator[Tell | None]:
+    """A function that shows on a terminal what is being done; None if nothing is to be shown."""
+    if not shown:
+        yield None
+        return
+    with (console or Console(stderr=True)).status("uel check") as status:
+        yield lambda what: status.update(f"uel check: {what}")
+
+
+def tell_order(
+    deck: Path, user: list[Path], *, seed: int, increments: int, progress: Progress = untold
+) -> tuple[bool, Group]:
+    """Check the calling order only; returns whether all passed, and the report. Raises UelError."""
+    progress(Running("calls of all elements in random orders"), None)
+    shuffled = shuffle(deck, user, seed=seed, increments=increments)
+    return shuffled.passed, report(shuffled)
+
+
+def deck_and_user(files: list[Path], user: list[Path]) -> tuple[Path, list[Path]]:
+    """Which of the files is the deck and which are the user's. Raises UelError."""
+    decks = [file for file in files if file.suffix.lower() == ".inp"]
+    others = [file for file in files if file not in decks] + user
+    if len(decks) != 1:
+        raise UelError(f"expected one deck (.inp), found {len(decks)}")
+    return decks[0], others

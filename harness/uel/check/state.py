@@ -1,0 +1,158 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calls of one element that the checks change and repeat."""
+
+from __future__ import annotations
+
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, replace
+from typing import Any, Final
+
+import numpy as np
+
+from uel.check.recording import Pass
+from uel.check.single import Returned, Single, first_difference
+from uel.elements import Call, Motion, Request
+from uel.errors import KernelError
+from uel.model.arrays import FloatArray
+from uel.model.procedures import Dynamic
+
+DYNAMIC: Final = tuple(Dynamic(direct=direct).lflag for direct in (False, True))
+"""LFLAGS(1) of *DYNAMIC: V and A follow U."""
+
+CHANGES: Final = 1e-3, 1.0, 1e3, -1e-3, -1.0, -1e3
+"""Change of a state variable that shows whether something depends on it."""
+
+
+@dataclass(frozen=True, slots=True)
+class ElementState:
+    """The arguments of a call of one element, which is in its state at the start of the increment.
+
+    u, du, motion  (n,) of the element: estimate of the end of the increment, the increment, velocity and acceleration
+    origin         where the state comes from, for messages
+    inertia        in dynamics V and A follow where U is changed
+    """
+
+    single: Single
+    call: Call
+    u: FloatArray
+    du: FloatArray
+    motion: Motion
+    nrhs: int
+    origin: str
+    inertia: bool = True
+
+    def __str__(self) -> str:
+        return f"element {self.single.name}, {self.origin}"
+
+    def evaluate(self, *, matrix: bool = True) -> Returned:
+        """Make the call. Raises KernelError."""
+        return self.single.evaluate(self.call, self.u, self.du, self.motion, matrix=matrix, nrhs=self.nrhs)
+
+    def influence(self, surroundings: AbstractContextManager[None], expected: Returned) -> str:
+        """How surroundings of the call change what it returns, as a sentence; '' if they do not."""
+        with surroundings:
+            try:
+                return first_difference(expected, self.evaluate())
+            except KernelError as error:
+                return str(error)
+
+    def moved(self, shift: FloatArray) -> ElementState:
+        """The state with another end of the increment: shift (n,) added to U and DU; in dynamics V and A follow."""
+        rates = self._rates()
+        motion = Motion(self.motion.velocity + rates[0] * shift, self.motion.acceleration + rates[1] * shift)
+        return replace(self, u=self.u + shift, du=self.du + shift, motion=motion)
+
+    def moved_on(self, shift: FloatArray) -> ElementState:
+        """A further increment, shift (n,), from the end of this one; the element keeps the state of its start."""
+        return replace(self.moved(shift), du=shift)
+
+    def carried(self, shift: FloatArray) -> ElementState:
+        """The state of an element that was elsewhere from the start: U + shift (n,)."""
+        return replace(self, u=self.u + shift)
+
+    def part(self, share: float) -> ElementState:
+        """The state at this fraction of the increment of displacements."""
+        return replace(self, u=self.u - (1.0 - share) * self.du, du=share * self.du)
+
+    def settled(self) -> ElementState:
+        """The next increment, in which nothing moves."""
+        still = replace(self, single=self.single.twin(strict=False))
+        still.evaluate()
+        still.single.block.commit()
+        return replace(still, du=np.zeros_like(self.u))
+
+    def later(self) -> ElementState:
+        """The same motion one increment later: in the first one an element may use constants as its state."""
+        call = self.call
+        return self.called(
+            increment=call.increment + 1,
+            step_time=call.step_time + call.time_increment,
+            total_time=call.total_time + call.time_increment,
+        )
+
+    def quiet(self) -> ElementState:
+        """In a dynamic step the state without velocities and accelerations; else the state itself."""
+        if not self.dynamic:
+            return self
+        zero = Motion(np.zeros(len(self.u)), np.zeros(len(self.u)))
+        return replace(self, motion=zero, inertia=False)
+
+    def still(self) -> ElementState:
+        """The state at the start of the increment, at rest and without loads on the element."""
+        zero = Motion(np.zeros(len(self.u)), np.zeros(len(self.u)))
+        return replace(self.part(0.0), motion=zero).called(distributed=None)
+
+    def called(self, **changes: Any) -> ElementState:
+        """The state with changed arguments that all elements share, fields of Call."""
+        return replace(self, call=replace(self.call, **changes))
+
+    def asked(self, request: Request) -> ElementState:
+        """The state with another LFLAGS(3)."""
+        return replace(self, call=self.call.asking(request))
+
+    @property
+    def dynamic(self) -> bool:
+        """V and A follow U."""
+        return self.call.flags.procedure in DYNAMIC
+
+    def with_svars(self, svars: FloatArray) -> ElementState:
+        """The state with other state variables (nsvars,) at the start of the increment."""
+        single = self.single.twin(strict=False)
+        single.block.initial.initialise(np.array([0]), svars)
+        return replace(self, single=single)
+
+    def depends_on(self, chosen: np.ndarray) -> bool:
+        """Whether RHS changes with these state variables (nsvars,) on entry. Raises KernelError."""
+        expected = self.evaluate(matrix=False).rhs
+        for value in CHANGES:
+            try:
+                found = self.with_svars(self.single.svars + value * chosen).evaluate(matrix=False).rhs
+            except KernelError:
+                return True
+            if not np.array_equal(found, expected):
+                return True
+        return False
+
+    def strictly(self) -> ElementState:
+        """The state of a copy for which a write outside an array is an error."""
+        return replace(self, single=self.single.twin(strict=True))
+
+    def _rates(self) -> tuple[float, float]:
+        """Derivatives of V and A by U."""
+        call = self.call
+        if not (self.dynamic and self.inertia and call.time_increment):
+            return 0.0, 0.0
+        _, beta, gamma = call.params
+        return gamma / (beta * call.time_increment), 1.0 / (beta * call.time_increment**2)
+
+
+def state_of(single: Single, made: Pass, equations: np.ndarray) -> ElementState:
+    """A call of the run, with a copy of the element as it is now."""
+    call = made.call
+    n = len(equations)
+    motion = made.motion.at(equations) if made.motion else Motion(np.zeros(n), np.zeros(n))
+    origin = f"step {call.step}, increment {call.increment}, iteration {call.iteration}"
+    return ElementState(
+        single.twin(strict=False), call, made.u[equations], made.du[equations], motion, made.nrhs, origin
+    )

@@ -1,0 +1,68 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Variables of user routines that outlive a call: SAVE, COMMON, modules, initial values in declarations."""
+
+from __future__ import annotations
+
+import ctypes
+import re
+import shutil
+import subprocess
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.usersub import Library
+
+MOST: Final = 1 << 26
+"""Bytes that are examined in all; larger variables are left out once they are used up."""
+
+_SYMBOL: Final = re.compile(r"^([0-9a-f]+) ([0-9a-f]+) ([bBdDC]) (\S+)$", re.MULTILINE)
+_ANY: Final = re.compile(r"^([0-9a-f]+) (?:[0-9a-f]+ )?[A-Za-z] (uel|uelmat)_$", re.MULTILINE)
+
+
+@dataclass(frozen=True, slots=True)
+class Variable:
+    """One variable: its name as in the user's source, and its place in memory."""
+
+    name: str
+    address: int
+    size: int
+
+    def bytes(self) -> NDArray[np.uint8]:
+        """What it holds now, copied."""
+        return np.frombuffer(ctypes.string_at(self.address, self.size), dtype=np.uint8)
+
+
+def variables_of(library: Library) -> list[Variable] | None:
+    """Variables of a loaded library; None where its symbols cannot be read (nm is missing, or it is stripped)."""
+    nm = shutil.which("nm")
+    if nm is None:
+        return None
+    command = [nm, "--print-size", "--defined-only", str(library.file)]
+    text = subprocess.run(command, capture_output=True, text=True, check=False).stdout
+    known = {"uel": library.uel, "uelmat": library.uelmat}
+    entry = next((match for match in _ANY.finditer(text) if known[match[2]]), None)
+    if entry is None:
+        return None
+    base = (known[entry[2]] or 0) - int(entry[1], 16)
+    found = [(int(match[1], 16), int(match[2], 16), match[4]) for match in _SYMBOL.finditer(text)]
+    variables, total = [], 0
+    for offset, size, symbol in sorted(found, key=lambda item: item[1]):
+        total += size
+        if total <= MOST:
+            variables.append(Variable(readable(symbol), base + offset, size))
+    return variables
+
+
+def readable(symbol: str) -> str:
+    """Name of a variable in the user's source from that of gfortran's symbol."""
+    if match := re.fullmatch(r"__(\w+)_MOD_(\w+)", symbol):
+        return f"{match[2].upper()} of module {match[1].upper()}"
+    if match := re.fullmatch(r"(\w+?)\.\d+(?:\.\w+)*", symbol):
+        return f"local variable {match[1].upper()}"
+    if symbol == "__BLNK__":
+        return "the blank COMMON"
+    return f"COMMON /{symbol.removesuffix('_').upper()}/"

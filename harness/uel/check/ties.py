@@ -1,0 +1,35 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which of several equal values a message names: the same one on every processor, whatever the last bits are."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from uel.model.arrays import FloatArray
+
+EQUAL: Final = 1e-6
+"""Relative difference up to which two values are equal."""
+
+
+def exceeds(value: float, largest: float) -> bool:
+    """Whether a value exceeds the largest one so far by more than rounding."""
+    return value > (1.0 + EQUAL) * largest
+
+
+def first_largest(values: FloatArray) -> int:
+    """Index, in the flattened array, of the first of the largest values (none of them negative)."""
+    flat = values.ravel()
+    return int(np.argmax(flat >= (1.0 - EQUAL) * flat.max()))
+
+
+def ranked(values: FloatArray) -> list[int]:
+    """Indices of values (n,), the largest first; equal ones in their order."""
+    left, found = np.argsort(-values, kind="stable").tolist(), []
+    while left:
+        same = [index for index in left if values[index] >= (1.0 - EQUAL) * values[left[0]]]
+        found += sorted(same)
+        left = left[len(same) :]
+    return found

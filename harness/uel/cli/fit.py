@@ -1,0 +1,69 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""`uel fit`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from uel.cli.run_options import add_run_options, settings_of
+from uel.cli.values import positive
+
+
+def add_fit(fit: argparse.ArgumentParser) -> None:
+    """Options of `uel fit`."""
+    fit.description = (
+        "Runs the deck with other values until its curve is the measured one, in the sense of least squares. An "
+        "interrupted fit resumes where it stopped."
+    )
+    fit.epilog = (
+        "Written: DECK_fit.csv with values, confidence intervals and correlations, DECK_fit_curve.csv and DECK_fit.png "
+        "with the curves and their derivatives. "
+        "Exit code: 0 the search has converged; 1 it has not, or a run cannot be compared; 2 wrong usage."
+    )
+    fit.add_argument("deck", type=Path, metavar="DECK.inp", help="deck of the model")
+    fit.add_argument(
+        "curve",
+        type=Path,
+        metavar="CURVE.csv",
+        help="two columns, whose names are those of the history: x, which rises, y",
+    )
+    fit.add_argument(
+        "variables",
+        nargs="+",
+        metavar="NAME=LOW:HIGH",
+        help="parameters of the deck's *PARAMETER, or properties of the project's interface elements, with bounds "
+        "above 0; NAME=LOW:START:HIGH chooses the start",
+    )
+    for axis in "xy":
+        fit.add_argument(
+            f"--{axis}", metavar="COLUMN", help=f"column of the history that is {axis}, such as U2[TOP], 2*U2[TOP]"
+        )
+    fit.add_argument(
+        "-o", "--output-dir", type=Path, default=Path("fit"), metavar="DIR", help="folder of the output (fit)"
+    )
+    fit.add_argument("--runs", type=positive, default=40, metavar="N", help="largest number of runs (40)")
+    fit.add_argument("--cpus", type=positive, metavar="N", help="runs at a time (one for each core)")
+    fit.add_argument("--quiet", action="store_true", help="print errors only")
+    fit.set_defaults(function=fit_parameters, of_runs=add_run_options(fit))
+
+
+def fit_parameters(options: argparse.Namespace) -> int:
+    """`uel fit`."""
+    from uel.fit.command import fit  # noqa: PLC0415
+    from uel.fit.estimate import CONVERGED  # noqa: PLC0415
+
+    found = fit(
+        options.deck,
+        options.curve,
+        options.variables,
+        options.output_dir,
+        settings_of(options),
+        x=options.x,
+        y=options.y,
+        limit=options.runs,
+        workers=options.cpus,
+        quiet=options.quiet,
+    )
+    return 0 if found.ended == CONVERGED else 1

@@ -1,0 +1,21 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contact: blocks of contact points, how they move over their surfaces, and what bonds and friction do there."""
+
+from uel.contact.block import ContactBlock, contact_blocks
+from uel.contact.rigid_surface import RigidSurface
+from uel.contact.sliding import FiniteSliding, normals_of
+from uel.contact.surface import FaceSurface, monomials
+from uel.contact.surface_sliding import FACING, SurfaceSliding
+
+__all__ = [
+    "FACING",
+    "ContactBlock",
+    "FaceSurface",
+    "FiniteSliding",
+    "RigidSurface",
+    "SurfaceSliding",
+    "contact_blocks",
+    "monomials",
+    "normals_of",
+]

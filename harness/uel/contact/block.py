@@ -1,0 +1,399 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contact of nodes with a surface: a block of the points of one contact pair.
+
+With g the clearance of a point and f its contact force, a Lagrange multiplier enforces g = 0 where the point is closed
+and f = 0 where it is open; with a stiffness f follows from g. Friction is that of Coulomb with an elastic slip: the
+friction force is mu f gamma / gamma_crit up to the largest elastic slip gamma_crit, and mu f beyond it (Abaqus Analysis
+User's Guide, "Frictional behavior"). Bonds (`contact_cohesion`) are in parallel. See contact.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.contact.cohesion import Bonding, Bonds
+from uel.contact.kinematics import Clearances, Find, Motion, Slips, SmallSliding
+from uel.contact.sliding import FiniteSliding
+from uel.contact.surface_sliding import SurfaceSliding
+from uel.elements.block import ElementBlock
+from uel.elements.call import Call
+from uel.elements.fields import MULTIPLIER
+from uel.elements.lflags import Request
+from uel.elements.multipliers import scale_of_multipliers
+from uel.model.arrays import FloatArray, IntArray, first_largest
+from uel.model.contact import STIFFENED, STIFFENING, ContactChanges, ContactPair, SlidingPair, SurfacePair
+from uel.model.model import Model
+from uel.model.restart import Saved
+from uel.usersub import _binding
+
+OPEN, STICKING, SLIPPING = 0, 1, 2
+"""Status of a point; without friction a closed one counts as sticking."""
+
+ROUNDING: Final = 1e-12
+"""Relative error of clearances and contact forces that does not change a status."""
+
+NONE: Final = 1e-200
+"""Part of a stiffness that is none."""
+
+
+class ContactBlock:
+    """The points of a contact pair: their committed and trial status and elastic slip.
+
+    unknowns  (local node, dof) of each unknown at the start: displacements, then the multiplier of the point, if any
+    secondary (m,) secondary nodes
+    names     of them
+    direct    a multiplier enforces the constraints, else a stiffness
+    """
+
+    unsymmetric = True
+
+    def __init__(self, model: Model, pair: ContactPair | SlidingPair) -> None:
+        self.pair, self.first = pair, 0
+        self._motion: Motion
+        if isinstance(pair, SurfacePair):
+            self._motion = SurfaceSliding(pair, model.mesh.coordinates)
+        elif isinstance(pair, SlidingPair):
+            self._motion = FiniteSliding(pair, model.mesh.coordinates)
+        else:
+            self._motion = SmallSliding(pair, model.mesh.coordinates)
+        self.secondary = self._motion.nodes[:, 0]
+        m = len(self.secondary)
+        self.rows = np.arange(m)
+        self.names = [model.mesh.name(node) for node in self.secondary.tolist()]
+        self.group = replace(
+            model.groups[0],
+            type="CONTACT",
+            labels=model.mesh.labels[self.secondary],
+            nodes=self._motion.nodes,
+            definition=None,
+            source=pair.source,
+        )
+        self.direct = pair.property.stiffness is None
+        count = self._motion.nodes.shape[1]
+        self.unknowns = self._motion.unknowns_of(count) + (((count, MULTIPLIER),) if self.direct else ())
+        start = self._motion.start()
+        self._status = np.where((start <= pair.property.clearance) & self._motion.above, STICKING, OPEN)
+        self._slip = np.zeros((m, self._motion.components))
+        self._status_trial, self._slip_trial = self._status, self._slip
+        self._before, self._iteration = self._status, 0
+        self._bonds: Bonds | None = None
+        if pair.property.cohesion is not None:
+            self._bonds = Bonds(pair, self._status != OPEN, self._motion.components)
+        self._scale = 0.0
+        self._output = (start, np.zeros(m), np.zeros((m, pair.dimension - 1)))
+        self._penetration = self._force = self._stiffness = np.zeros(m)
+        self._equations = self._own_places = np.zeros((m, 0), dtype=np.int32)
+        self._find: Find | None = None
+        self._multipliers = np.zeros(m, dtype=np.int32)
+        self._pattern = (self._equations, self._equations)
+
+    def number(self, find: Find, last: NDArray[np.int32]) -> None:
+        """Say where the unknowns are.
+
+        Parameters
+        ----------
+        find
+            Numbers of the unknowns of nodes and dofs.
+        last
+            (m,) number of the last unknown of each point, which is its multiplier if it has one.
+        """
+        self._find, self._multipliers = find, last
+        self._equations = self._equations_of(self.rows, self._motion.nodes)
+
+    def track(self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool) -> bool:
+        """Before a pass, find what the points are opposite to; whether the matrix has place for it, if it is wanted.
+
+        Parameters
+        ----------
+        call, u, du, matrix
+            As in `System.evaluate`.
+        """
+        assert self._find is not None
+        if call.flags.request not in (Request.NORMAL, Request.RESIDUAL):
+            return True
+        nodes = self._motion.nodes
+        self._motion.track(u, du, self._find, first=call.iteration == 0)
+        if self._motion.nodes is not nodes:
+            self._equations = self._equations_of(self.rows, self._motion.nodes)
+            if self._motion.known:
+                self.bind(*self._pattern)
+        if self._motion.known or not matrix:
+            return True
+        self._motion.reach()
+        return False
+
+    def couplings(self) -> NDArray[np.int32]:
+        """(r, unknowns) unknowns that points have together, now or soon."""
+        return self._equations_of(*self._motion.links())
+
+    def _equations_of(self, points: IntArray, nodes: IntArray) -> NDArray[np.int32]:
+        assert self._find is not None
+        columns = [self._find(nodes[:, local], dof) for local, dof in self._motion.unknowns_of(nodes.shape[1])]
+        multipliers = [self._multipliers[points].astype(np.int64)] if self.direct else []
+        return np.stack([*columns, *multipliers], axis=1).astype(np.int32)
+
+    def bind(self, indptr: NDArray[np.int32], indices: NDArray[np.int32]) -> None:
+        """Take the CSR pattern of the matrix, which has the couplings."""
+        self._pattern = indptr, indices
+        own = np.concatenate([self._equations[:, : self.pair.dimension], self._equations[:, -1:]], axis=1)
+        self._own_places = _binding.scatter_map(own, indptr, indices)
+
+    def evaluate(
+        self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, data: FloatArray | None
+    ) -> None:
+        """One pass: add the contact forces to residual and their derivatives to the matrix.
+
+        The status of the points changes in passes that follow a solve, but never twice in an iteration: it depends on
+        the status at the end of the one before.
+
+        Parameters
+        ----------
+        call
+            Of the pass; those that ask for mass or damping do nothing.
+        u, du
+            (n,) estimate of the end of the increment, and the increment.
+        residual
+            (n,), changed in place.
+        data
+            (nnz,) CSR values that hold the matrices of all elements, changed in place; None: no matrix is wanted.
+        """
+        request = call.flags.request
+        if request not in (Request.NORMAL, Request.RESIDUAL) or not len(self.rows):
+            return
+        if data is not None and not self._scale:
+            self._scale = scale_of_multipliers(data, self._own_places, self.pair.dimension)
+        count = self._equations.shape[1] - self.direct
+        moved, change = u[self._equations[:, :count]], du[self._equations[:, :count]]
+        found = self._motion.clearances(moved, nlgeom=call.flags.nlgeom)
+        clearance, before = found.value, self._status_before(call)
+        small = ROUNDING * float(np.abs(moved).max()) + 8.0 * found.rounding
+        if self.direct:
+            multiplier = u[self._equations[:, count]] * self._scale
+            closed = self._closed(before, clearance, multiplier, small)
+        else:
+            multiplier, self._stiffness = self._penalty(clearance)
+            closed = multiplier > 0.0
+        if call.iteration == 0:
+            closed = before != OPEN
+        closed &= self._motion.above
+        force = np.where(closed, multiplier, 0.0)
+        slips = self._motion.slips(moved, change, self._slip)
+        sticks = np.ones(len(force)) if self._bonds is None else self._bonds.damage
+        friction = _Friction(self.pair, force, np.where(closed[:, None], slips.value, 0.0), closed, sticks, small)
+        self._add(residual, data, (found, slips), (multiplier, force, closed), friction)
+        normal, shear = force, friction.force
+        if self._bonds is not None:
+            since = self._motion.slips(moved, change, self._bonds.slip)
+            pulled = self._bonds.bonded & self._motion.above & (~closed if self.direct else clearance >= 0.0)
+            bonding = self._bonds.respond(call.time_increment, clearance, since, self._motion.areas, pulled)
+            self._add_bonds(residual, data, found, bonding)
+            normal, shear = normal - bonding.normal, shear + bonding.shear
+        if request is Request.NORMAL:
+            after = np.where(closed, np.where(friction.slips, SLIPPING, STICKING), OPEN)
+            self._status_trial = before if call.iteration == 0 else after
+            self._slip_trial, self._force = friction.elastic, multiplier
+            self._output = (clearance, normal, np.einsum("mat,mt->ma", slips.axes, shear))
+            missed = closed & self.direct & (np.abs(clearance) > small)
+            self._penetration = np.where(missed, clearance, 0.0)
+
+    def _penalty(self, clearance: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Contact forces (m,) of a stiffness, negative without contact, and their derivatives by the overclosure.
+
+        PENALTY=NONLINEAR: the stiffness grows linearly with the overclosure between two of its values (Abaqus Analysis
+        User's Guide, "Contact constraint enforcement methods in Abaqus/Standard").
+        """
+        given = self.pair.property
+        assert given.stiffness is not None
+        deep = given.clearance - clearance
+        upper = given.clearance + STIFFENED * self.pair.length
+        range_ = (1.0 - STIFFENING) * upper
+        share = np.clip((deep - STIFFENING * upper) / range_, 0.0, 1.0)
+        grown = 0.5 * range_ * share**2 + np.maximum(deep - upper, 0.0)
+        stiffness, later = given.stiffness * self._motion.areas, 1.0 - given.initial
+        return stiffness * (given.initial * deep + later * grown), stiffness * (given.initial + later * share)
+
+    def _status_before(self, call: Call) -> IntArray:
+        """Status at the end of the iteration before, that at the start of the increment in the first pass."""
+        if call.iteration == 0:
+            self._before = self._status
+        elif call.iteration != self._iteration:
+            self._before = self._status_trial
+        self._iteration = call.iteration
+        return self._before
+
+    def _closed(self, before: IntArray, clearance: FloatArray, force: FloatArray, small: float) -> NDArray[np.bool_]:
+        """Closed points open under tension, open ones close where they penetrate, by more than rounding."""
+        tension = ROUNDING * np.abs(force).max() + small * self._scale
+        return np.where(before == OPEN, clearance < -small, force >= -tension)
+
+    def _add(
+        self,
+        residual: FloatArray,
+        data: FloatArray | None,
+        motion: tuple[Clearances, Slips],
+        state: tuple[FloatArray, FloatArray, NDArray[np.bool_]],
+        friction: _Friction,
+    ) -> None:
+        """Add what points with this motion, these multipliers (or forces), forces and status contribute."""
+        multiplier, force, closed = state
+        clearances, slips = motion
+        normal, pushed = clearances.gradient, clearances.pushed
+        tangents, scale = slips.carried, self._scale
+        count = normal.shape[1]
+        right = np.zeros(self._equations.shape)
+        right[:, :count] = force[:, None] * pushed - np.einsum("mt,mtu->mu", friction.force, tangents)
+        if self.direct:
+            right[:, count] = np.where(closed, scale * clearances.value, -multiplier)
+        np.add.at(residual, self._equations, right)
+        if data is None:
+            return
+        if self.direct:
+            data[self._own_places[~closed, -1, -1]] += scale
+        # those that are open have no other entries
+        points = np.flatnonzero(closed)
+        equations = self._equations[points]
+        matrix = np.zeros((len(points), equations.shape[1], equations.shape[1]))
+        along, by_slip = tangents[points], friction.by_slip[points]
+        matrix[:, :count, :count] = np.einsum("mtu,mts,msv->muv", along, by_slip, slips.by[points])
+        if slips.turned is not None:
+            matrix[:, :count, :count] += slips.turned(points, friction.force[points])
+        if clearances.curvature is not None:
+            matrix[:, :count, :count] -= clearances.curvature(points, force[points])
+        # what the contact force does, by the contact force
+        by_force = np.einsum("mt,mtu->mu", friction.by_force[points], along) - pushed[points]
+        if self.direct:
+            matrix[:, :count, count] = scale * by_force
+            matrix[:, count, :count] = -scale * normal[points]
+        else:
+            stiffness = self._stiffness[points, None, None]
+            matrix -= stiffness * by_force[:, :, None] * normal[points, None]
+        np.add.at(data, _binding.scatter_map(equations, *self._pattern), matrix)
+
+    def _add_bonds(
+        self, residual: FloatArray, data: FloatArray | None, clearances: Clearances, bonding: Bonding
+    ) -> None:
+        """Add what bonds contribute."""
+        assert self._bonds is not None
+        points = np.flatnonzero(self._bonds.bonded & self._motion.above)
+        normal, shear, slips = bonding.normal[points], bonding.shear[points], bonding.slips
+        moved = np.concatenate([clearances.pushed[points, None], slips.carried[points]], axis=1)
+        forces = np.concatenate([normal[:, None], shear], axis=1)
+        equations = self._equations[points, : moved.shape[2]]
+        np.add.at(residual, equations, -np.einsum("mt,mtu->mu", forces, moved))
+        if data is None:
+            return
+        change = np.concatenate([clearances.gradient[points, None], slips.by[points]], axis=1)
+        matrix = np.einsum("mtu,mts,msv->muv", moved, bonding.by[points], change)
+        if slips.turned is not None:
+            matrix += slips.turned(points, shear)
+        if clearances.curvature is not None:
+            matrix += clearances.curvature(points, normal)
+        np.add.at(data, _binding.scatter_map(equations, *self._pattern), matrix)
+
+    @property
+    def trial_changes(self) -> ContactChanges:
+        """What the last iteration changed, and how well the constraints are fulfilled at its end."""
+        before, after = self._before, self._status_trial
+        switched = (before == OPEN) != (after == OPEN)
+        return ContactChanges(
+            self.pair.name,
+            opened=int(np.count_nonzero((before != OPEN) & (after == OPEN))),
+            closed=int(np.count_nonzero((before == OPEN) & (after != OPEN))),
+            sticking=int(np.count_nonzero((before == SLIPPING) & (after == STICKING))),
+            slipping=int(np.count_nonzero((before == STICKING) & (after == SLIPPING))),
+            penetration=self._largest(self._penetration),
+            force=self._largest(np.where(switched, self._force, 0.0)),
+        )
+
+    def _largest(self, values: FloatArray) -> tuple[float, int]:
+        worst = int(first_largest(np.abs(values)))
+        return float(values[worst]), int(self.secondary[worst])
+
+    @property
+    def output(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Clearances (m,), pressures (m,), negative where a bond is pulled, and shear stresses (m, directions), after
+        the last iteration.
+        """
+        clearance, force, shear = self._output
+        areas = self._motion.areas
+        return clearance, force / areas, shear / areas[:, None]
+
+    @property
+    def bonds(self) -> dict[str, FloatArray]:
+        """Variables of the bonds (m,), by their names in Abaqus."""
+        return {} if self._bonds is None else self._bonds.output
+
+    @property
+    def energies(self) -> tuple[FloatArray, float]:
+        """Of the bonds after the last iteration: ENERGY (8,) and what damage dissipates."""
+        return (np.zeros(8), 0.0) if self._bonds is None else self._bonds.energies
+
+    def commit(self) -> None:
+        """End of a converged increment."""
+        self._status, self._slip = self._status_trial, self._slip_trial
+        self._motion.commit()
+        if self._bonds is not None:
+            self._bonds.commit()
+
+    def kept(self) -> Saved:
+        """Committed state, not copied."""
+        kept: Saved = {"status": self._status, "slip": self._slip, "scale": self._scale, "motion": self._motion.kept()}
+        return kept if self._bonds is None else {**kept, "bonds": self._bonds.kept()}
+
+    def resume(self, saved: Saved) -> None:
+        """Begin with what `kept` returned. Raises ValueError if it is not of these points."""
+        if np.shape(saved["status"]) != self._status.shape or np.shape(saved["slip"]) != self._slip.shape:
+            raise ValueError(f"contact pair {self.pair.name}")
+        self._status, self._slip, self._scale = saved["status"], saved["slip"], saved["scale"]
+        self._motion.resume(saved["motion"])
+        if self._bonds is not None:
+            self._bonds.resume(saved["bonds"])
+        self._equations = self._equations_of(self.rows, self._motion.nodes)
+        self._status_trial, self._slip_trial = self._status, self._slip
+
+
+def contact_blocks(model: Model, blocks: Sequence[ElementBlock]) -> list[ContactBlock]:
+    """A block of each contact pair of a model; their points are numbered behind the elements of its other blocks."""
+    found = [ContactBlock(model, pair) for pair in model.contacts]
+    following = blocks[-1].first + len(blocks[-1].group.labels)
+    for block in found:
+        block.first = following
+        following += len(block.rows)
+    return found
+
+
+class _Friction:
+    """Friction of closed points: forces (m, directions), their derivatives, elastic slip, and which points slip."""
+
+    def __init__(
+        self,
+        pair: ContactPair | SlidingPair,
+        force: FloatArray,
+        slip: FloatArray,
+        closed: NDArray[np.bool_],
+        sticks: FloatArray,
+        small: float,
+    ) -> None:
+        """sticks: (m,) part of the stiffness of sticking points.
+
+        small: rounding of the slip; an increment after one with slip begins with sticking on every processor.
+        """
+        given, directions = pair.property, slip.shape[1]
+        coefficient = given.friction
+        most = (given.elastic_slip or given.slip_tolerance * pair.length) / np.maximum(sticks, NONE)
+        size = np.linalg.norm(slip, axis=1)
+        self.slips = closed & (coefficient > 0.0) & (size > most + small)
+        # length of the slip at which the force would reach its limit
+        reach = np.where(self.slips, size, most)[:, None]
+        along = slip / reach
+        limit = coefficient * np.maximum(force, 0.0)[:, None]
+        self.force, self.by_force = limit * along, coefficient * closed[:, None] * along
+        across = np.eye(directions) - np.where(self.slips, 1.0, 0.0)[:, None, None] * along[:, :, None] * along[:, None]
+        self.by_slip = (limit / reach)[:, :, None] * across
+        self.elastic = np.where(self.slips[:, None], most[:, None] * along, slip)

@@ -1,0 +1,117 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Axes that turn with a face, and what a vector has along them, with first and second derivatives.
+
+A jet holds vectors that depend on k variables. The variables are the components of the tangents of the face at the
+anchor point, and of the vector d from there to the secondary node. All of them are linear in the displacements, so that
+derivatives by the displacements follow with a constant matrix.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from uel.elements.rotations import PERMUTATION
+from uel.model.arrays import FloatArray
+
+TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
+"""Turns a vector of the plane by a right angle."""
+
+
+@dataclass(frozen=True, slots=True)
+class Jet:
+    """Vectors value (m, d), with first (m, d, k) and second derivatives (m, d, k, k)."""
+
+    value: FloatArray
+    first: FloatArray
+    second: FloatArray
+
+    def __add__(self, other: Jet) -> Jet:
+        return Jet(self.value + other.value, self.first + other.first, self.second + other.second)
+
+    def times(self, factors: FloatArray) -> Jet:
+        """Return the vectors times constants (m,)."""
+        one = factors[:, None]
+        return Jet(one * self.value, one[..., None] * self.first, one[..., None, None] * self.second)
+
+    def turned(self) -> Jet:
+        """Return vectors of the plane, turned by a right angle."""
+        return Jet(*(np.einsum("de,me...->md...", TURN, part) for part in (self.value, self.first, self.second)))
+
+    def unit(self) -> Jet:
+        """Return the vectors over their lengths."""
+        length = np.linalg.norm(self.value, axis=1)[:, None]
+        n = self.value / length
+        along = np.einsum("md,mdk->mk", n, self.first)
+        across = self.first - n[..., None] * along[:, None]
+        second = self.second - n[..., None, None] * np.einsum("md,mdkl->mkl", n, self.second)[:, None]
+        mixed = across[..., None] * along[:, None, None]
+        mixed = mixed + mixed.swapaxes(2, 3)
+        mixed += n[..., None, None] * np.einsum("mdk,mdl->mkl", across, across)[:, None]
+        length = length[..., None]
+        return Jet(n, across / length, second / length[..., None] - mixed / length[..., None] ** 2)
+
+
+def product(tensor: FloatArray, a: Jet, b: Jet) -> Jet:
+    """Return the bilinear product tensor (e, p, q) a_p b_q."""
+    value = np.einsum("epq,mp,mq->me", tensor, a.value, b.value)
+    left, right = np.einsum("epq,mp->meq", tensor, a.value), np.einsum("epq,mq->mep", tensor, b.value)
+    first = np.einsum("meq,mqk->mek", left, b.first) + np.einsum("mep,mpk->mek", right, a.first)
+    mixed = np.einsum("mepk,mpl->mekl", np.einsum("epq,mqk->mepk", tensor, b.first), a.first)
+    second = np.einsum("meq,mqkl->mekl", left, b.second) + np.einsum("mep,mpkl->mekl", right, a.second)
+    return Jet(value, first, second + mixed + mixed.swapaxes(2, 3))
+
+
+def cross(a: Jet, b: Jet) -> Jet:
+    """Return a x b."""
+    return product(PERMUTATION, a, b)
+
+
+def make_variables(vectors: Sequence[FloatArray], *, constant: bool = False) -> list[Jet]:
+    """Return jets of vectors (m, d), whose components are the variables; constant: there are none."""
+    m, dimension = vectors[0].shape
+    count = 0 if constant else len(vectors) * dimension
+    found = []
+    for number, vector in enumerate(vectors):
+        first = np.zeros((m, dimension, count))
+        if not constant:
+            first[:, :, number * dimension : (number + 1) * dimension] = np.eye(dimension)
+        found.append(Jet(vector, first, np.zeros((m, dimension, count, count))))
+    return found
+
+
+def combine(tangents: Sequence[Jet], parts: FloatArray) -> Jet:
+    """Return the vectors with these components (m, d) along the tangents of a face and what is normal to them."""
+    base = [*tangents, tangents[0].turned() if len(tangents) == 1 else cross(*tangents)]
+    total = base[0].times(parts[:, 0])
+    for number, vector in enumerate(base[1:], start=1):
+        total = total + vector.times(parts[:, number])
+    return total
+
+
+def turning_axes(tangents: Sequence[Jet], normal: FloatArray, first: FloatArray) -> list[Jet]:
+    """Return the unit normal and the directions of slip, which turn with the face.
+
+    Parameters
+    ----------
+    tangents
+        One or two of the face.
+    normal, first
+        (m, d) components along the base of `combine` of the normal and, in space, of a vector whose part across it is
+        the first direction.
+    """
+    n = combine(tangents, normal).unit()
+    if len(tangents) == 1:
+        return [n, n.turned()]
+    second = cross(n, combine(tangents, first)).unit()
+    return [n, cross(second, n), second]
+
+
+def components(axes: Sequence[Jet], vector: Jet) -> Jet:
+    """Return the components of a vector along the axes, as vectors (m, axes)."""
+    tensor = np.eye(vector.value.shape[1])[None]
+    rows = [product(tensor, axis, vector) for axis in axes]
+    return Jet(*(np.concatenate([getattr(row, name) for row in rows], axis=1) for name in ("value", "first", "second")))

@@ -1,0 +1,122 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Analytical rigid surfaces in the plane: lines and arcs that move and turn with a reference node, by any angle."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.contact.surface import EQUAL, Place
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.contact import RigidProfile
+
+ROTATION = 6
+"""Dof of the rotation in the plane."""
+
+
+class RigidSurface:
+    """An analytical rigid surface as the main surface of a pair; as `contact_surface.Surface`."""
+
+    dofs: tuple[int, ...] = (1, 2, ROTATION)
+    unknowns: tuple[tuple[int, int], ...] = tuple((1, dof) for dof in (1, 2, ROTATION))
+
+    def __init__(self, profile: RigidProfile, coordinates: FloatArray) -> None:
+        """Coordinates (nodes, 2) are those of all nodes of the model."""
+        self._profile, self._start = profile, coordinates[profile.reference]
+
+    def nodes_of(self, piece: IntArray) -> IntArray:
+        """The reference node."""
+        return np.full((len(piece), 1), self._profile.reference)
+
+    def ring_of(self, piece: IntArray) -> IntArray:
+        """All pieces, which have the same node."""
+        count = len(self._profile.radius)
+        return np.broadcast_to(np.arange(count), (len(piece), count))
+
+    def sizes(self, piece: IntArray, moved: FloatArray) -> FloatArray:
+        """As of `Surface`."""
+        del moved
+        profile = self._profile
+        half = np.linalg.norm(profile.half, axis=1)
+        return np.asarray(np.where(profile.radius > 0.0, profile.radius * np.abs(profile.half[:, 1]), half)[piece])
+
+    def at(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> Place:
+        """As of `Surface`."""
+        here = moved[self._profile.reference]
+        turn = _turn(here[2])
+        at, tangents, second = self._unmoved(piece, natural[:, 0])
+        return Place(
+            (at - self._start) @ turn.T + self._start + here[:2],
+            (tangents @ turn.T)[:, None],
+            (second @ turn.T)[:, None, None],
+        )
+
+    def _unmoved(self, piece: IntArray, natural: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Points, tangents and their derivatives (m, 2) before any motion."""
+        profile = self._profile
+        middle, half, radius = profile.middle[piece], profile.half[piece], profile.radius[piece][:, None]
+        angle = half[:, 0] + natural * half[:, 1]
+        out = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        round_, speed = radius > 0.0, half[:, 1:]
+        at = np.where(round_, middle + radius * out, middle + natural[:, None] * half)
+        along = radius * speed * np.stack([-out[:, 1], out[:, 0]], axis=1)
+        return at, np.where(round_, along, half), np.where(round_, -radius * speed**2 * out, 0.0)
+
+    def by_unknowns(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """As of `Surface`."""
+        place, m = self.at(piece, natural, moved), len(piece)
+        arm = place.at - self._start - moved[self._profile.reference, :2]
+        at = np.concatenate([np.broadcast_to(np.eye(2), (m, 2, 2)), _left(arm)[:, :, None]], axis=2)
+        tangents = np.concatenate([np.zeros((m, 1, 2, 2)), _left(place.tangents)[..., None]], axis=3)
+        return at, tangents
+
+    def loaded(
+        self, piece: IntArray, natural: FloatArray, moved: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """As of `Surface`."""
+        at, tangents = self.by_unknowns(piece, natural, moved)
+        again = np.zeros((len(piece), 2, 3, 3))
+        # an arm that turns by a right angle and again
+        again[:, :, 2, 2] = _left(at[:, :, 2])
+        return at, tangents, again
+
+    def track(
+        self, points: FloatArray, looks: FloatArray, moved: FloatArray, before: IntArray, *, everywhere: bool
+    ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
+        """As of `Surface`, always everywhere: the first of the nearest pieces, if not the one so far."""
+        del everywhere
+        profile, m, count = self._profile, len(points), len(self._profile.radius)
+        here = moved[profile.reference]
+        unmoved = (points - self._start - here[:2]) @ _turn(here[2]) + self._start
+        own = looks @ _turn(here[2])
+        piece = np.tile(np.arange(count), m)
+        from_middle = np.repeat(unmoved, count, axis=0) - profile.middle[piece]
+        half, is_round = profile.half[piece], profile.radius[piece] > 0.0
+        angle = np.arctan2(from_middle[:, 1], from_middle[:, 0]) - half[:, 0]
+        angle = (angle + np.pi) % (2.0 * np.pi) - np.pi
+        straight = np.einsum("md,md->m", from_middle, half) / np.einsum("md,md->m", half, half)
+        natural = np.where(is_round, angle / np.where(is_round, half[:, 1], 1.0), straight)
+        at, tangents, _ = self._unmoved(piece, np.clip(natural, -1.0, 1.0))
+        away = np.einsum("md,md->m", -_left(tangents), np.repeat(own, count, axis=0))
+        away = away > EQUAL * np.linalg.norm(tangents, axis=1)
+        distance = np.linalg.norm(np.repeat(unmoved, count, axis=0) - at, axis=1)
+        distance = np.where(away, np.inf, distance).reshape(m, count)
+        near = distance <= distance.min(axis=1, keepdims=True) + EQUAL * self.sizes(np.arange(count), moved).max()
+        rows = np.arange(m)
+        chosen = np.where(near[rows, before], before, np.argmax(near, axis=1))
+        natural = natural.reshape(m, count)[rows, chosen]
+        above = np.isfinite(distance[rows, chosen])
+        above &= (natural >= -1.0 - EQUAL) | ~profile.free[chosen, 0]
+        above &= (natural <= 1.0 + EQUAL) | ~profile.free[chosen, 1]
+        return chosen, natural[:, None], above
+
+
+def _turn(angle: float) -> FloatArray:
+    """(2, 2) rotation."""
+    return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+
+
+def _left(vectors: FloatArray) -> FloatArray:
+    """Vectors (..., 2) turned by a right angle to the left."""
+    return np.stack([-vectors[..., 1], vectors[..., 0]], axis=-1)

@@ -1,0 +1,432 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Main surfaces of finite sliding: where they are, how they move with the unknowns, and which point is nearest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.contact import Pieces
+
+STEPS: Final = 20
+"""Of Newton's method, for the point of a piece that is nearest to a node."""
+
+EQUAL: Final = 1e-9
+"""Difference of distances, over the size of a piece, that counts as none, and of natural coordinates."""
+
+FLAT: Final = 1e-14
+"""Area of a piece, squared, over its size to the fourth power, that counts as none."""
+
+NEAREST: Final = 4
+"""Nodes of the main surface whose pieces are tried for a node whose piece is not known."""
+
+WALK: Final = 50
+"""Pieces that a node may pass in one iteration."""
+
+BEYOND: Final = {3: 0.125, 4: 0.0, 8: 1.0}
+"""How far a piece may leave the box of its nodes, over the size of the box, by the number of its monomials: the largest
+sum of the negative shape functions. Those of a line with a middle node are -1/8 in the middle of a half, those of the
+corners of a quadrilateral with middle nodes -1/4 in its middle."""
+
+ROUNDED: Final = 1e-6
+"""Error of angles that is rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Points of a main surface.
+
+    at       (m, d)
+    tangents (m, a, d) by the natural coordinates
+    second   (m, a, a, d) their derivatives
+    """
+
+    at: FloatArray
+    tangents: FloatArray
+    second: FloatArray
+
+    @property
+    def metric(self) -> FloatArray:
+        """(m, a, a) products of the tangents, with an inverse also where an extended face has no area."""
+        found = np.einsum("mad,mbd->mab", self.tangents, self.tangents)
+        size = np.trace(found, axis1=1, axis2=2)[:, None, None]
+        return np.asarray(found + EQUAL**2 * size * np.eye(found.shape[1]))
+
+    def take(self, points: IntArray) -> Place:
+        """Some of the points."""
+        return Place(self.at[points], self.tangents[points], self.second[points])
+
+    @property
+    def normal(self) -> FloatArray:
+        """(m, d) outward, of length one."""
+        first = self.tangents[:, 0]
+        if self.at.shape[1] == 2:
+            found = np.stack([first[:, 1], -first[:, 0]], axis=1)
+        elif self.tangents.shape[1] == 1:
+            # a line in space has none
+            found = np.zeros_like(first)
+        else:
+            found = np.cross(first, self.tangents[:, 1])
+        length = np.linalg.norm(found, axis=1)[:, None]
+        return np.asarray(found / np.where(length > 0.0, length, 1.0))
+
+
+class Surface(Protocol):
+    """A main surface; moved: values (nodes, dofs) of these dofs of all nodes of the model.
+
+    dofs      displacements, then rotations
+    unknowns  (local node, dof) of those of its nodes, which follow the secondary node
+    """
+
+    dofs: tuple[int, ...]
+    unknowns: tuple[tuple[int, int], ...]
+
+    def nodes_of(self, piece: IntArray) -> IntArray:
+        """(m, k) nodes of pieces (m,)."""
+
+    def ring_of(self, piece: IntArray) -> IntArray:
+        """(m, r) neighbours of pieces (m,), and themselves."""
+
+    def sizes(self, piece: IntArray, moved: FloatArray) -> FloatArray:
+        """(m,) about half of the lengths of pieces (m,)."""
+
+    def at(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> Place:
+        """Points (m,) of pieces, by their natural coordinates (m, a)."""
+
+    def by_unknowns(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Derivatives of points (m, d, u) and tangents (m, a, d, u) by the unknowns."""
+
+    def loaded(
+        self, piece: IntArray, natural: FloatArray, moved: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray | None]:
+        """Motions (m, d, u) along which forces on points do work, their derivatives (m, a, d, u) along the surface and
+        (m, d, u, u) by the unknowns; None: zero.
+        """
+
+    def track(
+        self, points: FloatArray, looks: FloatArray, moved: FloatArray, before: IntArray, *, everywhere: bool
+    ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
+        """The pieces nearest to points (m, d), the natural coordinates (m, a) there, and whether points are above them.
+
+        Parameters
+        ----------
+        points
+            (m, d) places of the secondary nodes.
+        looks
+            (m, d) normals of their own surface: pieces that do not look the other way are left out; zero: none.
+        moved
+            (nodes, dofs).
+        before
+            (m,) pieces so far; where others are as near, these stay.
+        everywhere
+            Search the whole surface, else from these pieces to their neighbours.
+        """
+
+
+@dataclass(frozen=True, slots=True)
+class _Present:
+    """All pieces of a surface in a present place, and bounds that spare most projections.
+
+    polynomials  (p, q, d) coefficients of the monomials
+    sizes        (p,) as of `Surface`
+    low, high    (p, d) corners of boxes that hold the pieces
+    axes         (p, d) around which the normals of a piece are, within angles (p,)
+    """
+
+    polynomials: FloatArray
+    sizes: FloatArray
+    low: FloatArray
+    high: FloatArray
+    axes: FloatArray
+    angles: FloatArray
+
+    @classmethod
+    def of(cls, pieces: Pieces, places: FloatArray) -> _Present:
+        """By the places (nodes, d) of all nodes of the model."""
+        corners = places[pieces.nodes]
+        polynomials = _polynomials(pieces.shapes, corners)
+        count = polynomials.shape[1]
+        low, high = corners.min(axis=1), corners.max(axis=1)
+        beyond = BEYOND[count] * (high - low)
+        ends = np.stack(np.meshgrid(*[[0, 1]] * pieces.low.shape[1]), axis=-1).reshape(-1, pieces.low.shape[1])
+        normals = np.stack([_place(polynomials, np.where(end, pieces.high, pieces.low)).normal for end in ends], axis=1)
+        axes = normals.sum(axis=1)
+        axes /= np.maximum(np.linalg.norm(axes, axis=1), EQUAL)[:, None]
+        cosine = np.einsum("ped,pd->pe", normals, axes).min(axis=1)
+        # normals of curved faces may be outside those of their corners
+        bounded = (cosine > EQUAL) & (count <= 4)
+        angles = np.where(bounded, np.arccos(np.clip(cosine, -1.0, 1.0)), np.inf)
+        return cls(polynomials, _sizes(corners), low - beyond, high + beyond, axes, angles)
+
+    def at(self, piece: IntArray, natural: FloatArray) -> Place:
+        """As of `Surface`."""
+        return _place(self.polynomials[piece], natural)
+
+    def least(self, points: FloatArray, looks: FloatArray, candidates: IntArray, facing: float) -> FloatArray:
+        """(m, c) lower bounds of the distances of points from candidates; infinite where none of the normals looks the
+        other way.
+        """
+        beside = np.maximum(self.low[candidates] - points[:, None], points[:, None] - self.high[candidates])
+        beside = np.maximum(beside, 0.0)
+        least = np.sqrt(np.einsum("mcd,mcd->mc", beside, beside))
+        cosine = np.einsum("mcd,md->mc", self.axes[candidates], looks)
+        away = np.arccos(np.clip(cosine, -1.0, 1.0)) + self.angles[candidates] < np.arccos(facing) - ROUNDED
+        return np.where(away & np.asarray(looks.any(axis=1))[:, None], np.inf, least)
+
+
+class FaceSurface:
+    """A main surface of faces of elements."""
+
+    def __init__(self, pieces: Pieces, coordinates: FloatArray, facing: float = EQUAL) -> None:
+        """Coordinates (nodes, d) are those of all nodes of the model; pieces with a normal whose cosine with that of a
+        point exceeds `facing` are not opposite it.
+        """
+        dimension = coordinates.shape[1]
+        self.pieces, self._coordinates, self._dimension, self._facing = pieces, coordinates, dimension, facing
+        self._along = pieces.low.shape[1]
+        self.dofs = tuple(range(1, dimension + 1))
+        self.unknowns = tuple((node, dof) for node in range(1, 1 + pieces.nodes.shape[1]) for dof in self.dofs)
+        self._own = np.unique(pieces.nodes)
+        order = np.argsort(pieces.nodes.ravel(), kind="stable")
+        counts = np.bincount(np.searchsorted(self._own, pieces.nodes.ravel()))
+        rank = np.arange(len(order)) - np.repeat(np.cumsum(counts) - counts, counts)
+        # pieces of each node
+        first = order[np.cumsum(counts) - counts] // pieces.nodes.shape[1]
+        self._of_node = np.repeat(first[:, None], counts.max(), axis=1)
+        self._of_node[np.repeat(np.arange(len(counts)), counts), rank] = order // pieces.nodes.shape[1]
+
+    def nodes_of(self, piece: IntArray) -> IntArray:
+        """As of `Surface`."""
+        return np.asarray(self.pieces.nodes[piece])
+
+    def ring_of(self, piece: IntArray) -> IntArray:
+        """As of `Surface`."""
+        return np.asarray(self.pieces.ring[piece])
+
+    def at(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> Place:
+        """As of `Surface`."""
+        nodes = self.pieces.nodes[piece]
+        return _place(_polynomials(self.pieces.shapes[piece], self._coordinates[nodes] + moved[nodes]), natural)
+
+    def sizes(self, piece: IntArray, moved: FloatArray) -> FloatArray:
+        """As of `Surface`: largest distances of nodes from their middle."""
+        nodes = self.pieces.nodes[piece]
+        return _sizes(self._coordinates[nodes] + moved[nodes])
+
+    def by_unknowns(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """As of `Surface`."""
+        del moved
+        return self._spread(self.pieces.shapes[piece], natural)
+
+    def loaded(
+        self, piece: IntArray, natural: FloatArray, moved: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray | None]:
+        """As of `Surface`."""
+        del moved
+        return *self._spread(self.pieces.loads[piece], natural), None
+
+    def _spread(self, shapes: FloatArray, natural: FloatArray) -> tuple[FloatArray, FloatArray]:
+        m, dimension, eye = len(natural), self._dimension, np.eye(self._dimension)
+        values, first, _ = weights_of(shapes, natural)
+        unknowns = shapes.shape[1] * dimension
+        at = np.einsum("mk,de->mdke", values, eye).reshape(m, dimension, unknowns)
+        return at, np.einsum("mka,de->madke", first, eye).reshape(m, first.shape[2], dimension, unknowns)
+
+    def track(
+        self, points: FloatArray, looks: FloatArray, moved: FloatArray, before: IntArray, *, everywhere: bool
+    ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
+        """As of `Surface`."""
+        present, found = _Present.of(self.pieces, self._coordinates + moved), before.copy()
+        if everywhere:
+            places = self._coordinates[self._own] + moved[self._own]
+            from scipy.spatial import KDTree  # noqa: PLC0415 (takes 0.1 s, and few decks have contact)
+
+            _, near = KDTree(places).query(points, k=min(NEAREST, len(places)))
+            count = near.size // max(len(points), 1)
+            near = self._of_node[near.reshape(len(points), count)]
+            near = near.reshape(len(points), count * near.shape[2])
+            found = self._nearest(present, points, looks, np.concatenate([before[:, None], near], axis=1))[0]
+        natural, above = np.zeros((len(points), self._along)), np.zeros(len(points), dtype=np.bool_)
+        rows = np.arange(len(points))
+        for _ in range(WALK):
+            last = found[rows]
+            candidates = np.concatenate([last[:, None], self.pieces.ring[last]], axis=1)
+            nearest = self._nearest(present, points[rows], looks[rows], candidates)
+            found[rows], natural[rows], above[rows] = nearest
+            rows = rows[nearest[0] != last]
+            if not len(rows):
+                break
+        return found, natural, above
+
+    def distances(self, points: FloatArray, moved: FloatArray) -> FloatArray:
+        """(m,) of points (m, d) from the nearest piece, whatever its normal."""
+        before, looks = np.zeros(len(points), dtype=np.int64), np.zeros_like(points)
+        piece, natural, _ = self.track(points, looks, moved, before, everywhere=True)
+        return np.asarray(np.linalg.norm(points - self.at(piece, self._inside(piece, natural), moved).at, axis=1))
+
+    def locate(self, piece: IntArray, points: FloatArray) -> FloatArray:
+        """Natural coordinates (m, a) of points (m, d) on pieces (m,), extended, before any displacement."""
+        return self._project(_Present.of(self.pieces, self._coordinates), piece, points)
+
+    def nearest(self, points: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Nodes (m, k) of the pieces, before any displacement, that are nearest to points (m, d), and their shares
+        there: those that are rounding are zero.
+        """
+        still = np.zeros_like(self._coordinates)
+        before = np.zeros(len(points), dtype=np.int64)
+        piece, natural, _ = self.track(points, np.zeros_like(points), still, before, everywhere=True)
+        shares = weights_of(self.pieces.shapes[piece], self._inside(piece, natural))[0]
+        shares = np.where(np.abs(shares) <= EQUAL, 0.0, shares)
+        return self.nodes_of(piece), shares / shares.sum(axis=1, keepdims=True)
+
+    def _nearest(
+        self, present: _Present, points: FloatArray, looks: FloatArray, candidates: IntArray
+    ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
+        """Of candidates (m, c) the nearest piece: as in `track`. Of some that are as near it is the first one.
+
+        The one whose box is nearest comes first; others only if their boxes are not further away than it is.
+        """
+        pieces, rows = self.pieces, np.arange(len(candidates))
+        least = present.least(points, looks, candidates, self._facing)
+        first = least.argmin(axis=1)
+        distance, natural = np.full(least.shape, np.inf), np.zeros((*least.shape, self._along))
+        closest, natural[rows, first] = self._reach(present, points, looks, candidates[rows, first])
+        distance[rows, first] = closest
+        margin = EQUAL * present.sizes[candidates]
+        # twice: rounding
+        near = np.isfinite(least) & (least <= closest[:, None] + 2.0 * margin)
+        # where all of them look the same way, it is the first one
+        near[:, 0] |= np.isinf(closest)
+        row, column = np.nonzero(near & (candidates != candidates[rows, first][:, None]))
+        # candidates may be repeated
+        total = len(pieces.nodes)
+        pairs, place_of = np.unique(row * total + candidates[row, column], return_inverse=True)
+        others, other = pairs // total, pairs % total
+        apart, places = self._reach(present, points[others], looks[others], other)
+        distance[row, column], natural[row, column] = apart[place_of], places[place_of]
+        chosen = np.argmax(distance <= distance.min(axis=1, keepdims=True) + margin, axis=1)
+        piece, place = candidates[rows, chosen], natural[rows, chosen]
+        above = (place >= pieces.reach_low[piece] - EQUAL).all(axis=1)
+        above &= (place <= pieces.reach_high[piece] + EQUAL).all(axis=1)
+        above &= (place.sum(axis=1) <= pieces.reach_total[piece] + EQUAL) & np.isfinite(distance[rows, chosen])
+        return piece, place, above
+
+    def _reach(
+        self, present: _Present, points: FloatArray, looks: FloatArray, piece: IntArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Distances (m,) of points from pieces (m,), infinite from those that do not look the other way, and natural
+        coordinates (m, a).
+        """
+        natural = self._project(present, piece, points)
+        place = present.at(piece, self._inside(piece, natural))
+        away = np.einsum("md,md->m", place.normal, looks) > np.where(looks.any(axis=1), self._facing, np.inf)
+        return np.where(away, np.inf, np.linalg.norm(points - place.at, axis=1)), natural
+
+    def _inside(self, piece: IntArray, natural: FloatArray) -> FloatArray:
+        """Natural coordinates of the nearest point that belongs to the piece."""
+        pieces = self.pieces
+        end = np.clip(natural, pieces.low[piece], pieces.high[piece])
+        over = np.maximum(end.sum(axis=1) - pieces.total[piece], 0.0)[:, None]
+        return np.asarray(np.clip(end - over / end.shape[1], pieces.low[piece], pieces.high[piece]))
+
+    def _project(self, present: _Present, piece: IntArray, points: FloatArray) -> FloatArray:
+        """Natural coordinates where pieces, extended, are perpendicular to the way to points, by Newton's method."""
+        low, high = self.pieces.low[piece], self.pieces.high[piece]
+        natural, reach = 0.5 * (low + high), 2.0 * (high - low)
+        rows = np.arange(len(piece))
+        for _ in range(STEPS):
+            place = present.at(piece[rows], natural[rows])
+            apart = points[rows] - place.at
+            metric = place.metric
+            matrix = metric - np.einsum("mabd,md->mab", place.second, apart)
+            # downhill: far from a curved piece only without its curvature
+            convex = np.linalg.det(matrix) > 0.1 * np.linalg.det(metric)
+            convex &= np.trace(matrix, axis1=1, axis2=2) > 0.0
+            matrix = np.where(convex[:, None, None], matrix, metric)
+            # where a piece has no area, along the steepest way
+            trace = np.trace(metric, axis1=1, axis2=2)
+            flat = np.linalg.det(metric) <= FLAT * trace ** metric.shape[1]
+            steepest = np.maximum(trace, np.finfo(float).tiny)[:, None, None] * np.eye(metric.shape[1])
+            matrix = np.where(flat[:, None, None], steepest, matrix)
+            change = np.linalg.solve(matrix, np.einsum("mad,md->ma", place.tangents, apart)[..., None])[..., 0]
+            last = natural[rows]
+            natural[rows] = np.clip(last + change, low[rows] - reach[rows], high[rows] + reach[rows])
+            # the method doubles the digits: the error is now that of rounding
+            rows = rows[np.abs(natural[rows] - last).max(axis=1) > EQUAL]
+            if not len(rows):
+                break
+        return natural
+
+
+def _polynomials(shapes: FloatArray, places: FloatArray) -> FloatArray:
+    """(m, p, d) coefficients of the monomials, of nodes at places (m, k, d) with shapes (m, k, p)."""
+    return np.asarray(np.einsum("mkp,mkd->mpd", shapes, places))
+
+
+def _sizes(places: FloatArray) -> FloatArray:
+    """(m,) largest distances of nodes, at places (m, k, d), from their middle."""
+    return np.asarray(np.linalg.norm(places - places.mean(axis=1, keepdims=True), axis=2).max(axis=1))
+
+
+def _place(polynomials: FloatArray, natural: FloatArray) -> Place:
+    """Where polynomials (m, p, d) are."""
+    values, first, second = monomials(natural, polynomials.shape[1])
+    return Place(
+        np.einsum("mp,mpd->md", values, polynomials),
+        np.einsum("mpa,mpd->mad", first, polynomials),
+        np.einsum("mpab,mpd->mabd", second, polynomials),
+    )
+
+
+def weights_of(shapes: FloatArray, natural: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """N (m, k) of coefficients (m, k, p), and their first (m, k, a) and second derivatives (m, k, a, a)."""
+    values, first, second = monomials(natural, shapes.shape[2])
+    return (
+        np.einsum("mkp,mp->mk", shapes, values),
+        np.einsum("mkp,mpa->mka", shapes, first),
+        np.einsum("mkp,mpab->mkab", shapes, second),
+    )
+
+
+def monomials(natural: FloatArray, count: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """The first ones of 1, xi, xi^2 or 1, xi, eta, xi eta, xi^2, eta^2, xi^2 eta, xi eta^2, and their derivatives.
+
+    Parameters
+    ----------
+    natural
+        (m, 1 or 2) natural coordinates.
+    count
+        p of them: 3 on a line, 4 or 8 on an area.
+
+    Returns
+    -------
+    tuple[FloatArray, FloatArray, FloatArray]
+        (m, p), with first (m, p, a) and second derivatives (m, p, a, a).
+    """
+    m, along = natural.shape
+    first, second = np.zeros((m, count, along)), np.zeros((m, count, along, along))
+    values = np.ones((m, count))
+    values[:, 1 : along + 1] = natural
+    if along == 1:
+        values[:, 2] = natural[:, 0] ** 2
+        first[:, 1, 0], first[:, 2, 0], second[:, 2, 0, 0] = 1.0, 2.0 * natural[:, 0], 2.0
+        return values, first, second
+    xi, eta = natural.T
+    values[:, 3] = xi * eta
+    first[:, 1, 0] = first[:, 2, 1] = 1.0
+    first[:, 3] = natural[:, ::-1]
+    second[:, 3, 0, 1] = second[:, 3, 1, 0] = 1.0
+    if count > 4:
+        values[:, 4:] = np.stack([xi**2, eta**2, xi**2 * eta, xi * eta**2], axis=1)
+        first[:, 4, 0], first[:, 5, 1] = 2.0 * xi, 2.0 * eta
+        first[:, 6], first[:, 7] = np.stack([2.0 * xi * eta, xi**2], axis=1), np.stack([eta**2, 2.0 * xi * eta], axis=1)
+        second[:, 4, 0, 0] = second[:, 5, 1, 1] = 2.0
+        second[:, 6, 0, 0], second[:, 7, 1, 1] = 2.0 * eta, 2.0 * xi
+        second[:, 6, 0, 1] = second[:, 6, 1, 0] = 2.0 * xi
+        second[:, 7, 0, 1] = second[:, 7, 1, 0] = 2.0 * eta
+    return values, first, second

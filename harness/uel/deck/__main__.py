@@ -1,0 +1,7 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""`python -m uel.deck` writes keywords.md from the keyword table."""
+
+from uel.deck.keywords import MARKDOWN, markdown
+
+MARKDOWN.write_text(markdown(), encoding="utf-8")

@@ -1,0 +1,460 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*TIE: the nodes of a secondary surface move as the points of the main surface where they are.
+
+TYPE=NODE TO SURFACE: a node follows the point of the main surface that is nearest to it, by the shape functions of the
+face. SURFACE TO SURFACE, the default: it follows means over its own faces (`tie_weights`), where these are covered by
+main faces, and the nearest point elsewhere. A main surface of nodes is followed node by node. Nodes farther from the
+main surface than the position tolerance stay untied. ADJUST moves tied nodes onto the main surface.
+
+With CYCLIC SYMMETRY the main surface is that of the next sector of the model: turned by 360/N degrees about the axis,
+displacements and rotations with it. Nodes of both surfaces lie on the axis, along which they move.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+from scipy import sparse
+
+from uel.contact import FaceSurface
+from uel.deck.constraints.tie_faces import TiedFaces, read_faces
+from uel.deck.constraints.tie_weights import surface_weights
+from uel.deck.contact.pieces import whole_pieces
+from uel.deck.error_report import Problems
+from uel.deck.language.blocks import Block, Row
+from uel.deck.language.table import NAME, Keyword, Kind, Option, Where, ignored, one_of
+from uel.deck.mesh.flatten import FlatMesh, Owner
+from uel.deck.mesh.surfaces import Surfaces
+from uel.elements import rotation_matrices
+from uel.errors import Source
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.model import Equation
+from uel.model.steps import Step
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
+
+Term = tuple[int, int, float]
+"""Node, dof and coefficient of an equation."""
+
+CLOSE: Final = 0.05
+"""Position tolerance over the typical size of the main surface: 5 % of the element size, or, of a surface of nodes, of
+the average distance between nodes (Abaqus Keywords Guide, *TIE)."""
+
+NAMED: Final = 5
+"""Nodes that a warning names."""
+
+ROUNDED: Final = 1e-6
+"""Distance, over the size of a face, that is rounding of coordinates in the deck."""
+
+ROTATIONS: Final = (4, 5, 6)
+"""Dofs that are rotations."""
+
+ROUNDING: Final = 1e-12
+"""Cosine that is none: of an axis that is meant to be along a global one, and of the angle that it turns by."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Sector:
+    """*CYCLIC SYMMETRY MODEL: a point of the axis, its direction (unit vector), and the angle of a sector."""
+
+    point: FloatArray
+    axis: FloatArray
+    angle: float
+
+    def turn(self, sign: int) -> FloatArray:
+        """(3, 3) to the next sector, or back."""
+        turned = rotation_matrices(sign * self.angle * self.axis[None])[0]
+        return np.where(np.abs(turned) <= ROUNDING, 0.0, turned)
+
+    def distances(self, places: FloatArray) -> FloatArray:
+        """(n,) of places from the axis."""
+        return np.asarray(np.linalg.norm(np.cross(places - self.point, self.axis), axis=1))
+
+
+@dataclass(frozen=True, slots=True)
+class _Weights:
+    """Weights (m, n) of the nodes that secondary nodes (m,) follow, at their nearest points and as means."""
+
+    nearest: sparse.csr_array
+    means: sparse.csr_array
+
+
+@dataclass(frozen=True, slots=True)
+class _Tie:
+    """A data line of *TIE.
+
+    nodes     (m,) that are tied
+    weights   of the nodes of the main surface; corners: those between the corners of the faces, for dofs that only the
+              corners have
+    whole     dofs that all nodes of both surfaces have
+    offsets   (m, 3) from the points that they follow to the nodes; zero after ADJUST
+    turn      (3, 3) of the next sector to this one; None: they are the same
+    both      nodes of both surfaces of a sector
+    """
+
+    row: Row
+    nodes: IntArray
+    weights: _Weights
+    corners: _Weights | None
+    whole: frozenset[int]
+    offsets: FloatArray
+    turn: FloatArray | None
+    tolerance: float
+    both: IntArray
+
+
+class TieReader:
+    """Turns *TIE into equations."""
+
+    def __init__(self, flat: FlatMesh, surfaces: Surfaces, solid: bool, problems: Problems) -> None:
+        """solid: the model is in space."""
+        self._flat, self._surfaces, self._solid, self._problems = flat, surfaces, solid, problems
+        self._points = flat.mesh.coordinates
+        self._sector: _Sector | None = None
+        self._found: dict[Source, list[_Tie]] = {}
+
+    def find(self, active: Sequence[frozenset[int]], axisymmetric: np.ndarray) -> None:
+        """Find what all ties of the deck join, and move nodes by ADJUST.
+
+        Parameters
+        ----------
+        active
+            Dofs that elements use, of each node.
+        axisymmetric
+            (n,) nodes of axisymmetric elements.
+        """
+        self._active, self._axisymmetric = active, axisymmetric
+        with self._problems.gather():
+            self._find_sector()
+        for owner in self._flat.owners:
+            for block in owner.blocks:
+                if block.name == "TIE":
+                    with self._problems.gather():
+                        self._found[block.source] = self._find(block, owner)
+
+    def check(self, steps: Sequence[Step]) -> None:
+        """Refuse steps in which a sector has other solutions than one for all sectors."""
+        cyclic = [block for block in self._blocks("TIE") if block.options.flag("CYCLIC SYMMETRY")]
+        for step in steps if cyclic else ():
+            given = step.procedure
+            # modes differ from sector to sector
+            if given.inertia or (given.linear and given.keyword != "STATIC"):
+                where = f"*{given.keyword} ({step.source})"
+                self._problems.add(cyclic[0].source, f"*TIE: CYCLIC SYMMETRY is not supported with {where}")
+
+    def _blocks(self, name: str) -> list[Block]:
+        return [block for owner in self._flat.owners for block in owner.blocks if block.name == name]
+
+    def _find_sector(self) -> None:
+        """Take *CYCLIC SYMMETRY MODEL."""
+        cyclic = [block for block in self._blocks("TIE") if block.options.flag("CYCLIC SYMMETRY")]
+        models = self._blocks("CYCLIC SYMMETRY MODEL")
+        if models and not cyclic:
+            raise models[0].error("no *TIE has CYCLIC SYMMETRY")
+        if cyclic and not models:
+            raise cyclic[0].error("CYCLIC SYMMETRY needs *CYCLIC SYMMETRY MODEL")
+        if models:
+            self._sector = self._read_sector(models[0])
+
+    def _read_sector(self, block: Block) -> _Sector:
+        count = block.options.integer("N", 0)
+        if count < 1:
+            raise block.error(f"N={count}: expected at least one sector")
+        row = block.only_row()
+        if row is None:
+            raise block.error("needs a data line with the points a and b of the axis")
+        row.at_most(6)
+        first, second = np.array([row.real(k, "coordinate", 0.0) for k in range(6)]).reshape(2, 3)
+        axis = second - first if self._solid else np.array([0.0, 0.0, 1.0])
+        length = float(np.linalg.norm(axis))
+        if not length > 0.0:
+            raise row.error("points a and b of the axis are the same")
+        axis = np.where(np.abs(axis) <= ROUNDING * length, 0.0, axis) / length
+        return _Sector(first, axis, 2.0 * np.pi / count)
+
+    def read(self, block: Block, held: dict[int, set[int]], *, nlgeom: bool) -> Iterator[Equation]:
+        """Equations of the ties of a keyword, after `find`.
+
+        Parameters
+        ----------
+        block
+            The keyword.
+        held
+            Dofs of nodes that are held at zero in each step: where both surfaces have them, there is nothing left to
+            say, and a secondary node that has one follows the nearest point in it.
+        nlgeom
+            Some step has large displacements.
+        """
+        rotations = not block.options.flag("NO ROTATION")
+        # a plane model has no motion out of the plane, whatever its masses and springs could have
+        without = {3, 4, 5} if not self._solid else set()
+        without |= set() if rotations else set(ROTATIONS)
+        for tie in self._found.get(block.source, ()):
+            yield from self._on_axis(tie)
+            turned = False
+            for k, node in enumerate(tie.nodes.tolist()):
+                for dof in sorted(self._active[node] - without):
+                    row = self._row(tie, k, dof, exactly=dof in held.get(node, ()))
+                    if row is None or node in row[0]:
+                        continue
+                    terms = self._terms(dof, *row, tie.turn)
+                    arms = self._arms(dof, *row, tie.offsets[k]) if rotations else []
+                    turned |= bool(arms)
+                    same = dof in held.get(node, ()) and all(j in held.get(other, ()) for other, j, _ in terms)
+                    if not same:
+                        yield Equation(((node, dof, 1.0), *terms, *arms), tie.row.source)
+            if turned and nlgeom:
+                message = "nodes beside the main surface follow its rotations as small ones, also with NLGEOM"
+                self._problems.warn(tie.row.source, f"*TIE: {message}")
+            elif nlgeom and tie.offsets.any():
+                message = (
+                    "the gap between the surfaces does not turn with them: it resists large rotations; ADJUST closes it"
+                )
+                self._problems.warn(tie.row.source, f"*TIE: {message}")
+
+    def _row(self, tie: _Tie, k: int, dof: int, *, exactly: bool) -> tuple[list[int], list[float]] | None:
+        """Nodes that the k-th secondary node follows in a dof, and their weights; None where they do not have it."""
+        ways = (tie.weights,) if tie.corners is None or dof in tie.whole else (tie.corners, tie.weights)
+        for weights in ways:
+            matrix = weights.nearest if exactly else weights.means
+            part = slice(matrix.indptr[k], matrix.indptr[k + 1])
+            nodes = matrix.indices[part].tolist()
+            if all(dof in self._active[other] for other in nodes):
+                return nodes, matrix.data[part].tolist()
+        return None
+
+    def _arms(self, dof: int, nodes: Sequence[int], shares: Sequence[float], offset: FloatArray) -> list[Term]:
+        """Terms of theta x offset in a displacement, where the main surface has rotations."""
+        if dof > 3 or not offset.any() or not all(self._active[node] >= {4, 5, 6} for node in nodes):
+            return []
+        one, two = dof % 3, (dof + 1) % 3
+        ways = ((4 + one, float(offset[two])), (4 + two, -float(offset[one])))
+        return [
+            (node, turn, -share * arm) for node, share in zip(nodes, shares, strict=True) for turn, arm in ways if arm
+        ]
+
+    def _terms(self, dof: int, nodes: Sequence[int], shares: Sequence[float], turn: FloatArray | None) -> list[Term]:
+        """Those of the nodes that a dof follows."""
+        own = [(dof, 1.0)]
+        if turn is not None and dof <= ROTATIONS[-1]:
+            base = 0 if dof < ROTATIONS[0] else ROTATIONS[0] - 1
+            own = [(base + k + 1, float(cosine)) for k, cosine in enumerate(turn[dof - base - 1])]
+        return [
+            (node, other, -share * cosine)
+            for node, share in zip(nodes, shares, strict=True)
+            for other, cosine in own
+            if share * cosine != 0.0
+        ]
+
+    def _on_axis(self, tie: _Tie) -> Iterator[Equation]:
+        """Nodes of both sides of a sector move along the axis, and turn about it: u_j = (n_j/n_k) u_k."""
+        if not len(tie.both):
+            return
+        assert self._sector is not None
+        axis = self._sector.axis
+        off = tie.both[self._sector.distances(self._points[tie.both]) > tie.tolerance]
+        if len(off):
+            raise tie.row.error(f"node {self._flat.mesh.name(int(off[0]))} is on both surfaces, but not on the axis")
+        k = int(np.argmax(np.abs(axis)))
+        others = [(base + j + 1, base + k + 1, float(axis[j] / axis[k])) for base in (0, 3) for j in range(3) if j != k]
+        for node in tie.both.tolist():
+            for dof, along, ratio in others:
+                if dof in self._active[node]:
+                    terms = ((node, along, -ratio),) if ratio else ()
+                    yield Equation(((node, dof, 1.0), *terms), tie.row.source)
+
+    def _find(self, block: Block, owner: Owner) -> list[_Tie]:
+        """Find what each data line of *TIE joins."""
+        if block.options.flag("CYCLIC SYMMETRY") and self._sector is None:
+            # the sector is wrong, which is known
+            return []
+        if block.options.given("POSITION TOLERANCE") and block.options.given("TIED NSET"):
+            raise block.error("POSITION TOLERANCE and TIED NSET exclude each other")
+        return [self._find_row(block, row, owner) for row in block.rows()]
+
+    def _find_row(self, block: Block, row: Row, owner: Owner) -> _Tie:
+        second, main = (self._surfaces.nodes(row.name(k, "surface"), row.source, owner.name) for k in range(2))
+        if not len(main) or not len(second):
+            raise row.error("a surface has no nodes")
+        own, faces = (read_faces(self._surfaces, row, k, owner) for k in range(2))
+        size = _spacing(self._points[main]) if faces is None else faces.edge(self._points)
+        tolerance = block.options.real("POSITION TOLERANCE", CLOSE * size)
+        cyclic, both = block.options.flag("CYCLIC SYMMETRY"), np.zeros(0, dtype=np.int64)
+        if cyclic:
+            both = np.intersect1d(second, main)
+            second = np.setdiff1d(second, both)
+        if block.options.given("TIED NSET"):
+            tolerance = np.inf
+            second = np.intersect1d(second, self._flat.nodes(block.options.text("TIED NSET"), block.source, owner.name))
+            if not len(second):
+                raise row.error("no node of the first surface is in TIED NSET")
+        thick = 0.0
+        if not block.options.flag("NO THICKNESS"):
+            thick = sum(side.half_thickness for side in (own, faces) if side is not None)
+        ways: list[FloatArray | None] = [None]
+        if cyclic and self._sector is not None:
+            ways = [self._sector.turn(1), self._sector.turn(-1)]
+        tries = [(turn, *self._nearest(second, main, faces, self._turned(main, turn))) for turn in ways]
+        turn, nearest, distance = min(tries, key=lambda one: float(np.minimum(one[2], size).sum()))
+        near = distance - thick <= tolerance
+        if len(second) and not near.any():
+            raise row.error(
+                f"no node of the first surface is within {tolerance:g} of the second one; expected surfaces that "
+                "touch, or a larger POSITION TOLERANCE"
+            )
+        self._warn_far(row, second[~near], tolerance)
+        second, nearest = second[near], sparse.csr_array(nearest[np.flatnonzero(near)])
+        places = self._turned(main, turn)
+        if block.options.flag("ADJUST"):
+            self._adjust(row, second, nearest @ places, (thick, size))
+        weights = self._weights(block, (row, second, nearest), (own, faces), places, tolerance + thick)
+        corners = None
+        if faces is not None and (faces.quadratic or (own is not None and own.quadratic)):
+            pointed = self._nearest(second, main, faces.corners, places)[0]
+            sides = None if own is None else own.corners, faces.corners
+            corners = self._weights(block, (row, second, pointed), sides, places, tolerance + thick)
+        whole = frozenset.intersection(*(self._active[node] for node in np.union1d(second, main).tolist()))
+        offsets = self._points[second] - weights.means @ places
+        offsets[np.linalg.norm(offsets, axis=1) <= ROUNDED * size] = 0.0
+        return _Tie(row, second, weights, corners, whole, offsets, turn, tolerance, both)
+
+    def _adjust(self, row: Row, second: IntArray, at: FloatArray, sizes: tuple[float, float]) -> None:
+        """Move nodes to these points (m, 3), except where shells are between them; sizes: of these and of faces."""
+        thick, size = sizes
+        gap = np.linalg.norm(self._points[second] - at, axis=1) - thick
+        if not thick:
+            apart = gap > ROUNDING * size
+            self._points[second[apart]] = at[apart]
+        elif (np.abs(gap) > ROUNDED * size).any():
+            self._problems.warn(row.source, "*TIE: nodes beside shells stay where they are; Abaqus adjusts them")
+
+    def _warn_far(self, row: Row, nodes: IntArray, tolerance: float) -> None:
+        if len(nodes):
+            names = ", ".join(self._flat.mesh.name(node) for node in nodes[:NAMED].tolist())
+            names += f" and {len(nodes) - NAMED} more" if len(nodes) > NAMED else ""
+            message = f"nodes of the first surface farther than {tolerance:g} from the second one stay untied: {names}"
+            self._problems.warn(row.source, f"*TIE: {message}")
+
+    def _turned(self, main: IntArray, turn: FloatArray | None) -> FloatArray:
+        """(n, 3) coordinates, with those of the main surface in the next sector."""
+        places = self._points.copy()
+        if turn is not None and self._sector is not None:
+            places[main] = (places[main] - self._sector.point) @ turn.T + self._sector.point
+        return places
+
+    def _nearest(
+        self, second: IntArray, main: IntArray, faces: TiedFaces | None, places: FloatArray
+    ) -> tuple[sparse.csr_array, FloatArray]:
+        """Weights (m, n) of the points of the main surface nearest to nodes, and distances (m,) from them."""
+        points, m, n = self._points[second], len(second), len(places)
+        if faces is None:
+            distance, found = _search_tree(places[main]).query(points)
+            entries = (np.ones(m), (np.arange(m), main[found]))
+            return sparse.coo_array(entries, shape=(m, n)).tocsr(), np.asarray(distance)
+        dimension = 3 if self._solid else 2
+        surface = FaceSurface(whole_pieces(faces.nodes), places[:, :dimension])
+        nodes, shares = surface.nearest(points[:, :dimension])
+        rows = np.repeat(np.arange(m), nodes.shape[1])
+        weights = sparse.coo_array((shares.ravel(), (rows, nodes.ravel())), shape=(m, n)).tocsr()
+        weights.eliminate_zeros()
+        return weights, np.asarray(np.linalg.norm(points - weights @ places, axis=1))
+
+    def _weights(
+        self,
+        block: Block,
+        tied: tuple[Row, IntArray, sparse.csr_array],
+        sides: tuple[TiedFaces | None, TiedFaces | None],
+        places: FloatArray,
+        reach: float,
+    ) -> _Weights:
+        """Weights of nodes that are tied, with those of their nearest points."""
+        row, second, nearest = tied
+        own, faces = sides
+        if block.options.text("TYPE") == "NODE TO SURFACE" or own is None or faces is None:
+            return _Weights(nearest, nearest)
+        dimension = 3 if self._solid else 2
+        if own.dimension != dimension - 1 or faces.dimension != dimension - 1:
+            return _Weights(nearest, nearest)
+        given = self._points[:, :dimension], places[:, :dimension]
+        reach = min(reach, float(own.edge(self._points) + faces.edge(places)))
+        round_axis = bool(self._axisymmetric[second].all())
+        entries = nearest.tocoo()
+        every = sparse.coo_array((entries.data, (second[entries.row], entries.col)), shape=(len(places),) * 2).tocsr()
+        found, valid = surface_weights(own.nodes, faces.nodes, given, every, reach, round_axis=round_axis)
+        mean = valid[second].astype(np.float64)
+        means = sparse.csr_array(sparse.diags_array(mean) @ found[second] + sparse.diags_array(1.0 - mean) @ nearest)
+        means.eliminate_zeros()
+        if means.nnz > len(second):
+            message = "nodes follow means of the main surface over their faces, which pass constant stress"
+            self._problems.warn(row.source, f"*TIE: {message}; the weights of Abaqus are not published")
+        return _Weights(nearest, means)
+
+
+def _spacing(points: FloatArray) -> float:
+    """Mean distance of a point to the one nearest to it; 1 for a single point."""
+    if len(points) == 1:
+        return 1.0
+    distance, _ = _search_tree(points).query(points, k=2)
+    return float(distance[:, 1].mean())
+
+
+def _search_tree(points: FloatArray) -> cKDTree:
+    """Finds the points (n, 3) that are nearest to others."""
+    from scipy.spatial import cKDTree  # noqa: PLC0415 (takes 0.2 s, and few decks have ties)
+
+    return cKDTree(points)
+
+
+KEYWORDS = (
+    Keyword(
+        "TIE",
+        "Tie surfaces: all dofs that both have. The nodes of the first one follow the faces of the second, of solids, "
+        "cohesive elements, shells, membranes or rigid elements, or the edges of shells, or its nearest nodes if it is "
+        "made of nodes. Nodes too far away stay untied, with a warning. Beside a surface with rotations nodes follow "
+        "these too; the thickness of shells counts in distances.",
+        Where.MODEL,
+        (
+            NAME,
+            Option(
+                "POSITION TOLERANCE",
+                Kind.REAL,
+                "largest distance of nodes that are tied; by default 5 % of the typical edge of the second surface",
+            ),
+            Option("TIED NSET", Kind.NAME, "the nodes that are tied, whatever their distance"),
+            Option("NO ROTATION", doc="rotations stay free"),
+            Option("NO THICKNESS", doc="the thickness of shells does not count in distances"),
+            Option(
+                "CYCLIC SYMMETRY",
+                doc="the second surface is that of the next sector of *CYCLIC SYMMETRY MODEL; in static steps",
+            ),
+            one_of(
+                "TYPE",
+                "NODE TO SURFACE: nodes follow the nearest points. SURFACE TO SURFACE: they follow means over their "
+                "faces, so that constant stress passes; Abaqus' weights are not published",
+                ("SURFACE TO SURFACE", "NODE TO SURFACE"),
+                default="SURFACE TO SURFACE",
+            ),
+            Option(
+                "ADJUST",
+                Kind.SWITCH,
+                "move tied nodes onto the second surface; nodes of ties with shells stay where they are",
+                default="YES",
+            ),
+            *ignored("CONSTRAINT RATIO"),
+        ),
+        "first (secondary) surface, second (main) surface",
+    ),
+    Keyword(
+        "CYCLIC SYMMETRY MODEL",
+        "The model is a sector, which repeats itself about an axis; ties with CYCLIC SYMMETRY join its two sides. "
+        "Steps have the solution that is the same in all sectors.",
+        Where.MODEL,
+        (Option("N", Kind.INTEGER, "number of sectors", required=True),),
+        "coordinates of the points a and b of the axis; in the plane those of a",
+    ),
+)

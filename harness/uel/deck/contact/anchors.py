@@ -1,0 +1,211 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Anchor points of contact in small sliding: where the main surface faces each node of the secondary surface.
+
+The anchor point of a node is that of the main surface whose normal goes through the node. The normal varies smoothly
+over the surface: that of a node is the mean of those of its faces, and between nodes it is interpolated (Abaqus
+Analysis User's Guide, "Contact formulations in Abaqus/Standard", small-sliding tracking).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from uel.model.arrays import FloatArray, IntArray
+
+CANDIDATES: Final = 12
+"""Faces that are tried for a node: those nearest to it."""
+STEPS: Final = 25
+"""Of Newton's method, for the anchor point on a face."""
+EDGE: Final = 1e-6
+"""How far beyond the edge of a face, whose natural coordinates go from -1 to 1, a point is on it: rounding."""
+EQUAL: Final = 1e-9
+"""Difference of clearances, over the size of a face, that counts as none."""
+CHUNK: Final = 2**22
+"""Distances of nodes and faces that are looked at together."""
+
+
+@dataclass(frozen=True, slots=True)
+class Anchors:
+    """Anchor points of m nodes.
+
+    found       (m,) whether the main surface faces the node; the other values are meaningless without
+    faces       (m, k) nodes of the face, the first one repeated up to k
+    weights     (m, k) of these nodes
+    slopes      (m, k, 2) their derivatives along the natural coordinates of the face, of which a line has one
+    normals     (m, 3) unit vectors
+    clearances  (m,) along the normals, 0 where rounding alone makes them different from 0
+    """
+
+    found: np.ndarray
+    faces: IntArray
+    weights: FloatArray
+    slopes: FloatArray
+    normals: FloatArray
+    clearances: FloatArray
+
+
+def find_anchors(
+    points: FloatArray,
+    looks: FloatArray,
+    faces: Sequence[tuple[IntArray, FloatArray]],
+    coordinates: FloatArray,
+    *,
+    along: bool = False,
+) -> Anchors:
+    """Anchor points of nodes.
+
+    Parameters
+    ----------
+    points
+        (m, 3) places of the nodes.
+    looks
+        (m, 3) outward normals of their own surface, which do not point the way of that at the anchor point; zero: any.
+    faces
+        Of each kind, lines, triangles or quadrilaterals: their nodes (f, corners), and outward unit normals (f, 3).
+    coordinates
+        (n, 3) of all nodes.
+    along
+        The anchor point is where the main surface is met along `looks`, with the opposite of these as the normal.
+    """
+    nodal = nodal_normals(faces, coordinates)
+    width = max(nodes.shape[1] for nodes, _ in faces)
+    best = Anchors(
+        np.zeros(len(points), dtype=np.bool_),
+        np.zeros((len(points), width), dtype=np.int64),
+        np.zeros((len(points), width)),
+        np.zeros((len(points), width, 2)),
+        np.zeros_like(points),
+        np.full(len(points), np.inf),
+    )
+    for nodes, _ in faces:
+        step = max(1, CHUNK // len(nodes))
+        for start in range(0, len(points), step):
+            part = slice(start, start + step)
+            given = points[part], looks[part]
+            _improve(best, part, given, nodes, coordinates[nodes], nodal[nodes], along=along)
+    return best
+
+
+def nodal_normals(faces: Sequence[tuple[IntArray, FloatArray]], coordinates: FloatArray) -> FloatArray:
+    """(n, 3) mean of the normals of the faces at each node, of length one; zero at the other nodes."""
+    nodal = np.zeros_like(coordinates)
+    for nodes, normals in faces:
+        for corner in nodes.T:
+            np.add.at(nodal, corner, normals)
+    length = np.linalg.norm(nodal, axis=1)[:, None]
+    nodal /= np.where(length > 0.0, length, 1.0)
+    return nodal
+
+
+def _improve(
+    best: Anchors,
+    part: slice,
+    given: tuple[FloatArray, FloatArray],
+    nodes: IntArray,
+    corners: FloatArray,
+    normals: FloatArray,
+    *,
+    along: bool,
+) -> None:
+    """Take over the anchor points on faces of one kind that are nearer than those so far."""
+    points, looks = given
+    centres = corners.mean(axis=1)
+    sizes = np.linalg.norm(corners - centres[:, None], axis=2).max(axis=1)
+    distance = np.linalg.norm(points[:, None] - centres, axis=2) - sizes
+    count = min(CANDIDATES, len(nodes))
+    chosen = np.sort(np.argpartition(distance, count - 1, axis=1)[:, :count], axis=1)
+    given_normals = np.broadcast_to(-looks[:, None, None], corners[chosen].shape) if along else normals[chosen]
+    place, clearance = _project(points[:, None], corners[chosen], given_normals)
+    weights = shape_functions(place, nodes.shape[1])
+    facing = np.einsum("mck,mckd,md->mc", weights, normals[chosen], looks) <= 0.0
+    normal = np.einsum("mck,mckd->mcd", weights, given_normals)
+    length = np.linalg.norm(normal, axis=2)
+    clearance = clearance * length
+    gap = np.einsum("mck,mckd->mcd", weights, corners[chosen]) + clearance[..., None] * normal / length[..., None]
+    size = sizes[chosen]
+    hit = np.linalg.norm(points[:, None] - gap, axis=2) <= EDGE * size
+    hit &= (weights >= -EDGE).all(axis=2) & facing
+    distance = np.where(hit, np.abs(clearance), np.inf)
+    nearest = distance.min(axis=1, keepdims=True)
+    # of faces that are as near, the first one, whatever rounding says
+    k = np.argmax(distance <= nearest + EQUAL * size, axis=1)
+    rows = np.arange(len(points))
+    better = hit[rows, k] & (nearest[:, 0] < np.abs(best.clearances[part]))
+    rows, k = rows[better], k[better]
+    target = np.arange(best.clearances.size)[part][better]
+    width = nodes.shape[1]
+    best.found[target] = True
+    best.faces[target] = nodes[chosen[rows, k]][:, :1]
+    best.faces[target, :width] = nodes[chosen[rows, k]]
+    best.weights[target] = 0.0
+    best.weights[target, :width] = weights[rows, k]
+    slopes = natural_gradients(place, width)[rows, k]
+    best.slopes[target] = 0.0
+    best.slopes[target, :width, : slopes.shape[2]] = slopes
+    best.normals[target] = (normal / length[..., None])[rows, k]
+    found = clearance[rows, k]
+    best.clearances[target] = np.where(np.abs(found) <= EQUAL * size[rows, k], 0.0, found)
+
+
+def _project(points: FloatArray, corners: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Natural coordinates (m, c, 1 or 2) of anchor points and distances (m, c) in multiples of the interpolated
+    normals: X(place) + distance N(place) = point, by Newton's method.
+    """
+    pairs, count = corners.shape[:2], corners.shape[2]
+    along = 1 if count == 2 else 2
+    points = np.broadcast_to(points, (*pairs, 3)).reshape(-1, 3)
+    corners, normals = (np.reshape(values, (-1, count, 3)) for values in (corners, normals))
+    place = np.zeros((len(points), along)) + (1 / 3 if count == 3 else 0.0)
+    distance, rows = np.zeros(len(points)), np.arange(len(points))
+    size = np.linalg.norm(corners - corners.mean(axis=1, keepdims=True), axis=2).max(axis=1)
+    for _ in range(STEPS):
+        shapes, slopes = shape_functions(place[rows], count), natural_gradients(place[rows], count)
+        normal = np.einsum("pk,pkd->pd", shapes, normals[rows])
+        missing = points[rows] - np.einsum("pk,pkd->pd", shapes, corners[rows]) - distance[rows, None] * normal
+        turned = corners[rows] + distance[rows, None, None] * normals[rows]
+        # lines are in the plane, whose third coordinate does not matter
+        matrix = np.zeros((len(rows), 3, 3))
+        matrix[:, 2, 2] = 1.0
+        matrix[..., :along] = np.einsum("pka,pkd->pda", slopes, turned)
+        matrix[..., along] = normal
+        if along == 1:
+            matrix[:, 2, :2] = missing[:, 2] = 0.0
+        usable = np.abs(np.linalg.det(matrix)) > EQUAL * size[rows] ** along
+        change = np.linalg.solve(np.where(usable[:, None, None], matrix, np.eye(3)), missing[..., None])[..., 0]
+        change[~usable] = 0.0
+        last = place[rows]
+        place[rows] = np.clip(last + change[:, :along], -3.0, 3.0)
+        distance[rows] += change[:, along]
+        # the method doubles the digits: the error is now that of rounding
+        moves = np.abs(place[rows] - last).max(axis=1) > EQUAL
+        rows = rows[moves | (np.abs(change[:, along]) > EQUAL * size[rows])]
+        if not len(rows):
+            break
+    return place.reshape(*pairs, along), distance.reshape(pairs)
+
+
+def shape_functions(place: FloatArray, count: int) -> FloatArray:
+    """Shape functions (..., corners) of lines, triangles and quadrilaterals."""
+    if count == 2:
+        return 0.5 * np.stack([1 - place[..., 0], 1 + place[..., 0]], axis=-1)
+    x, y = place[..., 0], place[..., 1]
+    if count == 3:
+        return np.stack([1 - x - y, x, y], axis=-1)
+    return 0.25 * np.stack([(1 - x) * (1 - y), (1 + x) * (1 - y), (1 + x) * (1 + y), (1 - x) * (1 + y)], axis=-1)
+
+
+def natural_gradients(place: FloatArray, count: int) -> FloatArray:
+    """Their derivatives (..., corners, 1 or 2) by the natural coordinates."""
+    if count == 2:
+        return np.broadcast_to(np.array([[-0.5], [0.5]]), (*place.shape[:-1], 2, 1))
+    if count == 3:
+        return np.broadcast_to(np.array([[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]]), (*place.shape[:-1], 3, 2))
+    x, y = place[..., 0], place[..., 1]
+    by_x = 0.25 * np.stack([-(1 - y), 1 - y, 1 + y, -(1 + y)], axis=-1)
+    by_y = 0.25 * np.stack([-(1 - x), -(1 + x), 1 + x, 1 - x], axis=-1)
+    return np.stack([by_x, by_y], axis=-1)

@@ -1,0 +1,103 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is wrong with a deck, gathered so that one reading reports all of it."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Container, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import TypeVar
+
+from uel.errors import DeckError, Source, all_of
+
+MOST_REPORTED = 50
+_LONGEST_WORD = 80
+"""Characters of a word for which the nearest one is sought; the longest keyword has half as many."""
+
+
+Entry = TypeVar("Entry")
+
+
+class Problems:
+    """Errors and warnings of one deck, each kept once."""
+
+    def __init__(self) -> None:
+        self._errors: dict[tuple[Source, str], DeckError] = {}
+        self._of_materials: dict[str, list[DeckError]] = {}
+        self._warnings: dict[str, None] = {}
+        self._differences: dict[str, None] = {}
+
+    def add(self, source: Source, message: str) -> None:
+        """Keep an error."""
+        self._errors.setdefault((source, message), DeckError(source, message))
+
+    def warn(self, source: Source, message: str) -> None:
+        """Keep a warning."""
+        self._warnings.setdefault(f"{source}: {message}")
+
+    def differ(self, source: Source, message: str) -> None:
+        """Keep what Abaqus does otherwise with this deck, which does not change this run."""
+        self._differences.setdefault(f"{source}: {message}")
+
+    @contextmanager
+    def gather(self) -> Iterator[None]:
+        """Keep the DeckError that ends the body, so that reading goes on with the next block."""
+        try:
+            yield
+        except DeckError as error:
+            self._errors.setdefault((error.source, str(error)), error)
+
+    @contextmanager
+    def gather_of(self, material: str) -> Iterator[None]:
+        """Keep the DeckError that ends the body as one of a material, which is none if nothing uses the material."""
+        try:
+            yield
+        except DeckError as error:
+            self._of_materials.setdefault(material, []).append(error)
+
+    def settle(self, used: Container[str]) -> list[str]:
+        """Count the errors of materials that are used; return the names of others that have errors."""
+        for material in [name for name in self._of_materials if name in used]:
+            for error in self._of_materials.pop(material):
+                self._errors.setdefault((error.source, str(error)), error)
+        return list(self._of_materials)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Warnings in the order they came."""
+        return tuple(self._warnings)
+
+    @property
+    def differences(self) -> tuple[str, ...]:
+        """What Abaqus does otherwise, in the order it came."""
+        return tuple(self._differences)
+
+    @property
+    def found(self) -> bool:
+        """Whether there is an error so far."""
+        return bool(self._errors)
+
+    def check(self) -> None:
+        """Raise one DeckError that names every place so far, if there is any."""
+        errors = list(self._errors.values())
+        if errors:
+            shown = errors[:MOST_REPORTED]
+            if len(errors) > MOST_REPORTED:
+                shown.append(DeckError(errors[MOST_REPORTED].source, f"and {len(errors) - MOST_REPORTED} more errors"))
+            raise all_of(shown)
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """The ending '; did you mean X?' for a misspelt word, '' where nothing is near."""
+    if len(word) > _LONGEST_WORD:
+        return ""
+    found = difflib.get_close_matches(word, list(known), n=1, cutoff=0.6)
+    return f"; did you mean {found[0]}?" if found else ""
+
+
+def look_up(known: Mapping[str, Entry], name: str, what: str, source: Source) -> Entry:
+    """Entry of a name; DeckError that names the nearest one."""
+    if name not in known:
+        raise DeckError(source, f"unknown {what} {name}{nearest(name, known)}")
+    return known[name]

@@ -1,0 +1,291 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a keyword and its options are: the entries of the keyword table, and how a keyword line is read against it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from functools import lru_cache
+
+from uel.deck.error_report import nearest
+from uel.deck.language.abaqus_names import ABAQUS_KEYWORDS
+from uel.deck.language.numbers import read_integer, read_real
+from uel.errors import DeckError, Source
+
+
+class Kind(StrEnum):
+    """What the value of an option is."""
+
+    FLAG = "flag"
+    SWITCH = "YES or NO"
+    NAME = "name"
+    INTEGER = "integer"
+    REAL = "real"
+    CHOICE = "choice"
+    FILE = "file"
+
+
+class Support(StrEnum):
+    """What the reader does with a keyword or an option."""
+
+    READ = "read"
+    IGNORED = "cannot change the solution: listed and ignored"
+    REFUSED = "refused"
+
+
+class Where(StrEnum):
+    """Part of the deck a keyword belongs to."""
+
+    MODEL = "model"
+    STEP = "step"
+    ANY = "model or step"
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """One option of a keyword line.
+
+    doc       what it gives, for `keywords.md`
+    required  the line must have it
+    default   its value where the line does not have it; '' for none
+    choices   values of Kind.CHOICE
+    refused   values Abaqus knows that would change the solution here
+    bare      its value where the line has the option without a value; '' if there must be one
+    """
+
+    name: str
+    kind: Kind = Kind.FLAG
+    doc: str = ""
+    required: bool = False
+    default: str = ""
+    choices: tuple[str, ...] = ()
+    refused: tuple[str, ...] = ()
+    support: Support = Support.READ
+    bare: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Keyword:
+    """One keyword.
+
+    doc      what it does, for `keywords.md`
+    data     what its data lines hold, '' where it takes none
+    comments what comments between them may give, '' where they are not looked at
+    support  IGNORED: it cannot change the solution, and no reader looks at it
+    """
+
+    name: str
+    doc: str
+    where: Where
+    options: tuple[Option, ...] = ()
+    data: str = ""
+    support: Support = Support.READ
+    comments: str = ""
+
+
+INPUT = Option("INPUT", Kind.FILE, "file that holds the data lines")
+NAME = Option("NAME", Kind.NAME, "name", required=True)
+
+
+def one_of(
+    name: str,
+    doc: str,
+    choices: tuple[str, ...],
+    *,
+    default: str = "",
+    required: bool = False,
+    refused: tuple[str, ...] = (),
+    bare: str = "",
+) -> Option:
+    """An option whose value is one of these choices; parameters are entries of `Option`."""
+    return Option(name, Kind.CHOICE, doc, required, default, choices, refused, bare=bare)
+
+
+def refused(*names: str) -> tuple[Option, ...]:
+    """Options, by their names, that Abaqus knows and that would change the solution."""
+    return tuple(Option(name, support=Support.REFUSED) for name in names)
+
+
+def ignored(*names: str) -> tuple[Option, ...]:
+    """Options, by their names, that cannot change the solution."""
+    return tuple(Option(name, support=Support.IGNORED) for name in names)
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """Options of one keyword line, checked against the table; names are those of the table.
+
+    Each look-up raises LookupError for an option that the keyword does not have, or that is of another kind: that is a
+    mistake of the reader, not of the deck.
+    """
+
+    keyword: Keyword
+    values: dict[str, str] = field(default_factory=dict)
+
+    def known(self, name: str) -> bool:
+        """True where the keyword has this option, for what is read of several keywords."""
+        return any(option.name == name and option.support is Support.READ for option in self.keyword.options)
+
+    def flag(self, name: str) -> bool:
+        """True where the flag or switch is on."""
+        return (self._value(name, Kind.FLAG, Kind.SWITCH) or "NO") != "NO"
+
+    def given(self, name: str) -> bool:
+        """True where the option is on the line."""
+        return self._value(name, *Kind) is not None
+
+    def text(self, name: str) -> str:
+        """Name, choice or file; the default, or '', where the option is absent."""
+        return self._value(name, Kind.NAME, Kind.CHOICE, Kind.FILE) or ""
+
+    def real(self, name: str, default: float) -> float:
+        """Real value; `default` where neither the line nor the table gives one."""
+        value = self._value(name, Kind.REAL)
+        return default if value is None else read_real(value)
+
+    def integer(self, name: str, default: int) -> int:
+        """Integer value; `default` where neither the line nor the table gives one."""
+        value = self._value(name, Kind.INTEGER)
+        return default if value is None else read_integer(value)
+
+    def _value(self, name: str, *kinds: Kind) -> str | None:
+        """What the line, or the default, says; None for nothing."""
+        for option in self.keyword.options:
+            if option.name == name and option.kind in kinds and option.support is Support.READ:
+                return self.values.get(name)
+        raise LookupError(
+            f"*{self.keyword.name} has no option {name} of kind {' or '.join(kinds)} in the keyword table"
+        )
+
+
+@lru_cache(4096)
+def compact(word: str) -> str:
+    """Spelling in which words are compared: upper case, without blanks."""
+    return "".join(word.split()).upper()
+
+
+def split_fields(line: str) -> list[str]:
+    """Fields between commas, stripped; commas within quotes do not separate."""
+    if '"' not in line:
+        return [part.strip() for part in line.split(",")]
+    fields = [""]
+    for number, piece in enumerate(re.split(r'("[^"]*")', line)):
+        first, *others = [piece] if number % 2 else piece.split(",")
+        fields[-1] += first
+        fields += others
+    return [field.strip() for field in fields]
+
+
+def unquote(name: str) -> str:
+    """A name without its quotes, in upper case and with single blanks: names are compared like this."""
+    return " ".join(name.replace('"', "").split()).upper()
+
+
+_REASONS = {
+    "CONTACT STABILIZATION": ": it is damping that depends on sizes of the surfaces which Abaqus does not describe",
+}
+"""Why keywords of Abaqus are not supported, and what is, where a deck can say it otherwise."""
+
+_ABAQUS = {compact(name): name for name in ABAQUS_KEYWORDS}
+
+
+def abaqus_name(name: str) -> str:
+    """Name of the keyword of Abaqus that is called so, or of the only one that begins so; '' without any."""
+    wanted = compact(name)
+    begins = [wanted] if wanted in _ABAQUS else [full for full in _ABAQUS if wanted and full.startswith(wanted)]
+    return _ABAQUS[begins[0]] if len(begins) == 1 else ""
+
+
+def find_keyword(keywords: Mapping[str, Keyword], name: str, source: Source) -> Keyword:
+    """Keyword of this name, or the only one of Abaqus that begins like this; DeckError says whether Abaqus has it."""
+    wanted = compact(name)
+    if not wanted:
+        raise DeckError(source, "a keyword line without a keyword; a comment begins with **")
+    wanted = compact(abaqus_name(name)) or wanted
+    if wanted in keywords:
+        return keywords[wanted]
+    if wanted in _ABAQUS:
+        raise DeckError(source, f"*{_ABAQUS[wanted]} is not supported{_REASONS.get(_ABAQUS[wanted], '')}")
+    known = {keyword.name for keyword in keywords.values()} | ABAQUS_KEYWORDS
+    raise DeckError(source, f"unknown keyword *{name.strip()}{nearest(name.strip().upper(), known)}")
+
+
+def read_options(keyword: Keyword, fields: list[str], source: Source) -> Options:
+    """Options of a keyword line; DeckError for an unknown, missing, ill-typed or unsupported one."""
+    values: dict[str, str] = {}
+    for text in fields:
+        if not text:
+            continue
+        name, equals, value = text.partition("=")
+        option = _find_option(keyword, name, source)
+        if option.support is Support.REFUSED:
+            raise DeckError(source, f"*{keyword.name}: option {option.name} is not supported")
+        if option.support is Support.READ:
+            values[option.name] = _read_value(keyword, option, value.strip() if equals else None, source)
+    for option in keyword.options:
+        if option.required and option.name not in values:
+            raise DeckError(source, f"*{keyword.name} needs the option {option.name}")
+        if option.default:
+            values.setdefault(option.name, option.default)
+    return Options(keyword, values)
+
+
+def _find_option(keyword: Keyword, name: str, source: Source) -> Option:
+    """Option of this name, or the only one that begins like this."""
+    wanted = compact(name)
+    begins = [option for option in keyword.options if wanted and compact(option.name).startswith(wanted)]
+    exact = [option for option in begins if compact(option.name) == wanted]
+    if exact or len(begins) == 1:
+        return (exact or begins)[0]
+    if begins:
+        names = " or ".join(option.name for option in begins)
+        raise DeckError(source, f"*{keyword.name}: option {name.strip()} is ambiguous ({names}); write it out")
+    known = [option.name for option in keyword.options if option.support is not Support.REFUSED]
+    takes = f"; it takes {', '.join(known)}" if known else "; it takes none"
+    hint = nearest(name.strip().upper(), [option.name for option in keyword.options]) or takes
+    raise DeckError(source, f"*{keyword.name}: unknown option {name.strip()}{hint}")
+
+
+def _read_value(keyword: Keyword, option: Option, value: str | None, source: Source) -> str:
+    place = f"*{keyword.name}, {option.name}"
+    if option.kind is Kind.FLAG:
+        if value and value.upper() not in ("YES", "NO"):
+            raise DeckError(source, f"{place} takes no value, found '{value}'")
+        return (value or "YES").upper()
+    if option.kind is Kind.SWITCH:
+        return (
+            _choose(place, value or "YES", ("YES", "NO", "ON", "OFF"), (), source)
+            .replace("ON", "YES")
+            .replace("OFF", "NO")
+        )
+    value = value or option.bare
+    # quotes around nothing are none
+    if not value or not value.strip('" '):
+        raise DeckError(source, f"{place} needs a value")
+    if option.kind is Kind.CHOICE:
+        return _choose(place, value, option.choices, option.refused, source)
+    if option.kind is Kind.FILE:
+        return value.strip('"')
+    if option.kind is Kind.NAME:
+        return unquote(value)
+    try:
+        return str(read_integer(value)) if option.kind is Kind.INTEGER else repr(read_real(value))
+    except ValueError as error:
+        raise DeckError(source, f"{place}: {error}") from None
+
+
+def _choose(place: str, value: str, choices: tuple[str, ...], refused: tuple[str, ...], source: Source) -> str:
+    wanted = compact(value.replace('"', ""))
+    begins = [choice for choice in choices + refused if compact(choice).startswith(wanted)]
+    exact = [choice for choice in begins if compact(choice) == wanted]
+    if not exact and len(begins) != 1:
+        raise DeckError(
+            source, f"{place}={value}: expected one of {', '.join(choices)}{nearest(value.upper(), choices)}"
+        )
+    chosen = (exact or begins)[0]
+    if chosen in refused:
+        raise DeckError(source, f"{place}={chosen} is not supported (supported: {', '.join(choices)})")
+    return chosen

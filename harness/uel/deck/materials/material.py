@@ -1,0 +1,300 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*MATERIAL and the options that follow it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from uel.deck.error_report import Problems
+from uel.deck.language.blocks import PER_LINE, Block, Row
+from uel.deck.language.structure import Structure
+from uel.deck.language.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
+from uel.deck.materials.damage import KEYWORDS as DAMAGE_OPTIONS
+from uel.deck.materials.damage import OF_MATERIALS, extend_damage
+from uel.deck.materials.diffusion import OPTIONS as DIFFUSION_OPTIONS
+from uel.deck.materials.diffusion import extend_diffusion
+from uel.deck.materials.expansion import KEYWORDS as EXPANSION_OPTIONS
+from uel.deck.materials.expansion import read_expansion
+from uel.deck.materials.heat import KEYWORDS as HEAT_OPTIONS
+from uel.deck.materials.heat import extend_heat
+from uel.deck.materials.hyperelastic import KEYWORDS as HYPERELASTIC_OPTIONS
+from uel.deck.materials.hyperelastic import read_hyperelastic
+from uel.deck.materials.piezoelectric import KEYWORDS as PIEZO_OPTIONS
+from uel.deck.materials.piezoelectric import extend_electrical
+from uel.deck.materials.plastic import KEYWORDS as PLASTIC_OPTIONS
+from uel.deck.materials.plastic import extend_plastic
+from uel.deck.materials.user_constants import MOST_VARIABLES, read_constants
+from uel.deck.materials.viscous import KEYWORDS as VISCOUS_OPTIONS
+from uel.deck.materials.viscous import extend_viscous
+from uel.deck.sections.user_elements import read_count
+from uel.model.arrays import FloatArray
+from uel.model.properties import Elastic, ElasticType, HybridFormulation, Material, UserMaterial, isotropic_fault
+
+DEPENDENT = (ElasticType.ISOTROPIC, ElasticType.LAMINA, ElasticType.ENGINEERING_CONSTANTS)
+"""Those whose constants may depend on temperature and fields."""
+MOST_FIELDS = 1000
+
+
+def leave_out_unused(structure: Structure, problems: Problems) -> None:
+    """Drop the materials that have errors and that nothing uses: in Abaqus what they hold has no effect either."""
+    _list_unused(problems.settle(structure.materials), structure)
+    left_out = {name for name, _ in structure.ignored}
+    kept: list[Block] = []
+    inside = False
+    for block in structure.root:
+        if block.name == "MATERIAL":
+            inside = _label(block.options.text("NAME")) in left_out
+        elif block.name not in MATERIAL_OPTIONS:
+            inside = False
+        if not inside:
+            kept.append(block)
+    structure.root = kept
+
+
+def _list_unused(names: Sequence[str], structure: Structure) -> None:
+    listed = {name for name, _ in structure.ignored}
+    for block in structure.root:
+        if block.name == "MATERIAL" and (name := block.options.text("NAME")) in names and _label(name) not in listed:
+            structure.ignored.append((_label(name), block.source))
+
+
+def _label(material: str) -> str:
+    """Name of a material in the list of ignored keywords."""
+    return f"MATERIAL, NAME={material}"
+
+
+def read_materials(blocks: list[Block], structure: Structure, problems: Problems) -> dict[str, Material]:
+    """Return the materials: *MATERIAL and the options that follow it at once.
+
+    blocks: those of the model, in the structure, without the options of contact properties. Errors in a material count
+    where something uses it, else the structure lists it among what is ignored.
+    """
+    materials: dict[str, Material] = {}
+    current: str | None = None
+    for block in blocks:
+        inside = current is not None and block.name in MATERIAL_OPTIONS
+        with problems.gather_of(current) if inside and current else problems.gather():
+            if block.name == "MATERIAL":
+                current = block.options.text("NAME")
+                materials[current] = Material(current, block.source)
+            elif block.name in MATERIAL_OPTIONS:
+                if current is None:
+                    raise block.error("does not follow *MATERIAL")
+                materials[current] = _extend(materials[current], block, problems)
+            else:
+                current = None
+    _list_unused(problems.settle(structure.materials), structure)
+    return materials
+
+
+def _extend(material: Material, block: Block, problems: Problems) -> Material:
+    match block.name:
+        case "ELASTIC":
+            extended = replace(material, elastic=_read_elastic(block))
+        case "HYPERELASTIC" | "ANISOTROPIC HYPERELASTIC":
+            extended = replace(material, hyperelastic=read_hyperelastic(block, problems))
+        case "PLASTIC" | "CYCLIC HARDENING":
+            extended = replace(material, plastic=extend_plastic(material.plastic, block, problems))
+        case "VISCOELASTIC" | "CREEP" | "TRS":
+            extended = extend_viscous(material, block, problems)
+        case "USER MATERIAL":
+            given, thermal = _read_user_material(block, problems), block.options.text("TYPE") == "THERMAL"
+            extended = replace(material, user_thermal=given) if thermal else replace(material, user=given)
+        case "USER DEFINED FIELD":
+            extended = replace(material, user_field=block.source)
+        case "DENSITY" | "DEPVAR" | "USER OUTPUT VARIABLES":
+            extended = _extend_number(material, block)
+        case "CONDUCTIVITY" | "HEAT GENERATION" | "LATENT HEAT" | "SPECIFIC HEAT":
+            extended = extend_heat(material, block)
+        case "DIFFUSIVITY" | "KAPPA" | "SOLUBILITY":
+            extended = extend_diffusion(material, block)
+        case "PIEZOELECTRIC" | "DIELECTRIC":
+            extended = extend_electrical(material, block)
+        case "EXPANSION":
+            extended = replace(material, expansion=read_expansion(block))
+        case _:
+            extended = replace(material, damage=extend_damage(material.damage, block, OF_MATERIALS))
+    return extended
+
+
+def _extend_number(material: Material, block: Block) -> Material:
+    """The material with what takes one number."""
+    match block.name:
+        case "DENSITY":
+            return replace(material, density=_read_constant(block, "density"))
+        case "DEPVAR":
+            return replace(material, state_variables=_read_count(block))
+        case _:
+            return replace(material, output_variables=_read_count(block))
+
+
+def _read_constant(block: Block, what: str) -> float:
+    """The one positive number of a material option."""
+    rows = list(block.rows())
+    if len(rows) != 1 or len(rows[0]) != 1:
+        raise block.error(f"needs one data line with the {what}; a temperature is not supported")
+    value = rows[0].real(0, what)
+    if value <= 0:
+        raise rows[0].error(f"{what} {value:g} must be positive")
+    return value
+
+
+def _read_elastic(block: Block) -> Elastic:
+    kind = ElasticType(block.options.text("TYPE"))
+    count = kind.constants
+    instantaneous = block.options.text("MODULI") == "INSTANTANEOUS"
+    rows = list(block.rows())
+    if not rows:
+        raise block.error("needs a data line")
+    fields = read_count(block, "DEPENDENCIES", 0, 0, MOST_FIELDS)
+    values = [value for row in rows for value in row.reals("elastic constant")]
+    if fields or len(values) > count:
+        table = _read_dependence(block, kind, count, fields)
+        # one row is no dependence
+        return Elastic(
+            kind, tuple(table[0, :count].tolist()), block.source, table if len(table) > 1 else None, instantaneous
+        )
+    # trailing constants may be left out: Poisson's ratio, the transverse shear moduli of a lamina, Ett in the plane
+    needed = {ElasticType.ISOTROPIC: 1, ElasticType.LAMINA: 4, ElasticType.TRACTION: 2}.get(kind, count)
+    if len(values) < needed:
+        raise rows[0].error(f"{len(values)} values, but {kind.value} takes {count}")
+    values += [0.0] * (count - len(values))
+    if kind is ElasticType.ISOTROPIC:
+        _check_isotropic(rows[0], *values)
+    return Elastic(kind, tuple(values), block.source, instantaneous=instantaneous)
+
+
+def _check_isotropic(row: Row, young: float, poisson: float) -> None:
+    if fault := isotropic_fault(young, poisson):
+        raise row.error(fault)
+
+
+def _read_dependence(block: Block, kind: ElasticType, count: int, fields: int) -> FloatArray:
+    """Rows of constants, temperature and fields; each takes as many lines as eight to a line need."""
+    if kind not in DEPENDENT:
+        names = ", ".join(sorted(DEPENDENT))
+        raise block.error(f"dependence on temperature and fields is supported for {names}, not for {kind.value}")
+    rows, width = list(block.rows()), count + 1 + fields
+    lines = math.ceil(width / PER_LINE)
+    if len(rows) % lines:
+        raise block.error(f"{width} values take {lines} lines, found {len(rows)}")
+    table: list[list[float]] = []
+    for first in range(0, len(rows), lines):
+        values: list[float] = []
+        for number, row in enumerate(rows[first : first + lines]):
+            here = min(PER_LINE, width - PER_LINE * number)
+            row.at_most(here)
+            values += row.reals("elastic constant") + [0.0] * (here - len(row))
+        if kind is ElasticType.ISOTROPIC:
+            _check_isotropic(rows[first], *values[:count])
+        if any(values[count:] == earlier[count:] for earlier in table):
+            raise rows[first].error("the temperature and fields are those of an earlier line")
+        table.append(values)
+    return np.array(table)
+
+
+def _read_user_material(block: Block, problems: Problems) -> UserMaterial:
+    constants = read_constants(block, "CONSTANTS", problems)
+    hybrid = HybridFormulation[block.options.text("HYBRID FORMULATION")]
+    return UserMaterial(constants, block.options.flag("UNSYMM"), block.source, hybrid)
+
+
+def _read_count(block: Block) -> int:
+    row = next(block.rows(), None)
+    if row is None:
+        raise block.error("needs a data line with the number of variables")
+    count = row.integer(0, "number of variables")
+    if not 0 <= count <= MOST_VARIABLES:
+        raise row.error(f"{count} variables: expected a number from 0 to {MOST_VARIABLES}")
+    return count
+
+
+_OPTIONS = (
+    Keyword(
+        "ELASTIC",
+        "Linear elasticity; a Poisson's ratio of 0.5 needs hybrid elements.",
+        Where.MODEL,
+        (
+            one_of(
+                "TYPE",
+                "symmetry",
+                ("ISOTROPIC", "ENGINEERING CONSTANTS", "LAMINA", "ORTHOTROPIC", "ANISOTROPIC", "TRACTION"),
+                default="ISOTROPIC",
+                refused=("COUPLED TRACTION", "SHEAR", "SHORT FIBER", "BILAMINA"),
+            ),
+            Option("DEPENDENCIES", Kind.INTEGER, "number of field variables"),
+            one_of(
+                "MODULI",
+                "which ones the constants give, with *VISCOELASTIC",
+                ("LONG TERM", "INSTANTANEOUS"),
+                default="LONG TERM",
+            ),
+            *refused("COMPRESSION FACTOR"),
+        ),
+        "constants in the order of the type; those of continuum elements, trusses, shells and beams may depend on "
+        "temperature and fields, which follow, eight values per line",
+    ),
+    Keyword(
+        "USER MATERIAL",
+        "Material of UMAT, or of UMATHT, which conducts and stores heat; one material may have both. RPL, DRPLDT, "
+        "DRPLDE and DDSDDT of UMAT count in coupled temperature-displacement elements.",
+        Where.MODEL,
+        (
+            Option("CONSTANTS", Kind.INTEGER, "number of constants", required=True),
+            Option("UNSYMM", doc="DDSDDE, or the matrix of UMATHT, is unsymmetric"),
+            one_of("TYPE", "what the user routine gives", ("MECHANICAL", "THERMAL"), default="MECHANICAL"),
+            one_of(
+                "HYBRID FORMULATION",
+                "what hybrid elements take from UMAT",
+                tuple(HybridFormulation.__members__),
+                default="INCREMENTAL",
+            ),
+        ),
+        "constants, eight per line; missing values are zero",
+    ),
+    Keyword(
+        "DEPVAR",
+        "Number of state variables (STATEV) of a material point.",
+        Where.MODEL,
+        (*ignored("DELETE"),),
+        "number of variables; then number, name, description of variables, which are not read",
+    ),
+    Keyword(
+        "USER DEFINED FIELD",
+        "USDFLD gives the field variables of continuum elements (those with temperatures too), trusses, shells, "
+        "membranes and beams.",
+        Where.MODEL,
+    ),
+    Keyword(
+        "USER OUTPUT VARIABLES",
+        "Number of variables that UVARM gives at a material point.",
+        Where.MODEL,
+        data="number of variables",
+    ),
+    Keyword(
+        "DENSITY",
+        "Mass density. The mass per area of cohesive elements is density times constitutive thickness, which is 1 by "
+        "default.",
+        Where.MODEL,
+        refused("DEPENDENCIES", "PORE FLUID"),
+        "density",
+    ),
+)
+_OTHERS = (*PLASTIC_OPTIONS, *VISCOUS_OPTIONS, *HYPERELASTIC_OPTIONS, *DAMAGE_OPTIONS)
+_FIELDS = (*EXPANSION_OPTIONS, *HEAT_OPTIONS, *DIFFUSION_OPTIONS, *PIEZO_OPTIONS)
+MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *_OTHERS, *_FIELDS)}
+
+KEYWORDS = (
+    Keyword(
+        "MATERIAL",
+        "Begin a material. One that no section names may hold what is not supported: it is listed and has no effect.",
+        Where.MODEL,
+        (NAME, *refused("RTOL", "SRATE FACTOR", "STRAIN RATE REGULARIZATION")),
+    ),
+    *_OPTIONS,
+)

@@ -1,0 +1,27 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Constants of user materials: PROPS of UMAT, UMATHT and UHYPER."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from uel.deck.error_report import Problems
+from uel.deck.language.blocks import Block
+from uel.deck.sections.user_elements import read_count
+from uel.model.arrays import FloatArray
+
+MOST_VARIABLES = 1_000_000
+
+
+def read_constants(block: Block, option: str, problems: Problems) -> FloatArray:
+    """As many constants as an option says; those that are not given are zero, as everywhere. Raises DeckError."""
+    count = read_count(block, option, 0, 0, MOST_VARIABLES)
+    values = [row.real(index, "constant", 0.0) for row, index in block.entries(problems.warn)]
+    if len(values) == count + 1:
+        # a temperature after the only set of constants is not a dependence
+        values.pop()
+    if len(values) > count:
+        message = f"{len(values)} values, but {option}={count}; dependence on temperature is not supported"
+        raise block.error(message)
+    return np.array(values + [0.0] * (count - len(values)))

@@ -1,0 +1,230 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Materials whose stresses depend on time: *VISCOELASTIC, with the networks of NONLINEAR and *TRS, and *CREEP."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from uel.deck.error_report import Problems
+from uel.deck.language.blocks import Block, Row
+from uel.deck.language.table import Keyword, Kind, Option, Where, one_of, refused
+from uel.deck.materials.user_constants import read_constants
+from uel.model.properties import Creep, CreepLaw, Hyperelastic, Material, Network, Viscoelastic
+
+
+def extend_viscous(material: Material, block: Block, problems: Problems) -> Material:
+    """The material with what the keyword says of it. Raises DeckError."""
+    if block.name == "CREEP":
+        return replace(material, creep=_read_creep(block))
+    if block.name == "TRS":
+        return _extend_shift(material, block, problems)
+    if block.options.flag("NONLINEAR"):
+        return _extend_networks(material, block, problems)
+    if other := next((name for name in ("LAW", "NETWORKID", "PROPERTIES", "SRATIO") if block.options.given(name)), ""):
+        raise block.error(f"{other}: expected with NONLINEAR only")
+    if not block.options.given("TIME"):
+        raise block.error("expected TIME=PRONY or NONLINEAR")
+    return replace(material, viscoelastic=_read_viscoelastic(block))
+
+
+def _read_viscoelastic(block: Block) -> Viscoelastic:
+    """A Prony series."""
+    terms: list[tuple[float, float, float]] = []
+    for row in block.rows():
+        row.at_most(3)
+        shear, bulk, time = row.real(0, "g", 0.0), row.real(1, "k", 0.0), row.real(2, "tau")
+        if min(shear, bulk) < 0 or time <= 0:
+            raise row.error(f"g = {shear:g}, k = {bulk:g}, tau = {time:g}: expected g >= 0, k >= 0 and tau > 0")
+        terms.append((shear, bulk, time))
+    if not terms:
+        raise block.error("needs a data line with g, k and tau")
+    if len(terms) > MOST_TERMS:
+        raise block.error(f"{len(terms)} terms, expected at most {MOST_TERMS}")
+    series = np.array(terms)
+    for name, total in zip("gk", series.sum(axis=0), strict=False):
+        if total >= 1:
+            raise block.error(f"the sum of {name} is {total:g}, expected less than 1")
+    return Viscoelastic(series, block.source)
+
+
+def _read_creep(block: Block) -> Creep:
+    """A power law, or that of CREEP."""
+    row = block.only_row()
+    if block.options.text("LAW") == "USER":
+        if row is not None:
+            raise row.error("LAW=USER has no data line: CREEP gives the law")
+        return Creep(False, 0.0, 0.0, 0.0, block.source, user=True)
+    if row is None:
+        raise block.error("needs a data line with A, n and m")
+    if len(row) > 3:
+        raise row.error("expected only A, n and m; dependence on temperature is not supported")
+    factor, power, of_time = row.real(0, "A"), row.real(1, "n"), row.real(2, "m", 0.0)
+    if min(factor, power) <= 0 or not -1 < of_time <= 0:
+        raise row.error(f"A = {factor:g}, n = {power:g}, m = {of_time:g}: expected A > 0, n > 0 and -1 < m <= 0")
+    return Creep(block.options.text("LAW") == "TIME", factor, power, of_time, block.source)
+
+
+def _extend_networks(material: Material, block: Block, problems: Problems) -> Material:
+    """The material with another network. Raises DeckError."""
+    for name in ("LAW", "NETWORKID", "SRATIO"):
+        if not block.options.given(name):
+            raise block.error(f"NONLINEAR needs {name}")
+    number, ratio, law = block.options.integer("NETWORKID", 0), block.options.real("SRATIO", 0.0), _law(block)
+    if number != len(material.networks) + 1:
+        raise block.error(f"NETWORKID={number}: expected {len(material.networks) + 1}, networks in ascending order")
+    if not 0 < ratio <= 1:
+        raise block.error(f"SRATIO={ratio:g}: expected 0 < SRATIO <= 1")
+    total = ratio + sum(network.ratio for network in material.networks)
+    if total > 1 + ROUNDING:
+        raise block.error(f"the sum of SRATIO is {total:g}, expected at most 1")
+    if law is CreepLaw.USER:
+        network = Network(ratio, law, (), block.source, user=read_constants(block, "PROPERTIES", problems))
+    else:
+        network = Network(ratio, law, _read_law(block), block.source)
+    return replace(material, networks=(*material.networks, network))
+
+
+def _extend_shift(material: Material, block: Block, problems: Problems) -> Material:
+    """The material whose last network has a reduced time. Raises DeckError."""
+    if not material.networks:
+        raise block.error("expected *VISCOELASTIC, NONLINEAR before it; other materials with it are not supported")
+    *others, last = material.networks
+    return replace(material, networks=(*others, replace(last, shift=read_constants(block, "PROPERTIES", problems))))
+
+
+def check_networks(block: Block, material: Material) -> None:
+    """Raise DeckError if the material of a section has networks without what they need."""
+    if not material.networks:
+        return
+    place = material.networks[0].source
+    law = material.hyperelastic
+    if not isinstance(law, Hyperelastic):
+        message = f"material {material.name} has *VISCOELASTIC, NONLINEAR, at {place}; expected *HYPERELASTIC"
+        raise block.error(f"{message} by coefficients")
+    if material.equilibrium <= ROUNDING and not law.instantaneous:
+        message = "the sum of SRATIO is 1, so that there is no long-term elasticity; expected MODULI=INSTANTANEOUS"
+        raise block.error(f"material {material.name}: {message} of *HYPERELASTIC, at {law.source}")
+
+
+def _law(block: Block) -> CreepLaw:
+    match block.options.text("LAW"):
+        case "HYPERB":
+            return CreepLaw.HYPERBOLIC
+        case "BERGSTROM-BOYCE":
+            return CreepLaw.BERGSTROM_BOYCE
+        case "USER":
+            return CreepLaw.USER
+        case _:
+            return CreepLaw.POWER
+
+
+def _read_law(block: Block) -> tuple[float, ...]:
+    """Constants as the host has them: q0, n, m, a, rate; A, B, n; A, m, C, E."""
+    law = block.options.text("LAW")
+    names = {
+        "BERGSTROM-BOYCE": ("A", "m", "C", "E"),
+        "HYPERB": ("A", "B", "n"),
+        "POWER LAW": ("q0", "n", "m", "a", "rate"),
+        "STRAIN": ("A", "n", "m"),
+    }[law]
+    row = block.only_row()
+    if row is None:
+        raise block.error(f"needs a data line with {', '.join(names)}")
+    if len(row) > len(names):
+        raise row.error(f"expected only {', '.join(names)}; dependence on temperature is not supported")
+    values = tuple(row.real(k, name, 0.0) for k, name in enumerate(names))
+    _check_law(row, law, dict(zip(names, values, strict=True)))
+    if law == "STRAIN":
+        factor, power, hardening = values
+        return float(factor ** (-1 / power)), power, hardening, 0.0, 1.0
+    return values
+
+
+def _check_law(row: Row, law: str, of: dict[str, float]) -> None:
+    given = ", ".join(f"{name} = {value:g}" for name, value in of.items())
+    match law:
+        case "BERGSTROM-BOYCE":
+            wanted = "A > 0, m > 0, -1 <= C <= 0, and E > 0 with C < 0"
+            good = min(of["A"], of["m"]) > 0 and -1 <= of["C"] <= 0 <= of["E"] and (of["E"] > 0 or of["C"] == 0)
+        case "HYPERB":
+            wanted, good = "A > 0, B > 0 and n > 0", min(of.values()) > 0
+        case "POWER LAW":
+            wanted = "q0 > 0, n > 0, -1 < m <= 0, a >= 0 and rate > 0"
+            good = min(of["q0"], of["n"], of["rate"]) > 0 and -1 < of["m"] <= 0 <= of["a"]
+        case _:
+            wanted, good = "A > 0, n > 0 and -1 < m <= 0", min(of["A"], of["n"]) > 0 and -1 < of["m"] <= 0
+    if not good:
+        raise row.error(f"{given}: expected {wanted}")
+
+
+LAWS = ("BERGSTROM-BOYCE", "HYPERB", "POWER LAW", "STRAIN", "USER")
+ROUNDING = 1e-9
+"""By which a sum of stiffness ratios may be more than one."""
+
+
+MOST_TERMS = 20
+"""Largest number of terms; fortran/host/materials/library.f90 has room for them."""
+
+KEYWORDS = (
+    Keyword(
+        "VISCOELASTIC",
+        "Isotropic viscoelasticity beside *ELASTIC in continuum elements without temperatures, and UELMAT; with "
+        "NONLINEAR a network of the parallel rheological framework beside *HYPERELASTIC by coefficients, in its "
+        "elements and steps. Stresses relax in *VISCO and *DYNAMIC; *STATIC takes the instantaneous moduli.",
+        Where.MODEL,
+        (
+            one_of(
+                "TIME",
+                "Prony series",
+                ("PRONY",),
+                refused=("CREEP TEST DATA", "FREQUENCY DATA", "RELAXATION TEST DATA"),
+            ),
+            one_of("TYPE", "symmetry", ("ISOTROPIC",), default="ISOTROPIC", refused=("TRACTION",)),
+            Option("NONLINEAR", doc="a network"),
+            Option("NETWORKID", Kind.INTEGER, "number of the network, ascending from 1"),
+            Option("SRATIO", Kind.REAL, "stiffness ratio of the network; what is left to 1 is elastic"),
+            one_of("LAW", "creep law of the network; USER: UCREEPNETWORK", LAWS),
+            Option("PROPERTIES", Kind.INTEGER, "number of constants of UCREEPNETWORK"),
+            *refused("DEPENDENCIES", "ERRTOL", "FREQUENCY", "NMAX", "PRELOAD"),
+        ),
+        "g, k, tau (PRONY); A, n, m (STRAIN); A, B, n (HYPERB); A, m, C, E (BERGSTROM-BOYCE); q0, n, m, a, rate (POWER "
+        "LAW); constants (USER)",
+    ),
+    Keyword(
+        "CREEP",
+        "Creep by a power law of the Mises stress, or by the law of CREEP, beside *ELASTIC in continuum elements "
+        "without temperatures, and UELMAT; in *VISCO only. Integration is implicit.",
+        Where.MODEL,
+        (
+            one_of(
+                "LAW",
+                "strain or time hardening, or user subroutine CREEP",
+                ("STRAIN", "TIME", "USER"),
+                default="STRAIN",
+                refused=("ANAND", "DARVEAUX", "DOUBLE POWER", "HYPERB", "POWER LAW", "TIME POWER LAW"),
+            ),
+            one_of("TIME", "of LAW=TIME: the total time", ("TOTAL",), default="TOTAL", refused=("CREEP",)),
+            *refused("DEPENDENCIES"),
+        ),
+        "A, n, m; none of LAW=USER",
+    ),
+    Keyword(
+        "TRS",
+        "Reduced time of the network of the *VISCOELASTIC, NONLINEAR before it, by UTRSNETWORK.",
+        Where.MODEL,
+        (
+            one_of(
+                "DEFINITION",
+                "shift function",
+                ("USER",),
+                required=True,
+                refused=("ARRHENIUS", "TABULAR", "WLF"),
+            ),
+            Option("PROPERTIES", Kind.INTEGER, "number of constants of UTRSNETWORK"),
+        ),
+        "constants, eight per line; missing values are zero",
+    ),
+)

@@ -1,0 +1,344 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*SURFACE: the nodes of a surface for constraints, its faces for loads. A surface is read when something uses it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.deck.error_report import nearest
+from uel.deck.language.blocks import Block, Row
+from uel.deck.language.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
+from uel.deck.mesh.flatten import FlatMesh
+from uel.errors import DeckError, Source
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.element_types import (
+    LINE2,
+    LINE3,
+    QUAD4,
+    QUAD8,
+    TRI3,
+    TRI6,
+    CohesiveType,
+    ContinuumType,
+    Face,
+    Family,
+    RigidType,
+    SolidType,
+    SurfaceType,
+)
+from uel.model.mesh import ElementGroup
+
+_CORNERS = np.array([[-1.0, 1.0, 1.0, -1.0], [-1.0, -1.0, 1.0, 1.0]])
+_GAUSS = _CORNERS.T / np.sqrt(3.0)
+ANALYTICAL = ("SEGMENTS", "CYLINDER", "REVOLUTION")
+_QUADRATIC = {
+    LINE3.number: [1 / 4] * 2 + [1 / 2],
+    TRI6.number: [1 / 12] * 3 + [1 / 4] * 3,
+    QUAD8.number: [1 / 16] * 4 + [3 / 16] * 4,
+}
+"""Shares of the nodes in the area of a quadratic face."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Line:
+    """Positions of elements with a face, or nodes, of one data line of a surface."""
+
+    members: IntArray
+    face: str
+    row: Row
+
+
+def _keys(lines: Sequence[_Line], every: Sequence[_Line]) -> IntArray:
+    """Numbers of the faces or nodes of lines, one behind the other; every: all lines that are compared."""
+    codes = {face: k for k, face in enumerate(sorted({line.face for line in every}))}
+    keys = [line.members * len(codes) + codes[line.face] for line in lines]
+    return np.concatenate([np.zeros(0, dtype=np.int64), *keys])
+
+
+def _chosen(lines: Sequence[_Line], chosen: NDArray[np.bool_]) -> list[_Line]:
+    """Return the lines with some of their faces or nodes, which follow each other as those of `_keys`."""
+    ends = np.cumsum([len(line.members) for line in lines])[:-1]
+    parts = np.split(chosen, ends)
+    return [replace(line, members=line.members[part]) for line, part in zip(lines, parts, strict=True)]
+
+
+def _merged(lines: Sequence[_Line]) -> list[_Line]:
+    """Return the lines of a surface, which is a set: each without what an earlier one has."""
+    keys = _keys(lines, lines)
+    first = np.zeros(len(keys), dtype=bool)
+    first[np.unique(keys, return_index=True)[1]] = True
+    return _chosen(lines, first) if lines else []
+
+
+def _combined(block: Block) -> list[tuple[str, Source]]:
+    """Names and places of the surfaces that COMBINE puts together. Raises DeckError."""
+    how = block.options.text("COMBINE")
+    names = [(row.name(k, "surface"), row.source) for row in block.rows() for k in range(len(row))]
+    if not names or (how != "UNION" and len(names) != 2):
+        wanted = "the names of surfaces" if how == "UNION" else "the names of two surfaces"
+        raise block.error(f"COMBINE={how} takes {wanted}, found {len(names)}")
+    return names
+
+
+class Surfaces:
+    """Surfaces of the whole model, by their names at the level where they are used."""
+
+    def __init__(self, flat: FlatMesh, groups: Sequence[ElementGroup]) -> None:
+        self._flat = flat
+        self._groups = groups
+        self._starts = np.cumsum([0, *(len(group.labels) for group in groups)])
+        self._blocks: dict[str, tuple[str, Block]] = {}
+        for owner in flat.owners:
+            for block in owner.blocks:
+                if block.name == "SURFACE":
+                    name = block.options.text("NAME")
+                    self._blocks[f"{owner.name}.{name}" if owner.name else name] = (owner.name, block)
+
+    def locate(self, name: str, source: Source, owner: str) -> tuple[str, Block]:
+        """Level and keyword of a surface of any type. Raises DeckError."""
+        local = name.split(".")
+        candidates = [f"{owner}.{name}" if owner else name, ".".join(local[-2:]), local[-1]]
+        key = next((candidate for candidate in candidates if candidate in self._blocks), None)
+        if key is None:
+            raise DeckError(source, f"unknown surface {name}{nearest(name, self._blocks)}")
+        return self._blocks[key]
+
+    def kind(self, name: str, source: Source, owner: str = "") -> str:
+        """TYPE of a surface; of a combined one that of its surfaces. Raises DeckError."""
+        place, block = self.locate(name, source, owner)
+        if not block.options.given("COMBINE"):
+            return block.options.text("TYPE")
+        self._lines(name, source, owner)
+        own, at = _combined(block)[0]
+        return self.kind(own, at, place)
+
+    def profile(self, name: str, source: Source, owner: str) -> tuple[str, Block, float] | None:
+        """Level, keyword and fillet radius of an analytical rigid surface in the plane, None for another one.
+
+        Raises DeckError.
+        """
+        place, block = self.locate(name, source, owner)
+        kind = block.options.text("TYPE")
+        if kind not in ANALYTICAL:
+            return None
+        if kind != "SEGMENTS":
+            raise block.error("is not supported in contact; of analytical rigid surfaces TYPE=SEGMENTS is")
+        radius = block.options.real("FILLET RADIUS", 0.0)
+        if radius < 0.0:
+            raise block.error(f"FILLET RADIUS={radius:g} must not be negative")
+        return place, block, radius
+
+    def _lines(self, name: str, source: Source, owner: str, within: tuple[Source, ...] = ()) -> list[_Line]:
+        """Lines of a surface of elements or nodes, none of which has what an earlier one has. Raises DeckError."""
+        place, block = self.locate(name, source, owner)
+        if block.source in within:
+            raise block.error("combines itself")
+        if block.options.given("COMBINE"):
+            members = [self._lines(own, at, place, (*within, block.source)) for own, at in _combined(block)]
+            found = self._combine(block, members)
+            if not any(len(line.members) for line in found):
+                self._flat.warn(block.source, f"*SURFACE: {name} is empty")
+            return found
+        kind = block.options.text("TYPE")
+        if kind not in ("ELEMENT", "NODE"):
+            raise DeckError(source, f"surface {name} ({block.source}) is of TYPE={kind}, which constraints cannot use")
+        find, faces = (self._flat.nodes, False) if kind == "NODE" else (self._flat.elements, True)
+        return _merged(
+            [
+                _Line(find(row.name(0, "set"), row.source, place), row.name(1, "face") if faces else "", row)
+                for row in block.rows()
+            ]
+        )
+
+    @staticmethod
+    def _combine(block: Block, members: list[list[_Line]]) -> list[_Line]:
+        how, lines = block.options.text("COMBINE"), [line for own in members for line in own]
+        if len({bool(line.face) for line in lines}) > 1:
+            raise block.error("combines surfaces of elements and of nodes; expected one kind")
+        if how == "UNION":
+            return _merged(lines)
+        first, second = (_keys(own, lines) for own in members)
+        return _chosen(members[0], np.isin(first, second) == (how == "INTERSECTION"))
+
+    def nodes(self, name: str, source: Source, owner: str = "") -> IntArray:
+        """Node indices of a surface, ascending; DeckError where there is none, or its faces are not known."""
+        lines, parts = self._lines(name, source, owner), [np.zeros(0, dtype=np.int64)]
+        if self.kind(name, source, owner) == "NODE":
+            parts += [line.members for line in lines]
+        else:
+            parts += [self._face(element, line)[1] for line in lines for element in line.members.tolist()]
+        return np.unique(np.concatenate(parts))
+
+    def shares(self, name: str, source: Source, owner: str = "") -> tuple[IntArray, FloatArray]:
+        """Nodes of a surface, ascending, and their tributary areas or lengths, which are 1 on a surface of nodes."""
+        nodes = self.nodes(name, source, owner)
+        if self.kind(name, source, owner) == "NODE":
+            return nodes, np.ones(len(nodes))
+        areas = np.zeros(len(nodes))
+        for line in self._lines(name, source, owner):
+            for element in line.members.tolist():
+                family, face = self._face(element, line)
+                places = self._flat.mesh.coordinates[face]
+                np.add.at(areas, np.searchsorted(nodes, face), tributary_areas(family, places))
+        return nodes, areas
+
+    def faces(self, name: str, source: Source) -> list[tuple[IntArray, str, Source]]:
+        """Elements (positions) and their face (S1, ...) of each line of a surface of elements. Raises DeckError."""
+        lines = self._lines(name, source, "")
+        if self.kind(name, source) == "NODE":
+            place = self.locate(name, source, "")[1].source
+            raise DeckError(source, f"surface {name} ({place}) has no faces of elements")
+        return [(line.members, line.face, line.row.source) for line in lines]
+
+    def facets(
+        self, name: str, source: Source, owner: str = ""
+    ) -> Iterator[tuple[ElementGroup, IntArray, Face, Source]]:
+        """Faces of a surface: a group, rows of it, the local nodes of their face, the place. Raises DeckError."""
+        for line in self._lines(name, source, owner):
+            numbers = np.searchsorted(self._starts, line.members, side="right") - 1
+            for k in np.unique(numbers).tolist():
+                local = face_nodes(self._groups[k], line.face, line.row.source, "SURFACE")
+                yield self._groups[k], line.members[numbers == k] - self._starts[k], local, line.row.source
+
+    def of_nodes(self, name: str, source: Source, owner: str = "") -> list[tuple[IntArray, float]] | None:
+        """Nodes of each line of a surface of nodes, with the area of each node; None of a surface of faces."""
+        lines = self._lines(name, source, owner)
+        if self.kind(name, source, owner) != "NODE":
+            return None
+        for row in (line.row for line in lines):
+            if not row.real(1, "area", 1.0) > 0.0:
+                raise row.error(f"area {row.real(1, 'area'):g} must be positive")
+        return [(line.members, line.row.real(1, "area", 1.0)) for line in lines]
+
+    def by_group(self, elements: IntArray) -> Iterator[tuple[ElementGroup, IntArray]]:
+        """Elements (positions in the model) group by group."""
+        groups = np.searchsorted(self._starts, elements, side="right") - 1
+        for k in np.unique(groups).tolist():
+            yield self._groups[k], elements[groups == k]
+
+    def nodes_of(self, elements: IntArray) -> set[int]:
+        """Nodes of elements, by their positions in the model."""
+        found: set[int] = set()
+        for element in elements.tolist():
+            k = int(np.searchsorted(self._starts, element, side="right")) - 1
+            found |= set(self._groups[k].nodes[element - self._starts[k]].tolist())
+        return found
+
+    def _face(self, element: int, line: _Line) -> tuple[Family, IntArray]:
+        """The face of an element of a line, by its position in the model, and its nodes."""
+        k = int(np.searchsorted(self._starts, element, side="right")) - 1
+        group = self._groups[k]
+        local = face_nodes(group, line.face, line.row.source, "SURFACE")
+        kind = group.built_in
+        nodes: IntArray = group.nodes[element - self._starts[k]][list(local)]
+        if isinstance(kind, CohesiveType):
+            return kind.face, nodes
+        assert isinstance(kind, SolidType | SurfaceType | RigidType)
+        whole = not isinstance(kind, SolidType) and len(local) == kind.nodes
+        return kind.family if whole else kind.family.face_family(local), nodes
+
+
+def tributary_areas(family: Family, places: FloatArray) -> FloatArray:
+    """Area or length that belongs to each node of faces of a kind.
+
+    On linear faces that is the integral of its shape function. Those of quadratic faces are negative at corners, or
+    zero; such a face is cut at the middles of its edges instead, and the area between its corners is shared.
+
+    Parameters
+    ----------
+    family
+        Of the face.
+    places
+        (..., n, 3) coordinates of faces: corners, then middles of edges.
+
+    Returns
+    -------
+    FloatArray
+        (..., n).
+    """
+    first, second, third = (places[..., k % family.corners, :] for k in range(3))
+    areas = np.zeros((*places.shape[:-2], family.corners))
+    if family.dimension == 1:
+        areas += 0.5 * np.linalg.norm(second - first, axis=-1)[..., None]
+    elif family.corners == 3:
+        areas += np.linalg.norm(np.cross(second - first, third - first), axis=-1)[..., None] / 6.0
+    else:
+        for xi, eta in _GAUSS:
+            along, across = 1.0 + xi * _CORNERS[0], 1.0 + eta * _CORNERS[1]
+            tangents = [0.25 * slopes @ places[..., :4, :] for slopes in (_CORNERS[0] * across, _CORNERS[1] * along)]
+            areas += 0.25 * along * across * np.linalg.norm(np.cross(*tangents), axis=-1)[..., None]
+    shares = _QUADRATIC.get(family.number)
+    return areas if shares is None else areas.sum(axis=-1, keepdims=True) * np.array(shares)
+
+
+def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> tuple[int, ...]:
+    """Local nodes of a face of the elements of a group: corners, then middles of edges. Raises DeckError."""
+    kind = group.built_in
+    faces = {}
+    if isinstance(kind, SolidType):
+        faces = {f"S{number}": nodes for number, nodes in enumerate(kind.family.faces, start=1)}
+    elif isinstance(kind, SurfaceType):
+        faces = kind.sides | kind.edges
+    elif isinstance(kind, RigidType):
+        faces = kind.sides
+    elif isinstance(kind, CohesiveType):
+        # as faces 1 and 3 of a quadrilateral, 1 and 2 of a brick (Elements Guide, COH2D4 and COH3D8)
+        faces = {"S1": kind.bottom, "S3" if kind.dimension == 2 else "S2": kind.top}
+    if face not in faces:
+        known = ", ".join(faces) or "none"
+        raise DeckError(source, f"*{keyword}: elements of type {group.type} have no face {face} (faces: {known})")
+    return faces[face]
+
+
+def family_of_face(group: ElementGroup, local: Face) -> Family | None:
+    """The family of a face of solids, rigid or cohesive elements, None of others."""
+    kind = group.built_in
+    if isinstance(kind, RigidType):
+        return kind.family
+    if isinstance(kind, CohesiveType):
+        return kind.face
+    return kind.family.face_family(local) if isinstance(kind, ContinuumType) else None
+
+
+def linear_face(group: ElementGroup, local: Face) -> Family | None:
+    """The family of a face of solids or rigid elements, None where it is another one, or has middle nodes."""
+    family = None if isinstance(group.built_in, CohesiveType) else family_of_face(group, local)
+    return family if family in (LINE2, TRI3, QUAD4) else None
+
+
+KEYWORDS = (
+    Keyword(
+        "SURFACE",
+        "Define a surface, of which constraints use the nodes. SEGMENTS is an analytical rigid one in the plane or "
+        "about the axis of symmetry, with its outward normal on the left of the way along its segments.",
+        Where.MODEL,
+        (
+            NAME,
+            one_of(
+                "TYPE",
+                "what it is made of; constraints use ELEMENT and NODE, contact SEGMENTS too",
+                (
+                    *("ELEMENT", "NODE", "CUTTING SURFACE", "CYLINDER", "EULERIAN MATERIAL", "REVOLUTION", "SEGMENTS"),
+                    *("USER", "XFEM"),
+                ),
+                default="ELEMENT",
+            ),
+            Option("FILLET RADIUS", Kind.REAL, "of arcs between lines of an analytical rigid surface"),
+            one_of(
+                "COMBINE",
+                "put surfaces together, a face or node once; DIFFERENCE: the first surface without the second",
+                ("UNION", "INTERSECTION", "DIFFERENCE"),
+            ),
+            *ignored("INTERNAL", "DEFINITION", "TRIM", "NO OFFSET", "NO THICK"),
+            *refused("CROP"),
+        ),
+        "COMBINE: names of surfaces, two but for UNION; or set or element, face (S1, S2, ...; SPOS, SNEG of shells and "
+        "rigid elements; E1, E2, ... of shells; S1, S2 of COH3D8; S1, S3 of COH2D4); or node set or node; or START, x, "
+        "y, then LINE, x, y or CIRCL, x, y, x and y of the centre",
+    ),
+)

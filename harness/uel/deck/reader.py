@@ -1,0 +1,208 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""From a deck to the model: the stages in their order, each reporting all its errors before the next begins."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from uel.deck.constraints.equations import ConstraintReader, read_equations
+from uel.deck.contact.general_contact import GeneralContact
+from uel.deck.contact.interactions import Interactions
+from uel.deck.contact.pairs import ContactReader, check_contact
+from uel.deck.contact.profiles import reference_dofs
+from uel.deck.error_report import Problems
+from uel.deck.keywords import KEYWORDS
+from uel.deck.language.blocks import Block
+from uel.deck.language.lexer import Survey, read_blocks, survey_blocks
+from uel.deck.language.repetition import check_once
+from uel.deck.language.structure import Structure, read_heading
+from uel.deck.materials.diffusion import with_concentrations
+from uel.deck.materials.material import leave_out_unused, read_materials
+from uel.deck.materials.physical_constants import read_physical_constants
+from uel.deck.mesh.flatten import FlatMesh
+from uel.deck.mesh.groups import make_groups
+from uel.deck.mesh.imperfection import EarlierResults, displace
+from uel.deck.mesh.surfaces import Surfaces
+from uel.deck.mesh.transforms import Transforms
+from uel.deck.sections.controls import read_section_controls
+from uel.deck.sections.user_elements import dofs_of, refuse_types
+from uel.deck.steps.amplitudes import read_amplitudes
+from uel.deck.steps.initial import read_initial_solutions, read_initial_stresses, read_initial_values
+from uel.deck.steps.prescribed import Prescription
+from uel.deck.steps.requests import RequestReader
+from uel.deck.steps.restart import digest_of, find_restart, join_parts, refuse_reading
+from uel.deck.steps.step import check_parts, read_steps
+from uel.elements.families.beam import with_normals
+from uel.errors import DeckError, Source
+from uel.model.contact import ContactPair, SlidingPair
+from uel.model.mesh import ElementGroup
+from uel.model.model import Model
+from uel.model.restart import DeckPart, RestartRead
+from uel.model.steps import Boundary
+
+
+def read_deck(
+    path: Path,
+    given: Mapping[str, float] | None = None,
+    parts: Sequence[DeckPart] = (),
+    earlier: EarlierResults | None = None,
+) -> Model:
+    """Read an Abaqus input deck.
+
+    Parameters
+    ----------
+    path
+        The deck. Included files are looked up in the current folder, as Abaqus does where the job is submitted, then
+        in the folder of the deck, then in that of the including file.
+    given
+        Values of parameters in place of those in its *PARAMETER; what the deck computes from them follows.
+    parts
+        Of a restart: the decks that the model comes from, the last of which is this one.
+    earlier
+        Reads results of earlier jobs, for *IMPERFECTION and *INITIAL CONDITIONS with FILE; None: these are left out.
+
+    Returns
+    -------
+    Model
+        The flattened model, with warnings about what is odd but understood.
+
+    Raises
+    ------
+    DeckError
+        Something is wrong or not supported, or cannot be read: a line with file:line for each of the first 50 places
+        that one stage of reading finds.
+    UsageError
+        A given parameter is none of the deck's.
+    """
+    problems = Problems()
+    blocks = read_blocks(path, KEYWORDS, problems, given)
+    structure, restarts = join_parts(parts, blocks, KEYWORDS, problems)
+    if not parts:
+        refuse_reading(structure, problems)
+    leave_out_unused(structure, problems)
+    if problems.found:
+        refuse_types(blocks, problems)
+    problems.check()
+    interactions = Interactions(structure.root, problems)
+    root = interactions.without_options(structure.root)
+    _check_repetition(root, structure, problems)
+    materials = read_materials(root, structure, problems)
+    in_steps = [block for scope in structure.steps for block in scope.blocks]
+    amplitudes = read_amplitudes([*structure.root, *in_steps], problems)
+    flat = FlatMesh(structure, problems)
+    displace(structure.root, flat, problems, earlier)
+    if not any(len(owner.elements) for owner in flat.owners):
+        raise DeckError(Source(str(path), 1), "the deck has no elements")
+    groups = make_groups(flat, materials, read_section_controls(structure.root, problems), problems)
+    if not structure.steps:
+        raise DeckError(Source(str(path), 1), "the deck has no *STEP")
+    # first, since they may move nodes
+    constraints = ConstraintReader(flat, groups, problems)
+    constraints.adjust()
+    contacts: tuple[ContactPair | SlidingPair, ...] = ContactReader(flat, groups, interactions, problems).read()
+    contacts += GeneralContact(flat, groups, interactions, problems).read(structure.root)
+    built_in = np.concatenate([np.full(len(group.labels), group.definition is None) for group in groups])
+    transforms = Transforms(flat, groups, problems)
+    active = _active_dofs(groups) | reference_dofs(flat)
+    prescription = Prescription(flat, amplitudes, active, built_in, Surfaces(flat, groups), transforms)
+    boundaries: list[Boundary] = []
+    check_parts(structure.root, problems, harmonic=False)
+    for block in structure.root:
+        if block.name == "BOUNDARY":
+            with problems.gather():
+                boundaries += prescription.read_boundary(block, in_step=False)
+    kinds = ("VELOCITY", "TEMPERATURE", "FIELD", "CONCENTRATION", "PRESSURE STRESS")
+    velocities, temperatures, fields, concentrations, pressures = (
+        tuple(read_initial_values(structure.root, kind, flat, problems, earlier)) for kind in kinds
+    )
+    solutions = read_initial_solutions(structure.root, flat, problems)
+    stresses = read_initial_stresses(structure.root, flat, problems)
+    equations = read_equations(flat, problems)
+    steps = read_steps(structure.steps, prescription, RequestReader(flat, problems), problems)
+    # a step with errors is missing
+    steps = tuple(replace(step, restart=restarts[step.number - 1]) for step in steps)
+    related = constraints.read(boundaries, steps)
+    check_contact(contacts, steps, problems)
+    transforms.check(equations, related, in_steps)
+    problems.check()
+    model = Model(
+        deck=path,
+        heading=read_heading(blocks),
+        mesh=flat.mesh,
+        groups=with_normals(groups, flat.mesh),
+        steps=steps,
+        nsets=flat.nsets,
+        elsets=flat.elsets,
+        boundaries=tuple(boundaries),
+        equations=(*equations, *related, *transforms.equations()),
+        contacts=contacts,
+        arms=constraints.arms,
+        couplings=tuple(constraints.couplings),
+        initial_velocities=velocities,
+        initial_temperatures=temperatures,
+        initial_concentrations=concentrations,
+        initial_fields=(*fields, *pressures),
+        initial_solutions=tuple(solutions),
+        initial_stresses=tuple(stresses),
+        constants=read_physical_constants(structure.root),
+        given=dict(given or {}),
+        ignored=(*interactions.unused, *structure.ignored),
+        warnings=problems.warnings,
+        differences=problems.differences,
+    )
+    found = with_concentrations(model, problems)
+    problems.check()
+    return found
+
+
+def _check_repetition(root: Sequence[Block], structure: Structure, problems: Problems) -> None:
+    """Refuse keywords that are given twice in the model, its steps, or an instance; root: the model's own ones."""
+    check_once([*root, *(block for scope in structure.steps for block in (scope.head, *scope.blocks))], problems)
+    for blocks in structure.of_instances.values():
+        check_once(blocks, problems)
+
+
+def survey_deck(path: Path, given: Mapping[str, float] | None = None) -> Survey:
+    """Files and parameters of a deck, without reading what its keywords mean.
+
+    Parameters
+    ----------
+    path
+        The deck.
+    given
+        As in `read_deck`.
+
+    Returns
+    -------
+    Survey
+        What was found as far as the deck can be read; a file that does not exist is in it.
+
+    Raises
+    ------
+    DeckError
+        The deck itself cannot be read, or is empty.
+    """
+    return survey_blocks(path, KEYWORDS, given)
+
+
+def survey_restart(path: Path, given: Mapping[str, float] | None = None) -> RestartRead | None:
+    """*RESTART, READ of a deck, None if it has none. Raises DeckError and UsageError as `read_deck`."""
+    return find_restart(path, KEYWORDS, given)
+
+
+def part_of(path: Path, given: Mapping[str, float] | None = None, steps: int = 0) -> DeckPart:
+    """A deck as a part of a model; steps: those of earlier decks that stay. Raises DeckError if it cannot be read."""
+    return DeckPart(str(path.resolve()), digest_of(path, KEYWORDS, given), dict(given or {}), steps)
+
+
+def _active_dofs(groups: tuple[ElementGroup, ...]) -> frozenset[int]:
+    """Dofs that some element uses."""
+    used: set[int] = set()
+    for group in groups:
+        used |= dofs_of(group)
+    return frozenset(used)

@@ -1,0 +1,64 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*MEMBRANE SECTION."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+from uel.deck.error_report import look_up
+from uel.deck.language.blocks import Block
+from uel.deck.language.table import Keyword, Kind, Option, Where, refused
+from uel.deck.sections.shells import surface_material
+from uel.model.properties import Material, MembraneSection, Orientation, SectionControls
+
+MEMBRANE_KEYWORD: Final = "MEMBRANE SECTION"
+
+_INCOMPRESSIBLE: Final = 0.5
+
+
+def read_membrane_section(
+    block: Block,
+    materials: Mapping[str, Material],
+    orientations: Mapping[str, Orientation],
+    controls: SectionControls,
+) -> MembraneSection:
+    """The section of membranes. Raises DeckError."""
+    material = surface_material(block, block.options.text("MATERIAL"), materials)
+    name = block.options.text("ORIENTATION")
+    orientation = look_up(orientations, name, "orientation", block.source) if name else None
+    if orientation is not None and orientation.system is not None and orientation.system.kind == "USER":
+        raise block.error(f"*ORIENTATION, NAME={orientation.name}: SYSTEM=USER is not supported for membranes")
+    poisson = block.options.real("POISSON", _INCOMPRESSIBLE)
+    if not -1 <= poisson <= _INCOMPRESSIBLE:
+        raise block.error(f"POISSON={poisson:g}: expected a number from -1 to {_INCOMPRESSIBLE:g}")
+    row = block.only_row()
+    if row is None:
+        raise block.error("needs a data line with the thickness")
+    row.at_most(1)
+    thickness = row.real(0, "thickness")
+    if thickness <= 0:
+        raise row.error(f"thickness {thickness:g} must be positive")
+    return MembraneSection(
+        block.options.text("ELSET"), material, orientation, thickness, poisson, block.source, controls
+    )
+
+
+KEYWORDS = (
+    Keyword(
+        "MEMBRANE SECTION",
+        "Section of membranes. Directions are those of *SHELL SECTION, and turn with the surface under NLGEOM; there "
+        "the thickness changes by -nu/(1 - nu) times the logarithmic strain of the area, nu being POISSON.",
+        Where.MODEL,
+        (
+            Option("ELSET", Kind.NAME, "element set", required=True),
+            Option("MATERIAL", Kind.NAME, "material", required=True),
+            Option("CONTROLS", Kind.NAME, "section controls"),
+            Option("ORIENTATION", Kind.NAME, "orientation of the section"),
+            Option("POISSON", Kind.REAL, "Poisson's ratio of the thickness under NLGEOM (0.5)"),
+            *refused("DENSITY", "MEMBRANE THICKNESS", "NODAL THICKNESS"),
+        ),
+        "thickness",
+    ),
+)

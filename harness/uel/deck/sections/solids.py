@@ -1,0 +1,417 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*SOLID SECTION, *COHESIVE SECTION, *SPRING and *MASS, made for the element type they are used with.
+
+*UEL PROPERTY is in user_elements.py, *SHELL SECTION in shells.py, *MEMBRANE SECTION in membranes.py, *BEAM SECTION in
+beams.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from itertools import pairwise
+
+import numpy as np
+
+from uel.deck.error_report import Problems, look_up
+from uel.deck.language.blocks import Block, Row
+from uel.deck.language.table import Keyword, Kind, Option, Where, ignored, one_of, refused
+from uel.deck.materials.viscous import check_networks
+from uel.deck.sections.beams import BEAM_KEYWORDS, read_beam_section
+from uel.deck.sections.membranes import MEMBRANE_KEYWORD, read_membrane_section
+from uel.deck.sections.shells import MOST_POINTS, SHELL_KEYWORDS, read_shell_section
+from uel.deck.sections.user_elements import LARGEST_DOF, ElementType, read_user_property
+from uel.errors import DeckError, Source
+from uel.model.arrays import IntArray
+from uel.model.element_types import BEAM, DISCRETE, GENERALISED, HEAT, LAYERED, DiscreteKind
+from uel.model.properties import (
+    CohesiveSection,
+    CompositeSection,
+    ElasticType,
+    MassSection,
+    Material,
+    Orientation,
+    RigidSection,
+    Section,
+    SectionControls,
+    SolidLayer,
+    SolidSection,
+    SpringSection,
+)
+
+
+def make_section(
+    block: Block,
+    kind: ElementType,
+    materials: Mapping[str, Material],
+    orientations: Mapping[str, Orientation],
+    controls: Mapping[str, SectionControls],
+    problems: Problems,
+) -> Section:
+    """The section a keyword gives to elements of a type; DeckError where the two do not go together."""
+    options = block.options
+    elset = options.text("ELSET")
+    alike = any({block.name, kind.section}.issubset(names) for names in (BEAM_KEYWORDS, SHELL_KEYWORDS))
+    if block.name != kind.section and not alike:
+        raise block.error(f"element set {elset} holds elements of type {kind.name}, which take *{kind.section}")
+    if block.name in ("MASS", "RIGID BODY", "SPRING", "DASHPOT"):
+        return _without_material(block, kind)
+    if kind.name in BEAM:
+        return read_beam_section(block, materials, BEAM[kind.name].dimension)
+    if block.name in (*SHELL_KEYWORDS, MEMBRANE_KEYWORD):
+        read = read_membrane_section if block.name == MEMBRANE_KEYWORD else read_shell_section
+        return read(block, materials, orientations, _controls(block, controls))
+    name = options.text("MATERIAL")
+    material = look_up(materials, name, "material", block.source) if name else None
+    if material is not None and kind.name not in HEAT:
+        _check_material(block, material)
+    if block.name == "COHESIVE SECTION":
+        assert material is not None
+        return _cohesive_section(block, material, controls)
+    name = options.text("ORIENTATION")
+    orientation = look_up(orientations, name, "orientation", block.source) if name else None
+    if kind.definition:
+        return read_user_property(block, kind.definition, material, orientation, problems)
+    layers: tuple[SolidLayer, ...] = ()
+    if _is_composite(block, kind):
+        layers = _solid_layers(block, materials, orientations, orientation)
+    return _solid_section(block, kind.name, material or layers, orientation, controls)
+
+
+def _solid_section(
+    block: Block,
+    type: str,
+    given: Material | tuple[SolidLayer, ...],
+    orientation: Orientation | None,
+    controls: Mapping[str, SectionControls],
+) -> SolidSection | CompositeSection:
+    """Of a material, or of layers."""
+    elset, found = block.options.text("ELSET"), _controls(block, controls)
+    if isinstance(given, tuple):
+        direction = int(block.options.text("STACK DIRECTION"))
+        return CompositeSection(elset, given, direction, block.source, controls=found)
+    rows = list(block.rows())
+    if type in GENERALISED:
+        _check_planes(rows)
+    thickness = _thickness(rows, 0, "thickness")
+    return SolidSection(elset, given, orientation, thickness, block.source, controls=found)
+
+
+def _is_composite(block: Block, kind: ElementType) -> bool:
+    """Whether a solid section has layers. Raises DeckError unless it has either a material or layers, for bricks."""
+    composite = block.options.flag("COMPOSITE")
+    if composite == block.options.given("MATERIAL"):
+        raise block.error("expected either MATERIAL= or COMPOSITE, with the material of each layer on its line")
+    if composite and kind.name not in LAYERED:
+        types = ", ".join(LAYERED)
+        raise block.error(f"COMPOSITE is not supported for elements of type {kind.name}; expected {types}")
+    return composite
+
+
+def _solid_layers(
+    block: Block,
+    materials: Mapping[str, Material],
+    orientations: Mapping[str, Orientation],
+    orientation: Orientation | None,
+) -> tuple[SolidLayer, ...]:
+    layers = [_solid_layer(block, row, materials, orientations, orientation) for row in block.rows()]
+    if not layers:
+        raise block.error("COMPOSITE needs a data line for each layer")
+    if block.options.flag("SYMMETRIC"):
+        layers += layers[::-1]
+    return tuple(layers)
+
+
+def _solid_layer(
+    block: Block,
+    row: Row,
+    materials: Mapping[str, Material],
+    orientations: Mapping[str, Orientation],
+    of_section: Orientation | None,
+) -> SolidLayer:
+    # the fifth is the name of the layer
+    row.at_most(5)
+    thickness, points = row.real(0, "thickness"), row.integer(1, "number of section points", 1)
+    if thickness <= 0:
+        raise row.error(f"thickness {thickness:g} must be positive")
+    if not 1 <= points <= MOST_POINTS or points % 2 == 0:
+        raise row.error(f"{points} section points: expected an odd number from 1 to {MOST_POINTS - 1}")
+    material = look_up(materials, row.name(2, "material"), "material", row.source)
+    _check_material(block, material)
+    if row.blank(3):
+        return SolidLayer(thickness, points, material, of_section)
+    try:
+        angle = row.real(3, "orientation angle")
+    except DeckError:
+        own = look_up(orientations, row.name(3, "orientation"), "orientation", row.source)
+        return SolidLayer(thickness, points, material, own)
+    if of_section is None:
+        raise row.error("an angle is measured from the ORIENTATION of the section, which is not given")
+    return SolidLayer(thickness, points, material, of_section, angle)
+
+
+def _without_material(block: Block, kind: ElementType) -> MassSection | RigidSection | SpringSection:
+    elset = block.options.text("ELSET")
+    if block.name == "RIGID BODY":
+        return RigidSection(elset, block.source)
+    return MassSection(elset, _mass(block), block.source) if block.name == "MASS" else _spring(block, kind)
+
+
+def reference_node(block: Block, type: str, find: Callable[[str, Source], IntArray]) -> int:
+    """Index of the node that REF NODE of *SOLID SECTION names, -1 where the elements have none.
+
+    find: nodes of a number or set. Raises DeckError.
+    """
+    name = block.options.text("REF NODE")
+    if name and type not in GENERALISED:
+        message = f"REF NODE goes with elements in generalised plane strain ({', '.join(GENERALISED)})"
+        raise block.error(f"{message}; element set {block.options.text('ELSET')} holds {type}")
+    if not name:
+        if type in GENERALISED:
+            raise block.error(f"elements of type {type} need REF NODE")
+        return -1
+    nodes = find(name, block.source)
+    if len(nodes) != 1:
+        raise block.error(f"REF NODE={name} has {len(nodes)} nodes; expected one")
+    return int(nodes[0])
+
+
+def _check_planes(rows: list[Row]) -> None:
+    """The bounding planes of generalised plane strain are parallel before any displacement."""
+    for k, axis in enumerate("xy", start=1):
+        if rows and rows[0].real(k, f"initial rotation about {axis}", 0.0):
+            raise rows[0].error(f"an initial rotation of the bounding planes about {axis} is not supported; expected 0")
+
+
+def _mass(block: Block) -> float:
+    row = next(block.rows(), None)
+    if row is None:
+        raise block.error("needs a data line with the mass")
+    mass = row.real(0, "mass")
+    if mass < 0:
+        raise row.error(f"mass {mass:g} must not be negative")
+    return mass
+
+
+def _spring(block: Block, kind: ElementType) -> SpringSection:
+    """A first line with the dofs, blank for SPRINGA and DASHPOTA, then the stiffness, or force and elongation.
+
+    Of dashpots these are the damping coefficient, or force and velocity.
+    """
+    constant, variable = ("stiffness", "elongation") if block.name == "SPRING" else ("coefficient", "velocity")
+    rows = list(block.all_rows())
+    if len(rows) < 2:
+        raise block.error(f"needs a line with dofs, blank for {block.name}A, and the {constant} on the next")
+    # SPRINGA and DASHPOTA act along their line
+    count = kind.nodes if DISCRETE[kind.name].kind in (DiscreteKind.SPRING, DiscreteKind.DASHPOT) else 0
+    dofs = tuple(rows[0].integer(k, "dof") for k in range(count))
+    if any(not 1 <= dof <= LARGEST_DOF for dof in dofs):
+        raise rows[0].error(f"a dof is a number from 1 to {LARGEST_DOF}")
+    table = [rows[1].real(0, constant)]
+    if block.options.flag("NONLINEAR"):
+        table = [row.real(k, what) for row in rows[1:] for k, what in enumerate(("force", variable))]
+        if len(table) < 4 or any(later <= earlier for earlier, later in pairwise(table[1::2])):
+            raise rows[1].error(f"NONLINEAR needs two or more lines of force and {variable}, which ascends")
+    elif block.name == "DASHPOT":
+        # a frequency would follow
+        rows[1].at_most(1)
+    return SpringSection(block.options.text("ELSET"), dofs, np.array(table), block.source)
+
+
+def _check_material(block: Block, material: Material) -> None:
+    """A material has elasticity of the kind that the section is for, and nothing else that it has no use for."""
+    cohesive = block.name == "COHESIVE SECTION"
+    _check_viscous(block, material, cohesive=cohesive)
+    check_networks(block, material)
+    if material.hyperelastic is not None:
+        _check_hyperelastic(block, material)
+        return
+    if material.elastic is None:
+        if block.name == "SOLID SECTION" and material.user is None:
+            raise block.error(f"material {material.name} has no *ELASTIC, *HYPERELASTIC or *USER MATERIAL")
+        if cohesive and material.user is not None:
+            message = (
+                f"material {material.name} has *USER MATERIAL ({material.user.source}), for which Abaqus calls UMAT"
+            )
+            raise block.error(
+                f"{message} with separations and tractions; that is not supported in cohesive elements: expected "
+                "*ELASTIC, TYPE=TRACTION with *DAMAGE INITIATION and *DAMAGE EVOLUTION, or a user element instead"
+            )
+        if cohesive:
+            raise block.error(f"material {material.name} has no *ELASTIC, TYPE=TRACTION")
+        return
+    if cohesive != (material.elastic.type is ElasticType.TRACTION):
+        message = f"material {material.name} ({material.elastic.source}) has *ELASTIC, TYPE={material.elastic.type}"
+        raise block.error(f"{message}; TYPE=TRACTION goes with *COHESIVE SECTION, and with nothing else")
+    for keyword, other in (("PLASTIC", material.plastic), ("USER MATERIAL", material.user)):
+        if cohesive and other is not None:
+            raise block.error(f"material {material.name} has *{keyword}, at {other.source}, which is not supported")
+    if not cohesive and material.damage is not None:
+        place = material.damage.source
+        raise block.error(f"material {material.name} has *DAMAGE INITIATION, at {place}, which needs *COHESIVE SECTION")
+
+
+def _check_viscous(block: Block, material: Material, *, cohesive: bool) -> None:
+    """A material whose stresses depend on time has, of what gives stresses, *ELASTIC alone."""
+    for keyword, viscous in (("VISCOELASTIC", material.viscoelastic), ("CREEP", material.creep)):
+        if viscous is None:
+            continue
+        if cohesive:
+            raise block.error(f"material {material.name} has *{keyword}, at {viscous.source}, which is not supported")
+        for name, other in (
+            ("CREEP", material.creep if viscous is material.viscoelastic else None),
+            ("PLASTIC", material.plastic),
+            ("HYPERELASTIC", material.hyperelastic),
+            ("USER MATERIAL", material.user),
+        ):
+            if other is not None:
+                message = f"material {material.name} has *{keyword} and *{name}, at {other.source}"
+                raise block.error(f"{message}, which are not supported together")
+        if material.elastic is None:
+            raise block.error(f"material {material.name} has *{keyword}, at {viscous.source}, but no *ELASTIC")
+
+
+def _check_hyperelastic(block: Block, material: Material) -> None:
+    """A hyperelastic material has nothing else that gives stresses or strains."""
+    law = material.hyperelastic
+    assert law is not None
+    if block.name == "COHESIVE SECTION":
+        raise block.error(f"material {material.name} has *{law.keyword}; expected *ELASTIC, TYPE=TRACTION")
+    for keyword, other in (
+        ("ELASTIC", material.elastic),
+        ("PLASTIC", material.plastic),
+        ("USER MATERIAL", material.user),
+        ("DAMAGE INITIATION", material.damage),
+    ):
+        if other is not None:
+            message = f"material {material.name} has *{law.keyword} and *{keyword}, at {other.source}"
+            raise block.error(f"{message}; expected only one of them")
+    if material.expansion and not material.expansion.isotropic:
+        message = f"material {material.name} has *{law.keyword} and *EXPANSION, at {material.expansion.source}"
+        raise block.error(f"{message}; expected TYPE=ISO there")
+    if material.expansion and material.networks:
+        raise block.error(f"material {material.name} has *VISCOELASTIC and *EXPANSION, which is not supported")
+
+
+def _thickness(rows: list[Row], index: int, what: str) -> float:
+    """Field of the first data line; 1 where it is zero or left out."""
+    thickness = rows[0].real(index, what, 1.0) if rows else 1.0
+    if thickness == 0:
+        return 1.0
+    if thickness < 0:
+        raise rows[0].error(f"{what} {thickness:g} must be positive")
+    return thickness
+
+
+def _controls(block: Block, controls: Mapping[str, SectionControls]) -> SectionControls:
+    """What CONTROLS= names; defaults without it."""
+    name = block.options.text("CONTROLS")
+    return look_up(controls, name, "section controls", block.source) if name else SectionControls()
+
+
+def _cohesive_section(block: Block, material: Material, controls: Mapping[str, SectionControls]) -> CohesiveSection:
+    options, rows = block.options, list(block.rows())
+    geometry = options.text("THICKNESS") == "GEOMETRY"
+    return CohesiveSection(
+        options.text("ELSET"),
+        material,
+        thickness=0.0 if geometry else _thickness(rows, 0, "constitutive thickness"),
+        width=_thickness(rows, 1, "out-of-plane width"),
+        controls=_controls(block, controls),
+        source=block.source,
+    )
+
+
+_ELSET = Option("ELSET", Kind.NAME, "element set", required=True)
+_MATERIAL = Option("MATERIAL", Kind.NAME, "material", required=True)
+_ORIENTATION = Option("ORIENTATION", Kind.NAME, "orientation of the material")
+_CONTROLS = Option("CONTROLS", Kind.NAME, "section controls")
+
+KEYWORDS = (
+    Keyword(
+        "SOLID SECTION",
+        "Section of built-in continuum and heat transfer elements. Axisymmetric ones (CAX, DCAX) ignore the thickness: "
+        "forces, masses and energies are those of the whole circumference. Elements in generalised plane strain (CPEG) "
+        "lie between two rigid planes: dof 3 of the reference node is the change of the length of its fibre, dofs 4 "
+        "and 5 are the relative rotations of the planes about x and y. Loads on their edges act on the initial "
+        "thickness.",
+        Where.MODEL,
+        (
+            _ELSET,
+            Option("MATERIAL", Kind.NAME, "material"),
+            Option(
+                "COMPOSITE", doc="a data line for each layer, the first at face S6, S3, S1 of stack direction 1, 2, 3"
+            ),
+            _ORIENTATION,
+            _CONTROLS,
+            one_of(
+                "STACK DIRECTION",
+                "direction of parent coordinates along which layers follow each other; nothing without COMPOSITE",
+                ("1", "2", "3"),
+                default="3",
+                refused=("ORIENTATION",),
+            ),
+            Option("SYMMETRIC", doc="the layers again, in reverse"),
+            Option("REF NODE", Kind.NAME, "reference node of CPEG elements, or a set with this node alone"),
+            *ignored("LAYUP"),
+            *refused("ORDER"),
+        ),
+        "thickness (1), of CPEG elements the length of the fibre through the reference node; there then rotations of "
+        "the bounding planes about x and y before any displacement, which must be 0; COMPOSITE: thickness over that of "
+        "the other layers, section points (1), material, angle in degrees from ORIENTATION or the name of another "
+        "orientation, name",
+    ),
+    Keyword(
+        "COHESIVE SECTION",
+        "Section of cohesive elements.",
+        Where.MODEL,
+        (
+            _ELSET,
+            _MATERIAL,
+            one_of("RESPONSE", "response", ("TRACTION SEPARATION",), required=True, refused=("CONTINUUM", "GASKET")),
+            one_of(
+                "THICKNESS",
+                "constitutive thickness: of the data line or of the nodes",
+                ("SPECIFIED", "GEOMETRY"),
+                default="SPECIFIED",
+            ),
+            _CONTROLS,
+            *refused("HALF", "ORIENTATION", "STACK DIRECTION", "SYMMETRIC"),
+        ),
+        "constitutive thickness (1), width out of the plane (1)",
+    ),
+    Keyword(
+        "SPRING",
+        "Stiffness of SPRING1, SPRING2 and SPRINGA.",
+        Where.MODEL,
+        (
+            _ELSET,
+            Option("NONLINEAR", doc="force and elongation in place of the stiffness; constant outside the table"),
+            *refused("COMPLEX STIFFNESS", "DEPENDENCIES", "ORIENTATION", "RTOL"),
+        ),
+        "dof at the first node, dof at the second (SPRING2), blank for SPRINGA; then stiffness, or force, elongation",
+    ),
+    Keyword(
+        "DASHPOT",
+        "Viscous forces of DASHPOT1, DASHPOT2 and DASHPOTA: in *DYNAMIC by the velocities, in static steps by the "
+        "increment of the elongation over that of the time, in *STEADY STATE DYNAMICS, DIRECT or SUBSPACE PROJECTION "
+        "by the damping matrix; none in other linear steps.",
+        Where.MODEL,
+        (
+            _ELSET,
+            Option("NONLINEAR", doc="force and velocity in place of the coefficient; constant outside the table"),
+            *refused("DEPENDENCIES", "ORIENTATION", "RTOL"),
+        ),
+        "dof at the first node, dof at the second (DASHPOT2), blank for DASHPOTA; then force per velocity, or force, "
+        "velocity",
+    ),
+    Keyword("MASS", "Point masses.", Where.MODEL, (_ELSET, *refused("ALPHA", "ORIENTATION", "TYPE")), "mass"),
+)
+SECTION_KEYWORDS = {
+    "UEL PROPERTY",
+    "RIGID BODY",
+    *SHELL_KEYWORDS,
+    MEMBRANE_KEYWORD,
+    *BEAM_KEYWORDS,
+    *(keyword.name for keyword in KEYWORDS),
+}

@@ -1,0 +1,170 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*RESTART: when states are kept, where a restart resumes, and the model of a restart deck.
+
+Abaqus Analysis User's Guide, "Restarting an analysis": the model is that of the earlier job. A restart deck may add
+amplitudes and sets, and has the steps that follow.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from uel.deck.error_report import Problems
+from uel.deck.language.blocks import Block
+from uel.deck.language.lexer import read_blocks, survey_blocks
+from uel.deck.language.structure import Structure, sort_blocks
+from uel.deck.language.table import Keyword, Kind, Option, Where, refused
+from uel.files import read_whole
+from uel.model.restart import DeckPart, RestartRead, RestartWrite
+
+MAY_BE_ADDED = ("AMPLITUDE", "NSET", "ELSET")
+"""Model data of a restart deck."""
+
+
+def find_restart(deck: Path, keywords: Mapping[str, Keyword], given: Mapping[str, float] | None) -> RestartRead | None:
+    """*RESTART, READ of a deck, None if it has none; what else is wrong with the deck is for `read_deck`.
+
+    Raises DeckError if the deck cannot be read or has two of them, UsageError if a given parameter is none of its own.
+    """
+    blocks = read_blocks(deck, keywords, Problems(), given)
+    reads = [block for block in blocks if block.name == "RESTART" and block.options.flag("READ")]
+    for again in reads[1:]:
+        raise again.error(f"*RESTART, READ is there already, at {reads[0].source}")
+    return _read(reads[0]) if reads else None
+
+
+def digest_of(deck: Path, keywords: Mapping[str, Keyword], given: Mapping[str, float] | None) -> str:
+    """Hash of a deck and of the files that it includes. Raises DeckError if it cannot be read."""
+    found = hashlib.sha256()
+    for file in survey_blocks(deck, keywords, given).files:
+        found.update(hashlib.sha256(read_whole(file)).digest())
+    return found.hexdigest()
+
+
+def join_parts(
+    parts: Sequence[DeckPart], blocks: list[Block], keywords: Mapping[str, Keyword], problems: Problems
+) -> tuple[Structure, tuple[RestartWrite | None, ...]]:
+    """The decks that a model comes from as one, and when each of its steps keeps its state.
+
+    Parameters
+    ----------
+    parts
+        The decks; none if there is only one, which resumes nothing.
+    blocks
+        Of the last one.
+    keywords
+        The keyword table.
+    problems
+        Takes what is wrong with them.
+
+    Returns
+    -------
+    tuple[Structure, tuple[RestartWrite | None, ...]]
+        The model data of all decks, and the steps that stay; None: the step keeps no states.
+    """
+    whole, requests = Structure(), list[RestartWrite | None]()
+    earlier = [read_blocks(Path(part.path), keywords, problems, part.given) for part in parts[:-1]]
+    for number, own in enumerate([*earlier, blocks]):
+        part = sort_blocks(own, problems)
+        current = _in_force(part.root, requests[-1] if requests else None, problems)
+        if number:
+            _check_added(part, problems)
+            stay = parts[number].steps
+            del whole.steps[stay:], requests[stay:]
+            requests[-1:] = [current]
+        for scope in part.steps:
+            current = _in_force(scope.blocks, current, problems)
+            requests.append(current)
+        if number:
+            whole.root += part.root
+            whole.steps += part.steps
+            whole.ignored += part.ignored
+        else:
+            whole = part
+    return whole, tuple(requests)
+
+
+def refuse_reading(structure: Structure, problems: Problems) -> None:
+    """Without the job from which the model comes, *RESTART, READ is an error."""
+    for block in structure.root:
+        if block.name == "RESTART" and block.options.flag("READ"):
+            problems.add(block.source, "*RESTART, READ: the model is that of an earlier job, uel run --oldjob NAME")
+
+
+def _check_added(part: Structure, problems: Problems) -> None:
+    """A restart deck adds little to the model."""
+    allowed = (*MAY_BE_ADDED, "HEADING", "PARAMETER", "RESTART")
+    scopes = [*part.parts.values(), *part.instances.values()]
+    for block in [*part.root, *(scope.head for scope in scopes)]:
+        if block.name not in allowed:
+            names = ", ".join(f"*{name}" for name in MAY_BE_ADDED)
+            message = f"*{block.name}: the model is that of the old job, to which a restart deck adds only {names}"
+            problems.add(block.source, message)
+
+
+def _in_force(blocks: list[Block], current: RestartWrite | None, problems: Problems) -> RestartWrite | None:
+    """The *RESTART, WRITE in force after these blocks."""
+    for block in blocks:
+        if block.name == "RESTART":
+            with problems.gather():
+                current = _written(block, current, problems)
+    return current
+
+
+def _written(block: Block, current: RestartWrite | None, problems: Problems) -> RestartWrite | None:
+    """*RESTART, WRITE of a block, or the one before if it has none."""
+    options = block.options
+    if not (options.flag("READ") or options.flag("WRITE")):
+        raise block.error("expected READ or WRITE")
+    if not options.flag("WRITE"):
+        return current
+    frequency, intervals = options.integer("FREQUENCY", 1), options.integer("NUMBER INTERVAL", 0)
+    if frequency < 0:
+        raise block.error(f"FREQUENCY={frequency} must not be negative")
+    if intervals < 1 and options.given("NUMBER INTERVAL"):
+        raise block.error(f"NUMBER INTERVAL={intervals} must be positive")
+    if intervals and options.given("FREQUENCY"):
+        raise block.error("FREQUENCY and NUMBER INTERVAL exclude each other")
+    if intervals and options.flag("TIME MARKS"):
+        message = "*RESTART: increments do not end at the times; the first one that reaches a time is kept instead"
+        problems.warn(block.source, message)
+    return RestartWrite(frequency, intervals, options.flag("OVERLAY"))
+
+
+def _read(block: Block) -> RestartRead:
+    """*RESTART, READ of a block."""
+    options = block.options
+    numbers = [options.integer(name, 0) if options.given(name) else None for name in ("STEP", "INC")]
+    for name, number in zip(("STEP", "INC"), numbers, strict=True):
+        if number is not None and number < 1:
+            raise block.error(f"{name}={number} must be positive")
+    step, increment = numbers
+    if increment is not None and step is None:
+        raise block.error("INC needs STEP")
+    return RestartRead(step, increment, options.flag("END STEP"), block.source)
+
+
+KEYWORDS = (
+    Keyword(
+        "RESTART",
+        "Keep states from which a later job resumes (WRITE), in the folder JOB_restart; or resume (READ): the model is "
+        "that of the old job, `uel run --oldjob`, to which this deck adds amplitudes, sets and steps. Without END STEP "
+        "the step that READ names is completed first. See harness/uel/procedures/restart.md.",
+        Where.ANY,
+        (
+            Option("WRITE", doc="keep states, from this step on; before the first step, in all of them"),
+            Option("FREQUENCY", Kind.INTEGER, "every k-th increment (1), and the last one of the step; 0 never"),
+            Option("NUMBER INTERVAL", Kind.INTEGER, "... the first one in or after each of so many parts of the step"),
+            Option("TIME MARKS", Kind.SWITCH, "whether increments end at these times, which they do not"),
+            Option("OVERLAY", doc="only the last state of a step stays"),
+            Option("READ", doc="resume the analysis of the old job"),
+            Option("STEP", Kind.INTEGER, "its step (the last one that has a state)"),
+            Option("INC", Kind.INTEGER, "increment of the step (the last one that has a state)"),
+            Option("END STEP", doc="the step ends there"),
+            *refused("CYCLE", "ITERATION", "INTERVAL", "SINGLE FILE"),
+        ),
+    ),
+)

@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Damage by one definition, whatever the element writes.
+
+The standard and the paper's element and COH2D4 write d of (9), the share of its stiffness alpha that a point has lost:
+with the secant stiffness K of traction over separation, d = 1 - K/alpha. Where alpha is infinite, that is 1 from the
+onset on. So the consistent element writes D = (1 - K/alpha) k/(K + k), with the softening stiffness k of mode I: the
+dissipated share of the toughness there. K is the same in both, so that with q = k/alpha
+
+    d = D (1 + q)/(D + q),    D = d q/(1 + q - d).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from uel.delamination.materials import Cohesive
+from uel.model.arrays import FloatArray
+
+
+def stiffness_lost(spent: FloatArray, law: Cohesive) -> FloatArray:
+    """d of (9) from D (n,); for an infinite stiffness, written 0, its limit: 1 wherever D is above 0."""
+    ratio = softening_ratio(law)
+    return np.asarray(np.divide(spent * (1.0 + ratio), spent + ratio, out=np.zeros_like(spent), where=spent > 0.0))
+
+
+def toughness_spent(lost: FloatArray, law: Cohesive) -> FloatArray:
+    """D from d of (9) (n,), of a law of finite stiffness."""
+    ratio = softening_ratio(law)
+    return np.asarray(lost * ratio / (1.0 + ratio - lost))
+
+
+def softening_ratio(law: Cohesive) -> float:
+    """k/alpha of mode I: softening stiffness over initial stiffness; 0 for an infinite stiffness, written 0."""
+    if law.stiffness_normal == 0.0:
+        return 0.0
+    return 1.0 / (2.0 * law.toughness_1 * law.stiffness_normal / law.strength_normal**2 - 1.0)

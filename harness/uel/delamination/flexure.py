@@ -1,0 +1,75 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""End-notched flexure (mode II) and fixed-ratio mixed-mode specimens, sections 4.3 and 4.4 (N, mm, MPa).
+
+The faces of an end-notched flexure specimen's crack press on each other where the left support carries the upper arm.
+No element stands between them there: *EQUATION ties their deflections above the support, the point through which beam
+theory passes the load. Both arms then have the same end deflection under a load each, thus, as beams, the same
+deflection all along the crack, whatever their stiffnesses: nothing else keeps them apart or together.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from uel.delamination.blocks import Specimen
+from uel.delamination.keywords import node_set, table, text
+from uel.delamination.mesh import TwoArmMesh, crack_columns, two_arms
+from uel.delamination.specimens import ARM_HEIGHT, CRACK, deck_head
+from uel.delamination.steps import Increments, step_block
+
+SPAN = 100.0
+FRMM_LENGTH = 50.0
+
+
+def enf_mesh(size: float = 0.25, bump: float = 0.0) -> TwoArmMesh:
+    """Columns of `size` (mm) over the whole span; four quads over the height of an arm."""
+    x = np.round(np.linspace(0.0, SPAN, round(SPAN / size) + 1), 6)
+    return two_arms(x, ARM_HEIGHT, 4, CRACK, bump)
+
+
+def frmm_mesh(size: float = 0.125, bump: float = 0.0, crack: float = CRACK) -> TwoArmMesh:
+    """Columns of `size` (mm) from ahead of the crack's tip to the clamp, up to 0.5 mm before.
+
+    The specimen is as many times longer than the paper's as its `crack` (mm).
+    """
+    start, length = crack - 1.5, FRMM_LENGTH * crack / CRACK
+    x = crack_columns(length, (start, length), size, ratio=1.15, largest=(0.5, 0.5))
+    return two_arms(x, ARM_HEIGHT, 4, crack, bump)
+
+
+def enf_deck(title: str, specimen: Specimen, deflection: float, increments: Increments, field_every: int) -> str:
+    """End-notched flexure: simply supported at both ends, mid-span of the upper face pushed down by `deflection`."""
+    comments = ["simply supported; mid-span pushed down; the crack's faces have one deflection above the left support"]
+    lines = deck_head(title, comments, specimen)
+    mesh = specimen.mesh
+    middle = int(np.argmin(np.abs(mesh.x - 0.5 * SPAN)))
+    lines += node_set("MIDSPAN", mesh.top_line[middle : middle + 1])
+    lines += node_set("SUPPORT_LEFT", mesh.line(1)[:1]) + node_set("SUPPORT_RIGHT", mesh.line(1)[-1:])
+    low, high = (int(line[0]) for line in mesh.interface_lines)
+    lines += ["*EQUATION", "2", *table([(high, 2, 1.0, low, 2, -1.0)])]
+    lines += ["*BOUNDARY", "SUPPORT_LEFT, 2, 2", "SUPPORT_RIGHT, 1, 2"]
+    lines += step_block(
+        f"Deflection of {deflection:g} mm at mid-span",
+        increments,
+        [("MIDSPAN", 2, -deflection)],
+        ["MIDSPAN"],
+        field_every=field_every,
+        built_in=specimen.interface.built_in,
+    )
+    return text(lines)
+
+
+def frmm_deck(title: str, specimen: Specimen, opening: float, increments: Increments, field_every: int) -> str:
+    """Fixed-ratio mixed mode: right end clamped, the upper arm's left corner pulled up by `opening` (mm)."""
+    lines = deck_head(title, ["right end clamped; upper left corner pulled up, the lower arm is free"], specimen)
+    lines += ["*BOUNDARY", "RIGHT, 1, 2"]
+    lines += step_block(
+        f"Opening to {opening:g} mm",
+        increments,
+        [("LOAD_TOP", 2, opening)],
+        ["LOAD_TOP"],
+        field_every=field_every,
+        built_in=specimen.interface.built_in,
+    )
+    return text(lines)

@@ -1,0 +1,31 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Keyword blocks of the project's elements, from the layout that the elements themselves are compiled with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from uel.delamination.keywords import captions, keyword, wrapped
+from uel.usersub.layout import element_layouts
+
+
+def user_element(jtype: int, **options: str | int) -> list[str]:
+    """*USER ELEMENT of an element type: its counts, UNSYMM where it needs it, and what else is given."""
+    layout = element_layouts()[jtype]
+    counts: dict[str, str | int] = {"TYPE": f"U{jtype}", "NODES": layout.nodes, "COORDINATES": layout.dimension}
+    counts |= {"PROPERTIES": len(layout.reals), "I_PROPERTIES": len(layout.integers), "VARIABLES": layout.svars}
+    flags = ["UNSYMM"] if layout.unsymmetric else []
+    return [keyword("USER ELEMENT", *flags, **counts, **options), ", ".join("123"[: layout.dimension])]
+
+
+def uel_property(jtype: int, elset: str, values: Mapping[str, float], **options: str) -> list[str]:
+    """*UEL PROPERTY with properties by name, 0 if none is given; those of other element types are ignored.
+
+    Integers follow the reals on the same lines, eight per line; comments above name them.
+    """
+    layout = element_layouts()[jtype]
+    names = [item.name for item in (*layout.reals, *layout.integers)]
+    reals = [float(values.get(item.name, 0.0)) for item in layout.reals]
+    integers = [int(values.get(item.name, 0)) for item in layout.integers]
+    return [*captions(names), keyword("UEL PROPERTY", ELSET=elset, **options), *wrapped([*reals, *integers])]

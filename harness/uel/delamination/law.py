@@ -1,0 +1,339 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""One interface element driven along paths of the separation: what `uel law` does.
+
+The element is square and small, with a uniform separation. Separations and tractions are (normal, tangential). A
+standard element (U2, U5) is opened by its nodes. The two quads of a stabilised element (U4, U6) are strained so that
+their stress equals the traction of the interface, as in a structure in equilibrium, so that it shows its law, not
+Nitsche's compliance.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from uel.deck import read_deck
+from uel.delamination.blocks import Interface, Specimen, interface_values
+from uel.delamination.materials import PLY_0, TABLE_2
+from uel.delamination.mesh import two_arms
+from uel.elements import Call, Flags, build_blocks
+from uel.errors import Source, UelError, UsageError
+from uel.model.arrays import FloatArray
+from uel.model.mesh import ElementGroup, Mesh
+from uel.model.model import Model
+from uel.model.properties import UserElement, UserProperty
+from uel.usersub import Library
+from uel.usersub.layout import check_law_uses, element_layouts
+
+PLACE: Final = Source("uel law", 0)
+STANDARD: Final = 2
+LOW: Final = np.array([[0, -1], [1, -1], [1, 0], [0, 0], [0.5, -1], [1, -0.5], [0.5, 0], [0, -0.5]])
+HIGH: Final = np.add(LOW, [0, 1])
+NODES: Final = {
+    2: np.array([[0, 0], [1, 0], [1, 0], [0, 0]]),
+    4: np.vstack([LOW[:4], HIGH[:4]]),
+    5: np.array([[0, 0], [1, 0], [1, 0], [0, 0], [0.5, 0], [0.5, 0]]),
+    6: np.vstack([LOW, HIGH]),
+}
+"""Coordinates over the size, of each element type that can be driven."""
+TOP: Final = {2: [2, 3], 4: [4, 5, 6, 7], 5: [2, 3, 5], 6: list(range(8, 16))}
+"""Nodes above the interface."""
+SIZE: Final = 0.125
+"""Edge of the quads of a stabilised element, on which beta depends: that of the double cantilever beam (mm)."""
+
+MOST_ITERATIONS: Final = 50
+PATIENCE: Final = 10
+"""Iterations after which a step of the search for equilibrium may no longer increase what is missed."""
+BISECTIONS: Final = 30
+RIGID: Final = 1e6
+"""Stiffness in place of an infinite one, over that of the softening, when only the end of a curve is sought."""
+BACK: Final = 20
+"""Number of increments of an unloading."""
+
+Properties = Mapping[str, float]
+
+
+LARGEST: Final = 1 << 31
+"""The first integer too large for JPROPS."""
+
+
+def standard_properties() -> dict[str, float]:
+    """Properties of the paper's interface (tables 1 and 2), of every element type."""
+    mesh = two_arms(np.array([0.0, 1.0]), 1.0, 1, crack=0.0)
+    return interface_values(Specimen("law", mesh, Interface("U2", TABLE_2), 1.0, PLY_0, PLY_0))
+
+
+def given_properties(words: Iterable[str]) -> dict[str, float]:
+    """Properties from words NAME=VALUE; an underscore stands for a blank. Raises UsageError with the wrong word."""
+    layouts = element_layouts().values()
+    integers = {item.name for layout in layouts for item in layout.integers}
+    known = integers | {item.name for layout in layouts for item in layout.reals}
+    given = {}
+    for word in words:
+        name, equals, value = word.upper().partition("=")
+        name = name.replace("_", " ")
+        if not equals or name not in known:
+            raise UsageError(f"'{word}': expected NAME=VALUE with a name among {', '.join(sorted(known))}")
+        try:
+            given[name] = float(value)
+        except ValueError:
+            given[name] = math.nan
+        if not math.isfinite(given[name]):
+            raise UsageError(f"'{word}': '{value}' is not a finite number")
+        if name in integers and not (given[name].is_integer() and abs(given[name]) < LARGEST):
+            raise UsageError(f"'{word}': '{value}' is not a whole number below {LARGEST}")
+    return given
+
+
+def refuse_ignored(given: Properties, jtype: int, number: int) -> None:
+    """Raise UsageError for a property that elements of a type, or the law of a number, would ignore.
+
+    It names those that have it.
+    """
+    layouts = element_layouts()
+    has = {number: {item.name for item in (*layouts[number].reals, *layouts[number].integers)} for number in NODES}
+    for name in given:
+        if name not in has[jtype]:
+            others = [f"U{number}" for number in NODES if name in has[number]]
+            other = f"; --element {' or '.join(others)} has it" if others else ""
+            raise UsageError(f"{name}: U{jtype} has no such property and would ignore it{other}")
+    check_law_uses(jtype, given, number)
+
+
+def shown_properties(values: Properties, jtype: int) -> list[tuple[str, float]]:
+    """Properties of the law that are not zero, by name; those of the plies and the thickness do not change it."""
+    layout = element_layouts()[jtype]
+    names = [item.name for item in (*layout.reals, *layout.integers)]
+    names = [name for name in names if name != "THICKNESS" and not name.endswith((" BOTTOM", " TOP"))]
+    return [(name, values[name]) for name in names if values.get(name)]
+
+
+def deck_properties(path: Path, elset: str | None = None) -> tuple[int, dict[str, float]]:
+    """Type and properties of the interface elements of a deck: of one element set, by default the first.
+
+    The four-node stabilised element does not work without its neighbours; its law is that of the standard element.
+    """
+    sections = []
+    for group in read_deck(path).groups:
+        definition, section = group.definition, group.section
+        if definition is None or not isinstance(section, UserProperty) or definition.number < 2:
+            continue
+        if elset is None or section.elset.upper() == elset.upper():
+            layout = element_layouts()[definition.number]
+            # a deck may have fewer than the element has now: properties that were added later are 0
+            values = dict(zip((item.name for item in layout.reals), section.values.tolist(), strict=False))
+            values |= dict(zip((item.name for item in layout.integers), section.integers.tolist(), strict=False))
+            values.setdefault("THICKNESS", 1.0)
+            return definition.number if definition.number in NODES else STANDARD, values
+        sections.append(section.elset)
+    if not sections:
+        raise UelError(f"{path}: no interface elements of the project with *UEL PROPERTY")
+    known = ", ".join(sections)
+    raise UelError(f"{path}: no interface elements with *UEL PROPERTY, ELSET={elset}; expected one of {known}")
+
+
+@dataclass(frozen=True, slots=True)
+class LawCurve:
+    """One path.
+
+    label    as in the legend
+    columns  one value per increment, the start included: TIME, SEPN, SEPT, TN, TT, the other variables of the point,
+             WORK (of the traction, per area)
+    """
+
+    label: str
+    columns: dict[str, FloatArray]
+
+
+class LawElement:
+    """One interface element of a type with properties by name."""
+
+    def __init__(self, library: Library, jtype: int, values: Properties, size: float = SIZE) -> None:
+        layout = element_layouts()[jtype]
+        nodes = NODES[jtype]
+        self._stabilised = len(nodes) > 6
+        self._names = [item.name for item in layout.variables]
+        self._points = layout.points
+        self._height = nodes[:, 1] * size
+        self._top = np.isin(np.arange(len(nodes)), TOP[jtype])
+        self._area = size * values["THICKNESS"]
+        user = UserElement(
+            jtype,
+            layout.nodes,
+            tuple((node, dof) for node in range(layout.nodes) for dof in (1, 2)),
+            PLACE,
+            coordinates=2,
+            properties=len(layout.reals),
+            integer_properties=len(layout.integers),
+            variables=layout.svars,
+            unsymmetric=True,
+        )
+        section = UserProperty(
+            "LAW",
+            PLACE,
+            np.array([float(values.get(item.name, 0.0)) for item in layout.reals]),
+            np.array([int(values.get(item.name, 0)) for item in layout.integers]),
+        )
+        group = ElementGroup(f"U{jtype}", np.array([1]), np.arange(layout.nodes)[None], "", section, user, PLACE)
+        coordinates = np.column_stack([nodes * size, np.zeros(len(nodes))])
+        mesh = Mesh(np.arange(1, len(nodes) + 1), coordinates, ("",) * len(nodes))
+        (self._block,) = build_blocks(Model(Path("uel law"), "", mesh, (group,), ()), library)
+        n = 2 * layout.nodes
+        self._block.bind(np.arange(n, dtype=np.int32)[None], np.arange(n * n, dtype=np.int32).reshape(1, n, n))
+        self._u = np.zeros(n)
+        self._gradient = np.zeros(2)
+        self._time = 0.0
+        self._strength = min(values["SIGMAMAX"], values["TAUMAX"])
+        self._operator = self._stress_operator(values) if self._stabilised else np.zeros((2, 2))
+
+    def advance(self, separation: FloatArray, dtime: float) -> FloatArray:
+        """Make a converged increment to a separation (normal, tangential); returns the traction."""
+        self._time += dtime
+        if self._stabilised:
+            self._gradient = self._equilibrium(separation, dtime)
+        u = self._displacements(separation, self._gradient)
+        traction = self._traction(u, dtime)
+        self._block.commit()
+        self._u = u
+        return traction
+
+    def probe(self, separation: FloatArray) -> FloatArray:
+        """Traction of a standard element at a separation; the increment is not kept."""
+        return self._traction(self._displacements(separation, self._gradient), 1.0)
+
+    def variables(self) -> dict[str, float]:
+        """Committed variables of the first point by name."""
+        return dict(zip(self._names, self._block.state(0).svars[0].tolist(), strict=False))
+
+    def _displacements(self, separation: FloatArray, gradient: FloatArray) -> FloatArray:
+        u = np.where(self._top, 0.5, -0.5)[:, None] * separation + self._height[:, None] * gradient
+        return np.array(u[:, ::-1]).ravel()
+
+    def _traction(self, u: FloatArray, dtime: float) -> FloatArray:
+        call = Call(Flags(1), 1, 1, self._time, self._time, dtime, 1.0)
+        rhs = np.zeros(len(u))
+        self._block.evaluate(call, u, u - self._u, rhs, np.zeros(len(u) ** 2))
+        tangential, normal = -rhs.reshape(-1, 2)[self._top].sum(axis=0) / self._area
+        return np.array([normal, tangential])
+
+    def _stress_operator(self, values: Properties) -> FloatArray:
+        """Matrix from the gradient to the quads' stress: the traction without separation is (1 - S) times it."""
+        columns = []
+        # far below onset
+        step = 1e-3 * min(values["SIGMAMAX"], values["TAUMAX"]) / max(values["E2 BOTTOM"], values["G12 BOTTOM"])
+        for gradient in step * np.eye(2):
+            traction = self._traction(self._displacements(np.zeros(2), gradient), 0.0)
+            self._block.commit()
+            point = self.variables()
+            columns.append(traction / (1.0 - np.array([point["SN"], point["ST"]])) / step)
+        return np.array(columns).T
+
+    def _equilibrium(self, separation: FloatArray, dtime: float) -> FloatArray:
+        """Derivative of the displacement along the normal for which the quads' stress equals the traction.
+
+        Newton's method with differences: 1 - dT/dsigma is S or, with a consistent law, positive as beta exceeds the
+        steepest softening, so the solution is unique.
+        """
+        gradient = self._gradient
+
+        def miss(at: FloatArray) -> FloatArray:
+            return self._traction(self._displacements(separation, at), dtime) - self._operator @ at
+
+        negligible = 1e-10 * self._strength
+        for passes in range(MOST_ITERATIONS):
+            residual = miss(gradient)
+            if np.abs(residual).max() <= negligible:
+                return gradient
+            steps = np.linalg.solve(self._operator, 1e-6 * self._strength * np.eye(2)).T
+            slopes = np.array([(miss(gradient + step) - residual) / (1e-6 * self._strength) for step in steps]).T
+            left, sizes, right = np.linalg.svd(slopes)
+            missed, free = left.T @ residual, sizes > 1e-6
+            stress = -right[free].T @ (missed[free] / sizes[free])
+            # rigid up to the onset: only the stress at the onset allows a separation
+            rigid = right[~free & (np.abs(missed) > negligible)]
+            stress = stress + rigid.T @ (rigid @ (self._operator @ gradient + residual))
+            change, share = np.linalg.solve(self._operator, stress), 1.0
+            # back and forth across the onset of a rigid interface
+            while passes >= PATIENCE and share > negligible and _larger(miss(gradient + share * change), residual):
+                share /= 2.0
+            gradient = gradient + share * change
+        raise UelError(f"no equilibrium of the quads with the interface at a separation of {separation}")
+
+
+def _larger(one: FloatArray, other: FloatArray) -> bool:
+    return bool(np.abs(one).max() > np.abs(other).max())
+
+
+def along(points: FloatArray, increments: int) -> FloatArray:
+    """Separations (n, 2) on the straight lines from the origin through the points, each line in equal increments."""
+    corners = np.vstack([np.zeros((1, 2)), points])
+    parts = [start + np.linspace(0, 1, increments + 1)[1:, None] * (end - start) for start, end in pairwise(corners)]
+    return np.vstack([corners[:1], *parts])
+
+
+def opening(
+    angle: float, reach: float, increments: int, unload: Sequence[float] = (), close: float = 0.0
+) -> FloatArray:
+    """Separations (n, 2) growing at a fixed angle, from opening (0) to sliding (90 degrees), up to `reach`.
+
+    The increments grow with the separation, so that the stiff rise has some. At the fractions `unload` of the reach
+    the path goes back to the origin, on to a closure of `close` times the reach, and returns.
+    """
+    direction = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
+    sizes = np.linspace(0.0, 1.0, increments + 1) ** 2
+    path: FloatArray = sizes[:, None] * reach * direction
+    closed = np.linspace(0.0, -close * reach, BACK + 1)[1:, None] * [1.0, 0.0] if close else np.zeros((0, 2))
+    # from the last one, so that earlier places do not shift
+    for fraction in sorted(unload, reverse=True):
+        place = int(np.searchsorted(sizes, fraction))
+        way = np.vstack([np.linspace(1.0, 0.0, BACK + 1)[1:, None] * path[place], closed])
+        path = np.vstack([path[: place + 1], way, way[-2::-1], path[place:]])
+    return path
+
+
+def reach_of(library: Library, values: Properties, angle: float) -> float:
+    """Separation at an angle (degrees) at which a thousandth of the strength is left of the traction."""
+    for name in ("SIGMAMAX", "TAUMAX", "GIC", "GIIC"):
+        if not values[name] > 0.0:
+            raise UelError(f"{name} = {values[name]:g}: expected a number above 0, which determines the reach")
+    direction = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
+    stiff = {name: values[name] or RIGID * values["SIGMAMAX"] ** 2 / values["GIC"] for name in ("ALPHAN", "ALPHAT")}
+    # in one increment, in which viscosity would delay the damage
+    element = LawElement(library, STANDARD, {**values, **stiff, "VISCOSITY": 0.0})
+    least = 1e-3 * min(values["SIGMAMAX"], values["TAUMAX"])
+
+    def holds(size: float) -> bool:
+        return float(np.linalg.norm(element.probe(size * direction))) > least
+
+    # in pure modes a bilinear law ends at twice this, a mixed mode in between
+    start = near = min(values["GIC"] / values["SIGMAMAX"], values["GIIC"] / values["TAUMAX"])
+    far = near
+    while holds(far):
+        near, far = far, 2.0 * far
+        if far > 1e6 * start:
+            raise UelError(f"the traction at {angle:g} degrees does not fall to a thousandth: give the reach (--reach)")
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (near + far)
+        near, far = (middle, far) if holds(middle) else (near, middle)
+    return far
+
+
+def drive(element: LawElement, label: str, path: FloatArray, duration: float = 1.0) -> LawCurve:
+    """Tractions along a path, in increments of equal duration."""
+    rows = []
+    work, before, old = 0.0, np.zeros(2), np.zeros(2)
+    dtime = duration / (len(path) - 1)
+    for number, separation in enumerate(path):
+        traction = element.advance(separation, dtime if number else 0.0)
+        work += 0.5 * float((traction + before) @ (separation - old))
+        before, old = traction, separation
+        point = element.variables()
+        rows.append({"TIME": number * dtime, **point, "TN": traction[0], "TT": traction[1], "WORK": work})
+    return LawCurve(label, {name: np.array([row[name] for row in rows]) for name in rows[0]})

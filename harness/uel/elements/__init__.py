@@ -1,0 +1,40 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Blocks of like elements: Python sees blocks, never single elements."""
+
+from uel.elements.block import ElementBlock
+from uel.elements.build import build_blocks
+from uel.elements.call import BlockReport, Call, Distributed, Motion, Predefined
+from uel.elements.distributing import DistributingBlock, distributing_blocks
+from uel.elements.fields import COUPLED, FIELD_NAMES, MULTIPLIER, PRESSURE, REFERENCE, VOLUME, field_of
+from uel.elements.lflags import Damping, Flags, Request
+from uel.elements.loads.followers import FollowerBlock
+from uel.elements.loads.heat import HeatLoadBlock
+from uel.elements.rotations import PERMUTATION, rotation_matrices, spin_matrices
+
+__all__ = [
+    "COUPLED",
+    "FIELD_NAMES",
+    "MULTIPLIER",
+    "PERMUTATION",
+    "PRESSURE",
+    "REFERENCE",
+    "VOLUME",
+    "BlockReport",
+    "Call",
+    "Damping",
+    "Distributed",
+    "DistributingBlock",
+    "ElementBlock",
+    "Flags",
+    "FollowerBlock",
+    "HeatLoadBlock",
+    "Motion",
+    "Predefined",
+    "Request",
+    "build_blocks",
+    "distributing_blocks",
+    "field_of",
+    "rotation_matrices",
+    "spin_matrices",
+]

@@ -1,0 +1,718 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A block of like elements bound to the Fortran driver."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.elements.call import BlockReport, Call, Distributed, Motion, Predefined
+from uel.elements.faults import ERRORS, at_point, distortion, material_point, write_outside, wrong_entry
+from uel.elements.fields import FIELD_NAMES, field_of
+from uel.elements.initial_state import InitialState
+from uel.elements.lflags import Flags, Request
+from uel.elements.routine import Linearity, PointAxes, Routine
+from uel.elements.watch import Watch
+from uel.errors import ElementError, KernelError
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.mesh import ElementGroup
+from uel.model.records import PLASTIC, ElementState, PointVariables
+from uel.model.restart import Saved
+from uel.usersub import Library, _binding, _points
+from uel.usersub.exchange import BlockArrays, LoadArrays, Outcome, UnknownFields
+from uel.usersub.faults import Entries, Fault, Guards
+
+"""Index of ENERGY(4)."""
+
+MOST_INTERRUPTED: Final = 5
+"""Passes in a row that several threads may leave to one."""
+
+MOST_TRIED: Final = 20
+"""Elements of a block whose forces are compared with their matrices before those stand for them."""
+
+FORCE_TOLERANCE: Final = 1e-8
+"""Largest difference of a force from matrix times U, over the sum of the magnitudes of its terms.
+
+Rounding is 1e-12 in thin shells; a matrix that is not the derivative of the force differs in the first digits.
+"""
+
+_NO_MATRIX = np.zeros(1)
+_AT_REST = Motion(np.zeros(1), np.zeros(1))
+_NOTHING = BlockReport(np.zeros(1), np.zeros(1, dtype=np.int64), np.inf, np.zeros(8))
+_NO_LOADS = LoadArrays(np.zeros(1, np.int32), np.zeros((1, 1), np.int32), np.zeros((1, 1, 2)))
+
+
+class ElementBlock:
+    """Elements of one group: their committed and trial state, and one pass over them.
+
+    unknowns     (local node, dof) of each element unknown, in the order of U and RHS; the local node behind the last
+                 one is the element itself, which has pressures, and REFERENCE the reference node of its section
+    unsymmetric  False: (A + A^T)/2 is assembled
+    first        position of the first element of the group in the model
+    rows         (m,) elements of the group that are here, ascending: all of them, or those of this rank
+    parallel     several threads may call its elements at the same time
+    strict       a write outside an array is an error, otherwise a warning
+    zeros        an entry of RHS or AMATRX that is not set gives a warning and is zero from then on, otherwise an error
+    variables    meaning of the state's SVARS, None if unknown; those of a point of a built-in element continue with
+                 STATEV and UVAR
+    """
+
+    def __init__(
+        self,
+        group: ElementGroup,
+        coordinates: FloatArray,
+        unknowns: tuple[tuple[int, int], ...],
+        routine: Routine,
+        library: Library,
+        *,
+        unsymmetric: bool,
+        variables: PointVariables | None,
+        strict: bool = True,
+        zeros: bool = False,
+    ) -> None:
+        self.group = group
+        self.unknowns = unknowns
+        self.unsymmetric = unsymmetric
+        self.variables = variables
+        self._coordinates = coordinates
+        self._routine = routine
+        self._library = library
+        self.first = 0
+        self.rows = np.arange(len(group.labels))
+        self._size = len(group.labels)
+        self.parallel = False
+        self._interrupted = 0
+        self._guards = Guards.STOP if strict else Guards.NOTICE
+        self._entries = Entries.NOTICE if zeros else Entries.STOP
+        self._noticed: Outcome | None = None
+        m, n = len(group.labels), len(unknowns)
+        svars = np.zeros((m, routine.svars))
+        energy = np.zeros((m, 8))
+        history = np.zeros((m, routine.history[1], routine.history[0]))
+        self._arrays = BlockArrays(
+            labels=group.labels.astype(np.int32),
+            jprops=routine.jprops.astype(np.int32),
+            equations=np.zeros((m, n), dtype=np.int32),
+            map=np.zeros((m, n, n), dtype=np.int32),
+            props=np.ascontiguousarray(routine.props, dtype=np.float64),
+            coords=np.ascontiguousarray(coordinates[group.nodes, : routine.mcrd]),
+            svars=svars,
+            svars_trial=svars.copy(),
+            energy=energy,
+            energy_trial=energy.copy(),
+            history=history,
+            history_trial=history.copy(),
+        )
+        self._uvar = np.zeros((m, routine.uvarm.points, routine.uvarm.count)) if routine.uvarm else None
+        self._last: Call | None = None
+        self._places = self._arrays.coords
+        self._end = np.zeros(0)
+        self._watch = Watch(group, library)
+        of = np.array([0 if routine.forceless else field_of(dof) + 1 for _, dof in unknowns], dtype=np.int32)
+        self._unknown_fields = UnknownFields(of, len(FIELD_NAMES))
+        self._forces = np.zeros(len(FIELD_NAMES), dtype=np.int64)
+        self._all_terms = np.full(n, -1.0)
+        dofs = [dof for _, dof in unknowns]
+        # of each unknown the first one of the same dof, from 1
+        self._first = np.array([(dofs.index(dof) + 1) * (dof in routine.free) for dof in dofs], dtype=np.int32)
+        self._no_fields = np.zeros((1, group.nodes.shape[1], 1 if group.definition else 2, 2))
+
+    @property
+    def initial(self) -> InitialState:
+        """What sets the state in which its elements begin."""
+        return InitialState(self.group, self._arrays, self._routine, self._library)
+
+    @property
+    def elastic(self) -> bool:
+        """Whether its elements are built in and, in small displacements, have a state linear in the displacements."""
+        return self._routine.linear
+
+    @property
+    def viscous_change(self) -> float:
+        """Largest change of a viscous strain rate in the increment times its length, by the last pass, or 0."""
+        place = self._routine.viscous
+        return 0.0 if place < 0 else float(self._arrays.history_trial[..., place].max(initial=0.0))
+
+    @property
+    def linear(self) -> bool:
+        """Whether its elements, at rest and in small displacements, have forces that are AMATRX times U."""
+        return self._routine.forces is not Linearity.UNKNOWN
+
+    @property
+    def assumed_linear(self) -> bool:
+        """Whether only the user says so."""
+        return self._routine.forces is Linearity.ASSUMED
+
+    @property
+    def can_wait(self) -> bool:
+        """Whether linear elements need not be called at the end of an increment whose state nobody reads."""
+        known = self._routine.forces is Linearity.KNOWN and self._routine.stores
+        return known and self._uvar is None
+
+    @property
+    def matrix_entries(self) -> int:
+        """Entries of the AMATRX of all elements."""
+        return len(self.group.labels) * len(self.unknowns) ** 2
+
+    def is_loaded(self, distributed: Distributed | None) -> bool:
+        """Whether one of its elements has a distributed load."""
+        return distributed is not None and bool(self.holds(distributed.elements).any())
+
+    def holds(self, elements: IntArray) -> NDArray[np.bool_]:
+        """Which elements, positions in the model, are here."""
+        found = self.are_of_group(elements)
+        return found if len(self.rows) == self._size else found & np.isin(elements - self.first, self.rows)
+
+    def are_of_group(self, elements: IntArray) -> NDArray[np.bool_]:
+        """Which elements, positions in the model, are of its group, here or on another rank."""
+        found: NDArray[np.bool_] = (elements >= self.first) & (elements < self.first + self._size)
+        return found
+
+    def places_of(self, elements: IntArray) -> IntArray:
+        """Places, from 0, of elements (positions in the model) that are here."""
+        rows: IntArray = elements - self.first
+        return rows if len(self.rows) == self._size else np.searchsorted(self.rows, rows)
+
+    def keep(self, rows: IntArray) -> None:
+        """Keep only some elements, before `bind`: the others are those of other ranks.
+
+        Parameters
+        ----------
+        rows
+            Of the group, from 0, ascending.
+        """
+        self.group = self.group.take(rows)
+        self.rows, self._arrays = rows, self._arrays.of(rows)
+        self._watch = Watch(self.group, self._library)
+        if self._uvar is not None:
+            self._uvar = self._uvar[rows]
+
+    def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
+        """Say where the unknowns are.
+
+        Parameters
+        ----------
+        equations
+            (m, unknowns) number of each unknown of each element in the system, from 0.
+        scatter
+            (m, unknowns, unknowns) position in the CSR values of each entry of the element matrix (row, column), from
+            0.
+        """
+        self._arrays = replace(
+            self._arrays,
+            equations=np.ascontiguousarray(equations + 1, dtype=np.int32),
+            # the driver walks AMATRX by columns
+            map=np.ascontiguousarray(scatter.transpose(0, 2, 1) + 1, dtype=np.int32),
+        )
+        fields = self._unknown_fields
+        self._forces = len(equations) * np.bincount(fields.of, minlength=fields.number + 1)[1:]
+        # unknowns within elements are displacements
+        self._forces[0] += len(equations) * self._routine.internal
+
+    def split(self, *, strict: bool = True, coordinates: FloatArray | None = None) -> list[ElementBlock]:
+        """Its elements, each in its own unbound block and in its committed state, for calls in any order.
+
+        Parameters
+        ----------
+        strict
+            A write outside an array is an error, otherwise a warning.
+        coordinates
+            Other coordinates (nodes of the model, 3) than those of the model.
+
+        Returns
+        -------
+        list[ElementBlock]
+            In the order of the elements; changes of their states do not affect this block.
+        """
+        return [self._part(np.array([k]), coordinates, strict=strict) for k in range(len(self.group.labels))]
+
+    def _part(self, places: IntArray, coordinates: FloatArray | None = None, *, strict: bool = True) -> ElementBlock:
+        """Some of its elements, places from 0, in a new unbound block and in their committed state."""
+        part = ElementBlock(
+            self.group.take(places),
+            self._coordinates if coordinates is None else coordinates,
+            self.unknowns,
+            self._routine,
+            self._library,
+            unsymmetric=self.unsymmetric,
+            variables=self.variables,
+            strict=strict,
+        )
+        part.first = self.first + int(self.rows[places[0]])
+        for name in ("svars", "energy", "history"):
+            getattr(part._arrays, name)[:] = getattr(self._arrays, name)[places]
+        return part
+
+    def evaluate(
+        self,
+        call: Call,
+        u: FloatArray,
+        du: FloatArray,
+        residual: FloatArray,
+        matrix: FloatArray | None,
+        motion: Motion | None = None,
+    ) -> BlockReport:
+        """One pass: add RHS into residual and AMATRX into matrix.
+
+        SVARS on entry are always the committed ones; those returned are kept for `commit` if LFLAGS(3) is 1 or 6, or
+        asks for initial stresses.
+
+        Parameters
+        ----------
+        call
+            Arguments common to all elements.
+        u, du
+            (n,) estimate of the end of the increment, and the increment, of all unknowns of the system.
+        residual
+            (n,), changed in place; (2, n) for a pass with NRHS = 2: its rows take the columns of RHS. RHS is left out
+            if LFLAGS(3) asks for a matrix only (2, 3, 4).
+        matrix
+            (nnz,) CSR values of the system, changed in place; None: AMATRX is ignored.
+        motion
+            V and A (n,); zero without it.
+
+        Returns
+        -------
+        BlockReport
+            Sums over the elements of the block.
+
+        Raises
+        ------
+        KernelError
+            An element fails; residual and matrix are then incomplete.
+        CallLimitError
+            A call does not return within its limit.
+        """
+        if not len(self.group.labels):
+            return _NOTHING
+        motion = motion or _AT_REST
+        outcome = _binding.evaluate(
+            self._routine.called,
+            self._arrays,
+            self._options(call, assemble=matrix is not None),
+            call.moment,
+            (u, du, motion.velocity, motion.acceleration),
+            self._loads(call.distributed),
+            self._fields(call.predefined),
+            self._floor(call),
+            self._unknown_fields,
+            residual if residual.ndim == 2 else residual[np.newaxis],
+            _NO_MATRIX if matrix is None else matrix,
+        )
+        if call.flags.request is not Request.RESIDUAL:
+            # that may be of half the increment, or a trial
+            self._last = call
+            if self._uvar is not None:
+                self._places = self._coordinates_at(call, u)
+            if self._routine.outputs:
+                self._end = u.copy()
+        self._count_interrupted(outcome)
+        if outcome.fault is Fault.UNSET and self._entries is not Entries.STOP:
+            self._entries = Entries.ZERO
+            error = self._error(outcome, residual.ndim, call)
+            self._library.warn(f"{error}; the run goes on with zeros there before each call")
+        elif self._guards is not Guards.STOP and outcome.fault in (Fault.NONE, Fault.OUTSIDE):
+            self._warn(outcome, residual.ndim, call)
+        elif outcome.fault is not Fault.NONE:
+            raise self._error(outcome, residual.ndim, call)
+        self._watch.pnewdt(call, outcome.pnewdt)
+        energy, damage = outcome.energy, 0.0
+        if self._routine.damages:
+            damage, energy[PLASTIC] = float(energy[PLASTIC]), 0.0
+        return self._report(outcome, energy, damage, call)
+
+    def _count_interrupted(self, outcome: Outcome) -> None:
+        """Give threads up where they keep being interrupted: each time costs a part of a pass."""
+        self._interrupted = self._interrupted + 1 if outcome.alone else 0
+        if self._interrupted == MOST_INTERRUPTED:
+            self.parallel = False
+            self._library.warn(
+                f"elements of type {self.group.type} are called by one thread from now on: in "
+                f"{MOST_INTERRUPTED} passes in a row one of them sent a message, used shared arrays or failed, which "
+                "one thread has to repeat"
+            )
+
+    def evaluate_apart(
+        self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray
+    ) -> tuple[BlockReport, FloatArray]:
+        """`evaluate` that returns AMATRX of each element, (m, unknowns, unknowns), columns first, in place of a sum."""
+        assembled = self._arrays
+        matrices = np.zeros(assembled.map.shape)
+        one_by_one = np.arange(1, matrices.size + 1, dtype=np.int32).reshape(matrices.shape)
+        self._arrays = replace(assembled, map=one_by_one)
+        try:
+            return self.evaluate(call, u, du, residual, matrices.reshape(-1)), matrices
+        finally:
+            self._arrays = assembled
+
+    def add_matrices(self, matrices: FloatArray, data: FloatArray) -> None:
+        """Add matrices of the elements, as `evaluate_apart` returns them, to the CSR values (nnz,) of the system."""
+        if len(matrices):
+            _binding.add_matrices(matrices, self._arrays.map, data)
+
+    def linear_pass(self, matrices: FloatArray, call: Call, u: FloatArray, residual: FloatArray) -> BlockReport:
+        """A pass in which matrices stand for the elements, which are not called.
+
+        Parameters
+        ----------
+        matrices
+            Of the elements, as `evaluate_apart` returns them.
+        call
+            Of which only the floor of the flux counts.
+        u
+            (n,) all unknowns of the system.
+        residual
+            (n,), to which the forces, minus the matrices times U, are added.
+
+        Returns
+        -------
+        BlockReport
+            As of `evaluate`, without PNEWDT; ENERGY(2) if the elements have no other, and none if they have.
+        """
+        if not len(self.group.labels):
+            return _NOTHING
+        outcome = _binding.linear_pass(
+            matrices, self._arrays.equations, self._first, u, self._floor(call), self._unknown_fields, residual
+        )
+        energy = outcome.energy if self.can_wait else np.zeros(8)
+        return self._report(outcome, energy, 0.0, call)
+
+    def _report(self, outcome: Outcome, energy: FloatArray, damage: float, call: Call) -> BlockReport:
+        # forces of inertia, which RHS has too, are terms of their own
+        own = 2 * self._forces if self._routine.massive and call.flags.dynamic else self._forces
+        return BlockReport.of(outcome, own, energy, damage)
+
+    def has_forces_of(self, matrices: FloatArray, call: Call) -> bool:
+        """Return whether RHS is minus the matrix times U, in some elements of the block and for trial values of U.
+
+        Parameters
+        ----------
+        matrices
+            Of the elements, as `evaluate_apart` returns them.
+        call
+            A static one with small displacements.
+        """
+        places = np.unique(np.linspace(0, len(matrices) - 1, MOST_TRIED).round().astype(np.int64))
+        matrices = matrices[places]
+        part, (m, n) = self._part(places), matrices.shape[:2]
+        # all elements apart, so that their forces do not add up
+        part.bind(np.arange(m * n, dtype=np.int32).reshape(m, n), np.arange(m * n * n, dtype=np.int32).reshape(m, n, n))
+        stiffness = np.abs(matrices)
+        largest = stiffness.max(axis=2)
+        # displacements, rotations and pressures whose forces are alike
+        trial = np.divide(
+            np.random.default_rng(0).uniform(-1.0, 1.0, (m, n)), largest, where=largest > 0, out=np.zeros((m, n))
+        )
+        called, u = np.zeros(m * n), trial.ravel()
+        part.evaluate(call.asking(Request.RESIDUAL), u, u, called, None)
+        deviation = np.abs(called.reshape(m, n) + np.einsum("ej,eji->ei", trial, matrices))
+        return bool((deviation <= FORCE_TOLERANCE * np.einsum("ej,eji->ei", np.abs(trial), stiffness)).all())
+
+    def largest_deviation(
+        self, matrices: FloatArray, call: Call, u: FloatArray, du: FloatArray
+    ) -> tuple[int, int, float, float]:
+        """Where RHS differs most from minus the matrix times U.
+
+        Parameters
+        ----------
+        matrices
+            Of the elements, as `evaluate_apart` returns them.
+        call, u, du
+            As of `evaluate`.
+
+        Returns
+        -------
+        tuple[int, int, float, float]
+            Row of the element in the block from 0, entry of RHS from 1, RHS there, and what the matrix gives.
+        """
+        n = len(self.unknowns)
+        own, places = np.arange(n, dtype=np.int32)[None], np.zeros((1, n, n), dtype=np.int32)
+        called, expected = np.zeros((len(matrices), n)), np.zeros((len(matrices), n))
+        for row, part in enumerate(self.split(strict=False)):
+            at = self._arrays.equations[row] - 1
+            part.bind(own, places)
+            part.evaluate(call, u[at], du[at], called[row], None)
+            expected[row] = -u[at] @ matrices[row]
+        row, entry = divmod(int(np.abs(called - expected).argmax()), n)
+        return row, entry + 1, float(called[row, entry]), float(expected[row, entry])
+
+    def _floor(self, call: Call) -> FloatArray:
+        """Force above which an entry of RHS is a term of the average flux, by unknown."""
+        return self._all_terms if call.flux_floor is None else call.flux_floor[self._unknown_fields.of - 1]
+
+    def _loads(self, distributed: Distributed | None) -> LoadArrays:
+        """Loads on the elements of the block, one row for each element, or one for all if there is none."""
+        if distributed is None:
+            return _NO_LOADS
+        m = len(self.group.labels)
+        mine = self.holds(distributed.elements)
+        row = self.places_of(distributed.elements[mine])
+        counts = np.bincount(row, minlength=m)
+        # number of a load among those of its element
+        column = np.arange(len(row)) - (np.cumsum(counts) - counts)[row]
+        most = max(int(counts.max(initial=0)), 1)
+        kinds, values = np.zeros((m, most), np.int32), np.zeros((m, most, 2))
+        kinds[row, column] = distributed.kinds[mine]
+        values[row, column] = np.stack([distributed.end[mine], distributed.increment[mine]], axis=1)
+        return LoadArrays(counts.astype(np.int32), kinds, values)
+
+    def _fields(self, predefined: Predefined | None) -> FloatArray:
+        """PREDEF of the elements, (m, nodes, fields, 2), or (1, nodes, fields, 2) if there is none.
+
+        That of built-in elements ends with the initial temperature.
+        """
+        initial = self._routine.initial_temperatures
+        if predefined is None:
+            if initial is None:
+                return self._no_fields
+            none = np.zeros((1, len(initial)))
+            predefined = Predefined(none, none, initial)
+        end, increment = predefined.end, predefined.increment
+        if self.group.definition is None:
+            initial = predefined.initial if initial is None else initial
+            end, increment = np.vstack([end, initial]), np.vstack([increment, np.zeros_like(increment[0])])
+        values = np.stack([end, increment], axis=-1)[:, self.group.nodes]
+        return np.ascontiguousarray(values.transpose(1, 2, 0, 3))
+
+    def stress_matrix(self, call: Call, u: FloatArray, added: FloatArray, matrix: FloatArray) -> None:
+        """Add the initial stress matrix into matrix, if the elements have one.
+
+        Parameters
+        ----------
+        call
+            Its request is BASE_STRESS or ADDED_STRESS.
+        u, added
+            (n,) unknowns of the system, and the perturbation.
+        matrix
+            (nnz,) CSR values of the system, changed in place.
+
+        Raises
+        ------
+        KernelError
+            A user material fails.
+        """
+        if self._routine.turns:
+            self.evaluate(call, u, added, np.zeros_like(u), matrix)
+
+    def artificial_mass(self, call: Call, unknowns: int, matrix: FloatArray) -> None:
+        """Add the mass matrix for unit density into matrix, where the elements have a density.
+
+        Parameters
+        ----------
+        call
+            Of the step; its request is replaced.
+        unknowns
+            Number of unknowns of the system.
+        matrix
+            (nnz,) CSR values of the system, changed in place: mass over density, thus volumes (length^3).
+        """
+        place = self._routine.density
+        if place < 0:
+            return
+        given, props = self._arrays, self._arrays.props.copy()
+        props[place] = 1.0
+        self._arrays = replace(given, props=props)
+        zero = np.zeros(unknowns)
+        try:
+            self.evaluate(call.asking(Request.MASS), zero, zero, zero.copy(), matrix)
+        finally:
+            self._arrays = given
+
+    def bare_loop(self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray) -> None:
+        """Only call the elements, from a plain Fortran loop over the block: the upper bound of speed.
+
+        Nothing is checked, AMATRX is discarded, and loads, fields, V and A are zero. SVARS and ENERGY become the trial
+        state. XIT ends the process.
+
+        Parameters
+        ----------
+        call
+            Arguments common to all elements; its loads and fields are not used.
+        u, du
+            (n,) as in `evaluate`.
+        residual
+            (n,), to which RHS is added.
+        """
+        _binding.bare_loop(self._routine.called, self._arrays, call.moment, u, du, residual)
+
+    def _options(self, call: Call, *, assemble: bool) -> tuple[bool, bool, Guards, Entries, bool]:
+        symmetric = not (self.unsymmetric or (call.unsymmetric and self.group.definition))
+        # in their first calls routines, and the host, set up what they keep
+        parallel = self.parallel and self._last is not None and call.flags.request is not Request.OUTPUT_VARIABLES
+        return symmetric, assemble, self._guards, self._entries, parallel
+
+    def begin_stressed(self, call: Call, u: FloatArray, residual: FloatArray) -> None:
+        """Pass the stresses of `initial.set_stress` to the material; the state that follows is committed.
+
+        Parameters
+        ----------
+        call
+            Of the start of the analysis; of its LFLAGS only the procedure is used.
+        u
+            (n,) at the start of the analysis.
+        residual
+            (n,) from which the nodal forces of the stresses are subtracted.
+
+        Raises
+        ------
+        KernelError
+            An element is inside out.
+        """
+        flags = Flags(call.flags.procedure, request=Request.INITIAL_STRESSES)
+        self.evaluate(replace(call, flags=flags), u, np.zeros_like(u), residual, None)
+        self._keep_trial()
+
+    def commit(self) -> None:
+        """End of a converged increment: the state of the last normal call becomes the committed one, then UVARM.
+
+        Raises KernelError if UVARM ends the analysis.
+        """
+        self._keep_trial()
+        arrays = self._arrays
+        self._watch.state(self._last, arrays.svars, arrays.energy)
+        if self._uvar is not None and self._last is not None:
+            self._call_uvarm(self._last, self._uvar)
+        elif self._routine.outputs and self._last is not None:
+            still = np.zeros_like(self._end)
+            self.evaluate(self._last.asking(Request.OUTPUT_VARIABLES), self._end, still, still, None)
+            arrays.history[:] = arrays.history_trial
+
+    def _keep_trial(self) -> None:
+        """The state of the last pass that keeps one becomes the committed one."""
+        arrays = self._arrays
+        arrays.svars[:] = arrays.svars_trial
+        arrays.energy[:] = arrays.energy_trial
+        arrays.history[:] = arrays.history_trial
+
+    def kept(self) -> Saved:
+        """Committed state, not copied: all of it, in the order of the elements here."""
+        arrays = self._arrays
+        uvar = {} if self._uvar is None else {"uvar": self._uvar}
+        return {"svars": arrays.svars, "energy": arrays.energy, "history": arrays.history, **uvar}
+
+    def resume(self, saved: Saved) -> None:
+        """Begin with what `kept` returned, of all elements or of some rows. Raises ValueError if shapes differ."""
+        own = self.kept()
+        if {name: np.shape(array) for name, array in own.items()} != {name: np.shape(a) for name, a in saved.items()}:
+            raise ValueError(f"elements of type {self.group.type}")
+        for name, array in own.items():
+            array[:] = saved[name]
+        self._keep_committed()
+
+    def _keep_committed(self) -> None:
+        """Make the committed state the trial state too."""
+        arrays = self._arrays
+        arrays.svars_trial[:], arrays.energy_trial[:] = arrays.svars, arrays.energy
+        arrays.history_trial[:] = arrays.history
+
+    def state(self, index: int) -> ElementState:
+        """Committed state, copied.
+
+        Parameters
+        ----------
+        index
+            Of the group in the model.
+        """
+        arrays = self._arrays
+        return self._state(index, self._extended(arrays.svars, arrays.history), arrays.energy)
+
+    def trial(self, index: int) -> ElementState:
+        """State that the last call that keeps one has left, copied.
+
+        Parameters
+        ----------
+        index
+            Of the group in the model.
+        """
+        arrays = self._arrays
+        svars = self._extended(arrays.svars_trial, arrays.history_trial)
+        return self._state(index, svars, arrays.energy_trial)
+
+    def _state(self, index: int, svars: FloatArray, energy: FloatArray) -> ElementState:
+        return ElementState(index, svars, energy.copy(), self.variables, self._routine.damages)
+
+    def _extended(self, svars: FloatArray, history: FloatArray) -> FloatArray:
+        """Copy of SVARS without the hidden ones, with STATEV and UVAR after those of each point."""
+        svars = svars[:, : svars.shape[1] - self._routine.hidden]
+        kept, points = self._routine.outputs + self._routine.statev, self._routine.history[1]
+        parts = [history[:, :, history.shape[2] - kept :]] if kept else []
+        if self._uvar is not None:
+            parts.append(self._uvar)
+            points = self._uvar.shape[1]
+        if not parts:
+            return svars.copy()
+        of_points = np.concatenate([svars.reshape(len(svars), points, svars.shape[1] // points), *parts], axis=2)
+        return of_points.reshape(len(svars), points * of_points.shape[2])
+
+    def _call_uvarm(self, call: Call, uvar: FloatArray) -> None:
+        given = self._routine.uvarm
+        assert given is not None
+        start = call.step_time - call.time_increment, call.total_time - call.time_increment, call.time_increment
+        place = call.step, call.increment
+        element, point = _points.uvarm(
+            given.address,
+            given.names,
+            given.axes[None, None] if self._routine.axes is None else self._axes_now(self._routine.axes),
+            (self._routine.tensor, self._routine.statev, self._routine.family, int(given.plastic)),
+            place,
+            start,
+            replace(self._arrays, coords=self._places),
+            self._routine.hidden,
+            uvar,
+            local=self._routine.axes is not None,
+        )
+        if element:
+            why = f"{at_point('UVARM', point)}{self._library.stop_reason()}"
+            raise KernelError(element, self.group.type, f"{why} (step {call.step}, increment {call.increment})")
+
+    def _coordinates_at(self, call: Call, u: FloatArray) -> FloatArray:
+        """(m, nodes, MCRD) of the nodes at the displacements u (n,): with NLGEOM those of the displaced nodes."""
+        original = self._arrays.coords
+        if not call.flags.nlgeom:
+            return original
+        # the driver counts from 1
+        now, moved = original.copy(), u[self._arrays.equations - 1]
+        for k, (local, dof) in enumerate(self.unknowns):
+            if local < original.shape[1] and dof <= original.shape[2]:
+                now[:, local, dof - 1] += moved[:, k]
+        return now
+
+    def _axes_now(self, given: PointAxes) -> FloatArray:
+        """(m, points, 3, 3) directions of the points, in rows."""
+        return given.view(self._arrays.svars)[:, :, 1].swapaxes(-1, -2)
+
+    def _error(self, outcome: Outcome, nrhs: int, call: Call) -> ElementError:
+        element = int(self.group.labels[outcome.position]) if outcome.position >= 0 else 0
+        match outcome.fault:
+            case Fault.LEFT | Fault.ENDLESS:
+                message = material_point(outcome) + self._library.stop_reason()
+            case Fault.OUTSIDE:
+                message = self._outside(outcome, nrhs)
+            case Fault.DISTORTED:
+                message = distortion(outcome, getattr(self.group.built_in, "points", 0))
+            case _:
+                message = wrong_entry(outcome, len(self.unknowns))
+        return ERRORS.get(outcome.fault, KernelError)(element, self.group.type, f"{message} ({call.place})")
+
+    def _warn(self, outcome: Outcome, nrhs: int, call: Call) -> None:
+        """Report a write outside an array once; the run goes on, and the next pass finds the element."""
+        if self._guards is Guards.SEARCH:
+            self._guards = Guards.IGNORE
+            found = outcome if outcome.fault is Fault.OUTSIDE else self._noticed
+            assert found is not None
+            self._library.warn(f"{self._error(found, nrhs, call)}; the run goes on, with extra room after the arrays")
+        elif outcome.fault is Fault.OUTSIDE:
+            self._guards, self._noticed = Guards.SEARCH, outcome
+
+    def _outside(self, outcome: Outcome, nrhs: int) -> str:
+        sizes = {
+            "SVARS": f"{self._routine.svars} (VARIABLES=)",
+            "PROPS": f"{len(self._routine.props)} (PROPERTIES=)",
+            "COORDS": str(self._routine.mcrd * self.group.nodes.shape[1]),
+            "PREDEF": str(2 * self.group.nodes.shape[1]),
+        }
+        return write_outside(outcome, len(self.unknowns), nrhs, sizes)

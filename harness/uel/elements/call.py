@@ -1,0 +1,147 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arguments and results of a pass over the elements."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple, Self
+
+import numpy as np
+
+from uel.elements.lflags import Damping, Flags, Request
+from uel.model.arrays import FloatArray, IntArray
+from uel.usersub.exchange import Moment, Outcome
+
+
+@dataclass(frozen=True, slots=True)
+class Distributed:
+    """Distributed loads on user elements that are active, and pressures on faces.
+
+    elements   (k,) positions in the model, ascending; faces come after the elements
+    kinds      (k,) n of type Un, -n of type UnNU, 1 of faces
+    end, increment  (k,) magnitude at the end of the increment and its change; 0 for UnNU
+    """
+
+    elements: IntArray
+    kinds: IntArray
+    end: FloatArray
+    increment: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Predefined:
+    """Predefined fields (fields, nodes) at the end of the increment and their change; temperature is the first.
+
+    initial  (nodes,) temperature at the start of the analysis
+    """
+
+    end: FloatArray
+    increment: FloatArray
+    initial: FloatArray
+
+
+@dataclass(frozen=True)
+class Call:
+    """Arguments common to all elements in one pass.
+
+    flags        LFLAGS
+    step, increment  KSTEP, KINC
+    iteration    equilibrium iteration, for messages; 0 before the first solve
+    flux_floor   (fields,) element nodal force above which an entry is a term of the average flux; None: all entries are
+    params       PARAMS: alpha, beta and gamma of a dynamic step
+    step_time, total_time  at the end of the increment (Abaqus' manual does not say which end TIME refers to)
+    unsymmetric  AMATRX of UEL is used as it is, UNSYMM or not, as in coupled temperature-displacement steps: Abaqus
+                 2023 says in their message file that it uses unsymmetric storage, and a public element without UNSYMM
+                 reproduces its residuals there in one iteration, which it does not with (A + A^T)/2
+    load_terms   nodal loads that are terms of the average flux
+    """
+
+    flags: Flags
+    step: int
+    increment: int
+    step_time: float
+    total_time: float
+    time_increment: float
+    period: float
+    params: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    distributed: Distributed | None = None
+    predefined: Predefined | None = None
+    flux_floor: FloatArray | None = None
+    iteration: int = 0
+    unsymmetric: bool = False
+    load_terms: tuple[BlockReport, ...] = ()
+
+    def asking(self, request: Request, damping: Damping = Damping.NONE) -> Self:
+        """The same call with another request; parameters of `Flags.asking`."""
+        return replace(self, flags=self.flags.asking(request, damping))
+
+    @property
+    def extrapolated(self) -> Self:
+        """The same call, the first of an increment that starts from an extrapolation."""
+        return replace(self, flags=replace(self.flags, extrapolated=True))
+
+    @cached_property
+    def moment(self) -> Moment:
+        """What the driver takes of it, for each block."""
+        time = self.step_time, self.total_time
+        lflags = self.flags.lflags
+        return Moment(
+            self.step, self.increment, self.iteration, time, self.time_increment, self.period, self.params, lflags
+        )
+
+    @property
+    def place(self) -> str:
+        """Step, increment and iteration, for messages."""
+        return f"step {self.step}, increment {self.increment}, iteration {self.iteration}"
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """Velocities and accelerations (n,) of all unknowns, V and A."""
+
+    velocity: FloatArray
+    acceleration: FloatArray
+
+    def at(self, unknowns: IntArray) -> Motion:
+        """V and A of some unknowns.
+
+        Parameters
+        ----------
+        unknowns
+            (k,) numbers, from 0.
+
+        Returns
+        -------
+        Motion
+            (k,) in the same order.
+        """
+        return Motion(self.velocity[unknowns], self.acceleration[unknowns])
+
+
+class BlockReport(NamedTuple):
+    """Sums of one pass over one block; a tuple as `Outcome` is.
+
+    flux        (fields,) sum of |element nodal force| by field
+    flux_count  (fields,) number of terms in it
+    pnewdt      smallest PNEWDT returned; large if none was
+    energy      (8,) sum of ENERGY
+    damage      dissipated by the damage of built-in elements (ALLDMD), for which ENERGY has no entry
+    largest     (fields,) largest |element nodal force| by field
+    entries     (fields,) number of element nodal forces
+    """
+
+    flux: FloatArray
+    flux_count: IntArray
+    pnewdt: float
+    energy: FloatArray
+    damage: float = 0.0
+    largest: FloatArray = np.zeros(1)
+    entries: IntArray = np.zeros(1, dtype=np.int64)
+
+    @classmethod
+    def of(cls, outcome: Outcome, entries: IntArray, energy: FloatArray, damage: float) -> Self:
+        """From the sums of a pass."""
+        flux, terms, largest = outcome.flux
+        return cls(flux, terms.astype(np.int64), outcome.pnewdt, energy, damage, largest, entries)

@@ -1,0 +1,189 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Distributing couplings in large displacements: a block of pairs of a coupled node and its reference node.
+
+A coupled node with the weight w at p from the reference node has the force f = w (a + b x p), the reference node -f and
+-p x f: in balance in the present place. a and b are multipliers. With the increment dp of p, p in the middle of it p_m,
+and the vector omega of the increment of rotation of the reference node, 2 tan(t/2) along the axis, they enforce
+
+    sum w q = 0,    sum w p_m x q = 0,    q = dp - omega x p_m.
+
+With the places r from the centre of the coupled nodes and T = sum w (r.r I - r r^T), the first says that this centre
+turns about the reference node by the increment of rotation, and with it the second that omega = T_m^-1 sum w r_m x du,
+the increment of J. Hughes and J. Winget from the middle; the forces are those of b = T^-1 times the moment about the
+centre (Abaqus Theory Guide, Distributing coupling elements: Load distribution, Finite motion). Moments are about the
+global axes and no derivatives by rotation vectors, so that the matrix is unsymmetric. Without NLGEOM p is that of the
+mesh, and omega the increment of dofs 4 to 6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.elements.block import ElementBlock
+from uel.elements.call import Call
+from uel.elements.fields import COUPLED
+from uel.elements.lflags import Request
+from uel.elements.multipliers import scale_of_multipliers
+from uel.elements.rotations import PERMUTATION, cross_matrices, rotation_matrices, spin_matrices
+from uel.model.arrays import FloatArray, first_largest
+from uel.model.couplings import CouplingErrors
+from uel.model.model import Model
+from uel.model.restart import Saved
+
+# unknowns of a pair: displacements of both nodes, rotations of the reference node, a and b
+_OWN, _FAR, _TURN, _A, _B = (slice(start, start + 3) for start in range(0, 15, 3))
+_COUNT = 15
+_CHOSEN = {2: [0, 1, 3, 4, 8, 9, 10, 14], 3: list(range(_COUNT))}
+"""Those of a model in the plane, and in space."""
+
+
+class DistributingBlock:
+    """All distributing couplings of a model.
+
+    unknowns  (local node, dof) of each unknown of a pair: the reference node is the second one, multipliers are of the
+              coupling, which follows the nodes
+    rows      (m,) coupling of each pair
+    names     (m,) of its reference node
+    """
+
+    unsymmetric = True
+
+    def __init__(self, model: Model, first: int) -> None:
+        """The model has distributing couplings; first: number of its elements and contact points."""
+        given = model.couplings
+        counts = [len(coupling.nodes) for coupling in given]
+        self.first, self.rows = first, np.repeat(np.arange(len(given)), counts)
+        self._references = np.array([coupling.reference for coupling in given])
+        self._starts = np.cumsum([0, *counts[:-1]])
+        nodes = np.concatenate([coupling.nodes for coupling in given])
+        self._weights = np.concatenate([coupling.weights for coupling in given])[:, None]
+        places = model.mesh.coordinates
+        self._apart = places[nodes] - places[self._references[self.rows]]
+        self._length = np.sqrt(self._sum(self._weights * self._apart**2).sum(axis=1))
+        self.names = [model.mesh.name(node) for node in self._references[self.rows].tolist()]
+        self.group = replace(
+            model.groups[0],
+            type="DISTRIBUTING",
+            labels=model.mesh.labels[nodes],
+            nodes=np.stack([nodes, self._references[self.rows]], axis=1),
+            definition=None,
+            source=given[0].source,
+        )
+        dofs = range(1, 4), range(4, 7), range(COUPLED, COUPLED + 3), range(COUPLED + 3, COUPLED + 6)
+        every = [(node, dof) for node, own in zip((0, 1, 1, 2, 2), (dofs[0], *dofs), strict=True) for dof in own]
+        self._dimension = given[0].dimension
+        self._chosen = np.array(_CHOSEN[self._dimension])
+        self.unknowns = tuple(every[k] for k in self._chosen)
+        self._scale = 0.0
+        self.errors = CouplingErrors((0.0, -1), (0.0, -1))
+
+    def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
+        """Take the unknowns (m, unknowns) of the pairs, and the places of their matrices in that of the system."""
+        self._equations, self._scatter = equations, scatter
+
+    def evaluate(
+        self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, data: FloatArray | None
+    ) -> None:
+        """Add the forces of the couplings and their derivatives in a pass; arguments as of `ContactBlock.evaluate`."""
+        if call.flags.request not in (Request.NORMAL, Request.RESIDUAL):
+            return
+        if data is not None and not self._scale:
+            self._scale = scale_of_multipliers(data, self._scatter, self._dimension)
+        now, change = (self._values(values) for values in (u, du))
+        nlgeom, apart = call.flags.nlgeom, self._apart
+        turned, by_turn = _increment(now[self._starts, _TURN], change[self._starts, _TURN], nlgeom=nlgeom)
+        turned, by_turn = turned[self.rows], by_turn[self.rows]
+        moved = change[:, _OWN] - change[:, _FAR]
+        middle = apart
+        if nlgeom:
+            apart = apart + now[:, _OWN] - now[:, _FAR]
+            middle = apart - 0.5 * moved
+        missing = moved - np.cross(turned, middle)
+        length = self._length[self.rows][:, None]
+        share = self._scale * self._weights
+        force = share * (now[:, _A] + np.cross(now[:, _B], apart) / length)
+        rows = np.concatenate(
+            [force, -force, -np.cross(apart, force), share * missing, share * np.cross(middle, missing) / length],
+            axis=1,
+        )
+        np.add.at(residual, self._equations, rows[:, self._chosen])
+        if call.flags.request is Request.NORMAL:
+            self.errors = self._errors(middle, missing)
+        if data is None:
+            return
+        share, length = share[:, None], length[:, None]
+        at, between, along = (cross_matrices(vectors) for vectors in (apart, middle, now[:, _B]))
+        force_by = np.zeros((len(rows), 3, _COUNT))
+        force_by[:, :, _A], force_by[:, :, _B] = share * np.eye(3), -share * at / length
+        missing_by = np.zeros_like(force_by)
+        missing_by[:, :, _OWN] = np.eye(3)
+        missing_by[:, :, _TURN] = between @ by_turn
+        moment_by, spin_by = np.zeros_like(force_by), np.zeros_like(force_by)
+        if nlgeom:
+            # places move too
+            force_by[:, :, _OWN] = share * along / length
+            missing_by[:, :, _OWN] -= 0.5 * cross_matrices(turned)
+            moment_by[:, :, _OWN], spin_by[:, :, _OWN] = -cross_matrices(force), -0.5 * cross_matrices(missing)
+        for found in (force_by, missing_by, moment_by, spin_by):
+            found[:, :, _FAR] = -found[:, :, _OWN]
+        moment_by += at @ force_by
+        spin_by = share * (spin_by + between @ missing_by) / length
+        matrix = -np.concatenate([force_by, -force_by, -moment_by, share * missing_by, spin_by], axis=1)
+        np.add.at(data, self._scatter, matrix[:, self._chosen[:, None], self._chosen])
+
+    def _values(self, values: FloatArray) -> FloatArray:
+        """(m, 15) values of the unknowns of the pairs; zero of those that there are not in the plane."""
+        found = np.zeros((len(self.rows), _COUNT))
+        found[:, self._chosen] = values[self._equations]
+        return found
+
+    def _sum(self, values: FloatArray) -> FloatArray:
+        """Sums (couplings, ...) over the pairs of each coupling."""
+        return np.asarray(np.add.reduceat(values, self._starts, axis=0))
+
+    def _errors(self, middle: FloatArray, missing: FloatArray) -> CouplingErrors:
+        weighted = self._weights * missing
+        apart = self._sum(weighted)
+        arms = middle - self._sum(self._weights * middle)[self.rows]
+        square = np.einsum("mi,mj->mij", arms, self._weights * arms)
+        inertia = self._sum(np.trace(square, axis1=1, axis2=2)[:, None, None] * np.eye(3) - square)
+        axes = slice(2, 3) if self._dimension == 2 else slice(0, 3)
+        moment = self._sum(np.cross(arms, weighted))[:, axes, None]
+        turned = np.linalg.solve(inertia[:, axes, axes], moment)[..., 0]
+        found = np.linalg.norm(apart, axis=1) / self._length, np.linalg.norm(turned, axis=1)
+        worst = [int(first_largest(values)) for values in found]
+        displacement, rotation = (
+            (float(values[k]), int(self._references[k])) for values, k in zip(found, worst, strict=True)
+        )
+        return CouplingErrors(displacement, rotation)
+
+    def kept(self) -> Saved:
+        """What the multipliers are measured in."""
+        return {"scale": self._scale}
+
+    def resume(self, saved: Saved) -> None:
+        """Begin with what `kept` returned."""
+        self._scale = saved["scale"]
+
+
+def distributing_blocks(model: Model, blocks: Sequence[ElementBlock], contact_points: int) -> list[DistributingBlock]:
+    """A block of the distributing couplings of a model, if it has some, numbered behind elements and contact points."""
+    if not model.couplings:
+        return []
+    first = blocks[-1].first + len(blocks[-1].group.labels)
+    return [DistributingBlock(model, first + contact_points)]
+
+
+def _increment(angles: FloatArray, change: FloatArray, *, nlgeom: bool) -> tuple[FloatArray, FloatArray]:
+    """Omega (k, 3) of an increment that ends at these rotation vectors (k, 3), and its derivatives by them."""
+    if not nlgeom:
+        return change, np.broadcast_to(np.eye(3), (len(angles), 3, 3))
+    turn = rotation_matrices(angles) @ rotation_matrices(angles - change).transpose(0, 2, 1)
+    omega = -2.0 * np.einsum("ijk,mjk->mi", PERMUTATION, turn) / (1.0 + np.trace(turn, axis1=1, axis2=2))[:, None]
+    by_spin = np.eye(3) - 0.5 * cross_matrices(omega) + 0.25 * omega[:, :, None] * omega[:, None, :]
+    return np.asarray(omega, dtype=np.float64), np.asarray(by_spin @ spin_matrices(angles), dtype=np.float64)

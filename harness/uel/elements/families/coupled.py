@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Built-in elements with temperatures for the driver: coupled temperature-displacement and heat transfer elements.
+
+They are in fortran/host/elements/heat/coupled.f90 and host/elements/heat/conduction.f90.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from uel.elements.families.solid import (
+    check_radii,
+    history_of,
+    numbered,
+    output_variables,
+    section_depth,
+    solid_of,
+    solid_routine,
+)
+from uel.elements.materials.library import define_thermal, define_user_field, directions, state_variables
+from uel.elements.routine import Routine
+from uel.errors import DeckError
+from uel.model.arrays import FloatArray
+from uel.model.element_types import HeatType
+from uel.model.mesh import ElementGroup
+from uel.model.model import TEMPERATURE, Model
+from uel.model.properties import Material, SolidSection
+from uel.model.records import PointVariables
+from uel.usersub import Library, _binding, _materials
+
+
+def coupled_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
+    """What the driver calls for a group of solids with temperatures. Raises DeckError."""
+    material = section.material
+    if material.user_field is not None and material.user_thermal is not None:
+        # its points are others than those of the stresses, where USDFLD is called
+        message = f"with UMATHT is not supported for elements of type {group.type}"
+        raise DeckError(material.user_field, f"*USER DEFINED FIELD {message}")
+    for step in model.steps:
+        if not (step.procedure.temperatures and step.procedure.displacements):
+            message = f"elements of type {group.type} are supported in *COUPLED TEMPERATURE-DISPLACEMENT steps only"
+            raise DeckError(step.source, message)
+    _check_thermal(model, group, material)
+    kind = solid_of(group)
+    if material.user_thermal is not None and kind.points != kind.thermal_points:
+        _warn_of_reduced(model, group, library)
+    solid = solid_routine(model, group, section, library)
+    define_thermal(solid.material, material, library)
+    hidden = (kind.dimension + 1) * kind.thermal_points
+    return replace(
+        solid,
+        address=_binding.address_of("coupled"),
+        svars=solid.svars + hidden,
+        hidden=solid.hidden + hidden,
+        jprops=np.concatenate([solid.jprops, [kind.thermal_points, kind.family.linear.number]]),
+        initial_temperatures=_initial_temperatures(model) if material.expansion is not None else None,
+    )
+
+
+def _initial_temperatures(model: Model) -> FloatArray:
+    """Of all nodes (nodes,), zero where none is given."""
+    temperatures = np.zeros(len(model.mesh.labels))
+    for entry in model.initial_temperatures:
+        if entry.dof == TEMPERATURE:
+            temperatures[entry.nodes] = entry.value
+    return temperatures
+
+
+def _warn_of_reduced(model: Model, group: ElementGroup, library: Library) -> None:
+    """Say, once per type, what Abaqus says of UMATHT where heat has more points than stresses."""
+    if group is next(other for other in model.groups if other.type == group.type):
+        message = f"elements of type {group.type} have more points for heat than for stresses"
+        advice = "UMATHT should not be used there if plastic dissipation couples displacements and temperatures"
+        library.warn(f"{group.source}: {message}; {advice}")
+
+
+def heat_routine(model: Model, group: ElementGroup, kind: HeatType, section: SolidSection, library: Library) -> Routine:
+    """What the driver calls for a group of heat transfer elements. Raises DeckError."""
+    material = section.material
+    for step in model.steps:
+        if not step.procedure.temperatures:
+            steps = "*HEAT TRANSFER, *COUPLED TEMPERATURE-DISPLACEMENT and *MASS DIFFUSION steps"
+            raise DeckError(step.source, f"elements of type {group.type} are supported in {steps} only")
+    if kind.axisymmetric:
+        check_radii(model, group)
+    _check_thermal(model, group, material)
+    number = _materials.define_empty_material()
+    define_thermal(number, material, library)
+    define_user_field(number, material, directions(section.orientation), library)
+    return Routine(
+        address=_binding.address_of("heat"),
+        jtype=kind.nodes,
+        mcrd=kind.dimension,
+        svars=(kind.dimension + 1) * kind.points,
+        hidden=kind.points,
+        props=np.array([section_depth(kind, section)]),
+        jprops=np.array([kind.family.number, kind.points, kind.direct]),
+        family=kind.family.number,
+        material=number,
+        history=history_of(material, kind.points),
+        statev=state_variables(material),
+        uvarm=output_variables(section, kind.points, library),
+    )
+
+
+def heat_variables(kind: HeatType, routine: Routine) -> PointVariables:
+    """Meaning of the state variables of a group of heat transfer elements."""
+    names = tuple(f"HFL{component}" for component in kind.components)
+    names = *names, *numbered("SDV", routine.statev)
+    if routine.uvarm is not None:
+        names = *names, *numbered("UVARM", routine.uvarm.count)
+    return PointVariables("continuum", names, kind.points)
+
+
+def has_unsymmetric_flow(material: Material) -> bool:
+    """Whether UMATHT gives an unsymmetric matrix; that of *CONDUCTIVITY leaves out its slope without displacements."""
+    return material.user_thermal is not None and material.user_thermal.unsymmetric
+
+
+def is_unsymmetric(material: Material) -> bool:
+    """Whether heat conduction beside displacements has an unsymmetric matrix, as it depends on the temperature."""
+    return has_unsymmetric_flow(material) or (material.user_thermal is None and len(material.conductivity) > 1)
+
+
+def _check_thermal(model: Model, group: ElementGroup, material: Material) -> None:
+    """Raise DeckError if the material lacks what elements with temperatures need, or has too much."""
+    if material.user_thermal is not None and material.heat_generation is not None:
+        message = f"*HEAT GENERATION cannot be used with *USER MATERIAL, TYPE=THERMAL ({material.user_thermal.source})"
+        raise DeckError(material.heat_generation, message)
+    transient = any(step.procedure.stores_heat for step in model.steps)
+    needed: list[tuple[str, bool]] = [("*DENSITY", bool(material.density))] if transient else []
+    if material.user_thermal is None:
+        needed.insert(0, ("*CONDUCTIVITY", bool(len(material.conductivity))))
+        needed += [("*SPECIFIC HEAT", bool(len(material.specific_heat)))] if transient else []
+    for keyword, given in needed:
+        if not given:
+            message = f"material {material.name} has no {keyword}, which elements of type {group.type} need"
+            raise DeckError(material.source, message)

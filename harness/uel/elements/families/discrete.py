@@ -1,0 +1,140 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Built-in trusses, springs, dashpots, masses and rigid elements: what the driver calls for them.
+
+In fortran/host trusses are in host/elements/beam/truss.f90, the others in host/elements/beam/discrete.f90.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from uel.elements.families.solid import numbered, output_variables
+from uel.elements.materials.library import (
+    define_truss_material,
+    history_values,
+    refuse_user_hardening,
+    refuse_viscous,
+    state_variables,
+)
+from uel.elements.routine import OutputVariables, Routine
+from uel.errors import DeckError
+from uel.model.element_types import DISCRETE, LINE2, DiscreteKind, RigidType, Tensor
+from uel.model.mesh import ElementGroup, is_in_space
+from uel.model.model import Model
+from uel.model.properties import ElasticType, MassSection, RigidSection, SolidSection, SpringSection
+from uel.model.records import PointVariables
+from uel.usersub import Library, _binding
+
+_TRUSS_STATES: Final = 4
+"""SVARS of a truss."""
+_STATES: Final = 2
+"""SVARS of another element."""
+_AXIAL: Final = (DiscreteKind.AXIAL_SPRING, DiscreteKind.AXIAL_DASHPOT)
+_DASHPOTS: Final = (DiscreteKind.DASHPOT, DiscreteKind.AXIAL_DASHPOT)
+
+
+def discrete_unknowns(model: Model, group: ElementGroup) -> tuple[tuple[int, int], ...]:
+    """(local node, dof) of each unknown; masses, SPRINGA, DASHPOTA have the displacements of the model's dimension."""
+    section = group.section
+    if isinstance(section, SpringSection) and section.dofs:
+        return tuple(enumerate(section.dofs))
+    if isinstance(group.built_in, RigidType):
+        dimension = group.built_in.dimension
+    elif _kind_of(group) is DiscreteKind.TRUSS or is_in_space(model.mesh.coordinates, model.groups):
+        dimension = DISCRETE[group.type].dimension
+    else:
+        dimension = 2
+    return tuple((node, dof) for node in range(group.nodes.shape[1]) for dof in range(1, dimension + 1))
+
+
+def discrete_routine(model: Model, group: ElementGroup, unknowns: int, library: Library) -> Routine:
+    """What the driver calls for a group. Raises DeckError."""
+    kind = _kind_of(group)
+    dynamic = any(step.procedure.inertia for step in model.steps)
+    hidden = 2 * unknowns if dynamic else 0
+    if kind is DiscreteKind.TRUSS:
+        return _truss_routine(group, unknowns, hidden, library, dynamic=dynamic)
+    section = group.section
+    assert isinstance(section, MassSection | RigidSection | SpringSection)
+    along = next((step for step in model.steps if step.procedure.riks), None)
+    if kind in _DASHPOTS and along is not None:
+        message = f"elements of type {group.type} are not supported with RIKS, where no time passes"
+        raise DeckError(along.source, message)
+    mass = section.mass if isinstance(section, MassSection) else 0.0
+    return Routine(
+        address=_binding.address_of("discrete"),
+        jtype=kind,
+        mcrd=unknowns // 2 if kind in _AXIAL else 3,
+        svars=_STATES + hidden,
+        hidden=hidden,
+        props=section.table if isinstance(section, SpringSection) else np.array([mass]),
+        turns=kind is DiscreteKind.AXIAL_SPRING,
+        jprops=np.zeros(0, dtype=np.int64),
+        forceless=isinstance(section, RigidSection),
+    )
+
+
+def _kind_of(group: ElementGroup) -> DiscreteKind:
+    """To the driver the nodes of rigid elements are masses of zero, which have no forces."""
+    return DISCRETE[group.type].kind if group.type in DISCRETE else DiscreteKind.MASS
+
+
+def _truss_routine(group: ElementGroup, unknowns: int, hidden: int, library: Library, *, dynamic: bool) -> Routine:
+    section = group.section
+    if not isinstance(section, SolidSection):
+        raise DeckError(section.source, f"elements of type {group.type} need *SOLID SECTION")
+    material = section.material
+    _check_truss(group, section, dynamic=dynamic)
+    statev = state_variables(material)
+    return Routine(
+        address=_binding.address_of("truss"),
+        jtype=2,
+        mcrd=unknowns // 2,
+        svars=_TRUSS_STATES + hidden,
+        hidden=hidden,
+        density=1,
+        props=np.array([section.thickness, material.density]),
+        turns=True,
+        jprops=np.array([LINE2.number]),
+        material=define_truss_material(material, library),
+        tensor=int(Tensor.UNIAXIAL),
+        # one value stands for no history: plastic strains are in SVARS
+        history=(history_values(material) if material.user else 1 + statev, 1),
+        statev=statev,
+        family=LINE2.number,
+        uvarm=_output_variables(section, library),
+    )
+
+
+def _output_variables(section: SolidSection, library: Library) -> OutputVariables | None:
+    """Of trusses, which have no directions of a material."""
+    found = output_variables(section, 1, library)
+    return found and replace(found, axes=np.zeros((3, 3)))
+
+
+def discrete_variables(group: ElementGroup, routine: Routine) -> PointVariables | None:
+    """Meaning of the state variables: strain and stress of a truss; those of others have no name in Abaqus' output."""
+    if _kind_of(group) is not DiscreteKind.TRUSS:
+        return None
+    outputs = () if routine.uvarm is None else numbered("UVARM", routine.uvarm.count)
+    return PointVariables("continuum", ("E11", "S11", "PE11", "PEEQ", *numbered("SDV", routine.statev), *outputs), 1)
+
+
+def _check_truss(group: ElementGroup, section: SolidSection, *, dynamic: bool) -> None:
+    """Raise DeckError for what trusses do not support."""
+    material = section.material
+    refuse_viscous(material, f"elements of type {group.type}")
+    refuse_user_hardening(material, f"elements of type {group.type}")
+    if material.user is None and (material.elastic is None or material.elastic.type is not ElasticType.ISOTROPIC):
+        message = f"elements of type {group.type} need *ELASTIC, TYPE=ISOTROPIC, or UMAT (material {material.name})"
+        raise DeckError(section.source, message)
+    if dynamic and not material.density:
+        message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
+        raise DeckError(material.source, message)
+    if material.plastic is not None and len(material.plastic.backstresses):
+        message = f"elements of type {group.type} support isotropic hardening only (material {material.name})"
+        raise DeckError(material.plastic.source, f"*PLASTIC: {message}")

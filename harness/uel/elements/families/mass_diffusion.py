@@ -1,0 +1,92 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Heat transfer elements in *MASS DIFFUSION for the driver (fortran/host/elements/heat/mass_diffusion.f90)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from uel.elements.families.solid import check_radii, section_depth
+from uel.elements.materials.library import directions, refuse_fields
+from uel.elements.routine import PARALLEL, Routine
+from uel.errors import DeckError
+from uel.model.element_types import HeatType
+from uel.model.mesh import ElementGroup
+from uel.model.model import Model
+from uel.model.properties import Diffusivity, Material, Orientation, SolidSection
+from uel.model.records import PointVariables
+from uel.usersub import _binding, _materials
+
+_ROWS, _COLUMNS = (0, 0, 1, 0, 1, 2), (0, 1, 1, 2, 2, 2)
+"""Of D11, D12, D22, D13, D23, D33."""
+
+
+def mass_diffusion_routine(model: Model, group: ElementGroup, kind: HeatType, section: SolidSection) -> Routine:
+    """What the driver calls for a group of heat transfer elements. Raises DeckError."""
+    if kind.axisymmetric:
+        check_radii(model, group)
+    material = section.material
+    refuse_fields(material, f"elements of type {group.type}")
+    law = _checked(group, material, section.orientation, kind)
+    axes, _ = directions(section.orientation)
+    tensors = axes.T @ law.tensors @ axes
+    number = _materials.define_empty_material()
+    _materials.set_diffusion(
+        number,
+        fick=law.fick,
+        absolute_zero=model.constants.absolute_zero,
+        axes=axes,
+        diffusivity=np.hstack([tensors[:, _ROWS, _COLUMNS], law.points]),
+        solubility=material.solubility,
+        soret=law.soret,
+        pressure=law.pressure,
+    )
+    return Routine(
+        address=_binding.address_of("mass diffusion"),
+        jtype=kind.nodes,
+        mcrd=kind.dimension,
+        svars=len(_names(kind)) * kind.points,
+        props=np.array([section_depth(kind, section)]),
+        jprops=np.array([kind.family.number, kind.points, kind.direct]),
+        family=kind.family.number,
+        material=number,
+    )
+
+
+def mass_diffusion_variables(kind: HeatType) -> PointVariables:
+    """Meaning of the state variables of these elements."""
+    return PointVariables("continuum", _names(kind), kind.points)
+
+
+def _names(kind: HeatType) -> tuple[str, ...]:
+    return (*(f"MFL{component}" for component in kind.components), "CONC", "ISOL", "IVOL")
+
+
+def depends_on_concentration(material: Material) -> bool:
+    """Whether the flux depends on the concentration beside its gradient, so that the matrix is unsymmetric."""
+    law = material.diffusivity
+    if law is None:
+        return False
+    tables = law.points[:, 0], law.soret[:, 1], law.pressure[:, 1]
+    by_solubility = law.fick and len(material.solubility) > 1
+    return by_solubility or any(len(np.unique(given)) > 1 for given in tables)
+
+
+def _checked(group: ElementGroup, material: Material, orientation: Orientation | None, kind: HeatType) -> Diffusivity:
+    """The diffusivity, if all is there and fits. Raises DeckError."""
+    law = material.diffusivity
+    if law is None or not len(material.solubility):
+        keyword = "*DIFFUSIVITY" if law is None else "*SOLUBILITY"
+        message = f"material {material.name} has no {keyword}, which elements of type {group.type} need"
+        raise DeckError(material.source, f"{message} in *MASS DIFFUSION")
+    if orientation is None:
+        if not law.isotropic:
+            message = "*DIFFUSIVITY that is not isotropic needs ORIENTATION on *SOLID SECTION"
+            raise DeckError(law.source, f"{message} ({group.section.source})")
+    elif orientation.system is not None:
+        message = f"*ORIENTATION, NAME={orientation.name}: directions that differ from point to point"
+        raise DeckError(group.section.source, f"{message} are not supported for elements of type {group.type}")
+    elif kind.dimension == 2 and abs(orientation.axes[2, 2]) < 1 - PARALLEL:
+        message = f"*ORIENTATION, NAME={orientation.name}: direction 3 must be normal to the plane of the elements"
+        raise DeckError(orientation.source, message)
+    return law

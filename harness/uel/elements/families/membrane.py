@@ -1,0 +1,114 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Built-in membranes: what the driver calls for them (fortran/host/elements/shell/membrane.f90)."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from uel.elements.families.solid import HOURGLASS_FRACTION, history_names, history_of, is_prestressed
+from uel.elements.loads.vectors import check_density
+from uel.elements.materials.library import (
+    define_fields,
+    define_material,
+    define_user_output,
+    linearity,
+    refuse_hyperelastic,
+    refuse_user_hardening,
+    refuse_viscous,
+    shear_modulus,
+    state_variables,
+    user_outputs,
+)
+from uel.elements.routine import VALUES_OF_AXES, PointAxes, Routine
+from uel.errors import DeckError
+from uel.model.element_types import MembraneType, Tensor
+from uel.model.mesh import ElementGroup
+from uel.model.model import Model
+from uel.model.properties import MembraneSection
+from uel.model.records import PointVariables
+from uel.usersub import Library, _binding, _materials
+
+NAMES: Final = ("E11", "E22", "E12", "S11", "S22", "S12")
+"""Variables of a point, in its directions."""
+
+
+def membrane_routine(
+    model: Model, group: ElementGroup, kind: MembraneType, section: MembraneSection, library: Library
+) -> Routine:
+    """What the driver calls for a group of membranes. Raises DeckError."""
+    _check(model, group, section)
+    material, orientation = section.material, section.orientation
+    dynamic = any(step.procedure.inertia for step in model.steps)
+    hourglass = _hourglass_stiffness(kind, section)
+    number = define_material(material, None, Tensor.PLANE_STRESS, section.source, library)
+    # the axes are those of each point
+    name = orientation.name if orientation else ""
+    statev, outputs = state_variables(material), user_outputs(material, library)
+    define_fields(number, material, (np.eye(3), name), Tensor.PLANE_STRESS, library)
+    define_user_output(number, material, name, library, room=statev, width=outputs)
+    prestressed = is_prestressed(model, group, material)
+    if prestressed:
+        _materials.set_prestressed(number)
+    of_points = kind.points * len(NAMES)
+    forces = 6 * kind.nodes if dynamic else 0
+    axes = PointAxes(of_points + forces, kind.points, False, orientation) if orientation else None
+    hidden = forces + (VALUES_OF_AXES * kind.points if axes else 0)
+    history = history_of(material, kind.points, prestressed=prestressed, outputs=outputs)
+    return Routine(
+        address=_binding.address_of("membrane"),
+        jtype=kind.nodes,
+        mcrd=3,
+        svars=of_points + hidden,
+        hidden=hidden,
+        density=1,
+        props=np.array([section.thickness, material.density, hourglass, section.poisson]),
+        jprops=np.array([kind.family.number, kind.points, kind.family.full_points, axes is not None]),
+        family=kind.family.number,
+        material=number,
+        tensor=int(Tensor.PLANE_STRESS),
+        history=history,
+        statev=statev,
+        outputs=outputs,
+        linear=history[0] == 1,
+        forces=linearity(material, prestressed=prestressed),
+        # the energy of hourglass control is another one
+        stores=not kind.hourglass_control,
+        free=(1, 2, 3),
+        axes=axes,
+        stress=(3, 4, 5),
+        turns=True,
+    )
+
+
+def membrane_variables(kind: MembraneType, routine: Routine) -> PointVariables:
+    """Meaning of the state variables of a group of membranes."""
+    return PointVariables("continuum", (*NAMES, *history_names(routine)), kind.points)
+
+
+def _hourglass_stiffness(kind: MembraneType, section: MembraneSection) -> float:
+    """Parameter of the total stiffness; 0 if there is none. Raises DeckError."""
+    if not kind.hourglass_control:
+        return 0.0
+    controls, elastic = section.controls, section.material.elastic
+    if controls.enhanced:
+        message = f"*SECTION CONTROLS, HOURGLASS=ENHANCED is not supported for elements of type {kind.name}"
+        raise DeckError(section.source, message)
+    if section.hourglass:
+        return section.hourglass
+    if elastic is None:
+        message = f"elements of type {kind.name} with *USER MATERIAL need *HOURGLASS STIFFNESS after *MEMBRANE SECTION"
+        raise DeckError(section.source, message)
+    return controls.hourglass * HOURGLASS_FRACTION * shear_modulus(elastic, Tensor.PLANE_STRESS)
+
+
+def _check(model: Model, group: ElementGroup, section: MembraneSection) -> None:
+    """Raise DeckError for what membranes do not support."""
+    elements, material = f"elements of type {group.type}", section.material
+    if any(step.procedure.inertia for step in model.steps):
+        check_density((material,), section.source, f"*DYNAMIC with {elements}")
+    refuse_hyperelastic(material, elements)
+    refuse_viscous(material, elements)
+    refuse_user_hardening(material, elements)

@@ -1,0 +1,102 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Built-in piezoelectric elements for the driver; they are in fortran/host/elements/solid/piezoelectric.f90."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from uel.elements.families.solid import solid_of, solid_routine
+from uel.elements.materials.library import directions, global_compliance, history_values, refuse_fields
+from uel.elements.routine import Routine
+from uel.errors import DeckError
+from uel.model.arrays import FloatArray
+from uel.model.element_types import Tensor
+from uel.model.mesh import ElementGroup
+from uel.model.model import Model
+from uel.model.properties import Material, SolidSection
+from uel.model.records import PointVariables
+from uel.usersub import Library, _binding
+
+_PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+
+
+def piezoelectric_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
+    """What the driver calls for a group of piezoelectric solids. Raises DeckError."""
+    kind, material = solid_of(group), section.material
+    elements = f"elements of type {group.type}"
+    for step in model.steps:
+        procedure = step.procedure
+        if step.nlgeom or procedure.inertia or procedure.temperatures or procedure.buckles or procedure.riks:
+            message = "are supported in *STATIC, *FREQUENCY, *STEADY STATE DYNAMICS and *MODAL DYNAMIC steps"
+            raise DeckError(step.source, f"{elements} {message} with small displacements only")
+    refuse_fields(material, elements)
+    if material.elastic is None or history_values(material) > 1 or material.expansion or material.user:
+        message = f"{elements} need a material with *ELASTIC alone, beside *PIEZOELECTRIC and *DIELECTRIC"
+        raise DeckError(section.source, f"{message} (material {material.name})")
+    if material.dielectric is None:
+        raise DeckError(material.source, f"material {material.name} has no *DIELECTRIC, which {elements} need")
+    if section.orientation is not None and section.orientation.system is not None:
+        message = f"*ORIENTATION, NAME={section.orientation.name}: directions that differ from point to point"
+        raise DeckError(section.source, f"{message} are not supported for {elements}")
+    solid = solid_routine(model, group, section, library)
+    coupling, dielectric = _constants(material, section, kind.tensor)
+    chosen = slice(kind.dimension)
+    components = 2 * kind.dimension
+    constants = np.hstack([coupling[chosen, :components], dielectric[chosen, chosen]])
+    averaged = kind.tensor is not Tensor.PLANE_STRESS
+    return replace(
+        solid,
+        address=_binding.address_of("piezoelectric"),
+        svars=kind.points * (2 * components + 2 * kind.dimension),
+        hidden=0,
+        props=np.concatenate([solid.props, constants.ravel(order="F")]),
+        jprops=np.concatenate([solid.jprops, [averaged]]),
+        # the matrix does not store the energy: it is that of the enthalpy
+        stores=False,
+        stress=(),
+        turns=False,
+    )
+
+
+def piezoelectric_variables(group: ElementGroup) -> PointVariables:
+    """Meaning of the state variables of a group of piezoelectric solids."""
+    kind = solid_of(group)
+    names = [f"{letter}{component}" for letter in "ES" for component in kind.components]
+    names += [f"{name}{k + 1}" for name in ("EPG", "EFLX") for k in range(kind.dimension)]
+    return PointVariables("continuum", tuple(names), kind.points)
+
+
+def _constants(material: Material, section: SolidSection, tensor: Tensor) -> tuple[FloatArray, FloatArray]:
+    """Stress coefficients (3, 6) and permittivity (3, 3) in global axes; in plane stress those without S33 and EPG3."""
+    axes, _ = directions(section.orientation)
+    assert material.dielectric is not None
+    dielectric = axes.T @ material.dielectric @ axes
+    given, coupling = material.piezoelectric, np.zeros((3, 6))
+    if given is not None:
+        values = given.values
+        if given.by_strain:
+            values = values @ _stiffness(material, None, tensor)
+        tensors = np.zeros((3, 3, 3))
+        for place, (i, j) in enumerate(_PAIRS):
+            tensors[:, i, j] = tensors[:, j, i] = values[:, place]
+        turned = np.einsum("mkl,mp,ki,lj->pij", tensors, axes, axes, axes)
+        coupling = np.array([turned[:, i, j] for i, j in _PAIRS]).T
+    if tensor is Tensor.PLANE_STRESS:
+        # S33 = 0 gives the strain along 3
+        stiffness = _stiffness(material, section, tensor)
+        ratio = stiffness[2] / stiffness[2, 2]
+        dielectric = dielectric + np.outer(coupling[:, 2], coupling[:, 2]) / stiffness[2, 2]
+        coupling = coupling - np.outer(coupling[:, 2], ratio)
+    if tensor is not Tensor.SOLID:
+        coupling = coupling[:, [0, 1, 2, 3]]
+    return coupling, dielectric
+
+
+def _stiffness(material: Material, section: SolidSection | None, tensor: Tensor) -> FloatArray:
+    """(6, 6) elastic stiffness, in global axes or, without a section, in those of the material."""
+    compliance = global_compliance(material, section.orientation if section is not None else None, tensor)
+    assert compliance is not None
+    return np.asarray(np.linalg.inv(compliance), dtype=np.float64)

@@ -1,0 +1,362 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Built-in continuum elements: what the driver calls for them, and what their state variables mean."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from uel.elements.directions import first_element
+from uel.elements.materials.hybrid import check_hybrid, pressure_unknowns
+from uel.elements.materials.library import (
+    define_expansion,
+    define_fields,
+    define_material,
+    directions,
+    history_values,
+    is_incompressible,
+    linearity,
+    refuse_hyperelastic,
+    refuse_viscous,
+    shear_modulus,
+    state_variables,
+    viscous_change,
+)
+from uel.elements.routine import VALUES_OF_AXES, OutputVariables, PointAxes, Routine
+from uel.errors import DeckError
+from uel.model.element_types import HYBRID, ContinuumType, SolidType, Tensor
+from uel.model.mesh import ElementGroup
+from uel.model.model import Model
+from uel.model.properties import (
+    CompositeSection,
+    ElasticType,
+    Hyperelastic,
+    Material,
+    Orientation,
+    ShellSection,
+    SolidSection,
+)
+from uel.model.records import PointVariables
+from uel.usersub import Library, _binding, _materials
+
+HOURGLASS_FRACTION: Final = 0.005
+"""Hourglass stiffness parameter over the shear modulus (Abaqus Analysis User's Guide, Section controls)."""
+
+OF_MATERIAL: Final = 1
+OF_FIRST_TANGENT: Final = 2
+"""JPROPS(4): who tells the moduli of the enhanced hourglass control."""
+
+SMALLEST_RADIUS: Final = 1e-9
+"""Radius, over the largest one of a group, below which a node lies on the axis."""
+
+
+def solid_of(group: ElementGroup) -> ContinuumType:
+    """The type of a group of continuum elements, with temperatures or without."""
+    kind = group.built_in
+    assert isinstance(kind, ContinuumType)
+    return kind
+
+
+def section_depth(kind: SolidType, section: SolidSection | CompositeSection | ShellSection) -> float:
+    """Factor from area to volume: the thickness in the plane, 2 pi about an axis, to be multiplied by the radius."""
+    if kind.axisymmetric:
+        return 2 * np.pi
+    return section.thickness if isinstance(section, SolidSection) and kind.dimension == 2 else 1.0
+
+
+def solid_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
+    """What the driver calls for a group of solids. Raises DeckError."""
+    kind, material = solid_of(group), section.material
+    if kind.axisymmetric:
+        check_radii(model, group)
+    dynamic = next((step for step in model.steps if step.procedure.inertia), None)
+    if dynamic is not None and not material.density:
+        message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
+        raise DeckError(material.source, message)
+    _check_hyperelastic(model, group, kind, material)
+    _check_viscous(model, group, kind, material)
+    _check_user_hardening(model, material)
+    check_hybrid(group.type, kind, material)
+    orientation, local = section.orientation, _local_orientation(model, section)
+    if local is not None:
+        # the material is in the directions of the points
+        orientation = replace(local, axes=np.eye(3), system=None)
+    hourglass = _hourglass_stiffness(group, kind, section)
+    tangent = f"DDSDDE of UMAT (material {material.name})" if _of_tangent(kind, section) else ""
+    warn_of_enhanced(model, group, kind, library, tangent)
+    _warn_of_unpublished(model, group, kind, library)
+    number = define_material(material, orientation, kind.tensor, section.source, library, hybrid=kind.pressures > 0)
+    prestressed = is_prestressed(model, group, material)
+    if prestressed:
+        _materials.set_prestressed(number)
+    define_fields(number, material, directions(orientation), kind.tensor, library)
+    if local is not None:
+        _materials.set_local(number)
+    define_expansion(number, material, orientation)
+    enhanced = _enhanced_moduli(kind, section)
+    pressures = pressure_unknowns(kind, material)
+    unknowns = kind.dimension * kind.nodes + pressures
+    forces = 2 * unknowns if dynamic is not None else 0
+    of_points = kind.points * 2 * len(kind.components)
+    axes = PointAxes(of_points + forces, kind.points, kind.dimension == 2, local) if local is not None else None
+    moduli = 2 if enhanced == OF_FIRST_TANGENT else 0
+    hidden = forces + (VALUES_OF_AXES * kind.points if axes else 0) + kind.modes + moduli
+    return Routine(
+        address=_binding.address_of("solid"),
+        jtype=kind.nodes,
+        mcrd=kind.dimension,
+        svars=of_points + hidden,
+        hidden=hidden,
+        density=1,
+        internal=kind.modes,
+        massive=bool(material.density),
+        props=np.array([section_depth(kind, section), material.density, hourglass]),
+        jprops=np.array(
+            [kind.family.number, kind.points, kind.direct, enhanced, kind.mass_points, kind.modes, kind.pressures]
+        ),
+        family=kind.family.number,
+        material=number,
+        tensor=int(kind.tensor),
+        history=history_of(material, kind.points, prestressed=prestressed),
+        statev=state_variables(material),
+        viscous=viscous_change(material),
+        uvarm=output_variables(section, kind.points, library),
+        turns=True,
+        linear=history_values(material) == 1 and material.hyperelastic is None,
+        forces=linearity(material, prestressed=prestressed),
+        # the energy of hourglass control is another one, and that of a pressure is not in the matrix
+        stores=not kind.hourglass_control and not pressures,
+        # along the radius it strains the circumference
+        free=(2,) if kind.axisymmetric else tuple(range(1, kind.dimension + 1)),
+        stress=_places_of_stress(kind),
+        axes=axes,
+    )
+
+
+def _check_hyperelastic(model: Model, group: ElementGroup, kind: ContinuumType, material: Material) -> None:
+    """Raise DeckError if the material is hyperelastic, and the elements or the steps are not for it."""
+    if material.hyperelastic is None:
+        return
+    if kind.tensor is Tensor.PLANE_STRESS:
+        refuse_hyperelastic(material, f"elements of type {group.type}")
+    small = next((step for step in model.steps if not step.nlgeom), None)
+    if small is not None:
+        law = material.hyperelastic
+        message = f"*{law.keyword} (material {material.name}, {law.source}) needs NLGEOM"
+        raise DeckError(small.source, f"*STEP: {message}; small displacements are not supported")
+
+
+def _check_viscous(model: Model, group: ElementGroup, kind: ContinuumType, material: Material) -> None:
+    """Raise DeckError if stresses depend on time, and the elements or the steps are not for that."""
+    if material.viscous is None:
+        return
+    if kind.coupled or (kind.pressures and not material.networks):
+        refuse_viscous(material, f"elements of type {group.type}")
+    perturbation = next((step for step in model.steps if step.procedure.linear), None)
+    if perturbation is not None:
+        message = f"a linear perturbation is not supported with material {material.name}, whose stresses depend on time"
+        raise DeckError(perturbation.source, f"*STEP: {message} ({material.viscous.source})")
+
+
+def _check_user_hardening(model: Model, material: Material) -> None:
+    """Raise DeckError if UHARD gives the yield stress, and the steps are not for that."""
+    if material.plastic is None or material.plastic.user is None:
+        return
+    perturbation = next((step for step in model.steps if step.procedure.linear), None)
+    if perturbation is not None:
+        # a yield stress that depends on the rate would let the stress of the base state relax
+        message = f"a linear perturbation is not supported with material {material.name}, which has UHARD"
+        raise DeckError(perturbation.source, f"*STEP: {message} ({material.plastic.source})")
+
+
+def _places_of_stress(kind: ContinuumType) -> tuple[int, ...]:
+    """The components that the element library of Abaqus lists: 11, 22, 12 in plane stress, which has no 33."""
+    names = kind.components
+    return tuple(
+        len(names) + k for k, name in enumerate(names) if not (kind.tensor is Tensor.PLANE_STRESS and name == "33")
+    )
+
+
+def is_prestressed(model: Model, group: ElementGroup, material: Material) -> bool:
+    """Whether elements of the group have an initial stress that a built-in material must store. Raises DeckError."""
+    first = first_element(model, group)
+    last = first + len(group.labels)
+    entries = model.initial_stresses
+    found = next((e for e in entries if ((e.elements >= first) & (e.elements < last)).any()), None)
+    if found is None:
+        return False
+    if material.hyperelastic is not None or is_incompressible(material):
+        what = "an incompressible material" if material.hyperelastic is None else f"*{material.hyperelastic.keyword}"
+        message = f"is not supported with {what} (material {material.name})"
+        raise DeckError(found.source, f"*INITIAL CONDITIONS, TYPE=STRESS {message}")
+    if material.user is not None:
+        return False
+    if material.viscoelastic is not None:
+        message = f"is not supported with *VISCOELASTIC (material {material.name})"
+        raise DeckError(found.source, f"*INITIAL CONDITIONS, TYPE=STRESS {message}")
+    if material.user_field is not None and material.elastic is not None and material.elastic.table is not None:
+        message = "is not supported if the constants of *ELASTIC depend on fields that USDFLD gives"
+        raise DeckError(found.source, f"*INITIAL CONDITIONS, TYPE=STRESS {message} (material {material.name})")
+    return True
+
+
+def _local_orientation(model: Model, section: SolidSection) -> Orientation | None:
+    """The orientation if the material is in the directions of each point, which turn with it under NLGEOM.
+
+    Otherwise its constants are turned to global axes once.
+    """
+    orientation = section.orientation
+    if orientation is None:
+        return None
+    turns = any(step.nlgeom for step in model.steps)
+    return orientation if turns or orientation.system is not None or section.material.user is not None else None
+
+
+def solid_variables(group: ElementGroup, routine: Routine) -> PointVariables:
+    """Meaning of the state variables of a group of solids."""
+    kind = solid_of(group)
+    names = tuple(f"{letter}{component}" for letter in "ES" for component in kind.components)
+    names = *names, *numbered("SDV", routine.statev)
+    if routine.uvarm is not None:
+        names = *names, *numbered("UVARM", routine.uvarm.count)
+    return PointVariables("continuum", names, kind.points)
+
+
+def check_radii(model: Model, group: ElementGroup) -> None:
+    """Check that nodes of axisymmetric elements are on one side of the axis or, within rounding, on it."""
+    radii = model.mesh.coordinates[group.nodes, 0]
+    wrong = np.argwhere(radii < -SMALLEST_RADIUS * abs(radii).max(initial=0.0))
+    if len(wrong):
+        row, column = wrong[0]
+        label = model.mesh.labels[group.nodes[row, column]]
+        message = (
+            f"element {group.labels[row]} (type {group.type}): node {label} is at the radius {radii[row, column]:g}"
+        )
+        raise DeckError(group.source, f"{message}; coordinate 1 of axisymmetric elements must not be negative")
+
+
+def history_of(material: Material, points: int, *, prestressed: bool = False, outputs: int = 0) -> tuple[int, int]:
+    """Values and points of the material history of an element, which may have an initial stress, and UVAR there."""
+    values = history_values(material, prestressed=prestressed) + outputs
+    return values, points if values > 1 else 1
+
+
+def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: SolidSection) -> float:
+    """Parameter of the total stiffness; 0 if there is none. Raises DeckError."""
+    controls, elastic = section.controls, section.material.elastic
+    if not kind.hourglass_control:
+        return 0.0
+    check_one_control(section)
+    if is_enhanced(section):
+        _check_enhanced(kind, section)
+        return 0.0
+    if section.hourglass:
+        return section.hourglass
+    if section.material.hyperelastic is not None:
+        law = section.material.hyperelastic
+        message = f"elements of type {group.type} with *{law.keyword} need *HOURGLASS STIFFNESS after *SOLID SECTION"
+        if isinstance(law, Hyperelastic):
+            message = message.replace("need", "need HOURGLASS=ENHANCED of *SECTION CONTROLS, or")
+        raise DeckError(section.source, f"{message}; the stiffness of small strains is too soft for large ones")
+    if elastic is None:
+        message = f"elements of type {group.type} with *USER MATERIAL need *HOURGLASS STIFFNESS after *SOLID SECTION"
+        raise DeckError(section.source, message)
+    return controls.hourglass * HOURGLASS_FRACTION * shear_modulus(elastic, kind.tensor)
+
+
+def is_enhanced(section: SolidSection | CompositeSection) -> bool:
+    """Whether the hourglass control is ENHANCED, the default with *HYPERELASTIC (Keywords Guide, *SECTION CONTROLS)."""
+    if section.controls.enhanced is not None:
+        return section.controls.enhanced
+    by_default = isinstance(section, SolidSection) and isinstance(section.material.hyperelastic, Hyperelastic)
+    return by_default and not section.hourglass
+
+
+def check_one_control(section: SolidSection | CompositeSection) -> None:
+    """Raise DeckError if two keywords give the hourglass control."""
+    controls = section.controls
+    if section.hourglass and (controls.enhanced or controls.hourglass != 1):
+        what = "HOURGLASS=ENHANCED" if controls.enhanced else "a factor of the hourglass stiffness"
+        raise DeckError(
+            section.source, f"*HOURGLASS STIFFNESS and *SECTION CONTROLS with {what}: expected only one of them"
+        )
+
+
+def _check_enhanced(kind: ContinuumType, section: SolidSection) -> None:
+    """Raise DeckError if there is no enhanced hourglass control for the material."""
+    material, elastic = section.material, section.material.elastic
+    if isinstance(material.hyperelastic, Hyperelastic) or _of_tangent(kind, section):
+        return
+    if elastic is None or elastic.type is not ElasticType.ISOTROPIC or elastic.table is not None:
+        message = f"*SECTION CONTROLS, HOURGLASS=ENHANCED is not supported for material {material.name}"
+        raise DeckError(section.source, f"{message}; expected *ELASTIC, TYPE=ISOTROPIC with constant values")
+
+
+def _enhanced_moduli(kind: ContinuumType, section: SolidSection) -> int:
+    """JPROPS(4) of the element: 0 without the enhanced hourglass control, else where it has its moduli from."""
+    if not (kind.hourglass_control and is_enhanced(section)):
+        return 0
+    return OF_FIRST_TANGENT if _of_tangent(kind, section) else OF_MATERIAL
+
+
+def _of_tangent(kind: ContinuumType, section: SolidSection) -> bool:
+    """Whether only the tangent of UMAT tells the moduli, and it is all of the element's stiffness."""
+    return section.material.user is not None and not pressure_unknowns(kind, section.material)
+
+
+def warn_of_enhanced(
+    model: Model, group: ElementGroup, kind: ContinuumType, library: Library, tangent: str = ""
+) -> None:
+    """Say, once per section, what the enhanced hourglass control is based on; tangent: what its moduli are from."""
+    section = group.section
+    assert isinstance(section, SolidSection | CompositeSection)
+    if not (is_enhanced(section) and kind.hourglass_control):
+        return
+    if group is next(other for other in model.groups if other.section is section):
+        message = "*SECTION CONTROLS, HOURGLASS=ENHANCED: the published method that Abaqus' manual names"
+        if tangent:
+            message += f", with the isotropic part of the first {tangent}"
+        known = "there are no results of Abaqus to compare with"
+        if isinstance(section, SolidSection) and section.material.hyperelastic is not None:
+            known = "the rule was chosen by one public job of Abaqus, whose deformation gradients it meets to 0.03"
+        library.warn(f"{section.source}: {message}; {known}")
+
+
+def _warn_of_unpublished(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> None:
+    """Say, once per type, what elements are here whose formulation in Abaqus is not published."""
+    if group is not next(other for other in model.groups if other.type == group.type):
+        return
+    if kind.modified:
+        plain = kind.name.replace("M", "")
+        same = "the interpolation, the pressure and the mass" if kind.pressures else "the interpolation and the mass"
+        difference = f"have {same} of {plain} here; that of Abaqus is not published, and differs on coarse meshes"
+    elif kind is HYBRID["C3D4H"]:
+        linear = "how Abaqus has a linear one is not published"
+        difference = f"have a constant pressure here, so that a mesh of them alone is too stiff; {linear}"
+    else:
+        return
+    library.warn(f"{group.source}: elements of type {kind.name} {difference}")
+
+
+def output_variables(section: SolidSection, points: int, library: Library) -> OutputVariables | None:
+    """UVARM of a material; None if the job has none: then only its variables are left out."""
+    material = section.material
+    if not material.output_variables or library.uvarm is None:
+        return None
+    axes, name = directions(section.orientation)
+    return OutputVariables(
+        library.uvarm, (material.name, name), axes, points, material.output_variables, material.plastic is not None
+    )
+
+
+def history_names(routine: Routine) -> tuple[str, ...]:
+    """Names of what the history of a point keeps for output."""
+    return *numbered("UVARM", routine.outputs), *numbered("SDV", routine.statev)
+
+
+def numbered(name: str, count: int) -> tuple[str, ...]:
+    """Names of so many variables, numbered from 1."""
+    return tuple(f"{name}{number}" for number in range(1, count + 1))

@@ -1,0 +1,315 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Properties and nodes of self-contained interface elements against the solids beside them.
+
+U4, U6, U8 and U12 have the elastic constants, the state of stress and the nodes of their solids a second time. Nothing
+in Abaqus compares the two: with moduli ten times too small, tractions are halved without a word. `uel run` knows both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.elements.interfaces.neighbour_plies import Ply, SolidFaces, plies_at
+from uel.elements.interfaces.neighbour_solids import (
+    NONE,
+    OBLIQUE,
+    Finding,
+    examine,
+    group_starts,
+    owns_solids,
+    solids_of,
+)
+from uel.elements.interfaces.process_zone import tensor_of
+from uel.elements.materials.library import global_compliance, rotated_compliance
+from uel.errors import DeckError
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.element_types import ContinuumType, Tensor
+from uel.model.mesh import ElementGroup, full_name
+from uel.model.model import Model
+from uel.model.properties import SolidSection, UserProperty
+from uel.usersub import Library
+from uel.usersub.layout import element_layouts
+
+TOLERANCE: Final = 0.01
+"""Relative difference of moduli, and difference of Poisson's ratios, above which they are not the same: more than the
+digits of a data sheet that two people keep."""
+
+_CONSTANTS: Final = ("E1", "E2", "E3", "NU12", "NU13", "NU23", "G12", "G13", "G23")
+_NEEDED: Final = {
+    Tensor.PLANE_STRESS: ("E1", "E2", "NU12", "G12"),
+    Tensor.PLANE_STRAIN: ("E1", "E2", "E3", "NU12", "NU13", "NU23", "G12"),
+    Tensor.SOLID: _CONSTANTS,
+}
+"""Constants that an element uses, by the state of stress."""
+_PLANES: Final = {Tensor.PLANE_STRESS: "plane stress", Tensor.PLANE_STRAIN: "plane strain"}
+_SIDES: Final = (("BOTTOM", "below"), ("TOP", "above"))
+
+
+def judge_neighbours(model: Model, library: Library) -> None:
+    """Refuse self-contained interface elements that are wrong beside their solids, and warn where they may be.
+
+    Raises DeckError, whose notes have the other reasons.
+    """
+    if not library.is_own:
+        return
+    findings = [*examine(model, model.groups), *compare(model, model.groups)]
+    wrong = [each for each in findings if each.wrong]
+    if wrong:
+        error = DeckError(wrong[0].source, wrong[0].message)
+        for each in wrong[1:]:
+            error.add_note(str(each))
+        raise error
+    for each in findings:
+        library.warn(str(each))
+
+
+def compare(model: Model, groups: Iterable[ElementGroup]) -> list[Finding]:
+    """Compare properties and nodes of interface elements with those of their solids.
+
+    Parameters
+    ----------
+    model
+        The model.
+    groups
+        Those of its groups that are elements of the project; others than U4, U6, U8 and U12 are left out.
+
+    Returns
+    -------
+    list of Finding
+        One of each kind for each group and side; empty where they agree.
+    """
+    found: list[Finding] = []
+    for group in groups:
+        if group.definition is None or not owns_solids(group.definition.number):
+            continue
+        if not isinstance(group.section, UserProperty):
+            continue
+        sides = solids_of(model, group).T
+        for side in (0, 1):
+            found += _strangers(model, group, side, np.flatnonzero(sides[side] == NONE))
+            for start, beside in zip(group_starts(model), model.groups, strict=True):
+                rows = np.flatnonzero((sides[side] >= start) & (sides[side] < start + len(beside.labels)))
+                if len(rows):
+                    found += _Pair(model, group, side, rows, beside, sides[side][rows] - start).differences()
+    return found
+
+
+def _given(group: ElementGroup) -> dict[str, float]:
+    """Properties by name; what the deck leaves out is 0."""
+    assert group.definition is not None and isinstance(group.section, UserProperty)
+    layout = element_layouts()[group.definition.number]
+    return {
+        item.name: float(values[item.position - 1]) if item.position <= len(values) else 0.0
+        for items, values in ((layout.reals, group.section.values), (layout.integers, group.section.integers))
+        for item in items
+    }
+
+
+def _named(model: Model, group: ElementGroup, row: int) -> str:
+    return f"{group.type} element {full_name(group.instance, int(group.labels[row]))}"
+
+
+def _labels(model: Model, nodes: IntArray) -> str:
+    return ", ".join(str(label) for label in model.mesh.labels[nodes])
+
+
+def _is_continuum(group: ElementGroup) -> bool:
+    if group.definition is None:
+        return isinstance(group.built_in, ContinuumType)
+    layout = element_layouts().get(group.definition.number)
+    return layout is not None and not layout.faces[0]
+
+
+def _strangers(model: Model, group: ElementGroup, side: int, rows: IntArray) -> Iterator[Finding]:
+    """Report the first element whose nodes on a side are not those of the solid there."""
+    solids = [beside for beside in model.groups if _is_continuum(beside)]
+    if not len(rows) or not solids:
+        return
+    assert group.definition is not None
+    row, half = int(rows[0]), group.nodes.shape[1] // 2
+    own = group.nodes[row, side * half : (side + 1) * half]
+    face = group.nodes[row, list(element_layouts()[group.definition.number].faces[side])]
+    word, where = _SIDES[side]
+    first = 1 + side * half
+    text = f"{_named(model, group, row)}: its nodes {first} to {first + half - 1} are {_labels(model, own)}"
+    shared = [np.isin(beside.nodes, face).sum(axis=1) for beside in solids]
+    for beside, common in zip(solids, shared, strict=True):
+        if (common == len(face)).any():
+            solid = int((common == len(face)).argmax())
+            other = f"{_named(model, beside, solid)} {where}, on its {word.lower()} face, has"
+            nodes = _labels(model, beside.nodes[solid])
+            yield Finding(f"{text}, but {other} {nodes}; expected the nodes of the solid", group.source, wrong=True)
+            return
+    # a face on no solid is that of a rigid body
+    if any(common.any() for common in shared):
+        yield Finding(f"{text}, but no solid has these nodes: the meshes do not fit", group.source, wrong=False)
+
+
+@dataclass(frozen=True, slots=True)
+class _Pair:
+    """Interface elements and the solids on one of their sides.
+
+    rows, solids  positions in their groups, pairwise
+    """
+
+    model: Model
+    group: ElementGroup
+    side: int
+    rows: IntArray
+    beside: ElementGroup
+    solids: IntArray
+
+    def differences(self) -> Iterator[Finding]:
+        """Report each kind of difference once."""
+        given, section = _given(self.group), self.beside.section
+        tensor = tensor_of(self.beside)
+        if tensor in _PLANES and _PLANES[tensor] != list(_PLANES.values())[int(given["PLANE"])]:
+            mine = list(_PLANES.values())[int(given["PLANE"])]
+            yield self._finding(0, f"PLANE = {given['PLANE']:g}, {mine}", f"is in {_PLANES[tensor]}")
+        thickness = section.thickness if isinstance(section, SolidSection) else None
+        if isinstance(section, UserProperty) and _is_continuum(self.beside):
+            thickness = _given(self.beside).get("THICKNESS")
+        if tensor in _PLANES and thickness and abs(given["THICKNESS"] - thickness) > TOLERANCE * thickness:
+            text = f"has a thickness of {thickness:g}"
+            yield self._finding(0, f"THICKNESS = {given['THICKNESS']:g}", text, wrong=False)
+        yield from self._moduli(given)
+
+    def _moduli(self, given: dict[str, float]) -> Iterator[Finding]:
+        """Compare elastic constants along the axes of the ply that an element has."""
+        tensor = tensor_of(self.beside)
+        if tensor is None:
+            return
+        axes = self._axes(np.radians(given[f"ANGLE {_SIDES[self.side][0]}"]))
+        assert self.group.definition is not None
+        layout = element_layouts()[self.group.definition.number]
+        corners = list(layout.faces[self.side][: 2 * layout.dimension - 2])
+        outward = axes[:, 2] * (1.0 if self.side == 0 else -1.0)
+        faces = SolidFaces(self.beside, self.solids, self.group.nodes[self.rows][:, corners], outward)
+        for ply in plies_at(self.model, faces, tensor):
+            part = replace(self, rows=self.rows[ply.rows], solids=self.solids[ply.rows])
+            if ply.why:
+                name = _named(self.model, self.group, int(part.rows[0]))
+                solid = part._solid(0)
+                message = f"{name}: its elastic constants are not compared with those of the {solid}: {ply.why}"
+                yield Finding(message, self.group.section.source, wrong=False)
+                continue
+            found = part._constants_of(ply, axes[ply.rows], given, tensor)
+            if found is not None:
+                yield found
+                return
+
+    def _constants_of(self, ply: Ply, axes: FloatArray, given: dict[str, float], solid: Tensor) -> Finding | None:
+        """Compare the constants of elements, whose axes are (m, 3, 3), with those of a ply beside each of them."""
+        material = ply.material
+        compliance = global_compliance(material, None, solid)
+        if compliance is None:
+            return None
+        turns = ply.axes @ np.swapaxes(axes, -1, -2)
+        # those of faces of one direction differ by rounding
+        _, one, numbers = np.unique(turns.round(6).reshape(-1, 9), axis=0, return_index=True, return_inverse=True)
+        numbers = numbers.ravel()
+        local = rotated_compliance(compliance, turns[one])
+        word = _SIDES[self.side][0]
+        angle = f"ANGLE {word} = {given[f'ANGLE {word}']:g}"
+        plane = (Tensor.PLANE_STRESS, Tensor.PLANE_STRAIN)[int(given.get("PLANE", 0.0))]
+        tensor = plane if "PLANE" in given else Tensor.SOLID
+        straight = _straightened(local, tensor)
+        constants, nearest = _constants(local), _constants(straight)
+        for name in _NEEDED[tensor]:
+            value, theirs = given[f"{name} {word}"], constants[name]
+            apart = abs(value - nearest[name]) > TOLERANCE * (1.0 if name.startswith("NU") else nearest[name])
+            if apart.any():
+                at = int(np.flatnonzero(apart[numbers])[0])
+                has = f"has {theirs[numbers[at]]:.6g} there (material {material.name})"
+                return self._finding(at, f"{name} {word} = {value:g} at {angle}", has)
+        turned = _is_turned(straight, tensor)
+        if turned.any():
+            at = int(np.flatnonzero(turned[numbers])[0])
+            return self._finding(at, angle, f"has its material ({material.name}) along other axes")
+        return None
+
+    def _axes(self, angle: float) -> FloatArray:
+        """Return the axes (m, 3, 3) of the plies of the elements, in rows."""
+        c, s = np.cos(angle), np.sin(angle)
+        turn = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+        assert self.group.definition is not None
+        layout = element_layouts()[self.group.definition.number]
+        if layout.dimension == 2:
+            return np.broadcast_to(turn, (len(self.rows), 3, 3))
+        corners = [self.group.nodes[self.rows][:, np.array(face[:4])] for face in layout.faces]
+        middle = self.model.mesh.coordinates[corners[0]] + self.model.mesh.coordinates[corners[1]]
+        along = middle[:, 1] + middle[:, 2] - middle[:, 0] - middle[:, 3]
+        normal = _unit(np.cross(along, middle[:, 2] + middle[:, 3] - middle[:, 0] - middle[:, 1]))
+        # Abaqus' local directions: the projection of x, or of z where x is within 0.1 degrees of the normal
+        steep = abs(normal[:, 0]) > np.cos(np.radians(0.1))
+        beside = np.where(steep[:, None], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0])
+        first = _unit(beside - (beside * normal).sum(axis=1)[:, None] * normal)
+        return np.asarray(turn @ np.stack([first, np.cross(normal, first), normal], axis=1))
+
+    def _finding(self, at: int, mine: str, theirs: str, *, wrong: bool = True) -> Finding:
+        name = _named(self.model, self.group, int(self.rows[at]))
+        message = f"{name}: {mine}, but the {self._solid(at)} {theirs}"
+        return Finding(message, self.group.section.source, wrong)
+
+    def _solid(self, at: int) -> str:
+        """Name, side and place of a solid."""
+        name, where = _named(self.model, self.beside, int(self.solids[at])), _SIDES[self.side][1]
+        return f"{name} {where} ({self.beside.section.source})"
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    length = np.linalg.norm(vectors, axis=1)
+    return np.asarray(vectors / np.where(length > 0.0, length, 1.0)[:, None])
+
+
+def _straightened(compliance: FloatArray, tensor: Tensor) -> FloatArray:
+    """Turn (k, 6, 6) compliances by at most OBLIQUE degrees so that they couple extension and shear the least."""
+    about = np.eye(3) if tensor is Tensor.SOLID else np.eye(3)[2:]
+    angle = np.radians(OBLIQUE)
+    more, less = (rotated_compliance(compliance[:, None], _rotation(sign * angle * about)) for sign in (1.0, -1.0))
+    # couplings by a turn about each axis (k, axes, couplings), and those that there are (k, couplings)
+    change = _couplings(0.5 * (more - less), compliance[:, None], tensor)
+    there = _couplings(compliance, compliance, tensor)
+    size = (change**2).sum(axis=-1)
+    # a turn that changes nothing is none
+    share = -np.einsum("kac,kc->ka", change, there) / np.where(size > 0.0, size, 1.0)
+    share /= np.maximum(np.linalg.norm(share, axis=-1, keepdims=True), 1.0)
+    return rotated_compliance(compliance, _rotation(angle * share @ about))
+
+
+def _rotation(vectors: FloatArray) -> FloatArray:
+    """Return the (..., 3, 3) rotations of small rotation vectors (..., 3)."""
+    half = 0.5 * np.cross(np.eye(3), vectors[..., None, :])
+    return np.asarray(np.linalg.solve(np.eye(3) - half, np.eye(3) + half))
+
+
+def _couplings(compliance: FloatArray, of: FloatArray, tensor: Tensor) -> FloatArray:
+    """Return the (..., c) couplings of extension and shear, and of shears, in proportion to the diagonal of others."""
+    count = 6 if tensor is Tensor.SOLID else 4
+    size = np.sqrt(np.einsum("...ii->...i", of))
+    rows, columns = np.triu_indices(count, 1)
+    shear = columns > 2
+    rows, columns = rows[shear], columns[shear]
+    return np.asarray(compliance[..., rows, columns] / (size[..., rows] * size[..., columns]))
+
+
+def _is_turned(compliance: FloatArray, tensor: Tensor) -> NDArray[np.bool_]:
+    """Whether (k, 6, 6) compliances couple extension with shear, or one shear with another."""
+    return np.asarray((abs(_couplings(compliance, compliance, tensor)) > TOLERANCE).any(axis=-1))
+
+
+def _constants(compliance: FloatArray) -> dict[str, FloatArray]:
+    """Engineering constants (k,) by name from compliances (k, 6, 6)."""
+    first, second, third = (compliance[:, i, i] for i in range(3))
+    values = (
+        *(1.0 / first, 1.0 / second, 1.0 / third),
+        *(-compliance[:, 0, 1] / first, -compliance[:, 0, 2] / first, -compliance[:, 1, 2] / second),
+        *(1.0 / compliance[:, i, i] for i in (3, 4, 5)),
+    )
+    return dict(zip(_CONSTANTS, values, strict=True))

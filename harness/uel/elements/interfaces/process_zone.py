@@ -1,0 +1,308 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Interface elements that are too long for the process zone: a warning when the first one fails.
+
+The length of the zone, in each pure mode the smaller of that in a large body and that between slender arms,
+
+    l_I  = m min(E_n G_Ic/s^2, (E_t G_Ic/s^2)^(1/4) h^(3/4)),
+    l_II = m min(sqrt(E_n E_t) G_IIc/t^2, sqrt(E_t G_IIc/t^2 h)),    m = 1/2,
+
+with the moduli of the plies across (E_n) and along the interface (E_t), strengths s and t, and the height h of the
+thinner arm: Q. Yang and B. Cox, "Cohesive models for damage evolution in laminated composites", International Journal
+of Fracture 133 (2005) 107-137, and P. W. Harper and S. R. Hallett, "Cohesive zone length in numerical simulations of
+composite delamination", Engineering Fracture Mechanics 75 (2008) 4774-4792, who give m and ask for three elements. E_n
+is the modulus of A. Turon and others, Engineering Fracture Mechanics 74 (2007) 1665-1682; that the moduli of the modes
+have the ratio sqrt(E_t/E_n) follows from G. C. Sih, P. C. Paris and G. R. Irwin, International Journal of Fracture
+Mechanics 1 (1965) 189-203. In mixed mode, 1/l is the mean of 1/l_I and 1/l_II with the energies that the failing point
+has dissipated as weights, which has these limits; there is no formula of the literature for it.
+
+The project's elements with solids of their own know the moduli, and send the message themselves where the zone in a
+large body is too short (fortran/elements/process_zone.f90); the arms are left to the warning from here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.elements.build import TENSORS
+from uel.elements.materials.library import global_compliance
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.element_types import CohesiveType, ContinuumType, Tensor
+from uel.model.mesh import ElementGroup
+from uel.model.model import Model
+from uel.model.properties import CohesiveSection, ElasticType, SolidSection, UserProperty
+from uel.model.records import IncrementDone
+from uel.usersub import Library
+from uel.usersub.layout import element_layouts
+
+FACTOR: Final = 0.5
+"""m of Harper and Hallett."""
+ELEMENTS: Final = 3
+"""That the zone has to hold."""
+FAILED: Final = 0.5
+"""Part of the fracture energy from which on a point counts as failing: any law gives a bonded point less."""
+_FLAT: Final = 0.999
+"""Length of the mean of unit normals above which an interface counts as flat: within 3 degrees or so."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Law:
+    """Strengths and fracture energies of modes I and II; whether the elements say themselves that they are too long."""
+
+    strengths: tuple[float, float]
+    energies: tuple[float, float]
+    tells: bool = False
+
+    @property
+    def valid(self) -> bool:
+        """Whether all are positive; elsewhere the elements themselves say what is wrong."""
+        return min(*self.strengths, *self.energies) > 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class _Long:
+    """Elements of a group that are too long in one mode at least.
+
+    rows, lengths, zones  (k,) in the group, (k,) and of both modes (2, k)
+    large                 zones in a large body (2, k)
+    law                   of the group
+    """
+
+    rows: IntArray
+    lengths: FloatArray
+    zones: FloatArray
+    large: FloatArray
+    law: _Law
+
+    def without(self, some: NDArray[np.bool_]) -> _Long:
+        """All but some (k,) of them."""
+        kept = ~some
+        return _Long(self.rows[kept], self.lengths[kept], self.zones[:, kept], self.large[:, kept], self.law)
+
+
+class LongElements:
+    """Watches the interface elements that are longer than a third of the process zone.
+
+    Parameters
+    ----------
+    model, library
+        The deck and the user routines; without the project's own interface elements, and cohesive ones, and without an
+        elastic material beside them, nothing is watched.
+
+    Attributes
+    ----------
+    unsaid
+        What elements begin to say themselves in the next increment: if the job ends before it, nobody has said it.
+    """
+
+    def __init__(self, model: Model, library: Library) -> None:
+        self._model = model
+        self._watched: dict[int, _Long] = {}
+        self.unsaid: list[str] = []
+        plies: _Plies | None = None
+        for index, group in enumerate(model.groups):
+            law, faces = _law(group, library), _faces(group, library)
+            if law is None or faces is None or not law.valid:
+                continue
+            plies = plies or _Plies(model)
+            long = _long_elements(model, group, law, faces, plies)
+            if len(long.rows):
+                self._watched[index] = long
+
+    def warnings(self, record: IncrementDone) -> list[str]:
+        """What has to be said after an increment: once for each group, when the first of its long elements fails.
+
+        Nothing of a group whose elements say it themselves.
+        """
+        found: list[str] = []
+        self.unsaid = []
+        for index, long in list(self._watched.items()):
+            state = record.solution.elements[index]
+            assert state.variables is not None  # of elements that we know
+            names, points = state.variables.names, state.variables.points
+            # those of the element as a whole come after those of its points
+            values = state.svars[:, : points * len(names)].reshape(-1, points, len(names))[long.rows]
+            worst = values[:, :, names.index("DAMAGE")].argmax(axis=1)
+            values = values[np.arange(len(worst)), worst]
+            first, *shear = (values[:, names.index(name)] for name in ("DISSI", "DISSII", "DISSIII") if name in names)
+            second = np.sum(shear, axis=0)
+            part = first / long.law.energies[0] + second / long.law.energies[1]
+            # where the toughness of the mode mix is below both others, half of their sum may be all of it
+            failed = (part > FAILED) | (values[:, names.index("DAMAGE")] >= 1.0)
+            if not failed.any():
+                continue
+            mix = np.clip(second / np.where(first + second > 0.0, first + second, 1.0), 0.0, 1.0)
+            mix = np.where(first + second > 0.0, mix, long.zones.argmin(axis=0))
+            zones, large = (1.0 / ((1.0 - mix) / modes[0] + mix / modes[1]) for modes in (long.zones, long.large))
+            short = np.flatnonzero(failed & (ELEMENTS * long.lengths > zones))
+            if len(short):
+                k = int(short[0])
+                del self._watched[index]
+                told = long.law.tells and (failed & (ELEMENTS * long.lengths > large)).any()
+                texts = self.unsaid if told else found
+                texts.append(_message(self._model.groups[index], long, k, float(zones[k]), float(mix[k])))
+            else:
+                self._watched[index] = long.without(failed)
+        return found
+
+
+def _message(group: ElementGroup, long: _Long, k: int, zone: float, mix: float) -> str:
+    return (
+        f"{group.section.source}: element {group.labels[long.rows[k]]} (type {group.type}) fails and is "
+        f"{long.lengths[k]:.3g} long, the process zone about {zone:.2g} ({mix:.0%} mode II): expected at least "
+        f"{ELEMENTS} elements in it; with fewer the load comes out too high"
+    )
+
+
+def _law(group: ElementGroup, library: Library) -> _Law | None:
+    """Strengths and fracture energies of a group of interface elements; None of other elements."""
+    section = group.section
+    if isinstance(section, CohesiveSection):
+        return _built_in_law(section)
+    if group.definition is None or not isinstance(section, UserProperty) or not library.is_own:
+        return None
+    layout = element_layouts().get(group.definition.number)
+    if layout is None or not layout.faces[0]:
+        return None
+    if len(section.values) < len(layout.reals) or group.definition.nodes < layout.nodes:
+        # the elements themselves say what is missing
+        return None
+    values = {item.name: float(section.values[item.position - 1]) for item in layout.reals}
+    return _Law((values["SIGMAMAX"], values["TAUMAX"]), (values["GIC"], values["GIIC"]), tells=bool(layout.own))
+
+
+def _built_in_law(section: CohesiveSection) -> _Law | None:
+    """Law of cohesive elements, where the fracture energies and the strengths are given."""
+    damage = section.material.damage
+    if damage is None or damage.evolution is None or damage.evolution.type != "ENERGY":
+        return None
+    if damage.criterion not in ("MAXS", "QUADS"):
+        return None
+    values = damage.evolution.values
+    second = values[1] if damage.evolution.mixed_mode else values[0]
+    return _Law((damage.onset[0], damage.onset[1]), (values[0], second))
+
+
+def _faces(group: ElementGroup, library: Library) -> tuple[IntArray, IntArray] | None:
+    """Local nodes of the corners of the bottom and the top face of interface elements."""
+    kind = group.built_in
+    if isinstance(kind, CohesiveType):
+        corners, faces = kind.face.corners, (kind.bottom, kind.top)
+    elif group.definition is not None and (known := library.variables(group.definition.number)) is not None:
+        corners, faces = (2 if len(known.bottom) < 4 else 4), (known.bottom, known.top)
+    else:
+        return None
+    bottom, top = (np.array(face[:corners]) for face in faces)
+    return bottom, top
+
+
+class _Plies:
+    """The elastic materials at the nodes of a model, in global axes."""
+
+    def __init__(self, model: Model) -> None:
+        count = len(model.mesh.coordinates)
+        self._compliances: list[FloatArray] = []
+        # the material of a node; the faces of an interface have nodes of their own, so that it is unique there
+        self._owner = np.full(count, -1)
+        for group in model.groups:
+            compliance = compliance_of(group)
+            if compliance is not None:
+                self._owner[group.nodes] = len(self._compliances)
+                self._compliances.append(compliance)
+        self.nodes = np.flatnonzero(self._owner >= 0)
+
+    def modulus(self, nodes: IntArray, directions: FloatArray) -> FloatArray:
+        """Young's modulus at nodes (m,) along unit vectors (m, 3); infinite where no material is known."""
+        x, y, z = directions.T
+        stress = np.column_stack([x * x, y * y, z * z, x * y, x * z, y * z])
+        found = np.full(len(nodes), np.inf)
+        for number, compliance in enumerate(self._compliances):
+            here = self._owner[nodes] == number
+            strain = np.einsum("mi,ij,mj->m", stress[here], compliance, stress[here])
+            # a face without length has no direction
+            found[here] = np.divide(1.0, strain, out=np.full(len(strain), np.inf), where=strain > 0.0)
+        return found
+
+
+def tensor_of(group: ElementGroup) -> Tensor | None:
+    """Return the state of stress of continuum elements, built in or with UELMAT; None of others."""
+    if group.definition is not None:
+        return TENSORS.get(group.definition.tensor.upper())
+    return group.built_in.tensor if isinstance(group.built_in, ContinuumType) else None
+
+
+def compliance_of(group: ElementGroup) -> FloatArray | None:
+    """Compliance (6, 6) of continuum elements; None where it is not known, or differs from point to point."""
+    section, tensor = group.section, tensor_of(group)
+    if not isinstance(section, SolidSection | UserProperty):
+        return None
+    # in space UELMAT may have directions of its own, as the project's brick has in each element
+    turns = isinstance(section, UserProperty) and tensor is Tensor.SOLID
+    material, orientation = section.material, section.orientation
+    if material is None or tensor is None:
+        return None
+    if turns or (orientation is not None and orientation.system is not None):
+        if material.elastic is None or material.elastic.type is not ElasticType.ISOTROPIC:
+            return None
+        orientation = None
+    return global_compliance(material, orientation, tensor)
+
+
+def _long_elements(
+    model: Model, group: ElementGroup, law: _Law, faces: tuple[IntArray, IntArray], plies: _Plies
+) -> _Long:
+    place, nodes = model.mesh.coordinates, [group.nodes[:, face] for face in faces]
+    middle = 0.5 * (place[nodes[0]] + place[nodes[1]])
+    # the crack may go any way: the shortest edge is what a mesh is refined to
+    edges = np.roll(middle, -1, axis=1) - middle
+    lengths = np.linalg.norm(edges, axis=2)
+    shortest = lengths.argmin(axis=1)
+    rows = np.arange(len(group.labels))
+    along, length = edges[rows, shortest], lengths[rows, shortest]
+    along, normal = _unit(along), _normals(middle)
+    sides = [side[:, 0] for side in nodes]
+    across, axial = (np.minimum(*(plies.modulus(side, direction) for side in sides)) for direction in (normal, along))
+    height = _arm_height(place[plies.nodes], middle.reshape(-1, 3), normal)
+    zones, large = _zones(law, across, axial, height), _zones(law, across, axial, np.inf)
+    zone = zones.min(axis=0)
+    found = np.flatnonzero(np.isfinite(zone) & (ELEMENTS * length > zone))
+    return _Long(found, length[found], zones[:, found], large[:, found], law)
+
+
+def _normals(middle: FloatArray) -> FloatArray:
+    """Unit normals (m, 3) of faces whose corners are `middle` (m, corners, 3)."""
+    if middle.shape[1] == 2:
+        x, y, _ = (middle[:, 1] - middle[:, 0]).T
+        normal = np.column_stack([-y, x, np.zeros(len(x))])
+    else:
+        # the diagonals of a quadrilateral, two edges of a triangle
+        normal = np.cross(middle[:, 2] - middle[:, 0], middle[:, -1] - middle[:, 1])
+    return _unit(normal)
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    """Vectors (m, 3) at length 1; those of length 0 stay zero."""
+    length = np.linalg.norm(vectors, axis=1)
+    return np.asarray(vectors / np.where(length > 0.0, length, 1.0)[:, None])
+
+
+def _arm_height(inside: FloatArray, middle: FloatArray, normal: FloatArray) -> float:
+    """Height of the thinner body beside a flat interface; infinite beside one that is not flat, or at an edge."""
+    mean = normal.mean(axis=0)
+    if not len(inside) or not np.linalg.norm(mean) > _FLAT:
+        return np.inf
+    heights, level = inside @ mean, float(np.mean(middle @ mean))
+    height = min(float(heights.max()) - level, level - float(heights.min()))
+    return height if height > 0.0 else np.inf
+
+
+def _zones(law: _Law, across: FloatArray, axial: FloatArray, height: float) -> FloatArray:
+    """Lengths of the process zones of modes I and II (2, m)."""
+    first, second = (energy / strength**2 for energy, strength in zip(law.energies, law.strengths, strict=True))
+    mode_1 = np.minimum(across * first, (axial * first) ** 0.25 * height**0.75)
+    mode_2 = np.minimum(np.sqrt(across * axial) * second, np.sqrt(axial * second * height))
+    return FACTOR * np.array([mode_1, mode_2])

@@ -1,0 +1,182 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""`uel fit`: run a deck with changing parameters until its curve is the measured one."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from uel.batch.command import batch
+from uel.batch.runs import Settings
+from uel.errors import UelError, UsageError, tell
+from uel.fit.curve import Measurement, read_measurement
+from uel.fit.estimate import LEVEL, Fit, fit_curve
+from uel.fit.variables import Variable, prepare_deck, read_variable
+from uel.model.arrays import FloatArray
+from uel.output import Result
+
+RUNS = "runs"
+"""Folder of the runs in that of the fit, as `uel batch` fills it."""
+
+
+def fit(
+    deck: Path,
+    curve: Path,
+    words: Sequence[str],
+    folder: Path,
+    settings: Settings,
+    *,
+    limit: int,
+    x: str | None = None,
+    y: str | None = None,
+    workers: int | None = None,
+    quiet: bool = False,
+) -> Fit:
+    """Run the command.
+
+    Parameters
+    ----------
+    deck, curve
+        The deck, and the CSV file of the measured curve.
+    words
+        Variables, such as GIC=0.1:0.5.
+    folder
+        Gets the runs, NAME_fit.csv, NAME_fit_curve.csv and NAME_fit.png.
+    settings
+        How the runs are made.
+    limit
+        Largest number of runs.
+    x, y
+        Columns of the history that the curve's are, by default what the file says.
+    workers
+        Runs at a time; one for each core by default.
+    quiet
+        Only errors are printed.
+
+    Raises
+    ------
+    UelError
+        UsageError and DeckError for what is wrong with the words, the curve or the deck; UelError for a run that cannot
+        be compared.
+    Interrupted
+        By a signal; the same command continues.
+    """
+    variables = [read_variable(word) for word in words]
+    twice = {v.name for v in variables if sum(v.name.lower() == w.name.lower() for w in variables) > 1}
+    if twice:
+        raise UsageError(f"{', '.join(sorted(twice))}: given more than once")
+    measured = read_measurement(curve, x, y)
+    runs = _Runs(prepare_deck(deck, variables, folder), variables, measured, folder, settings, workers)
+    say = (lambda _: None) if quiet else tell
+    found = fit_curve(measured, variables, runs.curves, limit=limit, tell=say)
+    stem = folder / f"{deck.stem}_fit"
+    _write(stem, variables, measured, found)
+    _draw(stem.with_suffix(".png"), variables, measured, found)
+    for line in _summary(variables, found, runs.count):
+        say(line)
+    say(f"{stem}.csv, {stem}_curve.csv, {stem}.png")
+    return found
+
+
+class _Runs:
+    """Makes the runs of a fit, all of which are rows of one batch: what has run before is not repeated."""
+
+    def __init__(
+        self,
+        deck: Path,
+        variables: Sequence[Variable],
+        measured: Measurement,
+        folder: Path,
+        settings: Settings,
+        workers: int | None,
+    ) -> None:
+        self._deck, self._variables, self._measured = deck, variables, measured
+        self._folder, self._settings, self._workers = folder / RUNS, settings, workers
+        self._rows: list[list[str]] = []
+
+    @property
+    def count(self) -> int:
+        """Runs so far."""
+        return len(self._rows)
+
+    def curves(self, points: Sequence[FloatArray]) -> list[FloatArray]:
+        """Curves of runs with these values, at the places of the measured one."""
+        first = len(self._rows)
+        self._rows += [[f"fit-{first + k:03d}", *map(repr, map(float, p))] for k, p in enumerate(points, 1)]
+        self._folder.mkdir(parents=True, exist_ok=True)
+        table = self._folder / "values.csv"
+        with table.open("w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerows([["job", *(variable.name for variable in self._variables)], *self._rows])
+        batch([self._deck], self._folder, self._settings, table=table, workers=self._workers, quiet=True)
+        return [self._curve(row) for row in self._rows[first:]]
+
+    def _curve(self, row: Sequence[str]) -> FloatArray:
+        job = row[0]
+        named = ", ".join(f"{v.name} = {float(text):.6g}" for v, text in zip(self._variables, row[1:], strict=True))
+        try:
+            return self._measured.of_run(Result(self._folder / job / job).history, f"{job} ({named})")
+        except UelError as error:
+            helps = "narrower bounds" if "--fallback" in self._settings.options else "narrower bounds or --fallback"
+            error.add_note(f"what it printed is in {self._folder / job / job}.log; {helps} may help")
+            raise
+
+
+def _summary(variables: Sequence[Variable], found: Fit, runs: int) -> list[str]:
+    lines = [f"{found.ended} after {runs} runs; standard deviation from the measured curve {found.deviation:.4g}"]
+    for k, variable in enumerate(variables):
+        low, high = found.intervals[k]
+        value, largest = found.values[k], float(np.abs(found.sensitivity[:, k]).max())
+        bound = next((f", at its bound {b:g}" for b in (variable.low, variable.high) if np.isclose(value, b, 1e-3)), "")
+        lines.append(
+            f"{variable.name} = {value:.5g}{bound}, {LEVEL:.0%} between {low:.5g} and {high:.5g}; 1 % more of it moves "
+            f"the curve by up to {0.01 * largest:.3g}"
+        )
+    for i in range(len(variables)):
+        for k in range(i):
+            if abs(found.correlation[i, k]) > 0.9:
+                lines.append(
+                    f"{variables[k].name} and {variables[i].name} cannot be told apart by this curve: correlation "
+                    f"{found.correlation[i, k]:.2f}"
+                )
+    return lines
+
+
+def _write(stem: Path, variables: Sequence[Variable], measured: Measurement, found: Fit) -> None:
+    """NAME_fit.csv with the variables, NAME_fit_curve.csv with the curves and their derivatives."""
+    names = [variable.name for variable in variables]
+    head = ["name", "value", "lower", "upper", "start", "low", "high", *(f"correlation {name}" for name in names)]
+    rows = [
+        [v.name, found.values[k], *found.intervals[k], v.start, v.low, v.high, *found.correlation[k]]
+        for k, v in enumerate(variables)
+    ]
+    _write_table(Path(f"{stem}.csv"), head, rows)
+    x, y = map(str, measured.columns)
+    head = [x, f"measured {y}", f"fitted {y}", f"start {y}", *(f"{name} d/d{name}" for name in names)]
+    columns = [measured.x, measured.y, found.curve, found.start, *found.sensitivity.T]
+    _write_table(Path(f"{stem}_curve.csv"), head, np.column_stack(columns).tolist())
+
+
+def _write_table(path: Path, head: Sequence[str], rows: Sequence[Sequence[object]]) -> None:
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(head)
+        writer.writerows([[f"{c:.9g}" if isinstance(c, float) else c for c in row] for row in rows])
+
+
+def _draw(path: Path, variables: Sequence[Variable], measured: Measurement, found: Fit) -> None:
+    """The curves, and how they depend on the variables."""
+    from uel.output.pictures.plots import Curve, Panel, grid  # noqa: PLC0415 (the runs come first)
+
+    x, y = map(str, measured.columns)
+    curves = [
+        Curve("measured", measured.x, measured.y, "points"),
+        Curve("start", measured.x, found.start, "reference"),
+        Curve("fitted", measured.x, found.curve),
+    ]
+    depends = [Curve(f"1 % more {v.name}", measured.x, 0.01 * found.sensitivity[:, k]) for k, v in enumerate(variables)]
+    grid([[Panel("", curves, x, y), Panel("", depends, x, f"change of {y}")]], path)

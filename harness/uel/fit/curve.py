@@ -1,0 +1,99 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The measured curve, and the curve of a run at the same places."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from uel.batch.table import read_cells
+from uel.errors import DeckError, Source, UelError
+from uel.model.arrays import FloatArray
+from uel.output.pictures.column import Column, read_column
+
+
+@dataclass(frozen=True, slots=True)
+class Measurement:
+    """A measured curve.
+
+    x, y     values (n,), x rising
+    columns  what they are in the history of a run
+    """
+
+    x: FloatArray
+    y: FloatArray
+    columns: tuple[Column, Column]
+
+    def of_run(self, history: Mapping[str, FloatArray], job: str) -> FloatArray:
+        """Values of a run (n,) at the places x, from a start at (0, 0) on.
+
+        Raises
+        ------
+        UelError
+            The run has not the columns, does not reach the last place, or its x does not rise.
+        """
+        x, y = (np.concatenate([[0.0], column.find(history, job)]) for column in self.columns)
+        # what comes after the last place does not count
+        stop = 1 + int(np.argmax(x >= self.x[-1])) if x.max() >= self.x[-1] else len(x)
+        x, y = x[:stop], y[:stop]
+        if not np.all(np.diff(x) > 0.0):
+            raise UelError(
+                f"{job}: {self.columns[0]} does not rise from increment to increment: expected a column that does, "
+                "such as time"
+            )
+        # the end of a step is rounded
+        if x[-1] < self.x[-1] - 1e-6 * abs(self.x[-1]):
+            raise UelError(
+                f"{job}: the run ends at {self.columns[0]} = {x[-1]:.6g}, the measured curve at {self.x[-1]:.6g}"
+            )
+        return np.asarray(np.interp(self.x, x, y))
+
+
+def read_measurement(path: Path, x: str | None, y: str | None) -> Measurement:
+    """Measured curve from a CSV file: a line of two names, then lines of two numbers.
+
+    Parameters
+    ----------
+    path
+        The file.
+    x, y
+        What its columns are in the history of a run; None: what their names in the file say.
+
+    Raises
+    ------
+    UsageError
+        The file cannot be read, or a column has no such name.
+    DeckError
+        With file:line where a line is not as expected, or x does not rise.
+    """
+    rows: list[list[float]] = []
+    names: list[str] = []
+    for source, words in read_cells(path, str(path)):
+        if len(words) != 2:
+            raise DeckError(source, f"expected two columns, found {len(words)}")
+        if not names:
+            names = words
+        else:
+            rows.append(_numbers(source, words))
+            if len(rows) > 1 and not rows[-1][0] > rows[-2][0]:
+                raise DeckError(source, f"{names[0]} has to rise: {rows[-1][0]:g} after {rows[-2][0]:g}")
+    if len(rows) < 3:
+        raise DeckError(Source(str(path), 1), f"expected a line of two names and at least 3 points, found {len(rows)}")
+    values = np.array(rows)
+    columns = read_column(x or names[0]), read_column(y or names[1])
+    return Measurement(values[:, 0], values[:, 1], columns)
+
+
+def _numbers(source: Source, words: list[str]) -> list[float]:
+    try:
+        found = [float(word) for word in words]
+    except ValueError:
+        raise DeckError(source, f"expected two numbers, found '{', '.join(words)}'") from None
+    if not all(map(math.isfinite, found)):
+        raise DeckError(source, f"expected finite numbers, found '{', '.join(words)}'")
+    return found

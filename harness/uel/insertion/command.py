@@ -1,0 +1,385 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""`uel insert`: from a deck or a mesh to a deck with interface elements."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.delamination.keywords import element_block, keyword
+from uel.errors import DeckError, UsageError
+from uel.insertion.assembly import Deck, Run
+from uel.insertion.connectivity import (
+    InterfaceType,
+    attached,
+    beside,
+    element_nodes,
+    face_nodes,
+    face_normals,
+    fitting,
+    interface_types,
+    known_types,
+)
+from uel.insertion.meshes import is_mesh, read_mesh
+from uel.insertion.neighbours import check_neighbours
+from uel.insertion.properties import (
+    check_values,
+    definition_lines,
+    element_values,
+    material_lines,
+    property_lines,
+    read_values,
+)
+from uel.insertion.rewriting import Rewriting, quoted
+from uel.insertion.sections import Faces, Sections
+from uel.insertion.selection import Selection, Wanted, select
+from uel.insertion.topology import NONE, Cells, Cut, cut
+from uel.model.arrays import IntArray
+from uel.model.element_types import BUILT_IN, DISCRETE, FAMILIES, ContinuumType, Family
+
+Items = tuple[tuple[str, float], ...]
+"""Properties of an element by name."""
+
+
+@dataclass(frozen=True, slots=True)
+class Insertion:
+    """What is inserted.
+
+    kind        type of the elements, '' without any
+    elements    number of elements
+    doubled     number of new nodes
+    crack       number of faces of the initial crack
+    whole       faces that were left as they are, for none of their nodes is doubled
+    warnings    what is odd but understood
+    plies       between which plies is cut, and how many faces there
+    """
+
+    kind: str
+    elements: int
+    doubled: int
+    crack: int
+    whole: int
+    warnings: tuple[str, ...]
+    plies: tuple[tuple[str, str, int], ...] = ()
+
+    def lines(self, elset: str) -> list[str]:
+        """What to tell the user."""
+        lines = [f"warning: {warning}" for warning in self.warnings]
+        lines += [
+            f"--plies: cut between {lower} and {upper}: {count} face{'s' * (count != 1)}"
+            for lower, upper, count in self.plies
+        ]
+        if self.whole:
+            lines.append(
+                f"warning: {self.whole} faces get no element: the mesh around them holds all their nodes together"
+            )
+        if self.kind and not known_types()[self.kind].here:
+            lines.append(f"warning: {self.kind} runs in Abaqus, not here")
+        made = f"{self.elements} elements {self.kind} in {elset}" if self.elements else "no elements"
+        crack = f", {self.crack} faces of an initial crack" if self.crack else ""
+        return [*lines, f"{made}{crack}, {self.doubled} nodes doubled"]
+
+
+def insert(
+    files: Sequence[Path],
+    wanted: Wanted,
+    *,
+    element: str = "",
+    elset: str = "INTERFACE",
+    solids: Sequence[str] = (),
+    values: Sequence[str] = (),
+) -> tuple[str, Insertion]:
+    """Text of a deck with interface elements.
+
+    Parameters
+    ----------
+    files
+        A deck; or a mesh, which may be followed by a deck with what belongs to it.
+    wanted
+        Where the elements are.
+    element
+        Their type; '' for the recommended one that fits.
+    elset
+        Element set that takes them.
+    solids
+        Continuum elements that cells of a mesh become.
+    values
+        Their properties, NAME=VALUE.
+
+    Raises
+    ------
+    UelError
+        With the option, or the place in the deck.
+    """
+    given = read_values(values)
+    deck = _read(files, solids)
+    selection = select(deck, wanted)
+    if not selection.cuts.any():
+        raise UsageError("say where: --between, --surface, --nodes, --plies or --all")
+    pieces = cut(deck.solids, selection.cuts)
+    chosen, whole = _with_elements(deck, selection, pieces)
+    if not len(chosen) and not selection.crack.any():
+        raise UsageError("no face gets an element: nothing there can open")
+    kind = _kind(deck, chosen, element) if len(chosen) else None
+    properties: dict[Items, IntArray] = {}
+    warnings: list[str] = []
+    if kind is not None:
+        check_values(kind, given)
+        sections, sides = Sections(deck), _two_sides(deck, chosen)
+        warnings += check_neighbours(deck, sections, kind, chosen)
+        properties = _values(kind, sections, sides, given)
+        warnings += sections.warnings
+    if wanted.plies is not None and not wanted.plies:
+        warnings += _meeting(deck, selection)
+    rewriting = Rewriting(deck, pieces)
+    rewriting.write_nodes()
+    rewriting.write_elements(_changed(deck, pieces, warnings))
+    rewriting.write_sets()
+    rewriting.write_nodal_lines()
+    rewriting.write_equations()
+    if kind is not None:
+        _write_interface(deck, rewriting, pieces, kind, chosen, elset, properties)
+    done = Insertion(
+        kind.name if kind is not None else "",
+        len(chosen),
+        len(pieces.origins),
+        int(np.sum(selection.crack)),
+        whole,
+        (*deck.warnings, *warnings, *_ties(deck, pieces)),
+        tuple(selection.plies),
+    )
+    return rewriting.text(), done
+
+
+def _read(files: Sequence[Path], solids: Sequence[str]) -> Deck:
+    meshes = [file for file in files if is_mesh(file)]
+    if len(files) > 2 or meshes[1:] or (len(files) == 2 and meshes != [files[0]]):
+        raise UsageError("expected one deck, one mesh, or a mesh and then a deck with what belongs to it")
+    if solids and not meshes:
+        raise UsageError("--solids is for meshes: a deck says what its elements are")
+    return Deck(files, {file: read_mesh(file, solids) for file in meshes})
+
+
+def _meeting(deck: Deck, selection: Selection) -> list[str]:
+    """Warning that cuts between sections meet, as where the section of a ply changes along it."""
+    faces = np.flatnonzero(selection.meets)
+    if not len(faces):
+        return []
+    first, second = (deck.name(int(deck.solids.element[face])) for face in deck.solids.pairs[faces[0]])
+    return [
+        f"--plies: cuts between sections meet at {len(faces)} faces, the first between elements {first} and {second}: "
+        "where the section of a ply changes along it, the ply is cut across; name the element sets of whole plies to "
+        "cut between them alone (--plies PLY1 PLY2 ...)"
+    ]
+
+
+def _with_elements(deck: Deck, selection: Selection, pieces: Cut) -> tuple[IntArray, int]:
+    """Faces below and above, (faces, 2), that get elements; and how many get none, for they cannot open."""
+    pairs = deck.solids.pairs
+    order = np.stack([selection.below, 1 - selection.below], axis=1)
+    sides = np.take_along_axis(pairs, order, axis=1)[selection.cuts & ~selection.crack]
+    doubled = np.zeros(len(deck.solids.points) + 1, dtype=bool)
+    doubled[pieces.origins] = True
+    opens = doubled[deck.solids.nodes[sides[:, 0]]].any(axis=1)
+    return sides[opens], int(np.sum(~opens))
+
+
+def _kind(deck: Deck, sides: IntArray, name: str) -> InterfaceType:
+    """The type of the elements: the one asked for, or the recommended one; DeckError where it does not fit."""
+    known = interface_types()
+    if name and name.upper() not in known:
+        reason = ""
+        if name.upper() in known_types():
+            reason = f": {name.upper()} knows its neighbours by their numbers, which no mesh promises"
+        raise UsageError(f"--element {name}: expected one of {', '.join(known)}{reason}")
+    solids = deck.solids
+    faces = _face_families(deck, sides[:, 0])
+    numbers = solids.element[sides]
+    families = {family.number: family for family in FAMILIES.values()}
+    for number in numbers.ravel()[np.unique(deck.run_index[numbers], return_index=True)[1]].tolist():
+        kind = BUILT_IN.get(deck.run_of(number)[0].run.type.name)
+        if isinstance(kind, ContinuumType) and kind.axisymmetric:
+            raise deck.error(number, "is axisymmetric, and no interface element here is")
+    around = {families[int(number)] for number in np.unique(solids.families[numbers])}
+    fits = fitting(set(faces), around)
+    if not name and fits:
+        return fits[0]
+    if not name:
+        odd = next((k for k, face in enumerate(faces) if face is not faces[0]), 0)
+        first = f", and not those of element {deck.name(int(numbers[0, 0]))}" if odd else ""
+        raise deck.error(
+            int(numbers[odd, 0]),
+            f"no interface element fits between its faces of {faces[odd].nodes} nodes{first}; the types are "
+            + ", ".join(f"{kind.name} ({kind.face.nodes} nodes)" for kind in known.values()),
+        )
+    chosen = known[name.upper()]
+    for k, face in enumerate(faces):
+        if face is not chosen.face:
+            message = f"has a face of {face.nodes} nodes there; {chosen.name} fits between faces of {chosen.face.nodes}"
+            raise deck.error(int(numbers[k, 0]), message)
+    if chosen.solid is not None and around != {chosen.solid}:
+        odd = int(np.argmax(solids.families[numbers].ravel() != chosen.solid.number))
+        message = f"{chosen.name} owns the solids on both sides, which need {chosen.solid.nodes} nodes"
+        raise deck.error(int(numbers.ravel()[odd]), message)
+    return chosen
+
+
+def _face_families(deck: Deck, faces: IntArray) -> list[Family]:
+    """Family of each face."""
+    solids = deck.solids
+    flat = solids.cells[0].family.dimension - 1
+    sizes = solids.sizes[faces]
+    by_size = {size: FAMILIES[flat, size] for size in np.unique(sizes).tolist()}
+    return [by_size[size] for size in sizes.tolist()]
+
+
+def _changed(deck: Deck, pieces: Cut, warnings: list[str]) -> dict[int, IntArray]:
+    """New nodes of the elements that have doubles, by their place in the whole model; adds to the warnings."""
+    found: dict[int, IntArray] = {}
+    for before, after in zip(deck.solids.cells, pieces.cells, strict=True):
+        rows = np.flatnonzero(np.any(before.nodes != after.nodes, axis=1))
+        found |= dict(zip(deck.positions[before.numbers[rows]].tolist(), after.nodes[rows], strict=True))
+    doubled = np.zeros(len(deck.solids.points), dtype=bool)
+    doubled[pieces.origins] = True
+    cells = {group.family.number: group for group in pieces.cells}
+    for run in (run for run in deck.runs if run.run.type.name not in DISCRETE):
+        rows = np.flatnonzero(doubled[run.nodes].any(axis=1))
+        if np.any(run.run.nodes[rows] < 0):
+            row = int(rows[np.argmax(np.any(run.run.nodes[rows] < 0, axis=1))])
+            raise _unknown_element(run, row, "nodes of instances, in an element of the assembly, cannot be doubled")
+        if len(rows) and run.family is None:
+            kind = _interface_type(run)
+            if run.face is not None:
+                nodes, lost = _on_faces(deck, run, rows, cells, warnings)
+            elif kind is not None:
+                nodes, lost = attached(kind, deck.solids, run.nodes[rows], cells)
+            else:
+                nodes, lost = run.nodes[rows], np.ones(len(rows), dtype=bool)
+            if lost.any():
+                row = int(rows[np.argmax(lost)])
+                reason = "neither a solid of this program nor an interface element between two of them"
+                if run.face is not None:
+                    reason = "it lies on no face, or on one that is cut"
+                raise _unknown_element(run, row, f"it is not known on which side it is: {reason}")
+            found |= dict(zip(run.positions[rows].tolist(), nodes, strict=True))
+    return found
+
+
+def _on_faces(
+    deck: Deck, run: Run, rows: IntArray, cells: Mapping[int, Cells], warnings: list[str]
+) -> tuple[IntArray, NDArray[np.bool_]]:
+    """Nodes after the cut of shells and the like on faces of solids, and which of them are on no side.
+
+    Those without a section, groups of faces of a mesh, stay where both sides have them.
+    """
+    assert run.face is not None
+    solids, nodes = deck.solids, run.nodes[rows]
+    first = solids.faces_at(nodes[:, : run.face.corners])
+    on = first != NONE
+    partner = np.arange(len(solids.element))
+    partner[solids.pairs] = solids.pairs[:, ::-1]
+    found, lost = nodes.copy(), ~on
+    if on.any():
+        found[on] = beside(solids, first[on], nodes[on], cells)
+        other = beside(solids, partner[first[on]], nodes[on], cells)
+        lost[on] = (found[on] != other).any(axis=1)
+    without = deck.lacks_section(run.positions[rows])
+    stay = lost & without
+    if stay.any():
+        row = int(rows[np.argmax(stay)])
+        warnings.append(
+            f"{run.run.source(row)}: {int(stay.sum())} elements {run.run.type.name} without a section, such as "
+            f"element {int(run.run.labels[row])}, are on faces that are cut: they stay on the old nodes"
+        )
+        found[stay] = nodes[stay]
+    return found, lost & ~without
+
+
+def _interface_type(run: Run) -> InterfaceType | None:
+    """The interface element that the elements of a run are, None for others."""
+    kind = known_types().get(run.run.type.name)
+    return kind if kind is not None and kind.nodes == run.run.type.nodes else None
+
+
+def _unknown_element(run: Run, row: int, reason: str) -> DeckError:
+    label = int(run.run.labels[row])
+    return DeckError(run.run.source(row), f"element {label} ({run.run.type.name}) has a node that is doubled; {reason}")
+
+
+def _write_interface(
+    deck: Deck,
+    rewriting: Rewriting,
+    pieces: Cut,
+    kind: InterfaceType,
+    sides: IntArray,
+    elset: str,
+    values: Mapping[Items, IntArray],
+) -> None:
+    """Elements, sets and properties, part by part."""
+    cells = {group.family.number: group for group in pieces.cells}
+    nodes = element_nodes(kind, deck.solids, sides[:, 0], sides[:, 1], cells)
+    positions = deck.positions[deck.solids.element[sides[:, 0]]]
+    number = int(max(other.elements.max() for other in deck.owners if len(other.elements))) + 1
+    for owner in deck.first.values():
+        mine = (positions >= owner.element_offset) & (positions < owner.element_offset + len(owner.elements))
+        groups = [(items, rows[mine[rows]]) for items, rows in values.items() if mine[rows].any()]
+        if not groups:
+            continue
+        if elset.upper() in owner.mesh.elsets:
+            raise UsageError(f"--elset {elset}: the deck has an element set of this name; give another one")
+        definition = owner.mesh.definitions.get(kind.name)
+        if definition is not None and definition.nodes != kind.nodes:
+            raise UsageError(f"--element {kind.name}: the deck defines another {kind.name}, at {definition.source}")
+        names = [elset.upper()] if len(groups) == 1 else [f"{elset.upper()}-{k}" for k in range(1, len(groups) + 1)]
+        lines = ["** interface elements, by uel insert", *(definition_lines(kind) if definition is None else [])]
+        properties: list[str] = []
+        first = number
+        for name, (items, rows) in zip(names, groups, strict=True):
+            lines += element_block(kind.name, quoted(name), rewriting.labels(nodes[rows]), first)
+            first += len(rows)
+            properties += property_lines(kind, quoted(name), quoted(elset), dict(items))
+        if len(names) > 1:
+            lines += [keyword("ELSET", ELSET=quoted(elset)), *map(quoted, names)]
+        rewriting.after_elements(owner, [*lines, *properties])
+    rewriting.after_model(material_lines(kind, quoted(elset), dict(next(iter(values)))))
+
+
+def _values(
+    kind: InterfaceType, sections: Sections, sides: tuple[Faces, Faces], given: Mapping[str, float]
+) -> dict[Items, IntArray]:
+    """Elements by their properties, which those between like solids have in common."""
+    (below, first), (above, second) = (sections.sides(faces) for faces in sides)
+    found: dict[Items, list[IntArray]] = {}
+    pairs, which = np.unique(np.column_stack([first, second]), axis=0, return_inverse=True)
+    for place, (lower, upper) in enumerate(pairs.tolist()):
+        rows = np.flatnonzero(which.ravel() == place)
+        found.setdefault(tuple(element_values(kind, given, below[lower], above[upper]).items()), []).append(rows)
+    return {items: np.sort(np.concatenate(rows)) for items, rows in found.items()}
+
+
+def _two_sides(deck: Deck, sides: IntArray) -> tuple[Faces, Faces]:
+    """Faces of the solids below and above."""
+    solids = deck.solids
+    corners = face_nodes(solids, sides[:, 0])[:, : int(solids.corners[sides[0, 0]])]
+    normals = face_normals(solids.points[corners])
+    return Faces(sides[:, 0], normals, above=False), Faces(sides[:, 1], normals, above=True)
+
+
+def _ties(deck: Deck, pieces: Cut) -> list[str]:
+    """Warnings of ties to a surface that is cut: which of two nodes in one place a node follows is not decided."""
+    doubled = np.zeros(len(deck.solids.points) + 1, dtype=bool)
+    doubled[pieces.origins] = True
+    found = []
+    for row in (row for block in deck.blocks if block.name == "TIE" for row in block.rows()):
+        surface = deck.surface(row.name(1, "surface"), f"{row.source}: *TIE")
+        if surface is None or surface[1].options.text("TYPE") != "ELEMENT":
+            continue
+        if doubled[deck.solids.nodes[deck.faces_of(*surface)]].any():
+            name = row.name(1, "surface")
+            found.append(f"{row.source}: *TIE: nodes of {name} are doubled; a node tied there follows one of each two")
+    return found

@@ -1,0 +1,238 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Interface element types, and the nodes that an element needs between two solids.
+
+The types come from the tables of built-in elements and of the project's own. A standard element takes the nodes of both
+faces; one that owns both solids takes all their nodes, each solid turned so that its face is where the table wants it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.insertion.topology import NONE, Cells, Solids
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.element_types import COHESIVE, FAMILIES, TRI3, Face, Family
+from uel.usersub.layout import element_layouts
+
+
+@dataclass(frozen=True, slots=True)
+class InterfaceType:
+    """An interface element.
+
+    jtype   n of a user element Un of the project; 0 for an element of Abaqus
+    face    family of the faces between which it lies
+    nodes   number of nodes
+    bottom  local nodes of its bottom face, from 0: corners, then middles; `top` those opposite
+    solid   family of the two solids that it owns, None where it has the nodes of the faces alone
+    here    whether this program runs it, too
+    """
+
+    name: str
+    jtype: int
+    face: Family
+    nodes: int
+    bottom: Face
+    top: Face
+    solid: Family | None = None
+    here: bool = True
+
+    @property
+    def dimension(self) -> int:
+        """2 or 3."""
+        return self.face.dimension + 1
+
+
+@cache
+def known_types() -> dict[str, InterfaceType]:
+    """Interface elements by their names."""
+    found = {
+        name: InterfaceType(name, 0, kind.face, kind.nodes, kind.bottom, kind.top) for name, kind in COHESIVE.items()
+    }
+    found["COH3D6"] = InterfaceType("COH3D6", 0, TRI3, 6, (0, 1, 2), (3, 4, 5), here=False)
+    for jtype, layout in element_layouts().items():
+        bottom, top = layout.faces
+        if bottom:
+            face = FAMILIES[layout.dimension - 1, len(bottom)]
+            owns = layout.nodes > 2 * len(bottom)
+            solid = FAMILIES[layout.dimension, layout.nodes // 2] if owns else None
+            found[f"U{jtype}"] = InterfaceType(f"U{jtype}", jtype, face, layout.nodes, bottom, top, solid)
+    return found
+
+
+@cache
+def interface_types() -> dict[str, InterfaceType]:
+    """Those that can be inserted: not U3 and U10, which know their neighbours by numbers."""
+    layouts = element_layouts()
+    return {
+        name: kind
+        for name, kind in known_types().items()
+        if not kind.jtype or all(item.name != "OFFSETBOTTOM" for item in layouts[kind.jtype].integers)
+    }
+
+
+def fitting(faces: set[Family], solids: set[Family]) -> list[InterfaceType]:
+    """Types that fit between all these faces of all these solids, the recommended one first."""
+    found = [
+        kind
+        for kind in interface_types().values()
+        if {kind.face} == faces and (not kind.solid or {kind.solid} == solids)
+    ]
+    # stabilised ones, then standard ones of the project, then those of Abaqus
+    return sorted(found, key=lambda kind: (kind.solid is None, not kind.jtype))
+
+
+def face_nodes(solids: Solids, faces: IntArray) -> IntArray:
+    """Nodes of faces of one family, (faces, nodes): corners so that the normal points out of the solid, then middles.
+
+    In the plane, the normal of an edge is its direction turned by 90 degrees, counter-clockwise; in space, corners are
+    counter-clockwise seen from outside.
+    """
+    size, corners = int(solids.sizes[faces[0]]), int(solids.corners[faces[0]])
+    nodes = solids.nodes[faces, :size]
+    points = solids.points[nodes[:, :corners]]
+    outward = points.mean(axis=1) - solids.centroids[solids.element[faces]]
+    inward = np.sum(face_normals(points) * outward, axis=1) < 0.0
+    back = list(range(corners - 1, -1, -1))
+    # the middle after a corner is that of the edge to the next corner
+    middles = [corners + (corner - 1) % corners for corner in back] if corners > 2 else [2]
+    order = back + middles if size > corners else back
+    return np.where(inward[:, None], nodes[:, order], nodes)
+
+
+def face_normals(corners: FloatArray) -> FloatArray:
+    """(faces, 3) unit normals of faces with these corners, (faces, corners, 3), in the order of `face_nodes`."""
+    count = corners.shape[1]
+    if count == 2:
+        along = corners[:, 1] - corners[:, 0]
+        normal = np.stack([-along[:, 1], along[:, 0], np.zeros(len(along))], axis=1)
+    else:
+        # of a quadrilateral the diagonals, of a triangle two edges
+        normal = np.cross(corners[:, 2] - corners[:, 0], corners[:, count - 1] - corners[:, 1])
+        normal = normal if count == 4 else np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    found: FloatArray = normal / np.linalg.norm(normal, axis=1)[:, None]
+    return found
+
+
+def element_nodes(
+    kind: InterfaceType, solids: Solids, faces: IntArray, opposite: IntArray, after: Mapping[int, Cells]
+) -> IntArray:
+    """Nodes of interface elements, (faces, nodes of the type), by their numbers after the cut.
+
+    Parameters
+    ----------
+    kind
+        Their type.
+    solids
+        Before the cut.
+    faces, opposite
+        Faces of the solids below, and those of the solids above.
+    after
+        Cells after the cut, by the number of their family.
+    """
+    below, above = solids.element[faces], solids.element[opposite]
+    along = face_nodes(solids, faces)
+    found = np.full((len(faces), kind.nodes), NONE)
+    for upper, (number, place) in enumerate(((below, kind.bottom), (above, kind.top))):
+        old, new = _rows(solids, after, number)
+        local = _local(old, along)
+        if kind.solid is None:
+            found[:, list(place)] = np.take_along_axis(new, local, axis=1)
+        else:
+            half = kind.solid.nodes if upper else 0
+            order = _turned(kind.solid, local, tuple(node - half for node in place))
+            found[:, half : half + kind.solid.nodes] = np.take_along_axis(new, order, axis=1)
+    return found
+
+
+def attached(
+    kind: InterfaceType, solids: Solids, nodes: IntArray, after: Mapping[int, Cells]
+) -> tuple[IntArray, NDArray[np.bool_]]:
+    """Nodes after the cut of interface elements that a mesh has, and which of them lie between no solids.
+
+    nodes: theirs before the cut, (elements, nodes of the type).
+    """
+    found, lost = nodes.copy(), np.zeros(len(nodes), dtype=bool)
+    for upper, place in enumerate((kind.bottom, kind.top)):
+        corners = [node for node, _ in zip(place, range(kind.face.corners), strict=False)]
+        faces = solids.faces_at(nodes[:, corners])
+        lost |= faces == NONE
+        rows = np.flatnonzero(faces != NONE)
+        old, new = _rows(solids, after, solids.element[faces[rows]])
+        half = kind.nodes // 2
+        own = np.array(place) if kind.solid is None else upper * half + np.arange(half)
+        local = _local(old, nodes[np.ix_(rows, own)])
+        found[np.ix_(rows, own)] = np.take_along_axis(new, local, axis=1)
+    return found, lost
+
+
+def beside(solids: Solids, faces: IntArray, nodes: IntArray, after: Mapping[int, Cells]) -> IntArray:
+    """Nodes after the cut of elements on faces of solids, as those solids have them.
+
+    Parameters
+    ----------
+    faces
+        (elements,) numbers of the faces.
+    nodes
+        (elements, k) nodes of the elements before the cut, which are on these faces.
+    """
+    old, new = _rows(solids, after, solids.element[faces])
+    return np.take_along_axis(new, _local(old, nodes), axis=1)
+
+
+def _rows(solids: Solids, after: Mapping[int, Cells], numbers: IntArray) -> tuple[IntArray, IntArray]:
+    """Nodes of solids before and after the cut, filled with -1 where there are types with fewer nodes."""
+    widest = max(group.nodes.shape[1] for group in solids.cells)
+    old, new = np.full((2, len(numbers), widest), NONE)
+    for group in solids.cells:
+        rows = np.flatnonzero(solids.families[numbers] == group.family.number)
+        where = np.searchsorted(group.numbers, numbers[rows])
+        old[rows, : group.nodes.shape[1]] = group.nodes[where]
+        new[rows, : group.nodes.shape[1]] = after[group.family.number].nodes[where]
+    return old, new
+
+
+def _local(rows: IntArray, wanted: IntArray) -> IntArray:
+    """Where in each row the wanted nodes stand."""
+    return np.stack([np.argmax(rows == column[:, None], axis=1) for column in wanted.T], axis=1)
+
+
+def _turned(family: Family, local: IntArray, place: Face) -> IntArray:
+    """Order of a solid's nodes that brings those of a face to `place`; local: (faces, nodes of the face) now."""
+    middles, beside = _edges(family)
+    corners = sum(node < family.corners for node in place)
+    face = local[:, :corners]
+    order = np.full((len(local), family.nodes), NONE)
+    for k, target in enumerate(place[:corners]):
+        order[:, target] = face[:, k]
+        # of the corners next to this one, that which is not on the face
+        near = np.array(beside)[face[:, k]]
+        on_face = np.any(near[:, :, None] == face[:, None, :], axis=2)
+        opposite = next(node for node in beside[target] if node not in place)
+        order[:, opposite] = near[np.arange(len(near)), np.argmin(on_face, axis=1)]
+    for a in range(family.corners):
+        for b in beside[a]:
+            if middles[a, b] != NONE:
+                order[:, middles[a, b]] = middles[order[:, a], order[:, b]]
+    return order
+
+
+@cache
+def _edges(family: Family) -> tuple[IntArray, list[list[int]]]:
+    """Node in the middle of the edge between two corners, -1 without one, and the corners next to each corner."""
+    middles = np.full((family.corners, family.corners), NONE)
+    beside: list[set[int]] = [set() for _ in range(family.corners)]
+    for face in family.faces:
+        count = sum(node < family.corners for node in face)
+        for k in range(count if count > 2 else 1):
+            a, b = face[k], face[(k + 1) % count]
+            beside[a].add(b)
+            beside[b].add(a)
+            if len(face) > count:
+                middles[a, b] = middles[b, a] = face[count + k]
+    return middles, [sorted(near) for near in beside]

@@ -1,0 +1,95 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Solids beside which elements that own them would be wrong: the rule of `uel.elements.interfaces.neighbour_solids`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from uel.deck.error_report import Problems
+from uel.deck.language.blocks import Block
+from uel.deck.steps.initial import read_initial_stresses, read_initial_values
+from uel.elements.interfaces.neighbour_solids import (
+    Finding,
+    Neighbours,
+    States,
+    changed_temperatures,
+    find_faults,
+    initially_stressed,
+)
+from uel.errors import DeckError, all_of
+from uel.insertion.assembly import Deck
+from uel.insertion.connectivity import InterfaceType
+from uel.insertion.sections import Sections
+from uel.model.arrays import IntArray
+from uel.model.steps import Load
+
+
+def check_neighbours(deck: Deck, sections: Sections, kind: InterfaceType, sides: IntArray) -> list[str]:
+    """Check the solids that elements of a type will own; sides: their faces below and above, (faces, 2).
+
+    Returns
+    -------
+    list of str
+        A warning, with its place, for each reason why results may be wrong.
+
+    Raises
+    ------
+    DeckError
+        With the place of each reason why results would be wrong.
+    """
+    if kind.solid is None:
+        return []
+    states = _read_states(deck)
+    found: dict[str, Finding] = {}
+    for neighbours in _neighbours(deck, sections, kind, sides.ravel()):
+        found |= {str(each): each for each in find_faults(neighbours, states)}
+    errors = [DeckError(each.source, each.message) for each in found.values() if each.wrong]
+    if errors:
+        raise all_of(errors)
+    return list(found)
+
+
+def _neighbours(deck: Deck, sections: Sections, kind: InterfaceType, faces: IntArray) -> Iterator[Neighbours]:
+    for number, type, rows in sections.kinds(faces):
+        section = sections.section(number, type) if number >= 0 else ""
+        if isinstance(section, str):
+            continue
+        solids = np.unique(deck.solids.element[faces[rows]])
+        group = next(each for each in deck.solids.cells if each.family.number == deck.solids.families[solids[0]])
+        run, row = deck.run_of(int(solids[0]))
+        yield Neighbours(
+            kind.jtype,
+            type.name,
+            section,
+            deck.name(int(solids[0])),
+            run.run.source(row),
+            deck.positions[solids],
+            group.nodes[np.searchsorted(group.numbers, solids)],
+        )
+
+
+def _read_states(deck: Deck) -> States:
+    """Temperatures and initial stresses of the instances that stand for all."""
+    problems, root = Problems(), deck.structure.root
+    initial = read_initial_values(root, "TEMPERATURE", deck.flat, problems, None)
+    stresses = read_initial_stresses(root, deck.flat, problems)
+    given = [load for scope in deck.structure.steps for block in scope.blocks for load in _temperatures(deck, block)]
+    problems.check()
+    count = len(deck.flat.mesh.labels)
+    return States(
+        [(deck.node_of[nodes], place) for nodes, place in changed_temperatures(initial, given, count)],
+        [(deck.element_of[elements], place) for elements, place in initially_stressed(stresses)],
+    )
+
+
+def _temperatures(deck: Deck, block: Block) -> Iterator[Load]:
+    """Entries of *TEMPERATURE; what varies by an amplitude is what a routine gives, for it is not the value alone."""
+    if block.name != "TEMPERATURE":
+        return
+    varies = block.options.given("AMPLITUDE") or block.options.flag("USER")
+    for row in block.rows():
+        nodes = deck.flat.nodes(row.name(0, "node or node set"), row.source)
+        yield Load(nodes, 0, row.real(1, "temperature", 0.0), None, row.source, user=varies)

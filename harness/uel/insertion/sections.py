@@ -1,0 +1,404 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Thickness, state of stress and elastic constants that solids give the elements between them, face by face.
+
+An element that owns its solids has the axes of the plies by one angle: in the plane from x, in space from the direction
+s about the normal of the interface. Where the directions of an *ORIENTATION differ from point to point, as in every
+curved laminate, the angle is that in the middle of each face, so faces have as many sets of properties as angles.
+Angles that differ by 180 degrees are alike, for the materials are orthotropic. Of solids with layers, the layer at the
+interface counts.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from uel.deck.contact.interactions import Interactions
+from uel.deck.error_report import Problems
+from uel.deck.language.blocks import Block
+from uel.deck.materials.material import read_materials
+from uel.deck.mesh.flatten import Owner
+from uel.deck.mesh.orientations import read_orientations
+from uel.deck.sections.controls import read_section_controls
+from uel.deck.sections.solids import make_section
+from uel.deck.sections.user_elements import ElementType
+from uel.elements.families.composite import turned_directions
+from uel.elements.interfaces.neighbour_plies import STACK_FACES
+from uel.elements.interfaces.neighbour_solids import OBLIQUE
+from uel.errors import DeckError, Source
+from uel.insertion.assembly import Deck
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.element_types import BUILT_IN, ContinuumType, Tensor
+from uel.model.local_systems import SystemKind, UndefinedDirectionsError
+from uel.model.properties import CompositeSection, ElasticType, Material, Orientation, SolidLayer, SolidSection
+
+PARALLEL = 1e-4
+"""Radians between an axis of a material and the normal of the interface that are rounding."""
+_DECIMALS = 4
+"""Of angles in degrees: coordinates of seven digits give no more."""
+_PLANES = {Tensor.PLANE_STRESS: 0, Tensor.PLANE_STRAIN: 1, Tensor.SOLID: None}
+_NAMES = ("E1", "E2", "E3", "NU12", "NU13", "NU23", "G12", "G13", "G23")
+
+
+@dataclass(frozen=True, slots=True)
+class Side:
+    """Data of the solids on one side of an interface.
+
+    thickness  out of the plane; None if it is not known
+    plane      0 plane stress, 1 plane strain; None in space
+    constants  elastic constants by name (E1, NU12, G12, ...), with ANGLE; {} if they are not known
+    why        why they are not known
+    place      of the section in the deck, '' without one
+    """
+
+    thickness: float | None
+    plane: int | None
+    constants: Mapping[str, float]
+    why: str
+    place: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Faces:
+    """Faces of the solids on one side of an interface.
+
+    numbers  (k,) of the faces among those of all solids
+    normals  (k, 3) unit normals of the interface there, from the solids below to those above
+    above    whether these are the solids above
+    """
+
+    numbers: IntArray
+    normals: FloatArray
+    above: bool
+
+    def take(self, rows: IntArray) -> Faces:
+        """Some of them."""
+        return Faces(self.numbers[rows], self.normals[rows], self.above)
+
+
+Three = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class _Moduli:
+    """Moduli along the axes of a material, contraction ratios (12, 13, 23), shear moduli (12, 13, 23)."""
+
+    young: Three
+    ratios: Three
+    shear: Three
+
+    @property
+    def isotropic(self) -> bool:
+        """Whether axes do not matter."""
+        e, nu, g = self.young[0], self.ratios[0], self.shear[0]
+        alike = self.young == (e,) * 3 and self.ratios == (nu,) * 3 and self.shear == (g,) * 3
+        return alike and math.isclose(g, e / (2.0 * (1.0 + nu)), rel_tol=1e-12)
+
+    def renamed(self, order: tuple[int, ...]) -> _Moduli:
+        """The same with the axes in another order: nu_ij is nu_ji E_i/E_j."""
+        pairs = {(0, 1): 0, (0, 2): 1, (1, 2): 2}
+        new = [(order[i], order[j]) for i, j in pairs]
+        ratios = [
+            self.ratios[pairs[i, j]] if i < j else self.ratios[pairs[j, i]] * self.young[i] / self.young[j]
+            for i, j in new
+        ]
+        shear = [self.shear[pairs[min(i, j), max(i, j)]] for i, j in new]
+        first, second, third = (self.young[axis] for axis in order)
+        return _Moduli((first, second, third), (ratios[0], ratios[1], ratios[2]), (shear[0], shear[1], shear[2]))
+
+    def named(self, angle: float) -> dict[str, float]:
+        """Properties by name."""
+        return dict(zip(_NAMES, (*self.young, *self.ratios, *self.shear), strict=True)) | {"ANGLE": angle}
+
+
+class Sections:
+    """Sections of the solids of a deck."""
+
+    def __init__(self, deck: Deck) -> None:
+        self._problems = Problems()
+        self._deck = deck
+        root = deck.structure.root
+        without = Interactions(root, self._problems).without_options(root)
+        self._materials = read_materials(without, deck.structure, self._problems)
+        self._orientations = read_orientations(deck.flat, self._problems)
+        self._controls = read_section_controls(root, self._problems)
+        self._problems.check()
+        self._made: dict[tuple[int, str], SolidSection | CompositeSection | str] = {}
+        self._oblique: dict[Source, str] = {}
+
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings about sections that are odd but understood."""
+        return list(self._oblique.values())
+
+    def section(self, number: int, type: ElementType) -> SolidSection | CompositeSection | str:
+        """Section of solids of a type, by its number in the deck; or why there is none."""
+        key = number, type.name
+        if key not in self._made:
+            self._made[key] = self._make(number, type)
+        return self._made[key]
+
+    def _make(self, number: int, type: ElementType) -> SolidSection | CompositeSection | str:
+        owner, block = self._deck.section_blocks[number]
+        if block.name != "SOLID SECTION" or not isinstance(BUILT_IN.get(type.name), ContinuumType):
+            return f"those of *{block.name} ({block.source}) are not known"
+        try:
+            made = make_section(
+                block, type, self._materials, self._orientations[owner.name], self._controls, self._problems
+            )
+        except DeckError as error:
+            return str(error)
+        assert isinstance(made, SolidSection | CompositeSection)
+        return made
+
+    def kinds(self, faces: IntArray) -> Iterator[tuple[int, ElementType, IntArray]]:
+        """Section, -1 for none, type of the solids, and rows of faces (k,), for each kind of solids that has them."""
+        deck = self._deck
+        numbers = deck.solids.element[faces]
+        pairs = np.column_stack([deck.sections[numbers], deck.run_index[numbers]])
+        found, which = np.unique(pairs, axis=0, return_inverse=True)
+        rows: dict[tuple[int, ElementType], list[IntArray]] = {}
+        for place, (section, run) in enumerate(found.tolist()):
+            rows.setdefault((section, deck.runs[run].run.type), []).append(np.flatnonzero(which.ravel() == place))
+        for (section, type), parts in rows.items():
+            yield section, type, np.sort(np.concatenate(parts))
+
+    def sides(self, faces: Faces) -> tuple[list[Side], IntArray]:
+        """Return the data of the solids at each face.
+
+        Returns
+        -------
+        sides, (k,)
+            Different ones, and which of them each face has.
+        """
+        found: list[Side] = []
+        which = np.zeros(len(faces.numbers), dtype=np.int64)
+        for section, type, rows in self.kinds(faces.numbers):
+            for side, inside in self._sides_of(section, type, faces.take(rows)):
+                which[rows[inside]] = len(found)
+                found.append(side)
+        return found, which
+
+    def _sides_of(self, number: int, type: ElementType, faces: Faces) -> Iterator[tuple[Side, IntArray]]:
+        """Sides of the faces of solids of a section and a type, each with its rows."""
+        kind = BUILT_IN.get(type.name)
+        plane = _PLANES[kind.tensor] if isinstance(kind, ContinuumType) else None
+        every = np.arange(len(faces.numbers))
+        if number < 0:
+            why = f"element {self._name(faces, every)} has no section"
+            yield Side(None, plane, {}, why), every
+            return
+        owner, block = self._deck.section_blocks[number]
+        section = self.section(number, type)
+        thickness = _thickness(block)
+        if isinstance(section, str):
+            yield Side(thickness, plane, {}, section, str(block.source)), every
+            return
+        place = f"(*SOLID SECTION at {block.source})"
+        if isinstance(section, SolidSection):
+            layers = [(SolidLayer(1.0, 1, section.material, section.orientation), every)]
+        else:
+            layers = []
+            for layer, rows in self._layers(section, faces):
+                if layer is None:
+                    why = f"the interface runs across the layers of element {self._name(faces, rows)} {place}"
+                    yield Side(thickness, plane, {}, why, str(block.source)), rows
+                else:
+                    layers.append((layer, rows))
+        for layer, rows in layers:
+            try:
+                for constants, inside in self._constants(owner, section, layer, faces.take(rows)):
+                    yield Side(thickness, plane, constants, "", str(block.source)), rows[inside]
+            except ValueError as error:
+                yield Side(thickness, plane, {}, f"{error} {place}", str(block.source)), rows
+
+    def _name(self, faces: Faces, rows: IntArray) -> str:
+        return self._deck.name(int(self._deck.solids.element[faces.numbers[rows[0]]]))
+
+    def _layers(self, section: CompositeSection, faces: Faces) -> Iterator[tuple[SolidLayer | None, IntArray]]:
+        """Layer of a solid at each face, None where the face crosses them."""
+        first, last = STACK_FACES[section.direction]
+        side = self._deck.solids.side[faces.numbers]
+        for layer, rows in (
+            (section.layers[0], side == first),
+            (section.layers[-1], side == last),
+            (None, (side != first) & (side != last)),
+        ):
+            if rows.any():
+                yield layer, np.flatnonzero(rows)
+
+    def _constants(
+        self, owner: Owner, section: SolidSection | CompositeSection, layer: SolidLayer, faces: Faces
+    ) -> Iterator[tuple[dict[str, float], IntArray]]:
+        """Elastic constants of a layer in the axes of an element that owns it, each with its rows.
+
+        Raises ValueError, which says why they are not known.
+        """
+        moduli = _moduli(layer.material)
+        if moduli.isotropic:
+            yield moduli.named(0.0), np.arange(len(faces.numbers))
+            return
+        orders, angles = self._angles(owner, section, layer, faces)
+        self._check_instances(owner, section, layer, faces, angles)
+        found, which = np.unique(np.column_stack([orders, angles]), axis=0, return_inverse=True)
+        for place, (*order, angle) in enumerate(found.tolist()):
+            renamed = moduli.renamed(tuple(map(int, order)))
+            yield renamed.named(angle + 0.0), np.flatnonzero(which.ravel() == place)
+
+    def _check_instances(
+        self,
+        owner: Owner,
+        section: SolidSection | CompositeSection,
+        layer: SolidLayer,
+        faces: Faces,
+        angles: FloatArray,
+    ) -> None:
+        """Check that the plies of all instances of a part have the same angles; raises DeckError."""
+        deck = self._deck
+        part = deck.part_of.get(owner.name)
+        for other in deck.owners:
+            if part is None or other is owner or deck.part_of.get(other.name) != part:
+                continue
+            turn = other.placement.turn(np.eye(3)).T @ owner.placement.turn(np.eye(3))
+            moved = Faces(faces.numbers, faces.normals @ turn.T, faces.above)
+            here = self._orientations[other.name]
+            own = layer.orientation and here.get(layer.orientation.name, layer.orientation)
+            placed = SolidLayer(layer.thickness, layer.points, layer.material, own, layer.angle)
+            _, others = self._angles(other, section, placed, moved)
+            apart = np.abs((others - angles + 90.0) % 180.0 - 90.0)
+            if (apart > 10.0**-_DECIMALS * 2).any():
+                row = int(np.argmax(apart))
+                raise deck.structure.instances[other.name].head.error(
+                    f"instance {other.name} is turned against {owner.name}, so the plies at element "
+                    f"{self._name(faces, np.array([row]))} have the angle {others[row]:g} in {other.name} and "
+                    f"{angles[row]:g} in {owner.name}, for which a part has one *UEL PROPERTY: give each its own part"
+                )
+
+    def _angles(
+        self, owner: Owner, section: SolidSection | CompositeSection, layer: SolidLayer, faces: Faces
+    ) -> tuple[IntArray, FloatArray]:
+        """Order of the axes of a material, (k, 3), the one across last, and angle of the first, (k,), at faces."""
+        axes = self._axes(owner, section, layer, faces)
+        if self._deck.solids.cells[0].family.dimension == 2:
+            if np.any(np.abs(axes[:, 2, 2]) < math.cos(PARALLEL)):
+                raise ValueError("the third axis of the orientation is not normal to the plane")
+            return np.tile(np.arange(3), (len(axes), 1)), _half_turn(np.arctan2(axes[:, 0, 1], axes[:, 0, 0]))
+        across = np.abs(np.einsum("kad,kd->ka", axes, faces.normals))
+        third = across.argmax(axis=1)
+        self._check_normal(across.max(axis=1), faces, section)
+        orders = np.array([[1, 2, 0], [0, 2, 1], [0, 1, 2]])[third]
+        first = np.take_along_axis(axes, orders[:, :1, None], axis=1)[:, 0]
+        s, t = _along(faces.normals)
+        return orders, _half_turn(np.arctan2(np.sum(first * t, axis=1), np.sum(first * s, axis=1)))
+
+    def _check_normal(self, cosines: FloatArray, faces: Faces, section: SolidSection | CompositeSection) -> None:
+        """Check that an axis of the material is normal to the interface; raises ValueError."""
+        tilt = np.degrees(np.arccos(np.minimum(cosines, 1.0)))
+        row = int(tilt.argmax())
+        where = f"at element {self._name(faces, np.array([row]))} the closest one is {tilt[row]:.3g} degrees off"
+        if tilt[row] > OBLIQUE:
+            raise ValueError(f"no axis of the material is normal to the whole interface: {where}")
+        if tilt[row] > math.degrees(PARALLEL):
+            text = f"{section.source}: the axis across the ply is not quite normal to the interface: {where}"
+            self._oblique.setdefault(section.source, text)
+
+    def _axes(
+        self, owner: Owner, section: SolidSection | CompositeSection, layer: SolidLayer, faces: Faces
+    ) -> FloatArray:
+        """Axes (k, 3, 3) of a material, in rows, in the middles of faces of an instance."""
+        deck, orientation = self._deck, layer.orientation
+        shape = len(faces.numbers), 3, 3
+        if orientation is None:
+            return np.broadcast_to(np.eye(3), shape)
+        if orientation.system is None:
+            axes = np.broadcast_to(orientation.axes, shape)
+        else:
+            axes = self._local_axes(owner, orientation, faces)
+        if layer.angle is None:
+            return axes
+        # the stack goes from the first layer to the last
+        last = deck.solids.side[faces.numbers] == STACK_FACES[_direction_of(section)][1]
+        outward = -faces.normals if faces.above else faces.normals
+        upright = np.where(last[:, None], outward, -outward)
+        try:
+            return turned_directions(layer, axes[:, None], upright[:, None])[:, 0]
+        except UndefinedDirectionsError as error:
+            name = self._name(faces, np.array([error.row[0]]))
+            raise ValueError(f"orientation {orientation.name}: {error}; it is not in element {name}") from None
+
+    def _local_axes(self, owner: Owner, orientation: Orientation, faces: Faces) -> FloatArray:
+        """Axes of an orientation that differs from point to point."""
+        deck, system = self._deck, orientation.system
+        assert system is not None
+        if system.kind is SystemKind.USER:
+            raise ValueError(f"orientation {orientation.name} is that of ORIENT")
+        solids = deck.solids
+        first = deck.first[deck.part_of.get(owner.name, "")]
+        numbers = solids.element[faces.numbers]
+        group = next(group for group in solids.cells if group.family.number == solids.families[numbers[0]])
+        nodes = group.nodes[np.searchsorted(group.numbers, numbers)] - first.node_offset
+        if system.nodes and max(system.nodes) > nodes.shape[1]:
+            raise ValueError(f"orientation {orientation.name}: local node {max(system.nodes)} of {nodes.shape[1]}")
+        points = deck.flat.mesh.coordinates
+        corners = solids.nodes[faces.numbers, : int(solids.corners[faces.numbers[0]])] - first.node_offset
+        middles = points[corners + owner.node_offset].mean(axis=1)[:, None]
+        positions = deck.positions[numbers] - first.element_offset + owner.element_offset
+        try:
+            return system.axes(positions, points[nodes + owner.node_offset], middles)[:, 0]
+        except UndefinedDirectionsError as error:
+            name = self._name(faces, np.array([error.row[0]]))
+            raise ValueError(f"orientation {orientation.name}: element {name}: {error}") from None
+
+
+def _direction_of(section: SolidSection | CompositeSection) -> int:
+    assert isinstance(section, CompositeSection)  # angles are those of layers
+    return section.direction
+
+
+def _thickness(block: Block) -> float | None:
+    """Thickness out of the plane of a section keyword, None where it has none."""
+    if block.name != "SOLID SECTION":
+        return None
+    row = next(block.rows(), None)
+    return (row.real(0, "thickness", 1.0) if row else 1.0) or 1.0
+
+
+def _moduli(material: Material) -> _Moduli:
+    """Moduli of a material; ValueError says why they are not known."""
+    elastic = material.elastic
+    if elastic is None:
+        raise ValueError(f"material {material.name} has no *ELASTIC")
+    if elastic.table is not None:
+        raise ValueError(f"material {material.name} depends on temperature or fields")
+    match elastic.type:
+        case ElasticType.ISOTROPIC:
+            young, ratio = elastic.constants[:2]
+            return _Moduli((young,) * 3, (ratio,) * 3, (young / (2.0 * (1.0 + ratio)),) * 3)
+        case ElasticType.LAMINA:
+            e1, e2, nu12, *g = elastic.constants
+            # plane stress has no use for the constants along the third axis
+            return _Moduli((e1, e2, 0.0), (nu12, 0.0, 0.0), (g[0], g[1], g[2]))
+        case ElasticType.ENGINEERING_CONSTANTS:
+            c = elastic.constants
+            return _Moduli((c[0], c[1], c[2]), (c[3], c[4], c[5]), (c[6], c[7], c[8]))
+        case _:
+            raise ValueError(f"material {material.name} has *ELASTIC, TYPE={elastic.type.value}")
+
+
+def _half_turn(radians: FloatArray) -> FloatArray:
+    """Angles in degrees, above -90 and up to 90: half a turn leaves an orthotropic material as it is."""
+    degrees = np.round(np.degrees(radians), _DECIMALS)
+    return np.asarray(np.round(90.0 - (90.0 - degrees) % 180.0, _DECIMALS))
+
+
+def _along(normals: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Directions s and t, (k, 3), at faces: s is the projection of x, or of z where x is within 0.1 degrees of n."""
+    aligned = np.abs(normals[:, 0]) > math.cos(math.radians(0.1))
+    beside = np.where(aligned[:, None], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0])
+    s = beside - np.sum(beside * normals, axis=1, keepdims=True) * normals
+    s /= np.linalg.norm(s, axis=1, keepdims=True)
+    return s, np.cross(normals, s)

@@ -1,0 +1,134 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Nodal variables by their Abaqus names: which component of which array of the solution they are.
+
+A harmonic response has amplitudes, and phase angles in degrees by the same names after a P: U1 and PU1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.model import CONCENTRATION, TEMPERATURE, dof_in_deck
+from uel.model.records import Solution
+
+PHASE = "P"
+
+LARGEST_DOF = 30
+
+# name of the component of each degree of freedom, by quantity; 11 and up are temperatures, then the concentration
+_NAMES: dict[str, dict[int, str]] = {
+    "displacement": {1: "U1", 2: "U2", 3: "U3", 4: "UR1", 5: "UR2", 6: "UR3", 7: "WARP", 8: "POR", 9: "EPOT"},
+    "reaction": {1: "RF1", 2: "RF2", 3: "RF3", 4: "RM1", 5: "RM2", 6: "RM3", 7: "RWM", 8: "RVF", 9: "RECUR"},
+    "velocity": {1: "V1", 2: "V2", 3: "V3", 4: "VR1", 5: "VR2", 6: "VR3"},
+    "acceleration": {1: "A1", 2: "A2", 3: "A3", 4: "AR1", 5: "AR2", 6: "AR3"},
+    "load": {1: "CF1", 2: "CF2", 3: "CF3", 4: "CM1", 5: "CM2", 6: "CM3", 7: "CW", 8: "CVF", 9: "CECUR"},
+}
+for _dof in range(11, LARGEST_DOF + 1):
+    _NAMES["displacement"][_dof] = f"NT{_dof}"
+    _NAMES["reaction"][_dof] = f"RFL{_dof}"
+    _NAMES["load"][_dof] = f"CFL{_dof}"
+_NAMES["displacement"][CONCENTRATION] = "NNC11"
+
+_CHARGES = {"RCHG": ("reaction", 9), "CECHG": ("load", 9)}
+"""Charges of piezoelectric elements, minus what the array has."""
+
+COMPONENTS = {name: (quantity, dof) for quantity, names in _NAMES.items() for dof, name in names.items()} | _CHARGES
+"""Array of `Solution` and dof of each component."""
+_GROUPS = {
+    "U": ("displacement", range(1, 8)),
+    "UT": ("displacement", range(1, 4)),
+    "UR": ("displacement", range(4, 7)),
+    "NT": ("displacement", range(11, LARGEST_DOF + 1)),
+    "NNC": ("displacement", (CONCENTRATION,)),
+    "V": ("velocity", range(1, 7)),
+    "VT": ("velocity", range(1, 4)),
+    "VR": ("velocity", range(4, 7)),
+    "A": ("acceleration", range(1, 7)),
+    "AT": ("acceleration", range(1, 4)),
+    "AR": ("acceleration", range(4, 7)),
+    "RF": ("reaction", range(1, 8)),
+    "RT": ("reaction", range(1, 4)),
+    "RM": ("reaction", range(4, 7)),
+    "RFL": ("reaction", range(11, CONCENTRATION + 1)),
+    "CF": ("load", range(1, 8)),
+    "CM": ("load", range(4, 7)),
+    "CFL": ("load", range(11, CONCENTRATION + 1)),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Component:
+    """One nodal component: its name, the array of `Solution` it is in, and its degree of freedom.
+
+    phase  whether it is the phase angle
+    sign   of what the array has: charges are minus the forces of potentials
+    """
+
+    name: str
+    quantity: str
+    dof: int
+    phase: bool = False
+    sign: int = 1
+
+    def values(self, solution: Solution, positions: IntArray | slice = slice(None)) -> FloatArray:
+        """Values at some unknowns; of a harmonic response amplitudes, or phase angles in degrees from -180 to 180."""
+        values: FloatArray = self.sign * getattr(solution, self.quantity)[positions]
+        if solution.imaginary is None:
+            return values
+        harmonic = values + 1j * self.sign * getattr(solution.imaginary, self.quantity)[positions]
+        part: FloatArray = np.angle(harmonic, deg=True) if self.phase else np.abs(harmonic)
+        return part
+
+
+class NodalIndex:
+    """Where the unknown of a node and dof is in the arrays of a solution."""
+
+    def __init__(self, nodes: int, solution: Solution) -> None:
+        self._position = np.full((nodes, CONCENTRATION + 1), -1, dtype=np.int64)
+        # not the unknowns of elements, and not along directions of *TRANSFORM
+        of_nodes = np.flatnonzero((solution.node < nodes) & (solution.dof <= CONCENTRATION))
+        self._position[solution.node[of_nodes], solution.dof[of_nodes]] = of_nodes
+
+    def find(self, nodes: IntArray, dof: int) -> IntArray:
+        """Positions (len(nodes),), -1 where a node does not have the dof."""
+        found: IntArray = self._position[nodes, dof]
+        return found
+
+    def components(self, variables: Iterable[str], nodes: IntArray, *, harmonic: bool = False) -> list[Component]:
+        """Components of the variables asked for that any of the nodes has, in order and without repetition.
+
+        Where the response is harmonic there are phase angles too.
+        """
+        present = np.flatnonzero((self._position[nodes] >= 0).any(axis=0))
+        found: dict[str, Component] = {}
+        for variable in variables:
+            phase = harmonic and not _known(variable) and variable.startswith(PHASE)
+            bare = variable.removeprefix(PHASE) if phase else variable
+            quantity, dofs = _meant(bare)
+            for dof in dofs:
+                if dof in present:
+                    name = PHASE * phase + (bare if bare in _CHARGES else _name(quantity, dof))
+                    found.setdefault(name, Component(name, quantity, dof, phase, -1 if bare in _CHARGES else 1))
+        return list(found.values())
+
+
+def _name(quantity: str, dof: int) -> str:
+    """Name of a component; fluxes are those of dof 11, of heat or of a concentration."""
+    return _NAMES[quantity].get(dof) or _NAMES[quantity][dof_in_deck(dof)]
+
+
+def _known(variable: str) -> bool:
+    return variable in COMPONENTS or variable in _GROUPS
+
+
+def _meant(variable: str) -> tuple[str, Iterable[int]]:
+    """Array of `Solution` and dofs of a variable; no dofs of one that is not known."""
+    if variable in COMPONENTS:
+        quantity, dof = COMPONENTS[variable]
+        return quantity, ((dof,) if quantity == "displacement" or dof != TEMPERATURE else (dof, CONCENTRATION))
+    return _GROUPS.get(variable, ("", ()))

@@ -1,0 +1,100 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Cells that represent elements in field output, and their values.
+
+Which cell an element becomes:
+
+- an interface of the project, or a cohesive element: a line of 2 or 3 nodes along its bottom edge, or its bottom face;
+  a continuum element of the project: its outline;
+- a built-in continuum element or beam: the cell of its family (harness/uel/model/element_types.py);
+- a user's own element, a truss or a spring: by its number of nodes, the cell of a family in the plane or in space, or
+  else a line, with the node order of Abaqus' own elements. Abaqus does not know the shape of a user element either;
+- a user element with any other number of nodes: a vertex at each of its nodes, all with the values of the element.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.element_types import FAMILIES, BeamType, CohesiveType, Family, SolidType
+from uel.model.mesh import ElementGroup
+from uel.model.model import Model
+from uel.model.records import ElementState, PointVariables
+from uel.output.points import point_values
+
+_COORDINATES = ("X", "Y", "Z")
+
+
+@dataclass(frozen=True, slots=True)
+class Cells:
+    """Cells of one group: type as meshio names it, nodes (cells, nodes), and the element each cell belongs to."""
+
+    type: str
+    nodes: IntArray
+    element: IntArray
+
+
+def cells_of(group: ElementGroup, variables: PointVariables | None, *, solid: bool) -> Cells:
+    """Cells of a group; `solid`: the model is three-dimensional."""
+    nodes, kind = group.nodes, group.built_in
+    if isinstance(kind, SolidType):
+        family: Family | None = kind.family
+    elif isinstance(kind, BeamType):
+        nodes = nodes[:, list(kind.order)]
+        family = kind.family
+    elif variables is not None and variables.kind == "interface":
+        nodes = nodes[:, list(variables.bottom)]
+        family = kind.face if isinstance(kind, CohesiveType) else _family(nodes.shape[1], 1, 2)
+    elif variables is not None and variables.outline:
+        nodes = nodes[:, list(variables.outline)]
+        family = _family(nodes.shape[1], 2)
+    else:
+        family = _family(nodes.shape[1], 3 if solid else 2, 1)
+    elements, count = nodes.shape
+    if family is None:
+        return Cells("vertex", nodes.reshape(-1, 1), np.repeat(np.arange(elements), count))
+    return Cells(family.cell, nodes, np.arange(elements))
+
+
+def _family(nodes: int, *dimensions: int) -> Family | None:
+    """The family of a number of nodes, in the first of the dimensions that has one."""
+    return next((FAMILIES[found, nodes] for found in dimensions if (found, nodes) in FAMILIES), None)
+
+
+def is_solid(model: Model) -> bool:
+    """True if the nodes do not all lie in one plane z = constant."""
+    z = model.mesh.coordinates[:, 2]
+    return bool(len(z)) and bool(np.ptp(z) > 0.0)
+
+
+def cell_values(states: Sequence[ElementState], cells: tuple[Cells, ...]) -> dict[str, list[FloatArray]]:
+    """Means over the integration points, by variable, an array for each group; NaN where a group lacks the variable.
+
+    Coordinates of the points are left out, because the cell shows them, and variables without a name. What changes over
+    a section is at the first and the last section point of shells, with _SNEG and _SPOS in its name, and at those of
+    beams, with _SP and their number.
+    """
+    known: dict[str, dict[int, FloatArray]] = {}
+    for state in states:
+        if state.variables is None:
+            continue
+        elements, sections = cells[state.group].element, state.variables.sections
+        values = point_values(state, state.variables)
+        # (elements, section points, variables)
+        means = values.reshape(len(values), values.shape[1] // sections, sections, values.shape[2]).mean(axis=1)
+        for k, name in enumerate(state.variables.names):
+            if not name or name in _COORDINATES:
+                continue
+            sides = {name: 0}
+            if state.variables.sides and name not in state.variables.whole:
+                sides = {name + suffix: place for suffix, _, place in state.variables.sides}
+            for side, section in sides.items():
+                known.setdefault(side, {})[state.group] = means[elements, section, k]
+    return {
+        name: [values.get(k, np.full(len(group.nodes), np.nan)) for k, group in enumerate(cells)]
+        for name, values in known.items()
+    }

@@ -1,0 +1,125 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Interface profile (NAME_interface.csv): every variable of every integration point of interface and cohesive elements.
+
+A block of rows per increment of field output: step, increment, time (total time), element, point (from 1), then the
+variables that the interface elements keep: coordinates X and Y, separations SEPN and SEPT, tractions TN and TT,
+DAMAGE, ... A variable that one element type lacks is empty there.
+"""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import numpy as np
+
+from uel.errors import UelError
+from uel.model.arrays import FloatArray
+from uel.model.model import Model
+from uel.model.records import ElementState, IncrementDone, PointVariables
+from uel.output.formats import TextFile
+from uel.output.points import point_values
+from uel.output.schedule import Schedule, find_written
+
+FIXED = ("step", "increment", "time", "element", "point")
+
+
+class InterfaceFile:
+    """Writes NAME_interface.csv; there is no such file if the model has no interface elements that we know."""
+
+    def __init__(self, path: Path, model: Model) -> None:
+        path.unlink(missing_ok=True)
+        self._path = path
+        self._model = model
+        self._schedule = Schedule()
+        self._file: TextFile | None = None
+        self._names: list[str] = []
+
+    def write(self, record: IncrementDone, *, last: bool) -> None:
+        """Append the block of an increment if the step writes field output."""
+        step = self._model.steps[record.step - 1]
+        if not self._schedule.due_field(step, record, last=last):
+            return
+        states = [
+            (state, state.variables)
+            for state in record.solution.elements
+            if state.variables is not None and state.variables.kind == "interface"
+        ]
+        if not states:
+            return
+        if self._file is None:
+            self._names = list(dict.fromkeys(name for _, variables in states for name in variables.names))
+            self._file = TextFile(self._path)
+            self._file.write(",".join([*FIXED, *self._names]) + "\n")
+        head = f"{record.step},{record.increment},{record.total_time!r}"
+        lines: list[str] = []
+        for state, variables in states:
+            lines += self._rows(head, state, variables)
+        self._file.write("".join(lines))
+
+    def close(self) -> None:
+        """Close the file."""
+        if self._file is not None:
+            self._file.close()
+
+    def _rows(self, head: str, state: ElementState, variables: PointVariables) -> list[str]:
+        values = point_values(state, variables)
+        columns = np.full((*values.shape[:2], len(self._names)), np.nan)
+        columns[:, :, [self._names.index(name) for name in variables.names]] = values
+        labels = self._model.groups[state.group].labels.tolist()
+        # the text of a list has the shortest numbers that read back exactly, and is quicker than one by one
+        return [
+            f"{head},{label},{k},{str(point)[1:-1].replace(', ', ',').replace('nan', '')}\n"
+            for label, points in zip(labels, columns.tolist(), strict=True)
+            for k, point in enumerate(points, 1)
+        ]
+
+
+def read_profiles(path: Path) -> list[dict[str, FloatArray]]:
+    """All profiles that were written, each by column as `read_interface` gives it; raises UelError without a file."""
+    names, blocks = _read_blocks(path)
+    return [dict(zip(names, rows.T.copy(), strict=True)) for rows in blocks.values()]
+
+
+def read_interface(path: Path, step: int | None = None, increment: int = -1) -> dict[str, FloatArray]:
+    """Profile of one increment, by column, in the order of the elements.
+
+    Parameters
+    ----------
+    path
+        NAME_interface.csv.
+    step
+        Number of the step; by default the last one that has the increment.
+    increment
+        Number of the increment; -1 is the last one written of the step.
+
+    Raises
+    ------
+    UelError
+        There is no such file, or it does not hold the increment.
+    """
+    names, blocks = _read_blocks(path)
+    places = list(blocks)
+    values = blocks[places[find_written(path, "interface profile", places, step, increment)]]
+    return {name: values[:, k].copy() for k, name in enumerate(names)}
+
+
+def _read_blocks(path: Path) -> tuple[list[str], dict[tuple[int, int], FloatArray]]:
+    """Rows by step and increment. A last block that a killed run left unfinished is left out."""
+    if not path.exists():
+        needed = "interface elements of the project, or cohesive elements, and the deck has *OUTPUT, FIELD"
+        raise UelError(f"{path}: no such file; it is written only if the model has {needed}")
+    head, *lines = [line for line in path.read_text("utf-8").splitlines(keepends=True) if line.endswith("\n")]
+    names = head.rstrip().split(",")
+    if not lines:
+        return names, {}
+    # loadtxt cannot read an empty cell
+    cells = "".join(lines).replace(",\n", ",nan\n").replace(",,", ",nan,").replace(",,", ",nan,")
+    table = np.loadtxt(io.StringIO(cells), delimiter=",", ndmin=2)
+    starts = 1 + np.flatnonzero(np.diff(table[:, :2], axis=0).any(axis=1))
+    blocks = {(int(rows[0, 0]), int(rows[0, 1])): rows for rows in np.split(table, starts)}
+    places = list(blocks)
+    if len(places) > 1 and len(blocks[places[-1]]) < len(blocks[places[0]]):
+        del blocks[places[-1]]
+    return names, blocks

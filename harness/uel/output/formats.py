@@ -1,0 +1,115 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbers, notes and warnings as Abaqus prints them, and text files that a killed run leaves readable."""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import textwrap
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+
+def engineering(value: float) -> str:
+    """Six digits and an exponent that is a multiple of three, as .msg has errors of contact: 442.915E-03."""
+    if value == 0.0:
+        return "0.00000"
+    exponent = 3 * (int(f"{value:.5e}".partition("e")[2]) // 3)
+    return f"{value / 10.0**exponent:#.6g}E{exponent:+03d}"
+
+
+def general(value: float, width: int = 11, digits: int = 3) -> str:
+    """Fortran's `1PGw.d`, with which the .msg and .dat files are written.
+
+    A number that rounds into [0.1, 10**digits) has `digits` significant digits and four blanks in place of the
+    exponent; any other has one digit more and an exponent.
+    """
+    if not math.isfinite(value):
+        return f"{'NaN' if math.isnan(value) else ('Infinity' if value > 0 else '-Infinity'):>{width}}"
+    if value == 0.0:
+        return f"{0.0:{width - 4}.{digits - 1}f}    "
+    exponent = int(f"{value:.{digits - 1}e}".partition("e")[2])
+    if -1 <= exponent < digits:
+        return f"{value:#{width - 4}.{digits - 1 - exponent}f}    "
+    return _scientific(value, width, digits)
+
+
+def exponential(value: float, width: int = 15, digits: int = 7) -> str:
+    """Fortran's `1PEw.d`, with which the .dat file prints values at nodes: one digit before the point, d behind it."""
+    if not math.isfinite(value):
+        return general(value, width)
+    # zero has no sign
+    return _scientific(value + 0.0, width, digits)
+
+
+def _scientific(value: float, width: int, digits: int) -> str:
+    mantissa, _, power = f"{value:.{digits}e}".partition("e")
+    return f"{mantissa}{'' if len(power) > 3 else 'E'}{power}".rjust(width)
+
+
+def status_number(value: float, digits: int) -> str:
+    """C's `%#.<digits>g`, with which the .sta file is written; zero has one digit more than C gives it."""
+    return f"{0.0:.{digits}f}" if value == 0.0 else f"{value:#.{digits}g}"
+
+
+def program() -> str:
+    """Name and version for the head of every file."""
+    try:
+        return f"uel {version('uel')}"
+    except PackageNotFoundError:
+        return "uel"
+
+
+class TextFile:
+    """A file that replaces an older one of the same name; each `write` is handed to the system at once.
+
+    So a killed run leaves every text that was written, the last one perhaps up to where a page of it ends: readers
+    leave out a line without an end.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_APPEND, 0o666)
+
+    def write(self, text: str) -> None:
+        """Append text, or nothing if there is no room for all of it."""
+        data = memoryview(text.encode(errors="replace"))
+        written = 0
+        try:
+            while written < len(data):
+                written += os.write(self._descriptor, data[written:])
+        except OSError as error:
+            if written:
+                os.ftruncate(self._descriptor, os.fstat(self._descriptor).st_size - written)
+            error.filename = str(self._path)
+            raise
+
+    def write_lines(self, text: str) -> None:
+        """Append text whose last line may lack its end."""
+        self.write(text if text.endswith("\n") else f"{text}\n")
+
+    def close(self) -> None:
+        """Close the file; it is not written to again."""
+        os.close(self._descriptor)
+
+
+def read_remarks(path: Path, kind: str) -> list[str]:
+    """Remarks of a kind in a file, each on one line; none if there is no such file."""
+    if not path.exists():
+        return []
+    found = re.findall(
+        rf"^ \*\*\*{kind}: (.*\n(?: {{{len(kind) + 6}}}\S.*\n)*)", path.read_text("utf-8", "replace"), re.M
+    )
+    return [" ".join(text.split()) for text in found]
+
+
+def remark(kind: str, text: str) -> str:
+    """A note, warning or error (`kind` NOTE, WARNING, ERROR) with lines as long as Abaqus', continued under the text.
+
+    Notes and warnings of Abaqus are in upper case; names and paths are left as they are.
+    """
+    head = f" ***{kind}: "
+    lines = textwrap.wrap(text, 80 - len(head), break_long_words=False, break_on_hyphens=False) or [""]
+    return "\n".join([head + lines[0], *(" " * len(head) + line for line in lines[1:])]) + "\n"

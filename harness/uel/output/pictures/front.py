@@ -1,0 +1,410 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fronts of delaminations in space (NAME_front.csv): where the damage of an interface is one half, and what acts there.
+
+Computed from the field output and the interface profiles of a job, whatever its interface elements. Values at the
+nodes are means of those of their elements, extrapolated from the integration points. A front is a line of constant
+damage on that surface, given by the middles of equal parts about as long as the elements. Surfaces that share no node
+are separate; they may be curved.
+
+Energy release rates are Rice's integral along a line through the process zone, in the plane normal to the front:
+G_i = -int t_i dw_i, i = I for the normal, II and III for the shears normal to the front and along it. t is the
+traction, and w the separation of the law, or the displacement jump if an element has no other. While the delamination
+grows, their sum is the fracture energy of the law at this mode mix; before, it is the energy release rate at a crack
+whose process zone is forming. What lies beyond the edge of the interface, such as an initial crack, has no traction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib as mpl
+import meshio
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+from mpl_toolkits.mplot3d.art3d import Line3DCollection
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from uel.errors import UelError
+from uel.model.arrays import FloatArray, IntArray
+from uel.output.formats import TextFile
+from uel.output.pictures.plots import COLOURS, STYLE
+from uel.output.pictures.triangles import Places, TriangulatedSurface, Ways
+from uel.output.results import Result
+
+DAMAGE = 0.5
+"""Of the front."""
+
+_ALIGNED = np.cos(np.radians(0.1))
+"""Abaqus takes the z axis for the local direction s where the normal is within 0.1 degrees of the x axis."""
+
+_FLAT = 0.05
+"""Extent of fronts across a plane, over that in it, up to which they are drawn in the plane."""
+
+_CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+
+
+@dataclass(frozen=True, slots=True)
+class Front:
+    """One line of one surface in one increment.
+
+    step, increment, time  when; total time
+    surface, line          numbers from 1, of the surfaces of a model and of the lines on one of them
+    places     (n, 3) points of the front, in order
+    ahead      (n, 3) unit normals of the front in the surface, towards smaller damage
+    tractions  (n, 3) normal, shear along `ahead`, shear along the front
+    releases   (n, 3) G_I, G_II, G_III (energy/area)
+    """
+
+    step: int
+    increment: int
+    time: float
+    surface: int
+    line: int
+    places: FloatArray
+    ahead: FloatArray
+    tractions: FloatArray
+    releases: FloatArray
+
+
+class _Surface:
+    """Interface elements that share nodes, as triangles.
+
+    Parameters
+    ----------
+    points
+        (n, 3) coordinates of the nodes of the model.
+    cells
+        (m, 4) nodes of the faces.
+    elements
+        (m,) labels.
+    """
+
+    def __init__(self, points: FloatArray, cells: IntArray, elements: IntArray) -> None:
+        used, numbers = np.unique(cells, return_inverse=True)
+        self.elements = elements
+        self._cells = numbers.reshape(cells.shape)
+        self._points = points[used]
+        corners = self._points[self._cells]
+        areas = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+        self.size = float(np.sqrt(np.median(np.linalg.norm(areas, axis=1)) / 2.0))
+        # a node in the middle of each face: the triangles prefer no diagonal
+        middle = len(used) + np.arange(len(cells))
+        triangles = [np.column_stack([self._cells[:, k], self._cells[:, (k + 1) % 4], middle]) for k in range(4)]
+        nodes = np.concatenate([self._points, corners.mean(axis=1)])
+        self.triangles = TriangulatedSurface(nodes, np.concatenate(triangles))
+        self._to_corners: tuple[IntArray, FloatArray, FloatArray] | None = None
+
+    def at_nodes(self, places: FloatArray, values: FloatArray, shears: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Values at the nodes from those at the integration points, which are at `places` (m, 4, 3).
+
+        Parameters
+        ----------
+        values
+            (m, 4, k).
+        shears
+            (m, 4, c, 2) components of vectors along s and t.
+
+        Returns
+        -------
+        (n, k), (n, c, 3)
+            The vectors in global components: s and t differ from face to face.
+        """
+        if self._to_corners is None:
+            corners = self._points[self._cells]
+            nearest = np.argmin(np.linalg.norm(corners[:, :, None] - places[:, None], axis=-1), axis=2)
+            centres = corners.mean(axis=1, keepdims=True)
+            reach = np.linalg.norm(places - centres, axis=-1).mean() / np.linalg.norm(corners - centres, axis=-1).mean()
+            # bilinear functions of the points, at the corners
+            shares = 0.25 * np.prod(1.0 + _CORNERS[:, None] * _CORNERS / reach, axis=-1)
+            self._to_corners = nearest, shares, _directions(corners, reach)
+        nearest, shares, directions = self._to_corners
+        rows = np.arange(len(values))[:, None]
+        vectors = np.einsum("mpca,mpad->mpcd", shears[rows, nearest], directions)
+        flat = np.concatenate([values[rows, nearest], vectors.reshape(*vectors.shape[:2], -1)], axis=-1)
+        sums = np.zeros((len(self._points), flat.shape[-1]))
+        np.add.at(sums, self._cells, shares @ flat)
+        mean = sums / np.bincount(self._cells.ravel())[:, None]
+        nodal = np.concatenate([mean, flat.mean(axis=1)])
+        count = values.shape[-1]
+        return nodal[:, :count], nodal[:, count:].reshape(len(nodal), -1, 3)
+
+
+def _directions(corners: FloatArray, reach: float) -> FloatArray:
+    """Local directions s and t, (m, 4, 2, 3), at the points next to the corners (m, 4, 3) of faces."""
+    xi, eta = reach * _CORNERS.T
+    # derivatives of the bilinear functions of the corners, (points, corners)
+    along = 0.25 * _CORNERS[:, 0] * (1.0 + eta[:, None] * _CORNERS[:, 1])
+    across = 0.25 * _CORNERS[:, 1] * (1.0 + xi[:, None] * _CORNERS[:, 0])
+    normal = np.cross(np.einsum("pk,mkd->mpd", along, corners), np.einsum("pk,mkd->mpd", across, corners))
+    normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
+    first = np.where(np.abs(normal[..., :1]) > _ALIGNED, [0.0, 0.0, 1.0], [1.0, 0.0, 0.0])
+    first = first - np.sum(first * normal, axis=-1, keepdims=True) * normal
+    first /= np.linalg.norm(first, axis=-1, keepdims=True)
+    return np.stack([first, np.cross(normal, first)], axis=-2)
+
+
+@dataclass(frozen=True, slots=True)
+class _Fields:
+    """Fields at the nodes of a surface.
+
+    damage     (n,)
+    normals    (n, 2) traction and separation along the normal
+    shears     (n, 2, 3) those along the surface, in global components
+    """
+
+    damage: FloatArray
+    normals: FloatArray
+    shears: FloatArray
+
+
+def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
+    """Fronts of all increments of the field output, in order; none in an increment without such a damage.
+
+    Parameters
+    ----------
+    result
+        Of a job with interface elements in space.
+    damage
+        Of the front.
+
+    Raises
+    ------
+    UelError
+        The job has no field output, or no interface elements that are surfaces and have a damage.
+    """
+    frames = result.frames
+    if not frames:
+        raise UelError(f"{result.file('.pvd')}: no field output, from which the front is computed")
+    surfaces = _surfaces(result.mesh(frames[0].increment, frames[0].step))
+    if not surfaces:
+        raise UelError(
+            f"{result.file('.pvd')}: no interface elements in space with a damage; "
+            "a front is a line on a surface of interface elements with four nodes on a face"
+        )
+    profiles = {(int(profile["step"][0]), int(profile["increment"][0])): profile for profile in result.interfaces()}
+    found: list[Front] = []
+    for frame in frames:
+        # a killed run may lack the last profile
+        profile = profiles.get((frame.step, frame.increment))
+        if profile is None:
+            continue
+        for number, surface in enumerate(surfaces, 1):
+            fields = _fields(surface, profile)
+            lines = _lines(surface, fields.damage, damage)
+            reaches = _reaches(surface, fields.damage, [places for places, _ in lines])
+            for line, ((places, triangles), reach) in enumerate(zip(lines, reaches, strict=True), 1):
+                values = _along(surface, fields, places, triangles, reach)
+                found.append(Front(frame.step, frame.increment, frame.time, number, line, *values))
+    return found
+
+
+def write_fronts(path: Path, found: list[Front]) -> None:
+    """Write NAME_front.csv: a row for each point of each front, with the ratio (G_II + G_III)/G as MIX."""
+    names = ("X", "Y", "Z", "AHEADX", "AHEADY", "AHEADZ", "TN", "TII", "TIII", "GI", "GII", "GIII", "MIX")
+    file = TextFile(path)
+    file.write(",".join(["step,increment,time,surface,line,point", *names]) + "\n")
+    for front in found:
+        total = front.releases.sum(axis=1)
+        shear = front.releases[:, 1:].sum(axis=1)
+        mix = np.divide(shear, total, out=np.zeros_like(total), where=total > 0.0)
+        rows = np.column_stack([front.places, front.ahead, front.tractions, front.releases, mix])
+        head = f"{front.step},{front.increment},{front.time!r},{front.surface},{front.line}"
+        for point, row in enumerate(rows.tolist(), 1):
+            file.write(f"{head},{point}," + ",".join(f"{value:.9g}" for value in row) + "\n")
+    file.close()
+
+
+def draw_fronts(path: Path, found: list[Front]) -> None:
+    """Draw the fronts of all increments, coloured by time, and G with its parts along those of the last one.
+
+    Raises
+    ------
+    UelError
+        There is no front.
+    """
+    if not found:
+        raise UelError(f"{path}: no front to draw: the damage of no increment reaches that of the front")
+    last = [front for front in found if (front.step, front.increment) == (found[-1].step, found[-1].increment)]
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(5.5, 6.4), layout="constrained")
+        FigureCanvasAgg(figure)
+        below = figure.add_subplot(2, 1, 2)
+        _draw_lines(figure, found)
+        for k, front in enumerate(last):
+            arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(front.places, axis=0), axis=1))])
+            for name, colour, values in zip(("I", "II", "III"), COLOURS, front.releases.T, strict=False):
+                below.plot(arc, values, color=colour, label=None if k else f"$G_{{{name}}}$")
+            below.plot(arc, front.releases.sum(axis=1), color="0.35", linestyle="--", label=None if k else "$G$")
+        below.set(xlabel=f"Length along the front at time {last[0].time:g}", ylabel="Energy release rate")
+        below.set_ylim(bottom=min(0.0, below.get_ylim()[0]))
+        figure.legend(ncols=4, loc="outside lower center")
+        figure.savefig(path, dpi=200)
+
+
+def _draw_lines(figure: Figure, found: list[Front]) -> None:
+    """Draw fronts in their plane, along the two axes closest to it, or in space where they lie in none."""
+    places = np.concatenate([front.places for front in found])
+    times = np.array([front.time for front in found])
+    # a single straight front is in the plane into which it grows
+    grown = places + 0.1 * np.ptp(places, axis=0).max() * np.concatenate([front.ahead for front in found])
+    _, sizes, axes = np.linalg.svd(np.concatenate([places, grown]) - places.mean(axis=0), full_matrices=False)
+    if sizes[2] > _FLAT * sizes[1]:
+        space = figure.add_subplot(2, 1, 1, projection="3d")
+        lines = Line3DCollection([front.places for front in found], array=times, linewidths=1.2)
+        space.add_collection(lines)
+        low, high = places.min(axis=0), places.max(axis=0)
+        half = 0.5 * (high - low).max()
+        for name, middle in zip("xyz", 0.5 * (low + high), strict=True):
+            space.set(**{f"{name}lim": (middle - half, middle + half), f"{name}label": name.upper()})
+        figure.colorbar(lines, ax=space, label="Time")
+        return
+    first, second = sorted(np.argsort(np.abs(axes[2]))[:2])
+    above = figure.add_subplot(2, 1, 1)
+    drawn = LineCollection([front.places[:, [first, second]] for front in found], array=times, linewidths=1.2)
+    above.add_collection(drawn)
+    above.autoscale_view()
+    above.set(xlabel="XYZ"[first], ylabel="XYZ"[second], aspect="equal", adjustable="datalim")
+    figure.colorbar(drawn, ax=above, label="Time")
+
+
+def _surfaces(mesh: meshio.Mesh) -> list[_Surface]:
+    """Surfaces of interface elements with a damage, in the order of their first elements."""
+    cells, labels = [], []
+    damage = mesh.cell_data.get("DAMAGE", [])
+    for block, values, names in zip(mesh.cells, damage, mesh.cell_data["ELEMENT"], strict=False):
+        if block.type == "quad" and np.isfinite(values).all():
+            cells.append(block.data)
+            labels.append(names)
+    if not cells:
+        return []
+    faces, elements = np.concatenate(cells), np.concatenate(labels)
+    rows = np.repeat(np.arange(len(faces)), 4)
+    shape = (len(faces), len(mesh.points))
+    touching = coo_array((np.ones(rows.size), (rows, faces.ravel())), shape=shape).tocsr()
+    count, member = connected_components(touching @ touching.T, directed=False)
+    return [_Surface(mesh.points, faces[member == k], elements[member == k]) for k in range(count)]
+
+
+def _fields(surface: _Surface, profile: Mapping[str, FloatArray]) -> _Fields:
+    """Fields at the nodes of a surface from the integration points."""
+    order = np.lexsort((profile["point"], profile["element"]))
+    labels = profile["element"][order].astype(np.int64)
+    rows = order[np.isin(labels, surface.elements)]
+    sorted_labels = np.sort(surface.elements)
+    back = np.argsort(np.argsort(surface.elements))
+    count = len(rows) // len(sorted_labels)
+
+    def gather(*names: str) -> FloatArray:
+        stacked = np.stack([profile[name][rows] for name in names], axis=-1)
+        return stacked.reshape(len(sorted_labels), count, len(names))[back]
+
+    separation = "W" if "WN" in profile and np.isfinite(profile["WN"][rows]).all() else "SEP"
+    shears = [gather(f"{name}S", f"{name}T") for name in ("T", separation)]
+    values, vectors = surface.at_nodes(
+        gather("X", "Y", "Z"), gather("DAMAGE", "TN", f"{separation}N"), np.stack(shears, axis=2)
+    )
+    return _Fields(np.clip(values[:, 0], 0.0, 1.0), values[:, 1:], vectors)
+
+
+def _lines(surface: _Surface, damage: FloatArray, level: float) -> list[tuple[Places, IntArray]]:
+    """Lines of a damage on a surface, as places at the distance of the elements and their triangles."""
+    if not damage.min() < level < damage.max():
+        return []
+    triangles = surface.triangles
+    return [
+        triangles.even(line, surface.size)
+        for line in triangles.lines(damage, level)
+        if triangles.length(line) > surface.size
+    ]
+
+
+def _along(
+    surface: _Surface, fields: _Fields, line: Places, triangles: IntArray, reach: float
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Places, normals, tractions and energy release rates of a front, as in `Front`."""
+    mesh = surface.triangles
+    points = line.values(mesh.nodes)
+    normal = _unit(line.values(mesh.normals))
+    along = _tangents(points)
+    along = _unit(along - np.sum(along * normal, axis=1, keepdims=True) * normal)
+    ahead = np.cross(along, normal)
+    both = [mesh.ways(line, triangles, along, direction, reach) for direction in (ahead, -ahead)]
+    slope = [_damage_beside(way, fields.damage, 0.5 * surface.size) for way in both]
+    # the side on which the damage is smaller
+    if np.sum(slope[0] - slope[1]) > 0.0:
+        ahead, both = -ahead, both[::-1]
+    along = np.cross(normal, ahead)
+    releases = np.zeros((len(points), 3))
+    for way, sign in zip(both, (1.0, -1.0), strict=True):
+        traction, opening = _components(mesh, fields, way.places, along)
+        mean = 0.5 * (traction[:, 1:] + traction[:, :-1])
+        # ways that have ended count nothing
+        releases -= sign * np.nansum(mean * np.diff(opening, axis=1), axis=1)
+    (middle,), _ = (
+        each[None, :, 0]
+        for each in _components(mesh, fields, Places(line.nodes[:, None], line.weights[:, None]), along)
+    )
+    return points, ahead, middle, releases
+
+
+def _components(
+    mesh: TriangulatedSurface, fields: _Fields, places: Places, along: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Tractions and separations (n, k, 3) at places (n, k): normal, ahead of the front and along it.
+
+    along: (n, 3) the direction of the front, normal to which the ways go; ahead and along turn with the surface.
+    """
+    normal = _unit(places.values(mesh.normals))
+    ahead = _unit(np.cross(along[:, None], normal))
+    directions = np.stack([ahead, np.cross(normal, ahead)], axis=-2)
+    values = places.values(fields.normals)
+    shape = fields.shears.shape
+    shears = places.values(fields.shears.reshape(shape[0], -1)).reshape(*values.shape[:-1], 2, 3)
+    parts = np.einsum("nkcd,nkad->nkca", shears, directions)
+    traction, opening = (np.concatenate([values[..., c, None], parts[..., c, :]], axis=-1) for c in (0, 1))
+    return traction, opening
+
+
+def _damage_beside(way: Ways, damage: FloatArray, distance: float) -> FloatArray:
+    """Damage (n,) at a distance along ways; beyond an edge of the surface, where a crack is, 1."""
+    values = way.places.values(damage[:, None])[..., 0]
+    found = np.ones(len(values))
+    for row, (lengths, there) in enumerate(zip(way.lengths, values, strict=True)):
+        known = np.isfinite(lengths)
+        if lengths[known][-1] >= distance:
+            found[row] = np.interp(distance, lengths[known], there[known])
+    return found
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    """Vectors (..., 3) at length 1; those of length 0 stay."""
+    size = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return np.asarray(vectors / np.where(size == 0.0, 1.0, size))
+
+
+def _tangents(points: FloatArray) -> FloatArray:
+    """Chords (n, 3) between the second neighbours of points of a line."""
+    index = np.arange(len(points))
+    return np.asarray(points[np.minimum(index + 2, len(points) - 1)] - points[np.maximum(index - 2, 0)])
+
+
+def _reaches(surface: _Surface, damage: FloatArray, lines: list[Places]) -> list[float]:
+    """Half the length of the ways through the process zone of each front.
+
+    It holds all that is damaged in part and closer to this front than to others, and three faces.
+    """
+    if not lines:
+        return []
+    partly = surface.triangles.nodes[(damage > 1e-3) & (damage < 1.0 - 1e-3)]
+    # a front passes between nodes, which may all be undamaged or failed
+    distances = np.stack([cKDTree(line.values(surface.triangles.nodes)).query(partly)[0] for line in lines])
+    closest = np.argmin(distances, axis=0)
+    spreads = [np.append(0.0, distances[k, closest == k]).max() for k in range(len(lines))]
+    return [float(spread) + 3.0 * surface.size for spread in spreads]

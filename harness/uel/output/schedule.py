@@ -1,0 +1,75 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""When an increment is written: every k-th of a step, or the first in each part of it, and the last one; which one of
+those that were written is read."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+from uel.errors import UelError
+from uel.model.records import IncrementDone
+from uel.model.steps import Step
+
+
+class Schedule:
+    """Decides for one file; remembers what was written, so that the last increment is not written twice."""
+
+    def __init__(self) -> None:
+        self._written = (0, 0)
+        # step, and how many of its parts have been written
+        self._parts = (0, 0)
+
+    def due(self, frequency: int, record: IncrementDone, *, last: bool) -> bool:
+        """True if the increment must be written now; `last`: no increment of the step follows."""
+        place = (record.step, record.increment)
+        if frequency < 1 or place == self._written or not (last or record.increment % frequency == 0):
+            return False
+        self._written = place
+        return True
+
+    def due_field(self, step: Step, record: IncrementDone, *, last: bool) -> bool:
+        """`due` of the field output of a step."""
+        parts = step.output.field_intervals
+        # the sum of the increments may be a little short of the end of a part
+        done = (record.step, math.floor(parts * record.step_time / step.procedure.period + 1e-9))
+        reached = done > max(self._parts, (record.step, 0))
+        if reached:
+            self._parts = done
+        if reached or (parts and last):
+            return self.due(1, record, last=last)
+        return self.due(step.output.field_frequency, record, last=last)
+
+
+def find_written(path: Path, what: str, places: Sequence[tuple[int, int]], step: int | None, increment: int) -> int:
+    """Which entry of a file is asked for.
+
+    Parameters
+    ----------
+    path
+        The file.
+    what
+        What its entries are, such as 'field output'.
+    places
+        Step and increment of each entry, in the order in which they were written.
+    step
+        Number of the step; None: the last one that has the increment.
+    increment
+        Number of the increment in the step; -1: the last one written.
+
+    Raises
+    ------
+    UelError
+        There is no such entry.
+    """
+    wanted = [
+        index
+        for index, place in enumerate(places)
+        if (step is None or place[0] == step) and (increment < 1 or place[1] == increment)
+    ]
+    if not wanted:
+        named = ([] if step is None else [f"step {step}"]) + ([] if increment < 1 else [f"increment {increment}"])
+        raise UelError(f"{path}: no {what}" + (f" of {', '.join(named)}" if named else ""))
+    return wanted[-1]

@@ -1,0 +1,136 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the ranks of a job tell each other. All of them call each of these functions, in the same order.
+
+Rank 0 alone speaks: it writes the files and prints. What one rank cannot do, all of them learn of, so that they end
+together.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any, Final, TypeVar
+
+import numpy as np
+
+from uel.errors import UelError
+from uel.model.arrays import FloatArray, IntArray
+from uel.parallel.launch import Launch
+
+_T = TypeVar("_T")
+_A = TypeVar("_A", bound=np.generic)
+
+FAILURES: Final = (UelError, OSError, MemoryError)
+"""What one rank may meet and all of them have to learn of."""
+
+
+class Ranks:
+    """One process, which is all ranks.
+
+    rank, size  number of this rank, from 0, and of all of them
+    token       by which the ranks know this run
+    """
+
+    rank = 0
+    size = 1
+    token = ""
+
+    def sum(self, values: FloatArray) -> FloatArray:
+        """Sum over the ranks of an array, the same to the bit on all of them; not a copy on one rank."""
+        return values
+
+    def largest(self, values: FloatArray) -> FloatArray:
+        """Largest over the ranks of each entry of an array (k,)."""
+        found: FloatArray = self.sum(self.apart(values)).reshape(self.size, -1).max(axis=0)
+        return found
+
+    def apart(self, values: FloatArray) -> FloatArray:
+        """An array (k,) whose `sum` (size k) has the values of all ranks one after another."""
+        places = np.zeros((self.size, len(values)))
+        places[self.rank] = values
+        return places.ravel()
+
+    def everyones(self, mine: _T) -> list[_T]:
+        """What each rank gives, in their order, on all of them."""
+        return [mine]
+
+    def collect(self, mine: _T) -> list[_T]:
+        """What each rank gives, in their order, on rank 0; nothing on the others."""
+        return [mine]
+
+    def from_first(self, mine: _T) -> _T:
+        """What rank 0 gives, on all of them."""
+        return mine
+
+    def exchange(self, parts: Sequence[np.ndarray[Any, np.dtype[_A]]]) -> list[np.ndarray[Any, np.dtype[_A]]]:
+        """What each rank has for this one, in their order; parts: what this one has for each."""
+        return list(parts)
+
+    def exchange_known(
+        self, parts: Sequence[np.ndarray[Any, np.dtype[_A]]], incoming: IntArray
+    ) -> list[np.ndarray[Any, np.dtype[_A]]]:
+        """As `exchange`, where the lengths of what comes are known."""
+        return list(parts)
+
+    def agree(self, act: Callable[[], _T], order: Callable[[Exception], float] = lambda _: math.inf) -> _T:
+        """Do something that may fail on one rank alone: it then fails on all, with the same error.
+
+        Parameters
+        ----------
+        act
+            What each rank does by itself.
+        order
+            Of the errors of several ranks the one with the smallest value counts, then that of the lowest rank.
+
+        Returns
+        -------
+        T
+            What `act` returns on this rank.
+        """
+        return act()
+
+    def tell(self, act: Callable[[], _T]) -> _T:
+        """What rank 0 gets by `act`, or the error, on all ranks; it is not None."""
+        return act()
+
+    def in_turn(self, act: Callable[[], _T]) -> _T:
+        """Do something on rank 0 first, then on the others; errors as in `agree`."""
+        return act()
+
+    def lead(self, act: Callable[[], None], help_out: Callable[[], object]) -> None:
+        """Do something on rank 0, while the others do what it asks for by `ask`; errors as in `agree`."""
+        act()
+
+    def ask(self) -> None:
+        """Let the other ranks do their part, within `lead`."""
+
+    def ended(self, error: BaseException | None) -> bool:
+        """Come to the end of the job; returns whether all ranks do.
+
+        Parameters
+        ----------
+        error
+            What ends it, None if it is complete. An error that only this rank has met lets the others hang: after some
+            seconds this one goes on alone.
+        """
+        return True
+
+    def before_end(self, act: Callable[[], None]) -> None:
+        """Do something once before `close` ends MPI, on all ranks and only if all of them come to the end."""
+
+    def close(self) -> None:
+        """The last thing that ranks do together."""
+
+
+ALONE: Final = Ranks()
+"""A job in one process."""
+
+
+def begin(launch: Launch) -> Ranks:
+    """The ranks of which this process is one. Raises UsageError without what several ranks need."""
+    if launch.size == 1:
+        return ALONE
+    from uel.parallel.mpi import MpiRanks  # noqa: PLC0415 (starts MPI)
+
+    return MpiRanks(launch)

@@ -1,0 +1,183 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the parts of a general step share: what the step prescribes, its constraints, its checks, its calls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from uel.assembly import Constraints, TurningConstraints
+from uel.elements import Call, Flags
+from uel.errors import DeckError
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.model import dof_in_deck
+from uel.model.user_values import UserValues
+from uel.procedures.general.convergence_checks import Checker, length_of_moments
+from uel.procedures.general.unconstrained import UnconstrainedSolver, tolerate
+from uel.procedures.loads.nodal import fading_forces
+from uel.procedures.state import BegunStep
+from uel.procedures.step_setting import Setting, SolverTimes, choose_rank_solver, choose_solver, places
+from uel.solver.linear import LinearSolver, RankSolver
+from uel.solver.newton import Acting, Factoriser
+
+
+class StepContext:
+    """One general step, apart from its procedure.
+
+    start       total time at the start of the step
+    step_time   at the start of the increment; the total time is that of the state
+    increment   number of the current increment
+    times_of_solver  of the linear solver in this step
+    beginning   arrays of the state from which the step's prescribed values and loads follow
+    choice      which linear solver was chosen and why; '' if that of the last step is kept
+    advice      what would be faster, '' for nothing
+    """
+
+    constraints: Constraints
+    solver: Factoriser
+
+    def __init__(self, setting: Setting, *, fallback: bool = False) -> None:
+        """Takes over the step's prescribed values and loads; symbolic work is repeated only if they differ.
+
+        Raises DeckError.
+        """
+        self.system, self.step, self.state, self.user = setting.system, setting.step, setting.state, setting.user
+        system, step, state, user = self.system, self.step, self.state, self.user
+        self.beginning = {name: getattr(state, name) for name in ("displacement", "reaction", "unbalanced")}
+        state.begun.append(BegunStep(step.number, state.total_time))
+        self.prescribed = state.boundaries.start_step(step, state.displacement, state.total_time)
+        self.load = state.loads.start_step(step, state.total_time, user)
+        self.conditions = state.conditions.start_step(step, state.total_time)
+        self.amplitudes = state.amplitudes.start_step(step, system.dofs, state, user)
+        if len(state.boundaries.by_user) and user.disp is None:
+            source = state.boundaries.sources[int(state.boundaries.by_user[0])]
+            raise DeckError(source, "*BOUNDARY, USER needs DISP, which the job does not have")
+        for field in step.fields:
+            routine, address = ("UFIELD", user.ufield) if field.dof else ("UTEMP", user.utemp)
+            if field.user and address is None:
+                keyword = "FIELD" if field.dof else "TEMPERATURE"
+                raise DeckError(field.source, f"*{keyword}, USER needs {routine}, which the job does not have")
+        self.released = fading_forces(state.reaction, self.unknowns, step, state.unbalanced)
+        state.unbalanced = np.zeros_like(state.unbalanced)
+        self.choice = self.advice = ""
+        self.times_of_solver = SolverTimes(state.effort)
+        self._constrain(setting, fallback=fallback)
+        length = length_of_moments(system, setting.model.mesh)
+        self.checker = Checker(
+            system.dofs, self.constraints, step.controls, state.flux, length, convert=step.convert_sdi
+        )
+        if isinstance(self.solver, UnconstrainedSolver | RankSolver):
+            self.solver.negligible = self.checker.negligible_force
+        self.start, self.step_time, self.increment = state.total_time, 0.0, 0
+
+    def _constrain(self, setting: Setting, *, fallback: bool) -> None:
+        """Constraints and linear solver of the step, those of the last one if they are the same."""
+        state, equations = self.state, setting.model.equations
+        arms = setting.model.arms if self.step.nlgeom else ()
+        constraints, solver, start = state.constraints, state.solver, self.beginning["displacement"]
+        if constraints is None or solver is None or not constraints.matches(self.unknowns, equations, arms, start):
+            given = self.system, self.unknowns, equations, state.boundaries.sources
+            constraints = TurningConstraints(*given, arms, start) if arms else Constraints(*given)
+            find = choose_solver if self.system.ranks.size == 1 else choose_rank_solver
+            choose = partial(find, setting.solver, constraints, state.effort)
+            if isinstance(solver, RankSolver):
+                solver.release()
+            chosen = choose()
+            # the search handles a singular matrix itself
+            solver = chosen if fallback else tolerate(chosen, _renewing(setting, constraints))
+            self.advice = "" if isinstance(chosen, RankSolver) else chosen.advice
+            self.choice = f"LINEAR SOLVER {chosen.name.upper()}: {chosen.reason}"
+            state.majoriser.use(self.system, constraints, choose)
+        state.constraints = self.constraints = constraints
+        state.solver = self.solver = solver
+
+    @property
+    def unknowns(self) -> IntArray:
+        """Prescribed unknowns."""
+        return self.state.boundaries.unknowns
+
+    @property
+    def times(self) -> tuple[float, float]:
+        """Step and total time at the start of the increment."""
+        return self.step_time, self.state.total_time
+
+    def load_at(self, step_time: float, u: FloatArray | None = None) -> FloatArray:
+        """Loads and fading forces (n,); those of DLOAD at displacements u (n,), by default those of the state."""
+        return self.loads_at(step_time, u) + self.released.at(step_time, self.start + step_time)
+
+    def loads_at(self, step_time: float, u: FloatArray | None = None) -> FloatArray:
+        """Loads (n,) without fading forces, as those of `load_at`."""
+        time = step_time, self.start + step_time
+        found = self.load.at(*time)
+        return found + self.load.of_user(time, self._at(u)) if self.load.by_user else found
+
+    def steady_at(self, step_time: float) -> FloatArray:
+        """Loads and fading forces (n,) without those of DLOAD."""
+        total = self.start + step_time
+        return self.load.at(step_time, total) + self.released.at(step_time, total)
+
+    def _at(self, u: FloatArray | None) -> FloatArray:
+        return self.state.displacement if u is None else u
+
+    def acting(self, end: float, u: FloatArray) -> Acting:
+        """What acts at a step time and displacements (n,) besides the steady loads, where DLOAD gives any."""
+        time, start = (end, self.start + end), self.times
+        on_elements = self.conditions.distributed(start, time)
+        return Acting(self.load.of_user(time, u), self.load.with_faces(on_elements, start, time, u))
+
+    def prescribed_at(self, step_time: float) -> FloatArray:
+        """Prescribed values (n,), those of DISP among them."""
+        time = step_time, self.start + step_time
+        values, by_user = self.prescribed.at(*time), self.state.boundaries.by_user
+        if len(by_user):
+            dofs = self.system.dofs
+            nodes = dofs.node[by_user]
+            numbers = [dof_in_deck(dof) for dof in dofs.dof[by_user].tolist()]
+            places = np.stack([dofs.mesh.labels[nodes], numbers], axis=1).astype(np.int32)
+            moment = self.step.number, self.increment, time
+            size = step_time - self.step_time
+            asked = UserValues("DISP", *moment, places, self.places(nodes), values[by_user], size=size)
+            values[by_user] = self.user.user_values(asked)
+        return values
+
+    def places(self, nodes: IntArray) -> FloatArray:
+        """(k, 3) coordinates of nodes at the start of the increment; with NLGEOM those of the displaced nodes."""
+        return places(self.system.dofs, nodes, self.state.displacement if self.step.nlgeom else None)
+
+    def call(self, size: float, step_time: float, total_time: float, u: FloatArray | None = None) -> Call:
+        """Arguments of the passes of an increment that ends at these times; u as that of `load_at`."""
+        step, end = self.step, (step_time, total_time)
+        distributed, predefined = self.conditions.at(self.times, end, max(self.increment, 1), self.user, self.places)
+        return Call(
+            flags=Flags.of(step),
+            step=step.number,
+            # calls before the first increment belong to it
+            increment=max(self.increment, 1),
+            step_time=step_time,
+            total_time=total_time,
+            time_increment=size,
+            period=step.procedure.period,
+            params=step.procedure.params,
+            unsymmetric=step.procedure.unsymmetric,
+            distributed=self.load.with_faces(distributed, self.times, end, self._at(u)),
+            predefined=predefined,
+            flux_floor=self.checker.flux_floor,
+            load_terms=self.load.terms(end, self.checker.flux_floor),
+        )
+
+
+def _renewing(setting: Setting, constraints: Constraints) -> Callable[[], LinearSolver | None]:
+    """Chooses another linear solver where the pattern of the constraints is not that of the last one."""
+    pattern = constraints.reduced_indices
+
+    def renew() -> LinearSolver | None:
+        nonlocal pattern
+        if pattern is constraints.reduced_indices:
+            return None
+        pattern = constraints.reduced_indices
+        return choose_solver(setting.solver, constraints, setting.state.effort)
+
+    return renew

@@ -1,0 +1,363 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""From an iterate to the convergence checks of all fields."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import astuple, dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.assembly import Constraints, DofMap, System
+from uel.elements import FIELD_NAMES, VOLUME
+from uel.model.arrays import FloatArray, IntArray, first_largest
+from uel.model.contact import CONTACT
+from uel.model.couplings import COUPLING, CouplingErrors
+from uel.model.mesh import Mesh
+from uel.model.model import dof_in_deck
+from uel.model.records import Convergence, FieldCheck, Largest
+from uel.model.restart import Saved
+from uel.model.steps import Controls, FieldControls
+from uel.procedures.general.convergence import FieldMeasures, FluxHistory, estimated_correction, judge
+from uel.procedures.general.incrementation import Cutback, judge_rate, out_of_iterations
+from uel.solver.newton import Iterate
+
+CONTROLLED_AS = dict(
+    zip(
+        (name for name in FIELD_NAMES if name not in (VOLUME, CONTACT, COUPLING)),
+        ("DISPLACEMENT", "ROTATION", "PORE FLUID PRESSURE", "ELECTRICAL POTENTIAL", "TEMPERATURE", "CONCENTRATION"),
+        strict=True,
+    )
+)
+"""FIELD= of *CONTROLS by field."""
+
+ROTATIONS = range(4, 7)
+"""Dofs that are rotations."""
+
+Positions = IntArray | slice
+"""Where the entries of a field are in a vector; a slice if that is all of it, which is much faster."""
+
+
+@dataclass(slots=True)
+class FieldChecker:
+    """Checks of one field: where its unknowns are, its controls, and the results of earlier iterations and increments.
+
+    unknowns   unknowns of the field
+    free       positions of its free unknowns in the reduced vector
+    average    its time average flux in the last check, which is that of another field where it is `converted`
+    """
+
+    number: int
+    controls: FieldControls
+    unknowns: Positions
+    free: Positions
+    history: FluxHistory
+    residuals: list[float] = field(default_factory=list)
+    flux: float = 0.0
+    peak: float = 0.0
+    average: float = 0.0
+    converted: bool = False
+
+    @property
+    def name(self) -> str:
+        """Name of the field."""
+        return FIELD_NAMES[self.number]
+
+
+class Checker:
+    """Convergence checks of the increments of one step.
+
+    length   characteristic length of elements with rotations, which converts moments to forces; 0 without rotations
+    convert  severe discontinuity iterations may end an increment
+    """
+
+    def __init__(
+        self,
+        dofs: DofMap,
+        constraints: Constraints,
+        controls: Controls,
+        histories: Sequence[FluxHistory],
+        length: float = 0.0,
+        *,
+        convert: bool = True,
+    ) -> None:
+        self._dofs = dofs
+        self._length = length
+        self._constraints = constraints
+        self._free = constraints.free
+        self._time = controls.time
+        self._start: list[float] = []
+        self.fields = []
+        self._controls, self._convert_sdi = controls, convert
+        self._calm = 0
+        volume = FIELD_NAMES.index(VOLUME)
+        self._pressures = np.flatnonzero(dofs.field[self._free] == volume)
+        for number in np.unique(dofs.field[dofs.field < volume]):
+            chosen = controls.fields.get(CONTROLLED_AS[FIELD_NAMES[number]], controls.default)
+            unknowns = _positions(dofs.field == number)
+            free = _positions(dofs.field[self._free] == number)
+            history = histories[number].next_step(chosen)
+            self.fields.append(FieldChecker(int(number), chosen, unknowns, free, history))
+
+    @property
+    def flux_floor(self) -> FloatArray:
+        """(fields,) element nodal forces that do not count in the average flux in the next increment.
+
+        From the second increment of a step on, forces are left out that count as zero compared with the time average of
+        the largest one: in printed iterations of a cube pulled along one axis, the average is that of the other entries
+        only. All count if the largest one is small compared with its time average: so do the heat fluxes of a cube
+        after a first peak, until a tenth of it is reached.
+        """
+        floor = np.full(len(FIELD_NAMES), -1.0)
+        for checked in self.fields:
+            floor[checked.number] = checked.history.floor(checked.controls)
+        return floor
+
+    def start(self, state: Iterate, *, extrapolated: bool) -> None:
+        """Begin an attempt with the state before the first solve.
+
+        Its residual serves the estimate of the correction in iteration 1, but only where it is an extrapolation.
+        """
+        self._calm = 0
+        for checked in self.fields:
+            checked.residuals = []
+        self._start = [_largest(state.reduced, checked.free) if extrapolated else 0.0 for checked in self.fields]
+
+    def check(self, state: Iterate) -> tuple[FieldCheck, ...]:
+        """Checks of all fields after an iteration, then those of volumes, distributing couplings and contact."""
+        if is_severe(state):
+            self._calm = state.iteration
+            for checked in self.fields:
+                # the rate of convergence counts from here
+                checked.residuals = checked.residuals[-1:]
+        for checked in self.fields:
+            self._take_flux(checked, state)
+        self._convert()
+        checks = tuple(self._check(k, checked, state) for k, checked in enumerate(self.fields))
+        if len(self._pressures):
+            checks = (*checks, self._check_volume(state))
+        if state.evaluation.coupling is not None:
+            checks = (*checks, self._check_coupling(state, state.evaluation.coupling))
+        return (*checks, self._check_contact(state)) if state.evaluation.contact else checks
+
+    def give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Cutback | None:
+        """Cutback after these checks, none of which need have failed; None to go on iterating.
+
+        iteration: of those in a row without severe discontinuities.
+        """
+        # those of volume and so on, which are no fields, come last
+        for checked, check in zip(self.fields, checks, strict=False):
+            if check.verdict is Convergence.NOT_ACHIEVED:
+                tolerance = checked.controls.r_n * check.time_average_flux
+                cutback = judge_rate(iteration, checked.residuals, tolerance, self._time)
+                if cutback is not None:
+                    return cutback
+        return out_of_iterations(iteration, self._time)
+
+    def assumed_zero_flux(self, checks: Sequence[FieldCheck]) -> Iterator[FieldCheck]:
+        """Checks that pass as zero flux only because of Abaqus' initial time average flux, not by the actual flux."""
+        for checked, check in zip(self.fields, checks, strict=False):
+            controls = checked.controls
+            assumed = checked.history.unknown(controls) and not checked.converted
+            left = abs(check.residual.value) > controls.r_n * check.average_flux > 0.0
+            if check.verdict is Convergence.ZERO_FLUX and assumed and left:
+                yield check
+
+    def negligible_force(self) -> float:
+        """Largest force that is accepted without a correction in each field with flux so far; 0 before any."""
+        known = [(field.history.known, field.controls.r_l) for field in self.fields]
+        return min((r_l * flux for flux, r_l in known if flux > 0.0), default=0.0)
+
+    def time_averages(self) -> dict[str, float]:
+        """Time average flux of each field after the last check."""
+        return {field.name: field.average for field in self.fields}
+
+    def largest_ratio(self, residual: FloatArray, tolerances: Mapping[str, float]) -> float:
+        """Largest ratio of residual to tolerance, of the fields that have a tolerance."""
+        reduced = self._constraints.reduce_vector(residual)
+        ratios = [0.0]
+        for checked in self.fields:
+            largest = _largest(reduced, checked.free)
+            if checked.name in tolerances and largest:
+                tolerance = tolerances[checked.name]
+                ratios.append(largest / tolerance if tolerance else math.inf)
+        return max(ratios)
+
+    def converged(self) -> None:
+        """Include the last fluxes in the time average."""
+        for checked in self.fields:
+            if not checked.converted:
+                checked.history = checked.history.converged(checked.flux, checked.controls, checked.peak)
+
+    def kept(self) -> Saved:
+        """Flux histories of the step by field."""
+        return {checked.name: list(astuple(checked.history)) for checked in self.fields}
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned."""
+        for checked in self.fields:
+            checked.history = FluxHistory(*saved[checked.name])
+
+    def histories(self, before: Sequence[FluxHistory]) -> list[FluxHistory]:
+        """Flux histories by field number, at the end of the step."""
+        after = list(before)
+        for checked in self.fields:
+            after[checked.number] = checked.history
+        return after
+
+    def _take_flux(self, checked: FieldChecker, state: Iterate) -> None:
+        """Average flux of a field after an iteration, and its time average."""
+        evaluation = state.evaluation
+        checked.peak = float(evaluation.largest[checked.number])
+        leaves_out = checked.history.leaves_out(checked.peak)
+        count = (evaluation.flux_count if leaves_out else evaluation.entries)[checked.number]
+        checked.flux = float(evaluation.flux[checked.number] / count) if count else 0.0
+        checked.average, checked.converted = checked.history.average(checked.flux, checked.controls), False
+
+    def _convert(self) -> None:
+        """If forces count as zero beside moments over a length, use these as their time average; and the reverse.
+
+        Otherwise forces that are rounding errors of moments would be compared with themselves. Abaqus says that the
+        field conversion ratio scales the relationship between two active fields when one is of negligible magnitude,
+        and message files have FROM MOMENT FIELD. Inferred are the length, that of elements with rotations, and the
+        condition: no increment had forces, and they count as zero by the criterion for zero flux.
+        """
+        force, moment = (next((c for c in self.fields if c.name == name), None) for name in ("force", "moment"))
+        if force is None or moment is None or not self._length:
+            return
+        for checked, other, length in ((force, moment, 1 / self._length), (moment, force, self._length)):
+            controls = checked.controls
+            if other.converted or not other.history.seen(other.flux, other.controls):
+                continue
+            average = controls.c_f * length * other.average
+            if checked.history.unknown(controls) and checked.flux <= controls.eps * average:
+                checked.average, checked.converted = average, True
+
+    def _check(self, k: int, checked: FieldChecker, state: Iterate) -> FieldCheck:
+        time_average = checked.average
+        residual = self._find(state.reduced, checked.free, self._free)
+        increment = self._find(state.increment, checked.unknowns)
+        correction = self._find(state.correction, checked.unknowns)
+        previous = checked.residuals[-1] if checked.residuals else self._start[k]
+        checked.residuals.append(abs(residual.value))
+        check = FieldMeasures(
+            q=checked.flux,
+            q_time=time_average,
+            r=abs(residual.value),
+            r_previous=previous or None,
+            du=abs(increment.value),
+            c=abs(correction.value),
+            iteration=max(state.iteration - self._calm, 1),
+        )
+        return FieldCheck(
+            field=checked.name,
+            average_flux=checked.flux,
+            time_average_flux=time_average,
+            residual=residual,
+            increment=increment,
+            correction=correction,
+            verdict=judge(check, checked.controls, self._time.i_p),
+            estimated_correction=estimated_correction(check),
+            converted=checked.converted,
+        )
+
+    def _check_volume(self, state: Iterate) -> FieldCheck:
+        """Whether the changes of volume of hybrid elements, by displacements and by pressure, differ by little.
+
+        Abaqus' volumetric strain compatibility tolerance for hybrid solids.
+        """
+        chosen = state.reduced[self._pressures]
+        k = int(first_largest(np.abs(chosen)))
+        nothing = Largest(0.0, -1, 0)
+        found = Largest(float(chosen[k]), -1, 0, self._dofs.element(int(self._free[self._pressures[k]])))
+        verdict = _verdict(state, fulfilled=abs(found.value) <= self._controls.volume)
+        return FieldCheck(VOLUME, 0.0, 0.0, found, nothing, nothing, verdict)
+
+    def _check_coupling(self, state: Iterate, errors: CouplingErrors) -> FieldCheck:
+        """Whether reference nodes move as the nodes that distributing couplings spread their forces over.
+
+        Abaqus' displacement and rotation compatibility tolerances.
+        """
+        displacement, rotation = Largest(*errors.displacement, 0), Largest(*errors.rotation, 0)
+        controls, nothing = self._controls, Largest(0.0, -1, 0)
+        within = displacement.value <= controls.coupling and rotation.value <= controls.coupling_rotation
+        verdict = _verdict(state, fulfilled=within)
+        return FieldCheck(COUPLING, 0.0, 0.0, displacement, nothing, rotation, verdict)
+
+    def _check_contact(self, state: Iterate) -> FieldCheck:
+        """Whether points in contact penetrate little, compared with the largest increment of displacement, and those
+        that opened or closed have small forces, compared with the time average force.
+
+        With CONVERT SDI=NO no iteration passes that changes the status of a point.
+        """
+        pairs, controls, nothing = state.evaluation.contact, self._controls, Largest(0.0, -1, 0)
+        penetration = _worst(Largest(*changes.penetration, 0, changes.pair) for changes in pairs)
+        force = _worst(Largest(*changes.force, 0, changes.pair) for changes in pairs)
+        field = next(checked for checked in self.fields if checked.name == "force")
+        verdict = Convergence.CONVERGED
+        if abs(penetration.value) > controls.contact * _largest(state.increment, field.unknowns):
+            verdict = Convergence.NOT_ACHIEVED
+        elif is_severe(state) and not (
+            self._convert_sdi and abs(force.value) <= controls.contact_force * field.average
+        ):
+            verdict = Convergence.CORRECTION_TOO_LARGE
+        return FieldCheck(CONTACT, 0.0, 0.0, penetration, nothing, force, verdict)
+
+    def _find(self, vector: FloatArray, positions: Positions, unknowns: IntArray | None = None) -> Largest:
+        """Largest entry of a vector among positions; `unknowns` gives the unknown of each position."""
+        chosen = vector[positions]
+        if not len(chosen):
+            return Largest(0.0, -1, 0)
+        k = int(first_largest(np.abs(chosen)))
+        position = k if isinstance(positions, slice) else int(positions[k])
+        unknown = position if unknowns is None else int(unknowns[position])
+        return Largest(float(chosen[k]), int(self._dofs.node[unknown]), dof_in_deck(int(self._dofs.dof[unknown])))
+
+
+def _worst(found: Iterable[Largest]) -> Largest:
+    return max(found, key=lambda largest: abs(largest.value))
+
+
+def _verdict(state: Iterate, *, fulfilled: bool) -> Convergence:
+    """Of constraints after an iteration."""
+    if not fulfilled:
+        return Convergence.NOT_ACHIEVED
+    return Convergence.LINEAR if state.iteration == 1 else Convergence.CONVERGED
+
+
+def is_severe(state: Iterate) -> bool:
+    """Whether an iteration changed the status of a contact point."""
+    return any(changes.count for changes in state.evaluation.contact)
+
+
+def was_linear(checks: Sequence[FieldCheck]) -> bool:
+    """Whether the response was linear in an increment that these checks accept, in all fields that have fluxes."""
+    verdicts = {check.verdict for check in checks}
+    return Convergence.LINEAR in verdicts and verdicts <= {Convergence.LINEAR, Convergence.ZERO_FLUX}
+
+
+def length_of_moments(system: System, mesh: Mesh) -> float:
+    """Characteristic length of elements with rotations: the mean distance of consecutive nodes; 0 without any.
+
+    Abaqus prints a CHARACTERISTIC ELEMENT LENGTH but does not define it: 1 for squares of edge 1, 9.764E-04 for
+    hexahedra whose mean edge is 9.771E-04.
+    """
+    total, count = 0.0, 0.0
+    for block in system.blocks:
+        if any(dof in ROTATIONS for _, dof in block.unknowns):
+            places = mesh.coordinates[block.group.nodes]
+            distances = np.linalg.norm(places - np.roll(places, 1, axis=1), axis=2)
+            total, count = total + float(distances.sum()), count + distances.size
+    total, count = system.ranks.sum(np.array([total, count])).tolist()
+    return total / count if count else 0.0
+
+
+def _positions(mask: NDArray[np.bool_]) -> Positions:
+    return slice(None) if mask.all() else np.flatnonzero(mask)
+
+
+def _largest(vector: FloatArray, positions: Positions) -> float:
+    return float(np.abs(vector[positions]).max(initial=0.0))

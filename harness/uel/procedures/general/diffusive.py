@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*HEAT TRANSFER, *COUPLED TEMPERATURE-DISPLACEMENT and *MASS DIFFUSION.
+
+Elements integrate over time themselves; the step limits the change of temperatures or concentrations in an increment.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+from uel.elements import FIELD_NAMES
+from uel.model.procedures import Diffusive
+from uel.model.records import Record
+from uel.model.restart import Saved
+from uel.procedures.context import StepContext
+from uel.procedures.general.incrementation import Accuracy
+from uel.procedures.general.step_parts import Part
+from uel.solver.newton import Iterate
+
+
+class LimitedChange(Part):
+    """Limits of the change of temperatures or concentrations: in an increment, and at the end of the step."""
+
+    def __init__(self, context: StepContext, procedure: Diffusive) -> None:
+        self._procedure = procedure
+        free = context.constraints.free
+        self._limited = free[context.system.dofs.field[free] == FIELD_NAMES.index(procedure.unknown)]
+        self._rate = math.inf
+
+    def _change(self, last: Iterate) -> float:
+        """Largest change of a value that is not prescribed."""
+        return float(np.abs(last.increment[self._limited]).max(initial=0.0))
+
+    def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
+        """The change over the largest one."""
+        if self._procedure.steady or math.isinf(self._procedure.largest_change):
+            return None
+        return Accuracy(self._change(last) / self._procedure.largest_change, self._procedure.complaint)
+
+    def converged(self, last: Iterate, size: float) -> Iterable[Record]:
+        """The rate that END=SS looks at."""
+        self._rate = self._change(last) / size
+        return ()
+
+    def kept(self) -> Saved:
+        """The rate."""
+        return {"rate": self._rate}
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned."""
+        self._rate = saved["rate"]
+
+    @property
+    def finished(self) -> bool:
+        """With END=SS: whether the state is steady."""
+        return self._rate < self._procedure.end_change

@@ -1,0 +1,246 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*DYNAMIC: implicit integration by the operator of Hilber, Hughes and Taylor, or by backward Euler.
+
+Abaqus Theory Guide, "Implicit dynamic analysis": M a + (1 + alpha) (I - P) at the end - alpha (I - P) at the start = 0.
+Elements put M a and their I with these weights into RHS; the step weights its loads P. Nodes on arms pass these forces
+on in the directions of (1 + alpha) u at the end - alpha u at the start: those of the end damp a spin to first order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from uel.assembly import Evaluation
+from uel.elements import Motion, Request
+from uel.model.arrays import FloatArray
+from uel.model.procedures import Dynamic, Integrator
+from uel.model.records import Record, Warned
+from uel.model.restart import Saved
+from uel.procedures.context import StepContext
+from uel.procedures.general.incrementation import Accuracy
+from uel.procedures.general.step_parts import Part
+from uel.solver.newton import Increment, Iterate
+
+HALF_INCREMENT = "THE HALF-INCREMENT RESIDUAL IS LARGER THAN ITS TOLERANCE."
+
+
+REPLACED = "INITIAL VELOCITIES OF NODES THAT FOLLOW OTHERS BY CONSTRAINTS ARE NOT THEIRS AND ARE REPLACED"
+
+CONSISTENT = 1e-6
+"""Relative difference up to which initial velocities fulfil the constraints: decks have six digits."""
+
+MOVED = 1e-6
+"""Of the size of the model: how far nodes move along their velocities, to see how volumes change."""
+
+
+@dataclass(frozen=True, slots=True)
+class KeptVolume:
+    """Equations of the initial accelerations of incompressible hybrid elements.
+
+    rows    (n,) whether an unknown is one of their pressures
+    data    (nnz,) CSR values of what couples them with accelerations
+    forces  (n,) right-hand side, for the pressures
+    """
+
+    rows: NDArray[np.bool_]
+    data: FloatArray
+    forces: FloatArray
+
+
+def advance(procedure: Dynamic, before: Motion, size: float, increment: FloatArray) -> Motion:
+    """Velocities and accelerations at the end of an increment of displacement (n,), from those at its start."""
+    velocity, acceleration = before.velocity, before.acceleration
+    if procedure.integrator is Integrator.BACKWARD_EULER:
+        new = increment / size
+        return Motion(new, (new - velocity) / size)
+    beta, gamma = procedure.beta, procedure.gamma
+    after = (increment - size * velocity - (0.5 - beta) * size**2 * acceleration) / (beta * size**2)
+    return Motion(velocity + size * ((1.0 - gamma) * acceleration + gamma * after), after)
+
+
+class ImplicitIntegration(Part):
+    """Velocities and accelerations of a dynamic step, and its half-increment residual."""
+
+    def __init__(self, context: StepContext, procedure: Dynamic) -> None:
+        self._context = context
+        self._procedure = procedure
+        self._previous_load = context.load_at(0.0)
+        self._previous = np.zeros(len(context.system))
+        self._inertia: sparse.csr_array | None = None
+
+    def start(self) -> Iterable[Record]:
+        """Make initial velocities consistent, and compute the initial accelerations, unless they are zero."""
+        state, constraints = self._context.state, self._context.constraints
+        constraints.follow(state.displacement, np.zeros_like(state.displacement))
+        following = constraints.along(state.velocity)
+        given = np.abs(state.velocity).max(initial=0.0)
+        # as in Abaqus, constraints take precedence; in a later step both differ by the error of integration
+        replaced = len(state.begun) == 1 and np.abs(following - state.velocity).max(initial=0.0) > CONSISTENT * given
+        if replaced:
+            state.velocity = following
+        if constraints.arms and self._procedure.integrator is Integrator.HHT:
+            mass = self._at_rest(Request.MASS).data
+            assert mass is not None
+            self._inertia = constraints.inertia(self._context.system.matrix(mass))
+        if self._procedure.initial_acceleration:
+            self._accelerate()
+        return [Warned(REPLACED)] if replaced else []
+
+    def _accelerate(self) -> None:
+        """Solve M a = P - I for the initial accelerations; unknowns without mass have none."""
+        context, state, constraints = self._context, self._context.state, self._context.constraints
+        of_nodes = context.system.dofs.of_nodes
+        incompressible = None if of_nodes.all() else self._incompressible()
+        evaluation = self._at_rest(Request.INITIAL_ACCELERATION)
+        load = context.load_at(0.0)
+        assert evaluation.data is not None
+        convective = constraints.convective(state.displacement, state.velocity)
+        data = evaluation.data
+        missing = evaluation.residual + load - context.system.product(data, convective)
+        if incompressible is not None:
+            data, missing = data + incompressible.data, np.where(incompressible.rows, incompressible.forces, missing)
+        mass = constraints.reduce(data)
+        reduced = constraints.reduce_vector(missing)
+        indptr, indices = constraints.reduced_indptr, constraints.reduced_indices
+        row = np.repeat(np.arange(len(reduced)), np.diff(indptr))
+        weightless = constraints.ranks.sum(np.bincount(row, np.abs(mass), len(reduced)).astype(np.float64)) == 0.0
+        mass[(row == indices) & weightless[row]] = 1.0
+        reduced[weightless] = 0.0
+        context.solver.factorise(mass)
+        found = convective + constraints.expand(context.solver.solve(reduced), np.zeros(len(constraints.prescribed)))
+        state.acceleration = np.where(of_nodes, found, 0.0)
+        if incompressible is not None:
+            state.displacement = state.displacement + np.where(of_nodes, 0.0, found)
+            evaluation = self._at_rest(Request.INITIAL_ACCELERATION)
+        context.system.commit()
+        state.energy, state.external = evaluation.energy, load + state.reaction
+
+    def _at_rest(self, request: Request, moved: FloatArray | float = 0.0) -> Evaluation:
+        """A pass at the start of the step, without accelerations."""
+        context, state = self._context, self._context.state
+        call = context.call(0.0, 0.0, context.start).asking(request)
+        motion, still = Motion(state.velocity, np.zeros_like(state.velocity)), np.zeros_like(state.displacement)
+        return context.system.evaluate(call, state.displacement + moved, still, motion=motion)
+
+    def _incompressible(self) -> KeptVolume | None:
+        """What keeps the volume of incompressible hybrid elements, whose pressure changes at once; None without any.
+
+        The matrix B of their pressures keeps B v = 0, so that B a = - dB/dt v.
+        """
+        context, state = self._context, self._context.state
+        system, velocity = context.system, state.velocity
+        data = self._stiffness()
+        rows = ~system.dofs.of_nodes & (system.ranks.sum(system.matrix(data).diagonal()) == 0.0)
+        if not rows.any():
+            return None
+        row = np.repeat(np.arange(len(system)), np.diff(system.indptr))
+        coupling = np.where(rows[row] != rows[system.indices], data, 0.0)
+        forces = np.zeros(len(system))
+        if context.step.nlgeom and velocity.any():
+            # exact for any distance: volumes are cubic in displacements
+            distance = MOVED * np.ptp(system.dofs.coordinates, axis=0).max() / np.abs(velocity).max()
+            ahead, behind = (self._stiffness(sign * distance * velocity) for sign in (1.0, -1.0))
+            forces = -system.product((ahead - behind) / (2.0 * distance), velocity)
+        return KeptVolume(rows, coupling, forces)
+
+    def _stiffness(self, moved: FloatArray | float = 0.0) -> FloatArray:
+        """CSR values (nnz,) at the start of the step, of this rank."""
+        evaluation = self._at_rest(Request.STIFFNESS, moved)
+        assert evaluation.data is not None
+        return evaluation.data.copy()
+
+    def _motion(self, size: float, increment: FloatArray) -> Motion:
+        """At the end of an increment; pressures of elements have no mass and no part in it."""
+        before = Motion(self._context.state.velocity, self._context.state.acceleration)
+        after, of_nodes = advance(self._procedure, before, size, increment), self._context.system.dofs.of_nodes
+        return Motion(np.where(of_nodes, after.velocity, 0.0), np.where(of_nodes, after.acceleration, 0.0))
+
+    def given(self, given: Increment, size: float) -> Increment:
+        """Loads weighted over the increment, and the motion that follows from displacements."""
+        alpha, state, context = self._procedure.alpha, self._context.state, self._context
+        load = (1.0 + alpha) * given.load - alpha * context.load_at(context.step_time)
+        guess = given.guess
+        if context.step.extrapolation == "VELOCITY PARABOLIC":
+            guess = size * state.velocity + 0.5 * size**2 * state.acceleration
+        return replace(given, guess=guess, load=load, weight=1.0 + alpha, motion=partial(self._motion, size))
+
+    def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
+        """The half-increment residual: forces out of balance in the middle of the increment."""
+        procedure, context = self._procedure, self._context
+        if not (procedure.half_force or np.isfinite(procedure.half_increment)):
+            return None
+        increment = self._half(last, size)
+        evaluation = self._half_increment(last, size, increment)
+        middle = context.step_time + 0.5 * size
+        alpha = procedure.alpha
+        start = context.load_at(context.step_time)
+        at_middle = context.load_at(middle, context.state.displacement + increment)
+        load = (1.0 + alpha) * at_middle - 0.5 * alpha * (start + self._previous_load)
+        residual = evaluation.residual + load
+        constraints, before = context.constraints, context.state.displacement
+        # the forces at the start count by the mean of the last two increments, as the loads do
+        constraints.follow(before + increment, residual, increment + 0.5 * self._previous, 1.0 + alpha)
+        ratio = context.checker.largest_ratio(residual, self._tolerances())
+        constraints.follow(before + last.increment, last.residual, last.increment, 1.0 + alpha)
+        return Accuracy(ratio, HALF_INCREMENT)
+
+    def _tolerances(self) -> dict[str, float]:
+        """Tolerance of the half-increment residual by field; only forces and moments have one."""
+        procedure = self._procedure
+        means = self._context.checker.time_averages().items()
+        forces = {name: mean for name, mean in means if name in ("force", "moment")}
+        if procedure.half_force:
+            return dict.fromkeys(forces, procedure.half_force)
+        return {name: procedure.half_increment * mean for name, mean in forces.items()}
+
+    def _half(self, last: Iterate, size: float) -> FloatArray:
+        """The increment in its middle: the cubic from the state at the start to the displacements at the end."""
+        state = self._context.state
+        increment = last.increment / 8 + 0.375 * size * state.velocity + size**2 / 16 * state.acceleration
+        increment = np.where(self._context.system.dofs.of_nodes, increment, 0.5 * last.increment)
+        return self._context.constraints.place(state.displacement, increment)
+
+    def _half_increment(self, last: Iterate, size: float, increment: FloatArray) -> Evaluation:
+        """Pass at half the increment, over which accelerations are linear."""
+        context, state, half = self._context, self._context.state, 0.5 * size
+        end = self._motion(size, last.increment)
+        velocity = 0.75 / size * last.increment + 0.25 * state.velocity - size / 8 * state.acceleration
+        acceleration = 0.5 * (state.acceleration + end.acceleration)
+        motion, at = Motion(velocity, acceleration), state.displacement + increment
+        call = context.call(size, context.step_time + half, context.start + context.step_time + half, at)
+        return context.system.evaluate(call.asking(Request.RESIDUAL), at, increment, matrix=False, motion=motion)
+
+    def kept(self) -> Saved:
+        """The load at the start of the last increment, this increment, and the inertia of nodes that follow others."""
+        matrix = self._inertia
+        inertia = {} if matrix is None else {name: getattr(matrix, name) for name in ("data", "indices", "indptr")}
+        return {"load": self._previous_load, "increment": self._previous, "inertia": inertia}
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned."""
+        self._previous_load, self._previous = saved["load"], saved["increment"]
+        if saved["inertia"]:
+            values = tuple(saved["inertia"][name] for name in ("data", "indices", "indptr"))
+            self._inertia = sparse.csr_array(values, shape=2 * (len(self._context.system),))
+
+    def converged(self, last: Iterate, size: float) -> Iterable[Record]:
+        """Take over velocities and accelerations at the end.
+
+        Velocities that the integration gives nodes on arms are off the directions in which they can move, by the square
+        of the increment h. Left so, errors of a spin omega grow in each by (1 + omega h)(1 + alpha)/(1 - alpha).
+        """
+        context = self._context
+        self._previous_load, self._previous = context.load_at(context.step_time), last.increment
+        motion = self._motion(size, last.increment)
+        velocity = motion.velocity
+        if self._inertia is not None:
+            velocity = context.constraints.tangential(velocity, self._inertia)
+        context.state.velocity, context.state.acceleration = velocity, motion.acceleration
+        return ()

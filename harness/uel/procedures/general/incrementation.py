@@ -1,0 +1,263 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Size of the next increment, and when an attempt at one is abandoned and cut back.
+
+Abaqus Analysis User's Guide, "Commonly used control parameters" and "Convergence criteria for nonlinear problems".
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from uel.model.procedures import Procedure
+from uel.model.restart import Saved
+from uel.model.steps import TimeControls
+
+DIVERGING = "THE SOLUTION APPEARS TO BE DIVERGING. CONVERGENCE IS JUDGED UNLIKELY."
+TOO_SLOW = "THE RATE OF CONVERGENCE IS VERY SLOW. CONVERGENCE IS JUDGED UNLIKELY."
+TOO_MANY_ITERATIONS = "THE SOLUTION FAILS TO CONVERGE IN THE MAXIMUM NUMBER OF EQUILIBRIUM ITERATIONS ALLOWED."
+
+DISCONTINUOUS = "SUBDIVISION AFTER {} ITERATIONS FOR SEVERE DISCONTINUITIES"
+
+DISTORTED = "ELEMENTS ARE DISTORTING EXCESSIVELY. CONVERGENCE IS JUDGED UNLIKELY."
+
+BELOW_MINIMUM = "TIME INCREMENT REQUIRED IS LESS THAN THE MINIMUM SPECIFIED"
+TOO_MANY_ATTEMPTS = "TOO MANY ATTEMPTS MADE FOR THIS INCREMENT"
+FIXED_TOO_LARGE = "FIXED TIME INCREMENT IS TOO LARGE"
+TOO_MANY_INCREMENTS = "TOO MANY INCREMENTS NEEDED TO COMPLETE THE STEP"
+
+UNTOUCHED = 1e10
+"""A PNEWDT from this size on is the large value on entry, which a user element did not set."""
+
+_END = 1e-6
+"""Of the increment: a smaller remainder of the step is added to it, because sums of increments round."""
+
+_ROUNDING = 1e-12
+"""Rounding of a sum of increments, relative to it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cutback:
+    """Why an attempt is abandoned, in Abaqus' words: `reason`; the next one takes `factor` times the increment.
+
+    cause  addition to the error that ends the job if no other attempt is left; '' for none
+    """
+
+    factor: float
+    reason: str
+    cause: str = ""
+
+
+ALIKE = 1e-6
+"""Relative difference of residuals that counts as none.
+
+If two states alternate, their residuals differ by rounding, which must not decide how the attempt ends. They diverge:
+Abaqus cuts the increment to a quarter there (abaqus_inputs/dcb_3d)."""
+
+
+def judge_rate(iteration: int, residuals: Sequence[float], tolerance: float, controls: TimeControls) -> Cutback | None:
+    """Cutback because of a field whose residual is still too large, None to go on iterating.
+
+    Parameters
+    ----------
+    iteration
+        i, from 1.
+    residuals
+        Largest residual of each iteration so far, r_1 to r_i.
+    tolerance
+        R_n q~.
+
+    Returns
+    -------
+    Cutback | None
+        From iteration I_0: the residuals of two iterations in a row not below that of the one before. From I_R: more
+        than I_C iterations needed if the residual goes on falling by the factor of the last iteration.
+    """
+    if iteration >= controls.i_0 and len(residuals) > 2 and min(residuals[-2:]) > (1.0 - ALIKE) * residuals[-3]:
+        return Cutback(controls.d_f, DIVERGING)
+    if iteration >= controls.i_r and len(residuals) > 1:
+        needed = math.inf
+        if residuals[-1] < residuals[-2] and tolerance > 0.0:
+            needed = iteration + math.log(tolerance / residuals[-1]) / math.log(residuals[-1] / residuals[-2])
+        if needed > controls.i_c:
+            return Cutback(controls.d_c, TOO_SLOW)
+    return None
+
+
+def out_of_iterations(iteration: int, controls: TimeControls) -> Cutback | None:
+    """Cutback after iteration I_C."""
+    return Cutback(controls.d_c, TOO_MANY_ITERATIONS) if iteration >= controls.i_c else None
+
+
+def too_discontinuous(severe: int, controls: TimeControls, *, convert: bool) -> Cutback | None:
+    """Cutback after I_S severe discontinuity iterations, I_S^c with CONVERT SDI=YES."""
+    most = controls.i_s_c if convert else controls.i_s
+    return Cutback(controls.d_s, DISCONTINUOUS.format(severe)) if severe >= most else None
+
+
+@dataclass(frozen=True, slots=True)
+class Accuracy:
+    """Accuracy of the integration over time in an increment.
+
+    measure    error measure over its tolerance: above 1 the increment is too large
+    complaint  what Abaqus prints then
+    """
+
+    measure: float
+    complaint: str
+
+
+def refused(pnewdt: float) -> Cutback | None:
+    """Cutback if a user element asks for a smaller increment: PNEWDT < 1."""
+    if pnewdt >= 1.0:
+        return None
+    return Cutback(pnewdt, f"A USER ELEMENT REQUESTS A SMALLER TIME INCREMENT, PNEWDT = {pnewdt:.4g}")
+
+
+class IncrementControl:
+    """Increment sizes of one step, automatic or direct.
+
+    The sequence of a step is: `attempt`, then either `cut_back` and `attempt` again, or `converged`.
+    """
+
+    def __init__(self, procedure: Procedure, controls: TimeControls) -> None:
+        self._procedure = procedure
+        self._controls = controls
+        self._size = procedure.initial if procedure.direct else min(procedure.initial, procedure.maximum)
+        self._easy = 0
+        self._measures: list[tuple[float, float]] = []
+        self._most = float(getattr(controls, procedure.growth))
+        self._whole: tuple[float, float] | None = None
+        # whether the last attempt that converged was linear, and all of them so far
+        self._linear = self._always_linear = True
+        self.in_parts = False
+        self.attempts = 0
+
+    def kept(self) -> Saved:
+        """Sizes between two increments, neither of which is in parts."""
+        measures = [list(pair) for pair in self._measures]
+        return {"size": self._size, "easy": self._easy, "measures": measures, "linear": self._always_linear}
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned."""
+        self._size, self._easy, self._always_linear = saved["size"], saved["easy"], saved["linear"]
+        self._measures = [(measure, size) for measure, size in saved["measures"]]
+
+    def part(self, end: float) -> bool:
+        """Whether the current increment, to the step time `end`, may be taken in parts; `cut_back` gives their size.
+
+        After `end` the size of the whole is used again. If a part fails, the rest is taken at once: `in_parts` ends.
+        """
+        if self._procedure.direct or self._whole:
+            return False
+        self._whole, self.in_parts = (end, self._size), True
+        return True
+
+    def attempt(self, step_time: float) -> float:
+        """Size of the next attempt from `step_time`; the last increment ends with the period."""
+        self.attempts += 1
+        if self._whole and self._complete(step_time, self._whole[0]):
+            self._size, self._whole, self.in_parts = self._whole[1], None, False
+        self._size = self.following(step_time)
+        return self._size
+
+    def following(self, step_time: float) -> float:
+        """Size of an increment from `step_time`; 0 at the end of the step."""
+        end, size = self._procedure.period, self._size
+        if self._whole:
+            end, size = (end, self._whole[1]) if self._complete(step_time, self._whole[0]) else (self._whole[0], size)
+        left = end - step_time
+        return max(left, 0.0) if left <= size * (1.0 + _END) else size
+
+    def cut_back(self, cutback: Cutback) -> tuple[float, str]:
+        """Size of the next attempt after one failed; (0, error) if the job ends.
+
+        I_A cutbacks are allowed, thus I_A + 1 attempts.
+        """
+        self._measures = []
+        if self._procedure.direct:
+            return 0.0, FIXED_TOO_LARGE
+        if self.attempts > self._controls.i_a:
+            return 0.0, TOO_MANY_ATTEMPTS
+        if self.in_parts and self._whole and self._size < self._whole[1]:
+            self._size, self.in_parts = self._whole[1], False
+            return self._size, ""
+        self._size *= cutback.factor
+        if self._size < self._procedure.minimum:
+            return 0.0, BELOW_MINIMUM
+        return self._size, ""
+
+    def too_inaccurate(self, accuracy: Accuracy | None, *, linear: bool) -> Cutback | None:
+        """Cutback if the integration over time is too inaccurate, unless increments are fixed.
+
+        linear: the response was linear in the attempt, which has converged.
+        """
+        self._linear, self._always_linear = linear, self._always_linear and linear
+        if accuracy is None or accuracy.measure <= 1.0 or self._procedure.direct:
+            return None
+        return Cutback(self._controls.d_a / accuracy.measure, accuracy.complaint)
+
+    def converged(
+        self,
+        iterations: int,
+        pnewdt: float,
+        *,
+        searched: bool = False,
+        accuracy: Accuracy | None = None,
+        disturbed: bool = False,
+    ) -> None:
+        """Choose the size of the next increment.
+
+        Parameters
+        ----------
+        iterations
+            Equilibrium iterations of the attempt that converged.
+        pnewdt
+            Smallest PNEWDT of its last iteration: if set, and above 1, it is the user elements' ratio of the next
+            increment to this one.
+        searched
+            The descent search helped: its many iterations say nothing about the next increment.
+        accuracy
+            Of the integration over time: if measured, it decides the growth.
+        disturbed
+            There were more than I_J severe discontinuity iterations, I_J^c with CONVERT SDI=YES.
+        """
+        # a cutback does not restart the count: Abaqus grows right after one if the attempts that converged were easy
+        self._easy = self._easy + 1 if iterations <= self._controls.i_g and not disturbed else 0
+        self.attempts = 0
+        if self._procedure.direct or self.in_parts:
+            return
+        if iterations > self._controls.i_l and not searched:
+            self._size *= self._controls.d_b
+        elif 1.0 < pnewdt < UNTOUCHED:
+            self._size *= pnewdt
+        elif accuracy is not None:
+            self._size *= self._growth_by_accuracy(accuracy.measure)
+        elif self._easy >= 2:
+            self._size *= min(self._controls.d_d, self._most)
+        self._size = min(max(self._size, self._procedure.minimum), self._procedure.maximum)
+
+    def _growth_by_accuracy(self, measure: float) -> float:
+        """Growth if the last I_T measures, which go with the size, are up to W_G at this one: D_G over the last one.
+
+        It is at most D_M, and D_D where the response was not linear. A problem that was linear in all attempts of the
+        step keeps its matrix unless it may grow by D_L D_M.
+        """
+        controls = self._controls
+        self._measures = [*self._measures, (measure, self._size)][-controls.i_t :]
+        largest = max(earlier * self._size / size for earlier, size in self._measures)
+        if len(self._measures) < controls.i_t or largest > controls.w_g:
+            return 1.0
+        most = self._most if self._linear else min(self._most, controls.d_d)
+        growth = most if measure == 0.0 else min(most, controls.d_g / measure)
+        return growth if growth >= (controls.d_l * most if self._always_linear else 1.0) else 1.0
+
+    def finished(self, step_time: float) -> bool:
+        """Whether the period is reached."""
+        return self._complete(step_time, self._procedure.period)
+
+    @staticmethod
+    def _complete(step_time: float, end: float) -> bool:
+        return step_time >= end * (1.0 - _ROUNDING)

@@ -1,0 +1,360 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""General steps: increments, each brought into equilibrium by Newton's method, along a path and with the parts that the
+procedure adds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator, Sequence
+from dataclasses import dataclass
+
+from uel.errors import ConvergenceError, DistortionError, IncrementsUsedUpError, SingularMatrixError
+from uel.interrupts import hold
+from uel.model.records import (
+    AttemptAbandoned,
+    AttemptStarted,
+    FieldCheck,
+    IncrementDone,
+    IterationDone,
+    Noted,
+    Record,
+    SearchHelped,
+    StateKept,
+    StepDone,
+    Warned,
+)
+from uel.model.restart import Saved
+from uel.procedures.context import StepContext
+from uel.procedures.general.convergence_checks import is_severe, was_linear
+from uel.procedures.general.incrementation import (
+    DISTORTED,
+    TOO_MANY_INCREMENTS,
+    Accuracy,
+    Cutback,
+    refused,
+    too_discontinuous,
+)
+from uel.procedures.general.limit import PASSED, LimitLoad
+from uel.procedures.general.overconstraints import warn_overconstrained
+from uel.procedures.general.path import Path
+from uel.procedures.general.step_parts import Part
+from uel.procedures.general.unconstrained import UNLOADED, UnconstrainedSolver
+from uel.solver.descent import ITERATIONS, SINGULAR
+from uel.solver.linear import RankSolver
+from uel.solver.newton import Iterate
+
+SEARCH_TOO_LONG = f"THE DESCENT SEARCH HAS NOT CONVERGED IN {ITERATIONS} ITERATIONS."
+
+SMALL_FLUX = (
+    "THE AVERAGE {1} FLUX {0.average_flux:.3G} COUNTS AS ZERO BESIDE {0.time_average_flux:G}, WHICH IS TAKEN FOR "
+    "ITS TIME AVERAGE UNTIL A LARGER ONE IS SEEN, AS IN ABAQUS: THE LARGEST RESIDUAL {0.residual.value:.3G} IS "
+    "ACCEPTED. OTHER UNITS, OR AN INITIAL TIME AVERAGE FLUX (*CONTROLS, PARAMETERS=FIELD), MAKE RESULTS ACCURATE"
+)
+
+
+@dataclass(slots=True)
+class Spent:
+    """Iterations of an attempt: severe discontinuity iterations, equilibrium iterations, and those of the latter since
+    the last one of the former.
+    """
+
+    severe: int = 0
+    equilibrium: int = 0
+    calm: int = 0
+
+    @property
+    def total(self) -> int:
+        """Of both kinds."""
+        return self.severe + self.equilibrium
+
+    def count(self, *, severe: bool) -> int:
+        """Count one more; returns its number among those of its kind."""
+        if severe:
+            self.severe, self.calm = self.severe + 1, 0
+            return self.severe
+        self.equilibrium, self.calm = self.equilibrium + 1, self.calm + 1
+        return self.calm
+
+
+class GeneralStep:
+    """One general step: what all have in common, the path of its increments, and the parts of its procedure."""
+
+    def __init__(self, context: StepContext, path: Path, parts: Sequence[Part] = ()) -> None:
+        self._context = context
+        self._path = path
+        self._parts = parts
+        self._system, self._step, self._state = context.system, context.step, context.state
+        self._user, self._checker, self._control = context.user, context.checker, path.control
+        self._limit = LimitLoad()
+        self._resumed = False
+        self._warned = False
+        self._small: set[str] = set()
+
+    @property
+    def reached(self) -> tuple[tuple[float, float], float, int, int]:
+        """Step and total time, no time increment, step and increment, as UEXTERNALDB gets them at the end."""
+        return self._context.times, 0.0, self._step.number, self._context.increment
+
+    def run(self) -> Iterator[Record]:
+        """Records of the step. Raises ConvergenceError, KernelError, SingularMatrixError."""
+        context, cutbacks, iterations = self._context, 0, 0
+        beginning: tuple[Part | Path, ...] = (*self._parts, self._path)
+        for part in () if self._resumed else beginning:
+            yield from part.start()
+        if self._keeps and self._obstacle:
+            yield Warned(f"*RESTART, WRITE HAS NO EFFECT IN STEP {self._step.number}: {self._obstacle}")
+        if context.choice:
+            yield Noted(context.choice)
+        yield from warn_overconstrained(context.constraints)
+        if context.advice:
+            yield Warned(context.advice)
+        while not self.finished:
+            if context.increment == self._step.increments:
+                limit = f"step {self._step.number}, INC={self._step.increments}"
+                raise IncrementsUsedUpError(f"{TOO_MANY_INCREMENTS} ({limit})")
+            context.increment += 1
+            converged = False
+            while not converged:
+                converged, spent = yield from self._attempt(context.increment)
+                cutbacks += not converged
+                iterations += spent.total
+        self.end(early=context.amplitudes.concluded)
+        yield context.times_of_solver.note()
+        yield StepDone(self._step.number, context.increment, cutbacks, iterations)
+
+    @property
+    def finished(self) -> bool:
+        """Whether no increment is left."""
+        return self._path.finished or any(part.finished for part in self._parts)
+
+    def end(self, *, early: bool = False) -> None:
+        """Let the state go on to the next step; early: before the period of this one."""
+        if early:
+            self._state.conclude(self._context.step_time)
+        self._state.flux = self._checker.histories(self._state.flux)
+
+    @property
+    def _keeps(self) -> bool:
+        """Whether *RESTART, WRITE asks for any state."""
+        restart = self._step.restart
+        return restart is not None and bool(restart.frequency or restart.intervals)
+
+    @property
+    def _obstacle(self) -> str:
+        """Why states cannot be kept; '' if they can."""
+        if self._system.ranks.size > 1:
+            return "several processes run the job"
+        if self._state.amplitudes.exist:
+            return "UAMP gives amplitudes"
+        return self._path.obstacle
+
+    def _is_due(self, size: float) -> bool:
+        """Whether *RESTART, WRITE keeps the state of the increment of this size that has converged."""
+        restart, period = self._step.restart, self._step.procedure.period
+        if restart is None or self._obstacle:
+            return False
+        after = self._context.step_time / period
+        return restart.due(self._context.increment, after - size / period, after, last=self.finished)
+
+    def _kept(self) -> Saved:
+        """The state between two increments."""
+        context = self._context
+        return {
+            "step": self._step.number,
+            "increment": context.increment,
+            "step_time": context.step_time,
+            "finished": self.finished,
+            "beginning": context.beginning,
+            "state": self._state.kept(),
+            "system": self._system.kept(),
+            "checks": self._checker.kept(),
+            "path": self._path.kept(),
+            "parts": [part.kept() for part in self._parts],
+        }
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `_kept` returned, in place of the start of the step. Raises ValueError, KernelError."""
+        context, state = self._context, self._state
+        context.increment, context.step_time = saved["increment"], saved["step_time"]
+        state.resume(saved["state"])
+        call = context.call(0.0, context.step_time, state.total_time)
+        self._system.relearn(call, state.displacement, saved["system"])
+        state.predefined = call.predefined
+        self._checker.resume(saved["checks"])
+        self._path.resume(saved["path"])
+        for part, own in zip(self._parts, saved["parts"], strict=True):
+            part.resume(own)
+        self._resumed = True
+
+    def _attempt(self, increment: int) -> Generator[Record, None, tuple[bool, Spent]]:
+        """One attempt at an increment; returns whether it converged, and its iterations."""
+        context, number, size = self._context, self._step.number, self._control.attempt(self._context.step_time)
+        times = context.times
+        yield AttemptStarted(number, increment, self._control.attempts, *times, size)
+        self._user.external_database(1, 0, times, size, number, increment)
+        end = self._path.end(size)
+        context.amplitudes.attempt(increment, (end, context.start + end), size, self._control.attempts - 1)
+        iterates, extrapolated = self._path.begin(size)
+        spent, passes, cutback = Spent(), 0, None
+        while cutback is None:
+            try:
+                state = next(iterates)
+            except DistortionError as error:
+                # the solve before the failed pass counts too
+                spent.equilibrium += passes > spent.total
+                yield Warned(f"EXCESSIVE DISTORTION IN SOLID (CONTINUUM) ELEMENTS: {error}")
+                cutback = Cutback(self._step.controls.time.d_h, DISTORTED, str(error))
+                break
+            except SingularMatrixError as error:
+                # of an extrapolation or in later iterations it is the guess that has no stiffness, not the model
+                astray = (extrapolated or spent.total) and not self._step.procedure.direct
+                if not (self._control.in_parts or astray):
+                    raise
+                cutback = Cutback(self._step.controls.time.d_f, SINGULAR, str(error))
+                break
+            passes += 1
+            yield from self._warn_unconstrained()
+            cutback = refused(state.evaluation.pnewdt)
+            if cutback is not None:
+                # the solve before counts too
+                spent.equilibrium += state.iteration > spent.total
+            elif state.iteration == 0:
+                self._checker.start(state, extrapolated=extrapolated)
+            else:
+                checks = self._checker.check(state)
+                number_of_kind = spent.count(severe=is_severe(state))
+                yield IterationDone(number_of_kind, checks, state.line_search, state.evaluation.contact)
+                if all(check.verdict.accepted for check in checks):
+                    accuracy = self._accuracy(state, size)
+                    inaccurate = self._control.too_inaccurate(accuracy, linear=was_linear(checks))
+                    cutback = inaccurate or self._passed_limit(state, size)
+                    if cutback is None:
+                        yield from self._small_flux(checks)
+                        yield from self._help(increment, spent.total)
+                        yield from self._converge(state, size, accuracy, checks, spent)
+                        return True, spent
+                else:
+                    cutback = self._give_up(spent, checks)
+        yield from self._cut_back(cutback, increment, spent, size)
+        return False, spent
+
+    def _warn_unconstrained(self) -> Iterator[Warned]:
+        """Warn once in the step that a part of the model moves freely."""
+        solver = self._context.solver
+        if isinstance(solver, UnconstrainedSolver | RankSolver) and solver.free is not None and not self._warned:
+            self._warned = True
+            yield Warned(UNLOADED.format(solver.free))
+
+    def _small_flux(self, checks: Sequence[FieldCheck]) -> Iterator[Noted]:
+        """Say once in the step that unbalanced forces count as zero only because of Abaqus' default."""
+        for check in self._checker.assumed_zero_flux(checks):
+            if check.field not in self._small:
+                self._small.add(check.field)
+                yield Noted(SMALL_FLUX.format(check, check.field.upper()))
+
+    def _accuracy(self, last: Iterate, size: float) -> Accuracy | None:
+        """How accurate the integration over time is, by the strictest part; None if nothing measures it."""
+        found = [accuracy for part in self._parts if (accuracy := part.accuracy(last, size)) is not None]
+        return max(found, key=lambda accuracy: accuracy.measure, default=None)
+
+    @property
+    def _helped(self) -> bool:
+        """Whether the descent search took over in this attempt."""
+        return self._path.search is not None and bool(self._path.search.reason)
+
+    def _passed_limit(self, last: Iterate, size: float) -> Cutback | None:
+        """Take the increment in parts if the search passed the largest load in it."""
+        external = -last.evaluation.residual
+        if not self._helped or not self._limit.passed(self._state.external, external, last.increment, size):
+            return None
+        in_parts = self._control.part(self._context.step_time + size)
+        return Cutback(self._step.controls.time.d_f, PASSED) if in_parts else None
+
+    def _give_up(self, spent: Spent, checks: Sequence[FieldCheck]) -> Cutback | None:
+        """Whether to cut back; with the fall-back the search takes over instead, with more iterations."""
+        search = self._path.search
+        if search is None:
+            return self._too_long(spent, checks)
+        if not search.reason:
+            cutback = self._too_long(spent, checks)
+            if cutback is not None:
+                search.take_over(spent.total + 1, cutback.reason)
+        return Cutback(self._step.controls.time.d_c, SEARCH_TOO_LONG) if spent.total >= ITERATIONS else None
+
+    def _too_long(self, spent: Spent, checks: Sequence[FieldCheck]) -> Cutback | None:
+        """Cutback by the last iteration: after severe discontinuities only their number counts."""
+        if spent.severe and not spent.calm:
+            return too_discontinuous(spent.severe, self._step.controls.time, convert=self._step.convert_sdi)
+        return self._checker.give_up(spent.calm, checks)
+
+    def _help(self, increment: int, iterations: int) -> Iterator[SearchHelped]:
+        """Say that Newton's method alone was not enough."""
+        search = self._path.search
+        if search is not None and search.reason:
+            yield SearchHelped(self._step.number, increment, search.since, iterations, search.reason)
+
+    def _converge(
+        self, last: Iterate, size: float, accuracy: Accuracy | None, checks: Sequence[FieldCheck], spent: Spent
+    ) -> Iterator[Record]:
+        """Commit the state of the last pass, and choose the next increment."""
+        context, number, attempt = self._context, self._step.number, self._control.attempts
+        moment = f"step {number}, increment {context.increment}"
+        context.constraints.refuse_contradictions(self._state.displacement + last.increment, moment)
+        context.constraints.refuse_unbalanced(last.residual)
+        # the states of the increment before are gone now, and those of this one are not recorded
+        hold()
+        self._system.commit()
+        remarks = [remark for part in self._parts for remark in part.converged(last, size)]
+        reached = self._path.reach(last, size, checks)
+        self._limit.converged(self._state.external, -last.evaluation.residual, last.increment, size)
+        self._state.accept(last, reached.load, reached.released)
+        self._checker.converged()
+        context.amplitudes.converged()
+        self._control.converged(
+            spent.equilibrium,
+            last.evaluation.pnewdt,
+            searched=self._helped,
+            accuracy=accuracy,
+            disturbed=spent.severe > self._most_severe,
+        )
+        self._state.total_time = reached.total_time
+        times = reached.step_time, reached.total_time
+        self._state.predefined = context.conditions.at(times, times, context.increment, self._user, context.places)[1]
+        yield IncrementDone(
+            number,
+            context.increment,
+            attempt,
+            spent.equilibrium,
+            *times,
+            reached.size,
+            self._state.solution(self._system),
+            0.0 if context.amplitudes.concluded else self._control.following(context.step_time),
+            reached.load_factor,
+            severe=spent.severe,
+        )
+        yield from remarks
+        restart = self._step.restart if self._is_due(reached.size) else None
+        lrestart = restart.lrestart if restart else 0
+        # may end the analysis, whose last increment this is then
+        self._user.external_database(2, lrestart, times, size, number, context.increment)
+        if restart:
+            # what user routines write for a restart is there before the state
+            yield StateKept(number, context.increment, restart.overlay, self._kept())
+
+    @property
+    def _most_severe(self) -> int:
+        """Severe discontinuity iterations with which an increment still counts as easy."""
+        controls = self._step.controls.time
+        return controls.i_j_c if self._step.convert_sdi else controls.i_j
+
+    def _cut_back(self, cutback: Cutback, increment: int, spent: Spent, size: float) -> Iterator[Record]:
+        """Report the attempt; raise ConvergenceError if no other is left."""
+        number, attempt = self._step.number, self._control.attempts
+        following, error = self._control.cut_back(cutback)
+        times = self._context.times
+        ended = number, increment, attempt, spent.equilibrium
+        yield AttemptAbandoned(*ended, *times, size, following, cutback.reason, severe=spent.severe)
+        if error:
+            cause = f": {cutback.cause}" if cutback.cause else ""
+            raise ConvergenceError(f"{error} (step {number}, increment {increment}, attempt {attempt}){cause}")

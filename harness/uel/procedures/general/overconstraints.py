@@ -1,0 +1,28 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Prescribed values that constraints give as well: Abaqus warns of zero pivots and goes on, and so does a step here.
+
+It goes on while both values are the same; the reaction of such a value holds the whole force there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from uel.assembly import Constraints
+from uel.model.records import Warned
+
+OVERCONSTRAINED = (
+    "OVERCONSTRAINT: NODE {}, DOF {} IS PRESCRIBED{}, AND THE CONSTRAINT AT {} GIVES IT A VALUE TOO. THE RUN GOES ON "
+    "WHILE BOTH ARE THE SAME"
+)
+OTHERS = ", LIKE {} MORE UNKNOWNS"
+
+
+def warn_overconstrained(constraints: Constraints) -> Iterator[Warned]:
+    """Warn once of all such values of a step."""
+    found = constraints.overconstraints
+    if found:
+        unknown, source = found[0]
+        others = OTHERS.format(len(found) - 1) if len(found) > 1 else ""
+        yield Warned(OVERCONSTRAINED.format(*constraints.name(unknown), others, source))

@@ -1,0 +1,216 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the increments of a general step follow: time, or (in `load_factor`) a path whose load factor is unknown."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+from uel.model.arrays import FloatArray
+from uel.model.records import FieldCheck, Record
+from uel.model.restart import Saved
+from uel.procedures.context import StepContext
+from uel.procedures.general.convergence_checks import was_linear
+from uel.procedures.general.extrapolation import Extrapolation
+from uel.procedures.general.incrementation import IncrementControl
+from uel.procedures.general.step_parts import Part
+from uel.solver.descent import Descent
+from uel.solver.newton import Increment, Iterate, Newton
+
+
+@dataclass(frozen=True, slots=True)
+class Reached:
+    """End of a converged increment.
+
+    load, released  (n,) loads and fading forces
+    size            change of the step time
+    load_factor     if it is part of the solution
+    """
+
+    load: FloatArray
+    released: FloatArray
+    step_time: float
+    total_time: float
+    size: float
+    load_factor: float | None = None
+
+
+class Path(ABC):
+    """The path of the increments through a step.
+
+    control  sizes of increments along it
+    """
+
+    def __init__(self, context: StepContext, control: IncrementControl) -> None:
+        self.control = control
+        self._context = context
+
+    @property
+    def search(self) -> Descent | None:
+        """The fall-back for when Newton's method fails, if there is one."""
+        return None
+
+    @property
+    @abstractmethod
+    def finished(self) -> bool:
+        """Whether the end of the step is reached."""
+
+    def start(self) -> Iterable[Record]:
+        """Records before the first increment."""
+        return ()
+
+    def end(self, size: float) -> float:
+        """Step time at the end of an increment, as far as it is known in advance.
+
+        Parameters
+        ----------
+        size
+            Of the increment, along the path.
+        """
+        return self._context.step_time + size
+
+    @property
+    def obstacle(self) -> str:
+        """Why its state cannot be kept, as the end of a sentence; '' if it can."""
+        return "the load factor is part of the solution"
+
+    def kept(self) -> Saved:
+        """What an increment has from those before it in the step."""
+        return {}
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned."""
+        assert not saved, self.obstacle
+
+    @abstractmethod
+    def begin(self, size: float) -> tuple[Iterator[Iterate], bool]:
+        """Begin an attempt at an increment.
+
+        Parameters
+        ----------
+        size
+            Of the increment, along the path.
+
+        Returns
+        -------
+        tuple[Iterator[Iterate], bool]
+            Iterates without end, whose errors (KernelError, SingularMatrixError) end the attempt or the run; and
+            whether they start from an extrapolation.
+        """
+
+    @abstractmethod
+    def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
+        """Where a converged increment ends. Sets the step time of the context to it.
+
+        Parameters
+        ----------
+        last
+            State after the last iteration.
+        size
+            Of the increment, along the path.
+        checks
+            Of the last iteration, all of which accept it.
+        """
+
+
+class TimePath(Path):
+    """Increments of time, by Newton's method.
+
+    The parts of the step add to what the end of an increment prescribes. With `fallback` a search goes downhill if
+    Newton's method fails.
+    """
+
+    def __init__(self, context: StepContext, parts: Sequence[Part], *, fallback: bool = False) -> None:
+        step = context.step
+        super().__init__(context, IncrementControl(step.procedure, step.controls.time))
+        self._parts = parts
+        given = context.system, context.constraints, context.solver, step.controls.line_search
+        self._newton = Newton(*given)
+        self._descent = Descent(*given, context.state.majoriser) if fallback else None
+        self._extrapolation = Extrapolation(step.extrapolation, step.controls.time.d_e)
+        # size of the last increment, where its response was linear
+        self._linear: float | None = None
+
+    @property
+    def search(self) -> Descent | None:
+        """The fall-back; none in a part of an increment, where only the nearby equilibrium is wanted."""
+        return None if self.control.in_parts else self._descent
+
+    @property
+    def obstacle(self) -> str:
+        """With the fall-back it cannot: the search compares with the start of the analysis."""
+        reason = "the search of --fallback compares with the start of the analysis; to keep states, run without it"
+        return "" if self._descent is None else reason
+
+    def kept(self) -> Saved:
+        """Sizes, extrapolation, and the matrix where the next increment may reuse it."""
+        factorised = None if self._linear is None else self._newton.kept()
+        self._newton.resume(factorised)
+        return {
+            "control": self.control.kept(),
+            "extrapolation": self._extrapolation.kept(),
+            "linear": self._linear,
+            "factorised": factorised,
+        }
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned."""
+        self.control.resume(saved["control"])
+        self._extrapolation.resume(saved["extrapolation"])
+        self._linear = saved["linear"]
+        self._newton.resume(saved["factorised"])
+
+    @property
+    def finished(self) -> bool:
+        """Whether the period has ended, or UAMP concludes the step."""
+        return self.control.finished(self._context.step_time) or self._context.amplitudes.concluded
+
+    def end(self, size: float) -> float:
+        """The sum of the increments, or the period if they differ only by rounding."""
+        end = self._context.step_time + size
+        return self._context.step.procedure.period if self.control.finished(end) else end
+
+    def begin(self, size: float) -> tuple[Iterator[Iterate], bool]:
+        """From the state at the start, or an extrapolation."""
+        given = self._given(size)
+        if self.search is not None:
+            return self.search.iterates(given), given.guess is not None
+        # Abaqus does not form the matrix again if the response was linear in the increment before: public message files
+        # show it for increments of equal size, and abaqus_inputs/dcb_3d is cut back as in Abaqus only if that holds for
+        # all sizes. What the parts of a step add to the matrix depends on the size.
+        alike = self._linear is not None and (self._linear == size or not self._parts)
+        # the inertia of nodes on arms is that of rotation vectors, and another one after each turn: where nothing else
+        # holds a body, a matrix of an increment before enlarges the errors of its rotations about other axes
+        turning = self._context.step.procedure.inertia and self._context.constraints.arms
+        again = alike and self.control.attempts == 1 and not turning
+        return self._newton.iterates(given, same_matrix=again), given.guess is not None
+
+    def _given(self, size: float) -> Increment:
+        """What the end of the increment prescribes."""
+        context, end = self._context, self.end(size)
+        displacement = context.state.displacement
+        context.load.increment = context.increment
+        given = Increment(
+            call=context.call(size, end, context.start + end),
+            displacement=displacement,
+            guess=self._extrapolation.guess(size),
+            prescribed=(context.prescribed_at(end) - displacement)[context.unknowns],
+            load=context.steady_at(end),
+            acting=partial(context.acting, end) if context.load.by_user else None,
+        )
+        for part in self._parts:
+            given = part.given(given, size)
+        return given
+
+    def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
+        """The end of the increment."""
+        self._linear = size if was_linear(checks) else None
+        context, end = self._context, self.end(size)
+        total = context.start + end
+        self._extrapolation.converged(last.increment, size)
+        load = context.loads_at(end, context.state.displacement + last.increment)
+        context.step_time = end
+        return Reached(load, context.released.at(end, total), end, total, size)

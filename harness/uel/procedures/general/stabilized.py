@@ -1,0 +1,81 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""STABILIZE: viscous forces c M v on an artificial mass M of unit density, v the increment over its time.
+
+Abaqus Analysis User's Guide, "Automatic stabilization of unstable problems". What the guide leaves open: the first
+increment runs without damping, and c is such that it would have dissipated the given fraction of what its internal
+energy changed by. Where ALLSD exceeds ALLSDTOL times ALLSE, c is reduced in that ratio. User elements have no
+artificial mass.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from uel.model.procedures import Stabilize
+from uel.model.records import Noted, Record, Warned
+from uel.model.restart import Saved
+from uel.procedures.context import StepContext
+from uel.procedures.general.step_parts import Part
+from uel.solver.newton import Increment, Iterate
+
+NOTHING_DAMPED = "STABILIZE HAS NO EFFECT: THE MODEL HAS NO BUILT-IN ELEMENTS WITH A MASS"
+
+
+class ViscousForces(Part):
+    """Viscous forces on the artificial mass."""
+
+    def __init__(self, context: StepContext, damping: Stabilize) -> None:
+        self._context = context
+        self._damping = damping
+        self._factor = damping.factor
+        self._mass = context.system.artificial_mass(context.call(0.0, 0.0, context.start))
+        self._force = np.zeros(len(context.system))
+
+    def start(self) -> Iterator[Record]:
+        """The damping factor if it is given, or a warning if nothing is damped."""
+        if not self._context.system.ranks.largest(np.array([self._mass.any()], dtype=np.float64))[0]:
+            yield Warned(NOTHING_DAMPED)
+        elif self._factor:
+            yield Noted(f"STABILIZE: THE DAMPING FACTOR IS {self._factor:.4g}")
+
+    def given(self, given: Increment, size: float) -> Increment:
+        """With the viscous matrix."""
+        if not self._factor:
+            return given
+        return replace(given, damping=self._factor / size * self._mass)
+
+    def converged(self, last: Iterate, size: float) -> Iterator[Record]:
+        """Add up the dissipated energy; yields the factor if it is chosen or reduced."""
+        state = self._context.state
+        flow = self._context.system.product(self._mass, last.increment) / size
+        force = self._factor * flow
+        # the trapezoidal rule of the external work
+        state.stabilization += 0.5 * float((self._force + force) @ last.increment)
+        self._force = force
+        elastic, change = last.evaluation.energy[1], last.evaluation.energy - state.energy
+        limit = self._damping.limit
+        if not self._factor:
+            yield from self._choose(float(abs(change[1:7].sum())), float(flow @ last.increment))
+        elif limit and state.stabilization > limit * elastic > 0.0:
+            yield self._change(self._factor * limit * float(elastic) / state.stabilization)
+
+    def kept(self) -> Saved:
+        """The factor, and the forces at the end of the increment."""
+        return {"factor": self._factor, "force": self._force}
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned."""
+        self._factor, self._force = saved["factor"], saved["force"]
+
+    def _choose(self, energy: float, dissipated: float) -> Iterator[Record]:
+        """Factor from the first increment: its internal energy, and what it would dissipate with a factor of one."""
+        if energy > 0.0 and dissipated > 0.0:
+            yield self._change(self._damping.fraction * energy / dissipated)
+
+    def _change(self, factor: float) -> Noted:
+        self._factor = factor
+        return Noted(f"STABILIZE: THE DAMPING FACTOR IS {factor:.4g} FROM THE NEXT INCREMENT ON")

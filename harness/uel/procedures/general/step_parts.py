@@ -1,0 +1,80 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a procedure adds to the increments of a general step: integration in time, damping, a limit of accuracy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from uel.model.records import Record
+from uel.model.restart import Saved
+from uel.procedures.general.incrementation import Accuracy
+from uel.solver.newton import Increment, Iterate
+
+
+class Part:
+    """A part of a general step. Each method by default changes nothing."""
+
+    def start(self) -> Iterable[Record]:
+        """Begin the step, before its first increment. Raises KernelError, SingularMatrixError."""
+        return ()
+
+    def given(self, given: Increment, size: float) -> Increment:
+        """What the end of an increment prescribes, with the part's additions.
+
+        Parameters
+        ----------
+        given
+            With the additions of the parts before this one; not to be changed, but copied by `dataclasses.replace`.
+        size
+            Of the increment, in step time.
+        """
+        return given
+
+    def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
+        """How accurate the integration over time is in an increment in equilibrium.
+
+        Parameters
+        ----------
+        last
+            State after the last iteration.
+        size
+            Of the increment, in step time.
+
+        Returns
+        -------
+        Accuracy | None
+            The increment is cut back if that of any part is above 1, unless increments are fixed; None: not measured.
+        """
+        return None
+
+    def converged(self, last: Iterate, size: float) -> Iterable[Record]:
+        """Take over a converged increment.
+
+        The state and the step time of the context are still those of its start; the elements have committed theirs.
+
+        Parameters
+        ----------
+        last
+            State after the last iteration.
+        size
+            Of the increment, in step time.
+
+        Returns
+        -------
+        Iterable[Record]
+            Written after that of the increment.
+        """
+        return ()
+
+    def kept(self) -> Saved:
+        """What an increment has from those before it in the step."""
+        return {}
+
+    def resume(self, saved: Saved) -> None:
+        """Go on from what `kept` returned; `start` is not called then."""
+
+    @property
+    def finished(self) -> bool:
+        """Whether the part ends the step."""
+        return False

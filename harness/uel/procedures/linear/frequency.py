@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*FREQUENCY: natural frequencies about the state at the end of the last general step.
+
+Elements are asked only for the stiffness (LFLAGS(3) = 2) and the mass (4), with LFLAGS(1) = 41; loads and prescribed
+values of the step do not act.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from uel.elements import Request
+from uel.errors import DeckError
+from uel.model.arrays import FloatArray
+from uel.model.perturbations import Frequency
+from uel.model.records import ModesFound, ModeShape, Record
+from uel.procedures.linear.modes import Modes
+from uel.procedures.linear.perturbation import PerturbationStep
+from uel.procedures.step_setting import Setting
+from uel.solver.eigen import Pair, UnstableError, lowest_eigenvalues
+
+TRANSLATIONS = (1, 2, 3)
+"""Dofs."""
+
+FIRST = 10
+"""Number of eigenvalues that are computed first if the deck does not give it."""
+
+
+class FrequencyStep(PerturbationStep):
+    """One step of natural frequencies."""
+
+    def __init__(self, setting: Setting, procedure: Frequency) -> None:
+        super().__init__(setting)
+        self._procedure = procedure
+        self._given: dict[Request, FloatArray] = {}
+
+    def _solve(self) -> list[Record]:
+        """The modes, lowest first."""
+        step, procedure = self._step, self._procedure
+        values, vectors = self._modes()
+        frequency = np.sign(values) * np.sqrt(np.abs(values)) / (2 * math.pi)
+        inside = (frequency >= procedure.lowest) & (frequency <= procedure.highest)
+        values, frequency, vectors = values[inside], frequency[inside], vectors[:, inside]
+        shapes, masses = self._scaled(vectors)
+        self._state.modes = self._kept(values, masses, shapes)
+        records: list[Record] = [ModesFound(step.number, self._state.total_time, values, frequency, masses)]
+        for mode, shape in enumerate(shapes):
+            at, size = float(frequency[mode]), procedure.period
+            measures = {"EIGVAL": float(values[mode]), "EIGFREQ": at, "GM": float(masses[mode])}
+            records.append(ModeShape(step.number, mode + 1, 1, 0, at, at, size, self._solution(shape, measures)))
+        return records
+
+    def _modes(self) -> tuple[FloatArray, FloatArray]:
+        """Eigenvalues, and vectors (n, k) of all unknowns: as many as requested, or more than the range includes."""
+        pattern = self._constraints.reduced_indptr, self._constraints.reduced_indices
+        pair = Pair(*pattern, self._matrix(Request.STIFFNESS), self._matrix(Request.MASS))
+        if not np.any(pair.mass):
+            raise DeckError(self._step.source, "*FREQUENCY: no element has mass (*DENSITY, *MASS, LFLAGS(3) = 4)")
+        size = len(pair)
+        count = self._procedure.number or min(FIRST, size)
+        while True:
+            try:
+                values, vectors = lowest_eigenvalues(pair, count, self._solver)
+            except UnstableError:
+                message = "the base state is far from stable, or a part without mass is unconstrained"
+                raise DeckError(self._step.source, f"*FREQUENCY finds no eigenvalues: {message}") from None
+            highest = (2 * math.pi * self._procedure.highest) ** 2
+            if self._procedure.number or len(values) < count or values[-1] > highest or count == size:
+                return values, self._modes_of(vectors)
+            count = min(2 * count, size)
+
+    def _matrix(self, request: Request) -> FloatArray:
+        """CSR values of the symmetric part of a matrix of the free unknowns; that of all unknowns is kept."""
+        evaluation = self._pass(request)
+        assert evaluation.data is not None
+        self._given[request] = evaluation.data.copy()
+        return self._symmetric(evaluation.data)
+
+    def _kept(self, values: FloatArray, masses: FloatArray, shapes: FloatArray) -> Modes:
+        """The modes for later steps."""
+        along = np.array([self._system.dofs.dof == dof for dof in TRANSLATIONS], dtype=float)
+        products = []
+        for request, vectors in ((Request.STIFFNESS, shapes), (Request.MASS, np.vstack([shapes, along]))):
+            found = [self._system.product(self._given[request], vector) for vector in vectors]
+            products.append(np.array(found).reshape(vectors.shape))
+        stiffness, inertia = products
+        count = len(values)
+        given = values, masses, shapes, stiffness, inertia[:count], inertia[count:]
+        return Modes(self._step.number, self._constraints, *given)
+
+    def _scaled(self, vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Shapes (k, n) with the requested normalization, and their generalized masses."""
+        largest = self._largest(vectors)
+        factors = np.sign(largest) if self._procedure.by_mass else 1.0 / largest
+        return (vectors * factors).T, factors**2

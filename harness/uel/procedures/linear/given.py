@@ -1,0 +1,40 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a linear step gives at a frequency or a time: loads and prescribed values with their amplitudes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TypeVar
+
+from uel.model.steps import Boundary, ElementLoad, Load, Step
+
+Entry = TypeVar("Entry", Boundary, Load, ElementLoad)
+
+
+def given_at(step: Step, at: tuple[float, float], *, imaginary: bool = False, without: float = 1.0) -> Step:
+    """The step with the real or the imaginary part of what it gives.
+
+    at       arguments of the amplitudes: step and total time, or the frequency twice
+    without  factor of what has no amplitude
+    """
+
+    def scaled(entry: Entry) -> Entry:
+        if isinstance(entry, ElementLoad) and entry.type.jltyp:
+            # no amplitude acts on what DLOAD gets
+            return entry
+        if entry.amplitude is None:
+            return replace(entry, magnitude=without * entry.magnitude)
+        factor = entry.amplitude.value(*at)
+        return replace(entry, magnitude=factor if entry.amplitude.absolute else entry.magnitude * factor)
+
+    def part(entries: tuple[Entry, ...]) -> tuple[Entry, ...]:
+        return tuple(scaled(entry) for entry in entries if entry.imaginary == imaginary)
+
+    return replace(
+        step,
+        boundaries=part(step.boundaries),
+        loads=part(step.loads),
+        element_loads=part(step.element_loads),
+        surface_loads=part(step.surface_loads),
+    )

@@ -1,0 +1,125 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*MODAL DYNAMIC, and what all steps have in which modes of *FREQUENCY respond.
+
+With u = sum of phi_i q_i each mode has an equation of its own, m_i (q'' + 2 xi_i w_i q' + w_i^2 q) = phi_i^T p (Abaqus
+Theory Guide, "Modal dynamic analysis"). Supports are those of *FREQUENCY. Where they all move along a direction r with
+the acceleration a, the displacement is relative to them, and -M r a acts ("Base motions in modal-based procedures").
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+from scipy.linalg import expm
+
+from uel.assembly import Constraints
+from uel.errors import DeckError
+from uel.model.arrays import FloatArray
+from uel.model.perturbations import ModalDynamic
+from uel.model.records import AttemptStarted, IncrementDone, Noted, Record, Solution, StepDone
+from uel.procedures.linear.given import given_at
+from uel.procedures.linear.perturbation import PerturbationStep
+from uel.procedures.step_setting import Setting
+
+
+class ModalStep(PerturbationStep):
+    """A step in which modes of an earlier *FREQUENCY respond."""
+
+    def __init__(self, setting: Setting) -> None:
+        modes = setting.state.modes
+        if modes is None:
+            message = f"*{setting.step.procedure.keyword} by modes needs a *FREQUENCY step before it in the same job"
+            raise DeckError(setting.step.source, message)
+        self._found, self._superposition = modes, setting.step.procedure.superposition
+        super().__init__(setting)
+        self._numbers = self._superposition.modes(modes.frequencies)
+        if not len(self._numbers):
+            message = f"none of the {len(modes.values)} modes of *FREQUENCY, step {modes.step}, responds"
+            raise DeckError(setting.step.source, message)
+        self._modes = modes.chosen(self._numbers)
+
+    def _constrain(self, setting: Setting) -> Constraints:
+        """Those of *FREQUENCY. Raises DeckError where the step has others."""
+        found, step = self._found.constraints, setting.step
+        given = setting.state.boundaries.in_perturbation(replace(step, new_boundary=True))
+        same = np.array_equal(given, found.prescribed) if step.new_boundary else np.isin(given, found.prescribed).all()
+        if not same:
+            message = f"*BOUNDARY holds other dofs than the step of the modes, {self._found.step}"
+            raise DeckError(step.source, message)
+        return found
+
+    def run(self) -> Iterator[Record]:
+        """Records of the step. Raises KernelError, DeckError."""
+        yield Noted(f"{len(self._numbers)} OF {len(self._found.values)} MODES OF STEP {self._found.step} RESPOND")
+        yield from self._increments()
+        yield StepDone(self._step.number, self._increment, 0, self._increment)
+
+
+class ModalDynamicStep(ModalStep):
+    """Increments of constant length, in which the forces vary linearly: the integration is exact.
+
+    Rows of the states are q, q', the force over the generalized mass, and its rate.
+    """
+
+    def __init__(self, setting: Setting, procedure: ModalDynamic) -> None:
+        super().__init__(setting)
+        self._procedure = procedure
+        modes, count = self._modes, len(self._numbers)
+        self._viscous = self._superposition.viscous(self._numbers, modes.omega)
+        # q'' = -w^2 q - 2 xi w q' + f, and f' is constant
+        self._rates = np.zeros((count, 4, 4))
+        self._rates[:, 0, 1] = self._rates[:, 1, 2] = self._rates[:, 2, 3] = 1.0
+        self._rates[:, 1, 0], self._rates[:, 1, 1] = -modes.values, -self._viscous
+        self._state_of_modes = np.zeros((count, 4))
+        self._state_of_modes[:, 1] = modes.inertia @ self._state.velocity / modes.masses
+        self._steps: dict[float, FloatArray] = {}
+
+    def _increments(self) -> Iterator[Record]:
+        number, begin, step_time = self._step.number, self._state.total_time, 0.0
+        forces = self._forces(0.0)[0]
+        for increment, end in enumerate(self._procedure.times, start=1):
+            self._increment, size = increment, end - step_time
+            yield AttemptStarted(number, increment, 1, step_time, begin + step_time, size)
+            self._user.external_database(1, 0, (step_time, begin + step_time), size, number, increment)
+            step_time = end
+            before, (forces, load) = forces, self._forces(end)
+            self._advance(size, self._modes.shapes @ before, self._modes.shapes @ forces)
+            found = self._superposed(forces, load)
+            following = self._procedure.times[increment] - end if end < self._procedure.period else 0.0
+            yield IncrementDone(number, increment, 1, 1, end, begin + end, size, found, following)
+            self._user.external_database(2, 0, (end, begin + end), size, number, increment)
+
+    def _advance(self, size: float, before: FloatArray, after: FloatArray) -> None:
+        """States at the end of an increment, between whose ends the forces (modes,) are linear."""
+        if size not in self._steps:
+            self._steps[size] = expm(size * self._rates)
+        masses = self._modes.masses
+        self._state_of_modes[:, 2], self._state_of_modes[:, 3] = before / masses, (after - before) / (size * masses)
+        self._state_of_modes = np.einsum("mij,mj->mi", self._steps[size], self._state_of_modes)
+
+    def _forces(self, step_time: float) -> tuple[FloatArray, FloatArray]:
+        """Forces (n,) at a time: all of them, and loads alone."""
+        at = step_time, self._state.total_time + step_time
+        ramp = step_time / self._procedure.period if self._step.amplitude == "RAMP" else 1.0
+        load = self._loads(given_at(self._step, at, without=ramp))
+        moved = [motion.value(*at) * self._modes.rigid[motion.dof - 1] for motion in self._superposition.base]
+        return load - sum(moved), load
+
+    def _superposed(self, forces: FloatArray, load: FloatArray) -> Solution:
+        """The state of all unknowns."""
+        position, velocity, force = self._state_of_modes[:, :3].T
+        acceleration = force - self._modes.values * position - self._viscous * velocity
+        shapes, turned = self._modes.shapes, self._system.dofs.in_global
+        internal = position @ self._modes.stiffness + acceleration @ self._modes.inertia
+        change = position @ shapes
+        return replace(
+            self._solution(change, {}),
+            velocity=velocity @ shapes,
+            acceleration=acceleration @ shapes,
+            reaction=turned(self._constraints.reactions(forces - internal)),
+            load=turned(load),
+            elements=self._elements(change),
+        )

@@ -1,0 +1,225 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""*STEADY STATE DYNAMICS: the response to harmonic loads, for one angular frequency w after another.
+
+DIRECT solves (K - w^2 M + i (w C + S)) u = p. Elements are asked, at each frequency, for the stiffness K (LFLAGS(3) =
+2), the mass M (4), and the viscous and the structural damping C and S (3, with LFLAGS(7) = 1 and 2), with LFLAGS(1) =
+95 and the frequency in TIME(1) (User Subroutines Guide, UEL, "Direct steady-state analysis"; Theory Guide, "Direct
+steady-state dynamic analysis"). SUBSPACE PROJECTION solves it for u = sum of phi_i q_i, where phi_i are modes of
+*FREQUENCY. By modes alone each has an equation of its own (Theory Guide, "Steady-state linear dynamic analysis"),
+m_i (w_i^2 (1 + i s_i) - w^2 + 2 i xi_i w_i w) q_i = phi_i^T p.
+
+Loads and prescribed values have a real and an imaginary part; their amplitudes are functions of frequency.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from uel.elements import Damping, Request
+from uel.errors import DeckError
+from uel.model.arrays import ComplexArray, FloatArray
+from uel.model.modal import Motion
+from uel.model.perturbations import ModalSteadyState, SteadyState, SubspaceSteadyState
+from uel.model.records import HarmonicResponse, Record, Solution
+from uel.model.steps import Step
+from uel.procedures.linear.given import given_at
+from uel.procedures.linear.modal import ModalStep
+from uel.procedures.linear.perturbation import PerturbationStep
+from uel.procedures.step_setting import Setting
+from uel.solver.harmonic import ComplexSolver
+from uel.solver.linear import LinearSolver
+
+
+class HarmonicStep(PerturbationStep, ABC):
+    """One step of harmonic responses, each an increment; subclasses define the solution at a frequency."""
+
+    _procedure: SteadyState
+
+    def _increments(self) -> Iterator[Record]:
+        modes = self._state.modes
+        if self._procedure.natural and modes is None:
+            message = (
+                f"*{self._procedure.keyword}, INTERVAL=EIGENFREQUENCY needs a *FREQUENCY step before it in the same job"
+            )
+            raise DeckError(self._step.source, message)
+        frequencies = self._procedure.frequencies(modes.frequencies if modes is not None else np.zeros(0))
+        for increment, frequency in enumerate(frequencies, start=1):
+            self._increment, self._frequency = increment, frequency
+            yield from self._increment_by(self._solve)
+
+    def _solve(self) -> list[Record]:
+        """The response at the frequency of the increment."""
+        frequency = self._frequency
+        rate = 2j * math.pi * frequency
+        load = self._given(self._loads)
+        found, reaction = self._response_to(load, rate)
+        response = found, rate * found, rate**2 * found, reaction, load
+        real = self._part(*(np.ascontiguousarray(values.real) for values in response))
+        imaginary = self._part(*(np.ascontiguousarray(values.imag) for values in response))
+        size, place = self._procedure.period, (self._step.number, self._increment, 1, 1)
+        return [HarmonicResponse(*place, frequency, frequency, size, replace(real, imaginary=imaginary))]
+
+    @abstractmethod
+    def _response_to(self, load: ComplexArray, rate: complex) -> tuple[ComplexArray, ComplexArray]:
+        """Displacements and reactions (n,) under loads (n,); rate: i w."""
+
+    def _dynamic_stiffness(self, rate: complex) -> ComplexArray:
+        """(nnz,) CSR values of K + rate C + rate^2 M + i S over all unknowns."""
+        data = self._matrix(Request.STIFFNESS) + rate**2 * self._matrix(Request.MASS)
+        if not self._procedure.undamped:
+            viscous, structural = (
+                self._matrix(Request.DAMPING, kind) for kind in (Damping.VISCOUS, Damping.STRUCTURAL)
+            )
+            data += rate * viscous + 1j * structural
+        return data
+
+    def _matrix(self, request: Request, damping: Damping = Damping.NONE) -> FloatArray:
+        """(nnz,) CSR values of a matrix of the elements in the base state."""
+        call, at = self._call(request).asking(request, damping), self._state.displacement
+        evaluation = self._system.evaluate(call, at, np.zeros_like(at))
+        assert evaluation.data is not None
+        return (self._by_spins(evaluation.data) if request is Request.STIFFNESS else evaluation.data).copy()
+
+    @property
+    def _step_time(self) -> float:
+        return self._frequency
+
+    def _given(self, read: Callable[[Step], FloatArray]) -> ComplexArray:
+        """Loads or prescribed values (n,) at the frequency."""
+        at = self._frequency, self._frequency
+        return read(given_at(self._step, at)) + 1j * read(given_at(self._step, at, imaginary=True))
+
+    def _part(
+        self,
+        displacement: FloatArray,
+        velocity: FloatArray,
+        acceleration: FloatArray,
+        reaction: FloatArray,
+        load: FloatArray,
+    ) -> Solution:
+        """The real or the imaginary part."""
+        return replace(
+            self._solution(displacement, {}),
+            velocity=velocity,
+            acceleration=acceleration,
+            reaction=self._system.dofs.in_global(reaction),
+            load=self._system.dofs.in_global(load),
+            elements=self._elements(displacement),
+        )
+
+
+class SteadyStateStep(HarmonicStep):
+    """By the matrices of the model."""
+
+    def __init__(self, setting: Setting, procedure: SteadyState) -> None:
+        self._procedure = procedure
+        self._complex: ComplexSolver | None = None
+        super().__init__(setting)
+
+    def _choose_solver(self, name: str) -> LinearSolver:
+        if self._procedure.undamped:
+            return super()._choose_solver(name)
+        constraints = self._constraints
+        self._complex = ComplexSolver(
+            name,
+            constraints.reduced_indptr,
+            constraints.reduced_indices,
+            coordinates=constraints.coordinates,
+            name_of=constraints.name_of,
+        )
+        self._complex.real.effort = self._state.effort
+        return self._complex.real
+
+    def _response_to(self, load: ComplexArray, rate: complex) -> tuple[ComplexArray, ComplexArray]:
+        constraints, data = self._constraints, self._dynamic_stiffness(rate)
+        prescribed = self._given(self._state.boundaries.perturbations)[constraints.prescribed]
+        held = _by_parts(constraints.expand, np.zeros(len(constraints.free), dtype=np.complex128), prescribed)
+        missing = _by_parts(constraints.reduce_vector, load - self._system.matrix(data) @ held)
+        found = held + _by_parts(constraints.expand, self._solution_of(data, missing), np.zeros_like(prescribed))
+        for part in (found.real, found.imag):
+            constraints.refuse_contradictions(part, f"step {self._step.number}")
+        return found, _by_parts(constraints.reactions, load - self._system.matrix(data) @ found)
+
+    def _solution_of(self, data: ComplexArray, missing: ComplexArray) -> ComplexArray:
+        """Free unknowns (n_q,)."""
+        solver = self._solver
+        reduced = _by_parts(self._constraints.reduce, data)
+        if self._complex is not None:
+            return self._complex.solve(reduced, missing)
+        solver.factorise(reduced.real)
+        return _by_parts(solver.solve, missing)
+
+
+class ModalHarmonicStep(ModalStep, HarmonicStep):
+    """By modes; subclasses define their amplitudes."""
+
+    def __init__(self, setting: Setting, procedure: SubspaceSteadyState | ModalSteadyState) -> None:
+        self._procedure = procedure
+        super().__init__(setting)
+
+    def _with_base(self, load: ComplexArray, rate: complex) -> ComplexArray:
+        """Loads (n,), and those of the motion of the supports."""
+        found = load.copy()
+        for motion in self._superposition.base:
+            part = 1j if motion.imaginary else 1.0
+            accelerates = rate ** _DERIVATIVES[motion.motion]
+            acceleration = part * accelerates * motion.value(self._frequency, self._frequency)
+            found -= acceleration * self._modes.rigid[motion.dof - 1]
+        return found
+
+    def _largest_terms(self, rate: complex) -> FloatArray:
+        """(modes,) what the difference w_i^2 - w^2 is measured by."""
+        found: FloatArray = np.abs(self._modes.values) + abs(rate) ** 2
+        return found
+
+    def _check_distance(self, distance: FloatArray) -> None:
+        """Refuse a frequency at which a mode has no stiffness but that of rounding."""
+        if np.any(distance <= NEAR):
+            message = f"{self._frequency:g} cycles per time is a natural frequency of a mode without damping"
+            raise DeckError(self._step.source, f"*{self._procedure.keyword}: {message}")
+
+
+class SubspaceSteadyStateStep(ModalHarmonicStep):
+    """By the matrices of the model, which act on modes."""
+
+    def _response_to(self, load: ComplexArray, rate: complex) -> tuple[ComplexArray, ComplexArray]:
+        matrix, shapes = self._system.matrix(self._dynamic_stiffness(rate)), self._modes.shapes
+        forces = self._with_base(load, rate)
+        projected = shapes @ (matrix @ shapes.T)
+        # to unit diagonals, but near a natural frequency
+        scale = np.sqrt(self._modes.masses * self._largest_terms(rate))
+        self._check_distance(np.linalg.svd(projected / np.outer(scale, scale), compute_uv=False))
+        found = np.linalg.solve(projected, shapes @ forces) @ shapes
+        return found, _by_parts(self._constraints.reactions, forces - matrix @ found)
+
+
+class ModalSteadyStateStep(ModalHarmonicStep):
+    """By modes, each for itself."""
+
+    def _response_to(self, load: ComplexArray, rate: complex) -> tuple[ComplexArray, ComplexArray]:
+        modes, forces = self._modes, self._with_base(load, rate)
+        stiffness = modes.values * (1 + 1j * self._superposition.structural(self._numbers, modes.omega))
+        viscous = self._superposition.viscous(self._numbers, modes.omega)
+        dynamic = stiffness + rate * viscous + rate**2
+        self._check_distance(np.abs(dynamic) / self._largest_terms(rate))
+        amplitude = modes.shapes @ forces / (modes.masses * dynamic)
+        internal = amplitude @ modes.stiffness + rate**2 * (amplitude @ modes.inertia)
+        return amplitude @ modes.shapes, _by_parts(self._constraints.reactions, forces - internal)
+
+
+_DERIVATIVES = {Motion.DISPLACEMENT: 2, Motion.VELOCITY: 1, Motion.ACCELERATION: 0}
+
+NEAR = 1e-10
+"""Difference of squared frequencies, over their sum, that rounding makes."""
+
+
+def _by_parts(linear: Callable[..., FloatArray], *values: ComplexArray) -> ComplexArray:
+    """A linear function of complex values; its next call may overwrite the result."""
+    real = linear(*(np.ascontiguousarray(value.real) for value in values)).copy()
+    return real + 1j * linear(*(np.ascontiguousarray(value.imag) for value in values))

@@ -1,0 +1,511 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""All loads of a step: concentrated ones, and distributed ones on built-in elements as nodal forces.
+
+Pressures in a model with NLGEOM are not nodal forces: the faces that they act on are called in each iteration.
+
+Magnitudes of distributed loads vary as those of *CLOAD do, for each element and type of load; *DLOAD and *DSLOAD have
+their own OP=. Nonuniform loads have the magnitudes that DLOAD gives at each point of the face or volume, from those of
+the deck as they are: no amplitude acts on them, nor that of the step (User Subroutines Guide, DLOAD).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from uel.assembly import System
+from uel.elements import FIELD_NAMES, BlockReport, Distributed, FollowerBlock
+from uel.elements.loads.followers import SHELL_PRESSURE
+from uel.elements.loads.vectors import unit_forces
+from uel.errors import DeckError
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.element_types import ShellType
+from uel.model.model import Model
+from uel.model.steps import ElementLoad, Load, LoadKind, LoadType, Step
+from uel.model.user_values import GivesValues, UserValues
+from uel.parallel.ranks import Ranks
+from uel.procedures.loads.heat import HeatLoads, StepHeat
+from uel.procedures.loads.nodal import Loads, ScaledUnknowns, Slots, Variation
+
+
+@dataclass(frozen=True, slots=True)
+class FactorTimes:
+    """A load factor at the end of an increment, a small difference from it, and its change in the increment."""
+
+    end: float
+    difference: float
+    change: float
+
+
+@dataclass(frozen=True, slots=True)
+class _ShellTerms:
+    """Loads normal to shells as terms of the average force.
+
+    forces  (n, slots) magnitudes of the nodal forces of loads of one
+    terms   (slots,) of the average that a load is, 0 of those that do not act or are on other elements
+    """
+
+    forces: sparse.csc_array
+    terms: IntArray
+
+    def at(self, magnitudes: FloatArray, floor: float) -> BlockReport:
+        """Their report at magnitudes (slots,); floor: below which forces are left out of the average."""
+        found = abs(self.forces.data) * np.abs(np.repeat(magnitudes, np.diff(self.forces.indptr)))
+        here = np.repeat(self.terms > 0, np.diff(self.forces.indptr))
+        counted = here & (found > floor)
+        values, field = np.zeros(len(FIELD_NAMES)), FIELD_NAMES.index("force")
+        count = np.zeros(len(FIELD_NAMES), dtype=np.int64)
+        flux, largest, entries, above = values.copy(), values.copy(), count.copy(), count.copy()
+        flux[field], largest[field] = found[counted].sum(), found[here].max(initial=0.0)
+        above[field] = SHELL_PRESSURE * np.count_nonzero(counted)
+        entries[field] = self.terms.sum()
+        return BlockReport(flux, above, np.inf, np.zeros(8), 0.0, largest, entries)
+
+
+@dataclass(slots=True)
+class StepLoads:
+    """Loads of one step; `increment` is the one for which they are needed.
+
+    shape   of vectors of all unknowns
+    nlgeom  DLOAD gets the present places of its points
+    """
+
+    step: int
+    shape: int
+    nlgeom: bool
+    concentrated: Variation
+    distributed: tuple[_StepElementLoads, ...]
+    user: GivesValues
+    heat: StepHeat
+    ranks: Ranks
+    increment: int = 0
+
+    @property
+    def curves(self) -> tuple[ScaledUnknowns, ...]:
+        """Loads that vary along an amplitude."""
+        return (*self.concentrated.curves, *(curve for load in self.distributed for curve in load.magnitudes.curves))
+
+    @property
+    def turning(self) -> bool:
+        """Whether there are loads that follow faces."""
+        return any(load.turning for load in self.distributed)
+
+    @property
+    def by_user(self) -> bool:
+        """Whether DLOAD gives any of them, on any rank."""
+        return any(load.by_user for load in self.distributed)
+
+    def at(self, step_time: float, total_time: float) -> FloatArray:
+        """Loads (n,) at a time, without those of DLOAD."""
+        concentrated = self.concentrated.at(step_time, total_time)
+        if not self.distributed:
+            return concentrated
+        return concentrated + self.ranks.sum(self._on_elements(step_time, total_time))
+
+    def terms(self, times: tuple[float, float], floor: FloatArray) -> tuple[BlockReport, ...]:
+        """Loads on shells of this rank that are terms of the average force at a step and a total time."""
+        loads = (load for load in self.distributed if load.shells.terms.any())
+        force = float(floor[FIELD_NAMES.index("force")])
+        return tuple(load.shells.at(load.magnitudes.at(*times), force) for load in loads)
+
+    def _on_elements(self, step_time: float, total_time: float) -> FloatArray:
+        """Nodal forces (n,) of the loads on the elements of this rank."""
+        values = np.zeros(self.shape)
+        for load in self.distributed:
+            values += load.points.forces @ load.magnitudes.at(step_time, total_time)[load.points.slot]
+        return values
+
+    def of_user(self, time: tuple[float, float], u: FloatArray) -> FloatArray:
+        """Nodal forces (n,) of the loads that DLOAD gives at a step and a total time, at displacements (n,)."""
+        return self.ranks.sum(self.ranks.agree(lambda: self._of_user(time, u)))
+
+    def _of_user(self, time: tuple[float, float], u: FloatArray) -> FloatArray:
+        values = np.zeros(self.shape)
+        for load in self.distributed:
+            if len(load.chosen):
+                found = np.zeros(len(load.points.slot))
+                asked = load.points.asked(load.chosen, u if self.nlgeom else None)
+                found[load.chosen] = self._given(time, *asked, load.reference[load.points.slot[load.chosen]])
+                values += load.points.forces @ found
+        return values
+
+    def _given(
+        self, time: tuple[float, float], places: NDArray[np.int32], coords: FloatArray, given: FloatArray
+    ) -> FloatArray:
+        """Magnitudes (k,) of DLOAD."""
+        # calls before the first increment belong to it
+        moment = self.step, max(self.increment, 1), time
+        return self.user.user_values(UserValues("DLOAD", *moment, places, coords, given))
+
+    def with_faces(
+        self,
+        others: Distributed | None,
+        start: tuple[float, float],
+        end: tuple[float, float],
+        u: FloatArray,
+        factor: FactorTimes | None = None,
+    ) -> Distributed | None:
+        """What acts in an increment between these step and total times: on elements, on faces that it follows, heat.
+
+        u (n,) are the displacements at which DLOAD is asked. factor: what it gets in place of step times; only then
+        changes of its loads in the increment are known.
+        """
+        by_user = self.ranks.agree(lambda: self._on_faces_of_user(end, u, factor)) if self.by_user else None
+        parts = [part for part in (others, self._on_faces(start, end), by_user, self.heat.between(start, end)) if part]
+        if len(parts) < 2:
+            return parts[0] if parts else None
+        return Distributed(
+            np.concatenate([part.elements for part in parts]),
+            np.concatenate([part.kinds for part in parts]),
+            np.concatenate([part.end for part in parts]),
+            np.concatenate([part.increment for part in parts]),
+        )
+
+    def _on_faces(self, start: tuple[float, float], end: tuple[float, float]) -> Distributed | None:
+        if not any(len(load.faces) for load in self.distributed):
+            return None
+        places = np.concatenate([load.faces for load in self.distributed])
+        after = np.concatenate([load.magnitudes.at(*end)[load.slots] for load in self.distributed])
+        before = np.concatenate([load.magnitudes.at(*start)[load.slots] for load in self.distributed])
+        order = np.argsort(places)
+        return Distributed(places[order], np.ones_like(places), after[order], (after - before)[order])
+
+    def _on_faces_of_user(
+        self, end: tuple[float, float], u: FloatArray, factor: FactorTimes | None
+    ) -> Distributed | None:
+        """A load for each point of the faces whose pressure DLOAD gives."""
+        found = []
+        for load in self.distributed:
+            for faces in load.user_faces:
+                asked = faces.asked(u if self.nlgeom else np.zeros_like(u))
+                change = np.zeros(len(faces.reference))
+                if factor is None:
+                    after = self._given(end, *asked, faces.reference)
+                else:
+                    nearby = self._given((factor.end - factor.difference, end[1]), *asked, faces.reference)
+                    after = self._given((factor.end, end[1]), *asked, faces.reference)
+                    change = factor.change / factor.difference * (after - nearby)
+                found.append(faces.distributed(after, change))
+        if not found:
+            return None
+        order = np.argsort(np.concatenate([part.elements for part in found]), kind="stable")
+        return Distributed(
+            *(
+                np.concatenate([getattr(part, name) for part in found])[order]
+                for name in ("elements", "kinds", "end", "increment")
+            )
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class _UserFaces:
+    """Faces that pressures follow which DLOAD gives.
+
+    rows       (k,) of the block
+    reference  (k * points,) magnitudes of the deck
+    """
+
+    block: FollowerBlock
+    rows: IntArray
+    reference: FloatArray
+
+    def asked(self, u: FloatArray) -> tuple[NDArray[np.int32], FloatArray]:
+        """Element number, point and JLTYP of the points, and where they are at displacements (n,)."""
+        labels, coords = self.block.group.labels[self.rows], self.block.points(self.rows, u)
+        return _numbered(labels, self.block.points_of_face, self.block.load), coords.reshape(-1, 3)
+
+    def distributed(self, end: FloatArray, increment: FloatArray) -> Distributed:
+        """A load for each point, of these magnitudes (k * points,)."""
+        count = self.block.points_of_face
+        places = np.repeat(self.block.first + self.block.rows[self.rows], count)
+        return Distributed(places, np.tile(np.arange(1, count + 1), len(self.rows)), end, increment)
+
+
+def _numbered(labels: IntArray, points: int, load: LoadType) -> NDArray[np.int32]:
+    """(k * points, 3) element number, point and JLTYP."""
+    numbers = np.tile(np.arange(1, points + 1), len(labels))
+    repeated = np.repeat(labels, points)
+    return np.stack([repeated, numbers, np.full(len(repeated), load.jltyp)], axis=1).astype(np.int32)
+
+
+@dataclass(frozen=True, slots=True)
+class _StepElementLoads:
+    """Distributed loads of one step.
+
+    turning       whether loads follow faces, on any rank
+    by_user       whether DLOAD gives any magnitude, on any rank
+    chosen        points whose magnitude DLOAD gives
+    reference     magnitudes by number as the deck gives them, for DLOAD
+    user_faces    faces whose pressures it gives
+    shells        of the loads on shells, in the average force
+    faces, slots  positions of other faces among the elements, after those of the model, and numbers of their magnitudes
+    """
+
+    points: _Points
+    magnitudes: Variation
+    turning: bool
+    by_user: bool
+    chosen: IntArray
+    reference: FloatArray
+    user_faces: tuple[_UserFaces, ...]
+    faces: IntArray
+    slots: IntArray
+    shells: _ShellTerms
+
+
+class AllLoads:
+    """Loads through the steps."""
+
+    def __init__(self, system: System, model: Model) -> None:
+        """Integrate the nodal forces of distributed loads once. Raises DeckError."""
+        self._concentrated = Loads(system.dofs)
+        self._ranks = system.ranks
+        on_elements = [load for step in model.steps for load in step.element_loads]
+        on_surfaces = [load for step in model.steps for load in step.surface_loads]
+        self._shape = len(system)
+        self._elements = _ElementLoads(system, on_elements, surface=False)
+        self._surfaces = _ElementLoads(system, on_surfaces, surface=True)
+        self._heat = HeatLoads(system, model)
+
+    def start_step(self, step: Step, total_time: float, user: GivesValues) -> StepLoads:
+        """Take over a step's loads; total_time is that at the end of the previous step. Raises DeckError."""
+        _check_dload(step, user)
+        distributed = (
+            self._elements.start_step(step.element_loads, step.new_distributed, step, total_time),
+            self._surfaces.start_step(step.surface_loads, step.new_surface_loads, step, total_time),
+        )
+        found = tuple(load for load in distributed if load is not None)
+        heat = self._heat.start_step(step, total_time)
+        concentrated = self._concentrated.start_step(step, total_time)
+        return StepLoads(step.number, self._shape, step.nlgeom, concentrated, found, user, heat, self._ranks)
+
+    def in_perturbation(
+        self, step: Step, user: GivesValues, increment: int, time: tuple[float, float], u: FloatArray
+    ) -> FloatArray:
+        """Forces (n,) of a perturbation step, which do not outlast it.
+
+        increment, time and u (n,), the displacements of the base state, are for DLOAD. Raises DeckError without it.
+        """
+        _check_dload(step, user)
+        forces = self._concentrated.in_perturbation(step.loads)
+        forces += self._elements.unlasting(step.element_loads) + self._surfaces.unlasting(step.surface_loads)
+        for entry in step.element_loads:
+            if entry.type.jltyp:
+                places, coords, add = self._elements.nonuniform(entry, u if step.nlgeom else None)
+                given = np.full(len(coords), entry.magnitude)
+                forces += add(
+                    user.user_values(UserValues("DLOAD", step.number, increment, time, places, coords, given))
+                )
+        return forces
+
+    def on_faces(
+        self,
+        block: FollowerBlock,
+        step: Step,
+        user: GivesValues,
+        increment: int,
+        time: tuple[float, float],
+        u: FloatArray,
+    ) -> Distributed:
+        """Loads of a perturbation step on a block of faces; other arguments as those of `in_perturbation`."""
+        magnitudes, loaded = np.zeros(len(block.elements)), np.zeros(len(block.elements), dtype=bool)
+        for entry in step.surface_loads if block.surface else step.element_loads:
+            if entry.type == block.load:
+                rows = np.searchsorted(block.elements, entry.elements)
+                np.add.at(magnitudes, rows, entry.magnitude)
+                loaded[rows] = True
+        rows = np.flatnonzero(loaded)
+        if not block.load.jltyp:
+            places = block.first + block.rows[rows]
+            return Distributed(places, np.ones_like(places), magnitudes[rows], magnitudes[rows])
+        faces = _UserFaces(block, rows, np.repeat(magnitudes[rows], block.points_of_face))
+        asked = faces.asked(u if step.nlgeom else np.zeros_like(u))
+        values = user.user_values(UserValues("DLOAD", step.number, increment, time, *asked, faces.reference))
+        return faces.distributed(values, values)
+
+    def conclude(self, step_time: float) -> None:
+        """The step ends before its period."""
+        for loads in (self._concentrated, self._elements.loads, self._surfaces.loads):
+            loads.conclude(step_time)
+        self._heat.conclude(step_time)
+
+
+@dataclass(slots=True)
+class _Points:
+    """Points of faces and volumes that loads act on.
+
+    forces  (n, points) nodal forces for magnitudes of one
+    moved   (3 points, n) their displacements from those of the nodes
+    slot    (points,) number of the magnitude, jltyp (points,) as LoadType has it
+    places  (points, 3) element number, point, JLTYP; coords (points, 3), at the start of the analysis
+    terms   (points,) of the average force that the load of the point is
+    """
+
+    forces: sparse.csr_array
+    moved: sparse.csr_array
+    slot: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    places: NDArray[np.int32] = field(default_factory=lambda: np.zeros((0, 3), dtype=np.int32))
+    coords: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+    terms: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+
+    def asked(self, chosen: IntArray, u: FloatArray | None) -> tuple[NDArray[np.int32], FloatArray]:
+        """Places (k, 3) of chosen points, and their coordinates at displacements u (n,), or in the initial shape."""
+        coords = self.coords[chosen]
+        if u is not None:
+            coords = coords + (self.moved @ u).reshape(-1, 3)[chosen]
+        return self.places[chosen], coords
+
+
+def _check_dload(step: Step, user: GivesValues) -> None:
+    """Raise DeckError if the step needs DLOAD and there is none."""
+    for entry in step.element_loads:
+        if entry.type.jltyp and user.dload is None:
+            raise DeckError(entry.source, "*DLOAD: nonuniform loads need DLOAD, which the job does not have")
+
+
+class _ElementLoads:
+    """Distributed loads on built-in elements.
+
+    loads  a magnitude for each element and type of load
+    """
+
+    def __init__(self, system: System, entries: Sequence[ElementLoad], *, surface: bool) -> None:
+        self._types = list(dict.fromkeys(entry.type for entry in entries))
+        self._slots = Slots([(entry.elements, self._types.index(entry.type)) for entry in entries])
+        self.loads = Loads(self._slots)
+        self._active = np.zeros(len(self._slots), dtype=bool)
+        self._reference = np.zeros(len(self._slots))
+        parts: list[_Points] = []
+        loaded = (block for block in system.loaded if isinstance(block, FollowerBlock) and block.acts)
+        faces = [block for block in loaded if block.surface == surface]
+        turning = {block.load for block in faces}
+        self._turning = [k for k, kind in enumerate(self._types) if kind in turning]
+        for entry in {entry.type: entry for entry in entries}.values():
+            if entry.type not in turning:
+                parts += self._points_of(system, entry)
+        none = np.zeros(0, dtype=np.int64)
+        by_deck = [block for block in faces if not block.load.jltyp]
+        self._user_faces = [block for block in faces if block.load.jltyp]
+        self._faces = np.concatenate([none, *(block.first + block.rows for block in by_deck)])
+        slots = [self._slots.find(block.elements, self._types.index(block.load)) for block in by_deck]
+        self._face_slots = np.concatenate([none, *slots])
+        self._points = _Points(sparse.csr_array((len(system), 0)), sparse.csr_array((0, len(system))))
+        if parts:
+            self._points = _Points(
+                sparse.csr_array(sparse.hstack([part.forces for part in parts], format="csr")),
+                sparse.csr_array(sparse.vstack([part.moved for part in parts], format="csr")),
+                np.concatenate([part.slot for part in parts]),
+                np.concatenate([part.places for part in parts]),
+                np.concatenate([part.coords for part in parts]),
+                np.concatenate([part.terms for part in parts]),
+            )
+        points = np.flatnonzero(self._points.terms)
+        pairs = points, self._points.slot[points]
+        shape = len(self._points.terms), len(self._slots)
+        of_slots = sparse.csr_array((np.ones(len(points)), pairs), shape=shape)
+        self._of_shells = sparse.csc_array(self._points.forces @ of_slots)
+        self._shell_terms = np.zeros(len(self._slots), dtype=np.int64)
+        self._shell_terms[pairs[1]] = self._points.terms[points]
+
+    def start_step(
+        self, entries: Sequence[ElementLoad], new: bool, step: Step, total_time: float
+    ) -> _StepElementLoads | None:
+        """Loads of a step; None if the model has none."""
+        if not len(self._slots):
+            return None
+        if new:
+            self._active[:] = False
+        for entry in entries:
+            self._active[self._slots.find(entry.elements, self._types.index(entry.type))] = True
+        self._refer(entries)
+        chosen = np.flatnonzero((self._points.places[:, 2] > 0) & self._active[self._points.slot])
+        varying = self.loads.take(self._as_loads(entries), new, step, total_time)
+        by_user = [k for k, kind in enumerate(self._types) if kind.jltyp]
+        turning, of_user = (self._has(kinds) for kinds in (self._turning, by_user))
+        given = turning, of_user, chosen, self._reference.copy(), self._faces_of_user()
+        shells = _ShellTerms(self._of_shells, np.where(self._active, self._shell_terms, 0))
+        return _StepElementLoads(self._points, varying, *given, self._faces, self._face_slots, shells)
+
+    def _has(self, kinds: list[int]) -> bool:
+        """Whether the step has loads of some types."""
+        return bool(np.isin(self._slots.kinds[self._active], kinds).any())
+
+    def _refer(self, entries: Sequence[ElementLoad]) -> None:
+        """Take over the magnitudes that DLOAD gets; those of several entries of a step add up."""
+        given = [(self._slots.find(e.elements, self._types.index(e.type)), e) for e in entries if e.type.jltyp]
+        for slots, _ in given:
+            self._reference[slots] = 0.0
+        for slots, entry in given:
+            self._reference[slots] += entry.magnitude
+
+    def _faces_of_user(self) -> tuple[_UserFaces, ...]:
+        """Faces here that have a load of DLOAD in the step."""
+        found = []
+        for block in self._user_faces:
+            slots = self._slots.find(block.elements, self._types.index(block.load))
+            rows = np.flatnonzero(self._active[slots])
+            if len(rows):
+                reference = np.repeat(self._reference[slots[rows]], block.points_of_face)
+                found.append(_UserFaces(block, rows, reference))
+        return tuple(found)
+
+    def nonuniform(
+        self, entry: ElementLoad, u: FloatArray | None
+    ) -> tuple[NDArray[np.int32], FloatArray, Callable[[FloatArray], FloatArray]]:
+        """Where DLOAD is asked for an entry of a perturbation step, and what makes forces (n,) of its answers."""
+        slots = self._slots.find(entry.elements, self._types.index(entry.type))
+        chosen = np.flatnonzero(np.isin(self._points.slot, slots) & (self._points.places[:, 2] > 0))
+        forces = self._points.forces[:, chosen]
+        return (*self._points.asked(chosen, u), lambda found: np.asarray(forces @ found))
+
+    def unlasting(self, entries: Sequence[ElementLoad]) -> FloatArray:
+        """Forces (n,) of entries of a perturbation step."""
+        magnitudes = self.loads.in_perturbation(self._as_loads(entries))
+        return np.asarray(self._points.forces @ magnitudes[self._points.slot])
+
+    def _as_loads(self, entries: Sequence[ElementLoad]) -> list[Load]:
+        """Those whose magnitudes the deck gives."""
+        uniform = (e for e in entries if not e.type.jltyp)
+        return [Load(e.elements, self._types.index(e.type), e.magnitude, e.amplitude, e.source) for e in uniform]
+
+    def _points_of(self, system: System, entry: ElementLoad) -> list[_Points]:
+        """Points of the elements that have loads of the entry's type, block by block."""
+        chosen = np.flatnonzero(self._slots.kinds == self._types.index(entry.type))
+        found = []
+        for block in system.blocks:
+            mine = chosen[block.holds(self._slots.places[chosen])]
+            if not len(mine):
+                continue
+            rows = block.places_of(self._slots.places[mine])
+            forces, coords, shapes = unit_forces(block.group, rows, entry, system.dofs.mesh.coordinates)
+            elements, points, _, dimension = forces.shape
+            local = list(entry.type.face) or list(range(block.group.nodes.shape[1]))
+            nodes = block.group.nodes[rows][:, local]
+            unknowns = system.dofs.find(nodes[:, None, :, None], np.arange(1, dimension + 1))
+            columns = np.arange(elements * points).reshape(elements, points, 1, 1)
+            where = np.broadcast_to(unknowns, forces.shape).ravel(), np.broadcast_to(columns, forces.shape).ravel()
+            matrix = sparse.csr_array((forces.ravel(), where), shape=(len(system), elements * points))
+            places = _numbered(block.group.labels[rows], points, entry.type)
+            # only DLOAD needs to know where the points are
+            moved = _moved(system, nodes, shapes if entry.type.jltyp else 0.0 * shapes)
+            counts = isinstance(block.group.built_in, ShellType) and entry.type.kind is LoadKind.PRESSURE
+            terms = np.full(elements * points, counts * SHELL_PRESSURE * 3 * block.group.nodes.shape[1])
+            found.append(_Points(matrix, moved, np.repeat(mine, points), places, coords.reshape(-1, 3), terms))
+        return found
+
+
+def _moved(system: System, nodes: IntArray, shapes: FloatArray) -> sparse.csr_array:
+    """(3 elements points, n) displacements of points from those of the nodes (elements, k); shapes (points, k)."""
+    unknowns = system.dofs.find(nodes[:, None, None, :], np.arange(1, 4)[:, None])
+    shape = len(nodes), len(shapes), 3, nodes.shape[1]
+    values = np.broadcast_to(shapes[:, None, :], shape)
+    rows = np.broadcast_to(np.arange(3 * len(nodes) * len(shapes)).reshape(*shape[:3], 1), shape)
+    columns = np.broadcast_to(unknowns, shape)
+    known = columns >= 0
+    size = 3 * len(nodes) * len(shapes), len(system)
+    return sparse.csr_array((values[known], (rows[known], columns[known])), shape=size)

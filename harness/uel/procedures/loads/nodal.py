@@ -1,0 +1,337 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Prescribed values and concentrated loads over time, and how they continue from step to step.
+
+Abaqus Analysis User's Guide, "Prescribed conditions: overview", "Amplitude curves", *BOUNDARY, *CLOAD:
+
+- without an amplitude a value ramps from where the previous step ended (RAMP), or acts at once (STEP), as
+  AMPLITUDE= of *STEP says; prescribed displacements and rotations always ramp;
+- with an amplitude it is the magnitude times the curve, or the curve itself (VALUE=ABSOLUTE);
+- in later steps that do not give it again it stays at the end value, or continues along a curve in total time;
+- FIXED holds a value as it is at the start of the step;
+- TYPE=VELOCITY prescribes the rate, by default constant over the step, and continues in later steps;
+- OP=NEW removes what is not given again: a load, and the reaction of a released degree of freedom, fade over the step
+  (RAMP) or vanish at once (STEP).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from uel.assembly import DofMap
+from uel.errors import Source
+from uel.model.amplitude import Amplitude
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.model import dof_in_deck
+from uel.model.steps import Boundary, InitialValue, Load, Step
+
+_LAST_ROTATION = 7
+"""Dofs 1 to 7 are displacements, rotations and warping."""
+
+
+@dataclass(frozen=True, slots=True)
+class ScaledUnknowns:
+    """Unknowns whose values are `magnitude` times an amplitude."""
+
+    unknowns: IntArray
+    magnitude: float
+    amplitude: Amplitude
+
+    def value(self, step_time: float, total_time: float) -> float:
+        """Value at a time."""
+        factor = self.amplitude.value(step_time, total_time)
+        return factor if self.amplitude.absolute else self.magnitude * factor
+
+    def without(self, unknowns: IntArray) -> ScaledUnknowns:
+        """The same curve for fewer unknowns."""
+        return ScaledUnknowns(self.unknowns[~np.isin(self.unknowns, unknowns)], self.magnitude, self.amplitude)
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """Unknowns whose rate is `magnitude` times an amplitude, 1 without one; at the start of the step they are `start`.
+
+    begin  total time at the start of the step
+    """
+
+    unknowns: IntArray
+    magnitude: float
+    amplitude: Amplitude | None
+    start: FloatArray
+    begin: float
+
+    def value(self, step_time: float) -> FloatArray:
+        """Values at a time of the step: the start and the integral of the rate."""
+        if self.amplitude is None:
+            return self.start + self.magnitude * step_time
+        scale = 1.0 if self.amplitude.absolute else self.magnitude
+        times, factors = self._sampled(self.amplitude, step_time)
+        return self.start + scale * float(np.trapezoid(factors, times))
+
+    def following(self, period: float, displacement: FloatArray, total_time: float) -> Course:
+        """The same in the next step: it continues at the final rate, or along a curve in total time."""
+        amplitude, magnitude = self.amplitude, self.magnitude
+        if amplitude is not None and not amplitude.total_time:
+            factor = amplitude.value(period, total_time)
+            magnitude, amplitude = factor if amplitude.absolute else magnitude * factor, None
+        return Course(self.unknowns, magnitude, amplitude, displacement[self.unknowns], total_time)
+
+    def without(self, unknowns: IntArray) -> Course:
+        """The same for fewer unknowns."""
+        kept = ~np.isin(self.unknowns, unknowns)
+        return Course(self.unknowns[kept], self.magnitude, self.amplitude, self.start[kept], self.begin)
+
+    def _sampled(self, amplitude: Amplitude, step_time: float) -> tuple[FloatArray, FloatArray]:
+        """Sampling points: the corners of a table, for which the trapezoidal rule is exact, and many in between."""
+        corners = amplitude.corners(self.begin)
+        times = np.union1d(np.linspace(0.0, step_time, SAMPLES), corners[(corners > 0) & (corners < step_time)])
+        return times, np.array([amplitude.value(time, self.begin + time) for time in times.tolist()])
+
+
+SAMPLES = 501
+"""Number of points of the integral of a velocity's amplitude."""
+
+
+@dataclass(frozen=True, slots=True)
+class Variation:
+    """Values of all unknowns over one step: base + slope t/T + curves; courses have zero base and slope."""
+
+    base: FloatArray
+    slope: FloatArray
+    period: float
+    curves: tuple[ScaledUnknowns, ...] = ()
+    courses: tuple[Course, ...] = ()
+
+    def at(self, step_time: float, total_time: float) -> FloatArray:
+        """Values (n,) at a time."""
+        values = self.base + self.slope * (step_time / self.period)
+        for curve in self.curves:
+            values[curve.unknowns] += curve.value(step_time, total_time)
+        for course in self.courses:
+            values[course.unknowns] = course.value(step_time)
+        return values
+
+
+def find_unknowns(dofs: Unknowns, entry: Boundary | Load | InitialValue) -> tuple[IntArray, IntArray]:
+    """Unknowns of an entry, and the nodes where no element uses its dof."""
+    found = dofs.find(entry.nodes, entry.dof)
+    return found[found >= 0], entry.nodes[found < 0]
+
+
+def initial_values(dofs: DofMap, entries: Sequence[InitialValue]) -> FloatArray:
+    """Values (n,) of *INITIAL CONDITIONS; later entries replace earlier ones."""
+    values = np.zeros(len(dofs))
+    for entry in entries:
+        values[find_unknowns(dofs, entry)[0]] = entry.value
+    return values
+
+
+class Boundaries:
+    """Prescribed degrees of freedom through the steps."""
+
+    def __init__(self, dofs: DofMap, model_data: Sequence[Boundary]) -> None:
+        """model_data: *BOUNDARY before the first step, all of them zero."""
+        self._dofs = dofs
+        self._active = np.zeros(len(dofs), dtype=bool)
+        self._curves: tuple[ScaledUnknowns, ...] = ()
+        self._courses: tuple[Course, ...] = ()
+        self._period = 1.0
+        self._by_user = np.zeros(len(dofs), dtype=bool)
+        self.sources: dict[int, Source] = {}
+        for entry in model_data:
+            self._activate(entry)
+
+    @property
+    def unknowns(self) -> IntArray:
+        """Prescribed unknowns of the current step, ascending."""
+        return np.flatnonzero(self._active)
+
+    @property
+    def by_user(self) -> IntArray:
+        """Unknowns whose values DISP gives."""
+        return np.flatnonzero(self._active & self._by_user)
+
+    def start_step(self, step: Step, displacement: FloatArray, total_time: float = 0.0) -> Variation:
+        """Take over a step's entries; displacement (n,) and total time are those at the end of the previous step."""
+        if step.new_boundary:
+            self._active[:] = False
+            self._curves, self._courses = (), ()
+            self.sources.clear()
+        base, slope = displacement.copy(), np.zeros_like(displacement)
+        curves = [curve for curve in self._curves if curve.amplitude.total_time]
+        courses = [course.following(self._period, displacement, total_time) for course in self._courses]
+        for entry in step.boundaries:
+            unknowns = self._activate(entry)
+            curves = [curve.without(unknowns) for curve in curves]
+            courses = [course.without(unknowns) for course in courses]
+            base[unknowns], slope[unknowns] = 0.0, 0.0
+            if entry.velocity:
+                # the default is always a velocity that acts at once
+                start = displacement[unknowns]
+                courses.append(Course(unknowns, entry.magnitude, entry.amplitude, start, total_time))
+            elif entry.fixed:
+                base[unknowns] = displacement[unknowns]
+            elif entry.amplitude is not None:
+                curves.append(ScaledUnknowns(unknowns, entry.magnitude, entry.amplitude))
+            elif step.amplitude == "RAMP" or dof_in_deck(entry.dof) <= _LAST_ROTATION:
+                base[unknowns] = displacement[unknowns]
+                slope[unknowns] = entry.magnitude - displacement[unknowns]
+            else:
+                base[unknowns] = entry.magnitude
+        for curve in curves:
+            base[curve.unknowns] = 0.0
+        self._curves, self._courses = tuple(curves), tuple(courses)
+        self._period = step.procedure.period
+        return Variation(base, slope, self._period, self._curves, self._courses)
+
+    def in_perturbation(self, step: Step) -> IntArray:
+        """Prescribed unknowns of a perturbation step, ascending; they do not outlast it."""
+        active = np.zeros_like(self._active) if step.new_boundary else self._active.copy()
+        for entry in step.boundaries:
+            active[find_unknowns(self._dofs, entry)[0]] = True
+        return np.flatnonzero(active)
+
+    def perturbations(self, step: Step) -> FloatArray:
+        """Prescribed changes (n,) of a perturbation step."""
+        values = np.zeros(len(self._dofs))
+        for entry in step.boundaries:
+            values[find_unknowns(self._dofs, entry)[0]] = 0.0 if entry.fixed else entry.magnitude
+        return values
+
+    def perturbed_by_user(self, step: Step) -> IntArray:
+        """Unknowns (k,) whose changes DISP gives in a perturbation step, ascending."""
+        found = [find_unknowns(self._dofs, entry)[0] for entry in step.boundaries if entry.user]
+        return np.unique(np.concatenate([np.zeros(0, dtype=np.int64), *found]))
+
+    def conclude(self, step_time: float) -> None:
+        """The step ends before its period."""
+        self._period = step_time
+
+    def _activate(self, entry: Boundary) -> IntArray:
+        unknowns, _ = find_unknowns(self._dofs, entry)
+        self._active[unknowns] = True
+        self._by_user[unknowns] = entry.user
+        self.sources.update(dict.fromkeys(unknowns.tolist(), entry.source))
+        return unknowns
+
+
+class Unknowns(Protocol):
+    """Numbering of pairs: unknowns by node and dof, and the like."""
+
+    def __len__(self) -> int:
+        """Their number."""
+
+    def find(self, nodes: IntArray | int, dof: IntArray | int) -> IntArray:
+        """Numbers of pairs; -1 for one that does not exist."""
+
+
+class Loads:
+    """Concentrated loads through the steps; entries of a step for the same unknown add up.
+
+    initial: values before the first step, to which loads return that a step removes; zero by default.
+    """
+
+    def __init__(self, dofs: Unknowns, initial: FloatArray | None = None) -> None:
+        self._dofs = dofs
+        self._initial = np.zeros(len(dofs)) if initial is None else initial
+        self._previous = Variation(self._initial, np.zeros(len(dofs)), 1.0)
+
+    def start_step(self, step: Step, total_time: float) -> Variation:
+        """Take over a step's concentrated loads; total_time is that at the end of the previous step."""
+        return self.take(step.loads, step.new_loads, step, total_time)
+
+    def take(self, entries: Sequence[Load], new: bool, step: Step, total_time: float) -> Variation:
+        """Take over entries of a step; new: those of earlier steps are removed."""
+        reached = self.reached(total_time)
+        given = [(entry, find_unknowns(self._dofs, entry)[0]) for entry in entries]
+        anew = np.concatenate([np.zeros(0, dtype=np.int64), *(unknowns for _, unknowns in given)])
+        curves: list[ScaledUnknowns] = []
+        if new:
+            held, start = self._initial.copy(), reached.copy()
+        else:
+            held = reached.copy()
+            curves = [curve.without(anew) for curve in self._previous.curves if curve.amplitude.total_time]
+            # these continue by themselves: only the rest is held
+            for curve in curves:
+                held[curve.unknowns] -= curve.value(0.0, total_time)
+            start = held.copy()
+        target = held.copy()
+        target[anew] = 0.0
+        start[anew] = reached[anew]
+        for entry, unknowns in given:
+            if entry.amplitude is None:
+                np.add.at(target, unknowns, entry.magnitude)
+            else:
+                curves.append(ScaledUnknowns(unknowns, entry.magnitude, entry.amplitude))
+                start[unknowns] = 0.0
+        if step.amplitude != "RAMP":
+            start = target
+        self._previous = Variation(start, target - start, step.procedure.period, tuple(curves))
+        return self._previous
+
+    def reached(self, total_time: float) -> FloatArray:
+        """Values (n,) at the end of the last general step."""
+        return self._previous.at(self._previous.period, total_time)
+
+    def in_perturbation(self, entries: Sequence[Load]) -> FloatArray:
+        """Values (n,) of a perturbation step, which do not outlast it."""
+        values = np.zeros(len(self._dofs))
+        for entry in entries:
+            np.add.at(values, find_unknowns(self._dofs, entry)[0], entry.magnitude)
+        return values
+
+    def conclude(self, step_time: float) -> None:
+        """The step ends before its period: what it reached stays."""
+        slope = self._previous.slope * (step_time / self._previous.period)
+        self._previous = replace(self._previous, slope=slope, period=step_time)
+
+
+class Slots:
+    """Numbers of pairs (element or node, load type or field), as `Loads` asks for them.
+
+    places, kinds  of each pair
+    """
+
+    def __init__(self, pairs: Sequence[tuple[IntArray, int]]) -> None:
+        """pairs: elements or nodes with a kind; a pair may occur several times."""
+        # JDLTYP of a nonuniform load is negative
+        self._least = min((kind for _, kind in pairs), default=0)
+        self._kinds = 1 + max((kind for _, kind in pairs), default=0) - self._least
+        keys = [np.zeros(0, dtype=np.int64), *(self._keys(places, kind) for places, kind in pairs)]
+        self._sorted = np.unique(np.concatenate(keys))
+        self.places, self.kinds = self._sorted // self._kinds, self._sorted % self._kinds + self._least
+
+    def __len__(self) -> int:
+        return len(self._sorted)
+
+    def _keys(self, places: IntArray | int, kind: IntArray | int) -> IntArray:
+        return np.atleast_1d(places).astype(np.int64) * self._kinds + int(kind) - self._least
+
+    def find(self, places: IntArray | int, kind: IntArray | int) -> IntArray:
+        """Numbers of the pairs, which must be among those given."""
+        return np.searchsorted(self._sorted, self._keys(places, kind))
+
+    def find_some(self, places: IntArray, kind: int) -> IntArray:
+        """Numbers of the pairs that are among those given."""
+        found = self.find(places, kind)
+        known = found < len(self)
+        found, keys = found[known], self._keys(places, kind)[known]
+        return np.asarray(found[self._sorted[found] == keys])
+
+
+def fading_forces(reaction: FloatArray, prescribed: IntArray, step: Step, unbalanced: FloatArray) -> Variation:
+    """Forces that fade in a step: reactions of degrees of freedom that it releases, and `unbalanced` ones.
+
+    reaction (n,) is that at the end of the previous step, prescribed the unknowns prescribed in this one. unbalanced
+    (n,) keeps initial stresses in equilibrium at the start; it fades with any AMPLITUDE= of the step.
+    """
+    released = reaction.copy()
+    released[prescribed] = 0.0
+    if step.amplitude != "RAMP":
+        released[:] = 0.0
+    fading = released + unbalanced
+    return Variation(fading, -fading, step.procedure.period)

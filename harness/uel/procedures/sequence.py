@@ -1,0 +1,143 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The sequence of the steps of a model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from uel.assembly import DofMap, System
+from uel.elements import Call, Flags, Request
+from uel.errors import ConvergenceError, SingularMatrixError
+from uel.model.model import Model
+from uel.model.records import Noted, Record, StepStarted, Warned
+from uel.model.restart import Resumption
+from uel.model.steps import Boundary, Load, Step
+from uel.procedures.loads.initial_states import set_initial_states, set_initial_stresses
+from uel.procedures.loads.nodal import find_unknowns
+from uel.procedures.registry import run_of
+from uel.procedures.resuming import resume
+from uel.procedures.state import ConvergedState
+from uel.procedures.step_setting import Setting, StepRun, UserRoutines
+
+
+def run_steps(
+    system: System,
+    model: Model,
+    user: UserRoutines,
+    solver: str = "auto",
+    *,
+    fallback: bool = False,
+    energy_control: bool = False,
+    resumed: Resumption | None = None,
+) -> Iterator[Record]:
+    """Run all steps of a model, or those that follow a kept state.
+
+    Parameters
+    ----------
+    system
+        The assembled model, in its initial state.
+    model
+        Its steps, prescribed values and equations.
+    user
+        The loaded library of user routines: UEXTERNALDB is called at the start and end of the analysis, of each step
+        and of each increment.
+    solver
+        Name of a linear solver.
+    fallback
+        Search downhill where Newton's method fails.
+    energy_control
+        Trace snap-backs: the load factor of each step is unknown too, see `uel.solver.energy_control`.
+    resumed
+        The state to go on from, in place of the initial one.
+
+    Yields
+    ------
+    Record
+        In chronological order; records that precede an error are yielded before it is raised.
+
+    Raises
+    ------
+    ConvergenceError
+        The attempts, the increments, or the smallest increment are exhausted.
+    KernelError, SingularMatrixError, DeckError
+        From the elements, the linear solver, and over-constrained models.
+    UelError
+        The state is not one of the model.
+    """
+    state = ConvergedState.start(system, model)
+    running: StepRun | None = None
+    following = model.steps
+    if resumed is None:
+        user.external_database(0, 0, (0.0, 0.0), 0.0, 1, 0)
+        system.ranks.agree(lambda: set_initial_states(system.blocks, model, user))
+        yield from set_initial_stresses(system, model, state, user)
+        yield from _unused(system.dofs, "*BOUNDARY", model.boundaries)
+    try:
+        if resumed is not None:
+            running = general = resume(resumed, system, model, state, user, solver)
+            following = model.steps[general.reached[2] :]
+            if resumed.end_step or general.finished:
+                general.end(early=not general.finished)
+            else:
+                yield StepStarted(general.reached[2])
+                yield from general.run()
+                user.external_database(6, 0, *general.reached)
+        for step in following:
+            yield StepStarted(step.number)
+            yield from _unused(system.dofs, "*BOUNDARY", step.boundaries)
+            yield from _unused(system.dofs, "*CLOAD", step.loads)
+            user.external_database(5, 0, (0.0, state.total_time), 0.0, step.number, 0)
+            if step is model.steps[0]:
+                _mass_pass(system, step)
+            yield from map(Noted, step.notes)
+            if not (step.procedure.inertia or step.procedure.linear):
+                state.come_to_rest()
+            setting = Setting(system, model, step, state, user, solver, fallback, energy_control)
+            running = run_of(step.procedure, setting)
+            yield from running.run()
+            user.external_database(6, 0, *running.reached)
+    except ConvergenceError:
+        if running is not None:
+            user.external_database(3, 0, *running.reached)
+        raise
+    except SingularMatrixError as error:
+        raise error.in_step(step.source) from None
+    if running is not None:
+        user.external_database(3, 0, *running.reached)
+
+
+def _mass_pass(system: System, step: Step) -> None:
+    """The mass matrix that Abaqus asks of user elements at the start of the analysis; the results are not used.
+
+    It belongs to increment 1, but no time passes.
+    """
+    procedure = step.procedure
+    call = Call(
+        # it is not one of the calls of a linear step, even if the first step is linear
+        replace(Flags.of(step, Request.MASS), linear=False),
+        step=step.number,
+        increment=1,
+        step_time=0.0,
+        total_time=0.0,
+        time_increment=0.0,
+        period=procedure.period,
+        unsymmetric=procedure.unsymmetric,
+    )
+    zero = np.zeros(len(system))
+    system.evaluate(call, zero, zero, matrix=False)
+
+
+def _unused(dofs: DofMap, keyword: str, entries: Sequence[Boundary] | Sequence[Load]) -> Iterator[Warned]:
+    """Warn of entries at degrees of freedom that no element uses: they have no effect."""
+    for entry in entries:
+        _, nodes = find_unknowns(dofs, entry)
+        if len(nodes):
+            others = f" and {len(nodes) - 1} more" if len(nodes) > 1 else ""
+            name = dofs.mesh.name(int(nodes[0]))
+            yield Warned(
+                f"{entry.source}: {keyword} has no effect: no element uses dof {entry.dof} of node {name}{others}"
+            )

@@ -1,0 +1,182 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The state that increments and steps pass on."""
+
+from __future__ import annotations
+
+from dataclasses import astuple, dataclass, field
+from typing import Final, Self
+
+import numpy as np
+
+from uel.assembly import Constraints, System
+from uel.elements import FIELD_NAMES, Predefined
+from uel.model.arrays import FloatArray
+from uel.model.element_types import POTENTIAL
+from uel.model.model import Model
+from uel.model.records import Solution, energies_of_elements
+from uel.model.restart import Saved
+from uel.model.steps import Step
+from uel.model.user_values import GivesValues
+from uel.procedures.general.convergence import FluxHistory
+from uel.procedures.linear.modes import Modes
+from uel.procedures.loads.conditions import Conditions
+from uel.procedures.loads.element_loads import AllLoads
+from uel.procedures.loads.nodal import Boundaries, initial_values
+from uel.procedures.loads.user_amplitudes import UserAmplitudes
+from uel.solver.descent import Majoriser
+from uel.solver.linear import Effort
+from uel.solver.newton import Factoriser, Iterate
+
+ARRAYS: Final = ("displacement", "reaction", "load", "external", "velocity", "acceleration", "unbalanced", "energy")
+_NUMBERS = ("total_time", "work", "damage", "stabilization")
+
+
+@dataclass(slots=True)
+class BegunStep:
+    """A general step that has begun: the total time then; concluded: its step time if it ended before its period."""
+
+    number: int
+    total_time: float
+    concluded: float | None = None
+
+
+@dataclass(slots=True)
+class ConvergedState:
+    """State at the end of the last converged increment.
+
+    displacement, reaction, load  (n,) U, RF, CF
+    velocity, acceleration  (n,) V, A
+    external   (n,) all forces on the nodes other than from elements: load, fading forces, reaction
+    unbalanced  (n,) forces that keep initial stresses in equilibrium, until they fade in the first step
+    work       external work so far
+    energy     (8,) sum of ENERGY
+    damage     dissipated by the damage of built-in elements
+    stabilization  energy that *STATIC, STABILIZE has dissipated
+    flux       flux history by field
+    predefined predefined fields, which are constant
+    effort     what all linear solvers have done
+    majoriser  matrix of the start of the analysis, for the fall-back
+    begun      general steps so far
+    modes      of the last *FREQUENCY
+    signs      (n,) of the work of forces: -1 of potentials in piezoelectric elements, whose forces are minus charges
+    """
+
+    displacement: FloatArray
+    reaction: FloatArray
+    load: FloatArray
+    external: FloatArray
+    boundaries: Boundaries
+    loads: AllLoads
+    conditions: Conditions
+    amplitudes: UserAmplitudes
+    velocity: FloatArray
+    acceleration: FloatArray
+    unbalanced: FloatArray
+    constraints: Constraints | None = None
+    solver: Factoriser | None = None
+    effort: Effort = field(default_factory=Effort)
+    majoriser: Majoriser = field(default_factory=Majoriser)
+    total_time: float = 0.0
+    work: float = 0.0
+    energy: FloatArray = field(default_factory=lambda: np.zeros(8))
+    damage: float = 0.0
+    predefined: Predefined | None = None
+    stabilization: float = 0.0
+    flux: list[FluxHistory] = field(default_factory=lambda: [FluxHistory() for _ in FIELD_NAMES])
+    begun: list[BegunStep] = field(default_factory=list)
+    modes: Modes | None = None
+    signs: FloatArray = field(kw_only=True)
+
+    @classmethod
+    def start(cls, system: System, model: Model) -> Self:
+        """State before the first step."""
+        zero = np.zeros(len(system))
+        boundaries = Boundaries(system.dofs, model.boundaries)
+        velocity = initial_values(system.dofs, model.initial_velocities)
+        unknown = model.initial_concentrations if model.diffusive else model.initial_temperatures
+        start = initial_values(system.dofs, unknown)
+        loads = AllLoads(system, model)
+        conditions = Conditions(model)
+        given = boundaries, loads, conditions, UserAmplitudes(model)
+        charged = [group.nodes for group in model.groups if group.electrical]
+        signs = np.ones(len(system))
+        for nodes in charged:
+            signs[system.dofs.find(nodes.ravel(), POTENTIAL)] = -1.0
+        fields = conditions.initial()
+        return cls(start, zero, zero, zero, *given, velocity, zero, zero, predefined=fields, signs=signs)
+
+    def come_to_rest(self) -> None:
+        """Set velocities and accelerations to zero: the step that begins has none."""
+        self.velocity = self.acceleration = np.zeros_like(self.displacement)
+
+    def kept(self) -> Saved:
+        """Its arrays and numbers; prescribed values and loads follow from the steps that have begun."""
+        saved = {name: getattr(self, name) for name in (*ARRAYS, *_NUMBERS)}
+        return {
+            **saved,
+            "flux": [list(astuple(history)) for history in self.flux],
+            "begun": [list(astuple(step)) for step in self.begun],
+            "conditions": self.conditions.kept(),
+        }
+
+    def resume(self, saved: Saved) -> None:
+        """Take over what `kept` returned. Raises ValueError if it is not of this model."""
+        for name in ARRAYS:
+            if np.shape(saved[name]) != np.shape(getattr(self, name)):
+                raise ValueError("degrees of freedom")
+        for name in (*ARRAYS, *_NUMBERS):
+            setattr(self, name, saved[name])
+        self.flux = [FluxHistory(*history) for history in saved["flux"]]
+        self.begun = [BegunStep(*step) for step in saved["begun"]]
+        self.conditions.resume(saved["conditions"])
+
+    def repeat(self, step: Step, begun: BegunStep, user: GivesValues) -> None:
+        """Take over prescribed values and loads of a step that is over. Raises DeckError."""
+        # displacements at the start matter only in the step itself
+        self.boundaries.start_step(step, self.displacement, begun.total_time)
+        self.loads.start_step(step, begun.total_time, user)
+        self.conditions.start_step(step, begun.total_time)
+        if begun.concluded is not None:
+            self.conclude(begun.concluded)
+
+    def conclude(self, step_time: float) -> None:
+        """The step ends before its period."""
+        for given in (self.boundaries, self.loads, self.conditions):
+            given.conclude(step_time)
+        if self.begun:
+            self.begun[-1].concluded = step_time
+
+    def accept(self, converged: Iterate, load: FloatArray, released: FloatArray) -> None:
+        """Take over a converged increment; load and released (fading forces) are those of its end."""
+        assert self.constraints is not None
+        reaction = self.constraints.reactions(converged.residual)
+        external = load + released + reaction
+        energy = converged.evaluation.energy
+        # ENERGY(8) is the work of loads that user elements apply themselves, in this increment only
+        moved = self.signs * converged.increment
+        self.work += 0.5 * float((self.external + external) @ moved) + float(energy[7])
+        self.displacement = self.displacement + converged.increment
+        self.reaction, self.load, self.external, self.energy = reaction, load, external, energy
+        self.damage = converged.evaluation.damage
+
+    def solution(self, system: System) -> Solution:
+        """Copy of the state for output; element states are the committed ones, and copied when they are read."""
+        return Solution(
+            node=system.dofs.node,
+            dof=system.dofs.dof,
+            displacement=self.displacement,
+            reaction=system.dofs.in_global(self.reaction),
+            load=system.dofs.in_global(self.load),
+            velocity=self.velocity,
+            acceleration=self.acceleration,
+            energies=self._energies(),
+            elements=system.states(),
+            contact=system.contact_fields(),
+        )
+
+    def _energies(self) -> dict[str, float]:
+        """Energies of the whole model as Abaqus sums them: ETOTAL is constant where the balance holds."""
+        found = energies_of_elements(self.energy, self.damage)
+        total = found["ALLKE"] + found["ALLIE"] + found["ALLVD"] + self.stabilization - self.work
+        return found | {"ALLSD": self.stabilization, "ALLWK": self.work, "ETOTAL": total}

@@ -1,0 +1,116 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a step is run with, and what the sequence of steps needs from its run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from uel.assembly import Constraints, DofMap, System
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.model import Model
+from uel.model.records import Noted, Record
+from uel.model.steps import Step
+from uel.model.user_values import GivesValues
+from uel.procedures.state import ConvergedState
+from uel.solver.linear import Effort, LinearSolver, Pattern, RankSolver, choose
+
+
+class UserRoutines(GivesValues, Protocol):
+    """The part of a loaded library that a procedure calls.
+
+    sdvini, sigini, orient  addresses, None without the routine
+    """
+
+    sdvini: int | None
+    sigini: int | None
+    orient: int | None
+
+    def external_database(
+        self, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int
+    ) -> None:
+        """Call UEXTERNALDB if there is one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """What a step is run with.
+
+    state           at the end of the last step; the step continues it
+    solver          name of a linear solver
+    fallback        search downhill where Newton's method fails
+    energy_control  the load factor of a static step is unknown too
+    """
+
+    system: System
+    model: Model
+    step: Step
+    state: ConvergedState
+    user: UserRoutines
+    solver: str = "auto"
+    fallback: bool = False
+    energy_control: bool = False
+
+
+class StepRun(Protocol):
+    """What runs a step."""
+
+    @property
+    def reached(self) -> tuple[tuple[float, float], float, int, int]:
+        """Step and total time, no time increment, step and increment, as UEXTERNALDB gets them at the end."""
+
+    def run(self) -> Iterator[Record]:
+        """Records of the step. Raises ConvergenceError, KernelError, SingularMatrixError, DeckError."""
+
+
+def choose_solver(name: str, constraints: Constraints, effort: Effort) -> LinearSolver:
+    """Linear solver for the matrices of free unknowns; name as `uel.solver.linear.choose` takes it.
+
+    What the solver does is added to the effort.
+    """
+    solver = choose(
+        name,
+        constraints.reduced_indptr,
+        constraints.reduced_indices,
+        coordinates=constraints.coordinates,
+        name_of=constraints.name_of,
+    )
+    solver.effort = effort
+    return solver
+
+
+def choose_rank_solver(name: str, constraints: Constraints, effort: Effort) -> RankSolver:
+    """As `choose_solver`, on several ranks."""
+    given = constraints.reduced_indptr, constraints.reduced_indices, constraints.coordinates, constraints.dofs
+    pattern = Pattern(*given)
+    return RankSolver(constraints.ranks, name, pattern, constraints.name_of, effort)
+
+
+def places(dofs: DofMap, nodes: IntArray, displacement: FloatArray | None) -> FloatArray:
+    """(k, 3) coordinates of nodes, moved by the displacements (n,) if there are any."""
+    coordinates = dofs.mesh.coordinates[nodes]
+    if displacement is None:
+        return coordinates
+    unknowns = dofs.find(nodes[:, None], np.arange(1, 4))
+    return coordinates + np.where(unknowns >= 0, displacement[unknowns], 0.0)
+
+
+class SolverTimes:
+    """Times of the linear solver in a step, which begins now."""
+
+    def __init__(self, effort: Effort) -> None:
+        self._effort, self._before = effort, replace(effort)
+
+    def note(self) -> Noted:
+        """Times since then, for the message file."""
+        done = self._effort - self._before
+        refused = f", {done.refused} OF WHICH HAD TO BE REPEATED IN FULL" if done.refused else ""
+        return Noted(
+            f"LINEAR SOLVER: {done.factorisations} FACTORISATIONS, {done.in_part} ONLY WHERE THE MATRIX HAD CHANGED"
+            f"{refused}, CPU TIME (SEC) = {done.factorising:.3G}; {done.solutions} SOLUTIONS, "
+            f"CPU TIME (SEC) = {done.solving:.3G}"
+        )

@@ -1,0 +1,327 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""One job: a deck and a user file in, the files of Abaqus and a result out."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Collection, Mapping, Sequence
+from contextlib import suppress
+from functools import partial
+from operator import methodcaller
+from pathlib import Path
+
+from uel import usersub
+from uel.assembly import System, TolerantSystem
+from uel.deck import read_deck
+from uel.elements.interfaces.earlier_zeros import warn_of_earlier_zeros
+from uel.elements.interfaces.neighbour_data import judge_neighbours
+from uel.elements.interfaces.process_zone import LongElements
+from uel.elements.interfaces.unsymmetric_matrices import warn_of_missing_unsymm
+from uel.elements.threads import MOST_THREADS, known_routines, refuse_shared_stress, use_threads
+from uel.errors import ConvergenceError, ElementError, UelError, UsageError, in_words, note_warnings
+from uel.files import deck_named
+from uel.interrupts import held, settle
+from uel.model.model import Model, constraints_with_multipliers
+from uel.model.records import AttemptEnded, IncrementDone, ModeShape, Record, StepDone
+from uel.model.restart import Resumption
+from uel.output import JobOutput, Result
+from uel.output.earlier_jobs import EarlierJobs
+from uel.output.ending import progress
+from uel.output.lock import job_stem
+from uel.parallel.ranks import ALONE, Ranks
+from uel.procedures import run_steps
+from uel.procedures.general.incrementation import FIXED_TOO_LARGE, TOO_MANY_ATTEMPTS, TOO_MANY_INCREMENTS
+from uel.running.ranks import files_of_job, messages_of, refuse_unshared
+from uel.running.restart import decks_of, find_state, goes_on, refuse_nothing_left, refuse_on_ranks, refuse_options
+from uel.solver.threads import one_blas_thread
+from uel.usersub import Library, Message, guard_values
+from uel.usersub.layout import without_user
+
+
+def run(
+    deck: str | Path,
+    user: str | Path | Sequence[str | Path] | None = None,
+    *,
+    job: str | None = None,
+    oldjob: str | Path | None = None,
+    output_dir: str | Path | None = None,
+    parameters: Mapping[str, float] | None = None,
+    solver: str = "auto",
+    fallback: bool = False,
+    energy_control: bool = False,
+    linear: Collection[str] = (),
+    cpus: int = 1,
+    thread_safe: Collection[str] = (),
+    call_limit: float = 0.0,
+    debug: bool = False,
+    quiet: bool = True,
+    ranks: Ranks = ALONE,
+) -> Result:
+    """Run an Abaqus deck.
+
+    Parameters
+    ----------
+    deck
+        Abaqus input file; its ending, .inp, may be left out.
+    user
+        File with UEL, UELMAT, UEXTERNALDB in Fortran, C or C++, or several in compilation order, or a compiled
+        library; None takes the project's own elements.
+    job
+        Name of the output files; the deck's name without its ending by default.
+    oldjob
+        Job from which the deck goes on, with its folder: from the state that *RESTART, READ of the deck names, or, if
+        it is the deck of that job, from its last one. See harness/uel/procedures/restart.md.
+    output_dir
+        Folder of the output files, created if missing; the current folder by default.
+    parameters
+        Values of parameters in place of those in the deck's *PARAMETER.
+    solver
+        Linear solver, see `uel solvers`.
+    fallback
+        Search downhill where Newton's method fails, before the increment is cut back; Abaqus has no such option.
+    energy_control
+        Trace snap-backs: an increment ends where it has dissipated a share of energy, and the load factor of a step
+        is part of the solution. Not with `fallback`, which keeps the load.
+    linear
+        Types of user elements, such as 'U5', that are linear: in static steps with small displacements their first
+        AMATRX stands for them, and they are called again only at the end of each increment, which verifies it. Elastic
+        continuum elements, built in and the project's own, are always treated so, and called again only where their
+        state is read.
+    cpus
+        Threads that call the elements, with the results of one to the bit. Built-in elements and the project's own
+        are called by all of them, but for U3 and U10, which share stress; other routines if `thread_safe` names them.
+    thread_safe
+        Types of user elements, such as 'U5', UMAT and USDFLD: routines that several threads may call at the same time,
+        as Abaqus does with cpus=2. They pass the checks 'shuffle' and 'threads' of `uel check`.
+    call_limit
+        Seconds that one call of a user routine may take; 0: no limit.
+    debug
+        Compile the user's files with run-time checks, and stop where a NaN or an infinity is made: errors have file and
+        line. Slower, and a local variable without a value is an error, not zero. With AddressSanitizer where its
+        runtime was loaded before all else, as the command `uel` does (harness/uel/running/sanitizer.py).
+    quiet
+        No progress display.
+    ranks
+        Processes that run the job together, see harness/uel/parallel/README.md: each calls this function with the same
+        arguments, and rank 0 writes the files.
+
+    Returns
+    -------
+    Result
+        What the job wrote: `.history`, `.field(name)`, `.interface()`, `.status`.
+
+    Raises
+    ------
+    UelError
+        UsageError for a wrong `job`, `parameters`, `solver`, `linear`, `cpus` or `thread_safe`, DeckError,
+        CompileError, KernelError, CallLimitError, SingularMatrixError or ConvergenceError; LockedError if another
+        process runs a job of this name; UelError itself if a user routine other than an element ends the analysis;
+        SilentError on all ranks but 0, whatever the error. What was written until then stays readable. The notes of
+        the error are the first warnings before it, how far the run got, and what may help.
+    OSError
+        A file cannot be written.
+    """
+    if not 1 <= cpus <= MOST_THREADS:
+        raise UsageError(f"--cpus {cpus}: expected a number from 1 to {MOST_THREADS}")
+    if cpus > 1 and debug:
+        raise UsageError(f"--cpus {cpus}: run-time checks (--debug) need one thread")
+    deck = deck_named(Path(deck))
+    stem = job_stem(deck.stem if job is None else job, output_dir)
+    job, folder = stem.name, stem.parent
+    refuse_on_ranks(oldjob, ranks)
+    files = [user] if isinstance(user, str | Path) else user or ()
+    started = time.perf_counter()
+    with files_of_job(stem, ranks):
+        resumed, parts = (None, ()) if oldjob is None else find_state(deck, parameters, Path(oldjob), stem)
+        if parts:
+            parameters = parts[-1].given
+        earlier = EarlierJobs([Path(), folder, deck.parent])
+        model = ranks.agree(lambda: read_deck(deck, parameters, parts, earlier))
+        refuse_nothing_left(model, resumed, oldjob)
+        refuse_options(resumed, oldjob, fallback=fallback, energy_control=energy_control)
+        decks = ranks.agree(lambda: decks_of(model, parameters, parts))
+        if ranks.size > 1:
+            refuse_unshared(model, ranks)
+        _refuse_with_multipliers(model, {"--fallback": fallback, "--control energy": energy_control})
+        types = _linear_types(model, linear)
+        safe = _safe_routines(model, thread_safe)
+        usersub.limit_calls(call_limit)
+        sources = [Path(file) for file in files]
+        load = partial(usersub.load, sources, job=job, output_dir=folder, deck=deck, zero_locals=not debug, debug=debug)
+        # the others find in the cache what rank 0 has compiled
+        library = ranks.in_turn(partial(load, rank=ranks.rank))
+        usersub.set_rank(ranks.rank, ranks.size)
+        trapping = usersub.trap(True) if debug else None
+        usersub.set_threads(cpus)
+        try:
+            output = ranks.agree(
+                lambda: None if ranks.rank else JobOutput(model, job, folder, decks=decks, quiet=quiet)
+            )
+            assemble = partial(_assemble, model, library, types, cpus, safe, ranks)
+            how = {"fallback": fallback, "energy_control": energy_control}
+            _analyse(assemble, model, library, output, solver, ranks, resumed, **how)
+        except ElementError as error:
+            if not debug and _debug_helps(sources, str(error)):
+                error.add_note("run again with --debug to see file and line")
+            if not sources and (note := without_user(error.element_type)):
+                error.add_note(note)
+            raise
+        finally:
+            usersub.set_threads(1)
+            usersub.set_rank(0, 1)
+            if trapping is not None:
+                usersub.trap(trapping)
+            library.close()
+    return Result(stem, seconds=time.perf_counter() - started, warnings=[] if output is None else output.warnings)
+
+
+def _assemble(
+    model: Model, library: Library, linear: Collection[str], cpus: int, safe: Collection[str], ranks: Ranks
+) -> System:
+    if ranks.size > 1:
+        refuse_shared_stress(model, library, ranks.size)
+    system = TolerantSystem(model, library, linear, ranks)
+    if cpus > 1:
+        use_threads(system.blocks, library, cpus, safe)
+    return system
+
+
+def _refuse_with_multipliers(model: Model, options: Mapping[str, bool]) -> None:
+    """Raise UsageError for options of the run that contact and distributing couplings with NLGEOM do not take."""
+    for keyword, source in constraints_with_multipliers(model):
+        for name, given in options.items():
+            if given:
+                raise UsageError(f"{name}: not supported with {keyword} ({source})")
+
+
+def _safe_routines(model: Model, given: Collection[str]) -> frozenset[str]:
+    """Routines that the user says several threads may call, in capitals. Raises UsageError."""
+    known = known_routines(model)
+    names = frozenset(name.upper() for name in given)
+    for name in sorted(names.difference(known)):
+        has = f"it calls {', '.join(known)}" if known else "it calls no user elements or materials"
+        raise UsageError(f"--thread-safe {name}: the deck does not call it; {has}")
+    return names
+
+
+def _linear_types(model: Model, given: Collection[str]) -> frozenset[str]:
+    """Types of user elements that the user says are linear, in capitals. Raises UsageError."""
+    known = sorted({group.type for group in model.groups if group.definition is not None})
+    types = frozenset(name.upper() for name in given)
+    for name in sorted(types.difference(known)):
+        has = f"its user elements are {', '.join(known)}" if known else "it has no user elements"
+        raise UsageError(f"--linear {name}: the deck has no elements of this type; {has}")
+    return types
+
+
+def _analyse(
+    assemble: Callable[[], System],
+    model: Model,
+    library: Library,
+    output: JobOutput | None,
+    solver: str,
+    ranks: Ranks,
+    resumed: Resumption | None,
+    *,
+    fallback: bool,
+    energy_control: bool,
+) -> None:
+    """Run all steps and write their records to the files, which are closed however the run ends.
+
+    On ranks other than 0, which have no output, the same steps: they help where a record is written.
+    """
+    system: System | None = None
+
+    def write(act: Callable[[JobOutput], None]) -> None:
+        messages = messages_of(library, ranks)
+        if output is not None:
+            _pass_on(messages, output)
+        ranks.lead(lambda: None if output is None else act(output), lambda: system and system.share_states())
+
+    try:
+        warn_of_earlier_zeros(model, library)
+        warn_of_missing_unsymm(model, library)
+        ranks.agree(lambda: judge_neighbours(model, library))
+        system = ranks.agree(assemble)
+        long_elements = LongElements(model, library)
+
+        def put(record: Record, output: JobOutput) -> None:
+            output.write(record)
+            if isinstance(record, IncrementDone):
+                for warning in long_elements.warnings(record):
+                    output.user_text(".dat", "warning", warning)
+
+        with one_blas_thread(), guard_values({}):
+            how = {"fallback": fallback, "energy_control": energy_control}
+            for record in run_steps(system, model, library, solver, resumed=resumed, **how):
+                with held():
+                    if isinstance(record, AttemptEnded | StepDone | ModeShape):
+                        write(partial(put, record))
+                    elif output is not None:
+                        # nothing of the other ranks is in it
+                        _pass_on(library.messages(), output)
+                        output.write(record)
+        with held():
+            if output is not None:
+                for warning in long_elements.unsaid:
+                    output.user_text(".dat", "warning", warning)
+            write(methodcaller("close", None))
+            ranks.ended(None)
+            settle()
+    except BaseException as error:
+        settle()
+        ranks.ended(error)
+        with suppress(OSError):
+            write(methodcaller("close", UelError(in_words(error))))
+        if output is None:
+            raise
+        note_warnings(error, output.warnings, f" in {output.job}.dat and .msg")
+        for text in output.unbalanced if isinstance(error, ConvergenceError) else ():
+            error.add_note(text)
+        if isinstance(error, UelError) and (far := _progress(output.stem)):
+            error.add_note(far)
+        error.add_note(f"{output.job} ended {output.reached}; what was written is readable")
+        if isinstance(error, ConvergenceError):
+            # contact and distributing couplings take neither of the two, a restart at most the second
+            neither = bool(constraints_with_multipliers(model))
+            begun = neither or (resumed is not None and goes_on(resumed))
+            taken = {"fallback": fallback or neither or resumed is not None, "energy_control": energy_control or begun}
+            error.add_note(_advice(str(error), **taken))
+        raise
+
+
+def _progress(stem: Path) -> str:
+    """How far a run has come, from its files; '' if they cannot tell."""
+    with suppress(Exception):  # the error that counts is the one that ended the run
+        return progress(Result(stem))
+    return ""
+
+
+def _advice(error: str, *, fallback: bool, energy_control: bool) -> str:
+    """What can be tried where a step does not converge."""
+    if error.startswith(TOO_MANY_INCREMENTS):
+        return "what may help: a larger INC on *STEP"
+    ways = [] if fallback else ["--fallback, a search where Newton's method fails"]
+    ways += [] if energy_control else ["--control energy, where an interface snaps"]
+    if error.startswith(FIXED_TOO_LARGE):
+        ways.append("*STATIC without DIRECT, which cuts increments back")
+    elif error.startswith(TOO_MANY_ATTEMPTS):
+        ways.append("a smaller largest increment (fourth number below *STATIC), which needs fewer cutbacks")
+        ways.append("more attempts (I_A, eighth number below *CONTROLS, PARAMETERS=TIME INCREMENTATION)")
+    else:
+        ways.append("a smaller minimum increment (third number below *STATIC)")
+    ways.append("VISCOSITY of the interface elements, or on *SECTION CONTROLS of cohesive elements")
+    return f"what may help: {'; '.join(ways)}"
+
+
+def _debug_helps(sources: Sequence[Path], message: str) -> bool:
+    """Whether an error without a line may have one in a debug build."""
+    compiled = bool(sources) and all(map(usersub.is_source, sources))
+    return compiled and not usersub.names_line(message)
+
+
+def _pass_on(messages: Sequence[Message], output: JobOutput) -> None:
+    """Write texts of user routines where Abaqus puts them."""
+    for message in messages:
+        output.user_text(message.file, message.kind, message.text)

@@ -1,0 +1,83 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Eigenvalues of smallest magnitude of K x = lambda G x, both symmetric, K positive definite and G any.
+
+Unknowns that G leaves out, as the pressures of hybrid elements, may make K indefinite.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import linalg
+from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
+
+from uel.errors import SingularMatrixError
+from uel.model.arrays import FloatArray
+from uel.solver.eigen import DENSE, RANK, Pair, UnstableError
+from uel.solver.newton import Factoriser
+
+NEGATIVE = 1e-6
+"""Of the largest flexibility: a smaller negative one is rounding."""
+
+RESIDUAL = 1e-6
+"""Of the larger of the two terms of the equation."""
+
+
+def smallest_factors(pair: Pair, count: int, solver: Factoriser) -> tuple[FloatArray, FloatArray]:
+    """Eigenvalues (k,) of either sign, those of smallest magnitude first, and vectors (n, k).
+
+    Parameters
+    ----------
+    pair
+        K as its stiffness, G as its mass.
+    count
+        k, unless there are less.
+    solver
+        Has factorised K.
+
+    Returns
+    -------
+    tuple[FloatArray, FloatArray]
+        Of a body in which G is zero there are none.
+
+    Raises
+    ------
+    UnstableError
+        K is not positive definite where G is not zero.
+    """
+    if len(pair) <= DENSE:
+        return _all(pair, count)
+    stiffness, stress = pair.matrix(pair.stiffness), pair.matrix(pair.mass)
+    flexibility = LinearOperator(stiffness.shape, matvec=solver.solve, dtype=np.float64)
+    start = np.random.default_rng(0).standard_normal(len(pair))
+    try:
+        inverse, vectors = eigsh(stress, min(count, len(pair) - 1), stiffness, which="LM", Minv=flexibility, v0=start)
+    except (ArpackError, SingularMatrixError):
+        raise UnstableError from None
+    order = np.argsort(-np.abs(inverse), kind="stable")
+    order = order[np.abs(inverse[order]) > RANK * np.abs(inverse).max()]
+    values, vectors = 1.0 / inverse[order], vectors[:, order]
+    # where K is indefinite the iteration has no meaning, but ends
+    elastic = stiffness @ vectors
+    missing = np.linalg.norm(elastic - values * (stress @ vectors), axis=0)
+    if np.any(missing > RESIDUAL * np.linalg.norm(elastic, axis=0)) or np.any(np.sum(vectors * elastic, axis=0) <= 0.0):
+        raise UnstableError
+    return values, vectors
+
+
+def _all(pair: Pair, count: int) -> tuple[FloatArray, FloatArray]:
+    stress = pair.matrix(pair.mass).toarray()
+    stressed = np.flatnonzero(np.any(stress != 0.0, axis=0))
+    stress = stress[np.ix_(stressed, stressed)]
+    units = np.zeros((len(pair), len(stressed)))
+    units[stressed, np.arange(len(stressed))] = 1.0
+    flexibility = np.linalg.solve(pair.matrix(pair.stiffness).toarray(), units)
+    # that of the stressed unknowns is L L^T: z of L^T G L z = z/lambda gives x = L z there
+    own, axes = linalg.eigh(flexibility[stressed])
+    if own[0] < -NEGATIVE * own[-1]:
+        raise UnstableError
+    factor = axes[:, own > RANK * own[-1]] * np.sqrt(own[own > RANK * own[-1]])
+    inverse, vectors = linalg.eigh(factor.T @ stress @ factor)
+    order = np.argsort(-np.abs(inverse), kind="stable")[:count]
+    order = order[np.abs(inverse[order]) > RANK * np.abs(inverse).max()]
+    return 1.0 / inverse[order], flexibility @ (stress @ (factor @ vectors[:, order])) / inverse[order]

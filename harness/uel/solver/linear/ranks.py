@@ -1,0 +1,335 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The linear solver of a job on several ranks, each of which has a part of the matrix: that of its elements.
+
+All ranks factorise it together, each its own substructure (substructures.py) or, where they share too many unknowns,
+each some rows of the whole (cluster.py); where oneMKL does not serve, PETSc does so (petsc.py). Or rank 0 gathers it
+and factorises it as in a job without ranks: small models lose more by talking than two processes gain.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from importlib.util import find_spec
+from typing import Final, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.errors import SingularMatrixError, UsageError
+from uel.model.arrays import FloatArray, IntArray
+from uel.parallel.ranks import Ranks
+from uel.solver.linear import cluster, petsc, substructures
+from uel.solver.linear.base import SUSPICIOUS, Effort, LinearSolver, Pattern, is_accurate
+from uel.solver.linear.choice import Availability, choose
+from uel.solver.linear.cluster import Cluster, ClusterError, obstacle, version
+from uel.solver.linear.petsc import Petsc
+from uel.solver.linear.singular import refuse_singular
+from uel.solver.linear.substructures import MOST_SHARED, Substructures
+
+SMALLEST: Final = 30_000
+"""Unknowns from which on `auto` lets all ranks factorise."""
+
+
+def with_ranks() -> list[Availability]:
+    """Rows of the table of solvers: those of a job on several ranks, without starting MPI."""
+    missing = [name for name, release in (("mpi4py", find_spec("mpi4py")), ("mkl", version())) if not release]
+    lack = f" ({' and '.join(missing)} not installed)" if missing else ""
+    notes = {
+        substructures.NAME: f"auto, with mpiexec from {SMALLEST} unknowns on, of which ranks share up to {MOST_SHARED}",
+        cluster.NAME: "auto, with mpiexec where they share more; for less unknowns rank 0 takes one of the others",
+    }
+    rows = [Availability(name, not missing, version(), note + lack) for name, note in notes.items()]
+    release = petsc.version()
+    note = "auto, with mpiexec where mkl does not serve" + ("" if release else " (petsc4py not installed)")
+    return [*rows, Availability(petsc.NAME, bool(release and find_spec("mpi4py")), release, note)]
+
+
+NameOf = Callable[[int], tuple[str, int]]
+
+_TOGETHER: Final = (substructures.NAME, cluster.NAME, petsc.NAME)
+"""Solvers of all ranks."""
+
+
+class _Factoriser(Protocol):
+    def factorise(self, data: FloatArray) -> None: ...
+
+    def solve(self, rhs: FloatArray) -> FloatArray: ...
+
+
+class Rows:
+    """Sums the parts of the ranks into rows of the matrix, each on the rank that owns it.
+
+    order            (n,) unknowns by owner; rows and columns are numbered in this order
+    first            number of the first row of this rank
+    indptr, indices  CSR pattern of its rows, int32, columns ascending
+    """
+
+    def __init__(self, ranks: Ranks, pattern: Pattern, owners: IntArray) -> None:
+        """Symbolic work; owners (n,) has a rank for each unknown, the same array on all ranks."""
+        n = pattern.size
+        self._ranks = ranks
+        self.order = np.argsort(owners, kind="stable")
+        number = np.empty(n, dtype=np.int64)
+        number[self.order] = np.arange(n)
+        owned = np.bincount(owners, minlength=ranks.size)
+        self.first = int(owned[: ranks.rank].sum())
+        rows = pattern.rows
+        # an unknown without an element here has its diagonal entry only, as has one with a spring to the ground
+        used = (np.diff(pattern.indptr) > 1)[rows] | (rows == pattern.indices)
+        entries = np.flatnonzero(used)
+        target = owners[rows[entries]]
+        by_target = np.argsort(target, kind="stable")
+        self._sent, target = entries[by_target], target[by_target]
+        self._ends = np.searchsorted(target, np.arange(1, ranks.size))
+        keys = number[rows[self._sent]] * n + number[pattern.indices[self._sent]]
+        received = ranks.exchange(np.split(keys, self._ends))
+        found = np.unique(np.concatenate(received))
+        self._incoming = np.array([len(part) for part in received])
+        self._places = [np.searchsorted(found, part) for part in received]
+        row = found // max(n, 1) - self.first
+        self.indptr = np.searchsorted(row, np.arange(owned[ranks.rank] + 1)).astype(np.int32)
+        self.indices: NDArray[np.int32] = (found % max(n, 1)).astype(np.int32)
+
+    def assemble(self, data: FloatArray) -> FloatArray:
+        """Values of the rows of this rank from the part (nnz,) of each rank, added in the order of the ranks."""
+        values = np.zeros(len(self.indices))
+        parts = self._ranks.exchange_known(np.split(data[self._sent], self._ends), self._incoming)
+        for places, part in zip(self._places, parts, strict=True):
+            values[places] += part
+        return values
+
+
+class RankSolver:
+    """Factorises matrices of one pattern, of which each rank has a part, on all ranks or on rank 0.
+
+    name, reason  for the message file
+    effort        of rank 0
+    wrap          what rank 0 puts around the linear solver of a gathered matrix
+    negligible    gives the force that counts as zero for `wrap`
+    free          message of the part of the model that moves freely, where `wrap` tolerates that; None without one
+    """
+
+    def __init__(self, ranks: Ranks, name: str, pattern: Pattern, name_of: NameOf, effort: Effort) -> None:
+        """Symbolic work.
+
+        Parameters
+        ----------
+        ranks
+            Which all call the functions of this class together.
+        name
+            'auto', 'substructures', 'cluster', or the solver with which rank 0 works.
+        pattern
+            Of the part of this rank, with unknowns numbered as on all others.
+        name_of
+            Node name and dof of an unknown.
+        effort
+            To which that of this solver is added.
+
+        Raises
+        ------
+        UsageError
+            The name is unknown, or what the solver needs is not installed.
+        """
+        self._ranks, self._pattern, self._name_of = ranks, pattern, name_of
+        self._wanted = "auto" if name in _TOGETHER else name
+        self.effort = effort
+        self.wrap: Callable[[LinearSolver], _Factoriser] | None = None
+        self.negligible: Callable[[], float] = float
+        self.free: str | None = None
+        self._whole: Rows | None = None
+        self._chosen: LinearSolver | None = None
+        self._inner: _Factoriser | None = None
+        self._singular: SingularMatrixError | None = None
+        self._data: FloatArray | None = None
+        self._symmetric, self._probed, self._unverified = True, False, False
+        self._passed = SUSPICIOUS
+        self._scale = 0.0
+        self._together = self._shared_out(name)
+        if self._together is None:
+            self._gather()
+
+    def factorise(self, data: FloatArray) -> None:
+        """Factorise the sum of the parts (nnz,) of all ranks."""
+        start = time.process_time()
+        if self._together is not None:
+            if not self._is_new(data):
+                return
+            self._unverified = True
+            self._factorise_together(self._together, data)
+        if self._together is None:
+            self._factorise_whole(data)
+        else:
+            self.effort.factorising += time.process_time() - start
+            self.effort.factorisations += 1
+
+    def _is_new(self, data: FloatArray) -> bool:
+        """Whether a part of some rank differs from the last one, which this one replaces."""
+        different = None if self._data is None else np.flatnonzero(data != self._data)
+        new = different is None or len(different) > 0
+        # once a part is not symmetric, later ones hardly are
+        symmetric = self._symmetric and (not new or self._pattern.is_symmetric(data, different))
+        any_new, any_unsymmetric = self._ranks.largest(np.array([float(new), float(not symmetric)]))
+        self._symmetric = not any_unsymmetric
+        if self._data is None:
+            self._data = data.copy()
+        elif new:
+            self._data[:] = data
+        return bool(any_new)
+
+    def forget(self) -> None:
+        """Without effect: on several ranks no states are kept."""
+
+    def solve(self, rhs: FloatArray) -> FloatArray:
+        """Solution (n,) for one right-hand side (n,), the same on all ranks. Raises SingularMatrixError."""
+        start = time.process_time()
+        if self._together is not None:
+            solution = self._together.solve(rhs)
+            if self._is_sound(solution, rhs) and self._is_accurate(solution, rhs):
+                self.effort.solving += time.process_time() - start
+                self.effort.solutions += 1
+                return solution
+            assert self._data is not None
+            self._give_up()
+            self._factorise_whole(self._data)
+        return self._solve_whole(rhs)
+
+    def release(self) -> None:
+        """Give back the memory of the factors."""
+        if self._together is not None:
+            self._together.release()
+        self._together = self._inner = self._chosen = None
+
+    def _shared_out(self, name: str) -> Cluster | Substructures | Petsc | None:
+        """Solver of all ranks, with its name and reason; None: rank 0 alone. Raises UsageError."""
+        ranks, pattern = self._ranks, self._pattern
+        if name not in ("auto", *_TOGETHER) or (name == "auto" and pattern.size < SMALLEST):
+            return None
+        lack = "" if name == petsc.NAME else self._missing(name, obstacle())
+        other = bool(lack) or name == petsc.NAME
+        if other:
+            lack = self._missing(name, petsc.obstacle(ranks.size))
+        owners = _owners(ranks, pattern)
+        # on tiny models a rank may have no row
+        if lack or len(np.unique(owners)) < ranks.size:
+            return None
+        if name != cluster.NAME and not other:
+            parts = Substructures(ranks, pattern, owners)
+            shared = len(parts.shared)
+            if parts.usable and (name == substructures.NAME or shared <= MOST_SHARED):
+                self.name = substructures.NAME
+                self.reason = f"{pattern.size} unknowns on {ranks.size} ranks, which share {shared} of them"
+                return parts
+        self.name = petsc.NAME if other else cluster.NAME
+        self.reason = f"{pattern.size} unknowns on {ranks.size} ranks"
+        rows = Rows(ranks, pattern, owners)
+        return Petsc(ranks, rows, pattern) if other else Cluster(ranks, rows)
+
+    def _missing(self, name: str, mine: str) -> str:
+        """What one of the ranks lacks for a solver, '' if none does. Raises UsageError if this solver is requested."""
+        reason = next(filter(None, self._ranks.everyones(mine)), "")
+        if reason and name in _TOGETHER:
+            raise UsageError(f"linear solver '{name}' cannot be used: {reason}")
+        return reason
+
+    def _factorise_together(self, solver: Cluster | Substructures | Petsc, data: FloatArray) -> None:
+        """Factorise on all ranks, or give that up where it does not serve."""
+        try:
+            self.effort.in_part += solver.factorise(data, symmetric=self._symmetric)
+        except ClusterError:
+            return self._give_up()
+        self._scale = solver.largest_diagonal
+        # a right-hand side without equilibrium reveals an unconstrained body even if no load moves it
+        if not self._probed:
+            self._probed = True
+            probe = np.where(np.random.default_rng(0).random(self._pattern.size) < 0.5, -1.0, 1.0)
+            if not self._is_sound(solver.solve(probe), probe):
+                self._give_up()
+        return None
+
+    def _is_sound(self, solution: FloatArray, rhs: FloatArray) -> bool:
+        """Whether the matrix is regular, as `LinearSolver` judges; all ranks have the same solution."""
+        if not np.isfinite(solution).all():
+            return False
+        largest = float(np.abs(solution).max(initial=0.0))
+        ratio = float(np.abs(rhs).max(initial=0.0)) / (largest * self._scale) if largest and self._scale else np.inf
+        if ratio > self._passed:
+            return True
+        rows = Rows(self._ranks, self._pattern, np.zeros(self._pattern.size, dtype=np.int64))
+        assert self._data is not None
+        whole = Pattern(rows.indptr, rows.indices)
+        values = rows.assemble(self._data)
+        try:
+            self._ranks.agree(
+                lambda: None if self._ranks.rank else refuse_singular(whole.matrix(values), self._name_of)
+            )
+        except SingularMatrixError:
+            return False
+        self._passed = 1e-2 * ratio
+        return True
+
+    def _is_accurate(self, solution: FloatArray, rhs: FloatArray) -> bool:
+        """Whether the first solution of a matrix has the backward error of a good factorisation."""
+        if not self._unverified:
+            return True
+        self._unverified = False
+        assert self._data is not None
+        part = self._pattern.matrix(self._data)
+        residual = rhs - self._ranks.sum(np.asarray(part @ solution))
+        return is_accurate(residual, rhs, lambda: self._ranks.sum(np.asarray(abs(part) @ np.abs(solution))))
+
+    def _give_up(self) -> None:
+        """Rank 0 does it from now on: it permutes, and deals with singular matrices."""
+        assert self._together is not None
+        self._together.release()
+        self._together = None
+        self.effort.refused += 1
+        self._gather()
+
+    def _gather(self) -> None:
+        """Let rank 0 have the whole matrix. Raises UsageError."""
+        self._whole = rows = Rows(self._ranks, self._pattern, np.zeros(self._pattern.size, dtype=np.int64))
+
+        def begin() -> tuple[str, str]:
+            given = self._wanted, rows.indptr, rows.indices
+            self._chosen = choose(*given, coordinates=self._pattern.coordinates, name_of=self._name_of)
+            self._chosen.effort = self.effort
+            return self._chosen.name, f"on rank 0, {self._chosen.reason}"
+
+        self.name, self.reason = self._ranks.tell(begin)
+
+    def _factorise_whole(self, data: FloatArray) -> None:
+        assert self._whole is not None
+        values = self._whole.assemble(data)
+
+        self._singular = None
+        if self._chosen is None:
+            return
+        if self._inner is None:
+            self._inner = self.wrap(self._chosen) if self.wrap else self._chosen
+        try:
+            self._inner.factorise(values)
+        except SingularMatrixError as error:
+            # the others, which go on, learn of it with the solution
+            self._singular = error
+
+    def _solve_whole(self, rhs: FloatArray) -> FloatArray:
+        def work() -> tuple[FloatArray, str | None]:
+            assert self._inner is not None
+            if self._singular is not None:
+                raise self._singular
+            solution = self._inner.solve(rhs)
+            free = getattr(self._inner, "free", None)
+            return solution, None if free is None else str(free)
+
+        solution, self.free = self._ranks.tell(work)
+        return solution
+
+
+def _owners(ranks: Ranks, pattern: Pattern) -> IntArray:
+    """Rank of each unknown: the lowest one that has an element with it."""
+    used = np.diff(pattern.indptr) > 1
+    mine = np.where(used, float(ranks.size - ranks.rank), 0.0)
+    found = ranks.size - ranks.largest(mine).astype(np.int64)
+    return np.where(found == ranks.size, 0, found)

@@ -1,0 +1,80 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Determines whether a matrix is singular, and which unknown moves freely.
+
+A small pivot alone does not tell: the tip of a slender beam held by an interface stiffness of 1e12 has one of 1e-13
+of the largest diagonal entry and is sound, that of an unconstrained body can be 1e-10 by accumulated rounding. So
+a suspicious matrix is examined by the vector v that it stretches least, found by inverse iteration: it is
+singular if v^T A v is not larger than the rounding error of its own terms. Measured on 12,000 unknowns of a double
+cantilever beam, v^T A v is 0.0003 to 0.3 times that error if a body is free (interface stiffness 1e6 to 1e12), and
+1e7 (1e6) to 25 (1e12) times if the beam is clamped.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import SuperLU, splu
+
+from uel.errors import SingularMatrixError
+from uel.model.arrays import FloatArray
+
+EPS = float(np.finfo(np.float64).eps)
+
+UNCONSTRAINED: Final = "the model or a part of it is unconstrained; check *BOUNDARY and elements without stiffness"
+
+
+def refuse_singular(
+    matrix: sparse.csr_array, name_of: Callable[[int], tuple[str, int]], *, certain: bool = False
+) -> None:
+    """Raise SingularMatrixError, with the free unknown, if the matrix is singular; `certain` as in `free_unknown`."""
+    unknown = free_unknown(matrix, certain=certain)
+    if unknown is not None:
+        node, dof = name_of(unknown)
+        raise SingularMatrixError(node, dof, UNCONSTRAINED)
+
+
+def free_unknown(matrix: sparse.csr_array, *, certain: bool = False) -> int | None:
+    """Unknown that moves most in the direction the matrix does not resist, None if the matrix is regular.
+
+    With `certain`, a factorisation met a zero pivot: the matrix is taken as singular in any case.
+    """
+    largest = abs(matrix).max(axis=1).toarray().ravel()
+    empty = np.flatnonzero(largest == 0.0)
+    if len(empty):
+        return int(empty[0])
+    factors = _shifted_factors(matrix, largest)
+    vector = np.where(np.random.default_rng(0).random(matrix.shape[0]) < 0.5, -1.0, 1.0)
+    for _ in range(3):
+        vector = factors.solve(vector)
+        vector /= np.abs(vector).max()
+    if not certain and not _is_null(matrix, vector):
+        return None
+    # the first of the many that move alike, so that rounding does not choose the node of the message
+    return int(np.flatnonzero(np.abs(vector) > 0.99)[0])
+
+
+def _shifted_factors(matrix: sparse.csr_array, largest: FloatArray) -> SuperLU:
+    """Factors of A + a diagonal of rounding size, grown until no pivot is exactly zero.
+
+    COLAMD bounds the fill whichever rows become pivots. The pattern of A + A^T does so only if pivots stay on the
+    diagonal, which those of Lagrange multipliers and of unsymmetric elements do not: with it, 5,324 unknowns of bricks
+    with a multiplier at each node take 10 times as long. If they do stay, COLAMD takes up to three times as long.
+    """
+    shift = EPS / 16
+    while True:
+        shifted = (matrix + sparse.diags_array(shift * largest)).tocsc()
+        try:
+            return splu(shifted, permc_spec="COLAMD")
+        except RuntimeError:
+            shift *= 16
+
+
+def _is_null(matrix: sparse.csr_array, vector: FloatArray) -> bool:
+    image = matrix @ vector
+    rounding = EPS * float(np.abs(vector) @ (abs(matrix) @ np.abs(vector)))
+    # the second condition keeps a vector that A turns by a right angle, as an unsymmetric A can
+    return abs(float(vector @ image)) <= rounding and float(np.abs(vector) @ np.abs(image)) <= 32 * rounding

@@ -1,0 +1,260 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Substructures: each rank eliminates the unknowns that it alone has, and rank 0 solves for those that it shares.
+
+With I the unknowns of one rank alone and B those that it shares, its Schur complement is K_BB - K_BI K_II^-1 K_IB
+(Przemieniecki, AIAA J. 1 (1963) 138-147), which PARDISO returns with the factors of K_II. Rank 0 factorises the sum of
+all of them. A rank in whose part nothing has changed, as far from a crack, keeps its factors.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import weakref
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.linalg import lapack
+
+from uel.model.arrays import FloatArray, IntArray
+from uel.parallel.ranks import Ranks
+from uel.solver.linear.base import Pattern
+from uel.solver.linear.cluster import ClusterError, loaded
+from uel.solver.linear.pardiso import (
+    ANALYSE,
+    FACTORISE,
+    PARAMETERS,
+    RELEASE,
+    REPLACED,
+    SYMMETRIC,
+    UNSYMMETRIC,
+    PardisoError,
+    Type,
+    call,
+    upper_triangle,
+)
+
+NAME: Final = "substructures"
+"""By which `--solver` requests it."""
+
+MOST_SHARED: Final = 3000
+"""Unknowns of several ranks up to which `auto` takes it: their dense matrix takes 72 MB and 18e9 operations."""
+
+STAND_IN: Final = 1e-8
+"""Of the largest diagonal entry of a rank: stiffness added to the unknowns that stay, and subtracted again.
+
+PARDISO counts a pivot as replaced where such an unknown has a zero on the diagonal, as behind a crack on the rank that
+does not have the solid. What the two operations leave is 1e-8 of the last bit of the largest entry.
+"""
+
+_CHANGES: Final = {
+    20: 0,  # pivots from the diagonal alone, in two thirds of the time; the residual of a solution tells if that serves
+    35: 2,  # return the Schur complement of the unknowns marked in PERM, and keep the factors of the others
+}
+"""Entries of IPARM, from 0, that differ from those of one process."""
+
+_FORWARD, _BACKWARD = 331, 333
+"""Phases of a solution: to the right-hand side of the unknowns that stay, and back from their solution."""
+
+
+class Substructures:
+    """Matrices of one pattern.
+
+    usable            whether each rank has unknowns of its own, and shares some
+    shared            unknowns of several ranks, the same array on all of them
+    largest_diagonal  of the last matrix, in magnitude
+    """
+
+    def __init__(self, ranks: Ranks, pattern: Pattern, owners: IntArray) -> None:
+        """Symbolic work.
+
+        Parameters
+        ----------
+        ranks
+            Which all call the functions of this class together.
+        pattern
+            Of the part of the matrix of this rank, with unknowns numbered as on all others.
+        owners
+            (n,) a rank for each unknown, one of those that have it, the same array on all ranks.
+        """
+        self._ranks, self._size, self._diagonal = ranks, pattern.size, pattern.diagonal
+        self._used = np.diff(pattern.indptr) > 1
+        common = ranks.sum(self._used.astype(np.float64)) > 1.0
+        self.shared = np.flatnonzero(common)
+        self._own, stay = np.flatnonzero((owners == ranks.rank) & ~common), np.flatnonzero(common & self._used)
+        self.usable = not ranks.largest(np.array([float(not (len(self._own) and len(stay)))]))[0]
+        # for each rank, places of its unknowns among the shared ones
+        self._places = ranks.everyones(np.searchsorted(self.shared, stay))
+        self._here = np.concatenate([self._own, stay])
+        self._owned = owners[self._here] == ranks.rank
+        numbers = np.arange(len(pattern.indices), dtype=np.int32)
+        entries = sparse.csr_array((numbers, pattern.indices, pattern.indptr), (pattern.size,) * 2)
+        local = sparse.csr_array(entries[self._here][:, self._here])
+        local.sort_indices()
+        self._take = local.data
+        self._pattern = Pattern(local.indptr.astype(np.int32), local.indices.astype(np.int32))
+        self._values = np.zeros(0)
+        self._matrix: _Matrix | None = None
+        self._complements = [np.zeros((0, 0))] * ranks.size
+        self._stand_in = 0.0
+        self._factors = np.zeros((0, 0)), np.zeros(0, dtype=np.int32)
+        self.largest_diagonal = 0.0
+
+    def factorise(self, data: FloatArray, *, symmetric: bool) -> bool:
+        """Factorise the sum of the parts (nnz,) of the ranks.
+
+        Returns
+        -------
+        bool
+            Whether a rank kept its factors.
+
+        Raises
+        ------
+        ClusterError
+            On all ranks: a pivot is too small.
+        """
+        values = self._taken(data)
+        kind = SYMMETRIC if symmetric else UNSYMMETRIC
+        new = self._matrix is None or self._matrix.kind is not kind or not np.array_equal(values, self._values)
+        self._values = values
+        sound, complement = True, None
+        if new:
+            try:
+                complement = self._eliminate(kind)
+            except PardisoError:
+                sound = False
+        self._collect(complement)
+        if not self._ranks.rank and sound:
+            sound = self._factorise_complement()
+        failures, kept = self._ranks.sum(np.array([float(not sound), float(not new)]))
+        if failures:
+            raise ClusterError("a pivot is too small")
+        return bool(kept)
+
+    def _taken(self, data: FloatArray) -> FloatArray:
+        """Values of the matrix of this rank.
+
+        A diagonal entry may also be on a rank that has no other one of its row, as of a spring to the ground: it goes
+        to the owner.
+        """
+        diagonal = data[self._diagonal]
+        both = self._ranks.sum(np.concatenate([diagonal, np.where(self._used, 0.0, diagonal)]))
+        self.largest_diagonal = float(np.abs(both[: self._size]).max(initial=0.0))
+        values: FloatArray = data[self._take]
+        places = self._pattern.diagonal
+        values[places] = np.where(self._used[self._here], values[places], 0.0)
+        values[places] += np.where(self._owned, both[self._size :][self._here], 0.0)
+        self._stand_in = STAND_IN * float(np.abs(values[places]).max())
+        values[places[len(self._own) :]] += self._stand_in
+        return values
+
+    def _eliminate(self, kind: Type) -> FloatArray:
+        """Schur complement of this rank. Raises PardisoError."""
+        matrix, self._matrix = self._matrix, None
+        if matrix is None or matrix.kind is not kind:
+            # the memory of the old factors first
+            matrix = None
+            matrix = _Matrix(self._pattern, len(self._own), kind)
+        complement = matrix.factorise(self._values)
+        complement[np.diag_indices(len(complement))] -= self._stand_in
+        self._matrix = matrix
+        return complement
+
+    def _collect(self, complement: FloatArray | None) -> None:
+        """Let rank 0 have the Schur complement of this rank, unless it is that of the last matrix: None."""
+        sent = [np.zeros(0)] * self._ranks.size
+        if complement is not None and self._ranks.rank:
+            sent[0] = complement.ravel()
+        elif complement is not None:
+            self._complements[0] = complement
+        for rank, found in enumerate(self._ranks.exchange(sent)):
+            if len(found):
+                self._complements[rank] = found.reshape((len(self._places[rank]),) * 2)
+
+    def _factorise_complement(self) -> bool:
+        """Factorise the sum of the Schur complements on rank 0; returns whether it is regular."""
+        total = np.zeros((len(self.shared),) * 2)
+        for places, own in zip(self._places, self._complements, strict=True):
+            # a rank that has failed may have sent none
+            if len(own):
+                total[np.ix_(places, places)] += own
+        factors, pivots, info = lapack.dgetrf(total, overwrite_a=True)
+        self._factors = factors, pivots
+        return not info
+
+    def solve(self, rhs: FloatArray) -> FloatArray:
+        """Solution (n,) for a right-hand side (n,) that all ranks have, the same on all of them."""
+        assert self._matrix is not None
+        own, places = len(self._own), self._places[self._ranks.rank]
+        given = np.zeros(len(self._here))
+        given[:own] = rhs[self._own]
+        forward = self._matrix.solve(_FORWARD, given)
+        reduced = np.zeros(len(self.shared))
+        reduced[places] = forward[own:]
+        reduced = self._ranks.sum(reduced) + rhs[self.shared]
+        stay = np.zeros(len(self.shared))
+        if not self._ranks.rank:
+            stay, _ = lapack.dgetrs(*self._factors, reduced)
+        stay = self._ranks.sum(stay)
+        forward[own:] = stay[places]
+        solution = np.zeros(self._size)
+        solution[self._own] = self._matrix.solve(_BACKWARD, forward)[:own]
+        solution = self._ranks.sum(solution)
+        solution[self.shared] = stay
+        return solution
+
+    def release(self) -> None:
+        """Give back the memory of the factors."""
+        self._matrix = None
+
+
+class _Handle:
+    """What PARDISO keeps of a matrix, and its function in the oneMKL of `loaded`."""
+
+    def __init__(self, kind: Type, perm: NDArray[np.int32]) -> None:
+        self.mtype, self.perm = kind.number, perm
+        self.pt, self.iparm = np.zeros(64, dtype=np.int64), np.zeros(64, dtype=np.int32)
+        for place, value in (PARAMETERS | _CHANGES).items():
+            self.iparm[place] = value
+        self._mkl_pardiso = loaded().pardiso
+        integers, reals = ctypes.POINTER(ctypes.c_int32), ctypes.POINTER(ctypes.c_double)
+        numbers = ctypes.POINTER(ctypes.c_int64)
+        self._mkl_pardiso.argtypes = [numbers, *[integers] * 5, reals, *[integers] * 6, reals, reals, integers]
+        self._mkl_pardiso.restype = None
+
+
+class _Matrix:
+    """Matrices of one pattern and type, as PARDISO holds them."""
+
+    def __init__(self, pattern: Pattern, own: int, kind: Type) -> None:
+        """The first `own` unknowns are eliminated, the others stay."""
+        self.kind = kind
+        self._stay = pattern.size - own
+        self._upper: NDArray[np.int32] | None = None
+        self._pattern = pattern
+        if kind is SYMMETRIC:
+            self._upper, self._pattern = upper_triangle(pattern)
+        marked = np.zeros(pattern.size, dtype=np.int32)
+        marked[own:] = 1
+        self._handle = _Handle(kind, marked)
+        self._values: FloatArray | None = None
+        weakref.finalize(self, call, self._handle, RELEASE, self._pattern, np.zeros(1), np.zeros(pattern.size))
+
+    def factorise(self, values: FloatArray) -> FloatArray:
+        """Schur complement (stay, stay) of the matrix with these values (nnz,). Raises PardisoError."""
+        begun, nothing = self._values is not None, np.zeros(self._pattern.size)
+        self._values = values if self._upper is None else values[self._upper]
+        if not begun:
+            call(self._handle, ANALYSE, self._pattern, self._values, nothing)
+        complement = np.zeros((self._stay,) * 2)
+        call(self._handle, FACTORISE, self._pattern, self._values, nothing, complement)
+        if self._handle.iparm[REPLACED]:
+            raise PardisoError("pivots were replaced")
+        return complement
+
+    def solve(self, phase: int, rhs: FloatArray) -> FloatArray:
+        """Result (n,) of a phase of the solution for one right-hand side (n,). Raises PardisoError."""
+        assert self._values is not None
+        return call(self._handle, phase, self._pattern, self._values, rhs)

@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The modified Riks method: arc length along the path in the space of displacements and load factor.
+
+Abaqus Theory Guide, "Modified Riks algorithm": displacements are scaled by the largest entry of the first solution of
+the step; an increment goes a given length along the tangent at its start, then Newton's method searches the plane
+through that point normal to the tangent. The tangent continues in the direction of the previous increment.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.model.arrays import FloatArray
+from uel.solver.path import Directions, PathIterate, Reaction
+
+
+class ArcLength:
+    """Control by arc length. Set `length` before an increment, call `converged` after one.
+
+    Parameters
+    ----------
+    measured
+        (n,) the unknowns in which it is measured: those of nodes, and not the pressures of elements, in other units.
+    """
+
+    def __init__(self, measured: NDArray[np.bool_]) -> None:
+        self._measured = measured
+        self.length = 0.0
+        self._scale = 0.0
+        self._unit = 0.0
+        self._tangent: FloatArray | None = None
+        self._last: tuple[FloatArray, float] | None = None
+
+    def change(self, state: PathIterate, directions: Directions, reaction: Reaction) -> float:
+        """Along the tangent in iteration 1, in the plane normal to it afterwards.
+
+        The first increment of a step changes the load factor by its length; the length of later ones is measured
+        in the scaled space in that unit.
+        """
+        del reaction
+        v = np.where(self._measured, directions.tangent, 0.0)
+        if state.iteration == 0:
+            if not self._scale:
+                self._scale = float(np.abs(v).max(initial=0.0)) or 1.0
+                self._unit = self._norm(v)
+            self._tangent = v
+            return self._sign(v) * self.length * self._unit / self._norm(v) - state.factor
+        assert self._tangent is not None
+        scale = self._scale**2
+        return -float(directions.particular @ self._tangent) / (float(v @ self._tangent) + scale)
+
+    def converged(self, increment: FloatArray, factor: float) -> None:
+        """Keep the direction of a converged increment."""
+        self._last = np.where(self._measured, increment, 0.0), factor
+
+    def _sign(self, v: FloatArray) -> float:
+        if self._last is None:
+            return 1.0
+        increment, factor = self._last
+        return 1.0 if float(increment @ v) / self._scale**2 + factor >= 0.0 else -1.0
+
+    def _norm(self, v: FloatArray) -> float:
+        return float(np.sqrt(v @ v / self._scale**2 + 1.0))

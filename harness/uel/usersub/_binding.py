@@ -1,0 +1,414 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The element loop, the integration rules and the state of the compiled host, typed.
+
+Its materials are in `_materials`, what is called at points in `_points`.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Final, Literal
+
+import numpy as np
+
+from uel.model.arrays import FloatArray
+from uel.usersub._extension import host
+from uel.usersub.exchange import BlockArrays, Called, Int32Array, LoadArrays, Moment, Outcome, RawMessage, UnknownFields
+from uel.usersub.faults import Entries, Fault, Guards
+
+ARRAYS: Final = ("RHS", "AMATRX", "SVARS", "ENERGY", "PROPS", "COORDS", "U", "DU", "V", "A", "PREDEF")
+"""Guarded arrays, in the order of fortran/host/driver/workspace.f90."""
+
+
+POINT_ROUTINES: Final = (
+    "",
+    "UMAT",
+    "USDFLD",
+    "UMATHT",
+    "HETVAL",
+    "DFLUX",
+    "FILM",
+    "UHYPER",
+    "UANISOHYPER_INV",
+    "UHARD",
+    "UCREEPNETWORK",
+    "UTRSNETWORK",
+    "UVARM",
+    "CREEP",
+)
+"""Routines of points, in the order of fortran/host/driver/driver.f90."""
+
+_STRAIN_ENERGY: Final = 1
+"""Index of ENERGY(2)."""
+
+
+_FAULTS: Final = tuple(Fault)
+
+_watching = False
+
+
+def evaluate(
+    called: Called,
+    arrays: BlockArrays,
+    options: tuple[bool, bool, Guards, Entries, bool],
+    moment: Moment,
+    unknowns: tuple[FloatArray, FloatArray, FloatArray, FloatArray],
+    loads: LoadArrays,
+    predef: FloatArray,
+    floor: FloatArray,
+    fields: UnknownFields,
+    residual: FloatArray,
+    matrix: FloatArray,
+) -> Outcome:
+    """One pass over a block.
+
+    options are: (A + A^T)/2 is assembled, AMATRX is assembled, what a write outside an array does, what an entry that
+    is not set does, several threads may call. unknowns are u and du, (n,), v and a, (n,), or (1,) where nothing moves;
+    predef is (m, nodes, fields, 2), or (1, nodes, fields, 2) if it is the same for all elements; floor (ndofel,);
+    residual (NRHS, n), whose rows take the columns of RHS.
+    """
+    if _watching:
+        called = called._replace(address=host.host_watch(called.address, called.material))
+    # by position: to match some forty names takes as long as a call of several elements
+    flux, pnewdt, energy, fault, position, array, item, alone = host.host_evaluate(
+        called.address,
+        called.material,
+        called.jtype,
+        called.tensor,
+        *arrays.reversed,
+        *options,
+        moment.kstep,
+        moment.kinc,
+        moment.iteration,
+        moment.time,
+        moment.dtime,
+        moment.period,
+        moment.params,
+        moment.lflags,
+        *unknowns,
+        loads.counts,
+        loads.kinds.T,
+        loads.values.T,
+        predef.T,
+        floor,
+        fields.of,
+        fields.number,
+        residual.T,
+        matrix,
+    )
+    left = fault == Fault.LEFT
+    return Outcome(
+        _FAULTS[fault],
+        position - 1,
+        "" if left else ARRAYS[array - 1],
+        POINT_ROUTINES[array] if left else "",
+        item,
+        flux.T,
+        pnewdt,
+        energy,
+        alone,
+    )
+
+
+def exchange_guard_values(values: FloatArray) -> None:
+    """Exchange the values of the guards of each of ARRAYS and, last, of RHS and AMATRX before a call."""
+    host.host_exchange_guard_values(values)
+
+
+def exchange_room(entries: int) -> int:
+    """From now on guards after the arrays have at least this many entries; returns the number before."""
+    room = np.array([entries], dtype=np.int32)
+    host.host_exchange_room(room)
+    return int(room[0])
+
+
+def watch_inputs(on: bool) -> bool:
+    """Let `evaluate` note from now on which inputs the elements change, or not; returns whether it did before."""
+    global _watching
+    before, _watching = _watching, on
+    return before
+
+
+def take_changes() -> tuple[Int32Array, FloatArray]:
+    """First entry (37,) of each argument that was changed since the last call (0: none), and values (37, 2)."""
+    entries, values = host.host_take_changes()
+    return entries, values.T
+
+
+def fill_stack(number: float | None) -> None:
+    """From now on local variables hold a number at the start of watched calls of elements; None: whatever is there."""
+    host.host_fill_stack(int(number is not None), number or 0.0)
+
+
+def exchange_around(argument: int, number: float) -> float:
+    """From now on a number surrounds an argument (from 0) in watched calls; returns the one before."""
+    held = np.array([number], dtype=np.float64)
+    host.host_exchange_around(argument, held)
+    return float(held[0])
+
+
+def take_outside() -> dict[int, int]:
+    """Arguments (from 0) outside which something was written since the last call, with the entry, from 1."""
+    found, entries = host.host_take_outside()
+    return {k: int(entries[k]) for k in np.flatnonzero(found).tolist()}
+
+
+def allocated() -> int:
+    """Bytes that this process has allocated; negative if the C library does not tell."""
+    return int(host.host_allocated())
+
+
+def bare_loop(
+    called: Called, arrays: BlockArrays, moment: Moment, u: FloatArray, du: FloatArray, residual: FloatArray
+) -> None:
+    """Call the elements from a plain loop: what `evaluate` is measured against."""
+    ndofel = arrays.equations.shape[1]
+    host.host_bare_loop(
+        address=called.address,
+        material=called.material,
+        jtype=called.jtype,
+        kstep=moment.kstep,
+        kinc=moment.kinc,
+        lflags=np.array(moment.lflags, dtype=np.int32),
+        time=moment.time,
+        dtime=moment.dtime,
+        period=moment.period,
+        labels=arrays.labels,
+        jprops=arrays.jprops,
+        equations=arrays.equations.T,
+        props=arrays.props,
+        coords=arrays.coords.T,
+        u=u,
+        du=du,
+        svars=arrays.svars.T,
+        svars_trial=arrays.svars_trial.T,
+        energy=arrays.energy.T,
+        energy_trial=arrays.energy_trial.T,
+        residual=residual,
+        amatrx=np.zeros((ndofel, ndofel)).T,
+    )
+
+
+def linear_pass(
+    matrices: FloatArray,
+    equations: Int32Array,
+    first: Int32Array,
+    u: FloatArray,
+    floor: FloatArray,
+    fields: UnknownFields,
+    residual: FloatArray,
+) -> Outcome:
+    """Add the forces of elements that are linear to residual (n,): what a pass over them would, without calling them.
+
+    matrices (m, ndofel, ndofel), each by columns; equations (m, ndofel), from 1; first, floor (ndofel,): the
+    entry of U, from 1, that is taken out of each one before the product, 0 for none. ENERGY(2) is what they store.
+    """
+    flux, stored = host.host_linear_pass(matrices.T, equations.T, first, u, floor, fields.of, residual, fields.number)
+    energy = np.zeros(8)
+    energy[_STRAIN_ENERGY] = stored
+    return Outcome(Fault.NONE, -1, ARRAYS[0], "", 0, flux.T, np.inf, energy, 0)
+
+
+def scatter_map(equations: Int32Array, indptr: Int32Array, indices: Int32Array) -> Int32Array:
+    """Positions (m, ndofel, ndofel) of (row, column) of element matrices in the values of a CSR matrix, from 0.
+
+    equations (m, ndofel) from 0; the matrix has all their entries, columns ascending in each row.
+    """
+    m, n = equations.shape
+    places = np.zeros((m, n, n), dtype=np.int32)
+    if m:
+        host.host_scatter_map(equations.T, indptr, indices, places.T)
+    # the driver walks matrices by columns, so that this is a view
+    return places.transpose(0, 2, 1)
+
+
+def add_matrices(matrices: FloatArray, places: Int32Array, matrix: FloatArray) -> None:
+    """Add matrices of elements, each by columns, to matrix (nnz,); places, from 1, has the same shape (m, n, n)."""
+    host.host_add_matrices(matrices.T, places.T, matrix)
+
+
+def external_database(
+    address: int, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int
+) -> bool:
+    """Call UEXTERNALDB; False if it ended the analysis."""
+    return not host.host_external_database(address, lop, lrestart, time, dtime, step, increment)
+
+
+def define_heat_load(
+    *, law: int, address: int | None, surface: str, jltyp: int, absolute_zero: float, stefan_boltzmann: float
+) -> int:
+    """Add a flux, a film or radiation to those the host knows; returns its number there.
+
+    Parameters
+    ----------
+    law
+        0 a flux, 1 a film, 2 radiation.
+    address
+        Of DFLUX or FILM; None where the deck gives the magnitudes.
+    surface, jltyp
+        SNAME and JLTYP of the routine.
+    absolute_zero, stefan_boltzmann
+        Constants of radiation.
+    """
+    constants = absolute_zero, stefan_boltzmann
+    return int(host.host_define_heat_load(law, address or 0, surface, jltyp, *constants))
+
+
+def integration_rule(family: int, points: int, nodes: int, dimension: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Weights (points,), shape functions (points, nodes) and their derivatives (points, nodes, dimension) of a family.
+
+    The derivatives are with respect to parent coordinates. Raises ValueError if the host has no such rule.
+    """
+    weights, shapes, slopes = np.zeros(points), np.zeros((points, nodes)), np.zeros((points, dimension, nodes))
+    if not host.host_rule(family, weights, shapes.T, slopes.T):
+        raise ValueError(f"the host has no family {family} of {nodes} nodes with {points} integration points")
+    return weights, shapes, slopes.transpose(0, 2, 1)
+
+
+def define_rule(family: int, parent: FloatArray, weights: FloatArray, *, reduced: bool) -> int:
+    """Add a family with integration points at parent coordinates (points, dimension); returns its number.
+
+    With any other number of points it is the given family. reduced: of an element with hourglass control.
+    """
+    return int(host.host_define_rule(family, parent.T, weights, reduced))
+
+
+def slopes_at_nodes(family: int, nodes: int) -> FloatArray:
+    """Derivatives (places, nodes, 2) of a surface's shape functions by parent coordinates, at each of its nodes."""
+    slopes = np.zeros((nodes, 2, nodes))
+    host.host_slopes_at_nodes(family, slopes.T)
+    return slopes.transpose(0, 2, 1)
+
+
+_ELEMENTS: Final = (
+    *("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric", "truss"),
+    *("generalised", "beam section", "membrane", "mass diffusion", "continuum shell"),
+)
+"""In the order of host_element_address."""
+
+
+def address_of(
+    elements: Literal[
+        "solid",
+        "coupled",
+        "cohesive",
+        "discrete",
+        "heat",
+        "heat load",
+        "shell",
+        "beam",
+        "piezoelectric",
+        "truss",
+        "generalised",
+        "beam section",
+        "membrane",
+        "mass diffusion",
+        "continuum shell",
+    ],
+) -> int:
+    """Address of built-in elements.
+
+    Cohesive ones, springs and masses, heat that enters and linear elastic beams are called like UEL, the others like
+    UELMAT.
+    """
+    return int(host.host_element_address(1 + _ELEMENTS.index(elements)))
+
+
+def take_messages() -> list[RawMessage]:
+    """Messages of STDB_ABQERR since the last call, oldest first."""
+    found: list[RawMessage] = []
+    while True:
+        level, (element, step, increment), text = host.host_take_message()
+        if not level:
+            return found
+        found.append(RawMessage(level, int(element), int(step), int(increment), text.decode(errors="replace").rstrip()))
+
+
+def open_job(name: str, directory: str, file6: str, file7: str) -> int:
+    """Set the job for GETJOBNAME and GETOUTDIR and connect units 6 and 7.
+
+    Returns 0, the number of an error, or -1 if an abandoned call of an earlier job has them locked inside a WRITE.
+    """
+    encode = os.fsencode
+    return int(host.host_open_job(encode(name), encode(directory), encode(file6), encode(file7)))
+
+
+def set_threads(number: int) -> None:
+    """Let so many threads call the elements of the jobs of this process from now on, where that is possible."""
+    host.host_set_threads(number)
+
+
+def set_rank(rank: int, ranks: int) -> None:
+    """Tell user routines the number of this process, from 0, among those that run its jobs (GETRANK, GETNUMCPUS)."""
+    host.host_set_rank(rank, ranks)
+
+
+def limit_calls(seconds: float) -> None:
+    """Limit the time of each call of a user routine.
+
+    Parameters
+    ----------
+    seconds
+        Wall-clock time of one call, in all jobs of this process from now on; 0: no limit. A call that takes longer is
+        ended, and whoever made it gets an error.
+    """
+    host.host_limit_calls(seconds)
+
+
+def trap(on: bool) -> bool:
+    """Let calls of user routines stop at the operation that makes a NaN or an infinity.
+
+    Parameters
+    ----------
+    on
+        Whether they stop there from now on: at an invalid operation, a division by zero and an overflow.
+
+    Returns
+    -------
+    bool
+        The former setting.
+    """
+    return bool(host.host_trap(int(on)))
+
+
+def sanitizing() -> bool:
+    """Whether the runtime of AddressSanitizer is in this process, see harness/uel/running/sanitizer.py."""
+    return bool(host.host_sanitizing())
+
+
+def sanitize(on: bool) -> None:
+    """Say whether the library called from now on is built with AddressSanitizer."""
+    host.host_sanitize(int(on))
+
+
+def take_frames() -> list[int]:
+    """Addresses of the calls that the last signal ended, innermost first; forgets them."""
+    addresses, count = host.host_take_frames()
+    return [int(address) for address in addresses[:count]]
+
+
+def share_slate(descriptor: int) -> bool:
+    """Let another process, which has the file of the slate open too, see where user code is.
+
+    Parameters
+    ----------
+    descriptor
+        Of the file, at least as long as `uel.shared_progress.Slate`: from now on calls are noted in it.
+
+    Returns
+    -------
+    bool
+        False if that fails.
+    """
+    return not host.host_share(descriptor)
+
+
+def set_loading(begins: bool) -> None:
+    """Note on the slate that constructors of user code may run, or that they have run."""
+    host.host_loading(int(begins))
+
+
+def flush_units(*, close: bool = False) -> bool:
+    """Write out what user routines printed to units 6 and 7; False if an abandoned call has the units locked."""
+    return not host.host_flush(int(close))

@@ -1,0 +1,148 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""User routines of points, nodes and amplitudes, and points of contact: fortran/host/entry/points.f90, typed."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.model.arrays import FloatArray
+from uel.model.user_values import AskedAmplitude, UserValues
+from uel.usersub._extension import host, padded
+from uel.usersub.exchange import BlockArrays, Int32Array
+
+VALUE_ROUTINES: Final = ("DISP", "DLOAD", "UTEMP", "UFIELD")
+"""Routines that give values, in the order of fortran/host/routines/values.f90."""
+
+
+def uvarm(
+    address: int,
+    names: tuple[str, str],
+    axes: FloatArray,
+    counts: tuple[int, int, int, int],
+    place: tuple[int, int],
+    clock: tuple[float, float, float],
+    arrays: BlockArrays,
+    hidden: int,
+    uvar: FloatArray,
+    *,
+    local: bool,
+) -> tuple[int, int]:
+    """Call UVARM at the points of a block; returns element and point at which it ended the analysis, 0 if it did not.
+
+    names are of the material and its orientation, axes (m or 1, points or 1, 3, 3) its directions in rows, counts the
+    stress components, NSTATV, the number of the family, and 1 if the history begins with a plastic strain, place step
+    and increment, clock the times at the start and the time increment; the last `hidden` SVARS belong to no point;
+    uvar (m, points, NUVARM); local: the history is in these directions.
+    """
+    m, points, _ = uvar.shape
+    count = arrays.svars.shape[1] - hidden
+    svars = np.ascontiguousarray(arrays.svars[:, :count]).reshape(m, points, count // points)
+    history = arrays.history if arrays.history.shape[1] == points else np.zeros((m, points, 1))
+    left, element, point = host.host_uvarm_pass(
+        address,
+        padded(names),
+        axes.transpose(2, 3, 1, 0),
+        (*counts, int(local)),
+        place,
+        clock,
+        arrays.labels,
+        arrays.coords.T,
+        svars.T,
+        history.T,
+        uvar.T,
+    )
+    return (element, point) if left else (0, 0)
+
+
+def sdvini(address: int, arrays: BlockArrays, statev: FloatArray, family: int) -> tuple[int, int]:
+    """Call SDVINI at the points of a block; returns element and point at which it ended the analysis, 0 if it did not.
+
+    statev (m, points, NSTATV), contiguous, is changed; family: its number for built-in elements, else 0.
+    """
+    left, element, point = host.host_sdvini_pass(address, family, arrays.labels, arrays.coords.T, statev.T)
+    return (element, point) if left else (0, 0)
+
+
+def sigini(address: int, element_type: str, arrays: BlockArrays, sigma: FloatArray, family: int) -> tuple[int, int]:
+    """Call SIGINI at the points of a block of built-in elements.
+
+    sigma (m, points, NTENS), contiguous, is what SIGINI leaves. Returns element and point at which it ended the
+    analysis, 0 if it did not.
+    """
+    given = arrays.labels, arrays.coords.T, sigma.T
+    left, element, point = host.host_sigini_pass(address, element_type, family, *given)
+    return (element, point) if left else (0, 0)
+
+
+def orient(
+    address: int, name: str, arrays: BlockArrays, nodes: Int32Array, family: int, points: int
+) -> tuple[FloatArray, int, int]:
+    """Call ORIENT at the points of a block of built-in elements.
+
+    name is of the orientation, nodes (m, nnode) their numbers. Returns the directions (m, points, 3, 3), in rows, as
+    ORIENT leaves them, then element and point at which it ended the analysis, 0 if it did not.
+    """
+    found = np.zeros((len(nodes), points, 3, 3))
+    given = arrays.labels, nodes.T, arrays.coords.T
+    left, element, point = host.host_orient_pass(address, name, family, *given, found.T)
+    return (found, element, point) if left else (found, 0, 0)
+
+
+def user_values(address: int, asked: UserValues, values: FloatArray) -> int:
+    """Call a routine at all places; returns the number of the place, from 1, where it ended the analysis, else 0.
+
+    values (n,) are those given, and become those of the routine.
+    """
+    moment = (asked.step, asked.increment), (*asked.time, asked.size)
+    coords = np.ascontiguousarray(asked.coords)
+    temperatures = np.zeros((len(values), 2)) if asked.temperatures is None else asked.temperatures
+    routine = 1 + VALUE_ROUTINES.index(asked.routine)
+    left, last = host.host_value_pass(routine, address, *moment, asked.places.T, coords.T, temperatures.T, values)
+    return last if left else 0
+
+
+def user_amplitude(address: int, asked: AskedAmplitude) -> tuple[float, FloatArray, NDArray[np.int32], bool]:
+    """Call UAMP: the value (NaN where it sets none), the state, lFlagsDefine, and whether it ended the analysis."""
+    clock = (*asked.time, asked.size, asked.old)
+    info = (int(not asked.increment), int(asked.increment > 0), asked.cutbacks, asked.step, asked.increment)
+    counts = len(asked.properties), len(asked.state), len(asked.sensors)
+    # an array has one entry more than UAMP is told, because none may be empty
+    properties, state = np.append(asked.properties, 0.0), np.append(asked.state, 0.0)
+    sensors = np.array([*asked.sensors.values(), 0.0]), padded((*asked.sensors, ""))
+    given = asked.name, clock, properties, state, info, *sensors, counts
+    value, define, left = host.host_uamp_call(address, *given, np.nan)
+    return float(value), state[: len(asked.state)], define, bool(left)
+
+
+POINT_REALS: Final = 13
+"""Of a cohesive_point in host/materials/traction_separation.f90: separation (3), traction (3), damage, energies that
+damage dissipates (3), that of the viscosity, damage without viscosity, initiation criterion."""
+
+
+def traction_separation(
+    law: tuple[FloatArray, Int32Array], time: float, separations: FloatArray, old: FloatArray
+) -> tuple[FloatArray, FloatArray, tuple[int, float] | None]:
+    """Traction-separation response of points: states (m, POINT_REALS) and derivatives (m, 3, 3) of the tractions; the
+    row of a point whose fracture energy at the mode mix is below the elastic energy at the onset of damage, and by how
+    much.
+
+    Parameters
+    ----------
+    law
+        As `read_law` in fortran/host/materials/traction_separation.f90 has it.
+    time
+        Of the increment.
+    separations
+        (m, 3) normal and shear separations.
+    old
+        (m, POINT_REALS) states at the start of the increment.
+    """
+    new, tangents, brittle, fault = np.zeros_like(old), np.zeros((len(old), 3, 3)), 0, 0.0
+    # f2py knows no empty arrays
+    if len(old):
+        brittle, fault = host.host_traction_separation(*law, time, separations.T, old.T, new.T, tangents.T)
+    return new, tangents.transpose(0, 2, 1), (brittle - 1, fault) if brittle else None

@@ -1,0 +1,91 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A number passed where a routine expects an array: the routine then reads something else after it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from functools import partial
+from typing import Final
+
+from uel.usersub.compilation.compatibility import LONGEST, Repair
+from uel.usersub.compilation.diagnostics import warnings_of
+
+HINT: Final = "the routine also reads the memory after it, which holds something else: pass an array"
+
+_RANK: Final = re.compile(r"Rank mismatch in argument '(\w+)' at \(1\) \(rank-(?:\d+) and scalar\)")
+_ARGUMENT: Final = re.compile(r"[\s(,]*[-+]?(?:\.?\d|([a-z]\w*)\s*[,)])", re.IGNORECASE)
+
+
+_ZERO: Final = r"[-+]?(?:0+\.?0*|\.0+)(?:[de][-+]?\d+)?"
+_ZERO_ARGUMENT: Final = re.compile(rf"(?P<before>[\s(,]*)(?P<value>{_ZERO}|[a-z]\w*)(?=\s*[,)])", re.IGNORECASE)
+
+_ENOUGH: Final = 100
+"""Zeros in place of one: more than the coordinates of a point, for which codes pass it."""
+
+
+def array_wanted(message: str) -> str | None:
+    """Name of the array argument for which, by gfortran's message, a single value is passed."""
+    found = _RANK.search(message)
+    return found and found[1]
+
+
+def is_constant(text: str, line: int, column: int) -> bool:
+    """Whether a number, or the name of a PARAMETER, is at a line and column (from 1), or after it."""
+    rows = text.splitlines()
+    found = _ARGUMENT.match(rows[line - 1], column - 1) if 1 <= line <= len(rows) else None
+    if found is None or found[1] is None:
+        return found is not None
+    named = re.compile(rf"^\s*[^!c*\n]*\bparameter\b[^!\n]*\b{found[1]}\s*=", re.IGNORECASE)
+    return any(map(named.match, rows))
+
+
+def constants_for_arrays(output: str, texts: Mapping[str, str]) -> Iterator[str]:
+    """Sentences on what gfortran's output says about constants; texts of the files by bare name.
+
+    The memory after a variable may be what is meant; after a constant come other constants. Zeros are mended.
+    """
+    for file, line, column, message, _ in warnings_of(output):
+        argument, text = array_wanted(message), texts.get(file, "")
+        if argument and is_constant(text, line, column) and pass_zeros(text, line, column) is None:
+            source = " ".join(text.splitlines()[line - 1].split())
+            yield (
+                f"{file}, line {line}: a constant is passed for the argument '{argument}', which is an array: "
+                f"{source} ({HINT})"
+            )
+
+
+def zeros_for_arrays(output: str) -> Iterator[Repair]:
+    """Repairs that pass zeros where the constant zero is passed for an array.
+
+    Routines that take a point, such as the centre of an element, get its first coordinate so. What follows the constant
+    in Abaqus is not known, but zero everywhere is what is meant.
+    """
+    for file, line, column, message, _ in warnings_of(output):
+        if argument := array_wanted(message):
+            note = f"zero is passed for the argument '{argument}', which is an array; the copy passes an array of zeros"
+            yield Repair(file, line, partial(pass_zeros, line=line, column=column), note)
+
+
+def pass_zeros(text: str, line: int, column: int) -> str | None:
+    """The text in which the argument at a column, or after it, is an array of zeros; None if it is no constant zero."""
+    lines = text.splitlines(keepends=True)
+    row = lines[line - 1] if 1 <= line <= len(lines) else ""
+    found = _ZERO_ARGUMENT.match(row, column - 1)
+    if found is None or not _is_zero(found["value"], text):
+        return None
+    changed = f"{row[: found.start('value')]}spread({found['value']},1,{_ENOUGH}){row[found.end() :]}"
+    if len(changed.rstrip()) > LONGEST:
+        return None
+    lines[line - 1] = changed
+    return "".join(lines)
+
+
+def _is_zero(value: str, text: str) -> bool:
+    """Whether a number, or each PARAMETER of that name in the text, is zero."""
+    if not value[0].isalpha():
+        return True
+    given = re.compile(rf"^\s*[^!c*\n]*\bparameter\b[^!\n]*\b{value}\s*=\s*([^,)\n]*)", re.IGNORECASE | re.MULTILINE)
+    values = given.findall(text)
+    return bool(values) and all(re.fullmatch(_ZERO, each.strip(), re.IGNORECASE) for each in values)

@@ -1,0 +1,369 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A loaded library of user routines."""
+
+from __future__ import annotations
+
+import ctypes
+import hashlib
+import shutil
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from uel.errors import CompileError, UelError
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.records import PointVariables
+from uel.model.user_values import AskedAmplitude, GivenAmplitude, UserValues
+from uel.usersub import _binding, _points, layout
+from uel.usersub.built import path_of_kernels
+from uel.usersub.compilation.cache import Built
+from uel.usersub.compilation.compiler import build, digest_of_sources
+from uel.usersub.compilation.languages import CPP, SUFFIXES, C
+from uel.usersub.compilation.linker import undefined_routine
+from uel.usersub.compilation.source_lines import innermost
+from uel.usersub.messages import Inbox, Message
+
+ENTRY_POINTS: Final = (
+    *("UEL", "UELMAT", "UEXTERNALDB", "UMAT", "UVARM", "SDVINI", "DLOAD", "DISP", "UAMP", "USDFLD", "UTRACLOAD"),
+    *("UFIELD", "URDFIL", "UMATHT", "UHARD", "UEXPAN", "CREEP", "FRIC", "UINTER", "MPC", "ORIENT", "SIGINI", "HETVAL"),
+    *("DFLUX", "FILM", "UTEMP", "UHYPER", "UANISOHYPER_INV", "UMESHMOTION", "VUEL", "VUMAT", "VDLOAD", "VUSDFLD"),
+    *("VEXTERNALDB", "UCREEPNETWORK", "UTRSNETWORK"),
+)
+"""Names by which Abaqus calls user routines; looked up in a user's file to say what it contains."""
+
+_STOP_ANALYSIS, _CONCLUDE_STEP = 4, 5
+"""Places in lFlagsDefine of UAMP."""
+
+
+class Library:
+    """User routines of a job, and the job's messages from them.
+
+    uel, uelmat, umat, umatht, uhyper, uanisohyper_inv, uhard, creep, ucreepnetwork, utrsnetwork, hetval, uvarm, sdvini,
+    sigini, orient, disp, dload, dflux, film, utemp, ufield, uamp, usdfld, uexternaldb   addresses, None without it
+    name                      the file as the user named it, for messages
+    file                      the shared library
+    entry_points              names of all user routines found
+    """
+
+    def __init__(self, name: str, file: Path, handle: ctypes.CDLL, inbox: Inbox, *, sanitized: bool = False) -> None:
+        self.name = name
+        self.file = file
+        self._handle = handle  # keeps the library loaded
+        self._sanitized = sanitized
+        _binding.sanitize(sanitized)
+        self._inbox = inbox
+        addresses = {entry: _address(handle, entry) for entry in ENTRY_POINTS}
+        self.entry_points = tuple(entry for entry, address in addresses.items() if address)
+        self.uel = addresses["UEL"]
+        self.uelmat = addresses["UELMAT"]
+        self.uexternaldb = addresses["UEXTERNALDB"]
+        self.umat = addresses["UMAT"]
+        self.umatht = addresses["UMATHT"]
+        self.uhyper = addresses["UHYPER"]
+        self.uanisohyper_inv = addresses["UANISOHYPER_INV"]
+        self.uhard = addresses["UHARD"]
+        self.ucreepnetwork = addresses["UCREEPNETWORK"]
+        self.utrsnetwork = addresses["UTRSNETWORK"]
+        self.creep = addresses["CREEP"]
+        self.hetval = addresses["HETVAL"]
+        self.uvarm = addresses["UVARM"]
+        self.sdvini = addresses["SDVINI"]
+        self.sigini = addresses["SIGINI"]
+        self.orient = addresses["ORIENT"]
+        self.disp = addresses["DISP"]
+        self.dload = addresses["DLOAD"]
+        self.dflux = addresses["DFLUX"]
+        self.film = addresses["FILM"]
+        self.utemp = addresses["UTEMP"]
+        self.ufield = addresses["UFIELD"]
+        self.uamp = addresses["UAMP"]
+        self.usdfld = addresses["USDFLD"]
+
+    def variables(self, jtype: int) -> PointVariables | None:
+        """Meaning of the SVARS of an element type.
+
+        Parameters
+        ----------
+        jtype
+            JTYPE: n of type Un.
+
+        Returns
+        -------
+        PointVariables | None
+            None if the library does not contain the project's elements, or if these have no such type.
+        """
+        return layout.variables(jtype) if self.is_own else None
+
+    def is_continuum(self, jtype: int, integers: IntArray) -> bool:
+        """Whether elements are continuum elements of the project whose stress no other element reads.
+
+        Parameters
+        ----------
+        jtype
+            JTYPE: n of type Un.
+        integers
+            JPROPS.
+        """
+        return self.is_own and layout.is_continuum(jtype, integers)
+
+    @property
+    def is_own(self) -> bool:
+        """Whether it has the elements of the project."""
+        return hasattr(self._handle, layout.MARKER)
+
+    def shares_stress(self, jtype: int, integers: IntArray) -> bool:
+        """Whether elements of the project store stress for others, or take it; arguments as of `is_continuum`."""
+        return self.is_own and layout.shares_stress(jtype, integers)
+
+    def external_database(
+        self, lop: int, lrestart: int, time: tuple[float, float], dtime: float, step: int, increment: int
+    ) -> None:
+        """Call UEXTERNALDB if there is one.
+
+        Parameters
+        ----------
+        lop
+            LOP: 0 and 3 at the start and the end of the analysis, 1 and 2 of an increment, 5 and 6 of a step.
+        lrestart
+            LRESTART; 0: no restart file is written.
+        time
+            TIME: step and total time at the moment of the call.
+        dtime
+            DTIME: size of the increment, 0 outside one.
+        step, increment
+            KSTEP, KINC.
+
+        Raises
+        ------
+        UelError
+            The routine ends the analysis, or does not return within the limit of a call.
+        """
+        if self.uexternaldb is None:
+            return
+        if not _binding.external_database(self.uexternaldb, lop, lrestart, time, dtime, step, increment):
+            raise UelError(f"{self.name}: UEXTERNALDB (LOP={lop}) {self.stop_reason()}")
+
+    @property
+    def contents(self) -> str:
+        """Names of its user routines, or that it has none, for messages."""
+        if self.entry_points:
+            return ", ".join(self.entry_points)
+        if any(self.name.lower().endswith(suffix) for suffix in (*C.suffixes, *CPP.suffixes)):
+            return 'no user routine (in C its name is uel_ or FOR_NAME(uel), in C++ it is extern "C" as well)'
+        return "no user routine"
+
+    def user_values(self, asked: UserValues) -> FloatArray:
+        """Values that DISP, DLOAD, UTEMP or UFIELD makes of those given.
+
+        Parameters
+        ----------
+        asked
+            What the routine is called for, once at each place. The job must have the routine.
+
+        Returns
+        -------
+        FloatArray
+            (n,) in the order of the places; the given value where the routine does not set one.
+
+        Raises
+        ------
+        UelError
+            The routine ends the analysis, or does not return within the limit of a call.
+        """
+        routines = {"DISP": self.disp, "DLOAD": self.dload, "UTEMP": self.utemp, "UFIELD": self.ufield}
+        address = routines[asked.routine]
+        assert address is not None
+        made = np.array(asked.given)
+        failed = _points.user_values(address, asked, made)
+        if failed:
+            first, second = asked.places[failed - 1, :2].tolist()
+            place = f"element {first}" if asked.routine == "DLOAD" else f"node {first}"
+            place += f", dof {second}" if asked.routine == "DISP" else ""
+            raise UelError(f"{self.name}: {asked.routine} {self.stop_reason()} ({place}, step {asked.step})")
+        return made
+
+    def user_amplitude(self, asked: AskedAmplitude) -> GivenAmplitude:
+        """What UAMP gives.
+
+        Parameters
+        ----------
+        asked
+            Arguments of the call, which it does not change. The job must have UAMP.
+
+        Returns
+        -------
+        GivenAmplitude
+            The value, the state variables after the call, and lFlagsDefine(6), which ends the step.
+
+        Raises
+        ------
+        UelError
+            UAMP ends the analysis, also by lFlagsDefine(5), does not return within the limit of a call, or does not
+            give a finite number.
+        """
+        assert self.uamp is not None
+        value, state, define, left = _points.user_amplitude(self.uamp, asked)
+        place = f"amplitude {asked.name}, step {asked.step}, increment {asked.increment}"
+        if left:
+            raise UelError(f"{self.name}: UAMP {self.stop_reason()} ({place})")
+        if define[_STOP_ANALYSIS]:
+            raise UelError(f"{self.name}: UAMP stopped the analysis by lFlagsDefine(5) ({place})")
+        if not np.isfinite(value):
+            raise UelError(f"{self.name}: UAMP does not set AmpValueNew, or sets it to NaN or infinity ({place})")
+        return GivenAmplitude(value, state, bool(define[_CONCLUDE_STEP]))
+
+    def stop_reason(self) -> str:
+        """Why a user routine ended the analysis, as the end of a sentence."""
+        if text := self._inbox.last_error():
+            return f"stopped the analysis: {self._with_place(text)}"
+        if lines := self._inbox.last_lines():
+            return f"stopped the analysis (XIT); last printed: {' / '.join(lines)}"
+        return "stopped the analysis (XIT) without a message"
+
+    def _with_place(self, text: str) -> str:
+        """A text about a signal, 'in UEL: what it was', with file and line, and the routine if it is another one."""
+        place = innermost(_binding.take_frames(), self._handle._name, self.file)
+        head, colon, tail = text.partition(": ")
+        if place is None or not colon:
+            return text
+        inside = "" if f"in {place.routine}" == head else f" ({place.routine})"
+        return f"{head}, {place.file} line {place.line}{inside}: {tail}"
+
+    def messages(self) -> list[Message]:
+        """Texts of user routines since the last call: STDB_ABQERR, then what was printed to units 6 and 7."""
+        return self._inbox.take()
+
+    def warn(self, text: str) -> None:
+        """Add a warning of our own to the messages."""
+        self._inbox.warn(text)
+
+    def close(self) -> None:
+        """End of the job: disconnect units 6 and 7."""
+        if self._sanitized:
+            _binding.sanitize(False)
+        self._inbox.close()
+
+
+def load(
+    user: Path | Sequence[Path] | None,
+    *,
+    job: str,
+    output_dir: Path,
+    deck: Path | None = None,
+    zero_locals: bool = False,
+    debug: bool = False,
+    rank: int = 0,
+) -> Library:
+    """Load user routines: files in Fortran, C or C++ (compiled, or taken from the cache) or a shared library.
+
+    Parameters
+    ----------
+    user
+        The files in the order of compilation, or one .so; None, or no file, takes the project's own kernels.
+    job
+        Name of the job, for GETJOBNAME and for the files of units 6 and 7, JOB.unit6 and JOB.unit7.
+    output_dir
+        Folder of these files, created if missing; GETOUTDIR.
+    deck
+        INCLUDE lines are looked up in its folder too, after those of the sources.
+    zero_locals
+        Uninitialised local variables of Fortran are zero, as many public user elements assume; a check turns this off.
+        With `debug` those of C and C++ are zero too.
+    debug
+        Compile with run-time checks, which end a call with file and line, and, unless `zero_locals`, with NaN or other
+        conspicuous values in uninitialised variables; with AddressSanitizer, if its runtime is in this process.
+    rank
+        Number of this process among those that run the job, from 0: each has files of units 6 and 7 of its own.
+
+    Returns
+    -------
+    Library
+        Its `close` ends the job. Of all libraries in this process, the one loaded last has units 6 and 7.
+
+    Raises
+    ------
+    CompileError
+        A file does not exist, has another ending, does not compile or link, or cannot be loaded.
+    UelError
+        The files of units 6 and 7 cannot be written.
+    """
+    files = [] if user is None else [user] if isinstance(user, Path) else list(user)
+    sanitized = debug and _binding.sanitizing()
+    built = _shared_library(files, _include(deck), zero_locals=zero_locals, debug=debug, sanitized=sanitized)
+    name = _name_of(files)
+    library = Library(
+        name, built.library, _open(built.library, name), Inbox(job, output_dir, rank), sanitized=sanitized
+    )
+    for note in built.notes:
+        library.warn(note)
+    return library
+
+
+def compile_ahead(user: Sequence[Path], *, deck: Path, zero_locals: bool = False, debug: bool = False) -> str:
+    """Compile files for the jobs that follow, which find them in the cache; arguments and CompileError as in `load`.
+
+    Returns a digest of all that the user's files consist of, the same on any machine; '' without files.
+    """
+    if not user:
+        return ""
+    if _is_shared(user):
+        return hashlib.sha256(user[0].read_bytes()).hexdigest()
+    built = _shared_library(user, _include(deck), zero_locals=zero_locals, debug=debug)
+    return hashlib.sha256(f"{digest_of_sources(user, _include(deck))} {built.read}".encode()).hexdigest()
+
+
+def _include(deck: Path | None) -> tuple[Path, ...]:
+    """Folders in which INCLUDE lines are looked up after those of the sources."""
+    return () if deck is None else (deck.resolve().parent,)
+
+
+def _name_of(files: Sequence[Path]) -> str:
+    """Name of the user files in messages."""
+    others = f" and {len(files) - 1} more" if len(files) > 1 else ""
+    return f"{files[0]}{others}" if files else "the project's kernels"
+
+
+def _shared_library(files: Sequence[Path], include: Sequence[Path], **how: bool) -> Built:
+    if not files:
+        return Built(path_of_kernels(), ())
+    return Built(files[0], ()) if _is_shared(files) else build(files, include, **how)
+
+
+def _is_shared(files: Sequence[Path]) -> bool:
+    """Whether the files are a shared library; raises CompileError if they are neither that nor sources."""
+    for file in files:
+        if not file.is_file():
+            raise CompileError(file, "not a file" if file.exists() else "no such file")
+        if file.suffix.lower() not in (*SUFFIXES, ".so"):
+            raise CompileError(file, f"not a file of user routines: expected {', '.join(SUFFIXES)} or .so")
+    if any(file.suffix.lower() == ".so" for file in files):
+        if len(files) > 1:
+            raise CompileError(files[0], "a shared library cannot be combined with other files")
+        return True
+    return False
+
+
+def _open(shared: Path, name: str) -> ctypes.CDLL:
+    """Load a copy, so that data of modules and COMMON blocks start afresh in every job of this process."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Path(folder) / shared.name
+        shutil.copyfile(shared, copy)
+        _binding.set_loading(True)
+        try:
+            return ctypes.CDLL(str(copy), mode=ctypes.RTLD_LOCAL)
+        except OSError as error:
+            raise CompileError(Path(name), undefined_routine(str(error))) from None
+        finally:
+            _binding.set_loading(False)
+
+
+def _address(handle: ctypes.CDLL, entry: str) -> int | None:
+    try:
+        symbol = getattr(handle, entry.lower() + "_")
+    except AttributeError:
+        return None
+    return ctypes.cast(symbol, ctypes.c_void_p).value
