@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pressures on faces of solids, shells and membranes with NLGEOM: they act on the current face, in each iteration.
 
-A block of faces is called as elements are, with its pressures as distributed loads (host/elements/followers.f90).
+A block of faces is called as elements are, with its pressures as distributed loads
+(fortran/host/elements/followers.f90).
 """
 
 from __future__ import annotations
