@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`python -m uel.deck` writes keywords.md from the keyword table."""
+"""Command `python -m uel.deck`: write keywords.md from the keyword table."""
 
 from uel.deck.keywords import MARKDOWN, markdown
 

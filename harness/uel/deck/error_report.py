@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is wrong with a deck, gathered so that one reading reports all of it."""
+"""Collector of the problems of a deck, so that one reading reports all of them."""
 
 from __future__ import annotations
 
@@ -29,20 +29,20 @@ class Problems:
         self._differences: dict[str, None] = {}
 
     def add(self, source: Source, message: str) -> None:
-        """Keep an error."""
+        """Record an error."""
         self._errors.setdefault((source, message), DeckError(source, message))
 
     def warn(self, source: Source, message: str) -> None:
-        """Keep a warning."""
+        """Record a warning."""
         self._warnings.setdefault(f"{source}: {message}")
 
     def differ(self, source: Source, message: str) -> None:
-        """Keep what Abaqus does otherwise with this deck, which does not change this run."""
+        """Record a difference of Abaqus with this deck, which does not change this run."""
         self._differences.setdefault(f"{source}: {message}")
 
     @contextmanager
     def gather(self) -> Iterator[None]:
-        """Keep the DeckError that ends the body, so that reading goes on with the next block."""
+        """Record the DeckError that ends the body, so that reading goes on with the next block."""
         try:
             yield
         except DeckError as error:
@@ -50,7 +50,7 @@ class Problems:
 
     @contextmanager
     def gather_of(self, material: str) -> Iterator[None]:
-        """Keep the DeckError that ends the body as one of a material, which is none if nothing uses the material."""
+        """Record the DeckError that ends the body as one of a material, which counts only if the material is used."""
         try:
             yield
         except DeckError as error:
@@ -70,7 +70,7 @@ class Problems:
 
     @property
     def differences(self) -> tuple[str, ...]:
-        """What Abaqus does otherwise, in the order it came."""
+        """Differences from Abaqus, in the order of their occurrence."""
         return tuple(self._differences)
 
     @property
@@ -89,7 +89,7 @@ class Problems:
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """The ending '; did you mean X?' for a misspelt word, '' where nothing is near."""
+    """Return the ending '; did you mean X?' for a misspelt word, '' if no known word is near."""
     if len(word) > _LONGEST_WORD:
         return ""
     found = difflib.get_close_matches(word, list(known), n=1, cutoff=0.6)
@@ -97,7 +97,7 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
 
 def look_up(known: Mapping[str, Entry], name: str, what: str, source: Source) -> Entry:
-    """Entry of a name; DeckError that names the nearest one."""
+    """Return the entry of a name. Raises DeckError, which suggests the nearest known name."""
     if name not in known:
         raise DeckError(source, f"unknown {what} {name}{nearest(name, known)}")
     return known[name]

@@ -78,7 +78,7 @@ MARKDOWN = Path(__file__).with_name("keywords.md")
 
 
 def markdown() -> str:
-    """Supported keywords with their options, as a document."""
+    """Return the supported keywords with their options as a Markdown page."""
     lines = ["# Supported keywords", ""]
     lines.append(
         "Any other keyword or option of Abaqus is refused with its place in the deck; a misspelt one is named."

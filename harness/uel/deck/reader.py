@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""From a deck to the model: the stages in their order, each reporting all its errors before the next begins."""
+"""Reading of a deck into the model: the stages in order,
+each of which reports all its errors before the next begins.
+"""
 
 from __future__ import annotations
 
@@ -168,7 +170,7 @@ def _check_repetition(root: Sequence[Block], structure: Structure, problems: Pro
 
 
 def survey_deck(path: Path, given: Mapping[str, float] | None = None) -> Survey:
-    """Files and parameters of a deck, without reading what its keywords mean.
+    """Return the files and parameters of a deck, without interpreting its keywords.
 
     Parameters
     ----------
@@ -191,17 +193,19 @@ def survey_deck(path: Path, given: Mapping[str, float] | None = None) -> Survey:
 
 
 def survey_restart(path: Path, given: Mapping[str, float] | None = None) -> RestartRead | None:
-    """*RESTART, READ of a deck, None if it has none. Raises DeckError and UsageError as `read_deck`."""
+    """Return the *RESTART, READ of a deck, None if it has none. Raises DeckError and UsageError as `read_deck`."""
     return find_restart(path, KEYWORDS, given)
 
 
 def part_of(path: Path, given: Mapping[str, float] | None = None, steps: int = 0) -> DeckPart:
-    """A deck as a part of a model; steps: those of earlier decks that stay. Raises DeckError if it cannot be read."""
+    """Return a deck as a part of a model; steps: number of steps kept of earlier decks.
+    Raises DeckError if it cannot be read.
+    """
     return DeckPart(str(path.resolve()), digest_of(path, KEYWORDS, given), dict(given or {}), steps)
 
 
 def _active_dofs(groups: tuple[ElementGroup, ...]) -> frozenset[int]:
-    """Dofs that some element uses."""
+    """Return the dofs that at least one element uses."""
     used: set[int] = set()
     for group in groups:
         used |= dofs_of(group)

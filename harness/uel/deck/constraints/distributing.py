@@ -45,7 +45,7 @@ class AverageMotion:
 
 
 def average_motion(places: FloatArray, weights: FloatArray, reference: FloatArray) -> AverageMotion:
-    """The average motion of nodes; along a direction without inertia theta is zero.
+    """Compute the average motion of nodes; along a direction without inertia theta is zero.
 
     Parameters
     ----------
@@ -72,6 +72,6 @@ def average_motion(places: FloatArray, weights: FloatArray, reference: FloatArra
 
 
 def _cross_matrix(vector: FloatArray) -> FloatArray:
-    """Matrix of v x."""
+    """Return the matrix (3, 3) of the cross product v x."""
     x, y, z = vector
     return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

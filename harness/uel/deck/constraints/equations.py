@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Linear equations between dofs: *EQUATION, and what *MPC, *COUPLING, *RIGID BODY and *TIE stand for.
+"""Linear equations between dofs, from *EQUATION, *MPC, *COUPLING, *RIGID BODY and *TIE.
 
 Equations have small rotations. With NLGEOM, nodes all of whose displacements follow a reference node are arms, which
 turn by any angle in general steps, and *DISTRIBUTING is no equation, so that it does in static ones; what else couples
@@ -37,7 +37,7 @@ Terms = tuple[tuple[int, int, float], ...]
 
 
 class ConstraintReader:
-    """Turns constraints into equations, each of which eliminates a dof of the node that follows."""
+    """Reader of constraints, which turns them into equations. Each equation eliminates a dof of the dependent node."""
 
     def __init__(self, flat: FlatMesh, groups: Sequence[ElementGroup], problems: Problems) -> None:
         self._flat = flat
@@ -61,11 +61,11 @@ class ConstraintReader:
         self.couplings: list[Distributing] = []
 
     def adjust(self) -> None:
-        """Find what ties join, and move nodes by their ADJUST."""
+        """Find the nodes that ties join, and move them by ADJUST."""
         self._ties.find(self._active, self._axisymmetric)
 
     def read(self, boundaries: Sequence[Boundary], steps: Sequence[Step]) -> tuple[Equation, ...]:
-        """Equations of all constraints of the deck; boundaries are those before the first step.
+        """Return the equations of all constraints of the deck; boundaries are those before the first step.
 
         `arms` are those that have finite rotations; `couplings` have them too, and no equations.
         """
@@ -148,7 +148,7 @@ class ConstraintReader:
                 yield from self._mpc_of(kind, nodes, row.source)
 
     def _tuples(self, row: Row, count: int, owner: Owner) -> Iterable[tuple[int, ...]]:
-        """Nodes of the sets, one by one; a single node stands beside a set of any size."""
+        """Pair the nodes of sets one by one; a single node is combined with each node of the other sets."""
         sets = [self._flat.nodes(row.name(k, "node or set"), row.source, owner.name) for k in range(1, count + 1)]
         size = len(sets[0])
         if any(len(nodes) not in (1, size) for nodes in sets):
@@ -178,7 +178,7 @@ class ConstraintReader:
             yield Equation(((node, dof, 1.0), (other, dof, -1.0)), source)
 
     def _follow(self, node: int, reference: int, dofs: Iterable[int], source: Source) -> Iterator[Equation]:
-        """Dofs of a node that moves with the reference node as a rigid body: u = u_ref + theta_ref x r."""
+        """Yield the equations of a node that follows the reference node as a rigid body: u = u_ref + theta_ref x r."""
         if node == reference:
             return
         x, y, z = (float(c) for c in self._points[node] - self._points[reference])
@@ -216,7 +216,7 @@ class ConstraintReader:
         yield from self._follow_all(nodes, self._reference(coupling, owner), chosen, block.source)
 
     def _global(self, chosen: set[int], block: Block, owner: Owner) -> set[int]:
-        """Return the chosen dofs, with a warning where a turned instance would turn some of them into others."""
+        """Return the chosen dofs; warn if they are not all of a group that the turned instance mixes."""
         groups = ({1, 2, 3}, set(ROTATIONS)) if self._solid else ({1, 2},)
         if owner.placement.rotates and chosen and any(0 < len(chosen & group) < len(group) for group in groups):
             dofs = ", ".join(map(str, sorted(chosen)))
@@ -225,7 +225,7 @@ class ConstraintReader:
         return chosen
 
     def _coupled(self, coupling: Block, owner: Owner) -> tuple[IntArray, FloatArray]:
-        """Nodes of *COUPLING, and their tributary areas."""
+        """Return the nodes of *COUPLING, and their tributary areas. Raises DeckError if there are none."""
         nodes, areas = self._surfaces.shares(coupling.options.text("SURFACE"), coupling.source, owner.name)
         reference = self._reference(coupling, owner)
         near = nodes != reference
@@ -267,7 +267,9 @@ class ConstraintReader:
     def _turn_with(
         self, block: Block, reference: int, cloud: tuple[IntArray, FloatArray], turning: int, axes: int
     ) -> None:
-        """Note that nodes with weights turn: so many rotations are coupled, about so many axes there is inertia."""
+        """Record a distributing coupling with finite rotations: so many rotations are coupled, about so many axes there
+        is inertia. Raises DeckError.
+        """
         dimension = 3 if self._solid else 2
         if turning < (3 if self._solid else 1):
             raise block.error("released rotations are not supported with NLGEOM; expected all dofs to be coupled")
@@ -282,7 +284,7 @@ class ConstraintReader:
             yield from self._follow_all(nodes, reference, self._global(_dofs(row, 1), block, owner), row.source)
 
     def _follow_all(self, nodes: IntArray, reference: int, chosen: set[int], source: Source) -> Iterator[Equation]:
-        """All nodes follow, in the dofs chosen, or in all of them."""
+        """Yield the equations of nodes that follow the reference node in the chosen dofs; none chosen: in all."""
         for node in nodes.tolist():
             dofs = sorted(dof for dof in self._active[node] if not chosen or dof in chosen)
             yield from self._follow(node, reference, dofs, source)
@@ -309,7 +311,7 @@ class ConstraintReader:
 
 
 def reference_node(block: Block, owner: Owner, flat: FlatMesh) -> int:
-    """The reference node of a keyword. Raises DeckError."""
+    """Return the reference node of a keyword. Raises DeckError unless it is one node."""
     name = block.options.text("REF NODE")
     nodes = flat.nodes(name, block.source, owner.name)
     if len(nodes) != 1:
@@ -318,7 +320,7 @@ def reference_node(block: Block, owner: Owner, flat: FlatMesh) -> int:
 
 
 def bodies_with_surfaces(flat: FlatMesh) -> Iterator[tuple[Block, Owner, str]]:
-    """Each *RIGID BODY that has an analytical surface, where it is, and the name of the surface."""
+    """Yield each *RIGID BODY that has an analytical surface, its owner, and the name of the surface."""
     for owner in flat.owners:
         for block in owner.blocks:
             if block.name == "RIGID BODY" and block.options.given("ANALYTICAL SURFACE"):
@@ -326,7 +328,7 @@ def bodies_with_surfaces(flat: FlatMesh) -> Iterator[tuple[Block, Owner, str]]:
 
 
 def _held_at_zero(boundaries: Sequence[Boundary], steps: Sequence[Step]) -> dict[int, set[int]]:
-    """Dofs of nodes that are prescribed as zero in each step."""
+    """Return, by node, the dofs that are prescribed as zero in each step."""
     found: set[tuple[int, int]] | None = None
     now: set[tuple[int, int]] = set()
     for entries, new in ((boundaries, False), *((step.boundaries, step.new_boundary) for step in steps)):
@@ -344,12 +346,12 @@ def _held_at_zero(boundaries: Sequence[Boundary], steps: Sequence[Step]) -> dict
 
 
 def _chosen(block: Block) -> set[int]:
-    """Dofs of all data lines; none: all."""
+    """Return the dofs of all data lines; empty stands for all dofs."""
     return set().union(*(_dofs(row, 0) for row in block.rows()))
 
 
 def _dofs(row: Row, start: int) -> set[int]:
-    """Dofs from the first to the last of a data line; none: all."""
+    """Return the dofs from the first to the last of a data line; empty stands for all dofs. Raises DeckError."""
     if row.blank(start):
         return set()
     first = row.integer(start, "first dof")
@@ -360,7 +362,7 @@ def _dofs(row: Row, start: int) -> set[int]:
 
 
 def read_equations(flat: FlatMesh, problems: Problems) -> tuple[Equation, ...]:
-    """Equations of all instances and of the root."""
+    """Read the equations of all instances and of the root."""
     found: list[Equation] = []
     for owner in flat.owners:
         for block in owner.blocks:
@@ -405,7 +407,9 @@ def _read_terms(flat: FlatMesh, owner: Owner, row: Row) -> list[tuple[IntArray, 
 
 
 def _expand(terms: list[tuple[IntArray, int, float]], source: Source) -> list[Equation]:
-    """One equation for each node of the first term; single nodes stand beside sets of any size."""
+    """Expand to one equation for each node of the first term; a single node is combined with sets of any size.
+    Raises DeckError.
+    """
     count = len(terms[0][0])
     if terms[0][2] == 0:
         raise DeckError(source, "*EQUATION: the coefficient of the first term, which is eliminated, is zero")

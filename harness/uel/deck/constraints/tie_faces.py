@@ -46,7 +46,7 @@ class TiedFaces:
 
     @property
     def dimension(self) -> int:
-        """1 of lines, 2 of areas."""
+        """Dimension of the faces: 1 for lines, 2 for areas."""
         return next(iter(self.nodes)).dimension
 
     @property
@@ -72,7 +72,7 @@ class TiedFaces:
 
 
 def read_faces(surfaces: Surfaces, row: Row, column: int, owner: Owner) -> TiedFaces | None:
-    """Read the faces of a surface, None of one of nodes.
+    """Read the faces of a surface, None for a surface of nodes.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ def _family(group: ElementGroup, local: Face) -> Family | None:
 
 
 def _half_thickness(group: ElementGroup) -> float:
-    """Distance of the farther side of conventional shells from their nodes."""
+    """Return the distance of the farther side of conventional shells from their nodes; 0 for other elements."""
     section = group.section
     if not isinstance(group.built_in, ShellType) or not isinstance(section, ShellSection):
         return 0.0

@@ -103,11 +103,11 @@ class _Side:
 
     @property
     def nodes(self) -> IntArray:
-        """(f, k) of the faces; those that have fewer repeat the first one."""
+        """Nodes (f, k) of the faces; faces with fewer repeat the first one."""
         return np.asarray(self.surface.pieces.nodes)
 
     def areas(self, *, round_axis: bool) -> FloatArray:
-        """(f,) lengths or areas of the faces, times the radius of their middle about an axis."""
+        """Return (f,) lengths or areas of the faces; with `round_axis`, multiplied by the radius of their middle."""
         along = self.corners[:, 1:] - self.corners[:, :1]
         if along.shape[1] == 1:
             size = np.linalg.norm(along[:, 0], axis=1)
@@ -118,7 +118,7 @@ class _Side:
         return np.bincount(self.face, size, len(self.affine)).astype(np.float64)
 
     def edge_nodes(self, count: int) -> np.ndarray:
-        """(count,) nodes of the model at which faces meet at an angle."""
+        """Return the mask (count,) of the nodes of the model at which faces meet at an angle."""
         along = self.corners[:, 1:] - self.corners[:, :1]
         if along.shape[1] == 1:
             normals = np.stack([along[:, 0, 1], -along[:, 0, 0]], axis=1)
@@ -137,7 +137,7 @@ class _Side:
         return found
 
     def shapes_at(self, cell: IntArray, points: FloatArray) -> FloatArray:
-        """(p, k) shape functions of the faces at points (p, d), each above a cell (p,)."""
+        """Evaluate the (p, k) shape functions of the faces at points (p, d), each above a cell (p,)."""
         corners, face = self.corners[cell], self.face[cell]
         along = corners[:, 1:] - corners[:, :1]
         parts, left = np.zeros(along.shape[:2]), points - corners[:, 0]
@@ -238,7 +238,7 @@ def surface_weights(
 
 
 def _moves(integral: FloatArray, edge: np.ndarray, other: np.ndarray) -> FloatArray:
-    """Return the parts (f, k, k) of the weights of edge nodes that each node of a face takes over.
+    """Return the parts (f, k, k) of the weights of edge nodes that each node of a face receives.
 
     A node at which faces meet at an edge has a force of each of them, which one row of weights cannot pass on to both
     sides: it follows its nearest point. What a face misses by that, which is zero for linear displacements, goes to its
@@ -251,7 +251,7 @@ def _moves(integral: FloatArray, edge: np.ndarray, other: np.ndarray) -> FloatAr
 
 
 def _common(own: _Side, others: _Side, pairs: IntArray, *, round_axis: bool) -> tuple[np.ndarray, ...]:
-    """Integrate over what pairs (2, p) of cells have in common.
+    """Integrate over the common parts of pairs (2, p) of cells.
 
     Returns
     -------
@@ -280,7 +280,7 @@ def _common(own: _Side, others: _Side, pairs: IntArray, *, round_axis: bool) -> 
 
 
 def _rounded(weights: sparse.csr_array) -> sparse.csr_array:
-    """Leave out weights that are rounding, and make the sum of the others 1 again."""
+    """Remove weights that are rounding, and scale the others to a sum of 1."""
     weights.data[np.abs(weights.data) <= SMALL] = 0.0
     weights.eliminate_zeros()
     total = weights.sum(axis=1)
@@ -307,7 +307,7 @@ def _near(own: _Side, others: _Side, tolerance: float) -> IntArray:
 
 
 def _common_lines(lines: FloatArray, others: FloatArray, rule: int) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Return Gauss points of what pairs of lines (p, 2, d) have in common: row of the pair, place (g, d), weight."""
+    """Return Gauss points of the common parts of pairs of lines (p, 2, d): row of the pair, place (g, d), weight."""
     along = lines[:, 1] - lines[:, 0]
     length = np.einsum("pd,pd->p", along, along)
     ends = np.einsum("pkd,pd->pk", others - lines[:, :1], along) / length[:, None]
@@ -324,7 +324,7 @@ def _common_lines(lines: FloatArray, others: FloatArray, rule: int) -> tuple[Int
 
 
 def _common_triangles(cells: FloatArray, others: FloatArray, rule: int) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Return Gauss points of what pairs of triangles (p, 3, 3) have in common in the plane of the first ones."""
+    """Return Gauss points of the common parts of pairs of triangles (p, 3, 3), in the plane of the first ones."""
     first, normal = cells[:, 1] - cells[:, 0], np.cross(cells[:, 1] - cells[:, 0], cells[:, 2] - cells[:, 0])
     facing = np.cross(others[:, 1] - others[:, 0], others[:, 2] - others[:, 0])
     size = np.linalg.norm(normal, axis=1) * np.linalg.norm(facing, axis=1)

@@ -67,12 +67,12 @@ class _Sector:
     angle: float
 
     def turn(self, sign: int) -> FloatArray:
-        """(3, 3) to the next sector, or back."""
+        """Return the rotation (3, 3) to the next sector, or back for sign -1."""
         turned = rotation_matrices(sign * self.angle * self.axis[None])[0]
         return np.where(np.abs(turned) <= ROUNDING, 0.0, turned)
 
     def distances(self, places: FloatArray) -> FloatArray:
-        """(n,) of places from the axis."""
+        """Return the distances (n,) of points from the axis."""
         return np.asarray(np.linalg.norm(np.cross(places - self.point, self.axis), axis=1))
 
 
@@ -109,17 +109,17 @@ class _Tie:
 
 
 class TieReader:
-    """Turns *TIE into equations."""
+    """Reader of *TIE, which turns it into equations."""
 
     def __init__(self, flat: FlatMesh, surfaces: Surfaces, solid: bool, problems: Problems) -> None:
-        """solid: the model is in space."""
+        """Prepare the reader; solid: the model is three-dimensional."""
         self._flat, self._surfaces, self._solid, self._problems = flat, surfaces, solid, problems
         self._points = flat.mesh.coordinates
         self._sector: _Sector | None = None
         self._found: dict[Source, list[_Tie]] = {}
 
     def find(self, active: Sequence[frozenset[int]], axisymmetric: np.ndarray) -> None:
-        """Find what all ties of the deck join, and move nodes by ADJUST.
+        """Find the nodes that all ties of the deck join, and move them by ADJUST.
 
         Parameters
         ----------
@@ -151,7 +151,7 @@ class TieReader:
         return [block for owner in self._flat.owners for block in owner.blocks if block.name == name]
 
     def _find_sector(self) -> None:
-        """Take *CYCLIC SYMMETRY MODEL."""
+        """Read *CYCLIC SYMMETRY MODEL. Raises DeckError."""
         cyclic = [block for block in self._blocks("TIE") if block.options.flag("CYCLIC SYMMETRY")]
         models = self._blocks("CYCLIC SYMMETRY MODEL")
         if models and not cyclic:
@@ -178,7 +178,7 @@ class TieReader:
         return _Sector(first, axis, 2.0 * np.pi / count)
 
     def read(self, block: Block, held: dict[int, set[int]], *, nlgeom: bool) -> Iterator[Equation]:
-        """Equations of the ties of a keyword, after `find`.
+        """Yield the equations of the ties of a keyword, after `find`.
 
         Parameters
         ----------
@@ -218,7 +218,9 @@ class TieReader:
                 self._problems.warn(tie.row.source, f"*TIE: {message}")
 
     def _row(self, tie: _Tie, k: int, dof: int, *, exactly: bool) -> tuple[list[int], list[float]] | None:
-        """Nodes that the k-th secondary node follows in a dof, and their weights; None where they do not have it."""
+        """Return the nodes that the k-th secondary node follows in a dof, and their weights;
+        None if they lack that dof.
+        """
         ways = (tie.weights,) if tie.corners is None or dof in tie.whole else (tie.corners, tie.weights)
         for weights in ways:
             matrix = weights.nearest if exactly else weights.means
@@ -229,7 +231,7 @@ class TieReader:
         return None
 
     def _arms(self, dof: int, nodes: Sequence[int], shares: Sequence[float], offset: FloatArray) -> list[Term]:
-        """Terms of theta x offset in a displacement, where the main surface has rotations."""
+        """Return the terms of theta x offset in a displacement if the main surface has rotations, else none."""
         if dof > 3 or not offset.any() or not all(self._active[node] >= {4, 5, 6} for node in nodes):
             return []
         one, two = dof % 3, (dof + 1) % 3
@@ -239,7 +241,7 @@ class TieReader:
         ]
 
     def _terms(self, dof: int, nodes: Sequence[int], shares: Sequence[float], turn: FloatArray | None) -> list[Term]:
-        """Those of the nodes that a dof follows."""
+        """Return the terms of the nodes that a dof follows, rotated by `turn`."""
         own = [(dof, 1.0)]
         if turn is not None and dof <= ROTATIONS[-1]:
             base = 0 if dof < ROTATIONS[0] else ROTATIONS[0] - 1
@@ -252,7 +254,9 @@ class TieReader:
         ]
 
     def _on_axis(self, tie: _Tie) -> Iterator[Equation]:
-        """Nodes of both sides of a sector move along the axis, and turn about it: u_j = (n_j/n_k) u_k."""
+        """Yield the equations of nodes on both sides of a sector: they move along the axis, and turn about it:
+        u_j = (n_j/n_k) u_k.
+        """
         if not len(tie.both):
             return
         assert self._sector is not None
@@ -269,7 +273,7 @@ class TieReader:
                     yield Equation(((node, dof, 1.0), *terms), tie.row.source)
 
     def _find(self, block: Block, owner: Owner) -> list[_Tie]:
-        """Find what each data line of *TIE joins."""
+        """Find the nodes that each data line of *TIE joins."""
         if block.options.flag("CYCLIC SYMMETRY") and self._sector is None:
             # the sector is wrong, which is known
             return []
@@ -341,7 +345,7 @@ class TieReader:
             self._problems.warn(row.source, f"*TIE: {message}")
 
     def _turned(self, main: IntArray, turn: FloatArray | None) -> FloatArray:
-        """(n, 3) coordinates, with those of the main surface in the next sector."""
+        """Return (n, 3) coordinates, those of the main surface rotated into the next sector."""
         places = self._points.copy()
         if turn is not None and self._sector is not None:
             places[main] = (places[main] - self._sector.point) @ turn.T + self._sector.point
@@ -350,7 +354,7 @@ class TieReader:
     def _nearest(
         self, second: IntArray, main: IntArray, faces: TiedFaces | None, places: FloatArray
     ) -> tuple[sparse.csr_array, FloatArray]:
-        """Weights (m, n) of the points of the main surface nearest to nodes, and distances (m,) from them."""
+        """Return weights (m, n) of the points of the main surface nearest to nodes, and distances (m,) from them."""
         points, m, n = self._points[second], len(second), len(places)
         if faces is None:
             distance, found = _search_tree(places[main]).query(points)
@@ -372,7 +376,7 @@ class TieReader:
         places: FloatArray,
         reach: float,
     ) -> _Weights:
-        """Weights of nodes that are tied, with those of their nearest points."""
+        """Return the weights of tied nodes, with those of their nearest points."""
         row, second, nearest = tied
         own, faces = sides
         if block.options.text("TYPE") == "NODE TO SURFACE" or own is None or faces is None:
@@ -396,7 +400,7 @@ class TieReader:
 
 
 def _spacing(points: FloatArray) -> float:
-    """Mean distance of a point to the one nearest to it; 1 for a single point."""
+    """Return the mean distance of a point to its nearest neighbour; 1 for a single point."""
     if len(points) == 1:
         return 1.0
     distance, _ = _search_tree(points).query(points, k=2)
@@ -404,7 +408,7 @@ def _spacing(points: FloatArray) -> float:
 
 
 def _search_tree(points: FloatArray) -> cKDTree:
-    """Finds the points (n, 3) that are nearest to others."""
+    """Build a search tree of points (n, 3)."""
     from scipy.spatial import cKDTree  # noqa: PLC0415 (takes 0.2 s, and few decks have ties)
 
     return cKDTree(points)

@@ -20,9 +20,11 @@ from uel.model.arrays import FloatArray, IntArray
 CANDIDATES: Final = 12
 """Faces that are tried for a node: those nearest to it."""
 STEPS: Final = 25
-"""Of Newton's method, for the anchor point on a face."""
+"""Most iterations of Newton's method for the anchor point on a face."""
 EDGE: Final = 1e-6
-"""How far beyond the edge of a face, whose natural coordinates go from -1 to 1, a point is on it: rounding."""
+"""Distance beyond the edges of a face, whose natural coordinates go from -1 to 1,
+at which a point still counts as on it: rounding.
+"""
 EQUAL: Final = 1e-9
 """Difference of clearances, over the size of a face, that counts as none."""
 CHUNK: Final = 2**22
@@ -57,7 +59,7 @@ def find_anchors(
     *,
     along: bool = False,
 ) -> Anchors:
-    """Anchor points of nodes.
+    """Find the anchor points of nodes on the main surface.
 
     Parameters
     ----------
@@ -92,7 +94,7 @@ def find_anchors(
 
 
 def nodal_normals(faces: Sequence[tuple[IntArray, FloatArray]], coordinates: FloatArray) -> FloatArray:
-    """(n, 3) mean of the normals of the faces at each node, of length one; zero at the other nodes."""
+    """Return (n, 3) mean unit normals of the faces at each node; zero at the other nodes."""
     nodal = np.zeros_like(coordinates)
     for nodes, normals in faces:
         for corner in nodes.T:
@@ -112,7 +114,7 @@ def _improve(
     *,
     along: bool,
 ) -> None:
-    """Take over the anchor points on faces of one kind that are nearer than those so far."""
+    """Update the anchor points by those on faces of one kind that are nearer."""
     points, looks = given
     centres = corners.mean(axis=1)
     sizes = np.linalg.norm(corners - centres[:, None], axis=2).max(axis=1)
@@ -153,8 +155,8 @@ def _improve(
 
 
 def _project(points: FloatArray, corners: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Natural coordinates (m, c, 1 or 2) of anchor points and distances (m, c) in multiples of the interpolated
-    normals: X(place) + distance N(place) = point, by Newton's method.
+    """Return natural coordinates (m, c, 1 or 2) of anchor points and distances (m, c) in multiples of the interpolated
+    normals. Newton's method solves X(place) + distance N(place) = point.
     """
     pairs, count = corners.shape[:2], corners.shape[2]
     along = 1 if count == 2 else 2
@@ -190,7 +192,7 @@ def _project(points: FloatArray, corners: FloatArray, normals: FloatArray) -> tu
 
 
 def shape_functions(place: FloatArray, count: int) -> FloatArray:
-    """Shape functions (..., corners) of lines, triangles and quadrilaterals."""
+    """Evaluate the shape functions (..., corners) of lines, triangles or quadrilaterals."""
     if count == 2:
         return 0.5 * np.stack([1 - place[..., 0], 1 + place[..., 0]], axis=-1)
     x, y = place[..., 0], place[..., 1]
@@ -200,7 +202,7 @@ def shape_functions(place: FloatArray, count: int) -> FloatArray:
 
 
 def natural_gradients(place: FloatArray, count: int) -> FloatArray:
-    """Their derivatives (..., corners, 1 or 2) by the natural coordinates."""
+    """Evaluate the derivatives (..., corners, 1 or 2) of the shape functions by the natural coordinates."""
     if count == 2:
         return np.broadcast_to(np.array([[-0.5], [0.5]]), (*place.shape[:-1], 2, 1))
     if count == 3:

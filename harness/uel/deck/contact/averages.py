@@ -45,7 +45,7 @@ class Averages:
 
 
 def average(secondary: Faces, main: Faces, depth: FloatArray, coordinates: FloatArray) -> tuple[Averages, FloatArray]:
-    """Mean clearances of the nodes of a surface, and the areas that belong to them.
+    """Compute the mean clearances of the nodes of a surface, and their tributary areas.
 
     Parameters
     ----------
@@ -83,7 +83,9 @@ def average(secondary: Faces, main: Faces, depth: FloatArray, coordinates: Float
 def _points(
     faces: IntArray, normals: FloatArray, main: Faces, coordinates: FloatArray
 ) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Integration points of faces of one kind: their face, natural coordinates (p, 1 or 2), and length or area."""
+    """Return the integration points of faces of one kind: their face, natural coordinates (p, 1 or 2),
+    and length or area.
+    """
     corners = faces.shape[1]
     if corners == 2:
         return _on_lines(faces, normals, main, coordinates)
@@ -105,7 +107,7 @@ def _points(
 def _on_lines(
     faces: IntArray, normals: FloatArray, main: Faces, coordinates: FloatArray
 ) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Gauss points of the segments into which nodes of the main surface cut lines."""
+    """Return the Gauss points of the segments into which the nodes of the main surface cut lines."""
     cutting = np.unique(np.concatenate([nodes.ravel() for nodes, _ in main]))
     looks = nodal_normals(main, coordinates)[cutting]
     cuts = find_anchors(coordinates[cutting], looks, [(faces, normals)], coordinates)
@@ -128,7 +130,7 @@ def _on_lines(
 
 
 def _products(left: IntArray, by: FloatArray, right: IntArray, values: FloatArray, size: int) -> sparse.csr_array:
-    """Sum over points of the products of functions of nodes on the left (p, k) and on the right (p, l)."""
+    """Sum over points the products of functions of nodes on the left (p, k) and on the right (p, l)."""
     rows = np.repeat(left, right.shape[1], axis=1).ravel()
     columns = np.tile(right, (1, left.shape[1])).ravel()
     entries = (by[:, :, None] * values[:, None]).ravel()
@@ -136,7 +138,7 @@ def _products(left: IntArray, by: FloatArray, right: IntArray, values: FloatArra
 
 
 def _rows(shares: sparse.csr_array, own: IntArray, areas: FloatArray) -> tuple[IntArray, FloatArray]:
-    """Nodes and shares of each node of the surface: itself first, then the others, itself again without share."""
+    """Return nodes and shares of each node of the surface: itself, the others, then itself with zero shares."""
     chosen = shares[own]
     counts = np.diff(chosen.indptr)
     rows = np.repeat(np.arange(len(own)), counts)
@@ -150,7 +152,7 @@ def _rows(shares: sparse.csr_array, own: IntArray, areas: FloatArray) -> tuple[I
 
 
 def _slopes(places: FloatArray, ours: np.ndarray, normals: FloatArray, *, lines: bool) -> FloatArray:
-    """Weights of the nodes of the surface (ours) in its tangents: those of the plane that fits them best."""
+    """Return the weights of the nodes of the surface (ours) in its tangents: those of the best-fit plane."""
     directions = _directions(normals, lines=lines)
     weight = ours.astype(np.float64)
     centre = np.einsum("mn,mnd->md", weight, places) / np.maximum(weight.sum(axis=1), 1.0)[:, None]
@@ -160,7 +162,7 @@ def _slopes(places: FloatArray, ours: np.ndarray, normals: FloatArray, *, lines:
 
 
 def _directions(normals: FloatArray, *, lines: bool) -> FloatArray:
-    """(m, 1 or 2, 3) unit vectors that are normal to the normals, and to each other."""
+    """Return (m, 1 or 2, 3) unit vectors perpendicular to the normals and to each other."""
     if lines:
         return np.stack([-normals[:, 1], normals[:, 0], normals[:, 2]], axis=1)[:, None]
     # the axis least like the normal

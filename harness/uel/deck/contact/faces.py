@@ -30,7 +30,7 @@ from uel.model.element_types import (
 from uel.model.mesh import ElementGroup
 
 _SIDES = 8
-"""At least as many as an element has."""
+"""Stride between the face numbers of elements: at least as many as an element has sides."""
 
 
 class ContactFaces:
@@ -41,7 +41,7 @@ class ContactFaces:
         self._starts = np.cumsum([0, *(len(group.labels) for group in groups)])
 
     def of_surface(self, name: str, source: Source) -> IntArray:
-        """Faces of a surface, ascending. Raises DeckError."""
+        """Return the faces of a surface, ascending. Raises DeckError."""
         kind = self._surfaces.kind(name, source)
         if kind != "ELEMENT":
             message = (
@@ -55,8 +55,8 @@ class ContactFaces:
         return np.unique(np.concatenate(found))
 
     def exterior(self) -> IntArray:
-        """Faces of solids that no other solid or cohesive element shares, of shells, and both sides of rigid elements,
-        ascending.
+        """Return the exterior faces, ascending: those of solids that no other solid or cohesive element shares, those
+        of shells, and both sides of rigid elements.
         """
         covering = [
             (k, side, np.sort(group.nodes[:, list(local)], axis=1))
@@ -95,7 +95,7 @@ class ContactFaces:
         )
 
     def bodies(self, faces: IntArray) -> tuple[IntArray, IntArray]:
-        """(f,) body of each face, numbered from 1 by their first elements, and (f,) 1 where it is rigid.
+        """Return (f,) body of each face, numbered from 1 by their first elements, and (f,) 1 where it is rigid.
 
         Elements that share nodes are one body; those of beams, trusses, springs and the like connect none.
         """
@@ -117,7 +117,7 @@ class ContactFaces:
         return bodies, rigid
 
     def facets(self, faces: IntArray, place: Source) -> Iterator[Facets]:
-        """Faces as `Surfaces.facets` has them; place: in the deck, for messages."""
+        """Yield the faces as `Surfaces.facets` does; place: in the deck, for messages."""
         for k, chosen in self._by_group(faces):
             sides = faces[chosen] % _SIDES
             for side in np.unique(sides).tolist():
@@ -137,7 +137,7 @@ class ContactFaces:
 
 
 def _sides_of(group: ElementGroup) -> list[Face]:
-    """Faces of elements by their local nodes; of shells and rigid elements the two sides, then edges."""
+    """Return the faces of elements by their local nodes; of shells and rigid elements the two sides, then edges."""
     kind = group.built_in
     if isinstance(kind, SolidType):
         return list(kind.family.faces)

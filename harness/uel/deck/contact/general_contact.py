@@ -29,7 +29,7 @@ from uel.model.contact import ContactProperty, SurfacePair
 from uel.model.mesh import ElementGroup
 
 EVERYTHING = ""
-"""Stands for the whole domain of the contact where a data line leaves out a surface."""
+"""Name of the whole contact domain, for a data line that leaves out a surface."""
 
 EXTERIOR = "ALL EXTERIOR"
 """The surface of all exterior faces."""
@@ -43,7 +43,7 @@ MAIN, SECONDARY = ("MAIN", "MASTER"), ("SECONDARY", "SLAVE")
 
 @dataclass(frozen=True, slots=True)
 class _Line:
-    """A data line: two surfaces, and what is assigned."""
+    """Data line of two surfaces and the value that it assigns."""
 
     first: str
     second: str
@@ -51,11 +51,11 @@ class _Line:
     source: Source
 
     def holds(self, one: _Class, other: _Class) -> bool:
-        """Whether the one class is in its first surface, and the other one in its second."""
+        """Return whether the first class is in the first surface, and the other one in the second."""
         return self.first in one.surfaces and self.second in other.surfaces
 
     def about(self, one: _Class, other: _Class) -> bool:
-        """Whether it is about contact between two classes."""
+        """Return whether the line is about contact between two classes."""
         return self.holds(one, other) or self.holds(other, one)
 
 
@@ -78,7 +78,7 @@ class _Start:
 
 
 class GeneralContact:
-    """Reads *CONTACT; nodes that overlap at the start are moved in the mesh."""
+    """Reader of *CONTACT. Moves nodes that overlap at the start in the mesh."""
 
     def __init__(
         self, flat: FlatMesh, groups: Sequence[ElementGroup], interactions: Interactions, problems: Problems
@@ -89,7 +89,7 @@ class GeneralContact:
         self._regions: tuple[Region, ...] = ()
 
     def read(self, blocks: Sequence[Block]) -> tuple[SurfacePair, ...]:
-        """Pairs of the general contact that root blocks of a deck define."""
+        """Return the contact pairs of the general contact that root blocks of a deck define."""
         found: list[SurfacePair] = []
         with self._problems.gather():
             domain = _blocks_of(blocks)
@@ -156,7 +156,7 @@ class GeneralContact:
         ]
 
     def _constrained(self, blocks: Sequence[Block]) -> Iterator[_Line]:
-        """Surfaces of contact pairs and ties, which have constraints of their own: no general contact."""
+        """Yield the surfaces of contact pairs and ties as exclusions: they have constraints of their own."""
         for block in blocks:
             for row in block.rows() if block.name in ("CONTACT PAIR", "TIE") else ():
                 if not row.blank(0) and not row.blank(1):
@@ -166,7 +166,7 @@ class GeneralContact:
                         yield _Line(*names, "", row.source)
 
     def _check_inclusions(self, inclusions: Sequence[_Line], classes: Sequence[_Class]) -> None:
-        """A line between surfaces of the same body alone is an error; otherwise that part of it is left out."""
+        """Raise DeckError for a line that only pairs surfaces of one body; warn if this holds for a part of it."""
         for line in inclusions:
             bodies = {(one.body, other.body) for one in classes for other in classes if line.holds(one, other)}
             if not any(one != other for one, other in bodies):
@@ -207,7 +207,7 @@ class GeneralContact:
 
 
 def _blocks_of(blocks: Sequence[Block]) -> list[Block]:
-    """*CONTACT and the keywords that belong to it."""
+    """Return *CONTACT and the keywords that belong to it."""
     found: list[Block] = []
     for block in blocks:
         if block.name == "CONTACT":
@@ -260,7 +260,7 @@ def _touches(lines: dict[str, list[_Line]], one: _Class, other: _Class) -> bool:
 
 
 def _is_secondary(roles: Sequence[_Line], one: _Class, other: _Class) -> bool:
-    """Whether the one class is secondary: rigid ones are main, then that of the body with the lower number."""
+    """Return whether the first class is secondary: rigid classes are main, then roles decide, then the body number."""
     if one.rigid or other.rigid:
         return not one.rigid
     found = one.body > other.body
@@ -272,7 +272,7 @@ def _is_secondary(roles: Sequence[_Line], one: _Class, other: _Class) -> bool:
 
 
 def _last(lines: Sequence[_Line], one: _Class, other: _Class) -> str:
-    """What the last line that is about two classes assigns, '' for nothing."""
+    """Return the value of the last line about two classes, '' if there is none."""
     return next((line.value for line in reversed(lines) if line.about(one, other)), "")
 
 

@@ -39,7 +39,9 @@ class Interactions:
                     raise block.error("does not follow *SURFACE INTERACTION")
 
     def find(self, name: str, source: Source) -> ContactProperty:
-        """The property of this name. Raises DeckError where there is none, or something in it is not supported."""
+        """Return the contact property of this name.
+        Raises DeckError if it does not exist, or has something unsupported.
+        """
         if name not in self._given:
             raise DeckError(source, f"unknown surface interaction {name}{nearest(name, self._given)}")
         if name not in self._read:
@@ -156,7 +158,7 @@ def _read_cohesion(block: Block) -> Cohesion:
 
 
 def _extend_cohesion(found: Cohesion | None, block: Block) -> Cohesion:
-    """With what a keyword of the damage says."""
+    """Return the cohesive behavior with the damage data of a keyword added. Raises DeckError."""
     if found is None:
         raise block.error("does not follow *COHESIVE BEHAVIOR")
     return replace(found, damage=extend_damage(found.damage, block, OF_SURFACES))

@@ -52,7 +52,7 @@ class _Points:
 
 
 class ContactReader:
-    """Reads contact pairs; nodes that ADJUST moves are moved in the mesh."""
+    """Reader of contact pairs. Moves nodes in the mesh as ADJUST demands."""
 
     def __init__(
         self,
@@ -72,7 +72,7 @@ class ContactReader:
         self._smoothings = read_smoothings(blocks, self._sides.surfaces, problems)
 
     def read(self) -> tuple[ContactPair | SlidingPair, ...]:
-        """All pairs of the deck."""
+        """Return all contact pairs of the deck."""
         found: list[ContactPair | SlidingPair] = []
         for owner in self._flat.owners:
             for block in owner.blocks:
@@ -146,7 +146,7 @@ class ContactReader:
     def _against_rigid(
         self, block: Block, row: Row, owner: Owner, rigid: RigidProfile, surface: ContactProperty
     ) -> SlidingPair:
-        """A pair with an analytical rigid surface."""
+        """Build a pair with an analytical rigid surface. Raises DeckError."""
         secondary, main = row.name(0, "secondary surface"), row.name(1, "main surface")
         if block.options.given("GEOMETRIC CORRECTION"):
             raise block.error(f"GEOMETRIC CORRECTION: the analytical rigid surface {main} has no faces")
@@ -169,7 +169,7 @@ class ContactReader:
     def _surface_sliding(
         self, block: Block, row: Row, owner: Owner, sides: tuple[Side, Side], surface: ContactProperty
     ) -> SurfacePair:
-        """A pair of surface to surface in finite sliding."""
+        """Build a surface-to-surface pair in finite sliding. Raises DeckError."""
         check_corners(sides[1], self._flat.mesh, row)
         name = f"({row.name(0, 'secondary surface')},{row.name(1, 'main surface')})"
         smoothing, regions = block.options.text("GEOMETRIC CORRECTION"), tuple[Region, ...]()
@@ -190,7 +190,7 @@ class ContactReader:
         main: Pieces | RigidProfile,
         surface: ContactProperty,
     ) -> SlidingPair:
-        """A pair in finite sliding."""
+        """Build a node-to-surface pair in finite sliding."""
         pair = SlidingPair(
             name=f"({row.name(0, 'secondary surface')},{row.name(1, 'main surface')})",
             property=surface,
@@ -210,7 +210,7 @@ class ContactReader:
     def _adjust_sliding(
         self, block: Block, pair: SlidingPair, start: tuple[np.ndarray, FloatArray, FloatArray], owner: Owner
     ) -> None:
-        """Move nodes by ADJUST; start: which of them can touch, clearances, and normals."""
+        """Move nodes by ADJUST; start: mask of those that can touch, clearances, and normals."""
         found, clearances, normals = start
         normals = np.pad(normals, ((0, 0), (0, 3 - pair.dimension)))
         self._adjust(block, pair.secondary, (found, clearances, normals), owner)
@@ -245,7 +245,9 @@ class ContactReader:
     def _adjust(
         self, block: Block, nodes: IntArray, start: tuple[np.ndarray, FloatArray, FloatArray], owner: Owner
     ) -> np.ndarray:
-        """Which nodes (m,) ADJUST moves onto the main surface; start: which of them it faces, clearances, normals."""
+        """Move nodes onto the main surface as ADJUST demands, and return the mask (m,) of them; start: mask of the
+        nodes that face the main surface, their clearances and normals.
+        """
         options, (found, clearances, normals) = block.options, start
         if not options.given("ADJUST"):
             return np.zeros(len(nodes), dtype=np.bool_)
@@ -264,7 +266,7 @@ class ContactReader:
 
 
 def _smoothing(block: Block) -> tuple[float, float]:
-    """SMOOTH and EXTENSION ZONE."""
+    """Read SMOOTH and EXTENSION ZONE. Raises DeckError outside their ranges."""
     smooth, zone = block.options.real("SMOOTH", SMOOTH), block.options.real("EXTENSION ZONE", EXTENSION)
     if not 0.0 <= smooth < 0.5:
         raise block.error(f"SMOOTH={smooth:g} must be at least 0 and less than 0.5")
@@ -274,7 +276,7 @@ def _smoothing(block: Block) -> tuple[float, float]:
 
 
 def _at_nodes(side: Side, anchors: Anchors) -> _Points:
-    """Points of node to surface contact."""
+    """Return the points of node-to-surface contact."""
     count = len(side.nodes)
     return _Points(
         anchors.found,
@@ -288,7 +290,7 @@ def _at_nodes(side: Side, anchors: Anchors) -> _Points:
 
 
 def check_contact(pairs: Sequence[ContactPair | SlidingPair], steps: Sequence[Step], problems: Problems) -> None:
-    """What contact pairs cannot be used with is an error of the step."""
+    """Add an error to each step that uses something unsupported with contact pairs."""
     if not pairs:
         return
     for step in steps:

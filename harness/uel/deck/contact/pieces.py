@@ -27,7 +27,7 @@ _TRIANGLE = np.array([[1, -1, -1, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 0]],
 
 
 def wound(faces: Faces, coordinates: FloatArray) -> list[IntArray]:
-    """Faces of each kind by their corners, in the order in which their outward normals follow from their tangents."""
+    """Return the corners of faces of each kind, ordered so that the outward normals follow from the tangents."""
     found = []
     for nodes, normals in faces:
         own = face_normals(coordinates[nodes])
@@ -37,7 +37,7 @@ def wound(faces: Faces, coordinates: FloatArray) -> list[IntArray]:
 
 
 def face_normals(corners: FloatArray) -> FloatArray:
-    """Normals (f, 3) of faces (f, corners, 3) by the order of their corners, not of length one."""
+    """Return normals (f, 3) of faces (f, corners, 3) by the order of their corners, not normalized."""
     if corners.shape[1] == 2:
         return np.pad(normals_of(corners[..., :2]), ((0, 0), (0, 1)))
     return normals_of(corners)
@@ -50,7 +50,7 @@ def make_pieces(
     zone: float,
     corners: Sequence[IntArray] | None = None,
 ) -> Pieces:
-    """Pieces of a surface.
+    """Build the pieces of a surface.
 
     Parameters
     ----------
@@ -72,7 +72,9 @@ def make_pieces(
 
 
 def whole_pieces(faces: Mapping[Family, IntArray]) -> Pieces:
-    """Pieces of a surface that is not smoothed and has no edges: of each family of faces their nodes (f, k)."""
+    """Build the pieces of a surface that is not smoothed and has no edges, from the nodes (f,
+    k) of each family of faces.
+    """
     width = max(family.nodes for family in faces)
     along = next(iter(faces)).dimension
     # those that have nodes fewer repeat the first one
@@ -96,7 +98,7 @@ def whole_pieces(faces: Mapping[Family, IntArray]) -> Pieces:
 
 
 def _coefficients(family: Family, count: int) -> FloatArray:
-    """(k, k) coefficients of the first k monomials in the shape functions of a face, each one at its own node."""
+    """Return (k, k) coefficients of the first k monomials in the shape functions of a face, one row per node."""
     if family.dimension == 1:
         corners = np.array([[-1.0], [1.0]])
     elif family.corners == 3:
@@ -141,7 +143,7 @@ def _of_lines(lines: IntArray, ends: IntArray, coordinates: FloatArray, smooth: 
 
 
 def filled(faces: Sequence[IntArray]) -> IntArray:
-    """Corners (p, 4) of triangles and quadrilaterals, or (p, 3) of lines, as `Pieces` has the nodes of them."""
+    """Return corners (p, 4) of triangles and quadrilaterals, or (p, 3) of lines, padded as the nodes of `Pieces`."""
     if faces[0].shape[1] == 2:
         return np.asarray(faces[0][:, [0, 1, 1]])
     return np.concatenate([np.pad(part, ((0, 0), (0, 4 - part.shape[1])), mode="edge") for part in faces])
@@ -179,7 +181,7 @@ def _of_areas(faces: Sequence[IntArray], corners: Sequence[IntArray], zone: floa
 
 
 def _ring(nodes: IntArray) -> IntArray:
-    """(p, r) pieces that share a node with a piece, and itself, repeated to fill a row."""
+    """Return (p, r) the pieces that share a node with a piece, including itself, repeated to fill a row."""
     p, k = nodes.shape
     of_node = sparse.csr_array((np.ones(p * k, dtype=np.bool_), (np.repeat(np.arange(p), k), nodes.ravel())))
     shared = sparse.csr_array(of_node @ of_node.T)

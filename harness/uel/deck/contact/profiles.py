@@ -46,7 +46,7 @@ class _Way:
 
 
 def find_profile(name: str, source: Source, owner: str, flat: FlatMesh, surfaces: Surfaces) -> RigidProfile | None:
-    """An analytical rigid surface, None for another one. Raises DeckError."""
+    """Return the analytical rigid surface of this name, None for a surface of another type. Raises DeckError."""
     found = surfaces.profile(name, source, owner)
     if found is None:
         return None
@@ -58,7 +58,7 @@ def find_profile(name: str, source: Source, owner: str, flat: FlatMesh, surfaces
 
 
 def _reference(surface: Block, name: str, source: Source, flat: FlatMesh, surfaces: Surfaces) -> int:
-    """The reference node of the rigid body that has the surface."""
+    """Return the reference node of the rigid body that has the surface. Raises DeckError if none has it."""
     for body, owner, own in bodies_with_surfaces(flat):
         if surfaces.locate(own, body.source, owner.name)[1] is surface:
             return reference_node(body, owner, flat)
@@ -66,7 +66,7 @@ def _reference(surface: Block, name: str, source: Source, flat: FlatMesh, surfac
 
 
 def reference_dofs(flat: FlatMesh) -> frozenset[int]:
-    """Dofs of the reference nodes of analytical rigid surfaces; none where there are none."""
+    """Return the dofs of the reference nodes of analytical rigid surfaces; empty without such surfaces."""
     return frozenset(RigidSurface.dofs if any(True for _ in bodies_with_surfaces(flat)) else ())
 
 
@@ -104,7 +104,7 @@ def _check_arc(start: FloatArray, end: FloatArray, centre: FloatArray, row: Row)
 
 
 def _filleted(ways: list[_Way], radius: float, block: Block) -> list[_Way]:
-    """With arcs of this radius between lines that meet at an angle."""
+    """Insert arcs of this radius between lines that meet at an angle. Raises DeckError."""
     found = [ways[0]]
     for way in ways[1:]:
         before = found[-1]
@@ -127,7 +127,7 @@ def _filleted(ways: list[_Way], radius: float, block: Block) -> list[_Way]:
 
 
 def _profile(ways: list[_Way], reference: int) -> RigidProfile:
-    """From the end to the start the outward normal is on the right, as of all main surfaces."""
+    """Build the profile, reversed so that the outward normal is on the right, as on all main surfaces."""
     count = len(ways)
     middle, half, radius = np.zeros((count, 2)), np.zeros((count, 2)), np.zeros(count)
     for k, way in enumerate(reversed(ways)):
@@ -144,7 +144,7 @@ def _profile(ways: list[_Way], reference: int) -> RigidProfile:
 
 
 def _angles(start: FloatArray, end: FloatArray, centre: FloatArray) -> tuple[float, float]:
-    """Of the start of an arc, and the one that it covers."""
+    """Return the angle at the start of an arc, and the angle that the arc covers (rad)."""
     first, last = (float(np.arctan2(*(point - centre)[::-1])) for point in (start, end))
     return first, (last - first + np.pi) % (2.0 * np.pi) - np.pi
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The two sides of contact: faces of elements with their outward normals, and what belongs to their nodes."""
+"""The two sides of contact: faces of elements with their outward normals, and the data of their nodes."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class Side:
 
 
 class Sides:
-    """Makes the sides of contact of the surfaces of a deck.
+    """Builder of the sides of contact from the surfaces of a deck.
 
     surfaces  those of the deck
     """
@@ -68,8 +68,8 @@ class Sides:
                 raise row.error(f"surface {name} is rigid ({group.type}); expected it as the main surface")
 
     def side(self, name: str, row: Row, owner: Owner, main: Side | None) -> Side:
-        """A surface of a pair; main: the other one of a secondary surface, if it has faces, whose length one of nodes
-        has.
+        """Build one side of a pair; main: the other side of a secondary surface, if it has faces, whose length a
+        surface of nodes takes.
         """
         given = self.surfaces.of_nodes(name, row.source, owner.name)
         if given is not None:
@@ -78,7 +78,7 @@ class Sides:
         return self.of_facets(facets, name, row)
 
     def of_facets(self, facets: Iterable[Facets], name: str, row: Row) -> Side:
-        """A surface of faces; name and row: of the surface, for messages."""
+        """Build the side of a surface of faces; name and row: of the surface, for messages."""
         by_corners: dict[int, list[tuple[IntArray, FloatArray, FloatArray]]] = {}
         areas, depth, lengths = np.zeros(len(self._points)), np.zeros(len(self._points)), [np.zeros(0)]
         for group, rows, local, place in facets:
@@ -125,7 +125,7 @@ class Sides:
         return Side(all_faces, nodes, normals, areas[nodes], depth, float(np.concatenate(lengths).mean()), heights)
 
     def _depth(self, group: ElementGroup, faces: IntArray) -> FloatArray:
-        """Thickness at the nodes of faces (f, n); about an axis, the circumference."""
+        """Return the thickness at the nodes of faces (f, n), or the circumference in axisymmetry."""
         kind, section = group.built_in, group.section
         assert isinstance(kind, ContinuumType | RigidType)
         if kind.axisymmetric:
@@ -156,7 +156,7 @@ def surface_pair(
     everywhere: bool,
     regions: Sequence[Region] = (),
 ) -> SurfacePair:
-    """A pair of surface to surface in finite sliding.
+    """Build a surface-to-surface pair in finite sliding.
 
     Parameters
     ----------

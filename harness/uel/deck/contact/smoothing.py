@@ -23,7 +23,7 @@ _COUNTS = {"CIRCUMFERENTIAL": (2, 6), "SPHERICAL": (3,), "TOROIDAL": (7,)}
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """Faces, by their nodes in ascending order, and what they approximate, as of `Rounded`."""
+    """Faces, by their nodes in ascending order, and the surface that they approximate, as in `Rounded`."""
 
     faces: frozenset[tuple[int, ...]]
     centre: FloatArray
@@ -32,7 +32,7 @@ class Region:
 
 
 def read_smoothings(blocks: Iterable[Block], surfaces: Surfaces, problems: Problems) -> dict[str, tuple[Region, ...]]:
-    """Regions of each *SURFACE SMOOTHING by its name."""
+    """Read the regions of each *SURFACE SMOOTHING, by name."""
     found: dict[str, tuple[Region, ...]] = {}
     for block in blocks:
         if block.name == SMOOTHING:
@@ -44,13 +44,13 @@ def read_smoothings(blocks: Iterable[Block], surfaces: Surfaces, problems: Probl
 
 
 def read_corrections(blocks: Iterable[Block], surfaces: Surfaces) -> tuple[Region, ...]:
-    """Regions of *SURFACE PROPERTY ASSIGNMENT."""
+    """Read the regions of *SURFACE PROPERTY ASSIGNMENT."""
     chosen = [block for block in blocks if block.name == ASSIGNMENT]
     return tuple(region for block in chosen for row in block.rows() for region in _regions(row, 1, surfaces))
 
 
 def _regions(row: Row, names: int, surfaces: Surfaces) -> Iterator[Region]:
-    """Of a data line that begins with this number of surfaces."""
+    """Yield the regions of a data line that begins with this number of surfaces. Raises DeckError."""
     kind = row.name(names, "kind of the correction")
     if kind not in _COUNTS:
         raise row.error(f"correction {kind} is not known; expected {', '.join(_COUNTS)}")
@@ -77,7 +77,7 @@ def _regions(row: Row, names: int, surfaces: Surfaces) -> Iterator[Region]:
 
 
 def rounded_pieces(regions: Sequence[Region], pieces: Pieces) -> tuple[Rounded, ...]:
-    """What the pieces of a surface approximate."""
+    """Return the curved surfaces that the pieces of a surface approximate."""
     if not regions:
         return ()
     faces = [tuple(sorted(set(nodes))) for nodes in pieces.nodes.tolist()]

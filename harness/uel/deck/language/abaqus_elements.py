@@ -40,10 +40,10 @@ _FAMILIES: Final = (
 
 @cache
 def _name() -> re.Pattern[str]:
-    """Of any element; compiled where a name is looked up, which most decks do not need."""
+    """Return the pattern of all element names; compiled at a look-up, which most decks do not need."""
     return re.compile("|".join(_FAMILIES))
 
 
 def is_abaqus_element(name: str) -> bool:
-    """Whether Abaqus has an element type of this name."""
+    """Return whether Abaqus has an element type of this name."""
     return _name().fullmatch(name.upper()) is not None

@@ -32,25 +32,25 @@ class Row:
         return len(self.fields)
 
     def blank(self, index: int) -> bool:
-        """True where the field is empty or beyond the end."""
+        """Return whether the field is empty or beyond the end."""
         return index >= len(self.fields) or not self.fields[index]
 
     def text(self, index: int, what: str) -> str:
-        """A field as it is written; it is required."""
+        """Return a required field as written. Raises DeckError if it is missing."""
         if self.blank(index):
             raise self.error(f"{what} is missing")
         return self.fields[index]
 
     def name(self, index: int, what: str) -> str:
-        """A name, in the spelling in which names are compared."""
+        """Return a required name, in the spelling in which names are compared. Raises DeckError if it is missing."""
         return unquote(self.text(index, what))
 
     def real(self, index: int, what: str, default: float | None = None) -> float:
-        """A real number, or the default for an empty field."""
+        """Return a real number, or the default for an empty field. Raises DeckError."""
         return self._number(read_real, index, what, default)
 
     def integer(self, index: int, what: str, default: int | None = None) -> int:
-        """An integer, or the default for an empty field."""
+        """Return an integer, or the default for an empty field. Raises DeckError."""
         return self._number(read_integer, index, what, default)
 
     def _number(self, read: Callable[[str], ValueT], index: int, what: str, default: ValueT | None) -> ValueT:
@@ -62,7 +62,7 @@ class Row:
             raise self.error(f"{what}: {error}") from None
 
     def reals(self, what: str) -> list[float]:
-        """All fields as numbers; an empty one is zero."""
+        """Return all fields as real numbers; an empty one is zero. Raises DeckError."""
         return [self.real(index, what, 0.0) for index in range(len(self.fields))]
 
     def at_most(self, count: int) -> None:
@@ -71,7 +71,9 @@ class Row:
             raise self.error(f"{len(self.fields)} entries, expected at most {count}")
 
     def error(self, message: str) -> DeckError:
-        """An error at this line; one that looks like a keyword line may have lost its asterisk."""
+        """Make an error at this line. A line that looks like a keyword line may have lost its asterisk:
+        the message says so.
+        """
         first = unquote(self.fields[0]) if self.fields else ""
         hint = f"; is the * of *{first} missing?" if first in ABAQUS_KEYWORDS else ""
         return DeckError(self.source, f"*{self.keyword}: {message}{hint}")
@@ -117,26 +119,27 @@ class Block:
             self._numbers.pop()
 
     def clear(self) -> None:
-        """Forget the data lines."""
+        """Drop the data lines."""
         self.lines, self._numbers, self._files, self._starts = [], [], [], []
 
     def source_of(self, index: int) -> Source:
-        """Place of a data line."""
+        """Return the place of a data line in the deck."""
         return Source(self._files[bisect.bisect_right(self._starts, index) - 1], self._numbers[index])
 
     def row(self, index: int) -> Row:
-        """One data line, cut into fields."""
+        """Return one data line, cut into fields."""
         fields = split_fields(self.lines[index])
         while fields and not fields[-1]:
             fields.pop()
         return Row(self.name, tuple(fields), self.source_of(index))
 
     def rows(self) -> Iterator[Row]:
-        """Data lines that hold something."""
+        """Yield the data lines that are not blank."""
         return (self.row(index) for index, line in enumerate(self.lines) if line.strip(", \t"))
 
     def entries(self, warn: Callable[[Source, str], None]) -> list[tuple[Row, int]]:
-        """Row and position in it of values that stand eight to a line: each line but the last counts eight.
+        """Return row and position in it of values that are written eight to a line:
+        each line but the last counts eight.
 
         warn: gets told of a line with fewer that is not the last, whose other entries are zero, and of one with more,
         all of which are used.
@@ -154,16 +157,16 @@ class Block:
         return places
 
     def all_rows(self) -> Iterator[Row]:
-        """Data lines, blank ones too, where a blank line stands for defaults."""
+        """Yield all data lines, including blank ones, which stand for defaults."""
         return (self.row(index) for index in range(len(self.lines)))
 
     def only_row(self) -> Row | None:
-        """The data line of a keyword that has one, None where it is left out; DeckError where there are several."""
+        """Return the only data line of a keyword, None if it is left out. Raises DeckError if there are several."""
         rows = list(self.all_rows())
         if len(rows) > 1:
             raise rows[1].error("a second data line, expected only one")
         return rows[0] if rows else None
 
     def error(self, message: str) -> DeckError:
-        """An error at the keyword line."""
+        """Make an error at the keyword line."""
         return DeckError(self.source, f"*{self.name}: {message}")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What keywords with a name define; `uel.deck.language.repetition` refuses a name that is defined twice."""
+"""Definitions that keywords make by name; `uel.deck.language.repetition` refuses a name that is defined twice."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def read_definitions(
     problems: Problems,
     option: str = "NAME",
 ) -> dict[str, Defined]:
-    """What the blocks of a keyword define, by name.
+    """Read the definitions of the blocks of a keyword, by name.
 
     Parameters
     ----------

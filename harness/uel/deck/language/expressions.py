@@ -29,7 +29,7 @@ _LARGEST_INTEGER = 2**63
 
 
 def assign(statement: str, parameters: Mapping[str, Value]) -> tuple[str, Value]:
-    """Name and value of `name = expression`; ValueError with what is wrong."""
+    """Return name and value of `name = expression`. Raises ValueError, which says what is wrong."""
     if len(statement) > _LONGEST:
         raise ValueError("the expression is too long")
     try:
@@ -50,7 +50,9 @@ def assign(statement: str, parameters: Mapping[str, Value]) -> tuple[str, Value]
 
 
 def find(name: str, parameters: Mapping[str, Value]) -> Value | None:
-    """Value of a parameter: of this very name, else of the only one that differs in case."""
+    """Return the value of a parameter: of this very name, else of the only one that differs in case;
+    None if there is none.
+    """
     if name in parameters:
         return parameters[name]
     alike = [value for key, value in parameters.items() if key.lower() == name.lower()]
@@ -58,7 +60,7 @@ def find(name: str, parameters: Mapping[str, Value]) -> Value | None:
 
 
 def _evaluate(node: ast.expr, parameters: Mapping[str, Value], source: str) -> Value:
-    """Value of a part of the statement whose text is the source."""
+    """Evaluate a part of the statement whose text is `source`. Raises ValueError."""
     match node:
         case ast.Constant(value=str() | float() | int() as value):
             return value
@@ -93,7 +95,7 @@ def _number(node: ast.expr, parameters: Mapping[str, Value], source: str) -> flo
 
 
 def _binary(op: ast.operator, left: float, right: float, text: str) -> float:
-    """Value of an operation; text: what stands for it in the deck, in quotes."""
+    """Evaluate a binary operation; text: its spelling in the deck, in quotes. Raises ValueError."""
     if isinstance(op, ast.Div):
         if isinstance(left, int) and isinstance(right, int) and right and left % right:
             # releases of Abaqus differ: Python 2 truncates, Python 3 does not

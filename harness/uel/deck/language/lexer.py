@@ -45,7 +45,7 @@ _PARAMETER = re.compile(r"<\s*([A-Za-z_]\w*)\s*>")
 def read_blocks(
     deck: Path, keywords: Mapping[str, Keyword], problems: Problems, given: Mapping[str, Value] | None = None
 ) -> list[Block]:
-    """Keyword blocks of a deck in order, read against the keyword table.
+    """Read the keyword blocks of a deck in order, against the keyword table.
 
     given: values of parameters in place of those in the deck. What is wrong goes to `problems`; DeckError if the deck
     cannot be read, UsageError if a given parameter is none of its own.
@@ -60,7 +60,7 @@ def read_blocks(
 
 @dataclass(frozen=True, slots=True)
 class Survey:
-    """What a deck consists of.
+    """Files and parameters of a deck.
 
     files       the deck, then the files that it includes
     parameters  names that it defines, in order
@@ -88,7 +88,7 @@ class Passage:
 def read_passages(
     files: Sequence[Path], keywords: Mapping[str, Keyword], problems: Problems, made: Mapping[Path, list[str]]
 ) -> tuple[list[Block], list[Passage]]:
-    """Keyword blocks of decks that follow each other, and their whole text, for a program that writes it with changes.
+    """Read the keyword blocks of decks that follow each other, and their whole text, for a program that rewrites them.
 
     made: lines of those of the files that are not on the disk. What is wrong goes to `problems`; DeckError if a deck
     cannot be read.
@@ -101,7 +101,7 @@ def read_passages(
 
 
 def survey_blocks(deck: Path, keywords: Mapping[str, Keyword], given: Mapping[str, Value] | None = None) -> Survey:
-    """What a deck consists of, as far as it can be read: what is wrong with it is for `read_blocks`.
+    """Return files and parameters of a deck, as far as it can be read; `read_blocks` reports the problems in it.
 
     DeckError if the deck itself cannot be read.
     """
@@ -110,7 +110,7 @@ def survey_blocks(deck: Path, keywords: Mapping[str, Keyword], given: Mapping[st
 
 
 def unknown_parameter(name: str, deck: Path, defined: Sequence[str]) -> str:
-    """Sentence about a name that is no parameter of a deck, which defines others."""
+    """Return a sentence about a name that is not among the parameters that a deck defines."""
     has = f"its parameters are {', '.join(defined)}{nearest(name, defined)}" if defined else "it has no *PARAMETER"
     return f"{deck} defines no parameter of this name; {has}"
 
@@ -127,7 +127,7 @@ def _read(deck: Path, keywords: Mapping[str, Keyword], problems: Problems, given
 
 
 def _load(path: Path, source: Source) -> list[str]:
-    """Lines of a text file in UTF-8 or Latin-1, with any kind of line end; without the blanks around each."""
+    """Return the lines of a text file in UTF-8 or Latin-1, with any kind of line end, stripped. Raises DeckError."""
     # one that is not there has no first line either; another one has the place of its *INCLUDE
     name = str(path) if source.line else "the file"
     try:
@@ -160,7 +160,7 @@ class _Header:
 
 
 class _Lexer:
-    """Walks the lines of a deck and of its includes; `open` is the block that takes data lines."""
+    """Lexer of the lines of a deck and its includes; `open` is the block that takes data lines."""
 
     def __init__(
         self, deck: Path, keywords: Mapping[str, Keyword], problems: Problems, given: Mapping[str, Value]
@@ -180,7 +180,7 @@ class _Lexer:
         self._material = ""
 
     def read(self, lines: list[str], file: str, stack: tuple[Path, ...]) -> None:
-        """Take all lines of one file."""
+        """Read all lines of one file."""
         stars = [index for index, line in enumerate(lines) if line.startswith("*")]
         stars.append(len(lines))
         number = 0
@@ -232,7 +232,7 @@ class _Lexer:
         self.parameters[name] = value
 
     def _data(self, lines: list[str], file: str, first: int) -> None:
-        """Take data lines that follow each other, the first with this number."""
+        """Read consecutive data lines, the first with this number."""
         if self._open is None:
             place = next((index for index, line in enumerate(lines) if line), None)
             if place is not None and not self._discard:
@@ -248,7 +248,7 @@ class _Lexer:
         self._open.extend(lines, file, first)
 
     def _plain(self, line: str, source: Source) -> str:
-        """A data line without a comment at its end, and with the values of parameters."""
+        """Return a data line without its trailing comment, and with the values of parameters."""
         line = self._uncommented(line, source)
         if "<" in line:
             with self._problems.gather():
@@ -256,7 +256,7 @@ class _Lexer:
         return line
 
     def _uncommented(self, line: str, source: Source) -> str:
-        """A data line without a comment at its end, which Abaqus takes too."""
+        """Strip the trailing comment of a data line, which Abaqus allows too; warn at the first one."""
         comment = _COMMENT.search(line) if "**" in line else None
         if comment is None:
             return line
@@ -275,7 +275,7 @@ class _Lexer:
         return _PARAMETER.sub(value, line)
 
     def _join(self, header: _Header, lines: list[str], number: int) -> int:
-        """Join the lines that continue a keyword line; returns the number of lines taken."""
+        """Join the lines that continue a keyword line, and return their number."""
         while header.text.endswith(",") and number < len(lines):
             ahead = number
             while ahead < len(lines) - 1 and lines[ahead].startswith("**"):
@@ -289,7 +289,7 @@ class _Lexer:
         return number
 
     def _continues(self, header: str, line: str) -> bool:
-        """Whether a line goes on with a keyword line that ends in a comma, or is its first data line."""
+        """Return whether a line continues a keyword line that ends in a comma, and is not its first data line."""
         if not line or line.startswith("*"):
             return False
         first = split_fields(line)[0]
@@ -302,7 +302,7 @@ class _Lexer:
         return any(compact(option.name) == compact(first) for option in keyword.options)
 
     def _gather(self, header: _Header) -> AbstractContextManager[None]:
-        """Collector of the errors of a keyword line; those in a material count if something uses it."""
+        """Return the context that collects the errors of a keyword line; those in a material count if it is used."""
         name = abaqus_name(split_fields(header.text[1:])[0])
         if name in MATERIAL_KEYWORDS and self._material:
             return self._problems.gather_of(self._material)
@@ -363,7 +363,9 @@ class _Lexer:
         self.read(_load(path, source), str(path), (*stack, resolved))
 
     def _find(self, name: str, including: Path, source: Source) -> Path:
-        """Where an included file is: Abaqus looks in the current folder alone."""
+        """Return the path of an included file; warn if Abaqus, which looks in the current folder alone,
+        would not find it.
+        """
         here, beside_deck, beside_including = Path(name), self._folder / name, including.parent / name
         if not here.exists():
             in_deck_folder = beside_deck.exists() or not beside_including.exists()
@@ -385,7 +387,7 @@ class _Lexer:
 
 
 def _options(keyword: Keyword, fields: list[str], source: Source) -> Options:
-    """Options of a keyword; those of an ignored one are not looked at."""
+    """Return the options of a keyword; those of an ignored one are not examined."""
     return read_options(keyword, fields, source) if keyword.options or keyword.support == "read" else Options(keyword)
 
 

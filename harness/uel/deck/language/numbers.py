@@ -24,7 +24,7 @@ LARGEST, SMALLEST = 1e100, 1e-100
 
 
 def read_real(text: str) -> float:
-    """A real number; ValueError where the text is none, or too large or too small to compute with."""
+    """Parse a real number. Raises ValueError if the text is not a number, or too large or too small to compute with."""
     match = _REAL.fullmatch(text)
     if match is None:
         raise ValueError(f"'{text}' is not a number")
@@ -37,7 +37,7 @@ def read_real(text: str) -> float:
 
 
 def read_integer(text: str) -> int:
-    """An integer, '3.' included; ValueError where the text is none or does not fit 32 bits."""
+    """Parse an integer, '3.' included. Raises ValueError if the text is not an integer or does not fit 32 bits."""
     if _INTEGER.fullmatch(text) is None:
         raise ValueError(f"'{text}' is not an integer")
     digits = text.split(".", maxsplit=1)[0]
@@ -47,12 +47,12 @@ def read_integer(text: str) -> int:
 
 
 def is_integer(text: str) -> bool:
-    """True for the spelling of an integer."""
+    """Return whether the text is spelt as an integer."""
     return _INTEGER.fullmatch(text) is not None
 
 
 def real_table(lines: list[str]) -> FloatArray | None:
-    """(lines, columns) of a block whose lines all hold the same number of plain numbers, None for any other."""
+    """Parse a block of plain real numbers to (lines, columns), None unless all lines hold the same number of them."""
     table = _table(lines, np.float64)
     if table is None:
         return None
@@ -64,7 +64,7 @@ def real_table(lines: list[str]) -> FloatArray | None:
 
 
 def integer_table(lines: list[str], *, columns: int | None = None) -> IntArray | None:
-    """(lines, columns) of a block whose lines all hold the same number of plain integers, None for any other.
+    """Parse a block of plain integers to (lines, columns), None unless all lines hold the same number of them.
 
     columns: of lines with more entries, those to read; the others may hold anything.
     """

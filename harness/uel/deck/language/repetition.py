@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a keyword means that says something of the same thing again: one rule for each keyword that sets a value.
+"""Rules for repeated keywords: one rule for each keyword that sets a value says what a second one means.
 
 `check_once` refuses what may be given once in a scope, wherever the keyword is read. The other rules are carried out
 where the values are: entries of a step in `uel.deck.steps.step`, faces of a surface in `uel.deck.mesh.surfaces`,
@@ -156,11 +156,11 @@ _MEMBERS: Final = {
     opener: [_ALIKE.get(name, name) for name, rule in RULES.items() if opener in rule.within]
     for opener in {opener for rule in RULES.values() for opener in rule.within}
 }
-"""What may be given once in what a keyword begins."""
+"""Keywords that may be given once, by the keyword that opens their scope."""
 
 
 def check_once(blocks: Iterable[Block], problems: Problems) -> None:
-    """Add a problem for each keyword of one scope that says again what may be said once."""
+    """Report each keyword of one scope that repeats what may be given only once."""
     seen: dict[str, dict[tuple[str, ...], Block]] = {}
     for block in blocks:
         for name in _MEMBERS.get(block.name, ()):

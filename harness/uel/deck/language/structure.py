@@ -24,7 +24,7 @@ _OUTER = {"PART": "", "ASSEMBLY": "", "INSTANCE": "ASSEMBLY", "STEP": ""}
 
 @dataclass(slots=True)
 class Scope:
-    """What stands between a keyword such as *PART and its *END PART, nested scopes left out."""
+    """Blocks between a keyword such as *PART and its *END PART, without those of nested scopes."""
 
     head: Block
     blocks: list[Block] = field(default_factory=list)
@@ -37,7 +37,7 @@ class Scope:
 
 @dataclass(slots=True)
 class Structure:
-    """The deck, sorted. `root` is what belongs to no part: the model's own data and the assembly's."""
+    """Sorted blocks of a deck. `root` has those of no part: the model's own data and the assembly's."""
 
     root: list[Block] = field(default_factory=list)
     assembly: Scope | None = None
@@ -65,7 +65,7 @@ class Structure:
 
 
 def read_heading(blocks: list[Block]) -> str:
-    """First line of the *HEADING keywords of a deck, '' without any."""
+    """Return the first line of the *HEADING keywords of a deck, '' without any."""
     return next((line for block in blocks if block.name == "HEADING" for line in block.lines if line), "")
 
 
@@ -144,7 +144,7 @@ def _end(block: Block, open_scopes: list[Scope]) -> None:
 
 
 def _misplaced(block: Block, open_scopes: list[Scope], problems: Problems) -> None:
-    """Report a scope in the wrong place; the open ones are taken as ended, so that reading goes on."""
+    """Report a scope in the wrong place, and treat the open ones as ended, so that reading goes on."""
     if open_scopes:
         head = open_scopes[-1].head
         problems.add(head.source, f"*{head.name} without *END {head.name}; *{block.name} follows at {block.source}")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a keyword and its options are: the entries of the keyword table, and how a keyword line is read against it."""
+"""Entries of the keyword table, a keyword and its options, and the reading of a keyword line against it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from uel.errors import DeckError, Source
 
 
 class Kind(StrEnum):
-    """What the value of an option is."""
+    """Type of the value of an option."""
 
     FLAG = "flag"
     SWITCH = "YES or NO"
@@ -29,7 +29,7 @@ class Kind(StrEnum):
 
 
 class Support(StrEnum):
-    """What the reader does with a keyword or an option."""
+    """Treatment of a keyword or an option by the reader."""
 
     READ = "read"
     IGNORED = "cannot change the solution: listed and ignored"
@@ -100,17 +100,17 @@ def one_of(
     refused: tuple[str, ...] = (),
     bare: str = "",
 ) -> Option:
-    """An option whose value is one of these choices; parameters are entries of `Option`."""
+    """Make an option whose value is one of these choices; the parameters are entries of `Option`."""
     return Option(name, Kind.CHOICE, doc, required, default, choices, refused, bare=bare)
 
 
 def refused(*names: str) -> tuple[Option, ...]:
-    """Options, by their names, that Abaqus knows and that would change the solution."""
+    """Make the options of these names, which Abaqus knows and which would change the solution, as refused."""
     return tuple(Option(name, support=Support.REFUSED) for name in names)
 
 
 def ignored(*names: str) -> tuple[Option, ...]:
-    """Options, by their names, that cannot change the solution."""
+    """Make the options of these names, which cannot change the solution, as ignored."""
     return tuple(Option(name, support=Support.IGNORED) for name in names)
 
 
@@ -126,33 +126,33 @@ class Options:
     values: dict[str, str] = field(default_factory=dict)
 
     def known(self, name: str) -> bool:
-        """True where the keyword has this option, for what is read of several keywords."""
+        """Return whether the keyword has this option, for code that reads several keywords."""
         return any(option.name == name and option.support is Support.READ for option in self.keyword.options)
 
     def flag(self, name: str) -> bool:
-        """True where the flag or switch is on."""
+        """Return whether the flag or switch is on."""
         return (self._value(name, Kind.FLAG, Kind.SWITCH) or "NO") != "NO"
 
     def given(self, name: str) -> bool:
-        """True where the option is on the line."""
+        """Return whether the option is on the line."""
         return self._value(name, *Kind) is not None
 
     def text(self, name: str) -> str:
-        """Name, choice or file; the default, or '', where the option is absent."""
+        """Return a name, choice or file; the default, or '', if the option is absent."""
         return self._value(name, Kind.NAME, Kind.CHOICE, Kind.FILE) or ""
 
     def real(self, name: str, default: float) -> float:
-        """Real value; `default` where neither the line nor the table gives one."""
+        """Return a real value; `default` if neither the line nor the table gives one."""
         value = self._value(name, Kind.REAL)
         return default if value is None else read_real(value)
 
     def integer(self, name: str, default: int) -> int:
-        """Integer value; `default` where neither the line nor the table gives one."""
+        """Return an integer value; `default` if neither the line nor the table gives one."""
         value = self._value(name, Kind.INTEGER)
         return default if value is None else read_integer(value)
 
     def _value(self, name: str, *kinds: Kind) -> str | None:
-        """What the line, or the default, says; None for nothing."""
+        """Return the text on the line, or the default of the table; None if there is neither."""
         for option in self.keyword.options:
             if option.name == name and option.kind in kinds and option.support is Support.READ:
                 return self.values.get(name)
@@ -163,12 +163,12 @@ class Options:
 
 @lru_cache(4096)
 def compact(word: str) -> str:
-    """Spelling in which words are compared: upper case, without blanks."""
+    """Return the spelling in which words are compared: upper case, without blanks."""
     return "".join(word.split()).upper()
 
 
 def split_fields(line: str) -> list[str]:
-    """Fields between commas, stripped; commas within quotes do not separate."""
+    """Split a line at its commas and strip the fields; commas within quotes do not separate."""
     if '"' not in line:
         return [part.strip() for part in line.split(",")]
     fields = [""]
@@ -180,27 +180,29 @@ def split_fields(line: str) -> list[str]:
 
 
 def unquote(name: str) -> str:
-    """A name without its quotes, in upper case and with single blanks: names are compared like this."""
+    """Return a name in the spelling in which names are compared: without quotes, in upper case, with single blanks."""
     return " ".join(name.replace('"', "").split()).upper()
 
 
 _REASONS = {
     "CONTACT STABILIZATION": ": it is damping that depends on sizes of the surfaces which Abaqus does not describe",
 }
-"""Why keywords of Abaqus are not supported, and what is, where a deck can say it otherwise."""
+"""Reasons why keywords of Abaqus are not supported, and supported alternatives."""
 
 _ABAQUS = {compact(name): name for name in ABAQUS_KEYWORDS}
 
 
 def abaqus_name(name: str) -> str:
-    """Name of the keyword of Abaqus that is called so, or of the only one that begins so; '' without any."""
+    """Return the Abaqus keyword of this name, or the only one that begins with it; '' if there is none."""
     wanted = compact(name)
     begins = [wanted] if wanted in _ABAQUS else [full for full in _ABAQUS if wanted and full.startswith(wanted)]
     return _ABAQUS[begins[0]] if len(begins) == 1 else ""
 
 
 def find_keyword(keywords: Mapping[str, Keyword], name: str, source: Source) -> Keyword:
-    """Keyword of this name, or the only one of Abaqus that begins like this; DeckError says whether Abaqus has it."""
+    """Return the keyword of this name, or the only one of Abaqus that begins with it.
+    Raises DeckError, which says whether Abaqus has it.
+    """
     wanted = compact(name)
     if not wanted:
         raise DeckError(source, "a keyword line without a keyword; a comment begins with **")
@@ -214,7 +216,7 @@ def find_keyword(keywords: Mapping[str, Keyword], name: str, source: Source) -> 
 
 
 def read_options(keyword: Keyword, fields: list[str], source: Source) -> Options:
-    """Options of a keyword line; DeckError for an unknown, missing, ill-typed or unsupported one."""
+    """Read the options of a keyword line. Raises DeckError for an unknown, missing, ill-typed or unsupported one."""
     values: dict[str, str] = {}
     for text in fields:
         if not text:
@@ -234,7 +236,7 @@ def read_options(keyword: Keyword, fields: list[str], source: Source) -> Options
 
 
 def _find_option(keyword: Keyword, name: str, source: Source) -> Option:
-    """Option of this name, or the only one that begins like this."""
+    """Return the option of this name, or the only one that begins with it. Raises DeckError."""
     wanted = compact(name)
     begins = [option for option in keyword.options if wanted and compact(option.name).startswith(wanted)]
     exact = [option for option in begins if compact(option.name) == wanted]

@@ -19,7 +19,9 @@ OF_SURFACES: Final = ("MAXS", "QUADS", "MAXU", "QUADU")
 
 
 def extend_damage(damage: Damage | None, block: Block, criteria: tuple[str, ...]) -> Damage:
-    """The damage of a material or contact property, which has these criteria, with what one more keyword says of it."""
+    """Return the damage of a material or contact property, which has these criteria, extended by one keyword.
+    Raises DeckError.
+    """
     if block.name == "DAMAGE INITIATION":
         if damage is not None:
             raise block.error(f"one criterion is supported; there is one already, at {damage.source}")
@@ -77,7 +79,9 @@ def _read_evolution(block: Block) -> DamageEvolution:
 
 
 def _read_table(block: Block) -> tuple[float, ...]:
-    """Displacements after the onset and damages in turn, of lines with the damage first."""
+    """Read displacements after the onset and damages, alternating, from lines with the damage first.
+    Raises DeckError.
+    """
     table: list[float] = []
     for row in block.rows():
         if len(row) > 2:
@@ -103,7 +107,7 @@ def _only_row(block: Block) -> Row:
 
 
 def _values(block: Block, least: int, most: int, what: str) -> tuple[float, ...]:
-    """`most` values of the only data line, zero where they are left out."""
+    """Return `most` values of the only data line, zero if they are left out. Raises DeckError."""
     row = _only_row(block)
     if not least <= len(row) <= most:
         expected = str(most) if least == most else f"{least} or {most}"

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The diffusion of one material through another: *DIFFUSIVITY, *SOLUBILITY and *KAPPA, and what a
-deck with *MASS DIFFUSION has instead of temperatures."""
+"""Diffusion of one material through another: *DIFFUSIVITY, *SOLUBILITY and *KAPPA; concentrations in place of
+temperatures in a deck with *MASS DIFFUSION.
+"""
 
 from __future__ import annotations
 
@@ -21,11 +22,11 @@ from uel.model.steps import PRESSURE_STRESS, Boundary, Step
 
 _DIAGONAL: Final = ((0, 0), (1, 1), (2, 2))
 _PLACES: Final = {"ISO": _DIAGONAL, "ORTHO": _DIAGONAL, "ANISO": ((0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2))}
-"""Of the constants of TYPE=."""
+"""Positions in the matrix of the constants of each TYPE."""
 
 
 def extend_diffusion(material: Material, block: Block) -> Material:
-    """The material with one of these options. Raises DeckError."""
+    """Return the material extended by one of these options. Raises DeckError."""
     if block.name == "DIFFUSIVITY":
         return replace(material, diffusivity=_read_diffusivity(block))
     if block.name == "SOLUBILITY":
@@ -61,7 +62,7 @@ def _read_kappa(block: Block, given: Diffusivity | None) -> Diffusivity:
 
 
 def _read_rows(block: Block, constants: int, what: str) -> list[tuple[Row, list[float]]]:
-    """Rows of constants, concentration and temperature, which differ."""
+    """Read rows of constants, concentration and temperature. Raises DeckError for a repeated pair of the last two."""
     found: list[tuple[Row, list[float]]] = []
     for row in block.rows():
         row.at_most(constants + 2)
@@ -76,7 +77,9 @@ def _read_rows(block: Block, constants: int, what: str) -> list[tuple[Row, list[
 
 
 def with_concentrations(model: Model, problems: Problems) -> Model:
-    """The model whose dof 11 is the concentration, if its steps are *MASS DIFFUSION; adds what does not fit there."""
+    """Return the model with the concentration as dof 11 if its steps are *MASS DIFFUSION;
+    add errors for what does not fit.
+    """
     if not model.diffusive:
         _refuse_elsewhere(model, problems)
         return model
@@ -175,6 +178,6 @@ OPTIONS = (
         "solubility, temperature; linear in between",
     ),
 )
-"""Those of *MATERIAL."""
+"""Keywords of diffusion after *MATERIAL."""
 
 KEYWORDS = OPTIONS

@@ -17,7 +17,7 @@ COUNTS: Final = {"ISO": 1, "ORTHO": 3, "ANISO": 6}
 
 
 def read_expansion(block: Block) -> Expansion:
-    """Coefficients by temperature. Raises DeckError."""
+    """Read the expansion coefficients by temperature. Raises DeckError."""
     kind = block.options.text("TYPE")
     count = COUNTS[kind]
     table: list[list[float]] = []

@@ -15,7 +15,7 @@ from uel.model.properties import Material
 
 
 def extend_heat(material: Material, block: Block) -> Material:
-    """The material with one of these options. Raises DeckError."""
+    """Return the material extended by one of these options. Raises DeckError."""
     match block.name:
         case "CONDUCTIVITY":
             return replace(material, conductivity=read_by_temperature(block, "conductivity"))
@@ -28,7 +28,7 @@ def extend_heat(material: Material, block: Block) -> Material:
 
 
 def read_by_temperature(block: Block, what: str) -> FloatArray:
-    """Rows (k, 2) of a positive value and the temperature, which ascends. Raises DeckError."""
+    """Read rows (k, 2) of a positive value and the temperature, which ascends. Raises DeckError."""
     table: list[tuple[float, float]] = []
     for row in block.rows():
         row.at_most(2)
@@ -43,7 +43,7 @@ def read_by_temperature(block: Block, what: str) -> FloatArray:
 
 
 def _read_latent_heat(block: Block) -> FloatArray:
-    """Rows (k, 3) of the heat, the solidus and the liquidus temperature above it."""
+    """Read rows (k, 3) of the latent heat, the solidus and the liquidus temperature above it. Raises DeckError."""
     table = []
     for row in block.rows():
         row.at_most(3)

@@ -20,14 +20,14 @@ FIXED_ORDER = {Potential.ARRUDA_BOYCE: 1, Potential.MOONEY_RIVLIN: 1, Potential.
 
 
 def read_hyperelastic(block: Block, problems: Problems) -> Hyperelastic | Holzapfel | UserPotential:
-    """The potential and its coefficients, or what UHYPER or UANISOHYPER_INV gets. Raises DeckError."""
+    """Read the potential and its coefficients, or the constants of UHYPER or UANISOHYPER_INV. Raises DeckError."""
     if block.name == "HYPERELASTIC":
         return _read_isotropic(block, problems)
     return _read_anisotropic(block, problems)
 
 
 def _read_isotropic(block: Block, problems: Problems) -> Hyperelastic | UserPotential:
-    """Coefficients are in the order of the data line."""
+    """Read *HYPERELASTIC; coefficients are in the order of the data line. Raises DeckError."""
     given = [potential for potential in Potential if block.options.flag(potential.value)]
     named = [*given, *(["USER"] if block.options.flag("USER") else [])]
     if len(named) > 1:
@@ -95,7 +95,7 @@ def _read_user(block: Block, problems: Problems) -> UserPotential:
 
 
 def _coefficients(potential: Potential, order: int) -> int:
-    """Number of coefficients of the change of shape."""
+    """Return the number of coefficients of the deviatoric part."""
     match potential:
         case Potential.POLYNOMIAL:
             return order * (order + 3) // 2

@@ -36,12 +36,12 @@ from uel.model.arrays import FloatArray
 from uel.model.properties import Elastic, ElasticType, HybridFormulation, Material, UserMaterial, isotropic_fault
 
 DEPENDENT = (ElasticType.ISOTROPIC, ElasticType.LAMINA, ElasticType.ENGINEERING_CONSTANTS)
-"""Those whose constants may depend on temperature and fields."""
+"""Elastic types whose constants may depend on temperature and fields."""
 MOST_FIELDS = 1000
 
 
 def leave_out_unused(structure: Structure, problems: Problems) -> None:
-    """Drop the materials that have errors and that nothing uses: in Abaqus what they hold has no effect either."""
+    """Drop the materials that have errors and are not used: they have no effect in Abaqus either."""
     _list_unused(problems.settle(structure.materials), structure)
     left_out = {name for name, _ in structure.ignored}
     kept: list[Block] = []
@@ -64,7 +64,7 @@ def _list_unused(names: Sequence[str], structure: Structure) -> None:
 
 
 def _label(material: str) -> str:
-    """Name of a material in the list of ignored keywords."""
+    """Return the name of a material in the list of ignored keywords."""
     return f"MATERIAL, NAME={material}"
 
 
@@ -123,7 +123,7 @@ def _extend(material: Material, block: Block, problems: Problems) -> Material:
 
 
 def _extend_number(material: Material, block: Block) -> Material:
-    """The material with what takes one number."""
+    """Return the material extended by an option that takes one number. Raises DeckError."""
     match block.name:
         case "DENSITY":
             return replace(material, density=_read_constant(block, "density"))
@@ -134,7 +134,7 @@ def _extend_number(material: Material, block: Block) -> Material:
 
 
 def _read_constant(block: Block, what: str) -> float:
-    """The one positive number of a material option."""
+    """Read the only positive number of a material option. Raises DeckError."""
     rows = list(block.rows())
     if len(rows) != 1 or len(rows[0]) != 1:
         raise block.error(f"needs one data line with the {what}; a temperature is not supported")
@@ -175,7 +175,7 @@ def _check_isotropic(row: Row, young: float, poisson: float) -> None:
 
 
 def _read_dependence(block: Block, kind: ElasticType, count: int, fields: int) -> FloatArray:
-    """Rows of constants, temperature and fields; each takes as many lines as eight to a line need."""
+    """Read rows of constants, temperature and fields, eight values to a line. Raises DeckError."""
     if kind not in DEPENDENT:
         names = ", ".join(sorted(DEPENDENT))
         raise block.error(f"dependence on temperature and fields is supported for {names}, not for {kind.value}")

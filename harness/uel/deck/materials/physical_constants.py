@@ -12,7 +12,7 @@ from uel.model.model import PhysicalConstants
 
 
 def read_physical_constants(blocks: Iterable[Block]) -> PhysicalConstants:
-    """Those of the last *PHYSICAL CONSTANTS, or the defaults without one. Raises DeckError."""
+    """Return the constants of the last *PHYSICAL CONSTANTS, or the defaults without one. Raises DeckError."""
     found = PhysicalConstants()
     for block in blocks:
         if block.name != "PHYSICAL CONSTANTS":

@@ -18,7 +18,7 @@ _DIELECTRIC = {"ISO": 1, "ORTHO": 3, "ANISO": 6}
 
 
 def extend_electrical(material: Material, block: Block) -> Material:
-    """The material with one of these options. Raises DeckError."""
+    """Return the material extended by one of these options. Raises DeckError."""
     if block.name == "PIEZOELECTRIC":
         return replace(material, piezoelectric=_read_piezoelectric(block))
     return replace(material, dielectric=_read_dielectric(block))
@@ -30,7 +30,7 @@ def _read_piezoelectric(block: Block) -> Piezoelectric:
 
 
 def _read_dielectric(block: Block) -> FloatArray:
-    """The (3, 3) matrix."""
+    """Read the dielectric matrix (3, 3). Raises DeckError unless it is positive definite."""
     kind = block.options.text("TYPE")
     values = _read_constants(block, _DIELECTRIC[kind])
     if kind == "ANISO":
@@ -44,7 +44,9 @@ def _read_dielectric(block: Block) -> FloatArray:
 
 
 def _read_constants(block: Block, count: int) -> list[float]:
-    """As many constants, eight per line; those left out at the end are zero where there are several lines."""
+    """Read this many constants, eight per line; trailing ones that are left out are zero if there are several lines.
+    Raises DeckError.
+    """
     values = [value for row in block.rows() for value in row.reals("constant")]
     if not values:
         raise block.error("needs a data line")

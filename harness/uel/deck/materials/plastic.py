@@ -19,7 +19,7 @@ MOST_BACKSTRESSES = 10
 
 
 def extend_plastic(plastic: Plastic | None, block: Block, problems: Problems) -> Plastic:
-    """The plasticity of a material with what one more keyword says of it. Raises DeckError."""
+    """Return the plasticity of a material, extended by one keyword. Raises DeckError."""
     if block.name == "PLASTIC":
         return _read_plastic(block, problems)
     if plastic is None or not plastic.combined:
@@ -106,7 +106,7 @@ def _read_combined(block: Block, problems: Problems) -> Plastic:
 
 
 def _read_table(block: Block, what: str) -> FloatArray:
-    """Rows of a stress and the plastic strain, which begins at zero."""
+    """Read rows of a stress and the plastic strain, which begins at zero. Raises DeckError."""
     table: list[tuple[float, float]] = []
     for row in block.rows():
         if len(row) > 2:

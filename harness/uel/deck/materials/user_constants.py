@@ -15,7 +15,9 @@ MOST_VARIABLES = 1_000_000
 
 
 def read_constants(block: Block, option: str, problems: Problems) -> FloatArray:
-    """As many constants as an option says; those that are not given are zero, as everywhere. Raises DeckError."""
+    """Read the number of constants that an option gives; constants that are left out are zero, as everywhere.
+    Raises DeckError.
+    """
     count = read_count(block, option, 0, 0, MOST_VARIABLES)
     values = [row.real(index, "constant", 0.0) for row, index in block.entries(problems.warn)]
     if len(values) == count + 1:

@@ -16,7 +16,7 @@ from uel.model.properties import Creep, CreepLaw, Hyperelastic, Material, Networ
 
 
 def extend_viscous(material: Material, block: Block, problems: Problems) -> Material:
-    """The material with what the keyword says of it. Raises DeckError."""
+    """Return the material extended by this keyword. Raises DeckError."""
     if block.name == "CREEP":
         return replace(material, creep=_read_creep(block))
     if block.name == "TRS":
@@ -31,7 +31,7 @@ def extend_viscous(material: Material, block: Block, problems: Problems) -> Mate
 
 
 def _read_viscoelastic(block: Block) -> Viscoelastic:
-    """A Prony series."""
+    """Read a Prony series. Raises DeckError."""
     terms: list[tuple[float, float, float]] = []
     for row in block.rows():
         row.at_most(3)
@@ -51,7 +51,7 @@ def _read_viscoelastic(block: Block) -> Viscoelastic:
 
 
 def _read_creep(block: Block) -> Creep:
-    """A power law, or that of CREEP."""
+    """Read a power law, or that of user subroutine CREEP. Raises DeckError."""
     row = block.only_row()
     if block.options.text("LAW") == "USER":
         if row is not None:
@@ -68,7 +68,7 @@ def _read_creep(block: Block) -> Creep:
 
 
 def _extend_networks(material: Material, block: Block, problems: Problems) -> Material:
-    """The material with another network. Raises DeckError."""
+    """Return the material with another network. Raises DeckError."""
     for name in ("LAW", "NETWORKID", "SRATIO"):
         if not block.options.given(name):
             raise block.error(f"NONLINEAR needs {name}")
@@ -88,7 +88,7 @@ def _extend_networks(material: Material, block: Block, problems: Problems) -> Ma
 
 
 def _extend_shift(material: Material, block: Block, problems: Problems) -> Material:
-    """The material whose last network has a reduced time. Raises DeckError."""
+    """Return the material with a reduced time in its last network. Raises DeckError."""
     if not material.networks:
         raise block.error("expected *VISCOELASTIC, NONLINEAR before it; other materials with it are not supported")
     *others, last = material.networks
@@ -122,7 +122,9 @@ def _law(block: Block) -> CreepLaw:
 
 
 def _read_law(block: Block) -> tuple[float, ...]:
-    """Constants as the host has them: q0, n, m, a, rate; A, B, n; A, m, C, E."""
+    """Read the constants of the law as the host orders them: q0, n, m, a, rate; A, B, n; A, m, C, E.
+    Raises DeckError.
+    """
     law = block.options.text("LAW")
     names = {
         "BERGSTROM-BOYCE": ("A", "m", "C", "E"),
@@ -162,7 +164,7 @@ def _check_law(row: Row, law: str, of: dict[str, float]) -> None:
 
 LAWS = ("BERGSTROM-BOYCE", "HYPERB", "POWER LAW", "STRAIN", "USER")
 ROUNDING = 1e-9
-"""By which a sum of stiffness ratios may be more than one."""
+"""Tolerance by which a sum of stiffness ratios may exceed one."""
 
 
 MOST_TERMS = 20

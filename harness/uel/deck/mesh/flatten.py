@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""From parts and instances to one mesh: nodes and elements of the whole model, its sets and its element groups."""
+"""Flattening of parts and instances to one mesh: nodes, elements, sets and element groups of the whole model."""
 
 from __future__ import annotations
 
@@ -42,11 +42,11 @@ class Owner:
     element_offset: int = 0
 
     def find_nodes(self, labels: IntArray) -> IntArray:
-        """Indices in the whole model, -1 for nodes that do not exist."""
+        """Return indices in the whole model, -1 for nodes that do not exist."""
         return _find(self.nodes, labels, self.node_offset)
 
     def find_elements(self, labels: IntArray) -> IntArray:
-        """Positions in the whole model, -1 for elements that do not exist."""
+        """Return positions in the whole model, -1 for elements that do not exist."""
         return _find(self.elements, labels, self.element_offset)
 
 
@@ -107,15 +107,19 @@ class FlatMesh:
 
     @property
     def root(self) -> LocalMesh:
-        """What belongs to no instance."""
+        """Mesh of the nodes, elements and sets that belong to no instance."""
         return self._owners[ROOT].mesh
 
     def nodes(self, name: str, source: Source, owner: str = ROOT) -> IntArray:
-        """Node indices of a number, a set, INSTANCE.number or INSTANCE.SET; DeckError where there is none."""
+        """Return the node indices of a number, a set, INSTANCE.number or INSTANCE.SET.
+        Raises DeckError if it is unknown.
+        """
         return self._resolve("NSET", name, source, owner)
 
     def elements(self, name: str, source: Source, owner: str = ROOT) -> IntArray:
-        """Element positions of a number, a set, INSTANCE.number or INSTANCE.SET; DeckError where there is none."""
+        """Return the element positions of a number, a set, INSTANCE.number or INSTANCE.SET.
+        Raises DeckError if it is unknown.
+        """
         return self._resolve("ELSET", name, source, owner)
 
     def _resolve(self, kind: str, name: str, source: Source, owner: str) -> IntArray:
@@ -172,7 +176,7 @@ class FlatMesh:
         return Mesh(labels, np.concatenate(points), tuple(names), whole if whole.any() else None)
 
     def _resolve_sets(self, kind: str) -> dict[str, IntArray]:
-        """Sets of the whole model; labels that do not exist are left out with a warning."""
+        """Return the sets of the whole model; warn of labels that do not exist and leave them out."""
         found = {}
         for owner in self.owners:
             for name, members in owner.mesh.sets(kind).items():
@@ -197,7 +201,7 @@ class FlatMesh:
 
 
 def _definitions(blocks: list[Block], outer: Definitions, problems: Problems) -> dict[str, UserElement]:
-    """User elements of these blocks, on top of those of the scope around them."""
+    """Return the user elements of these blocks, added to those of the enclosing scope."""
     return {
         **outer,
         **read_definitions(blocks, "USER ELEMENT", partial(read_user_element, problems=problems), problems, "TYPE"),

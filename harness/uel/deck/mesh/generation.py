@@ -28,7 +28,7 @@ def _add_nodes(mesh: LocalMesh, row: Row, name: str, labels: IntArray, points: F
 
 
 def generate_nodes(mesh: LocalMesh, block: Block) -> None:
-    """*NGEN: nodes on straight lines; the end nodes join the set."""
+    """Generate nodes on straight lines by *NGEN; the end nodes join the set."""
     for row in block.rows():
         first, last = row.integer(0, "first node"), row.integer(1, "last node")
         step = abs(row.integer(2, "increment", 1))
@@ -45,7 +45,7 @@ def generate_nodes(mesh: LocalMesh, block: Block) -> None:
 
 
 def fill_nodes(mesh: LocalMesh, block: Block) -> None:
-    """*NFILL: lines of equidistant nodes between corresponding nodes of two sets."""
+    """Generate equidistant nodes between corresponding nodes of two sets by *NFILL."""
     for row in block.rows():
         first = mesh.node_labels(row.name(0, "first set"), row.source)
         second = mesh.node_labels(row.name(1, "second set"), row.source)
@@ -64,7 +64,7 @@ def fill_nodes(mesh: LocalMesh, block: Block) -> None:
 
 
 def copy_nodes(mesh: LocalMesh, block: Block) -> None:
-    """*NCOPY, SHIFT: one moved copy of a set."""
+    """Add one moved copy of a node set by *NCOPY, SHIFT."""
     options = block.options
     old = mesh.node_labels(options.text("OLD SET"), block.source)
     points = np.array([mesh.point(label, block.source) for label in old.tolist()]).reshape(-1, 3)
@@ -75,7 +75,7 @@ def copy_nodes(mesh: LocalMesh, block: Block) -> None:
 
 
 def generate_elements(mesh: LocalMesh, block: Block) -> None:
-    """*ELGEN: rows, rows of rows and layers of a master element."""
+    """Generate rows, rows of rows and layers of a master element by *ELGEN."""
     for row in block.rows():
         master = row.integer(0, "master element")
         kind, nodes = mesh.element(master, row.source)

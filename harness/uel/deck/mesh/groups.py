@@ -64,12 +64,14 @@ class _Elements:
                     rows[index] += len(positions)
 
     def connectivity(self) -> list[IntArray]:
-        """Node indices of all elements of each type."""
+        """Return the node indices of all elements of each type."""
         return [np.concatenate(parts) for parts in self._nodes]
 
 
 def node_indices(owner: Owner, run: ElementRun) -> IntArray:
-    """Node indices in the whole model (m, nodes) of the elements of a run; DeckError for a node that is not defined."""
+    """Return the node indices in the whole model (m, nodes) of the elements of a run.
+    Raises DeckError for an undefined node.
+    """
     found = np.where(run.nodes < 0, -1 - run.nodes, owner.find_nodes(run.nodes.ravel()).reshape(run.nodes.shape))
     missing = np.argwhere(found < 0)
     if len(missing):
@@ -84,7 +86,7 @@ def node_indices(owner: Owner, run: ElementRun) -> IntArray:
 def make_groups(
     flat: FlatMesh, materials: Mapping[str, Material], controls: Mapping[str, SectionControls], problems: Problems
 ) -> tuple[ElementGroup, ...]:
-    """Element groups in the order in which Abaqus calls user elements; DeckError via `problems`."""
+    """Make the element groups in the order in which Abaqus calls user elements. Reports DeckError via `problems`."""
     elements = _Elements(flat, problems)
     problems.check()
     sections: list[tuple[Block, Owner]] = []
@@ -138,7 +140,9 @@ def _last_section(block: Block, sections: list[tuple[Block, Owner]], *names: str
 
 
 def _hourglass_stiffness(block: Block) -> tuple[float, float, float]:
-    """Stiffness, that of rotations of shells, 0 where not given, and the factor of the drilling stiffness."""
+    """Read the hourglass stiffness, that of shell rotations, 0 for the default,
+    and the factor of the drilling stiffness. Raises DeckError.
+    """
     row = next(block.rows(), None)
     if row is None:
         return 0.0, 0.0, 1.0
@@ -169,7 +173,7 @@ def _assign(elements: _Elements, sections: list[tuple[Block, Owner]], block: Blo
 
 
 def _check_assigned(elements: _Elements, problems: Problems) -> None:
-    """Every element needs a section; one error for each type that lacks it."""
+    """Report elements without a section: one error for each type that has such elements."""
     without = np.flatnonzero(elements.section_of < 0)
     for index, kind in enumerate(elements.types):
         lacking = without[elements.type_of[without] == index]
@@ -187,7 +191,7 @@ def _make_sections(
     controls: Mapping[str, SectionControls],
     problems: Problems,
 ) -> dict[tuple[int, int], Section]:
-    """Section of each pair of section keyword and element type that occurs."""
+    """Make the section of each pair of section keyword and element type that occurs."""
     kinds = max(len(elements.types), 1)
     pairs = np.unique(elements.section_of * kinds + elements.type_of)
     orientations = read_orientations(elements.flat, problems)
@@ -244,7 +248,9 @@ def _cut(elements: _Elements, made: dict[tuple[int, int], Section]) -> tuple[Ele
 
 
 def _orienting(flat: FlatMesh, owner: Owner, labels: IntArray, positions: IntArray) -> IntArray | None:
-    """Index of the additional node that gives n1 of beams, -1 without one; None if none has it. Raises DeckError."""
+    """Return the index of the additional node that gives n1 of beams, -1 without one; None if none has it.
+    Raises DeckError.
+    """
     given = owner.mesh.orienting
     if not given or not any(label in given for label in labels.tolist()):
         return None

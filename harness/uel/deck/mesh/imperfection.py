@@ -19,23 +19,24 @@ from uel.model.arrays import FloatArray, IntArray
 
 
 class EarlierResults(Protocol):
-    """What reads the field output of earlier jobs."""
+    """Reader of the field output of earlier jobs."""
 
     def shape(self, job: str, step: int, mode: int, increment: int) -> tuple[IntArray, FloatArray]:
-        """Labels of its nodes (m,), and displacements (m, 3) of a mode, or of an increment of a general step.
+        """Return labels (m,) of the nodes of a job, and displacements (m,
+        3) of a mode or of an increment of a general step.
 
         increment: 0 for the last one. Raises UelError if they were not written.
         """
 
     def temperatures(self, job: str, step: int, increment: int) -> tuple[IntArray, FloatArray]:
-        """Labels of its nodes (m,), and temperatures (m,); step and increment: 0 for the last ones.
+        """Return labels (m,) of the nodes of a job, and temperatures (m,); step and increment: 0 for the last ones.
 
         Raises UelError if they were not written.
         """
 
 
 def displace(blocks: Iterable[Block], flat: FlatMesh, problems: Problems, earlier: EarlierResults | None) -> None:
-    """Move the nodes of the mesh; without what reads results, those of other jobs are left out."""
+    """Move the nodes of the mesh. Without a reader of results, imperfections from other jobs are left out."""
     change = np.zeros_like(flat.mesh.coordinates)
     for block in blocks:
         if block.name != "IMPERFECTION":
@@ -95,7 +96,9 @@ def _by_shapes(block: Block, flat: FlatMesh, change: FloatArray, earlier: Earlie
 
 
 def same_nodes(flat: FlatMesh, labels: IntArray, place: Row | Block, job: str) -> tuple[IntArray, IntArray]:
-    """Nodes of the mesh and of an earlier job, by their labels, that are the same. Raises DeckError at the place."""
+    """Match nodes of the mesh with those of an earlier job by label, and return the positions in both.
+    Raises DeckError at the place.
+    """
     mesh = flat.mesh
     if np.array_equal(labels, mesh.labels):
         every = np.arange(len(labels))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Nodes, elements and sets of one part, one instance, or of what belongs to no part, by their labels."""
+"""Nodes, elements and sets of one part, one instance, or of the model outside all parts, by their labels."""
 
 from __future__ import annotations
 
@@ -22,7 +22,9 @@ from uel.model.element_types import BEAM, BUILT_IN
 
 LARGEST_LABEL = 999_999_999
 MOST_GENERATED = {"nodes": 1_000_000, "elements": 1_000_000, "numbers": 10_000_000}
-"""What the generating keywords of one scope may make in all: a typing error must not take all memory."""
+"""Largest number of items that the generating keywords of one scope may make:
+a typing error must not exhaust the memory.
+"""
 Point = tuple[float, float, float]
 
 
@@ -48,18 +50,18 @@ class ElementRun:
     source: Callable[[int], Source]
 
     def at(self, rows: IntArray) -> ElementRun:
-        """Some of the elements."""
+        """Return the run of the elements in these rows."""
         places = rows.tolist()
         return ElementRun(self.type, self.labels[rows], self.nodes[rows], lambda index: self.source(places[index]))
 
 
 def _rows(run: ElementRun) -> Iterable[tuple[int, list[int]]]:
-    """Label and nodes of each element."""
+    """Yield label and nodes of each element."""
     return zip(run.labels.tolist(), run.nodes.tolist(), strict=True)
 
 
 class LocalMesh:
-    """What *NODE, *ELEMENT, *NSET, *ELSET and the generating keywords define in one scope.
+    """Nodes, elements and sets that *NODE, *ELEMENT, *NSET, *ELSET and the generating keywords define in one scope.
 
     A node or element that is defined more than once is as the last definition says (Abaqus Analysis User's Guide, "Node
     definition", "Element definition"), with a warning where an earlier one says otherwise.
@@ -92,7 +94,9 @@ class LocalMesh:
         self.find_instance_node: Callable[[str, int], int | None] = lambda instance, label: None
 
     def reserve(self, count: int, what: str, row: Row) -> None:
-        """Count 'nodes', 'elements' or 'numbers' that a line is about to generate; DeckError where too many."""
+        """Count 'nodes', 'elements' or 'numbers' that a line is about to generate.
+        Raises DeckError if there are too many.
+        """
         self._generated[what] += count
         if self._generated[what] > MOST_GENERATED[what]:
             raise row.error(f"{count} {what} are too many: at most {MOST_GENERATED[what]} can be generated in total")
@@ -132,7 +136,7 @@ class LocalMesh:
         self.runs.append(run)
 
     def _tell_changes(self, run: ElementRun, known: dict[int, tuple[ElementType, list[int]]]) -> None:
-        """Warn of elements that are not as an earlier definition says; known: type and nodes by these."""
+        """Warn of elements that differ from an earlier definition; known: type and nodes by these."""
         for index, (label, nodes) in enumerate(_rows(run)):
             if known.setdefault(label, (run.type, nodes)) != (run.type, nodes):
                 self._warn(run.source(index), f"element {label} is defined again, differently; this definition counts")
@@ -144,7 +148,7 @@ class LocalMesh:
             sets.setdefault(name, []).extend(members)
 
     def read_node(self, block: Block) -> None:
-        """*NODE."""
+        """Read *NODE."""
         labels, values, source = _read_nodes(block)
         points, normals = values[:, :3], values[:, 3:]
         if self.system is not IDENTITY:
@@ -155,11 +159,11 @@ class LocalMesh:
         self.add_to_set(self.nsets, block.options.text("NSET"), [Members("", labels, block.source)])
 
     def read_system(self, block: Block) -> None:
-        """*SYSTEM."""
+        """Read *SYSTEM."""
         self.system = read_system(block)
 
     def read_element(self, block: Block) -> None:
-        """*ELEMENT."""
+        """Read *ELEMENT."""
         name = block.options.text("ELSET")
         self.add_to_set(self.elsets, name, [])
         kind = find_type(block.options.text("TYPE"), self.definitions, block.source)
@@ -171,7 +175,7 @@ class LocalMesh:
         self.add_to_set(self.elsets, name, [Members("", labels, block.source)])
 
     def read_set(self, block: Block) -> None:
-        """*NSET or *ELSET."""
+        """Read *NSET or *ELSET."""
         nodal = block.name == "NSET"
         sets = self.sets(block.name)
         name = block.options.text(block.name)
@@ -191,7 +195,9 @@ class LocalMesh:
             self.add_to_set(sets, name, self._listed(block, instance))
 
     def find_set(self, kind: str, name: str, source: Source) -> list[Members]:
-        """Members of a node set ('NSET') or element set ('ELSET'): of this scope, or INSTANCE.NAME."""
+        """Return the members of a node set ('NSET') or element set ('ELSET'), of this scope or INSTANCE.NAME.
+        Raises DeckError.
+        """
         sets = self.sets(kind)
         if name in sets:
             return sets[name]
@@ -207,11 +213,11 @@ class LocalMesh:
         raise DeckError(source, f"unknown {what} {name}{nearest(name, known)}")
 
     def sets(self, kind: str) -> dict[str, list[Members]]:
-        """Node sets ('NSET') or element sets ('ELSET')."""
+        """Return the node sets ('NSET') or element sets ('ELSET')."""
         return self.nsets if kind == "NSET" else self.elsets
 
     def node_labels(self, name: str, source: Source) -> IntArray:
-        """Labels of a node set of this scope in ascending order, or of one node by its number."""
+        """Return the labels of a node set of this scope in ascending order, or of one node by its number."""
         if is_integer(name):
             return np.array([int(name.split(".", maxsplit=1)[0])])
         members = self.find_set("NSET", name, source)
@@ -219,13 +225,13 @@ class LocalMesh:
         return np.unique(np.concatenate(own)) if own else np.zeros(0, dtype=np.int64)
 
     def nodes(self) -> tuple[IntArray, FloatArray]:
-        """Labels of all nodes in ascending order, and their coordinates (n, 3)."""
+        """Return the labels of all nodes in ascending order, and their coordinates (n, 3)."""
         labels = sorted(self._definition_of)
         points = np.array(self._points).reshape(-1, 3)[[self._definition_of[label] for label in labels]]
         return np.array(labels, dtype=np.int64), points
 
     def point(self, label: int, source: Source) -> Point:
-        """Coordinates of a node."""
+        """Return the coordinates of a node. Raises DeckError if it is not defined."""
         if label not in self._definition_of:
             raise DeckError(source, f"node {label} is not defined")
         return self._coordinates_of(label)
@@ -236,7 +242,7 @@ class LocalMesh:
         return x, y, z
 
     def element(self, label: int, source: Source) -> tuple[ElementType, IntArray]:
-        """Type and node labels of an element."""
+        """Return type and node labels of an element. Raises DeckError if it is not defined."""
         if label not in self.run_of:
             raise DeckError(source, f"element {label} is not defined")
         run = self.runs[self.run_of[label]]
@@ -252,7 +258,7 @@ class LocalMesh:
         return found
 
     def _listed(self, block: Block, instance: str) -> list[Members]:
-        """Labels and set names of the data lines of *NSET and *ELSET."""
+        """Return labels and set names of the data lines of *NSET and *ELSET."""
         tokens = [token for line in block.lines for token in line.split(",")]
         try:
             if any("_" in token for token in tokens):
@@ -270,7 +276,9 @@ class LocalMesh:
         return found
 
     def _range(self, row: Row) -> IntArray:
-        """Labels of one GENERATE line: first, last, increment (1), which may be negative, as public decks have it."""
+        """Return the labels of one GENERATE line: first, last, increment (1), which may be negative,
+        as in public decks.
+        """
         first = row.integer(0, "first number")
         last = row.integer(1, "last number", first)
         step = row.integer(2, "increment", 1)
@@ -291,7 +299,7 @@ class LocalMesh:
         return self.find_set(kind, f"{instance}.{token}" if instance else token, source)
 
     def connectivity(self, block: Block, kind: ElementType) -> tuple[IntArray, IntArray, IntArray]:
-        """Labels, node labels and data line of each element."""
+        """Return labels, node labels and data line of each element."""
         table = integer_table(block.lines)
         if table is not None and table.shape[1] == kind.nodes + 1 and 0 < table.min() <= table.max() <= LARGEST_LABEL:
             return table[:, 0], table[:, 1:], np.arange(len(table))
@@ -323,7 +331,7 @@ class LocalMesh:
         return np.array(labels, dtype=np.int64), np.array(nodes, dtype=np.int64).reshape(shape), np.array(lines)
 
     def _node_reference(self, block: Block, text: str, source: Source) -> int:
-        """Label of a node of this scope, or the negative code of INSTANCE.label."""
+        """Return the label of a node of this scope, or the negative code of INSTANCE.label. Raises DeckError."""
         if is_integer(text):
             return _label(text, source)
         instance, dot, label = unquote(text).rpartition(".")
@@ -337,7 +345,7 @@ class LocalMesh:
 
 
 def _entries(line: str) -> list[str]:
-    """Entries of a line without blank ones at its end."""
+    """Return the entries of a line without trailing blank ones."""
     fields = split_fields(line)
     while fields and not fields[-1]:
         fields.pop()
@@ -345,7 +353,7 @@ def _entries(line: str) -> list[str]:
 
 
 def _orienting_nodes(block: Block, kind: ElementType) -> dict[int, str]:
-    """The additional node that gives n1 of a beam in space, by the place of its line."""
+    """Return the additional node that gives n1 of a beam in space, by the index of its line."""
     if kind.name not in BEAM or BEAM[kind.name].dimension == 2:
         return {}
     found = ((index, _entries(line)) for index, line in enumerate(block.lines))
@@ -367,7 +375,7 @@ def _label(text: str, source: Source) -> int:
 
 
 def _read_nodes(block: Block) -> tuple[IntArray, FloatArray, Callable[[int], Source]]:
-    """Labels, (n, 6) coordinates and direction cosines of the normal, and the place of each."""
+    """Read labels, (n, 6) coordinates and direction cosines of the normal, and the place of each."""
     # read as a real number, 2e0 would be a label
     labels = integer_table(block.lines, columns=1)
     if labels is not None and 0 < labels.min() <= labels.max() <= LARGEST_LABEL:

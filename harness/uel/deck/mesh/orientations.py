@@ -30,14 +30,16 @@ _VALUES = {_POINTS: 6, _ANGLE: 1}
 
 @dataclass(frozen=True, slots=True)
 class _Distribution:
-    """(n, values) of all elements of the model, with the labels of its table."""
+    """Values (n, values) of all elements of the model, with the labels of its table."""
 
     labels: tuple[str, ...]
     values: FloatArray
 
 
 def read_orientations(flat: FlatMesh, problems: Problems) -> dict[str, dict[str, Orientation]]:
-    """Orientations that each instance, and the root (''), sees: the root's, and its own, which turn with it."""
+    """Return the orientations visible in each instance and the root (''): those of the root, and its own,
+    which turn with the instance.
+    """
     root = flat.owners[-1]
     tables = read_definitions(root.blocks, "DISTRIBUTION TABLE", _read_table, problems)
     outer: dict[str, _Distribution] = {}
@@ -121,7 +123,7 @@ def _read_orientation(
 
 
 def _direction(row: Row) -> FloatArray:
-    """Unit vector of a local direction."""
+    """Return the unit vector of a local direction. Raises DeckError if its length is zero."""
     row.at_most(3)
     given = np.array([row.real(k, "component of a local direction", 0.0) for k in range(3)])
     length = np.linalg.norm(given)
@@ -131,12 +133,12 @@ def _direction(row: Row) -> FloatArray:
 
 
 def _in_model(block: Block) -> bool:
-    """Whether the points are nodes, which are where their instance is."""
+    """Return whether the points are nodes, which already have their place in the model."""
     return block.options.text("DEFINITION") != "COORDINATES"
 
 
 def _placed(system: LocalSystem, owner: Owner, block: Block) -> LocalSystem:
-    """The system, with points of an instance moved to where it is."""
+    """Return the system with its points moved by the placement of the instance, unless they are nodes."""
     if _in_model(block):
         return system
     moved = owner.placement.move(system.points.reshape(-1, 3)).reshape(system.points.shape)
@@ -146,7 +148,7 @@ def _placed(system: LocalSystem, owner: Owner, block: Block) -> LocalSystem:
 def _read_points(
     flat: FlatMesh, owner: Owner, distributions: Mapping[str, _Distribution], block: Block, row: Row
 ) -> tuple[FloatArray, tuple[int, ...]]:
-    """Points a, b and c, (3, 3) or by element; or local numbers of the nodes that they are."""
+    """Read the points a, b and c, (3, 3) or by element; or local numbers of the nodes at which they are."""
     definition = block.options.text("DEFINITION")
     if definition == "COORDINATES":
         if len(row) == 1 and not _is_number(row.fields[0]):
@@ -170,7 +172,7 @@ def _read_points(
 
 
 def _read_rotation(distributions: Mapping[str, _Distribution], row: Row) -> tuple[int, float | FloatArray]:
-    """Axis, and the angle or angles about it, degrees."""
+    """Read the axis, and the angle or angles about it, degrees. Raises DeckError."""
     row.at_most(2)
     axis = row.integer(0, "axis", 1)
     if axis not in (1, 2, 3):

@@ -18,22 +18,22 @@ SMALLEST_LENGTH = 1e-10
 
 @dataclass(frozen=True, slots=True)
 class Placement:
-    """x -> rotation (3, 3) x + shift (3,)."""
+    """Rigid motion x -> rotation (3, 3) x + shift (3,)."""
 
     rotation: FloatArray
     shift: FloatArray
 
     @property
     def rotates(self) -> bool:
-        """True where directions change."""
+        """Whether directions change."""
         return not np.array_equal(self.rotation, np.eye(3))
 
     def move(self, points: FloatArray) -> FloatArray:
-        """(n, 3) points in their new place."""
+        """Return (n, 3) points moved to their new place."""
         return points @ self.rotation.T + self.shift
 
     def turn(self, directions: FloatArray) -> FloatArray:
-        """(n, 3) directions, rotated."""
+        """Return (n, 3) rotated directions."""
         return directions @ self.rotation.T
 
 
@@ -41,7 +41,7 @@ IDENTITY = Placement(np.eye(3), np.zeros(3))
 
 
 def read_placement(block: Block) -> Placement:
-    """Placement of the data lines: a translation, then two points of an axis and an angle in degrees."""
+    """Read a placement from the data lines: a translation, then two points of an axis and an angle in degrees."""
     rows = list(block.all_rows())
     if len(rows) > 2:
         raise rows[2].error("expected one line with a translation and one with a rotation")
@@ -56,7 +56,9 @@ def read_placement(block: Block) -> Placement:
 
 
 def read_system(block: Block) -> Placement:
-    """Placement of the nodes after *SYSTEM: origin a, point b on the local x-axis, point c of the local x-y plane."""
+    """Read the placement of the nodes after *SYSTEM: origin a, point b on the local x-axis,
+    point c of the local x-y plane.
+    """
     rows = list(block.rows())
     if len(rows) > 2:
         raise rows[2].error("expected at most two data lines")
@@ -82,7 +84,7 @@ def read_system(block: Block) -> Placement:
 
 
 def _read_rotation(row: Row) -> tuple[FloatArray, FloatArray]:
-    """Point of the axis and rotation matrix (Rodrigues' formula)."""
+    """Read a point of the axis and the rotation matrix (Rodrigues' formula). Raises DeckError."""
     row.at_most(7)
     values = np.array([row.real(index, "rotation", 0.0) for index in range(6)])
     start, axis = values[:3], values[3:] - values[:3]

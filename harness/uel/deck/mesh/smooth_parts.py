@@ -50,7 +50,7 @@ def smooth_parts(faces: Sequence[IntArray], coordinates: FloatArray) -> SmoothPa
 
 
 def _edges(faces: Sequence[IntArray], size: int) -> IntArray:
-    """(e, 2) faces that share an edge."""
+    """Return (e, 2) pairs of faces that share an edge."""
     keys, owners, first = [], [], 0
     for nodes in faces:
         lines = nodes.shape[1] == 2
@@ -66,7 +66,7 @@ def _edges(faces: Sequence[IntArray], size: int) -> IntArray:
 
 
 def _parts(edges: IntArray, normals: FloatArray) -> IntArray:
-    """(f,) number of the part of each face."""
+    """Return (f,) number of the smooth part of each face."""
     smooth = np.einsum("ed,ed->e", normals[edges[:, 0]], normals[edges[:, 1]]) > FACING
     ends = edges[smooth]
     graph = sparse.coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(len(normals),) * 2)

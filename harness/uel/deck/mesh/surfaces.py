@@ -54,21 +54,21 @@ class _Line:
 
 
 def _keys(lines: Sequence[_Line], every: Sequence[_Line]) -> IntArray:
-    """Numbers of the faces or nodes of lines, one behind the other; every: all lines that are compared."""
+    """Return numbers of the faces or nodes of lines, concatenated; every: all lines that are compared."""
     codes = {face: k for k, face in enumerate(sorted({line.face for line in every}))}
     keys = [line.members * len(codes) + codes[line.face] for line in lines]
     return np.concatenate([np.zeros(0, dtype=np.int64), *keys])
 
 
 def _chosen(lines: Sequence[_Line], chosen: NDArray[np.bool_]) -> list[_Line]:
-    """Return the lines with some of their faces or nodes, which follow each other as those of `_keys`."""
+    """Return the lines restricted to a mask of their faces or nodes, which are in the order of `_keys`."""
     ends = np.cumsum([len(line.members) for line in lines])[:-1]
     parts = np.split(chosen, ends)
     return [replace(line, members=line.members[part]) for line, part in zip(lines, parts, strict=True)]
 
 
 def _merged(lines: Sequence[_Line]) -> list[_Line]:
-    """Return the lines of a surface, which is a set: each without what an earlier one has."""
+    """Return the lines of a surface as disjoint sets: each without the members of earlier ones."""
     keys = _keys(lines, lines)
     first = np.zeros(len(keys), dtype=bool)
     first[np.unique(keys, return_index=True)[1]] = True
@@ -76,7 +76,7 @@ def _merged(lines: Sequence[_Line]) -> list[_Line]:
 
 
 def _combined(block: Block) -> list[tuple[str, Source]]:
-    """Names and places of the surfaces that COMBINE puts together. Raises DeckError."""
+    """Return names and places of the surfaces that COMBINE puts together. Raises DeckError."""
     how = block.options.text("COMBINE")
     names = [(row.name(k, "surface"), row.source) for row in block.rows() for k in range(len(row))]
     if not names or (how != "UNION" and len(names) != 2):
@@ -100,7 +100,7 @@ class Surfaces:
                     self._blocks[f"{owner.name}.{name}" if owner.name else name] = (owner.name, block)
 
     def locate(self, name: str, source: Source, owner: str) -> tuple[str, Block]:
-        """Level and keyword of a surface of any type. Raises DeckError."""
+        """Return level and keyword of a surface of any type. Raises DeckError."""
         local = name.split(".")
         candidates = [f"{owner}.{name}" if owner else name, ".".join(local[-2:]), local[-1]]
         key = next((candidate for candidate in candidates if candidate in self._blocks), None)
@@ -109,7 +109,7 @@ class Surfaces:
         return self._blocks[key]
 
     def kind(self, name: str, source: Source, owner: str = "") -> str:
-        """TYPE of a surface; of a combined one that of its surfaces. Raises DeckError."""
+        """Return the TYPE of a surface; of a combined one that of its surfaces. Raises DeckError."""
         place, block = self.locate(name, source, owner)
         if not block.options.given("COMBINE"):
             return block.options.text("TYPE")
@@ -118,7 +118,7 @@ class Surfaces:
         return self.kind(own, at, place)
 
     def profile(self, name: str, source: Source, owner: str) -> tuple[str, Block, float] | None:
-        """Level, keyword and fillet radius of an analytical rigid surface in the plane, None for another one.
+        """Return level, keyword and fillet radius of an analytical rigid surface in the plane, None for another type.
 
         Raises DeckError.
         """
@@ -134,7 +134,9 @@ class Surfaces:
         return place, block, radius
 
     def _lines(self, name: str, source: Source, owner: str, within: tuple[Source, ...] = ()) -> list[_Line]:
-        """Lines of a surface of elements or nodes, none of which has what an earlier one has. Raises DeckError."""
+        """Return the lines of a surface of elements or nodes, each without the members of earlier lines.
+        Raises DeckError.
+        """
         place, block = self.locate(name, source, owner)
         if block.source in within:
             raise block.error("combines itself")
@@ -166,7 +168,7 @@ class Surfaces:
         return _chosen(members[0], np.isin(first, second) == (how == "INTERSECTION"))
 
     def nodes(self, name: str, source: Source, owner: str = "") -> IntArray:
-        """Node indices of a surface, ascending; DeckError where there is none, or its faces are not known."""
+        """Return the node indices of a surface, ascending. Raises DeckError if it is unknown, or its faces are."""
         lines, parts = self._lines(name, source, owner), [np.zeros(0, dtype=np.int64)]
         if self.kind(name, source, owner) == "NODE":
             parts += [line.members for line in lines]
@@ -175,7 +177,9 @@ class Surfaces:
         return np.unique(np.concatenate(parts))
 
     def shares(self, name: str, source: Source, owner: str = "") -> tuple[IntArray, FloatArray]:
-        """Nodes of a surface, ascending, and their tributary areas or lengths, which are 1 on a surface of nodes."""
+        """Return the nodes of a surface, ascending, and their tributary areas or lengths,
+        which are 1 on a surface of nodes.
+        """
         nodes = self.nodes(name, source, owner)
         if self.kind(name, source, owner) == "NODE":
             return nodes, np.ones(len(nodes))
@@ -188,7 +192,9 @@ class Surfaces:
         return nodes, areas
 
     def faces(self, name: str, source: Source) -> list[tuple[IntArray, str, Source]]:
-        """Elements (positions) and their face (S1, ...) of each line of a surface of elements. Raises DeckError."""
+        """Return the elements (positions) and their face (S1, ...) of each line of a surface of elements.
+        Raises DeckError.
+        """
         lines = self._lines(name, source, "")
         if self.kind(name, source) == "NODE":
             place = self.locate(name, source, "")[1].source
@@ -198,7 +204,9 @@ class Surfaces:
     def facets(
         self, name: str, source: Source, owner: str = ""
     ) -> Iterator[tuple[ElementGroup, IntArray, Face, Source]]:
-        """Faces of a surface: a group, rows of it, the local nodes of their face, the place. Raises DeckError."""
+        """Yield the faces of a surface: a group, rows of it, the local nodes of their face, the place.
+        Raises DeckError.
+        """
         for line in self._lines(name, source, owner):
             numbers = np.searchsorted(self._starts, line.members, side="right") - 1
             for k in np.unique(numbers).tolist():
@@ -206,7 +214,9 @@ class Surfaces:
                 yield self._groups[k], line.members[numbers == k] - self._starts[k], local, line.row.source
 
     def of_nodes(self, name: str, source: Source, owner: str = "") -> list[tuple[IntArray, float]] | None:
-        """Nodes of each line of a surface of nodes, with the area of each node; None of a surface of faces."""
+        """Return the nodes of each line of a surface of nodes, with the area of each node;
+        None for a surface of faces.
+        """
         lines = self._lines(name, source, owner)
         if self.kind(name, source, owner) != "NODE":
             return None
@@ -216,13 +226,13 @@ class Surfaces:
         return [(line.members, line.row.real(1, "area", 1.0)) for line in lines]
 
     def by_group(self, elements: IntArray) -> Iterator[tuple[ElementGroup, IntArray]]:
-        """Elements (positions in the model) group by group."""
+        """Yield the rows of elements, given by their positions in the model, group by group."""
         groups = np.searchsorted(self._starts, elements, side="right") - 1
         for k in np.unique(groups).tolist():
             yield self._groups[k], elements[groups == k]
 
     def nodes_of(self, elements: IntArray) -> set[int]:
-        """Nodes of elements, by their positions in the model."""
+        """Return the nodes of elements, given by their positions in the model."""
         found: set[int] = set()
         for element in elements.tolist():
             k = int(np.searchsorted(self._starts, element, side="right")) - 1
@@ -230,7 +240,7 @@ class Surfaces:
         return found
 
     def _face(self, element: int, line: _Line) -> tuple[Family, IntArray]:
-        """The face of an element of a line, by its position in the model, and its nodes."""
+        """Return the family and nodes of the face of an element of a line; element: position in the model."""
         k = int(np.searchsorted(self._starts, element, side="right")) - 1
         group = self._groups[k]
         local = face_nodes(group, line.face, line.row.source, "SURFACE")
@@ -244,7 +254,7 @@ class Surfaces:
 
 
 def tributary_areas(family: Family, places: FloatArray) -> FloatArray:
-    """Area or length that belongs to each node of faces of a kind.
+    """Compute the area or length that belongs to each node of faces of a family.
 
     On linear faces that is the integral of its shape function. Those of quadratic faces are negative at corners, or
     zero; such a face is cut at the middles of its edges instead, and the area between its corners is shared.
@@ -277,7 +287,7 @@ def tributary_areas(family: Family, places: FloatArray) -> FloatArray:
 
 
 def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> tuple[int, ...]:
-    """Local nodes of a face of the elements of a group: corners, then middles of edges. Raises DeckError."""
+    """Return the local nodes of a face of the elements of a group: corners, then middles of edges. Raises DeckError."""
     kind = group.built_in
     faces = {}
     if isinstance(kind, SolidType):
@@ -296,7 +306,7 @@ def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> 
 
 
 def family_of_face(group: ElementGroup, local: Face) -> Family | None:
-    """The family of a face of solids, rigid or cohesive elements, None of others."""
+    """Return the family of a face of solids, rigid or cohesive elements, None for others."""
     kind = group.built_in
     if isinstance(kind, RigidType):
         return kind.family
@@ -306,7 +316,9 @@ def family_of_face(group: ElementGroup, local: Face) -> Family | None:
 
 
 def linear_face(group: ElementGroup, local: Face) -> Family | None:
-    """The family of a face of solids or rigid elements, None where it is another one, or has middle nodes."""
+    """Return the family of a linear face of solids or rigid elements,
+    None for other elements and faces with middle nodes.
+    """
     family = None if isinstance(group.built_in, CohesiveType) else family_of_face(group, local)
     return family if family in (LINE2, TRI3, QUAD4) else None
 

@@ -35,10 +35,10 @@ _MOST_ALONG_X = 0.99
 
 
 class Transforms:
-    """Local directions of nodes, and what the deck prescribes and loads along them."""
+    """Local directions of nodes, and the dofs that the deck prescribes and loads along them."""
 
     def __init__(self, flat: FlatMesh, groups: Sequence[ElementGroup], problems: Problems) -> None:
-        """Read all *TRANSFORM; errors go to the problems."""
+        """Read all *TRANSFORM, and report errors to `problems`."""
         self._mesh, self._problems = flat.mesh, problems
         self._active = dofs_by_node(len(flat.mesh.coordinates), groups)
         self._axes: dict[int, FloatArray] = {}
@@ -84,7 +84,8 @@ class Transforms:
             self._axes[node], self._sources[node] = own, block.source
 
     def parts(self, nodes: IntArray, dof: int, source: Source) -> list[tuple[IntArray, int]]:
-        """Nodes of one entry of a prescribed value or load, with the dof that it is among the unknowns.
+        """Split the nodes of a prescribed value or load into global and local ones,
+        each with the dof among the unknowns.
 
         Raises DeckError where the elements of a node have too few dofs for its local system.
         """
@@ -98,11 +99,11 @@ class Transforms:
         return [part for part in found if len(part[0])]
 
     def named(self, nodes: IntArray) -> str:
-        """Name of the first of these nodes that has a local system, '' if none has."""
+        """Return the name of the first of these nodes that has a local system, '' if none has."""
         return next((self._mesh.name(node) for node in nodes.tolist() if node in self._axes), "")
 
     def equations(self) -> tuple[Equation, ...]:
-        """What local components that are prescribed or loaded are in global ones."""
+        """Return the equations that express prescribed or loaded local components in global ones."""
         found = []
         for node, dof in sorted(self._used):
             terms = self._terms(node, dof, self._sources[node])
@@ -124,12 +125,12 @@ class Transforms:
                     self._problems.add(source, message)
 
     def _has(self, node: int, dof: int) -> bool:
-        """Whether the dof of the node is a local one; one that no element of the node has is none."""
+        """Return whether the dof of the node is a local one; a dof that no element of the node has is not."""
         own = self._active[node]
         return node in self._axes and (not own or dof in own)
 
     def _terms(self, node: int, dof: int, source: Source) -> tuple[tuple[int, int, float], ...]:
-        """Minus the direction of a local dof, in the global ones of the node."""
+        """Return the terms of minus the direction of a local dof, in the global dofs of the node. Raises DeckError."""
         base = 0 if dof <= _ROTATIONS else _ROTATIONS
         direction = self._axes[node][dof - base - 1]
         own = self._active[node]
@@ -142,7 +143,9 @@ class Transforms:
 
 
 def _off_axis(places: FloatArray, ends: FloatArray) -> tuple[FloatArray, IntArray]:
-    """Places with those on an axis (2, 3) moved to one side, and their numbers: the side is that of x, or of y."""
+    """Move places on an axis (2, 3) to one side, that of x or of y, and return all places,
+    and the numbers of the moved ones.
+    """
     axis = (ends[1] - ends[0]) / max(float(np.linalg.norm(ends[1] - ends[0])), float(np.finfo(np.float64).tiny))
     arms = places - ends[0]
     distances = np.linalg.norm(arms - np.outer(arms @ axis, axis), axis=1)

@@ -32,7 +32,7 @@ _MAY_VANISH: Final = ("l", "I12", "I22")
 
 
 def read_beam_section(block: Block, materials: Mapping[str, Material], dimension: int) -> BeamSection:
-    """The section of beams in a plane (2) or in space (3). Raises DeckError."""
+    """Read the section of beams in a plane (2) or in space (3). Raises DeckError."""
     options, rows = block.options, list(block.all_rows())
     general, profile = block.name == "BEAM GENERAL SECTION", options.text("SECTION")
     if not rows:
@@ -118,7 +118,7 @@ def _check_points(row: Row, profile: str, dimension: int) -> None:
 
 
 def _material(block: Block, materials: Mapping[str, Material]) -> Material:
-    """A material that beams take. Raises DeckError."""
+    """Return a material that beams support. Raises DeckError."""
     material = look_up(materials, block.options.text("MATERIAL"), "material", block.source)
     refuse_hyperelastic(material, "beams")
     refuse_viscous(material, "beams")
@@ -138,7 +138,9 @@ def _material(block: Block, materials: Mapping[str, Material]) -> Material:
 
 
 def read_beam_shear(block: Block) -> tuple[tuple[float, ...], float | None]:
-    """K23 and K13, none for those of the profile, and the slenderness factor, None for the default. DeckError."""
+    """Read K23 and K13, none for those of the profile, and the slenderness factor, None for the default.
+    Raises DeckError.
+    """
     row = next(block.rows(), None)
     if row is None:
         raise block.error("needs a data line with K23, K13")

@@ -13,7 +13,7 @@ from uel.model.properties import SectionControls
 
 
 def read_section_controls(blocks: list[Block], problems: Problems) -> dict[str, SectionControls]:
-    """Section controls by name."""
+    """Read the section controls, by name."""
     return read_definitions(blocks, "SECTION CONTROLS", _read_controls, problems)
 
 

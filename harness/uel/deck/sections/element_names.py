@@ -22,7 +22,9 @@ _UNNAMED: Final = "-"
 
 
 def read_names(block: Block, element: UserElement, problems: Problems) -> ElementNames:
-    """Names in the comments of a *USER ELEMENT; what does not fit the element is warned of and left out."""
+    """Read the names in the comments of a *USER ELEMENT; warn of those that do not fit
+    the element and leave them out.
+    """
     found: dict[str, list[str]] = {}
     places: dict[str, Source] = {}
     for text, source in block.comments:
@@ -53,6 +55,6 @@ def read_names(block: Block, element: UserElement, problems: Problems) -> Elemen
 
 
 def _plain(name: str, kind: str) -> str:
-    """A name without its unit; of a variable as output requests are read."""
+    """Return a name without its unit; that of a variable in the spelling of output requests."""
     plain = _UNIT.sub("", name)
     return compact(plain) if kind == "VARIABLES" else plain

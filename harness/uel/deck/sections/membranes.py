@@ -24,7 +24,7 @@ def read_membrane_section(
     orientations: Mapping[str, Orientation],
     controls: SectionControls,
 ) -> MembraneSection:
-    """The section of membranes. Raises DeckError."""
+    """Read the section of membranes. Raises DeckError."""
     material = surface_material(block, block.options.text("MATERIAL"), materials)
     name = block.options.text("ORIENTATION")
     orientation = look_up(orientations, name, "orientation", block.source) if name else None

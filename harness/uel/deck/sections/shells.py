@@ -20,7 +20,9 @@ MOST_POINTS: Final = 250
 """Section points of a layer."""
 _SIDES: Final = {"SPOS": 0.5, "SNEG": -0.5}
 _DEFAULT_POINTS: Final = {("SIMPSON", False): 5, ("SIMPSON", True): 3, ("GAUSS", False): 3, ("GAUSS", True): 2}
-"""By the rule, and whether the section is composite (Abaqus Keywords Guide, *SHELL SECTION)."""
+"""Default number of section points by the rule, and whether the section is composite (Abaqus Keywords Guide,
+*SHELL SECTION).
+"""
 
 
 def read_shell_section(
@@ -29,7 +31,7 @@ def read_shell_section(
     orientations: Mapping[str, Orientation],
     controls: SectionControls,
 ) -> ShellSection:
-    """The section of shells. Raises DeckError."""
+    """Read the section of shells. Raises DeckError."""
     options, rows = block.options, list(block.rows())
     composite = options.flag("COMPOSITE")
     name = options.text("ORIENTATION")
@@ -65,7 +67,7 @@ def read_shell_section(
 
 
 def _poisson(block: Block) -> float | Literal["ELASTIC"] | None:
-    """Poisson's ratio of the section, None for the default."""
+    """Read Poisson's ratio of the section, None for the default. Raises DeckError."""
     text = block.options.text("POISSON")
     if not text:
         return None
@@ -81,7 +83,7 @@ def _poisson(block: Block) -> float | Literal["ELASTIC"] | None:
 
 
 def _thickness_modulus(block: Block) -> float:
-    """Of continuum shells; 0 for the default."""
+    """Read the thickness modulus of continuum shells; 0 for the default. Raises DeckError."""
     value = block.options.real("THICKNESS MODULUS", 0.0)
     if block.options.given("THICKNESS MODULUS") and value <= 0:
         raise block.error(f"THICKNESS MODULUS={value:g} must be positive")
@@ -89,7 +91,7 @@ def _thickness_modulus(block: Block) -> float:
 
 
 def _rule(block: Block) -> str:
-    """The rule through the thickness; Simpson's is exact where the section is linear elastic."""
+    """Return the rule through the thickness; Simpson's is exact if the section is linear elastic."""
     return block.options.text("SECTION INTEGRATION") if block.name == "SHELL SECTION" else "SIMPSON"
 
 
@@ -129,7 +131,7 @@ def _read_layer(block: Block, row: Row, materials: Mapping[str, Material], defau
 
 
 def surface_material(block: Block, name: str, materials: Mapping[str, Material]) -> Material:
-    """A material of shells or membranes: with elasticity or of UMAT. Raises DeckError."""
+    """Return a material of shells or membranes: with elasticity or of UMAT. Raises DeckError."""
     material = look_up(materials, name, "material", block.source)
     depends = material.user_field or (material.elastic is not None and material.elastic.table is not None)
     if block.name == "SHELL GENERAL SECTION" and (material.user or material.plastic or depends):
@@ -149,7 +151,7 @@ def surface_material(block: Block, name: str, materials: Mapping[str, Material])
 
 
 def read_shear_stiffness(block: Block) -> tuple[tuple[float, float, float], float | None]:
-    """K11, K22 and K12, and the slenderness factor, None for the default. Raises DeckError."""
+    """Read K11, K22 and K12, and the slenderness factor, None for the default. Raises DeckError."""
     row = next(block.rows(), None)
     if row is None:
         raise block.error("needs a data line with K11, K22, K12")

@@ -48,7 +48,7 @@ def make_section(
     controls: Mapping[str, SectionControls],
     problems: Problems,
 ) -> Section:
-    """The section a keyword gives to elements of a type; DeckError where the two do not go together."""
+    """Make the section that a keyword gives to elements of a type. Raises DeckError if the two do not go together."""
     options = block.options
     elset = options.text("ELSET")
     alike = any({block.name, kind.section}.issubset(names) for names in (BEAM_KEYWORDS, SHELL_KEYWORDS))
@@ -85,7 +85,7 @@ def _solid_section(
     orientation: Orientation | None,
     controls: Mapping[str, SectionControls],
 ) -> SolidSection | CompositeSection:
-    """Of a material, or of layers."""
+    """Make the section of solids from a material, or from layers. Raises DeckError."""
     elset, found = block.options.text("ELSET"), _controls(block, controls)
     if isinstance(given, tuple):
         direction = int(block.options.text("STACK DIRECTION"))
@@ -98,7 +98,9 @@ def _solid_section(
 
 
 def _is_composite(block: Block, kind: ElementType) -> bool:
-    """Whether a solid section has layers. Raises DeckError unless it has either a material or layers, for bricks."""
+    """Return whether a solid section has layers.
+    Raises DeckError unless it has either a material or layers, for bricks.
+    """
     composite = block.options.flag("COMPOSITE")
     if composite == block.options.given("MATERIAL"):
         raise block.error("expected either MATERIAL= or COMPOSITE, with the material of each layer on its line")
@@ -158,7 +160,7 @@ def _without_material(block: Block, kind: ElementType) -> MassSection | RigidSec
 
 
 def reference_node(block: Block, type: str, find: Callable[[str, Source], IntArray]) -> int:
-    """Index of the node that REF NODE of *SOLID SECTION names, -1 where the elements have none.
+    """Return the index of the node that REF NODE of *SOLID SECTION names, -1 if the elements have none.
 
     find: nodes of a number or set. Raises DeckError.
     """
@@ -177,7 +179,7 @@ def reference_node(block: Block, type: str, find: Callable[[str, Source], IntArr
 
 
 def _check_planes(rows: list[Row]) -> None:
-    """The bounding planes of generalised plane strain are parallel before any displacement."""
+    """Raise DeckError unless the bounding planes of generalised plane strain are parallel before any displacement."""
     for k, axis in enumerate("xy", start=1):
         if rows and rows[0].real(k, f"initial rotation about {axis}", 0.0):
             raise rows[0].error(f"an initial rotation of the bounding planes about {axis} is not supported; expected 0")
@@ -194,7 +196,7 @@ def _mass(block: Block) -> float:
 
 
 def _spring(block: Block, kind: ElementType) -> SpringSection:
-    """A first line with the dofs, blank for SPRINGA and DASHPOTA, then the stiffness, or force and elongation.
+    """Read a first line with the dofs, blank for SPRINGA and DASHPOTA, then the stiffness, or force and elongation.
 
     Of dashpots these are the damping coefficient, or force and velocity.
     """
@@ -219,7 +221,9 @@ def _spring(block: Block, kind: ElementType) -> SpringSection:
 
 
 def _check_material(block: Block, material: Material) -> None:
-    """A material has elasticity of the kind that the section is for, and nothing else that it has no use for."""
+    """Raise DeckError unless the elasticity is of the kind for this section
+    and the material has nothing unsupported.
+    """
     cohesive = block.name == "COHESIVE SECTION"
     _check_viscous(block, material, cohesive=cohesive)
     check_networks(block, material)
@@ -252,7 +256,7 @@ def _check_material(block: Block, material: Material) -> None:
 
 
 def _check_viscous(block: Block, material: Material, *, cohesive: bool) -> None:
-    """A material whose stresses depend on time has, of what gives stresses, *ELASTIC alone."""
+    """Raise DeckError if a material with *VISCOELASTIC or *CREEP has another law for stresses than *ELASTIC."""
     for keyword, viscous in (("VISCOELASTIC", material.viscoelastic), ("CREEP", material.creep)):
         if viscous is None:
             continue
@@ -272,7 +276,7 @@ def _check_viscous(block: Block, material: Material, *, cohesive: bool) -> None:
 
 
 def _check_hyperelastic(block: Block, material: Material) -> None:
-    """A hyperelastic material has nothing else that gives stresses or strains."""
+    """Raise DeckError if a hyperelastic material has another law for stresses or strains."""
     law = material.hyperelastic
     assert law is not None
     if block.name == "COHESIVE SECTION":
@@ -294,7 +298,7 @@ def _check_hyperelastic(block: Block, material: Material) -> None:
 
 
 def _thickness(rows: list[Row], index: int, what: str) -> float:
-    """Field of the first data line; 1 where it is zero or left out."""
+    """Read a field of the first data line; 1 if it is zero or left out. Raises DeckError if it is negative."""
     thickness = rows[0].real(index, what, 1.0) if rows else 1.0
     if thickness == 0:
         return 1.0
@@ -304,7 +308,7 @@ def _thickness(rows: list[Row], index: int, what: str) -> float:
 
 
 def _controls(block: Block, controls: Mapping[str, SectionControls]) -> SectionControls:
-    """What CONTROLS= names; defaults without it."""
+    """Return the section controls that CONTROLS= names; defaults without it. Raises DeckError."""
     name = block.options.text("CONTROLS")
     return look_up(controls, name, "section controls", block.source) if name else SectionControls()
 

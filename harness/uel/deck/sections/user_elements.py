@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*USER ELEMENT with *UEL PROPERTY, and what an element type name stands for."""
+"""Definition of user elements, *USER ELEMENT with *UEL PROPERTY, and the meaning of element type names."""
 
 from __future__ import annotations
 
@@ -51,14 +51,14 @@ class ElementType:
 
 
 def dofs_of(group: ElementGroup) -> set[int]:
-    """Dofs of the type of a group."""
+    """Return the dofs of the element type of a group."""
     if group.definition is not None:
         return {dof for _, dof in group.definition.dofs}
     return set(BUILT_IN[group.type].dofs(0))
 
 
 def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[frozenset[int]]:
-    """Dofs that elements use at each of `count` nodes."""
+    """Return the dofs that elements use at each of `count` nodes."""
     # a bit for each dof: few sets of dofs differ, and nothing is done for each element
     found = np.zeros(count, dtype=np.int64)
     for group in groups:
@@ -79,11 +79,11 @@ def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[frozenset[i
 
 _NEAREST: Final = 3
 LISTED: Final = f"harness/uel/deck/keywords.md, *ELEMENT, lists all {len(BUILT_IN)} types"
-"""Where a user finds what is supported."""
+"""Reference to the list of supported element types, for messages."""
 
 
 def find_type(name: str, definitions: Definitions, source: Source) -> ElementType:
-    """The element type of a name; DeckError where it is neither built in nor defined."""
+    """Return the element type of a name. Raises DeckError if it is neither built in nor defined."""
     if name in BUILT_IN:
         return ElementType(name, None)
     if name in definitions:
@@ -98,7 +98,7 @@ def find_type(name: str, definitions: Definitions, source: Source) -> ElementTyp
 
 
 def refuse_types(blocks: Sequence[Block], problems: Problems) -> None:
-    """Add the first use of each type of Abaqus that is not supported, where other errors end the reading earlier."""
+    """Report the first use of each unsupported type of Abaqus, for decks whose other errors end the reading earlier."""
     seen: set[str] = set()
     for block in blocks:
         if block.name == "ELEMENT":
@@ -110,7 +110,9 @@ def refuse_types(blocks: Sequence[Block], problems: Problems) -> None:
 
 
 def read_user_element(block: Block, problems: Problems) -> UserElement:
-    """The definition a *USER ELEMENT gives; names in comments that do not fit are warned of and not used."""
+    """Read the definition in a *USER ELEMENT; warn of names in comments that do not fit and leave them out.
+    Raises DeckError.
+    """
     options = block.options
     name = options.text("TYPE")
     match = _USER_TYPE.fullmatch(name)
@@ -136,7 +138,7 @@ def read_user_element(block: Block, problems: Problems) -> UserElement:
 
 
 def read_count(block: Block, name: str, default: int, least: int, most: int) -> int:
-    """A number that an option gives. Raises DeckError where it is out of bounds."""
+    """Read the integer value of an option. Raises DeckError if it is out of bounds."""
     value = block.options.integer(name, default)
     if not least <= value <= most:
         raise block.error(f"{name}={value}: expected a number from {least} to {most}")
@@ -144,7 +146,7 @@ def read_count(block: Block, name: str, default: int, least: int, most: int) -> 
 
 
 def _read_dofs(block: Block, nodes: int) -> tuple[tuple[int, int], ...]:
-    """(local node, dof) of each unknown.
+    """Read (local node, dof) of each unknown. Raises DeckError.
 
     The first line holds the dofs from node 1 on, each later line `position, dofs` those from that position on. A
     position that does not exceed the one before begins another pass over the nodes.
@@ -182,7 +184,9 @@ def read_user_property(
     orientation: Orientation | None,
     problems: Problems,
 ) -> UserProperty:
-    """Values a *UEL PROPERTY gives elements of a definition, reals first; DeckError where their lines do not fit."""
+    """Read the values of a *UEL PROPERTY for elements of a definition, reals first.
+    Raises DeckError if their lines do not fit.
+    """
     entries = block.entries(problems.warn)
     reals, integers = definition.properties, definition.integer_properties
     wanted = reals + integers

@@ -18,7 +18,7 @@ from uel.model.arrays import FloatArray
 
 
 def read_amplitudes(blocks: list[Block], problems: Problems) -> dict[str, Amplitude]:
-    """Amplitudes of *AMPLITUDE."""
+    """Read the amplitudes of *AMPLITUDE, by name."""
     return read_definitions(blocks, "AMPLITUDE", _read_amplitude, problems)
 
 
@@ -43,7 +43,7 @@ def _read_amplitude(block: Block) -> Amplitude:
 
 
 def _read_smoothing(block: Block, kind: AmplitudeType) -> float | None:
-    """SMOOTH of a table, if it is given."""
+    """Read SMOOTH of a table, None if it is left out. Raises DeckError."""
     if not block.options.given("SMOOTH"):
         return None
     smoothing = block.options.real("SMOOTH", 0.0)
@@ -55,7 +55,7 @@ def _read_smoothing(block: Block, kind: AmplitudeType) -> float | None:
 
 
 def _read_user(block: Block) -> tuple[FloatArray, int]:
-    """Properties for UAMP, and the number of its state variables."""
+    """Read the properties for UAMP, and the number of its state variables. Raises DeckError."""
     count = read_count(block, "PROPERTIES", 0, 0, MOST_VALUES)
     values = [value for row in block.rows() for value in row.reals("property")]
     if len(values) != count:
@@ -79,7 +79,7 @@ def _read_pairs(block: Block) -> FloatArray:
 
 
 def _read_spaced(block: Block) -> FloatArray:
-    """Times and values of a curve with values at equal intervals."""
+    """Read times and values of a curve with values at equal intervals. Raises DeckError."""
     interval, begin = block.options.real("FIXED INTERVAL", 0.0), block.options.real("BEGIN", 0.0)
     if interval <= 0:
         raise block.error("DEFINITION=EQUALLY SPACED needs a positive FIXED INTERVAL")
@@ -90,7 +90,7 @@ def _read_spaced(block: Block) -> FloatArray:
 
 
 def _read_decay(block: Block) -> FloatArray:
-    """Rows (A0, A), (t0, td)."""
+    """Read rows (A0, A), (t0, td). Raises DeckError."""
     row = next(block.rows(), None)
     if row is None:
         raise block.error("needs a data line")
@@ -102,7 +102,7 @@ def _read_decay(block: Block) -> FloatArray:
 
 
 def _read_periodic(block: Block) -> FloatArray:
-    """Rows (omega, t0), (A0, 0), then (An, Bn)."""
+    """Read rows (omega, t0), (A0, 0), then (An, Bn). Raises DeckError."""
     rows = list(block.rows())
     if not rows:
         raise block.error("needs a data line")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*CONTROLS: the data lines of the manual, entry by entry; what a step sets, later steps keep."""
+"""*CONTROLS: the data lines of the manual, entry by entry; later steps keep the values of earlier ones."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class ControlState:
         return replace(self.controls, time=replace(self.controls.time, **DISCONTINUOUS))
 
     def read(self, block: Block) -> ControlState:
-        """The state after one *CONTROLS."""
+        """Return the state after one *CONTROLS. Raises DeckError."""
         options = block.options
         if options.flag("RESET"):
             if any(block.rows()):
@@ -79,7 +79,9 @@ def _apply(controls: Controls, parameters: str, block: Block) -> Controls:
 
 
 def _update(group: Group, lines: tuple[tuple[str, ...], ...], block: Block) -> Group:
-    """The group with the entries that are given; a blank one, or a blank line, leaves the value."""
+    """Return the group updated by the entries on the lines; a blank entry, or a blank line, leaves the value.
+    Raises DeckError.
+    """
     whole = {item.name for item in fields(group) if isinstance(getattr(group, item.name), int)}
     values: dict[str, float] = {}
     for number, row in enumerate(block.all_rows()):

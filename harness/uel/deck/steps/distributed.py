@@ -30,7 +30,7 @@ _ON_EDGE = re.compile(rf"({'|'.join(ON_EDGES)})([1-4])")
 
 
 def read_distributed(block: Block, prescription: Prescription) -> list[DistributedLoad | ElementLoad]:
-    """Entries of one *DLOAD, on user elements and on built-in ones."""
+    """Read the entries of one *DLOAD, on user elements and on built-in ones. Raises DeckError."""
     amplitude, imaginary = prescription.amplitude(block), block.options.flag("IMAGINARY")
     found: list[DistributedLoad | ElementLoad] = []
     for row in block.rows():
@@ -69,12 +69,16 @@ def read_distributed(block: Block, prescription: Prescription) -> list[Distribut
 
 
 def _jltyp(face: str, direction: Direction) -> int:
-    """JLTYP of a nonuniform load: 20 + n for face n, 1 to 3 for the directions (User Subroutines Guide, DLOAD)."""
+    """Return JLTYP of a nonuniform load: 20 + n for face n,
+    1 to 3 for the directions (User Subroutines Guide, DLOAD).
+    """
     return 20 + int(face[1:]) if face else 1 + direction.index(1.0)
 
 
 def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
-    """Kind, face ('' for a volume) and direction of a load type of *DLOAD; body forces have it by element."""
+    """Return kind, face ('' for a volume) and direction of a load type of *DLOAD; body forces have it by element.
+    Raises DeckError.
+    """
     match = re.fullmatch(r"P(\d)", label)
     if label == "P":
         # along the normal of a surface, as on its other side
@@ -100,7 +104,7 @@ def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
 
 
 def _beam_load(row: Row, label: str, beam: BeamType) -> LoadType:
-    """Load type of *DLOAD on beams."""
+    """Return the load type of a *DLOAD on beams. Raises DeckError."""
     row.at_most(6 if label == "GRAV" else 3)
     if label == "GRAV":
         return LoadType(LoadKind.GRAVITY, direction=_direction(row, label))
@@ -122,7 +126,7 @@ def _body_direction(row: Row, label: str, solid: ContinuumType | SurfaceType) ->
 
 
 def read_surface_loads(block: Block, prescription: Prescription) -> list[ElementLoad]:
-    """Entries of one *DSLOAD."""
+    """Read the entries of one *DSLOAD. Raises DeckError."""
     amplitude, imaginary = prescription.amplitude(block), block.options.flag("IMAGINARY")
     follower = block.options.flag("FOLLOWER") if block.options.given("FOLLOWER") else True
     found = []
@@ -150,7 +154,7 @@ def read_surface_loads(block: Block, prescription: Prescription) -> list[Element
 
 
 def _direction(row: Row, label: str) -> Direction:
-    """Unit vector in entries 4 to 6."""
+    """Read the unit vector in entries 4 to 6. Raises DeckError."""
     given = np.array([row.real(index, "component of the direction", 0.0) for index in (3, 4, 5)])
     length = float(np.linalg.norm(given))
     if length == 0.0:
@@ -160,7 +164,7 @@ def _direction(row: Row, label: str) -> Direction:
 
 
 def _loaded(row: Row, label: str, group: ElementGroup) -> ContinuumType | SurfaceType | BeamType:
-    """The type of a group of continuum elements, shells, membranes or beams. Raises DeckError for others."""
+    """Return the type of a group of continuum elements, shells, membranes or beams. Raises DeckError for others."""
     kind = group.built_in
     if isinstance(kind, SurfaceType) and label.endswith("NU"):
         raise row.error(f"load type {label} on elements of type {group.type}; loads by DLOAD are not supported there")
@@ -171,7 +175,9 @@ def _loaded(row: Row, label: str, group: ElementGroup) -> ContinuumType | Surfac
 
 
 def read_fields(block: Block, prescription: Prescription) -> list[Load]:
-    """Entries of one of these keywords; their dof is the number of the field, 0 for temperature."""
+    """Read the entries of one of these keywords; their dof is the number of the field, 0 for temperature.
+    Raises DeckError.
+    """
     amplitude = prescription.amplitude(block)
     number = field_number(block) if block.name == "FIELD" else {"TEMPERATURE": 0}.get(block.name, PRESSURE_STRESS)
     by_user = block.options.known("USER") and block.options.flag("USER")
@@ -206,7 +212,7 @@ def keep_last(entries: Sequence[Load], flat: FlatMesh, problems: Problems) -> tu
 
 
 def _value(entry: Load) -> str:
-    """Value of an entry, for messages."""
+    """Return the value of an entry, for messages."""
     return "what the user routine says" if entry.user else of_amplitude(entry)
 
 

@@ -24,7 +24,7 @@ from uel.model.steps import HeatLaw, HeatLoad, HeatLoadType
 
 HEAT_LOADS: Final = ("DFLUX", "DSFLUX", "FILM", "SFILM", "CFILM", "RADIATE", "SRADIATE", "CRADIATE")
 _ENDS: Final = {"FLUX": HeatLaw.FLUX, "FILM": HeatLaw.FILM, "RADIATE": HeatLaw.RADIATION}
-"""How heat enters, by the end of the keyword."""
+"""Law of the heat load, by the end of the keyword."""
 _LETTERS: Final = {HeatLaw.FLUX: "S", HeatLaw.FILM: "F", HeatLaw.RADIATION: "R"}
 _WORDS: Final = {
     HeatLaw.FILM: ("sink temperature", "film coefficient"),
@@ -35,7 +35,7 @@ _BODY, _FIRST_FACE = 1, 11
 
 
 def read_heat_loads(block: Block, prescription: Prescription) -> list[HeatLoad]:
-    """Entries of one of these keywords. Raises DeckError."""
+    """Read the entries of one of these keywords. Raises DeckError."""
     amplitude, film_amplitude = prescription.amplitude(block), None
     law = _law(block.name)
     if law is HeatLaw.FILM and (name := block.options.text("FILM AMPLITUDE")):
@@ -49,7 +49,7 @@ def read_heat_loads(block: Block, prescription: Prescription) -> list[HeatLoad]:
 
 
 def number_exchanges(loads: Sequence[HeatLoad]) -> list[HeatLoad]:
-    """Number the films and radiation that one step gives to the same place, so that each has its own surroundings.
+    """Assign numbers to the films and radiation of one step in the same place, so that each has its own surroundings.
 
     loads: those of one keyword. Fluxes need no numbers: they add up.
     """
@@ -88,7 +88,7 @@ def _load(
 
 
 def _places(block: Block, row: Row, prescription: Prescription) -> Iterator[tuple[IntArray, HeatLoadType]]:
-    """Elements or nodes of a line, group by group, with the type of the load there."""
+    """Yield the elements or nodes of a line, group by group, with the type of the load there. Raises DeckError."""
     name, law = block.name, _law(block.name)
     if name in ("CFILM", "CRADIATE"):
         nodes = prescription.flat.nodes(row.name(0, "node or node set"), row.source)
@@ -119,7 +119,7 @@ def _places(block: Block, row: Row, prescription: Prescription) -> Iterator[tupl
 
 
 def _label(row: Row, law: HeatLaw, *, on_surface: bool) -> tuple[str, bool]:
-    """The label of a load without NU, and whether it has it."""
+    """Return the label of a load without NU, and whether it has NU. Raises DeckError."""
     given, letter = row.name(1, "load type"), _LETTERS[law]
     known = [letter if on_surface else f"{letter}n"]
     if law is HeatLaw.FLUX and not on_surface:

@@ -31,7 +31,7 @@ MOST_COMPONENTS = 6
 
 
 def field_number(block: Block) -> int:
-    """VARIABLE= of *FIELD and *INITIAL CONDITIONS, TYPE=FIELD."""
+    """Read VARIABLE= of *FIELD and *INITIAL CONDITIONS, TYPE=FIELD. Raises DeckError."""
     number = block.options.integer("VARIABLE", 1)
     if not 1 <= number <= MOST_FIELDS:
         raise block.error(f"VARIABLE={number}: expected a number from 1 to {MOST_FIELDS}")
@@ -41,7 +41,8 @@ def field_number(block: Block) -> int:
 def read_initial_values(
     blocks: Iterable[Block], kind: str, flat: FlatMesh, problems: Problems, earlier: EarlierResults | None
 ) -> list[InitialValue]:
-    """Entries of all *INITIAL CONDITIONS of a TYPE=: VELOCITY (node, dof, value), and those with node and value.
+    """Read the entries of all *INITIAL CONDITIONS of a TYPE=: VELOCITY (node, dof, value),
+    and those with node and value.
 
     The dof of a field is its number, VARIABLE=. Further temperatures of a node are those of dofs 12 and up. Without
     what reads results of earlier jobs, theirs are left out.
@@ -100,7 +101,7 @@ def _warn_of_changes(
 
 
 def _read_earlier(block: Block, kind: str, flat: FlatMesh, earlier: EarlierResults | None) -> Iterator[InitialValue]:
-    """Temperatures of an earlier job, for temperatures or a field."""
+    """Yield the temperatures of an earlier job as initial values of temperature or of a field. Raises DeckError."""
     if kind not in ("TEMPERATURE", "FIELD"):
         raise block.error("FILE is for TYPE=TEMPERATURE and TYPE=FIELD")
     if any(block.rows()):
@@ -125,7 +126,7 @@ def _refuse_file(block: Block) -> None:
 
 
 def read_initial_stresses(blocks: Iterable[Block], flat: FlatMesh, problems: Problems) -> list[InitialStress]:
-    """Entries of all *INITIAL CONDITIONS, TYPE=STRESS: element or set and components of the stress."""
+    """Read the entries of all *INITIAL CONDITIONS, TYPE=STRESS: element or set and components of the stress."""
     found: list[InitialStress] = []
     for block in blocks:
         if block.name != "INITIAL CONDITIONS" or block.options.text("TYPE") != "STRESS":
@@ -156,7 +157,7 @@ def read_initial_stresses(blocks: Iterable[Block], flat: FlatMesh, problems: Pro
 
 
 def _stress_of(entry: InitialStress) -> str:
-    """Return what an entry gives, for messages."""
+    """Return the stress of an entry, for messages."""
     if entry.values is None:
         return "what SIGINI says"
     return str(entry.profile) if entry.profile is not None else _listed(np.trim_zeros(entry.values, "b"))
@@ -167,7 +168,7 @@ def _listed(values: FloatArray) -> str:
 
 
 def _read_profile(row: Row) -> VerticalStress:
-    """A data line with GEOSTATIC."""
+    """Read a data line with GEOSTATIC. Raises DeckError."""
     names = ("vertical stress", "elevation", "second vertical stress", "its elevation")
     first, low, second, high = (row.real(k, name) for k, name in enumerate(names, start=1))
     if low == high:
@@ -177,7 +178,7 @@ def _read_profile(row: Row) -> VerticalStress:
 
 
 def _check_stress(block: Block) -> bool:
-    """Whether SIGINI gives the stresses. Raises DeckError if neither it nor data lines do."""
+    """Return whether SIGINI gives the stresses. Raises DeckError if neither it nor data lines do."""
     expected = "expected the components of the stress after each element or set"
     if block.options.flag("USER"):
         if any(True for _ in block.rows()):
@@ -189,7 +190,9 @@ def _check_stress(block: Block) -> bool:
 
 
 def read_initial_solutions(blocks: Iterable[Block], flat: FlatMesh, problems: Problems) -> list[InitialSolution]:
-    """Entries of all *INITIAL CONDITIONS, TYPE=SOLUTION: element or set and values, continued on lines of values."""
+    """Read the entries of all *INITIAL CONDITIONS, TYPE=SOLUTION: element or set and values,
+    continued on lines of values.
+    """
     found: list[InitialSolution] = []
     for block in blocks:
         if block.name != "INITIAL CONDITIONS" or block.options.text("TYPE") != "SOLUTION":
@@ -206,7 +209,9 @@ def read_initial_solutions(blocks: Iterable[Block], flat: FlatMesh, problems: Pr
 
 
 def _read_solution(block: Block, flat: FlatMesh) -> list[InitialSolution]:
-    """A line has a name and up to seven values; lines of eight more follow as long as each is full."""
+    """Read lines of a name and up to seven values, each continued on lines of eight
+    values as long as these are full.
+    """
     found: list[InitialSolution] = []
     values: list[float] = []
     goes_on = False

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*SELECT EIGENMODES, *MODAL DAMPING and *BASE MOTION: what steps by modes of *FREQUENCY are given."""
+"""*SELECT EIGENMODES, *MODAL DAMPING and *BASE MOTION: data of steps by modes of *FREQUENCY."""
 
 from __future__ import annotations
 
@@ -23,7 +23,9 @@ _LAST_TRANSLATION = 3
 
 
 def with_modes(procedure: Procedure, blocks: Sequence[Block], prescription: Prescription) -> Procedure:
-    """The procedure of a step with what its keywords say of modes. Raises DeckError where it has none."""
+    """Return the procedure of a step, completed by its keywords for modes.
+    Raises DeckError if it does not use modes.
+    """
     given = {name: [block for block in blocks if block.name == name] for name in _NAMES}
     if not procedure.modal:
         for block in (block for found in given.values() for block in found):
@@ -41,7 +43,7 @@ def with_modes(procedure: Procedure, blocks: Sequence[Block], prescription: Pres
 
 
 def _check_damping(given: Sequence[ModalDamping], procedure: Procedure) -> None:
-    """Each kind once; none that the procedure cannot have."""
+    """Raise DeckError if a kind of damping is repeated, or unsupported by the procedure."""
     seen: dict[DampingKind, ModalDamping] = {}
     for damping in given:
         message = ""
@@ -56,7 +58,7 @@ def _check_damping(given: Sequence[ModalDamping], procedure: Procedure) -> None:
 
 
 def _read_selection(block: Block) -> tuple[FloatArray, bool]:
-    """Ranges (k, 2) of modes or frequencies, and which of the two they are."""
+    """Read ranges (k, 2) of modes or frequencies, and whether they are frequencies. Raises DeckError."""
     by_frequency = block.options.text("DEFINITION") == "FREQUENCY RANGE"
     generate = block.options.flag("GENERATE")
     if by_frequency and generate:
@@ -78,7 +80,7 @@ def _read_selection(block: Block) -> tuple[FloatArray, bool]:
 
 
 def _generated(row: Row) -> Iterator[int]:
-    """Modes of a line of GENERATE: first, last, increment (1)."""
+    """Yield the modes of a line of GENERATE: first, last, increment (1). Raises DeckError."""
     row.at_most(3)
     first, last, step = _mode(row, 0), _mode(row, 1), row.integer(2, "increment", 1) or 1
     if last < first or step < 1:
@@ -120,7 +122,7 @@ def _read_damping(block: Block) -> ModalDamping:
 
 
 def _read_modes(row: Row) -> tuple[float, float]:
-    """First and last mode."""
+    """Read the first and last mode. Raises DeckError."""
     first = _mode(row, 0)
     last = row.integer(1, "last mode", 0) or first
     if last < first:

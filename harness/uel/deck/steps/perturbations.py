@@ -27,7 +27,7 @@ _POINTS, _MOST_POINTS = 20, 100_000
 
 
 def read_static_perturbation(block: Block) -> StaticPerturbation:
-    """*STATIC of a step with PERTURBATION. Raises DeckError for another procedure."""
+    """Read *STATIC of a step with PERTURBATION. Raises DeckError for another procedure."""
     if block.name != "STATIC":
         raise block.error(
             "not supported in a step with PERTURBATION; expected *STATIC, *FREQUENCY, *BUCKLE, *STEADY STATE DYNAMICS "
@@ -92,7 +92,7 @@ def _read_steady_state(block: Block, _: Prescription) -> SteadyState:
 
 
 def _read_range(row: Row, *, logarithmic: bool, natural: bool) -> FrequencyRange:
-    """A data line."""
+    """Read a frequency range from a data line. Raises DeckError."""
     row.at_most(5 if natural else 4)
     lowest, highest = row.real(0, "lower limit of the frequency range"), row.real(1, "upper limit", 0.0)
     number = row.integer(2, "number of points", _POINTS)

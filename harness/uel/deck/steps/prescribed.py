@@ -39,7 +39,7 @@ REFUSED_TYPES = ("NOWARP", "NOOVAL", "NODEFORM")
 
 @dataclass(frozen=True, slots=True)
 class Prescription:
-    """What reading prescribed values needs to know.
+    """Reader of prescribed values and point loads, with the parts of the model that they refer to.
 
     flat, amplitudes  names
     active_dofs       dofs that some element uses
@@ -56,7 +56,7 @@ class Prescription:
     transforms: Transforms
 
     def read_boundary(self, block: Block, in_step: bool) -> list[Boundary]:
-        """Entries of one *BOUNDARY, one for each dof."""
+        """Read the entries of one *BOUNDARY, one for each dof. Raises DeckError."""
         amplitude = self.amplitude(block)
         velocity, user = block.options.text("TYPE") == "VELOCITY", block.options.flag("USER")
         if user and not in_step:
@@ -84,7 +84,7 @@ class Prescription:
         return found
 
     def read_loads(self, block: Block) -> list[Load]:
-        """Entries of one *CLOAD, *CFLUX or *CECHARGE."""
+        """Read the entries of one *CLOAD, *CFLUX or *CECHARGE. Raises DeckError."""
         amplitude = self.amplitude(block)
         if block.name == "CECHARGE" and amplitude is not None and amplitude.absolute:
             raise block.error("an amplitude with VALUE=ABSOLUTE is not supported; give the charge, and factors of it")
@@ -104,7 +104,7 @@ class Prescription:
         return found
 
     def amplitude(self, block: Block) -> Amplitude | None:
-        """Amplitude that a keyword names."""
+        """Return the amplitude that a keyword names, None if it names none. Raises DeckError."""
         name = block.options.text("AMPLITUDE")
         return look_up(self.amplitudes, name, "amplitude", block.source) if name else None
 
@@ -125,14 +125,14 @@ class Prescription:
 
 
 def of_load_case(blocks: Sequence[Block], case: int) -> list[Block]:
-    """Keywords of a step, of *BOUNDARY those of one LOAD CASE alone."""
+    """Return the keywords of a step, with *BOUNDARY only of this LOAD CASE."""
     return [block for block in blocks if block.name != "BOUNDARY" or _load_case(block) == case]
 
 
 def check_load_cases(
     blocks: Sequence[Block], first: Sequence[Boundary], second: Sequence[Boundary], problems: Problems
 ) -> None:
-    """Modes of *BUCKLE are found with the supports of the loads, which LOAD CASE=2 must repeat."""
+    """Report LOAD CASE outside *BUCKLE, and supports of the modes, LOAD CASE=2, that differ from those of the loads."""
     given = [block for block in blocks if block.name == "BOUNDARY" and block.options.given("LOAD CASE")]
     for block in given:
         if not any(other.name == "BUCKLE" for other in blocks):
@@ -151,7 +151,7 @@ def _load_case(block: Block) -> int:
 
 
 def read_dof(row: Row, index: int) -> int:
-    """The dof in a field of a data line."""
+    """Read the dof in a field of a data line. Raises DeckError."""
     dof = row.integer(index, "dof")
     if not 1 <= dof <= LARGEST_DOF:
         raise row.error(f"{dof} is not a dof (1 to {LARGEST_DOF})")
@@ -172,7 +172,7 @@ def contradictions(entries: Sequence[Boundary], flat: FlatMesh) -> Iterator[tupl
 
 
 def _given(entry: Boundary) -> str:
-    """What an entry prescribes, for messages."""
+    """Return the words for what an entry prescribes, for messages."""
     if entry.fixed or entry.user:
         return "what DISP says" if entry.user else "the value at the start of the step"
     return f"{'the rate' if entry.velocity else 'the value'} {of_amplitude(entry)}"

@@ -48,7 +48,7 @@ HALF_INCREMENT_FACTOR = 1e4
 
 
 def read_procedure(scope: Scope, prescription: Prescription) -> Procedure:
-    """The procedure of a step; DeckError where it has none or several."""
+    """Read the procedure of a step. Raises DeckError if it has none or several."""
     readers = {keyword.name: read for keyword, read in PROCEDURES}
     blocks = [block for block in scope.blocks if block.name in readers]
     if not blocks:
@@ -62,7 +62,9 @@ def read_procedure(scope: Scope, prescription: Prescription) -> Procedure:
 
 
 def _read_times(block: Block, *, largest: float = 1.0, direct: bool = False, along_path: bool = False) -> Times:
-    """Increments and period of the data line; `largest` increment as a fraction of the period."""
+    """Read increments and period of the data line; `largest` increment as a fraction of the period.
+    Raises DeckError.
+    """
     row = block.only_row()
     entries = [0.0] * 4
     if row is not None:
@@ -114,7 +116,7 @@ def _read_stabilize(block: Block) -> Stabilize | None:
 
 
 def _read_riks(row: Row | None, prescription: Prescription) -> Riks:
-    """Where a step with RIKS ends: entries 5 to 8 of its data line."""
+    """Read the end of a step with RIKS: entries 5 to 8 of its data line. Raises DeckError."""
     if row is None:
         return Riks()
     largest = row.real(4, "largest load proportionality factor", 0.0) or None
@@ -342,6 +344,6 @@ PROCEDURES: tuple[tuple[Keyword, Callable[[Block, Prescription], Procedure]], ..
     ),
     *PERTURBATIONS,
 )
-"""Keywords and their readers, which get the block of the keyword and what the deck names, and raise DeckError."""
+"""Keywords and their readers, which get the block and the prescription, and raise DeckError."""
 
 KEYWORDS = tuple(keyword for keyword, _ in PROCEDURES)

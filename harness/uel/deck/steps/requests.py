@@ -35,7 +35,7 @@ class _Open:
 
 
 class RequestReader:
-    """Reads the requests of one step after the other."""
+    """Reader of the output requests of successive steps."""
 
     def __init__(self, flat: FlatMesh, problems: Problems) -> None:
         self._flat = flat
@@ -56,11 +56,11 @@ class RequestReader:
         }
 
     def reads(self, block: Block) -> bool:
-        """True for the keywords of output requests."""
+        """Return whether the keyword belongs to output requests."""
         return block.name in self._readers
 
     def read_step(self, blocks: list[Block]) -> OutputRequests:
-        """Requests in force in a step."""
+        """Return the requests in force in a step."""
         self._open = None
         self._dropped, self.energies = set(), []
         for block in blocks:
@@ -110,7 +110,7 @@ class RequestReader:
         self._dropped |= kinds
 
     def _history(self, block: Block) -> _Open | None:
-        """The *OUTPUT a request belongs to, None where it writes no history."""
+        """Return the *OUTPUT of a request, None if it writes no history. Raises DeckError."""
         if self._open is None:
             raise block.error("does not follow *OUTPUT")
         return self._open if self._open.history and self._open.frequency != NEVER else None

@@ -25,7 +25,7 @@ MAY_BE_ADDED = ("AMPLITUDE", "NSET", "ELSET")
 
 
 def find_restart(deck: Path, keywords: Mapping[str, Keyword], given: Mapping[str, float] | None) -> RestartRead | None:
-    """*RESTART, READ of a deck, None if it has none; what else is wrong with the deck is for `read_deck`.
+    """Return the *RESTART, READ of a deck, None if it has none; `read_deck` reports other errors of the deck.
 
     Raises DeckError if the deck cannot be read or has two of them, UsageError if a given parameter is none of its own.
     """
@@ -37,7 +37,7 @@ def find_restart(deck: Path, keywords: Mapping[str, Keyword], given: Mapping[str
 
 
 def digest_of(deck: Path, keywords: Mapping[str, Keyword], given: Mapping[str, float] | None) -> str:
-    """Hash of a deck and of the files that it includes. Raises DeckError if it cannot be read."""
+    """Return the hash of a deck and of the files that it includes. Raises DeckError if it cannot be read."""
     found = hashlib.sha256()
     for file in survey_blocks(deck, keywords, given).files:
         found.update(hashlib.sha256(read_whole(file)).digest())
@@ -47,7 +47,7 @@ def digest_of(deck: Path, keywords: Mapping[str, Keyword], given: Mapping[str, f
 def join_parts(
     parts: Sequence[DeckPart], blocks: list[Block], keywords: Mapping[str, Keyword], problems: Problems
 ) -> tuple[Structure, tuple[RestartWrite | None, ...]]:
-    """The decks that a model comes from as one, and when each of its steps keeps its state.
+    """Join the decks of a model, and say for each of its steps when it keeps its state.
 
     Parameters
     ----------
@@ -88,14 +88,14 @@ def join_parts(
 
 
 def refuse_reading(structure: Structure, problems: Problems) -> None:
-    """Without the job from which the model comes, *RESTART, READ is an error."""
+    """Report *RESTART, READ as an error, for a run without the job that the model comes from."""
     for block in structure.root:
         if block.name == "RESTART" and block.options.flag("READ"):
             problems.add(block.source, "*RESTART, READ: the model is that of an earlier job, uel run --oldjob NAME")
 
 
 def _check_added(part: Structure, problems: Problems) -> None:
-    """A restart deck adds little to the model."""
+    """Report the keywords that a restart deck may not add to the model."""
     allowed = (*MAY_BE_ADDED, "HEADING", "PARAMETER", "RESTART")
     scopes = [*part.parts.values(), *part.instances.values()]
     for block in [*part.root, *(scope.head for scope in scopes)]:
@@ -106,7 +106,7 @@ def _check_added(part: Structure, problems: Problems) -> None:
 
 
 def _in_force(blocks: list[Block], current: RestartWrite | None, problems: Problems) -> RestartWrite | None:
-    """The *RESTART, WRITE in force after these blocks."""
+    """Return the *RESTART, WRITE in force after these blocks."""
     for block in blocks:
         if block.name == "RESTART":
             with problems.gather():
@@ -115,7 +115,7 @@ def _in_force(blocks: list[Block], current: RestartWrite | None, problems: Probl
 
 
 def _written(block: Block, current: RestartWrite | None, problems: Problems) -> RestartWrite | None:
-    """*RESTART, WRITE of a block, or the one before if it has none."""
+    """Return the *RESTART, WRITE of a block, or the current one if it has none. Raises DeckError."""
     options = block.options
     if not (options.flag("READ") or options.flag("WRITE")):
         raise block.error("expected READ or WRITE")
@@ -135,7 +135,7 @@ def _written(block: Block, current: RestartWrite | None, problems: Problems) -> 
 
 
 def _read(block: Block) -> RestartRead:
-    """*RESTART, READ of a block."""
+    """Read *RESTART, READ of a block. Raises DeckError."""
     options = block.options
     numbers = [options.integer(name, 0) if options.given(name) else None for name in ("STEP", "INC")]
     for name, number in zip(("STEP", "INC"), numbers, strict=True):

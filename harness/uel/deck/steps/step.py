@@ -31,7 +31,7 @@ Entry = TypeVar("Entry")
 def read_steps(
     scopes: list[Scope], prescription: Prescription, requests: RequestReader, problems: Problems
 ) -> tuple[Step, ...]:
-    """All steps; controls, output requests, NLGEOM, UNSYMM and CONVERT SDI go on from one to the next."""
+    """Read all steps; controls, output requests, NLGEOM, UNSYMM and CONVERT SDI carry over from one to the next."""
     steps: list[Step] = []
     controls = ControlState()
     nlgeom, unsymmetric, convert = False, False, True
@@ -122,7 +122,7 @@ def read_steps(
 
 
 def _check_energies(scope: Scope, procedure: Procedure, requests: RequestReader, problems: Problems) -> None:
-    """Name what a step asks for and its procedure does not have."""
+    """Report the energies that a step requests but its procedure does not have."""
     known = procedure.energies or ()
     has = f"which has {', '.join(known)}" if known else "which has no energies"
     where = f"*{procedure.keyword} (step at {scope.head.source}), {has}"
@@ -138,7 +138,9 @@ def _check_energies(scope: Scope, procedure: Procedure, requests: RequestReader,
 
 
 def _check_smoothing(step: Step, problems: Problems) -> None:
-    """Tables of prescribed motion in a dynamic step, whose corners Abaqus rounds by a quarter of the intervals."""
+    """Report tables of prescribed motion in a dynamic step:
+    Abaqus rounds their corners by a quarter of the intervals.
+    """
     for entry in step.boundaries:
         curve = entry.amplitude
         if curve is None or curve.type is not AmplitudeType.TABULAR or len(curve.data) <= 2 or not entry.magnitude:
@@ -152,7 +154,7 @@ def _check_smoothing(step: Step, problems: Problems) -> None:
 
 
 def _check_perturbation(step: Step, problems: Problems) -> None:
-    """What has no meaning in a linear step, or is not supported there."""
+    """Report entries that have no meaning in a linear step, or are not supported there."""
     for field in step.fields:
         problems.add(field.source, "predefined fields are not supported in a linear perturbation")
     for boundary in step.boundaries:
@@ -180,7 +182,7 @@ def _check_perturbation(step: Step, problems: Problems) -> None:
 
 
 def _check_modes(steps: Sequence[Step], problems: Problems) -> None:
-    """Steps that take modes come after *FREQUENCY; where modes respond, only their supports move."""
+    """Report steps that need modes without an earlier *FREQUENCY, and nonzero values of *BOUNDARY in steps by modes."""
     found = False
     for step in steps:
         found = found or step.procedure.finds_modes
@@ -194,7 +196,7 @@ def _check_modes(steps: Sequence[Step], problems: Problems) -> None:
 
 
 def check_parts(blocks: list[Block], problems: Problems, *, harmonic: bool) -> None:
-    """REAL and IMAGINARY are parts of what is harmonic, and exclude each other."""
+    """Report REAL and IMAGINARY outside harmonic steps, or together: they exclude each other."""
     for block in blocks:
         options = block.options
         real, imaginary = (options.known(part) and options.flag(part) for part in ("REAL", "IMAGINARY"))
@@ -210,7 +212,9 @@ def _not_following(load: ElementLoad) -> str:
 
 
 def _check_followers(steps: Sequence[Step], problems: Problems) -> None:
-    """Loads that follow their faces in large displacements have no perturbations beside."""
+    """Report follower loads that NLGEOM or *BUCKLE does not support: on edges, along local directions of beams, or
+    beside a perturbation step.
+    """
     nonlinear = next((step for step in steps if step.nlgeom), None)
     if nonlinear is None:
         _check_buckling_loads(steps, problems)
@@ -239,7 +243,7 @@ def _check_buckling_loads(steps: Sequence[Step], problems: Problems) -> None:
 def _read_entries(
     scope: Scope, names: tuple[str, ...], read: Callable[[Block], Sequence[Entry]], problems: Problems
 ) -> tuple[tuple[Entry, ...], bool]:
-    """Entries of some keywords of a step, and whether they replace those of earlier steps."""
+    """Read the entries of some keywords of a step, and whether they replace those of earlier steps."""
     found: list[Entry] = []
     blocks = [block for block in scope.blocks if block.name in names]
     for block in blocks:
@@ -249,7 +253,7 @@ def _read_entries(
 
 
 def _is_new(blocks: list[Block], problems: Problems) -> bool:
-    """OP=NEW; a step that gives both OP=NEW and OP=MOD is refused, as Abaqus does."""
+    """Return whether OP=NEW; report a step with both OP=NEW and OP=MOD, which Abaqus refuses too."""
     operations = {block.options.text("OP") for block in blocks}
     if len(operations) > 1:
         other = next(block for block in blocks if block.options.text("OP") != blocks[0].options.text("OP"))
@@ -266,7 +270,7 @@ def _extrapolation(scope: Scope, procedure: Procedure) -> str:
 
 
 def _notes(scope: Scope) -> Iterator[str]:
-    """Where the solution of the step differs from what the deck asks for."""
+    """Yield notes on differences between the solution of the step and the deck."""
     for block in scope.blocks:
         if block.name == "SOLUTION TECHNIQUE":
             kind = block.options.text("TYPE")
