@@ -26,10 +26,8 @@ from uel.usersub import Library, _binding, _points
 from uel.usersub.exchange import BlockArrays, LoadArrays, Outcome, UnknownFields
 from uel.usersub.faults import Entries, Fault, Guards
 
-"""Index of ENERGY(4)."""
-
 MOST_INTERRUPTED: Final = 5
-"""Passes in a row that several threads may leave to one."""
+"""Passes in a row that several threads may abandon for a pass on one thread."""
 
 MOST_TRIED: Final = 20
 """Elements of a block whose forces are compared with their matrices before those stand for them."""
@@ -123,7 +121,7 @@ class ElementBlock:
 
     @property
     def initial(self) -> InitialState:
-        """What sets the state in which its elements begin."""
+        """Setter of the initial state of the elements."""
         return InitialState(self.group, self._arrays, self._routine, self._library)
 
     @property
@@ -144,7 +142,7 @@ class ElementBlock:
 
     @property
     def assumed_linear(self) -> bool:
-        """Whether only the user says so."""
+        """Whether `linear` rests on the user's word alone."""
         return self._routine.forces is Linearity.ASSUMED
 
     @property
@@ -159,26 +157,26 @@ class ElementBlock:
         return len(self.group.labels) * len(self.unknowns) ** 2
 
     def is_loaded(self, distributed: Distributed | None) -> bool:
-        """Whether one of its elements has a distributed load."""
+        """Return whether one of the elements has a distributed load."""
         return distributed is not None and bool(self.holds(distributed.elements).any())
 
     def holds(self, elements: IntArray) -> NDArray[np.bool_]:
-        """Which elements, positions in the model, are here."""
+        """Return the mask of the elements (positions in the model) that are in this block on this rank."""
         found = self.are_of_group(elements)
         return found if len(self.rows) == self._size else found & np.isin(elements - self.first, self.rows)
 
     def are_of_group(self, elements: IntArray) -> NDArray[np.bool_]:
-        """Which elements, positions in the model, are of its group, here or on another rank."""
+        """Return the mask of the elements (positions in the model) that belong to this group, on any rank."""
         found: NDArray[np.bool_] = (elements >= self.first) & (elements < self.first + self._size)
         return found
 
     def places_of(self, elements: IntArray) -> IntArray:
-        """Places, from 0, of elements (positions in the model) that are here."""
+        """Return rows, from 0, of elements (positions in the model) that are in this block."""
         rows: IntArray = elements - self.first
         return rows if len(self.rows) == self._size else np.searchsorted(self.rows, rows)
 
     def keep(self, rows: IntArray) -> None:
-        """Keep only some elements, before `bind`: the others are those of other ranks.
+        """Keep only these elements, before `bind`: the others belong to other ranks.
 
         Parameters
         ----------
@@ -192,7 +190,7 @@ class ElementBlock:
             self._uvar = self._uvar[rows]
 
     def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
-        """Say where the unknowns are.
+        """Bind the block to the unknowns of the system.
 
         Parameters
         ----------
@@ -214,7 +212,7 @@ class ElementBlock:
         self._forces[0] += len(equations) * self._routine.internal
 
     def split(self, *, strict: bool = True, coordinates: FloatArray | None = None) -> list[ElementBlock]:
-        """Its elements, each in its own unbound block and in its committed state, for calls in any order.
+        """Split the block into unbound blocks of one element, in the committed state, for calls in any order.
 
         Parameters
         ----------
@@ -231,7 +229,7 @@ class ElementBlock:
         return [self._part(np.array([k]), coordinates, strict=strict) for k in range(len(self.group.labels))]
 
     def _part(self, places: IntArray, coordinates: FloatArray | None = None, *, strict: bool = True) -> ElementBlock:
-        """Some of its elements, places from 0, in a new unbound block and in their committed state."""
+        """Make an unbound block of some of the elements (rows from 0), in their committed state."""
         part = ElementBlock(
             self.group.take(places),
             self._coordinates if coordinates is None else coordinates,
@@ -256,7 +254,7 @@ class ElementBlock:
         matrix: FloatArray | None,
         motion: Motion | None = None,
     ) -> BlockReport:
-        """One pass: add RHS into residual and AMATRX into matrix.
+        """Run one pass: add RHS into residual and AMATRX into matrix.
 
         SVARS on entry are always the committed ones; those returned are kept for `commit` if LFLAGS(3) is 1 or 6, or
         asks for initial stresses.
@@ -326,7 +324,7 @@ class ElementBlock:
         return self._report(outcome, energy, damage, call)
 
     def _count_interrupted(self, outcome: Outcome) -> None:
-        """Give threads up where they keep being interrupted: each time costs a part of a pass."""
+        """Stop using threads if passes keep being interrupted: each time costs a part of a pass."""
         self._interrupted = self._interrupted + 1 if outcome.alone else 0
         if self._interrupted == MOST_INTERRUPTED:
             self.parallel = False
@@ -339,7 +337,9 @@ class ElementBlock:
     def evaluate_apart(
         self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray
     ) -> tuple[BlockReport, FloatArray]:
-        """`evaluate` that returns AMATRX of each element, (m, unknowns, unknowns), columns first, in place of a sum."""
+        """Run `evaluate`, but return AMATRX of each element, (m, unknowns, unknowns), columns first,
+        and not their sum.
+        """
         assembled = self._arrays
         matrices = np.zeros(assembled.map.shape)
         one_by_one = np.arange(1, matrices.size + 1, dtype=np.int32).reshape(matrices.shape)
@@ -355,7 +355,7 @@ class ElementBlock:
             _binding.add_matrices(matrices, self._arrays.map, data)
 
     def linear_pass(self, matrices: FloatArray, call: Call, u: FloatArray, residual: FloatArray) -> BlockReport:
-        """A pass in which matrices stand for the elements, which are not called.
+        """Run a pass with stored matrices in place of the elements, which are not called.
 
         Parameters
         ----------
@@ -415,7 +415,7 @@ class ElementBlock:
     def largest_deviation(
         self, matrices: FloatArray, call: Call, u: FloatArray, du: FloatArray
     ) -> tuple[int, int, float, float]:
-        """Where RHS differs most from minus the matrix times U.
+        """Find the entry of RHS that differs most from minus the matrix times U.
 
         Parameters
         ----------
@@ -441,11 +441,11 @@ class ElementBlock:
         return row, entry + 1, float(called[row, entry]), float(expected[row, entry])
 
     def _floor(self, call: Call) -> FloatArray:
-        """Force above which an entry of RHS is a term of the average flux, by unknown."""
+        """Return, by unknown, the force above which an entry of RHS counts in the average flux."""
         return self._all_terms if call.flux_floor is None else call.flux_floor[self._unknown_fields.of - 1]
 
     def _loads(self, distributed: Distributed | None) -> LoadArrays:
-        """Loads on the elements of the block, one row for each element, or one for all if there is none."""
+        """Return the loads on the elements of the block, one row for each element, or one row in all without loads."""
         if distributed is None:
             return _NO_LOADS
         m = len(self.group.labels)
@@ -461,7 +461,7 @@ class ElementBlock:
         return LoadArrays(counts.astype(np.int32), kinds, values)
 
     def _fields(self, predefined: Predefined | None) -> FloatArray:
-        """PREDEF of the elements, (m, nodes, fields, 2), or (1, nodes, fields, 2) if there is none.
+        """Return PREDEF of the elements, (m, nodes, fields, 2), or (1, nodes, fields, 2) without predefined fields.
 
         That of built-in elements ends with the initial temperature.
         """
@@ -499,7 +499,7 @@ class ElementBlock:
             self.evaluate(call, u, added, np.zeros_like(u), matrix)
 
     def artificial_mass(self, call: Call, unknowns: int, matrix: FloatArray) -> None:
-        """Add the mass matrix for unit density into matrix, where the elements have a density.
+        """Add the mass matrix for unit density into matrix, if the elements have a density.
 
         Parameters
         ----------
@@ -523,7 +523,7 @@ class ElementBlock:
             self._arrays = given
 
     def bare_loop(self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray) -> None:
-        """Only call the elements, from a plain Fortran loop over the block: the upper bound of speed.
+        """Call the elements from a plain Fortran loop over the block, and do nothing else: the upper bound of speed.
 
         Nothing is checked, AMATRX is discarded, and loads, fields, V and A are zero. SVARS and ENERGY become the trial
         state. XIT ends the process.
@@ -567,7 +567,7 @@ class ElementBlock:
         self._keep_trial()
 
     def commit(self) -> None:
-        """End of a converged increment: the state of the last normal call becomes the committed one, then UVARM.
+        """Commit the state of the last normal call at the end of a converged increment, then call UVARM.
 
         Raises KernelError if UVARM ends the analysis.
         """
@@ -582,20 +582,22 @@ class ElementBlock:
             arrays.history[:] = arrays.history_trial
 
     def _keep_trial(self) -> None:
-        """The state of the last pass that keeps one becomes the committed one."""
+        """Make the trial state, that of the last pass that keeps one, the committed state."""
         arrays = self._arrays
         arrays.svars[:] = arrays.svars_trial
         arrays.energy[:] = arrays.energy_trial
         arrays.history[:] = arrays.history_trial
 
     def kept(self) -> Saved:
-        """Committed state, not copied: all of it, in the order of the elements here."""
+        """Return the whole committed state, not copied, in the order of the elements in this block."""
         arrays = self._arrays
         uvar = {} if self._uvar is None else {"uvar": self._uvar}
         return {"svars": arrays.svars, "energy": arrays.energy, "history": arrays.history, **uvar}
 
     def resume(self, saved: Saved) -> None:
-        """Begin with what `kept` returned, of all elements or of some rows. Raises ValueError if shapes differ."""
+        """Restore the state that `kept` returned, of all elements or of some rows.
+        Raises ValueError if shapes differ.
+        """
         own = self.kept()
         if {name: np.shape(array) for name, array in own.items()} != {name: np.shape(a) for name, a in saved.items()}:
             raise ValueError(f"elements of type {self.group.type}")
@@ -610,7 +612,7 @@ class ElementBlock:
         arrays.history_trial[:] = arrays.history
 
     def state(self, index: int) -> ElementState:
-        """Committed state, copied.
+        """Return the committed state, copied.
 
         Parameters
         ----------
@@ -621,7 +623,7 @@ class ElementBlock:
         return self._state(index, self._extended(arrays.svars, arrays.history), arrays.energy)
 
     def trial(self, index: int) -> ElementState:
-        """State that the last call that keeps one has left, copied.
+        """Return the trial state, which the last call that keeps one has left, copied.
 
         Parameters
         ----------
@@ -636,7 +638,7 @@ class ElementBlock:
         return ElementState(index, svars, energy.copy(), self.variables, self._routine.damages)
 
     def _extended(self, svars: FloatArray, history: FloatArray) -> FloatArray:
-        """Copy of SVARS without the hidden ones, with STATEV and UVAR after those of each point."""
+        """Return a copy of SVARS without the hidden ones, with STATEV and UVAR after those of each point."""
         svars = svars[:, : svars.shape[1] - self._routine.hidden]
         kept, points = self._routine.outputs + self._routine.statev, self._routine.history[1]
         parts = [history[:, :, history.shape[2] - kept :]] if kept else []
@@ -670,7 +672,7 @@ class ElementBlock:
             raise KernelError(element, self.group.type, f"{why} (step {call.step}, increment {call.increment})")
 
     def _coordinates_at(self, call: Call, u: FloatArray) -> FloatArray:
-        """(m, nodes, MCRD) of the nodes at the displacements u (n,): with NLGEOM those of the displaced nodes."""
+        """Return (m, nodes, MCRD) coordinates of the nodes, displaced by u (n,) with NLGEOM."""
         original = self._arrays.coords
         if not call.flags.nlgeom:
             return original
@@ -682,7 +684,7 @@ class ElementBlock:
         return now
 
     def _axes_now(self, given: PointAxes) -> FloatArray:
-        """(m, points, 3, 3) directions of the points, in rows."""
+        """Return the current directions (m, points, 3, 3) of the points, in rows."""
         return given.view(self._arrays.svars)[:, :, 1].swapaxes(-1, -2)
 
     def _error(self, outcome: Outcome, nrhs: int, call: Call) -> ElementError:

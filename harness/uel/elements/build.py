@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""From the model's element groups to blocks, with the checks that need no call."""
+"""Construction of blocks from the model's element groups, with the checks that need no call."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ TENSORS: Final = {
 def build_blocks(
     model: Model, library: Library, *, strict: bool = True, zeros: bool = False, linear: Collection[str] = ()
 ) -> list[ElementBlock]:
-    """Blocks of all elements of a model.
+    """Build the blocks of all elements of a model.
 
     Parameters
     ----------
@@ -262,7 +262,7 @@ def _nodal_block(
     *,
     unsymmetric: bool = False,
 ) -> ElementBlock:
-    """A block whose unknowns are those of its nodes; unsymmetric, too, with a material whose tangent is."""
+    """Build a block whose unknowns are dofs of its nodes. It is unsymmetric also if the tangent of a material is."""
     return ElementBlock(
         group,
         model.mesh.coordinates,
@@ -321,7 +321,7 @@ def _solid_block(model: Model, group: ElementGroup, kind: ContinuumType, library
 
 
 def _interacts(material: Material) -> bool:
-    """Whether temperatures change stresses, or the heat flux depends on them."""
+    """Return whether temperatures change stresses, or the heat flux depends on them."""
     return material.user is not None or material.expansion is not None or is_unsymmetric(material)
 
 
@@ -426,7 +426,7 @@ def _begin_surface_axes(
     routine: Routine,
     library: Library,
 ) -> None:
-    """Set the directions of *ORIENTATION at the points of shells or membranes. Raises DeckError."""
+    """Set the initial directions of *ORIENTATION at the points of shells or membranes. Raises DeckError."""
     if routine.axes is not None:
         axes = start_axes(model, group, kind, routine.axes.orientation, library)
         # the direction that is projected, the next one, and that closest to the normal

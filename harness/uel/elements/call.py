@@ -74,17 +74,17 @@ class Call:
     load_terms: tuple[BlockReport, ...] = ()
 
     def asking(self, request: Request, damping: Damping = Damping.NONE) -> Self:
-        """The same call with another request; parameters of `Flags.asking`."""
+        """Return this call with another request; parameters as in `Flags.asking`."""
         return replace(self, flags=self.flags.asking(request, damping))
 
     @property
     def extrapolated(self) -> Self:
-        """The same call, the first of an increment that starts from an extrapolation."""
+        """Copy of this call as the first one of an increment that starts from an extrapolation."""
         return replace(self, flags=replace(self.flags, extrapolated=True))
 
     @cached_property
     def moment(self) -> Moment:
-        """What the driver takes of it, for each block."""
+        """Arguments of the driver that are common to all blocks."""
         time = self.step_time, self.total_time
         lflags = self.flags.lflags
         return Moment(
@@ -105,7 +105,7 @@ class Motion:
     acceleration: FloatArray
 
     def at(self, unknowns: IntArray) -> Motion:
-        """V and A of some unknowns.
+        """Return V and A of some unknowns.
 
         Parameters
         ----------
@@ -142,6 +142,6 @@ class BlockReport(NamedTuple):
 
     @classmethod
     def of(cls, outcome: Outcome, entries: IntArray, energy: FloatArray, damage: float) -> Self:
-        """From the sums of a pass."""
+        """Make the report from the sums of a pass."""
         flux, terms, largest = outcome.flux
         return cls(flux, terms.astype(np.int64), outcome.pnewdt, energy, damage, largest, entries)

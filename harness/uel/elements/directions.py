@@ -17,12 +17,12 @@ from uel.usersub import Library, _binding
 
 
 def is_user(orientation: Orientation) -> bool:
-    """Whether ORIENT gives the directions."""
+    """Return whether ORIENT gives the directions."""
     return orientation.system is not None and orientation.system.kind is SystemKind.USER
 
 
 def first_element(model: Model, group: ElementGroup) -> int:
-    """Position in the model of the first element of a group."""
+    """Return the position in the model of the first element of a group."""
     first = 0
     for other in model.groups:
         if other is group:
@@ -34,7 +34,7 @@ def first_element(model: Model, group: ElementGroup) -> int:
 def start_axes(
     model: Model, group: ElementGroup, kind: ContinuumType | SurfaceType, orientation: Orientation, library: Library
 ) -> FloatArray:
-    """Directions (m, points, 3, 3), in rows; global ones where ORIENT is to give them. Raises DeckError."""
+    """Compute initial directions (m, points, 3, 3), in rows; global ones if ORIENT is to set them. Raises DeckError."""
     m, system = len(group.labels), orientation.system
     shape = m, kind.points, 3, 3
     if system is None:
@@ -58,7 +58,7 @@ def start_axes(
 
 
 def undefined(group: ElementGroup, orientation: Orientation, error: UndefinedDirectionsError) -> DeckError:
-    """The error for points without directions; names their element."""
+    """Make the error for points without directions; it names their element."""
     element, *point = error.row
     at = f", integration point {point[0] + 1}" if point else ""
     message = f"element {group.labels[element]} (type {group.type}){at}: {error}"

@@ -39,7 +39,7 @@ from uel.model.restart import Saved
 _OWN, _FAR, _TURN, _A, _B = (slice(start, start + 3) for start in range(0, 15, 3))
 _COUNT = 15
 _CHOSEN = {2: [0, 1, 3, 4, 8, 9, 10, 14], 3: list(range(_COUNT))}
-"""Those of a model in the plane, and in space."""
+"""Unknowns of a pair that exist in a model in the plane, and in space."""
 
 
 class DistributingBlock:
@@ -54,7 +54,7 @@ class DistributingBlock:
     unsymmetric = True
 
     def __init__(self, model: Model, first: int) -> None:
-        """The model has distributing couplings; first: number of its elements and contact points."""
+        """Prepare the couplings of a model that has some; first: number of its elements and contact points."""
         given = model.couplings
         counts = [len(coupling.nodes) for coupling in given]
         self.first, self.rows = first, np.repeat(np.arange(len(given)), counts)
@@ -83,13 +83,13 @@ class DistributingBlock:
         self.errors = CouplingErrors((0.0, -1), (0.0, -1))
 
     def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
-        """Take the unknowns (m, unknowns) of the pairs, and the places of their matrices in that of the system."""
+        """Store the unknowns (m, unknowns) of the pairs, and the places of their matrices in that of the system."""
         self._equations, self._scatter = equations, scatter
 
     def evaluate(
         self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, data: FloatArray | None
     ) -> None:
-        """Add the forces of the couplings and their derivatives in a pass; arguments as of `ContactBlock.evaluate`."""
+        """Add the forces of the couplings and their derivatives in a pass; arguments as in `ContactBlock.evaluate`."""
         if call.flags.request not in (Request.NORMAL, Request.RESIDUAL):
             return
         if data is not None and not self._scale:
@@ -137,13 +137,13 @@ class DistributingBlock:
         np.add.at(data, self._scatter, matrix[:, self._chosen[:, None], self._chosen])
 
     def _values(self, values: FloatArray) -> FloatArray:
-        """(m, 15) values of the unknowns of the pairs; zero of those that there are not in the plane."""
+        """Return (m, 15) values of the unknowns of the pairs; zero for those that do not exist in the plane."""
         found = np.zeros((len(self.rows), _COUNT))
         found[:, self._chosen] = values[self._equations]
         return found
 
     def _sum(self, values: FloatArray) -> FloatArray:
-        """Sums (couplings, ...) over the pairs of each coupling."""
+        """Return sums (couplings, ...) over the pairs of each coupling."""
         return np.asarray(np.add.reduceat(values, self._starts, axis=0))
 
     def _errors(self, middle: FloatArray, missing: FloatArray) -> CouplingErrors:
@@ -163,16 +163,16 @@ class DistributingBlock:
         return CouplingErrors(displacement, rotation)
 
     def kept(self) -> Saved:
-        """What the multipliers are measured in."""
+        """Return the state to be saved: the scale of the multipliers."""
         return {"scale": self._scale}
 
     def resume(self, saved: Saved) -> None:
-        """Begin with what `kept` returned."""
+        """Restore the state that `kept` returned."""
         self._scale = saved["scale"]
 
 
 def distributing_blocks(model: Model, blocks: Sequence[ElementBlock], contact_points: int) -> list[DistributingBlock]:
-    """A block of the distributing couplings of a model, if it has some, numbered behind elements and contact points."""
+    """Build the block of a model's distributing couplings, if any, numbered after elements and contact points."""
     if not model.couplings:
         return []
     first = blocks[-1].first + len(blocks[-1].group.labels)
@@ -180,7 +180,7 @@ def distributing_blocks(model: Model, blocks: Sequence[ElementBlock], contact_po
 
 
 def _increment(angles: FloatArray, change: FloatArray, *, nlgeom: bool) -> tuple[FloatArray, FloatArray]:
-    """Omega (k, 3) of an increment that ends at these rotation vectors (k, 3), and its derivatives by them."""
+    """Return omega (k, 3) of an increment that ends at these rotation vectors (k, 3), and its derivatives by them."""
     if not nlgeom:
         return change, np.broadcast_to(np.eye(3), (len(angles), 3, 3))
     turn = rotation_matrices(angles) @ rotation_matrices(angles - change).transpose(0, 2, 1)

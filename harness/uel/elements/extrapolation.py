@@ -19,7 +19,9 @@ from uel.usersub import _binding
 
 
 def at_nodes(type: str) -> FloatArray | None:
-    """(nodes, points) matrix from values at the points of a type to those at the nodes; None for other elements."""
+    """Return the (nodes, points) matrix that extrapolates from the points of a type to the nodes;
+    None for other elements.
+    """
     kind = BUILT_IN.get(type)
     if not isinstance(kind, SolidType):
         return None
@@ -27,7 +29,7 @@ def at_nodes(type: str) -> FloatArray | None:
 
 
 def at_centroid(type: str) -> FloatArray | None:
-    """(1, points) matrix from values at the points of a type to that at the centroid; None for other elements."""
+    """Return the (1, points) matrix from values at the points of a type to the centroid; None for other elements."""
     kind = BUILT_IN.get(type)
     if not isinstance(kind, SolidType):
         return None
@@ -35,7 +37,7 @@ def at_centroid(type: str) -> FloatArray | None:
 
 
 def _interpolation(kind: SolidType, places: FloatArray) -> FloatArray:
-    """(places, points) values at places of the polynomials that are one at a point and zero at the others."""
+    """Return (places, points) values of the polynomials that are one at a point and zero at the others."""
     family = kind.family
     _, shapes, _ = _binding.integration_rule(family.number, kind.points, family.nodes, family.dimension)
     points, powers = shapes @ _places(family), _powers(family, kind.points)
@@ -43,7 +45,7 @@ def _interpolation(kind: SolidType, places: FloatArray) -> FloatArray:
 
 
 def _places(family: Family) -> FloatArray:
-    """(nodes, dimension) parent coordinates of the nodes."""
+    """Return (nodes, dimension) parent coordinates of the nodes."""
     square = np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])
     simplex = np.vstack([np.zeros(family.dimension), np.eye(family.dimension)])
     if family.corners == family.dimension + 1:
@@ -62,7 +64,7 @@ def _places(family: Family) -> FloatArray:
 
 
 def _powers(family: Family, points: int) -> IntArray:
-    """(points, dimension) powers of the coordinates in the terms of the polynomial."""
+    """Return (points, dimension) powers of the coordinates in the terms of the polynomial."""
     if family.corners == 2**family.dimension:
         return np.array(list(product(range(round(points ** (1 / family.dimension))), repeat=family.dimension)))
     if family.corners == family.dimension + 1:
@@ -75,6 +77,6 @@ def _powers(family: Family, points: int) -> IntArray:
 
 
 def _monomials(places: FloatArray, powers: IntArray) -> FloatArray:
-    """(places, terms) products of powers of the coordinates."""
+    """Return (places, terms) products of powers of the coordinates."""
     terms: FloatArray = np.prod(np.asarray(places)[:, None, :] ** powers[None], axis=-1)
     return terms

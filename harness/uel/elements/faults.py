@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sentences about what a user element does wrong with its arrays."""
+"""Sentences about the mistakes of a user element in its arrays."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ERRORS: Final[Mapping[Fault, type[ElementError]]] = {
 
 
 def wrong_entry(outcome: Outcome, n: int) -> str:
-    """An entry of RHS or AMATRX that was not set, or is not a number; n: unknowns of the element."""
+    """Describe an entry of RHS or AMATRX that was not set, or is not a number; n: unknowns of the element."""
     column, row = divmod(outcome.item - 1, n)
     entry = f"RHS({outcome.item})"
     if outcome.array != "RHS" or column:
@@ -35,17 +35,17 @@ def wrong_entry(outcome: Outcome, n: int) -> str:
 
 
 def material_point(outcome: Outcome) -> str:
-    """The beginning of a sentence if a user routine of a point has ended the call, else ''."""
+    """Begin a sentence about a user routine of a point that has ended the call; '' if none has."""
     return at_point(outcome.routine, outcome.item) if outcome.routine else ""
 
 
 def at_point(routine: str, point: int) -> str:
-    """The beginning of a sentence about a user routine of material points; point from 1."""
+    """Begin a sentence about a user routine of material points; point from 1."""
     return f"{routine} at integration point {point} "
 
 
 def distortion(outcome: Outcome, points: int) -> str:
-    """Name what is wrong with the shape of a built-in element now: it is inside out, or crosses the axis (at -index).
+    """Name the fault in the current shape of a built-in element: it is inside out, or crosses the axis (at -index).
 
     points: of its stress; an element of one point has its volume from more, which are not named.
     """
@@ -54,7 +54,7 @@ def distortion(outcome: Outcome, points: int) -> str:
 
 
 def write_outside(outcome: Outcome, n: int, nrhs: int, sizes: Mapping[str, str]) -> str:
-    """A write outside an array; sizes: those that do not follow from n, the number of unknowns, and NRHS."""
+    """Describe a write outside an array; sizes: those that do not follow from n, the number of unknowns, and NRHS."""
     columns = str(n) if nrhs == 1 else f"{n * nrhs} ({n} x NRHS = {nrhs})"
     known = {"RHS": columns, "DU": columns, "ENERGY": "8", "AMATRX": f"{n * n} ({n} x {n})", **sizes}
     unknown = "" if outcome.position >= 0 else "; the element is unknown, because a repeated pass did not do it"

@@ -30,9 +30,9 @@ COUPLED: Final = 301
 
 
 def field_of(dof: int) -> int:
-    """Field of a degree of freedom: 1-3 force, 4-7 moment, 8 pore pressure, 9 electrical, 11 to 30 temperature,
-    CONCENTRATION concentration; of those that are of no node, pressures of hybrid elements volume, multipliers of
-    contact points contact, those of distributing couplings coupling.
+    """Return the field of a degree of freedom: 1-3 force, 4-7 moment, 8 pore pressure, 9 electrical, 11 to 30
+    temperature, CONCENTRATION concentration. Of unknowns that belong to no node, pressures of hybrid elements are
+    volume, multipliers of contact points contact, those of distributing couplings coupling.
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ from uel.usersub.exchange import BlockArrays
 
 
 class InitialState:
-    """Sets the state in which elements begin: variables, stresses and directions, by values or by user routines.
+    """Setter of the initial state of elements: variables, stresses and directions, by values or by user routines.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ class InitialState:
         self._library = library
 
     def initialise(self, rows: IntArray, values: FloatArray) -> None:
-        """Initial SVARS of elements, or STATEV of their points.
+        """Set initial SVARS of elements, or STATEV of their points.
 
         Parameters
         ----------
@@ -59,7 +59,7 @@ class InitialState:
         self._begin(state)
 
     def set_stress(self, rows: IntArray, values: FloatArray | VerticalStress) -> None:
-        """Initial stress at all points of elements; `ElementBlock.begin_stressed` passes it to the material.
+        """Set the initial stress at all points of elements; `ElementBlock.begin_stressed` passes it to the material.
 
         Parameters
         ----------
@@ -82,7 +82,7 @@ class InitialState:
             raise ValueError(f"elements of type {self._group.type} {error}") from None
 
     def call_sigini(self, address: int) -> None:
-        """Let SIGINI set the initial stress at all points; `ElementBlock.begin_stressed` passes it to the material.
+        """Call SIGINI for the initial stress at all points; `ElementBlock.begin_stressed` passes it to the material.
 
         Parameters
         ----------
@@ -106,7 +106,7 @@ class InitialState:
         states[:, :, places] = sigma
 
     def _elevations(self, rows: IntArray) -> FloatArray:
-        """Last coordinate (k, points) of the integration points of elements."""
+        """Return the last coordinate (k, points) of the integration points of elements."""
         kind, section = self._group.built_in, self._group.section
         if not isinstance(kind, ContinuumType) or not isinstance(section, SolidSection):
             raise ValueError("do not take an initial stress by elevation")
@@ -118,7 +118,7 @@ class InitialState:
         return elevations
 
     def call_sdvini(self, address: int) -> None:
-        """Let SDVINI set the initial state.
+        """Call SDVINI for the initial state variables.
 
         Parameters
         ----------
@@ -136,7 +136,7 @@ class InitialState:
         self._begin(state)
 
     def begin_axes(self, axes: FloatArray) -> None:
-        """Set the directions of *ORIENTATION at the start.
+        """Set the initial directions of *ORIENTATION.
 
         Parameters
         ----------
@@ -157,11 +157,11 @@ class InitialState:
         self._arrays.svars_trial[:] = self._arrays.svars
 
     def set_last(self, values: FloatArray) -> None:
-        """Set the last SVARS of all elements (m, count), which stay as they are."""
+        """Set the last SVARS (m, count) of all elements, which no pass changes."""
         self._arrays.svars[:, -values.shape[1] :] = self._arrays.svars_trial[:, -values.shape[1] :] = values
 
     def call_orient(self, address: int, labels: IntArray) -> None:
-        """Let ORIENT set the directions of points whose *ORIENTATION says so.
+        """Call ORIENT for the directions of points with *ORIENTATION, SYSTEM=USER.
 
         Parameters
         ----------
@@ -196,13 +196,15 @@ class InitialState:
             raise KernelError(element, self._group.type, at + self._library.stop_reason())
 
     def _variables(self) -> FloatArray:
-        """What *INITIAL CONDITIONS, TYPE=SOLUTION sets (m, points, values), a view of the committed state."""
+        """Return the variables (m, points, values) of *INITIAL CONDITIONS, TYPE=SOLUTION,
+        a view of the committed state.
+        """
         if self._group.definition is not None:
             return self._arrays.svars[:, None, :]
         history = self._arrays.history
         return history[:, :, history.shape[2] - self._routine.statev :]
 
     def _begin(self, state: FloatArray) -> None:
-        """Make it the committed and the trial state."""
+        """Set the committed and the trial state to this state."""
         self._variables()[:] = state
         self._arrays.svars_trial[:], self._arrays.history_trial[:] = self._arrays.svars, self._arrays.history

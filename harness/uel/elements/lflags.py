@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""LFLAGS: what they tell elements about the step, and what a call asks for."""
+"""LFLAGS: data of the step for elements, and the request of a call."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from uel.model.steps import Step
 
 
 class Request(IntEnum):
-    """LFLAGS(3): what a call asks for.
+    """LFLAGS(3): request of a call.
 
     NORMAL                RHS and AMATRX of an iteration
     STIFFNESS, DAMPING, MASS  AMATRX only: the stiffness, the damping matrix of LFLAGS(7), the mass matrix
@@ -67,12 +67,12 @@ class Flags:
 
     @classmethod
     def of(cls, step: Step, request: Request = Request.NORMAL, damping: Damping = Damping.NONE) -> Self:
-        """The flags of a step."""
+        """Return the flags of a step."""
         procedure = step.procedure
         return cls(procedure.lflag, step.nlgeom, request, procedure.linear, damping=damping)
 
     def asking(self, request: Request, damping: Damping = Damping.NONE) -> Self:
-        """The same flags with another request.
+        """Return these flags with another request.
 
         Parameters
         ----------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lagrange multipliers beside displacements: in what they are measured."""
+"""Scale of Lagrange multipliers beside displacements."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from uel.model.arrays import FloatArray
 
 
 def scale_of_multipliers(data: FloatArray, places: NDArray[np.int32], dimension: int) -> float:
-    """Stiffness of the nodes that multipliers act on, as a power of two: with it the matrix is balanced.
+    """Return the stiffness of the nodes that multipliers act on, as a power of two:
+    as their scale it balances the matrix.
 
     Parameters
     ----------

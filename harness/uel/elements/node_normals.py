@@ -15,7 +15,7 @@ LARGEST_ANGLE: Final = 20.0
 
 
 def mean_normals(nodes: IntArray, normals: FloatArray, given: FloatArray | None) -> FloatArray:
-    """Unit normals (k, 3) at the nodes of elements, from their own ones.
+    """Average the unit normals (k, 3) at the nodes of elements.
 
     Parameters
     ----------

@@ -22,7 +22,7 @@ for _i, _j, _k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
 
 
 def _factors(angles: Vectors) -> tuple[Vectors, ...]:
-    """sin t/t, (1 - cos t)/t^2 and (t - sin t)/t^3 of angles (m, 3), each (m, 1, 1)."""
+    """Return sin t/t, (1 - cos t)/t^2 and (t - sin t)/t^3 of angles (m, 3), each (m, 1, 1)."""
     square = np.sum(angles * angles, axis=1)[:, None, None]
     small = np.abs(square) < SMALL
     t = np.sqrt(np.where(small, 1.0, square))
@@ -34,13 +34,13 @@ def _factors(angles: Vectors) -> tuple[Vectors, ...]:
 
 
 def cross_matrices(vectors: Vectors) -> Vectors:
-    """(m, 3, 3) matrices of the cross product with vectors (m, 3)."""
+    """Return (m, 3, 3) matrices of the cross product with vectors (m, 3)."""
     found: Vectors = np.einsum("iaj,ma->mij", PERMUTATION, vectors)
     return found
 
 
 def rotation_matrices(angles: Vectors) -> Vectors:
-    """R (m, 3, 3) of rotation vectors (m, 3)."""
+    """Return rotation matrices R (m, 3, 3) of rotation vectors (m, 3)."""
     first, second, _ = _factors(angles)
     skew = cross_matrices(angles)
     found: Vectors = np.eye(3) + first * skew + second * (skew @ skew)
@@ -48,7 +48,7 @@ def rotation_matrices(angles: Vectors) -> Vectors:
 
 
 def spin_matrices(angles: Vectors) -> Vectors:
-    """H (m, 3, 3): H dtheta is the spin."""
+    """Return H (m, 3, 3): H dtheta is the spin."""
     _, second, third = _factors(angles)
     skew = cross_matrices(angles)
     found: Vectors = np.eye(3) + second * skew + third * (skew @ skew)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the driver calls for a block of elements."""
+"""Routine that the driver calls for a block of elements."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Linearity(Enum):
 
 @dataclass(frozen=True)
 class Routine:
-    """What the driver calls for a block, with the constants of the calls.
+    """Routine that the driver calls for a block, with the constants of the calls.
 
     material  number of the material in the host, 0 without one (then UEL is called, else UELMAT)
     history   values per point and points of the material history; (1, 1) without one
@@ -98,11 +98,11 @@ class Routine:
 
     @cached_property
     def called(self) -> Called:
-        """What the driver takes of it in each pass."""
+        """Arguments of the driver in each pass."""
         return Called(self.address, self.material, self.jtype, self.tensor)
 
     def stress_of(self, svars: FloatArray) -> tuple[FloatArray, IntArray]:
-        """SVARS of elements (m, svars) by their points (m, points, values), a view, and the places of the stress there.
+        """Return SVARS (m, svars) by points (m, points, values), a view, and the places of the stress there.
 
         Raises ValueError if the elements take no initial stress.
         """
@@ -130,7 +130,7 @@ class Routine:
 
 @dataclass(frozen=True, slots=True)
 class PointAxes:
-    """Where SVARS hold the directions of *ORIENTATION of each point, those at the start and now.
+    """Layout of the directions of *ORIENTATION in SVARS: at the start and now, for each point.
 
     place   of the first value, from 0
     points  of an element
@@ -143,7 +143,7 @@ class PointAxes:
     orientation: Orientation
 
     def view(self, svars: FloatArray) -> FloatArray:
-        """(m, points, 2, 3, 3) of them, a view of SVARS (m, svars): the directions are columns."""
+        """Return a view (m, points, 2, 3, 3) of the directions in SVARS (m, svars); they are columns."""
         count = VALUES_OF_AXES * self.points
         found: FloatArray = svars[:, self.place : self.place + count].reshape(len(svars), self.points, 2, 3, 3)
         return found

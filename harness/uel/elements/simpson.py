@@ -10,7 +10,7 @@ from uel.model.arrays import FloatArray
 
 
 def simpson(points: int) -> tuple[FloatArray, FloatArray]:
-    """Places from 0 to 1 and weights of an odd number of points; one is in the middle."""
+    """Return places from 0 to 1 and weights of an odd number of points; one is in the middle."""
     if points == 1:
         return np.array([0.5]), np.ones(1)
     weight = np.where(np.arange(points) % 2, 4.0, 2.0) / (3 * (points - 1))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which elements several threads may call at the same time."""
+"""Selection of the elements that several threads may call at the same time."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from uel.model.properties import UserPotential, UserProperty, materials_of
 from uel.usersub import Library
 
 MOST_THREADS: Final = 64
-"""As in fortran/host/guards/protect.c."""
+"""Largest number of threads, as in fortran/host/guards/protect.c."""
 
 WITHOUT_SHARING: Final = "or take an interface element that has the stress itself (U4, U6, U8, U12) and FACE = 0"
 
 
 def known_routines(model: Model) -> list[str]:
-    """What the user can call safe in a model: its user element types, and routines of its materials."""
+    """Return the names that the user can declare safe in a model: user element types, and routines of materials."""
     names = {group.type.upper() for group in model.groups if group.definition is not None}
     for group in model.groups:
         names |= _called(group)
@@ -29,7 +29,7 @@ def known_routines(model: Model) -> list[str]:
 
 
 def use_threads(blocks: Iterable[ElementBlock], library: Library, number: int, safe: Collection[str]) -> None:
-    """Let several threads call the elements of each block that allows it; the others give a warning.
+    """Allow several threads in each block that is safe; the others give a warning.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def refuse_shared_stress(model: Model, library: Library, ranks: int) -> None:
 
 
 def _reason_for_one(group: ElementGroup, library: Library, number: int, safe: Collection[str]) -> str:
-    """Why one thread has to call the elements, '' if it has not to."""
+    """Return the reason why only one thread may call the elements, '' if several may. Raises UsageError."""
     kind = group.type.upper()
     if group.definition is not None:
         assert isinstance(group.section, UserProperty)  # build_blocks has refused others
@@ -94,7 +94,7 @@ def _reason_for_one(group: ElementGroup, library: Library, number: int, safe: Co
 
 
 def _called(group: ElementGroup) -> set[str]:
-    """User routines that elements call at their points."""
+    """Return the user routines that elements call at their points."""
     found: set[str] = set()
     for material in materials_of(group.section):
         routines: dict[str, object] = {"UMAT": material.user, "USDFLD": material.user_field}

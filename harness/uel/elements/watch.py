@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Watches what user elements return beside RHS and AMATRX."""
+"""Checks for values that are not finite in what user elements return besides RHS and AMATRX."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from uel.usersub import Library
 
 
 class Watch:
-    """Warns once of values that are not finite in a block of user elements: the run goes on with them."""
+    """Monitor of a block of user elements. Warns once of values that are not finite; the run goes on with them."""
 
     def __init__(self, group: ElementGroup, library: Library) -> None:
         self._group = group
@@ -23,14 +23,14 @@ class Watch:
         self._done = group.definition is None
 
     def pnewdt(self, call: Call, value: float) -> None:
-        """The smallest PNEWDT of a pass, or one that is not finite."""
+        """Check the smallest PNEWDT of a pass, or one that is not finite."""
         if not (self._done or math.isfinite(value)):
             alone = len(self._group.labels) == 1
             place = f"step {call.step}, increment {call.increment}, iteration {call.iteration}"
             self._warn(int(self._group.labels[0]) if alone else None, f"PNEWDT is NaN or infinite ({place})")
 
     def state(self, call: Call | None, svars: FloatArray, energy: FloatArray) -> None:
-        """SVARS and ENERGY (elements, entries) at the end of an increment."""
+        """Check SVARS and ENERGY (elements, entries) at the end of an increment."""
         for name, values in (("SVARS", svars), ("ENERGY", energy)):
             if self._done or call is None or np.isfinite(values).all():
                 continue

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Built-in beams: what the driver calls for them (fortran/host/elements/beam/beam.f90), their directions and loads."""
+"""Built-in beams for the driver (fortran/host/elements/beam/beam.f90), their directions and loads."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ SLENDERNESS: Final = 0.25
 """Default slenderness compensation factor (Analysis User's Guide, Choosing a beam element)."""
 
 QUADRATIC_SLENDERNESS: Final = 1e-4
-"""What multiplies it in second-order elements."""
+"""Factor of the slenderness compensation in second-order elements."""
 
 SMALLEST_SINE: Final = 1.745328e-3
 """Sine of 0.1 degrees, below which direction n1 is that of the axis."""
@@ -50,7 +50,7 @@ _WHOLE: Final = {
 
 
 def beam_routine(model: Model, group: ElementGroup, kind: BeamType, section: BeamSection, library: Library) -> Routine:
-    """What the driver calls for a group of beams. Raises DeckError."""
+    """Build the routine of a beam group. Raises DeckError."""
     _check(model, group, kind, section, library)
     profile = profile_of(section, kind.dimension)
     dynamic = any(step.procedure.inertia for step in model.steps)
@@ -93,7 +93,7 @@ def beam_routine(model: Model, group: ElementGroup, kind: BeamType, section: Bea
 
 
 def _values_of_points(profile: Profile, points: SectionPoints | None) -> list[float]:
-    """What the driver needs of the section points."""
+    """Return the values of the section points for PROPS."""
     if points is None:
         return [value for point in profile.points for value in point[1:]]
     found: list[float] = np.column_stack([points.place, points.area, points.lever]).ravel().tolist()
@@ -101,7 +101,7 @@ def _values_of_points(profile: Profile, points: SectionPoints | None) -> list[fl
 
 
 def _with_material(found: Routine, kind: BeamType, section: BeamSection, sections: int, library: Library) -> Routine:
-    """The same for a section over which its material is integrated. Raises DeckError."""
+    """Complete the routine for a section over which its material is integrated. Raises DeckError."""
     material = section.material
     assert material is not None
     tensor = section_tensor(section, kind.dimension)
@@ -124,7 +124,7 @@ def _with_material(found: Routine, kind: BeamType, section: BeamSection, section
 
 
 def beam_variables(section: BeamSection, kind: BeamType, routine: Routine) -> PointVariables:
-    """Meaning of the state variables of a group of beams."""
+    """Describe the state variables of a beam group."""
     profile = profile_of(section, kind.dimension)
     numbers = [number for number, *_ in profile.points]
     # where a material is integrated, all section points are there, in the order of their numbers
@@ -141,7 +141,7 @@ def beam_variables(section: BeamSection, kind: BeamType, routine: Routine) -> Po
 
 
 def _names(section: BeamSection, profile: Profile, kind: BeamType) -> tuple[str, ...]:
-    """Variables of a section point, and those of its section."""
+    """Return the names of the variables of a section point, then of its section."""
     components: tuple[str, ...] = ("11",) if profile.points else ()
     quantities = ["E", "S"]
     plastic = section.material is not None and section.material.plastic is not None
@@ -158,7 +158,9 @@ def _mass_points(kind: BeamType) -> int:
 
 
 def _compensation(section: BeamSection, profile: Profile, kind: BeamType) -> tuple[float, float]:
-    """What slenderness takes from the shear stiffness along 2 and 1, over the squared length of the element."""
+    """Return the factors by which slenderness reduces the shear stiffness along 2 and 1,
+    over the squared element length.
+    """
     factor = SLENDERNESS if section.slenderness is None else section.slenderness
     if kind.family is not LINE2:
         factor *= QUADRATIC_SLENDERNESS
@@ -168,7 +170,7 @@ def _compensation(section: BeamSection, profile: Profile, kind: BeamType) -> tup
 
 
 def section_stiffness(section: BeamSection, profile: Profile, shear: tuple[float, ...]) -> FloatArray:
-    """(6, 6) SF1, SF2, SF3, SM1, SM2, SM3 by their strains."""
+    """Return the (6, 6) stiffness: SF1, SF2, SF3, SM1, SM2, SM3 by their strains."""
     first, second, product = profile.inertia
     stiffness = np.diag([section.young * profile.area, *shear, 0.0, 0.0, section.shear_modulus * profile.torsion])
     stiffness[3:5, 3:5] = section.young * np.array([[first, -product], [-product, second]])
@@ -176,7 +178,7 @@ def section_stiffness(section: BeamSection, profile: Profile, shear: tuple[float
 
 
 def section_mass(profile: Profile, *, isotropic: bool, plane: bool) -> FloatArray:
-    """(6, 6) mass per length and density of translations and rotations of the nodes along and about t, 1, 2.
+    """Return (6, 6) mass per length and density for translations and rotations of the nodes along and about t, 1, 2.
 
     isotropic: the same rotary inertia about all directions, with the centre of mass at the nodes (ROTARY INERTIA).
     """
@@ -194,14 +196,14 @@ def section_mass(profile: Profile, *, isotropic: bool, plane: bool) -> FloatArra
 
 
 def start_directions(model: Model, group: ElementGroup, kind: BeamType, section: BeamSection) -> FloatArray:
-    """(m, values) directions t, 1, 2 at the integration points, then at those of the mass. Raises DeckError."""
+    """Return (m, values) directions t, 1, 2 at the integration points, then at those of the mass. Raises DeckError."""
     points = kind.points, _mass_points(kind)
     parts = [local_axes(group, kind, section, model.mesh.coordinates, count)[0] for count in points]
     return flat_rows(np.concatenate(parts, axis=1))
 
 
 def with_normals(groups: tuple[ElementGroup, ...], mesh: Mesh) -> tuple[ElementGroup, ...]:
-    """Groups with the normals n2 of beams in space at their nodes, where they are not those of the elements alone.
+    """Return groups with normals n2 of beams in space at their nodes, where these differ from the elements' own.
 
     The approximate n1 is the vector from the first node to an additional one, or that of the section. At a node n2 is
     the direction that *NODE gives, or the mean of those of all beams there that are within 20 degrees
@@ -228,7 +230,7 @@ def with_normals(groups: tuple[ElementGroup, ...], mesh: Mesh) -> tuple[ElementG
 
 
 def _own_directions(group: ElementGroup, coordinates: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """(m, nodes, 3) n1 and n2 of elements at their nodes by their approximate n1; zero where there are none."""
+    """Return (m, nodes, 3) n1 and n2 of elements at their nodes, from their approximate n1; zero where undefined."""
     kind, section = group.built_in, group.section
     assert isinstance(kind, BeamType) and isinstance(section, BeamSection)
     x = coordinates[group.nodes]
@@ -251,7 +253,7 @@ def _units(vectors: FloatArray) -> FloatArray:
 def local_axes(
     group: ElementGroup, kind: BeamType, section: BeamSection, coordinates: FloatArray, points: int
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Directions t, 1, 2 in rows (m, points, 3, 3), lengths (m, points) and places (m, points, 3) of points.
+    """Return directions t, 1, 2 in rows (m, points, 3, 3), lengths (m, points) and places (m, points, 3) of points.
 
     The approximate n1 gives n2 = t x n1, unless the elements have it at their nodes, then n1 = n2 x t (Analysis User's
     Guide, Beam element cross-section orientation). Raises DeckError where an element has no length, or n1 or n2 is
@@ -286,7 +288,7 @@ def local_axes(
 def beam_forces(
     group: ElementGroup, kind: BeamType, rows: np.ndarray, load: ElementLoad, coordinates: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """What `unit_forces` of load_vectors.py returns, for beams: the forces act on the line of the nodes."""
+    """Compute for beams the forces that `unit_forces` of vectors.py returns: they act on the line of the nodes."""
     section = group.section
     assert isinstance(section, BeamSection)
     points = _mass_points(kind)

@@ -32,7 +32,7 @@ _WALL: Final = 5
 """Points of a thin straight wall."""
 
 _TERMS: Final = 2000
-"""Of the series of the torsion of a rectangle."""
+"""Terms of the series of the torsion of a rectangle."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,12 +50,14 @@ class SectionPoints:
 
 
 def section_tensor(section: BeamSection, dimension: int) -> Tensor:
-    """Stresses at the points of beams in a plane (2) or in space (3): no shear stress of torsion in open sections."""
+    """Return the stress components at points of beams in a plane (2) or in space (3):
+    open sections have no torsional shear.
+    """
     return Tensor.UNIAXIAL if dimension == 2 or section.profile == "I" else Tensor.TORSION
 
 
 def section_points(section: BeamSection, dimension: int) -> SectionPoints:
-    """All section points of beams in a plane (2) or in space (3)."""
+    """Return all section points of beams in a plane (2) or in space (3)."""
     place, area, lever = (_IN_PLANE if dimension == 2 else _IN_SPACE)[section.profile](section.dimensions)
     if section_tensor(section, dimension) is Tensor.TORSION:
         # the strain energy of an elastic section is that of its torsional constant
@@ -67,7 +69,7 @@ _Points = tuple[FloatArray, FloatArray, FloatArray]
 
 
 def _along_2(heights: FloatArray, area: FloatArray) -> _Points:
-    """Points of beams in a plane."""
+    """Return points of beams in a plane."""
     return np.column_stack([np.zeros(len(heights)), heights]), area, np.zeros(len(heights))
 
 
@@ -78,14 +80,16 @@ def _rect_in_plane(dimensions: tuple[float, ...]) -> _Points:
 
 
 def _circ_in_plane(dimensions: tuple[float, ...]) -> _Points:
-    """Equal steps; area, second moment and the moment of both halves (of a plastic hinge) are exact."""
+    """Return points in equal steps; area, second moment and the moment of both
+    halves (of a plastic hinge) are exact.
+    """
     (radius,) = dimensions
     area = np.array([np.pi / 4 - 2 / 3, 8 / 3 - np.pi / 2, 3 * np.pi / 2 - 4, 8 / 3 - np.pi / 2, np.pi / 4 - 2 / 3])
     return _along_2(radius * np.linspace(-1, 1, _WALL), radius**2 * area)
 
 
 def _pipe_in_plane(dimensions: tuple[float, ...]) -> _Points:
-    """Eight equal parts of the circumference, seen from the side."""
+    """Return points of eight equal parts of the circumference, seen from the side."""
     outside, thickness = dimensions
     radius = outside - thickness / 2
     angle = np.pi * np.linspace(-0.5, 0.5, 5)
@@ -93,7 +97,7 @@ def _pipe_in_plane(dimensions: tuple[float, ...]) -> _Points:
 
 
 def _box_in_plane(dimensions: tuple[float, ...]) -> _Points:
-    """Two walls, at the ends of which the other two are."""
+    """Return points of two walls, with the other two walls at their ends."""
     a, b, thickness = dimensions[:3]
     at, weight = simpson(_WALL)
     height = b - thickness
@@ -103,7 +107,7 @@ def _box_in_plane(dimensions: tuple[float, ...]) -> _Points:
 
 
 def _i_in_plane(dimensions: tuple[float, ...]) -> _Points:
-    """The web, at the ends of which the flanges are."""
+    """Return points of the web, with the flanges at its ends."""
     origin, height, bottom, top, t_bottom, t_top, t_web = dimensions
     low, high = t_bottom / 2 - origin, height - t_top / 2 - origin
     at, weight = simpson(_WALL)
@@ -122,7 +126,7 @@ def _rect(dimensions: tuple[float, ...]) -> _Points:
 
 
 def rectangle_shear(a: float, b: float, x: FloatArray, y: FloatArray) -> FloatArray:
-    """Shear strains over the twist at places of a rectangle with sides a along x and b along y.
+    """Return shear strains over the twist at places of a rectangle with sides a along x and b along y.
 
     S. Timoshenko, J. Goodier, Theory of Elasticity, 1951, article 94.
     """
@@ -142,7 +146,7 @@ def rectangle_shear(a: float, b: float, x: FloatArray, y: FloatArray) -> FloatAr
 
 
 def _circ(dimensions: tuple[float, ...]) -> _Points:
-    """The middle, then two points on each of eight radii, from direction 1 to 2 and on."""
+    """Return the middle, then two points on each of eight radii, from direction 1 to 2 and on."""
     (radius,) = dimensions
     at, weight = simpson(3)
     angle = np.pi / 4 * np.arange(8)
@@ -153,7 +157,7 @@ def _circ(dimensions: tuple[float, ...]) -> _Points:
 
 
 def _pipe(dimensions: tuple[float, ...]) -> _Points:
-    """Eight points from direction 1 to 2 and on."""
+    """Return eight points from direction 1 to 2 and on."""
     outside, thickness = dimensions
     radius = outside - thickness / 2
     angle = np.pi / 4 * np.arange(8)
@@ -162,7 +166,7 @@ def _pipe(dimensions: tuple[float, ...]) -> _Points:
 
 
 def _box(dimensions: tuple[float, ...]) -> _Points:
-    """Around the middle line from the corner below left, first to the right; walls share their corners."""
+    """Return points along the middle line from the lower left corner, first to the right; walls share their corners."""
     a, b, thickness = dimensions[:3]
     x, y = (a - thickness) / 2, (b - thickness) / 2
     corners = np.array([(-x, -y), (x, -y), (x, y), (-x, y)])
@@ -178,7 +182,9 @@ def _box(dimensions: tuple[float, ...]) -> _Points:
 
 
 def _i(dimensions: tuple[float, ...]) -> _Points:
-    """The bottom flange from left to right, the web between the flanges upwards, the top flange."""
+    """Return points of the bottom flange from left to right, of the web between the flanges upwards,
+    of the top flange.
+    """
     origin, height, bottom, top, t_bottom, t_top, t_web = dimensions
     low, high = t_bottom / 2 - origin, height - t_top / 2 - origin
     at, weight = simpson(_WALL)

@@ -17,7 +17,7 @@ import numpy as np
 from uel.model.properties import BeamSection
 
 SHEAR_FACTORS: Final = {"RECT": 0.85, "CIRC": 0.89, "PIPE": 0.53, "BOX": 0.44, "I": 0.44, "GENERAL": 1.0}
-"""Of G A in the transverse shear stiffness (Analysis User's Guide, Choosing a beam element)."""
+"""Factors of G A in the transverse shear stiffness (Analysis User's Guide, Choosing a beam element)."""
 
 Place = tuple[float, float]
 
@@ -56,7 +56,7 @@ class _Wall:
 
 
 def profile_of(section: BeamSection, dimension: int) -> Profile:
-    """The cross-section of beams in a plane (2) or in space (3)."""
+    """Return the cross-section of beams in a plane (2) or in space (3)."""
     return _PROFILES[section.profile](section.dimensions, dimension == 2)
 
 
@@ -73,7 +73,9 @@ def _rect(dimensions: tuple[float, ...], plane: bool) -> Profile:
 
 
 def rectangle_torsion(a: float, b: float) -> float:
-    """Torsional constant of a rectangle (S. Timoshenko, J. Goodier, Theory of Elasticity, 1951, article 94)."""
+    """Compute the torsional constant of a rectangle (S. Timoshenko, J. Goodier, Theory of Elasticity, 1951,
+    article 94).
+    """
     long, short = max(a, b), min(a, b)
     odd = np.arange(1, 40, 2)
     series = (np.tanh(odd * np.pi * long / (2 * short)) / odd**5).sum()
@@ -97,7 +99,7 @@ def _pipe(dimensions: tuple[float, ...], plane: bool) -> Profile:
 
 
 def _around(radius: float, numbers: tuple[int, ...]) -> tuple[tuple[int, float, float], ...]:
-    """Points on direction 1, on 2, and opposite."""
+    """Return points on direction 1, on 2, and opposite."""
     sides = ((1, 0), (0, 1), (-1, 0), (0, -1))
     return tuple((number, i * radius, j * radius) for number, (i, j) in zip(numbers, sides, strict=True))
 
@@ -132,7 +134,7 @@ def _i(dimensions: tuple[float, ...], plane: bool) -> Profile:
 def _walled(
     walls: list[_Wall], torsion: float, shear_centre: Place, points: tuple[tuple[int, float, float], ...]
 ) -> Profile:
-    """A section of thin straight walls, integrated by Simpson's rule, which is exact."""
+    """Integrate a section of thin straight walls by Simpson's rule, which is exact."""
     places = np.array([[w.start, np.add(w.start, w.end) / 2, w.end] for w in walls]).reshape(-1, 2)
     weights = np.array([np.array([1, 4, 1]) / 6 * w.length * w.thickness for w in walls]).ravel()
     area = weights.sum()

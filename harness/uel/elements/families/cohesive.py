@@ -29,7 +29,7 @@ Triple = tuple[float, float, float]
 
 
 def cohesive_routine(model: Model, group: ElementGroup, section: CohesiveSection) -> Routine:
-    """What the driver calls for a group of cohesive elements. Raises DeckError."""
+    """Build the routine of a group of cohesive elements. Raises DeckError."""
     kind = COHESIVE[group.type]
     dynamic = next((step for step in model.steps if step.procedure.inertia), None)
     hidden = 2 * kind.dimension * kind.nodes if dynamic is not None else 0
@@ -48,7 +48,9 @@ def cohesive_routine(model: Model, group: ElementGroup, section: CohesiveSection
 
 
 def cohesive_variables(section: CohesiveSection, kind: CohesiveType) -> PointVariables:
-    """SVARS of a point: named as in the project's interface elements if they have a name, else as in Abaqus."""
+    """Describe SVARS of a point: named as in the project's interface elements if they have a name,
+    else as in Abaqus.
+    """
     dimension = kind.dimension
     places = ("X", "Y", "Z")[:dimension]
     directions = ("N", "T") if dimension == 2 else ("N", "S", "T")
@@ -69,7 +71,7 @@ def cohesive_variables(section: CohesiveSection, kind: CohesiveType) -> PointVar
 
 
 def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[float], list[int]]:
-    """PROPS, and JPROPS after the family of the faces.
+    """Return PROPS, and JPROPS after the family of the faces. Raises DeckError.
 
     PROPS: constitutive thickness (0: from the nodes), width, density, then those of the law. JPROPS: deletion, then
     those of the law.
@@ -92,7 +94,7 @@ def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[
 def law_properties(
     moduli: Triple, damage: Damage | None, dimension: int, thickness: float, limits: tuple[float, float]
 ) -> tuple[list[float], list[int]]:
-    """A traction-separation law as `read_law` in fortran/host/materials/traction_separation.f90 has it.
+    """Encode a traction-separation law for `read_law` in fortran/host/materials/traction_separation.f90.
 
     Reals: Enn, Ess, Ett, onset (3), evolution (3), exponent, viscosity, largest damage; with SOFTENING=TABULAR then
     pairs of displacement and damage. Integers: criterion, evolution, softening and mixed mode behaviour, each as its
@@ -138,7 +140,7 @@ def law_properties(
 
 
 def directions(values: tuple[float, ...], dimension: int) -> Triple:
-    """Values of the normal and both shear directions; in the plane the third is not used and may be left out."""
+    """Return values of the normal and both shear directions; in the plane the third is unused and may be left out."""
     normal, first, second = (*values, 0.0, 0.0)[:3]
     return normal, first, first if dimension == 2 else second
 
@@ -166,7 +168,9 @@ def _check_toughness(
     thickness: float,
     dimension: int,
 ) -> None:
-    """In each pure mode the fracture energy has to exceed the elastic energy at the onset of damage."""
+    """Raise DeckError unless in each pure mode the fracture energy exceeds the
+    elastic energy at the onset of damage.
+    """
     names = ("normal", "first shear", "second shear")
     for k in range(dimension):
         strength = onset[k] * (moduli[k] if damage.criterion not in ("MAXS", "QUADS") else 1.0)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Built-in bricks with layers: what the driver calls for them, and their directions.
+"""Built-in bricks with layers for the driver, and their directions.
 
 In Fortran they are in fortran/host/elements/solid/solid.f90.
 
@@ -66,7 +66,7 @@ class LayerPoints:
 
 
 def layer_points(kind: ContinuumType, section: CompositeSection) -> LayerPoints:
-    """All points of an element with layers."""
+    """Return all points of an element with layers."""
     along, weights = np.polynomial.legendre.leggauss(round(kind.points ** (1 / 3)))
     across, heights, layers = _across(section)
     stack = section.direction - 1
@@ -81,7 +81,7 @@ def layer_points(kind: ContinuumType, section: CompositeSection) -> LayerPoints:
 
 
 def _across(section: CompositeSection) -> tuple[FloatArray, FloatArray, IntArray]:
-    """Places from -1 to 1 and weights of section points, and their LAYER and KSPT."""
+    """Return places from -1 to 1 and weights of section points, and their LAYER and KSPT."""
     total = sum(layer.thickness for layer in section.layers)
     bottom, places, weights, numbers = -1.0, [], [], []
     for number, layer in enumerate(section.layers, 1):
@@ -97,7 +97,7 @@ def _across(section: CompositeSection) -> tuple[FloatArray, FloatArray, IntArray
 def composite_routine(
     model: Model, group: ElementGroup, kind: ContinuumType, section: CompositeSection, library: Library
 ) -> Routine:
-    """What the driver calls for a group of bricks with layers. Raises DeckError."""
+    """Build the routine of a group of bricks with layers. Raises DeckError."""
     _check(model, group, kind, section)
     reduced, dynamic = kind.hourglass_control, any(step.procedure.inertia for step in model.steps)
     hourglass, enhanced = _hourglass_stiffness(group, kind, section), reduced and is_enhanced(section)
@@ -142,7 +142,7 @@ def composite_routine(
 
 
 def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: CompositeSection) -> float:
-    """Parameter of the total stiffness, by default of the mean shear modulus, or 0 for none. Raises DeckError."""
+    """Return the total stiffness parameter, by default from the mean shear modulus; 0 for none. Raises DeckError."""
     if not kind.hourglass_control:
         return 0.0
     check_one_control(section)
@@ -159,7 +159,7 @@ def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: Comp
 
 
 def composite_variables(kind: ContinuumType, section: CompositeSection, routine: Routine) -> PointVariables:
-    """Meaning of the state variables of a group of bricks with layers."""
+    """Describe the state variables of a group of bricks with layers."""
     names = tuple(f"{letter}{component}" for letter in "ES" for component in kind.components)
     points = routine.jprops[1]
     return PointVariables(
@@ -170,7 +170,7 @@ def composite_variables(kind: ContinuumType, section: CompositeSection, routine:
 def layer_axes(
     model: Model, group: ElementGroup, kind: ContinuumType, section: CompositeSection, family: int
 ) -> FloatArray:
-    """Directions (m, points, 3, 3) of the layers at all points, in rows. Raises DeckError."""
+    """Compute directions (m, points, 3, 3) of the layers at all points, in rows. Raises DeckError."""
     points = layer_points(kind, section)
     nodes = model.mesh.coordinates[group.nodes]
     _, shapes, slopes = _binding.integration_rule(family, len(points.weight), kind.nodes, kind.dimension)
@@ -195,7 +195,7 @@ def layer_axes(
 def _directions(
     group: ElementGroup, layer: SolidLayer, elements: IntArray, nodes: FloatArray, places: FloatArray
 ) -> FloatArray:
-    """Directions (m, points, 3, 3) of the orientation of a layer. Raises DeckError."""
+    """Compute directions (m, points, 3, 3) of the orientation of a layer. Raises DeckError."""
     orientation, shape = layer.orientation, (*places.shape, 3)
     if orientation is None:
         return np.broadcast_to(np.eye(3), shape)
@@ -208,7 +208,7 @@ def _directions(
 
 
 def _turned(group: ElementGroup, layer: SolidLayer, axes: FloatArray, normal: FloatArray) -> FloatArray:
-    """Directions of a layer of elements, see `turned_directions`. Raises DeckError."""
+    """Turn the directions of a layer of elements, see `turned_directions`. Raises DeckError."""
     try:
         return turned_directions(layer, axes, normal)
     except UndefinedDirectionsError as error:
@@ -266,7 +266,7 @@ def turned_directions(layer: SolidLayer, axes: FloatArray, normal: FloatArray) -
 
 
 def _define(kind: ContinuumType, section: CompositeSection, layer: SolidLayer, library: Library, room: int) -> int:
-    """Number in the host of the material of a layer. Raises DeckError."""
+    """Define the material of a layer in the host, and return its number. Raises DeckError."""
     material = layer.material
     number = define_material(material, None, kind.tensor, section.source, library, room=room)
     name = layer.orientation.name if layer.orientation else ""

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Built-in continuum shells: what the driver calls for them (fortran/host/elements/shell/continuum.f90)."""
+"""Built-in continuum shells for the driver (fortran/host/elements/shell/continuum.f90)."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ POISSON: Final = 0.5
 def continuum_shell_routine(
     model: Model, group: ElementGroup, kind: ContinuumShellType, section: ShellSection, library: Library
 ) -> Routine:
-    """What the driver calls for a group of continuum shells. Raises DeckError."""
+    """Build the routine of a group of continuum shells. Raises DeckError."""
     check_section(model, group, section)
     dynamic = any(step.procedure.inertia for step in model.steps)
     if dynamic:
@@ -79,7 +79,8 @@ def continuum_shell_routine(
 def stack_directions(
     model: Model, group: ElementGroup, kind: ContinuumShellType, section: ShellSection, library: Library
 ) -> FloatArray:
-    """(m, 1) parent coordinate from the bottom to the top of each element, negative in the opposite direction.
+    """Return (m, 1) number of the parent coordinate from bottom to top of each element,
+    negative if it points to the bottom.
 
     With STACK DIRECTION=ORIENTATION it is the one closest to the direction of the orientation that is the normal.
     """
@@ -103,7 +104,8 @@ def stack_directions(
 
 
 def _thickness_modulus(group: ElementGroup, section: ShellSection) -> float:
-    """Twice the initial shear modulus in the plane, of layers its harmonic mean, unless the deck has another.
+    """Return the thickness modulus: by default twice the initial shear modulus in the plane,
+    for layers its harmonic mean.
 
     Raises DeckError for UMAT, whose moduli are not known.
     """
@@ -120,7 +122,7 @@ def _thickness_modulus(group: ElementGroup, section: ShellSection) -> float:
 
 
 def _poisson(group: ElementGroup, section: ShellSection) -> float:
-    """Poisson's ratio of the section. Raises DeckError."""
+    """Return Poisson's ratio of the section. Raises DeckError."""
     if section.poisson is None:
         return POISSON
     if section.poisson != "ELASTIC":

@@ -33,7 +33,7 @@ from uel.usersub import Library, _binding, _materials
 
 
 def coupled_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
-    """What the driver calls for a group of solids with temperatures. Raises DeckError."""
+    """Build the routine of a group of solids with temperatures. Raises DeckError."""
     material = section.material
     if material.user_field is not None and material.user_thermal is not None:
         # its points are others than those of the stresses, where USDFLD is called
@@ -61,7 +61,7 @@ def coupled_routine(model: Model, group: ElementGroup, section: SolidSection, li
 
 
 def _initial_temperatures(model: Model) -> FloatArray:
-    """Of all nodes (nodes,), zero where none is given."""
+    """Return initial temperatures of all nodes (nodes,), zero by default."""
     temperatures = np.zeros(len(model.mesh.labels))
     for entry in model.initial_temperatures:
         if entry.dof == TEMPERATURE:
@@ -70,7 +70,7 @@ def _initial_temperatures(model: Model) -> FloatArray:
 
 
 def _warn_of_reduced(model: Model, group: ElementGroup, library: Library) -> None:
-    """Say, once per type, what Abaqus says of UMATHT where heat has more points than stresses."""
+    """Warn, once per type, of UMATHT in elements with more points for heat than for stresses, as Abaqus does."""
     if group is next(other for other in model.groups if other.type == group.type):
         message = f"elements of type {group.type} have more points for heat than for stresses"
         advice = "UMATHT should not be used there if plastic dissipation couples displacements and temperatures"
@@ -78,7 +78,7 @@ def _warn_of_reduced(model: Model, group: ElementGroup, library: Library) -> Non
 
 
 def heat_routine(model: Model, group: ElementGroup, kind: HeatType, section: SolidSection, library: Library) -> Routine:
-    """What the driver calls for a group of heat transfer elements. Raises DeckError."""
+    """Build the routine of a group of heat transfer elements. Raises DeckError."""
     material = section.material
     for step in model.steps:
         if not step.procedure.temperatures:
@@ -107,7 +107,7 @@ def heat_routine(model: Model, group: ElementGroup, kind: HeatType, section: Sol
 
 
 def heat_variables(kind: HeatType, routine: Routine) -> PointVariables:
-    """Meaning of the state variables of a group of heat transfer elements."""
+    """Describe the state variables of a group of heat transfer elements."""
     names = tuple(f"HFL{component}" for component in kind.components)
     names = *names, *numbered("SDV", routine.statev)
     if routine.uvarm is not None:
@@ -116,12 +116,16 @@ def heat_variables(kind: HeatType, routine: Routine) -> PointVariables:
 
 
 def has_unsymmetric_flow(material: Material) -> bool:
-    """Whether UMATHT gives an unsymmetric matrix; that of *CONDUCTIVITY leaves out its slope without displacements."""
+    """Return whether UMATHT gives an unsymmetric matrix; that of *CONDUCTIVITY
+    leaves out its slope without displacements.
+    """
     return material.user_thermal is not None and material.user_thermal.unsymmetric
 
 
 def is_unsymmetric(material: Material) -> bool:
-    """Whether heat conduction beside displacements has an unsymmetric matrix, as it depends on the temperature."""
+    """Return whether heat conduction beside displacements has an unsymmetric matrix,
+    as it depends on the temperature.
+    """
     return has_unsymmetric_flow(material) or (material.user_thermal is None and len(material.conductivity) > 1)
 
 

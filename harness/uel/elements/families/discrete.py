@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Built-in trusses, springs, dashpots, masses and rigid elements: what the driver calls for them.
+"""Built-in trusses, springs, dashpots, masses and rigid elements for the driver.
 
 In fortran/host trusses are in host/elements/beam/truss.f90, the others in host/elements/beam/discrete.f90.
 """
@@ -38,7 +38,9 @@ _DASHPOTS: Final = (DiscreteKind.DASHPOT, DiscreteKind.AXIAL_DASHPOT)
 
 
 def discrete_unknowns(model: Model, group: ElementGroup) -> tuple[tuple[int, int], ...]:
-    """(local node, dof) of each unknown; masses, SPRINGA, DASHPOTA have the displacements of the model's dimension."""
+    """Return (local node, dof) of each unknown. Masses, SPRINGA and DASHPOTA have the
+    displacements of the model's dimension.
+    """
     section = group.section
     if isinstance(section, SpringSection) and section.dofs:
         return tuple(enumerate(section.dofs))
@@ -52,7 +54,7 @@ def discrete_unknowns(model: Model, group: ElementGroup) -> tuple[tuple[int, int
 
 
 def discrete_routine(model: Model, group: ElementGroup, unknowns: int, library: Library) -> Routine:
-    """What the driver calls for a group. Raises DeckError."""
+    """Build the routine of a group. Raises DeckError."""
     kind = _kind_of(group)
     dynamic = any(step.procedure.inertia for step in model.steps)
     hidden = 2 * unknowns if dynamic else 0
@@ -79,7 +81,9 @@ def discrete_routine(model: Model, group: ElementGroup, unknowns: int, library: 
 
 
 def _kind_of(group: ElementGroup) -> DiscreteKind:
-    """To the driver the nodes of rigid elements are masses of zero, which have no forces."""
+    """Return the kind of a group. To the driver the nodes of rigid elements are masses of zero,
+    which have no forces.
+    """
     return DISCRETE[group.type].kind if group.type in DISCRETE else DiscreteKind.MASS
 
 
@@ -111,13 +115,15 @@ def _truss_routine(group: ElementGroup, unknowns: int, hidden: int, library: Lib
 
 
 def _output_variables(section: SolidSection, library: Library) -> OutputVariables | None:
-    """Of trusses, which have no directions of a material."""
+    """Return the UVARM of trusses, which have no directions of a material."""
     found = output_variables(section, 1, library)
     return found and replace(found, axes=np.zeros((3, 3)))
 
 
 def discrete_variables(group: ElementGroup, routine: Routine) -> PointVariables | None:
-    """Meaning of the state variables: strain and stress of a truss; those of others have no name in Abaqus' output."""
+    """Describe the state variables: strain and stress of a truss; None for others,
+    which have no name in Abaqus' output.
+    """
     if _kind_of(group) is not DiscreteKind.TRUSS:
         return None
     outputs = () if routine.uvarm is None else numbered("UVARM", routine.uvarm.count)

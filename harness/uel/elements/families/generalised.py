@@ -19,7 +19,7 @@ from uel.usersub import Library, _binding
 
 
 def generalised_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
-    """What the driver calls for a group of elements in generalised plane strain. Raises DeckError."""
+    """Build the routine of a group of elements in generalised plane strain. Raises DeckError."""
     kind, material = solid_of(group), section.material
     elements = f"elements of type {group.type}"
     for step in model.steps:

@@ -18,11 +18,11 @@ from uel.model.records import PointVariables
 from uel.usersub import _binding, _materials
 
 _ROWS, _COLUMNS = (0, 0, 1, 0, 1, 2), (0, 1, 1, 2, 2, 2)
-"""Of D11, D12, D22, D13, D23, D33."""
+"""Rows and columns of D11, D12, D22, D13, D23, D33."""
 
 
 def mass_diffusion_routine(model: Model, group: ElementGroup, kind: HeatType, section: SolidSection) -> Routine:
-    """What the driver calls for a group of heat transfer elements. Raises DeckError."""
+    """Build the routine of a group of heat transfer elements in *MASS DIFFUSION. Raises DeckError."""
     if kind.axisymmetric:
         check_radii(model, group)
     material = section.material
@@ -54,7 +54,7 @@ def mass_diffusion_routine(model: Model, group: ElementGroup, kind: HeatType, se
 
 
 def mass_diffusion_variables(kind: HeatType) -> PointVariables:
-    """Meaning of the state variables of these elements."""
+    """Describe the state variables of these elements."""
     return PointVariables("continuum", _names(kind), kind.points)
 
 
@@ -63,7 +63,7 @@ def _names(kind: HeatType) -> tuple[str, ...]:
 
 
 def depends_on_concentration(material: Material) -> bool:
-    """Whether the flux depends on the concentration beside its gradient, so that the matrix is unsymmetric."""
+    """Return whether the flux depends on the concentration besides its gradient: then the matrix is unsymmetric."""
     law = material.diffusivity
     if law is None:
         return False
@@ -73,7 +73,7 @@ def depends_on_concentration(material: Material) -> bool:
 
 
 def _checked(group: ElementGroup, material: Material, orientation: Orientation | None, kind: HeatType) -> Diffusivity:
-    """The diffusivity, if all is there and fits. Raises DeckError."""
+    """Return the diffusivity if the material is complete and fits. Raises DeckError."""
     law = material.diffusivity
     if law is None or not len(material.solubility):
         keyword = "*DIFFUSIVITY" if law is None else "*SOLUBILITY"

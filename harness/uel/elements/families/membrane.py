@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Built-in membranes: what the driver calls for them (fortran/host/elements/shell/membrane.f90)."""
+"""Built-in membranes for the driver (fortran/host/elements/shell/membrane.f90)."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ NAMES: Final = ("E11", "E22", "E12", "S11", "S22", "S12")
 def membrane_routine(
     model: Model, group: ElementGroup, kind: MembraneType, section: MembraneSection, library: Library
 ) -> Routine:
-    """What the driver calls for a group of membranes. Raises DeckError."""
+    """Build the routine of a membrane group. Raises DeckError."""
     _check(model, group, section)
     material, orientation = section.material, section.orientation
     dynamic = any(step.procedure.inertia for step in model.steps)
@@ -84,12 +84,12 @@ def membrane_routine(
 
 
 def membrane_variables(kind: MembraneType, routine: Routine) -> PointVariables:
-    """Meaning of the state variables of a group of membranes."""
+    """Describe the state variables of a membrane group."""
     return PointVariables("continuum", (*NAMES, *history_names(routine)), kind.points)
 
 
 def _hourglass_stiffness(kind: MembraneType, section: MembraneSection) -> float:
-    """Parameter of the total stiffness; 0 if there is none. Raises DeckError."""
+    """Return the total stiffness parameter; 0 without hourglass control. Raises DeckError."""
     if not kind.hourglass_control:
         return 0.0
     controls, elastic = section.controls, section.material.elastic

@@ -24,7 +24,7 @@ _PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
 
 def piezoelectric_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
-    """What the driver calls for a group of piezoelectric solids. Raises DeckError."""
+    """Build the routine of a group of piezoelectric solids. Raises DeckError."""
     kind, material = solid_of(group), section.material
     elements = f"elements of type {group.type}"
     for step in model.steps:
@@ -62,7 +62,7 @@ def piezoelectric_routine(model: Model, group: ElementGroup, section: SolidSecti
 
 
 def piezoelectric_variables(group: ElementGroup) -> PointVariables:
-    """Meaning of the state variables of a group of piezoelectric solids."""
+    """Describe the state variables of a group of piezoelectric solids."""
     kind = solid_of(group)
     names = [f"{letter}{component}" for letter in "ES" for component in kind.components]
     names += [f"{name}{k + 1}" for name in ("EPG", "EFLX") for k in range(kind.dimension)]
@@ -70,7 +70,9 @@ def piezoelectric_variables(group: ElementGroup) -> PointVariables:
 
 
 def _constants(material: Material, section: SolidSection, tensor: Tensor) -> tuple[FloatArray, FloatArray]:
-    """Stress coefficients (3, 6) and permittivity (3, 3) in global axes; in plane stress those without S33 and EPG3."""
+    """Return stress coefficients (3, 6) and permittivity (3, 3) in global axes;
+    in plane stress with S33 and EPG3 eliminated.
+    """
     axes, _ = directions(section.orientation)
     assert material.dielectric is not None
     dielectric = axes.T @ material.dielectric @ axes
@@ -96,7 +98,7 @@ def _constants(material: Material, section: SolidSection, tensor: Tensor) -> tup
 
 
 def _stiffness(material: Material, section: SolidSection | None, tensor: Tensor) -> FloatArray:
-    """(6, 6) elastic stiffness, in global axes or, without a section, in those of the material."""
+    """Return the (6, 6) elastic stiffness, in global axes or, without a section, in those of the material."""
     compliance = global_compliance(material, section.orientation if section is not None else None, tensor)
     assert compliance is not None
     return np.asarray(np.linalg.inv(compliance), dtype=np.float64)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Built-in conventional shells: what the driver calls for them (fortran/host/elements/shell/shell.f90).
+"""Built-in conventional shells for the driver (fortran/host/elements/shell/shell.f90).
 
 Sections of shells, which continuum shells have too.
 """
@@ -53,7 +53,7 @@ OPPOSITE_ANGLE: Final = 160.0
 """Degrees between a normal of the deck and that of an element above which Abaqus turns the element over."""
 
 ROTATIONAL_FRACTION: Final = 0.00375
-"""r_theta: rotational hourglass stiffness over the shear modulus (Abaqus Analysis User's Guide, Section controls)."""
+"""Rotational hourglass stiffness over the shear modulus, r_theta (Abaqus Analysis User's Guide, Section controls)."""
 
 DRILLING: Final = 1e-3
 """Stiffness against drilling over that of transverse shear; with more, coarse meshes of thin warped shells lock."""
@@ -72,7 +72,7 @@ class SectionPoints:
 def shell_routine(
     model: Model, group: ElementGroup, kind: ShellType, section: ShellSection, library: Library
 ) -> Routine:
-    """What the driver calls for a group of shells. Raises DeckError."""
+    """Build the routine of a shell group. Raises DeckError."""
     check_section(model, group, section)
     _check_inertia(model, group, section)
     dynamic = any(step.procedure.inertia for step in model.steps)
@@ -102,7 +102,8 @@ def shell_routine(
 def define_section(
     section: ShellSection, points: SectionPoints, along: int, library: Library
 ) -> tuple[IntArray, Routine]:
-    """Material, layer and section point of the layer of each section point, and what they make of a routine.
+    """Define the materials of the section, and return material, layer and point in the layer of each section point,
+    with their part of a routine.
 
     along: integration points of the surface.
     """
@@ -151,7 +152,7 @@ def section_properties(
     shear: tuple[float, ...],
     hourglass: FloatArray,
 ) -> FloatArray:
-    """PROPS of fortran/host/elements/shell/section.f90; of_element: the two values of the element."""
+    """Return PROPS of fortran/host/elements/shell/section.f90; of_element: the two values of the element."""
     slenderness = SLENDERNESS if section.slenderness is None else section.slenderness
     angles = np.radians([section.layers[k].angle for k in points.layer.tolist()])
     first = [section.thickness, section.density, of_element[0], *shear, slenderness, of_element[1]]
@@ -160,14 +161,14 @@ def section_properties(
 
 
 def shell_variables(section: ShellSection, kind: ShellType | ContinuumShellType, routine: Routine) -> PointVariables:
-    """Meaning of the state variables of a group of shells, conventional or continuum shells."""
+    """Describe the state variables of a group of shells, conventional or continuum shells."""
     sections = sum(layer.points for layer in section.layers)
     names = *NAMES, *history_names(routine)
     return PointVariables("continuum", names, kind.points * sections, sections=sections, whole=WHOLE)
 
 
 def directors(model: Model, group: ElementGroup) -> FloatArray:
-    """(m, nodes, 3) directors of a group of shells at its nodes: unit normals.
+    """Compute (m, nodes, 3) directors of a shell group at its nodes: unit normals.
 
     At a node it is the mean of the normals there of all shells whose normal is within 20 degrees of that of the element
     (Analysis User's Guide, Defining the initial geometry of conventional shell elements). The normal of an element
@@ -216,7 +217,7 @@ def check_normals(model: Model, group: ElementGroup, kind: ShellType, library: L
 
 
 def section_points(section: ShellSection) -> SectionPoints:
-    """Section points; those of Simpson's rule are on both sides of where layers meet."""
+    """Return the section points; those of Simpson's rule are on both sides of the surfaces where layers meet."""
     bottom = -(0.5 + section.offset) * section.thickness
     places, weights = [], []
     for layer in section.layers:
@@ -235,7 +236,9 @@ def section_points(section: ShellSection) -> SectionPoints:
 
 
 def section_stiffness(section: ShellSection, points: SectionPoints) -> FloatArray:
-    """(6, 6) forces and moments of the elastic section by membrane strains and curvatures; zero of layers of UMAT."""
+    """Return (6, 6) forces and moments of the elastic section by membrane strains and curvatures;
+    layers of UMAT add zero.
+    """
     found = np.zeros((6, 6))
     moduli = [_layer_modulus(layer) for layer in section.layers]
     for place, weight, layer in zip(points.place, points.weight, points.layer.tolist(), strict=True):
@@ -244,7 +247,7 @@ def section_stiffness(section: ShellSection, points: SectionPoints) -> FloatArra
 
 
 def shear_stiffness(section: ShellSection, stiffness: FloatArray) -> tuple[float, float, float]:
-    """K11, K22 and K12 of elastic layers.
+    """Compute K11, K22 and K12 of elastic layers.
 
     The shear stress is in equilibrium with the bending stress that a moment alone has, whose slope is the shear force:
     no other moment and no force changes along the direction. Its energy is that of the forces by 1/K.
@@ -266,13 +269,13 @@ def shear_stiffness(section: ShellSection, stiffness: FloatArray) -> tuple[float
 
 
 def _bending_force(modulus: FloatArray, strains: FloatArray, start: float, end: float) -> FloatArray:
-    """(13 or 23, force) change of the in-plane force of a part of a layer along directions 1 and 2."""
+    """Return (13 or 23, force) change of the in-plane force of a part of a layer along directions 1 and 2."""
     forces = modulus @ (strains[:3] * (end - start) + strains[3:] * (end**2 - start**2) / 2)
     return np.array([[forces[0, 0], forces[2, 1]], [forces[2, 0], forces[1, 1]]])
 
 
 def hourglass_modulus(kind: ShellType | ContinuumShellType, section: ShellSection, stiffness: FloatArray) -> FloatArray:
-    """(6, 6) elastic stiffness of the section that enhanced modes and the enhanced hourglass control have.
+    """Return the (6, 6) elastic stiffness of the section for enhanced modes and the enhanced hourglass control.
 
     Raises DeckError.
     """
@@ -290,7 +293,8 @@ def hourglass_modulus(kind: ShellType | ContinuumShellType, section: ShellSectio
 
 
 def _shear_integrals(section: ShellSection) -> FloatArray:
-    """(2,) integrals of the shear modulus and of it times z^2 over the thickness, z from the surface of the nodes.
+    """Return (2,) integrals of G and of G z^2 over the thickness,
+    with shear modulus G and z from the surface of the nodes.
 
     With layers of UMAT the modulus is that of *HOURGLASS STIFFNESS over 0.005.
     """
@@ -307,7 +311,7 @@ def _shear_integrals(section: ShellSection) -> FloatArray:
 
 
 def _hourglass_moduli(kind: ShellType, section: ShellSection) -> FloatArray:
-    """(2,) moduli of the membrane and of the rotations in the total stiffness of S4R, zero if it is not that.
+    """Return (2,) moduli of the membrane and of the rotations in the total stiffness of S4R; zero for other controls.
 
     They are in fortran/host/elements/shell/hourglass.f90.
     """
@@ -323,12 +327,12 @@ def _hourglass_moduli(kind: ShellType, section: ShellSection) -> FloatArray:
 
 
 def _drilling_of_reduced(section: ShellSection) -> float:
-    """D of fortran/host/elements/shell/hourglass.f90: a sixth of the shear stiffness of the section in its plane."""
+    """Return D of fortran/host/elements/shell/hourglass.f90: a sixth of the in-plane shear stiffness of the section."""
     return float(section.drilling * _shear_integrals(section)[0] / 6)
 
 
 def _layer_modulus(layer: ShellLayer) -> FloatArray:
-    """(3, 3) stiffness in plane stress, along the directions of the section; zero of UMAT."""
+    """Return the (3, 3) stiffness in plane stress, along the directions of the section; zero for UMAT."""
     compliance = global_compliance(layer.material, None, Tensor.PLANE_STRESS)
     if compliance is None:
         return np.zeros((3, 3))
@@ -338,7 +342,7 @@ def _layer_modulus(layer: ShellLayer) -> FloatArray:
 
 
 def _shear_compliance(layer: ShellLayer) -> FloatArray:
-    """(2, 2) strains 13, 23 by stresses, along the directions of the section."""
+    """Return (2, 2) strains 13, 23 by stresses, along the directions of the section."""
     compliance = global_compliance(layer.material, None, Tensor.PLANE_STRESS)
     assert compliance is not None
     c, s = np.cos(np.radians(layer.angle)), np.sin(np.radians(layer.angle))
@@ -347,7 +351,7 @@ def _shear_compliance(layer: ShellLayer) -> FloatArray:
 
 
 def _strain_turn(degrees: float) -> FloatArray:
-    """(3, 3) strains 11, 22, 12 (engineering) to axes at an angle."""
+    """Return the (3, 3) matrix that turns strains 11, 22, 12 (engineering) to axes at an angle."""
     c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
     return np.array([[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]])
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Built-in continuum elements: what the driver calls for them, and what their state variables mean."""
+"""Built-in continuum elements for the driver, and the meaning of their state variables."""
 
 from __future__ import annotations
 
@@ -47,28 +47,30 @@ HOURGLASS_FRACTION: Final = 0.005
 
 OF_MATERIAL: Final = 1
 OF_FIRST_TANGENT: Final = 2
-"""JPROPS(4): who tells the moduli of the enhanced hourglass control."""
+"""JPROPS(4): source of the moduli of the enhanced hourglass control."""
 
 SMALLEST_RADIUS: Final = 1e-9
 """Radius, over the largest one of a group, below which a node lies on the axis."""
 
 
 def solid_of(group: ElementGroup) -> ContinuumType:
-    """The type of a group of continuum elements, with temperatures or without."""
+    """Return the type of a group of continuum elements, with temperatures or without."""
     kind = group.built_in
     assert isinstance(kind, ContinuumType)
     return kind
 
 
 def section_depth(kind: SolidType, section: SolidSection | CompositeSection | ShellSection) -> float:
-    """Factor from area to volume: the thickness in the plane, 2 pi about an axis, to be multiplied by the radius."""
+    """Return the factor from area to volume: the thickness in the plane, 2 pi about an axis,
+    to be multiplied by the radius.
+    """
     if kind.axisymmetric:
         return 2 * np.pi
     return section.thickness if isinstance(section, SolidSection) and kind.dimension == 2 else 1.0
 
 
 def solid_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
-    """What the driver calls for a group of solids. Raises DeckError."""
+    """Build the routine of a group of solids. Raises DeckError."""
     kind, material = solid_of(group), section.material
     if kind.axisymmetric:
         check_radii(model, group)
@@ -173,7 +175,7 @@ def _check_user_hardening(model: Model, material: Material) -> None:
 
 
 def _places_of_stress(kind: ContinuumType) -> tuple[int, ...]:
-    """The components that the element library of Abaqus lists: 11, 22, 12 in plane stress, which has no 33."""
+    """Return the places of the components in Abaqus' element library: 11, 22, 12 in plane stress, which has no 33."""
     names = kind.components
     return tuple(
         len(names) + k for k, name in enumerate(names) if not (kind.tensor is Tensor.PLANE_STRESS and name == "33")
@@ -181,7 +183,7 @@ def _places_of_stress(kind: ContinuumType) -> tuple[int, ...]:
 
 
 def is_prestressed(model: Model, group: ElementGroup, material: Material) -> bool:
-    """Whether elements of the group have an initial stress that a built-in material must store. Raises DeckError."""
+    """Return whether the group has an initial stress that a built-in material must store. Raises DeckError."""
     first = first_element(model, group)
     last = first + len(group.labels)
     entries = model.initial_stresses
@@ -204,7 +206,8 @@ def is_prestressed(model: Model, group: ElementGroup, material: Material) -> boo
 
 
 def _local_orientation(model: Model, section: SolidSection) -> Orientation | None:
-    """The orientation if the material is in the directions of each point, which turn with it under NLGEOM.
+    """Return the orientation if the material is in the directions of each point, which turn with it under NLGEOM,
+    else None.
 
     Otherwise its constants are turned to global axes once.
     """
@@ -216,7 +219,7 @@ def _local_orientation(model: Model, section: SolidSection) -> Orientation | Non
 
 
 def solid_variables(group: ElementGroup, routine: Routine) -> PointVariables:
-    """Meaning of the state variables of a group of solids."""
+    """Describe the state variables of a group of solids."""
     kind = solid_of(group)
     names = tuple(f"{letter}{component}" for letter in "ES" for component in kind.components)
     names = *names, *numbered("SDV", routine.statev)
@@ -239,13 +242,15 @@ def check_radii(model: Model, group: ElementGroup) -> None:
 
 
 def history_of(material: Material, points: int, *, prestressed: bool = False, outputs: int = 0) -> tuple[int, int]:
-    """Values and points of the material history of an element, which may have an initial stress, and UVAR there."""
+    """Return values per point and points of the material history of an element,
+    which may have an initial stress and UVAR.
+    """
     values = history_values(material, prestressed=prestressed) + outputs
     return values, points if values > 1 else 1
 
 
 def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: SolidSection) -> float:
-    """Parameter of the total stiffness; 0 if there is none. Raises DeckError."""
+    """Return the total stiffness parameter; 0 if the control is not of total stiffness. Raises DeckError."""
     controls, elastic = section.controls, section.material.elastic
     if not kind.hourglass_control:
         return 0.0
@@ -268,7 +273,9 @@ def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: Soli
 
 
 def is_enhanced(section: SolidSection | CompositeSection) -> bool:
-    """Whether the hourglass control is ENHANCED, the default with *HYPERELASTIC (Keywords Guide, *SECTION CONTROLS)."""
+    """Return whether the hourglass control is ENHANCED, the default with *HYPERELASTIC (Keywords Guide,
+    *SECTION CONTROLS).
+    """
     if section.controls.enhanced is not None:
         return section.controls.enhanced
     by_default = isinstance(section, SolidSection) and isinstance(section.material.hyperelastic, Hyperelastic)
@@ -296,21 +303,21 @@ def _check_enhanced(kind: ContinuumType, section: SolidSection) -> None:
 
 
 def _enhanced_moduli(kind: ContinuumType, section: SolidSection) -> int:
-    """JPROPS(4) of the element: 0 without the enhanced hourglass control, else where it has its moduli from."""
+    """Return JPROPS(4) of the element: 0 without the enhanced hourglass control, else the source of its moduli."""
     if not (kind.hourglass_control and is_enhanced(section)):
         return 0
     return OF_FIRST_TANGENT if _of_tangent(kind, section) else OF_MATERIAL
 
 
 def _of_tangent(kind: ContinuumType, section: SolidSection) -> bool:
-    """Whether only the tangent of UMAT tells the moduli, and it is all of the element's stiffness."""
+    """Return whether the moduli follow from the tangent of UMAT alone, and it is all of the element's stiffness."""
     return section.material.user is not None and not pressure_unknowns(kind, section.material)
 
 
 def warn_of_enhanced(
     model: Model, group: ElementGroup, kind: ContinuumType, library: Library, tangent: str = ""
 ) -> None:
-    """Say, once per section, what the enhanced hourglass control is based on; tangent: what its moduli are from."""
+    """Warn, once per section, of the basis of the enhanced hourglass control; tangent: the source of its moduli."""
     section = group.section
     assert isinstance(section, SolidSection | CompositeSection)
     if not (is_enhanced(section) and kind.hourglass_control):
@@ -326,7 +333,7 @@ def warn_of_enhanced(
 
 
 def _warn_of_unpublished(model: Model, group: ElementGroup, kind: ContinuumType, library: Library) -> None:
-    """Say, once per type, what elements are here whose formulation in Abaqus is not published."""
+    """Warn, once per type, of elements whose formulation in Abaqus is not published, and name the one used here."""
     if group is not next(other for other in model.groups if other.type == group.type):
         return
     if kind.modified:
@@ -342,7 +349,7 @@ def _warn_of_unpublished(model: Model, group: ElementGroup, kind: ContinuumType,
 
 
 def output_variables(section: SolidSection, points: int, library: Library) -> OutputVariables | None:
-    """UVARM of a material; None if the job has none: then only its variables are left out."""
+    """Return UVARM of a material; None if the job has none: then only its variables are left out."""
     material = section.material
     if not material.output_variables or library.uvarm is None:
         return None
@@ -353,10 +360,10 @@ def output_variables(section: SolidSection, points: int, library: Library) -> Ou
 
 
 def history_names(routine: Routine) -> tuple[str, ...]:
-    """Names of what the history of a point keeps for output."""
+    """Return the names of the output variables in the history of a point."""
     return *numbered("UVARM", routine.outputs), *numbered("SDV", routine.statev)
 
 
 def numbered(name: str, count: int) -> tuple[str, ...]:
-    """Names of so many variables, numbered from 1."""
+    """Return this many names of variables, numbered from 1."""
     return tuple(f"{name}{number}" for number in range(1, count + 1))

@@ -16,7 +16,7 @@ from uel.usersub.layout import element_layouts
 
 
 def warn_of_earlier_zeros(model: Model, library: Library) -> None:
-    """Let the library warn once of the first elements whose zeros probably mean what they once meant."""
+    """Warn once of the first elements whose zeros probably have their earlier meaning."""
     for group in model.groups if library.is_own else ():
         if text := _warning(group):
             library.warn(text)
@@ -24,7 +24,7 @@ def warn_of_earlier_zeros(model: Model, library: Library) -> None:
 
 
 def _warning(group: ElementGroup) -> str:
-    """What to write instead; '' where the zeros are meant as they are."""
+    """Return what to write instead; '' if the zeros have their present meaning."""
     definition, section = group.definition, group.section
     layout = element_layouts().get(definition.number) if definition is not None else None
     if definition is None or layout is None or not layout.own or not isinstance(section, UserProperty):

@@ -52,7 +52,7 @@ _SIDES: Final = (("BOTTOM", "below"), ("TOP", "above"))
 
 
 def judge_neighbours(model: Model, library: Library) -> None:
-    """Refuse self-contained interface elements that are wrong beside their solids, and warn where they may be.
+    """Refuse self-contained interface elements that do not fit their solids, and warn of those that may not.
 
     Raises DeckError, whose notes have the other reasons.
     """
@@ -101,7 +101,7 @@ def compare(model: Model, groups: Iterable[ElementGroup]) -> list[Finding]:
 
 
 def _given(group: ElementGroup) -> dict[str, float]:
-    """Properties by name; what the deck leaves out is 0."""
+    """Return the properties by name; those that the deck leaves out are 0."""
     assert group.definition is not None and isinstance(group.section, UserProperty)
     layout = element_layouts()[group.definition.number]
     return {
@@ -258,7 +258,7 @@ class _Pair:
         return Finding(message, self.group.section.source, wrong)
 
     def _solid(self, at: int) -> str:
-        """Name, side and place of a solid."""
+        """Return name, side and place of a solid."""
         name, where = _named(self.model, self.beside, int(self.solids[at])), _SIDES[self.side][1]
         return f"{name} {where} ({self.beside.section.source})"
 
@@ -300,12 +300,12 @@ def _couplings(compliance: FloatArray, of: FloatArray, tensor: Tensor) -> FloatA
 
 
 def _is_turned(compliance: FloatArray, tensor: Tensor) -> NDArray[np.bool_]:
-    """Whether (k, 6, 6) compliances couple extension with shear, or one shear with another."""
+    """Return whether (k, 6, 6) compliances couple extension with shear, or one shear with another."""
     return np.asarray((abs(_couplings(compliance, compliance, tensor)) > TOLERANCE).any(axis=-1))
 
 
 def _constants(compliance: FloatArray) -> dict[str, FloatArray]:
-    """Engineering constants (k,) by name from compliances (k, 6, 6)."""
+    """Return engineering constants (k,) by name from compliances (k, 6, 6)."""
     first, second, third = (compliance[:, i, i] for i in range(3))
     values = (
         *(1.0 / first, 1.0 / second, 1.0 / third),

@@ -63,11 +63,11 @@ class SolidFaces:
     outward: FloatArray
 
     def take(self, rows: IntArray) -> SolidFaces:
-        """Some of them."""
+        """Return the faces in these rows."""
         return SolidFaces(self.group, self.rows[rows], self.corners[rows], self.outward[rows])
 
     def are(self, number: int) -> np.ndarray:
-        """Whether each is that face, from 0, of its solid."""
+        """Return the mask of the faces that have this number, from 0, in their solid."""
         kind = self.group.built_in
         assert isinstance(kind, ContinuumType)
         nodes = self.group.nodes[self.rows][:, list(kind.family.faces[number][: self.corners.shape[1]])]
@@ -75,7 +75,7 @@ class SolidFaces:
 
 
 def plies_at(model: Model, faces: SolidFaces, tensor: Tensor) -> Iterator[Ply]:
-    """Find the materials at faces of solids whose stresses are those of constant elastic moduli."""
+    """Find the materials at faces of solids whose stresses follow from constant elastic moduli."""
     section = faces.group.section
     every = np.arange(len(faces.rows))
     if isinstance(section, CompositeSection):
@@ -101,12 +101,12 @@ def plies_at(model: Model, faces: SolidFaces, tensor: Tensor) -> Iterator[Ply]:
 
 
 def _is_elastic(material: Material) -> bool:
-    """Whether a material has constant elastic moduli; `find_faults` warns of others."""
+    """Return whether a material has constant elastic moduli; `find_faults` warns of others."""
     return material.elastic is not None and material.elastic.table is None and material.hyperelastic is None
 
 
 def _ply(model: Model, faces: SolidFaces, layer: SolidLayer, upright: FloatArray, rows: IntArray) -> Ply:
-    """Material of a layer with its axes; `upright` is the stack direction (k, 3)."""
+    """Return the material of a layer with its axes; `upright` is the stack direction (k, 3)."""
     material, orientation = layer.material, layer.orientation
     same = np.broadcast_to(np.eye(3), (len(rows), 3, 3))
     if orientation is None or (material.elastic and material.elastic.type is ElasticType.ISOTROPIC):
@@ -121,7 +121,9 @@ def _ply(model: Model, faces: SolidFaces, layer: SolidLayer, upright: FloatArray
 
 
 def _directions(model: Model, faces: SolidFaces, orientation: Orientation) -> FloatArray:
-    """Directions (k, 3, 3) of an orientation in the middles of faces; ValueError says why they are not known."""
+    """Compute directions (k, 3, 3) of an orientation in the middles of faces.
+    Raises ValueError if they are not known.
+    """
     system, shape = orientation.system, (len(faces.rows), 3, 3)
     if system is None:
         return np.broadcast_to(orientation.axes, shape)

@@ -29,7 +29,7 @@ from uel.model.steps import InitialStress, InitialValue, Load
 from uel.usersub.layout import element_layouts
 
 NONE = -1
-"""Stands for a solid that the model does not have."""
+"""Number for a solid that the model does not have."""
 OBLIQUE: Final = 0.5
 """Degrees up to which axes of a material are those of an element that owns it: a fibre stress has sin(0.5 degrees),
 0.9 %, of it as a traction."""
@@ -74,7 +74,7 @@ class Neighbours:
     nodes: IntArray
 
     def joined(self, others: Neighbours) -> Neighbours:
-        """These and others of the same type and section."""
+        """Return these and other neighbours of the same type and section."""
         elements = np.concatenate([self.elements, others.elements])
         return replace(self, elements=elements, nodes=np.concatenate([self.nodes, others.nodes]))
 
@@ -92,7 +92,7 @@ class States:
 
 
 def owns_solids(jtype: int) -> bool:
-    """Whether elements Un of the project are interface elements that own the solids on both sides."""
+    """Return whether elements Un of the project are interface elements that own the solids on both sides."""
     layout = element_layouts().get(jtype)
     return layout is not None and bool(layout.own)
 
@@ -191,7 +191,7 @@ def solids_of(model: Model, group: ElementGroup) -> IntArray:
 
 
 def _is_solid(group: ElementGroup) -> bool:
-    """Whether elements are continuum elements, built in or of the project."""
+    """Return whether elements are continuum elements, built in or of the project."""
     if group.definition is None:
         return isinstance(group.built_in, ContinuumType)
     return not owns_solids(group.definition.number)
@@ -241,7 +241,7 @@ def initially_stressed(stresses: Iterable[InitialStress]) -> list[tuple[IntArray
 
 
 def find_faults(solids: Neighbours, states: States) -> list[Finding]:
-    """Find what makes the traction of an interface element differ from the stress of the solids beside it.
+    """Find reasons for a traction of an interface element that differs from the stress of the solids beside it.
 
     Parameters
     ----------
@@ -303,7 +303,7 @@ def _formulation(solids: Neighbours) -> Iterator[Finding]:
 
 
 def _material(solids: Neighbours, material: Material) -> Iterator[Finding]:
-    """Check for stresses that are not those of constant elastic moduli."""
+    """Check for stresses that do not follow from constant elastic moduli."""
     of = f"material {material.name} of the {solids.type} beside {_type(solids)}"
     time_dependent = material.viscoelastic or material.creep or next(iter(material.networks), None)
     if time_dependent is not None:

@@ -40,9 +40,9 @@ from uel.usersub import Library
 from uel.usersub.layout import element_layouts
 
 FACTOR: Final = 0.5
-"""m of Harper and Hallett."""
+"""Factor m of Harper and Hallett."""
 ELEMENTS: Final = 3
-"""That the zone has to hold."""
+"""Number of elements that the process zone has to hold."""
 FAILED: Final = 0.5
 """Part of the fracture energy from which on a point counts as failing: any law gives a bonded point less."""
 _FLAT: Final = 0.999
@@ -79,13 +79,13 @@ class _Long:
     law: _Law
 
     def without(self, some: NDArray[np.bool_]) -> _Long:
-        """All but some (k,) of them."""
+        """Return the elements except some (k,)."""
         kept = ~some
         return _Long(self.rows[kept], self.lengths[kept], self.zones[:, kept], self.large[:, kept], self.law)
 
 
 class LongElements:
-    """Watches the interface elements that are longer than a third of the process zone.
+    """Observer of the interface elements that are longer than a third of the process zone.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ class LongElements:
                 self._watched[index] = long
 
     def warnings(self, record: IncrementDone) -> list[str]:
-        """What has to be said after an increment: once for each group, when the first of its long elements fails.
+        """Return the warnings after an increment: once for each group, when the first of its long elements fails.
 
         Nothing of a group whose elements say it themselves.
         """
@@ -159,7 +159,7 @@ def _message(group: ElementGroup, long: _Long, k: int, zone: float, mix: float) 
 
 
 def _law(group: ElementGroup, library: Library) -> _Law | None:
-    """Strengths and fracture energies of a group of interface elements; None of other elements."""
+    """Return strengths and fracture energies of a group of interface elements; None for other elements."""
     section = group.section
     if isinstance(section, CohesiveSection):
         return _built_in_law(section)
@@ -176,7 +176,7 @@ def _law(group: ElementGroup, library: Library) -> _Law | None:
 
 
 def _built_in_law(section: CohesiveSection) -> _Law | None:
-    """Law of cohesive elements, where the fracture energies and the strengths are given."""
+    """Return the law of cohesive elements if the fracture energies and the strengths are known, else None."""
     damage = section.material.damage
     if damage is None or damage.evolution is None or damage.evolution.type != "ENERGY":
         return None
@@ -188,7 +188,7 @@ def _built_in_law(section: CohesiveSection) -> _Law | None:
 
 
 def _faces(group: ElementGroup, library: Library) -> tuple[IntArray, IntArray] | None:
-    """Local nodes of the corners of the bottom and the top face of interface elements."""
+    """Return the local nodes of the corners of the bottom and the top face of interface elements."""
     kind = group.built_in
     if isinstance(kind, CohesiveType):
         corners, faces = kind.face.corners, (kind.bottom, kind.top)
@@ -216,7 +216,7 @@ class _Plies:
         self.nodes = np.flatnonzero(self._owner >= 0)
 
     def modulus(self, nodes: IntArray, directions: FloatArray) -> FloatArray:
-        """Young's modulus at nodes (m,) along unit vectors (m, 3); infinite where no material is known."""
+        """Return Young's modulus at nodes (m,) along unit vectors (m, 3); infinite without a known material."""
         x, y, z = directions.T
         stress = np.column_stack([x * x, y * y, z * z, x * y, x * z, y * z])
         found = np.full(len(nodes), np.inf)
@@ -236,7 +236,7 @@ def tensor_of(group: ElementGroup) -> Tensor | None:
 
 
 def compliance_of(group: ElementGroup) -> FloatArray | None:
-    """Compliance (6, 6) of continuum elements; None where it is not known, or differs from point to point."""
+    """Return the compliance (6, 6) of continuum elements; None if it is not known, or differs from point to point."""
     section, tensor = group.section, tensor_of(group)
     if not isinstance(section, SolidSection | UserProperty):
         return None
@@ -274,7 +274,7 @@ def _long_elements(
 
 
 def _normals(middle: FloatArray) -> FloatArray:
-    """Unit normals (m, 3) of faces whose corners are `middle` (m, corners, 3)."""
+    """Return unit normals (m, 3) of faces whose corners are `middle` (m, corners, 3)."""
     if middle.shape[1] == 2:
         x, y, _ = (middle[:, 1] - middle[:, 0]).T
         normal = np.column_stack([-y, x, np.zeros(len(x))])
@@ -285,13 +285,13 @@ def _normals(middle: FloatArray) -> FloatArray:
 
 
 def _unit(vectors: FloatArray) -> FloatArray:
-    """Vectors (m, 3) at length 1; those of length 0 stay zero."""
+    """Return vectors (m, 3) scaled to length 1; those of length 0 stay zero."""
     length = np.linalg.norm(vectors, axis=1)
     return np.asarray(vectors / np.where(length > 0.0, length, 1.0)[:, None])
 
 
 def _arm_height(inside: FloatArray, middle: FloatArray, normal: FloatArray) -> float:
-    """Height of the thinner body beside a flat interface; infinite beside one that is not flat, or at an edge."""
+    """Return the height of the thinner body beside a flat interface; infinite if it is not flat, or is at an edge."""
     mean = normal.mean(axis=0)
     if not len(inside) or not np.linalg.norm(mean) > _FLAT:
         return np.inf
@@ -301,7 +301,7 @@ def _arm_height(inside: FloatArray, middle: FloatArray, normal: FloatArray) -> f
 
 
 def _zones(law: _Law, across: FloatArray, axial: FloatArray, height: float) -> FloatArray:
-    """Lengths of the process zones of modes I and II (2, m)."""
+    """Compute the lengths of the process zones of modes I and II (2, m)."""
     first, second = (energy / strength**2 for energy, strength in zip(law.energies, law.strengths, strict=True))
     mode_1 = np.minimum(across * first, (axial * first) ** 0.25 * height**0.75)
     mode_2 = np.minimum(np.sqrt(across * axial) * second, np.sqrt(axial * second * height))

@@ -12,7 +12,7 @@ from uel.usersub.layout import ElementLayout, element_layouts
 
 
 def warn_of_missing_unsymm(model: Model, library: Library) -> None:
-    """Let the library warn of each *USER ELEMENT of the project that lacks UNSYMM."""
+    """Warn of each *USER ELEMENT of the project that lacks UNSYMM."""
     if not library.is_own or all(step.procedure.unsymmetric for step in model.steps):
         return
     large = any(step.nlgeom for step in model.steps)
@@ -32,7 +32,9 @@ def warn_of_missing_unsymm(model: Model, library: Library) -> None:
 
 
 def _is_secant(group: ElementGroup, layout: ElementLayout) -> bool:
-    """Whether the elements are standard ones with TANGENT 1, whose matrix is symmetric for small displacements."""
+    """Return whether the elements are standard ones with TANGENT 1,
+    whose matrix is symmetric for small displacements.
+    """
     if layout.own or not isinstance(group.section, UserProperty):
         return False
     names = [item.name for item in layout.integers]

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pressures on faces of solids, shells and membranes with NLGEOM: they act on the current face, in each iteration.
+"""Follower loads: pressures on faces of solids, shells and membranes with NLGEOM act
+on the current face in each iteration.
 
 A block of faces is called as elements are, with its pressures as distributed loads
 (fortran/host/elements/followers.f90).
@@ -28,11 +29,11 @@ from uel.model.steps import ElementLoad, LoadKind, LoadType
 from uel.usersub import Library, _binding
 
 _TRACTIONS: Final = {LoadKind.TRACTION: 1, LoadKind.SHEAR: 2}
-"""JPROPS(5) of what is no pressure."""
+"""JPROPS(5) of loads other than pressures."""
 SHELL_PRESSURE: Final = 8
 """Terms of the average force that a load normal to a shell is, over the components of its nodal forces."""
 _AT_POINTS: Final = 3
-"""That of a pressure that differs from point to point, as DLOAD gives it."""
+"""JPROPS(5) of a pressure that differs from point to point, as DLOAD gives it."""
 
 
 class FollowerBlock(ElementBlock):
@@ -80,7 +81,7 @@ class FollowerBlock(ElementBlock):
         return self._rule[1]
 
     def points(self, rows: IntArray, u: FloatArray) -> FloatArray:
-        """Where the points of faces are.
+        """Compute the places of the points of faces.
 
         Parameters
         ----------
@@ -102,7 +103,7 @@ class FollowerBlock(ElementBlock):
         return found
 
     def as_terms(self, report: BlockReport, distributed: Distributed) -> BlockReport:
-        """The report of a pass, with the terms of the average flux that the loads on these faces are.
+        """Return the report of a pass with the loads on these faces counted as terms of the average flux.
 
         Loads normal to shells are SHELL_PRESSURE times the components of their nodal forces, others none.
         """
@@ -114,11 +115,11 @@ class FollowerBlock(ElementBlock):
 
     @property
     def key(self) -> str:
-        """Tells blocks of faces of one model apart, but for the groups of their elements."""
+        """Key that distinguishes the blocks of faces of one model, apart from the groups of their elements."""
         return f"{'*DSLOAD' if self.surface else '*DLOAD'} {self.load}"
 
     def resume_some(self, elements: IntArray, saved: Saved) -> None:
-        """`resume` of those faces that are among those kept; the others had no load so far.
+        """Resume the faces that are among those kept; the others had no load so far.
 
         Parameters
         ----------
@@ -133,7 +134,7 @@ class FollowerBlock(ElementBlock):
         self._keep_committed()
 
     def keep(self, rows: IntArray) -> None:
-        """As that of other blocks."""
+        """Keep these elements only, as in other blocks."""
         super().keep(rows)
         self.elements = self.elements[rows]
 
@@ -141,7 +142,7 @@ class FollowerBlock(ElementBlock):
 def _face(
     parent: ElementGroup, row: int, load: LoadType, coordinates: FloatArray
 ) -> tuple[int, float, Family, int, bool]:
-    """Dimension, depth, family of the face, sign of the outward normal, and whether it is axisymmetric."""
+    """Return dimension, depth, family of the face, sign of the outward normal, and whether it is axisymmetric."""
     section, surface = parent.section, parent.built_in
     if isinstance(surface, SurfaceType):
         # the order of the nodes of a side gives the outward normal
@@ -154,7 +155,7 @@ def _face(
 
 
 def follower_blocks(model: Model, library: Library) -> list[FollowerBlock]:
-    """Blocks of all faces under loads that follow them; in a model without NLGEOM those of *BUCKLE.
+    """Build the blocks of all faces under follower loads; in a model without NLGEOM those of *BUCKLE.
 
     Raises DeckError if a shear traction is normal to a face.
     """

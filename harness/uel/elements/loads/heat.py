@@ -45,22 +45,22 @@ class HeatLoadBlock(ElementBlock):
 
     @property
     def elements(self) -> IntArray | None:
-        """(m,) positions of the elements in the model; None if heat enters nodes."""
+        """Positions (m,) of the elements in the model; None if heat enters nodes."""
         return None if self.load.area else self.places
 
     def as_terms(self, report: BlockReport, distributed: Distributed) -> BlockReport:
-        """The report of a pass, with the terms of the average flux that the loads on these elements are."""
+        """Return the report of a pass with the loads on these elements counted as terms of the average flux."""
         loaded = np.count_nonzero(self.holds(distributed.elements[distributed.kinds == 1]))
         return report._replace(entries=np.where(self._forces > 0, self.terms * loaded, 0))
 
     def keep(self, rows: IntArray) -> None:
-        """As that of other blocks."""
+        """Keep these elements only, as in other blocks."""
         super().keep(rows)
         self.places = self.places[rows]
 
 
 def heat_load_blocks(model: Model, library: Library) -> Iterator[HeatLoadBlock]:
-    """Blocks of all faces, volumes and nodes that heat enters. Raises DeckError."""
+    """Yield the blocks of all faces, volumes and nodes that heat enters. Raises DeckError."""
     under: dict[HeatLoadType, list[HeatLoad]] = {}
     for step in model.steps:
         for entry in step.heat_loads:
@@ -80,7 +80,7 @@ def heat_load_blocks(model: Model, library: Library) -> Iterator[HeatLoadBlock]:
 
 
 def _define(model: Model, load: HeatLoadType, entry: HeatLoad, library: Library) -> int:
-    """Make a load known to the host; returns its number there. Raises DeckError without what it needs."""
+    """Define a load in the host, and return its number. Raises DeckError if a routine or constant is missing."""
     if load.law is HeatLaw.RADIATION and not model.constants.stefan_boltzmann:
         raise DeckError(entry.source, f"*{load.keyword} needs *PHYSICAL CONSTANTS, STEFAN BOLTZMANN=")
     routine, address = ("FILM", library.film) if load.law is HeatLaw.FILM else ("DFLUX", library.dflux)

@@ -26,7 +26,8 @@ SMALLEST_SINE: Final = 1e-10
 def unit_forces(
     group: ElementGroup, rows: IntArray, load: ElementLoad, coordinates: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Nodal forces (elements, points, nodes of the face or element, dimension) for magnitudes of one at each point.
+    """Compute nodal forces (elements, points, nodes of the face or element,
+    dimension) for a magnitude of one at each point.
 
     rows are elements of the group. Also returns the coordinates of the points (elements, points, 3), and the functions
     (points, nodes) that they follow from. Raises DeckError if the load makes no sense there.
@@ -90,7 +91,9 @@ def _forces_on_surfaces(
 def _forces_on_edges(
     group: ElementGroup, kind: ShellType, rows: IntArray, load: ElementLoad, coordinates: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Per length: EDSHR along the edge, EDNOR into the shell, EDTRA against its normal (Analysis User's Guide)."""
+    """Compute forces per length: EDSHR along the edge, EDNOR into the shell,
+    EDTRA against its normal (Analysis User's Guide).
+    """
     local = list(load.type.face)
     x = coordinates[group.nodes[rows]]
     slopes = _binding.slopes_at_nodes(kind.family.number, kind.nodes)[local]
@@ -122,7 +125,7 @@ def check_density(materials: Iterable[Material], source: Source, what: str) -> N
 
 
 def outward_sign(group: ElementGroup, row: int, face: tuple[int, ...], coordinates: FloatArray) -> int:
-    """1 if the normal given by the order of a face's nodes (right of an edge) points out of the element, else -1."""
+    """Return 1 if the normal by the order of a face's nodes (right of an edge) points out of the element, else -1."""
     kind = solid_of(group)
     dimension = kind.dimension
     nodes = group.nodes[row]
@@ -133,7 +136,7 @@ def outward_sign(group: ElementGroup, row: int, face: tuple[int, ...], coordinat
 
 
 def _traction(load: ElementLoad, area: FloatArray) -> FloatArray:
-    """Force per parent area of a load on a face, from the outward normal (..., dimension) times area."""
+    """Return the force per parent area of a load on a face, from the outward normal (..., dimension) times area."""
     if load.type.kind is LoadKind.PRESSURE:
         return -area
     size = np.linalg.norm(area, axis=-1, keepdims=True)
@@ -150,14 +153,16 @@ def _traction(load: ElementLoad, area: FloatArray) -> FloatArray:
 
 
 def _outward(tangents: FloatArray, outside: FloatArray) -> FloatArray:
-    """Outward normal times area (..., dimension) of faces; outside: from elements' centres to those of faces."""
+    """Return the outward normal times area (..., dimension) of faces; outside:
+    from elements' centres to those of faces.
+    """
     area = _normal(tangents)
     outward: FloatArray = area * np.sign((area * outside[:, None, :]).sum(axis=-1, keepdims=True))
     return outward
 
 
 def _normal(tangents: FloatArray) -> FloatArray:
-    """Normal times area (..., dimension) of faces, from the derivatives of the position."""
+    """Return the normal times area (..., dimension) of faces, from the derivatives of the position."""
     if tangents.shape[-1] == 1:
         return np.stack([tangents[..., 1, 0], -tangents[..., 0, 0]], axis=-1)
     return np.asarray(np.cross(tangents[..., 0], tangents[..., 1]))
@@ -169,5 +174,5 @@ def _face_rule(kind: ContinuumType, face: Face) -> tuple[FloatArray, FloatArray,
 
 
 def _rule(family: Family, points: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Weights (points,), shape functions (points, nodes), their derivatives (points, nodes, dimension)."""
+    """Return weights (points,), shape functions (points, nodes), their derivatives (points, nodes, dimension)."""
     return _binding.integration_rule(family.number, points, family.nodes, family.dimension)

@@ -13,7 +13,7 @@ from uel.usersub import _materials
 
 
 def define_holzapfel(law: Holzapfel, orientation: Orientation | None, ntens: int, *, hybrid: bool) -> int:
-    """Define a material of Holzapfel, Gasser and Ogden in the host; returns its number there.
+    """Define a material of Holzapfel, Gasser and Ogden in the host, and return its number.
 
     hybrid: its elements are, so that it may be incompressible. Raises DeckError.
     """
@@ -27,14 +27,16 @@ def define_holzapfel(law: Holzapfel, orientation: Orientation | None, ntens: int
 def define_user_invariants(
     law: UserPotential, orientation: Orientation | None, name: str, ntens: int, statev: int, address: int
 ) -> int:
-    """Define a material of UANISOHYPER_INV in the host; returns its number there. Raises DeckError."""
+    """Define a material of UANISOHYPER_INV in the host, and return its number. Raises DeckError."""
     number = _materials.define_anisotropic(ntens, _directions(law, orientation), (0.0, 0.0, 0.0, 0.0), 0.0)
     _materials.set_user_invariants(number, address, name, statev, law.constants)
     return number
 
 
 def _directions(law: Holzapfel | UserPotential, orientation: Orientation | None) -> FloatArray:
-    """(m, 3) preferred directions in the axes of the material: those of its orientation, or the axes."""
+    """Return (m, 3) preferred directions in the axes of the material: those of its orientation, or the axes.
+    Raises DeckError.
+    """
     count = law.directions or 0
     given = np.zeros((0, 3)) if orientation is None else orientation.local
     if not len(given):

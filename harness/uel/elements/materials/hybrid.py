@@ -16,14 +16,14 @@ from uel.model.properties import Material, UserPotential
 
 
 def pressure_unknowns(kind: ContinuumType, material: Material) -> int:
-    """Pressures of an element that are unknowns of the system."""
+    """Return the number of pressures of an element that are unknowns of the system."""
     compressible_user = isinstance(material.hyperelastic, UserPotential) and not material.hyperelastic.incompressible
     with_energy = material.hyperelastic is not None and not compressible_user
     return kind.pressures if with_energy or is_incompressible(material) else 0
 
 
 def has_unsymmetric_pressure(kind: ContinuumType, material: Material) -> bool:
-    """Whether the elimination of the pressure may leave an unsymmetric matrix, whatever the material's tangent is.
+    """Return whether eliminating the pressure may leave an unsymmetric matrix, whatever the material's tangent is.
 
     The pressure is that of equal weights with user routines, which tell no bulk modulus.
     """

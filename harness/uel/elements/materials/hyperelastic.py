@@ -28,7 +28,7 @@ Mechanics and Physics of Solids 41 (1993) 389), equation (13)."""
 def define_hyperelastic(
     law: Hyperelastic, ntens: int, library: Library, *, hybrid: bool = False, long_term: float = 1.0
 ) -> int:
-    """Define a hyperelastic material in the host; returns its number there. Raises DeckError.
+    """Define a hyperelastic material in the host, and return its number. Raises DeckError.
 
     hybrid: its elements are, so that it may be incompressible; long_term: the energy of the coefficients over the
     instantaneous one.
@@ -53,7 +53,7 @@ def define_hyperelastic(
 
 
 def initial_moduli(law: Hyperelastic) -> tuple[float, float]:
-    """Shear and bulk modulus of the undeformed material, infinite if it is incompressible.
+    """Return shear and bulk modulus of the undeformed material; the latter infinite if it is incompressible.
 
     Raises DeckError if a D is negative, or only the first one is zero.
     """
@@ -67,7 +67,7 @@ def initial_moduli(law: Hyperelastic) -> tuple[float, float]:
 
 
 def _polynomial(law: Hyperelastic) -> FloatArray:
-    """Coefficients (i, j) of the powers of I1 - 3 and I2 - 3."""
+    """Return coefficients (i, j) of the powers of I1 - 3 and I2 - 3. Raises DeckError."""
     found = np.zeros((HIGHEST_ORDER + 1, HIGHEST_ORDER + 1))
     match law.potential:
         case Potential.OGDEN:
@@ -90,7 +90,7 @@ def _polynomial(law: Hyperelastic) -> FloatArray:
 
 
 def _ogden(law: Hyperelastic) -> FloatArray:
-    """Rows of mu and alpha; zeros for no term."""
+    """Return rows of mu and alpha; zeros for no term. Raises DeckError if an alpha is zero."""
     found = np.zeros((HIGHEST_ORDER, 2))
     if law.potential is Potential.OGDEN:
         found[: law.order] = np.reshape(law.coefficients, (law.order, 2))

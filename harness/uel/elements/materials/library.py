@@ -39,19 +39,21 @@ HISTORY_VALUES: Final = 7
 """Values of the history of a point of a plastic or prestressed material, before backstresses of six values each
 (fortran/host/materials/library.f90)."""
 PRONY_VALUES: Final = 8
-"""Of a viscoelastic material, before stresses of six values for each term (fortran/host/materials/prony.f90)."""
+"""History values of a viscoelastic material, before six stresses for each term (fortran/host/materials/prony.f90)."""
 CREEP_VALUES: Final = 9
-"""Of a material that creeps (fortran/host/materials/creep.f90)."""
+"""History values of a material that creeps (fortran/host/materials/creep.f90)."""
 USER_CREEP_VALUES: Final = 11
-"""Of one that creeps by CREEP (fortran/host/routines/user_creep.f90)."""
+"""History values of a material that creeps by CREEP (fortran/host/routines/user_creep.f90)."""
 VISCOUS_CHANGE: Final = 7
-"""Of these three, the place of the change of the viscous strain rate in the increment, times its length."""
+"""Place, in these three histories, of the change of the viscous strain rate in the increment, times its length."""
 COMMON_VALUES: Final = 5
-"""Of a material with networks, before those of each (host/materials/networks.f90); that change is the last one."""
+"""History values of a material with networks, before those of each network (host/materials/networks.f90); the change of
+the viscous strain rate is the last one.
+"""
 NETWORK_VALUES: Final = 10
-"""Of each network."""
+"""History values of each network."""
 USER_HISTORY_VALUES: Final = 15
-"""The same for a user material, besides STATEV (fortran/host/routines/umat.f90)."""
+"""History values of a user material, besides STATEV (fortran/host/routines/umat.f90)."""
 
 _PAIRS: Final = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 _COMPONENTS: Final = {
@@ -64,7 +66,9 @@ _COMPONENTS: Final = {
 
 
 def history_values(material: Material, *, prestressed: bool = False) -> int:
-    """Number of values of the history of a point, which may have an initial stress; 1 for a material without one."""
+    """Return the number of history values of a point, which may have an initial stress;
+    1 for a material without history.
+    """
     if material.user is not None:
         return USER_HISTORY_VALUES + state_variables(material)
     kept = material.plastic is not None or prestressed
@@ -79,21 +83,23 @@ def history_values(material: Material, *, prestressed: bool = False) -> int:
 
 
 def viscous_change(material: Material) -> int:
-    """Place in the history of the largest change of a viscous strain rate in the increment, times its length; or -1."""
+    """Return the place in the history of the largest change of a viscous strain rate in the increment,
+    times its length; or -1.
+    """
     if material.viscous is None:
         return -1
     return COMMON_VALUES - 1 if material.networks else VISCOUS_CHANGE
 
 
 def linearity(material: Material, *, prestressed: bool = False) -> Linearity:
-    """Whether continuum elements of a material, which may have an initial stress, have linear forces."""
+    """Return whether continuum elements of a material, which may have an initial stress, have linear forces."""
     depends = material.user_field is not None or material.elastic is None or material.elastic.table is not None
     plain = history_values(material, prestressed=prestressed) == 1 and not depends
     return Linearity.KNOWN if plain else Linearity.UNKNOWN
 
 
 def state_variables(material: Material) -> int:
-    """Number of STATEV of a point; 0 without a routine that uses them."""
+    """Return the number of STATEV of a point; 0 without a routine that uses them."""
     hardening = None if material.plastic is None else material.plastic.user
     uses = [material.user, material.user_field, material.user_thermal, material.heat_generation, hardening]
     uses += [given for network in material.networks for given in (network.user, network.shift)]
@@ -112,7 +118,7 @@ def refuse_fields(material: Material, elements: str) -> None:
 
 
 def has_unsymmetric_tangent(material: Material) -> bool:
-    """Whether the derivatives of the stresses by the strains are unsymmetric."""
+    """Return whether the derivatives of the stresses by the strains are unsymmetric."""
     if material.user is not None:
         return material.user.unsymmetric
     if material.networks:
@@ -121,7 +127,7 @@ def has_unsymmetric_tangent(material: Material) -> bool:
 
 
 def _creeps_by_more(network: Network) -> bool:
-    """Whether the creep of a network depends on other stretches than those of its stress."""
+    """Return whether the creep of a network depends on other stretches than those of its stress."""
     depends_on_pressure = network.law is CreepLaw.POWER and network.constants[3] > 0
     return network.law in (CreepLaw.BERGSTROM_BOYCE, CreepLaw.USER) or depends_on_pressure
 
@@ -153,12 +159,12 @@ def refuse_hyperelastic(material: Material, elements: str) -> None:
 
 
 def is_global(orientation: Orientation) -> bool:
-    """Whether the directions are the global ones, within rounding."""
+    """Return whether the directions are the global ones, within rounding."""
     return bool(np.abs(orientation.axes - np.eye(3)).max() < PARALLEL)
 
 
 def directions(orientation: Orientation | None) -> tuple[FloatArray, str]:
-    """Axes (3, 3), whose rows are the directions of a material, and the name of the orientation."""
+    """Return the axes (3, 3), whose rows are the directions of a material, and the name of the orientation."""
     return (np.eye(3), "") if orientation is None else (orientation.axes, orientation.name)
 
 
@@ -171,7 +177,7 @@ def define_fields(
     *,
     room: int | None = None,
 ) -> None:
-    """Tell the host which parts of a material depend on temperature and fields, or on USDFLD. Raises DeckError.
+    """Define in the host the dependence of a material on temperature and fields, or on USDFLD. Raises DeckError.
 
     along: directions of the material, as `directions` has them; room: as `define_material` has it.
     """
@@ -190,7 +196,7 @@ def define_fields(
 def define_user_field(
     number: int, material: Material, along: tuple[FloatArray, str], library: Library, *, room: int | None = None
 ) -> None:
-    """Tell the host of USDFLD, if the material asks for it. Arguments and errors as those of `define_fields`."""
+    """Define USDFLD in the host, if the material uses it. Arguments and errors as in `define_fields`."""
     if material.user_field is not None:
         address = _needed(library.usdfld, "USDFLD", material, "*USER DEFINED FIELD", material.user_field, library)
         axes, name = along
@@ -202,7 +208,7 @@ def define_user_field(
 def define_user_output(
     number: int, material: Material, orientation: str, library: Library, *, room: int, width: int
 ) -> None:
-    """Tell the host of UVARM, if the material asks for its variables and the job has it.
+    """Define UVARM in the host, if the material asks for its variables and the job has it.
 
     orientation: its name; room: as `define_material` has it; width: values of the history for UVAR, before them.
     """
@@ -212,12 +218,12 @@ def define_user_output(
 
 
 def user_outputs(material: Material, library: Library) -> int:
-    """Number of variables of UVARM; 0 if the job has none: then they are left out of the output."""
+    """Return the number of variables of UVARM; 0 if the job has no UVARM: then they are left out of the output."""
     return 0 if library.uvarm is None else material.output_variables
 
 
 def _definite_rows(elastic: Elastic, rows: list[tuple[float, ...]], tensor: Tensor) -> list[tuple[float, ...]]:
-    """Constants as the host takes them, of rows of a table that are positive definite. Raises DeckError."""
+    """Convert rows of a table to the host's constants. Raises DeckError unless each is positive definite."""
     found = [_engineering(elastic, row, tensor) for row in rows]
     for row in found:
         _check_definite(elastic, _materials.compliance(row))
@@ -235,7 +241,7 @@ def define_material(
     hybrid: bool = False,
     room: int | None = None,
 ) -> int:
-    """Define a material in the host; returns its number there. `user` is the place that uses it. Raises DeckError.
+    """Define a material in the host, and return its number. `user` is the place that uses it. Raises DeckError.
 
     hybrid: its elements are, so that it may be incompressible; room: values at the end of the history of which STATEV
     are the first, if they are not all, since another layer has more.
@@ -285,7 +291,7 @@ def define_material(
 
 
 def _axes(orientation: Orientation | None, tensor: Tensor) -> FloatArray:
-    """Directions of the material (3, 3), rows. Raises DeckError."""
+    """Return the directions of the material (3, 3), rows. Raises DeckError."""
     if orientation is None:
         return np.eye(3)
     if tensor is not Tensor.SOLID and abs(orientation.axes[2, 2]) < 1 - 1e-9:
@@ -309,7 +315,7 @@ def _viscous_keyword(material: Material) -> str:
 
 
 def _moduli(elastic: Elastic, viscoelastic: Viscoelastic) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Long-term Young's modulus and Poisson's ratio; instantaneous shear and bulk modulus."""
+    """Return long-term Young's modulus and Poisson's ratio, and instantaneous shear and bulk modulus."""
     young, nu = _isotropic_constants(elastic)
     given = np.array([young / (2 * (1 + nu)), young / (3 * (1 - 2 * nu))])
     left = 1 - viscoelastic.terms[:, :2].sum(axis=0)
@@ -320,7 +326,9 @@ def _moduli(elastic: Elastic, viscoelastic: Viscoelastic) -> tuple[tuple[float, 
 
 
 def global_compliance(material: Material, orientation: Orientation | None, tensor: Tensor) -> FloatArray | None:
-    """(6, 6) compliance in global axes; None of a material without constants of *ELASTIC. Raises DeckError."""
+    """Return the (6, 6) compliance in global axes; None for a material without constants of *ELASTIC.
+    Raises DeckError.
+    """
     elastic = material.elastic
     if elastic is None or elastic.type is ElasticType.TRACTION:
         return None
@@ -366,7 +374,7 @@ def _define_networks(number: int, material: Material, library: Library) -> None:
 
 
 def is_incompressible(material: Material) -> bool:
-    """Whether a material preserves its volume, so that its elements have to be hybrid."""
+    """Return whether a material preserves its volume, so that its elements have to be hybrid."""
     if material.user is not None:
         return material.user.hybrid is HybridFormulation.INCOMPRESSIBLE
     match material.hyperelastic:
@@ -384,7 +392,7 @@ def _preserves_volume(elastic: Elastic) -> bool:
 
 
 def _define_incompressible(elastic: Elastic, tensor: Tensor) -> int:
-    """The response to changes of shape alone; elements add the mean stress."""
+    """Define the deviatoric response in the host, and return its number; elements add the mean stress."""
     young = elastic.constants[0]
     _check_isotropic(elastic, young, 0.0)
     shear = young / 3
@@ -397,7 +405,7 @@ def _define_incompressible(elastic: Elastic, tensor: Tensor) -> int:
 
 
 def define_truss_material(material: Material, library: Library) -> int:
-    """Define an isotropic or user material of trusses in the host; returns its number there. Raises DeckError."""
+    """Define an isotropic or user material of trusses in the host, and return its number. Raises DeckError."""
     elastic = material.elastic
     if material.user is not None:
         number = _define_user_material(material, material.user, None, Tensor.UNIAXIAL, library, hybrid=False, room=None)
@@ -412,7 +420,7 @@ def define_truss_material(material: Material, library: Library) -> int:
 
 
 def define_thermal(number: int, material: Material, library: Library) -> None:
-    """Tell the host how a material conducts, stores and generates heat. Raises DeckError."""
+    """Define conduction, storage and generation of heat of a material in the host. Raises DeckError."""
     tables = material.conductivity, material.specific_heat, material.latent_heat
     _materials.set_thermal(number, material.density, *tables)
     statev = state_variables(material)
@@ -427,7 +435,7 @@ def define_thermal(number: int, material: Material, library: Library) -> None:
 
 
 def shear_modulus(elastic: Elastic, tensor: Tensor) -> float:
-    """Mean of the shear moduli; in the plane that of the plane."""
+    """Return the mean of the shear moduli; in the plane that of the plane."""
     if _preserves_volume(elastic):
         return elastic.constants[0] / 3
     moduli = 1.0 / np.diag(_compliance(elastic, tensor))[3:]
@@ -437,7 +445,7 @@ def shear_modulus(elastic: Elastic, tensor: Tensor) -> float:
 def _needed(
     address: int | None, routine: str, material: Material, keyword: str, source: Source, library: Library
 ) -> int:
-    """Address of a user routine; DeckError at the place of the keyword that needs it if there is none."""
+    """Return the address of a user routine. Raises DeckError at the keyword that needs it if there is none."""
     if address is None:
         message = f"material {material.name} needs {routine}; {library.name} has {library.contents}"
         raise DeckError(source, f"{keyword}: {message}")
@@ -487,7 +495,7 @@ def _isotropic_constants(elastic: Elastic) -> tuple[float, float]:
 
 
 def _compliance(elastic: Elastic, tensor: Tensor) -> FloatArray:
-    """(6, 6) compliance in the material's axes; DeckError unless it is positive definite."""
+    """Return the (6, 6) compliance in the material's axes. Raises DeckError unless it is positive definite."""
     c = elastic.constants
     count = elastic.type.constants
     alone = elastic.type is ElasticType.ISOTROPIC and len(c) == 1
@@ -503,7 +511,7 @@ def _compliance(elastic: Elastic, tensor: Tensor) -> FloatArray:
 
 
 def _engineering(elastic: Elastic, c: tuple[float, ...], tensor: Tensor) -> tuple[float, ...]:
-    """E1, E2, E3, nu12, nu13, nu23, G12, G13, G23 of other constants."""
+    """Convert other constants to E1, E2, E3, nu12, nu13, nu23, G12, G13, G23. Raises DeckError."""
     moduli: tuple[float, ...]
     ratios: tuple[float, ...]
     shear: tuple[float, ...]
@@ -544,7 +552,7 @@ def _check_definite(elastic: Elastic, matrix: FloatArray) -> None:
 
 
 def _orthotropic(c: tuple[float, ...]) -> FloatArray:
-    """D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323."""
+    """Return the stiffness (6, 6) from D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323."""
     d = np.diag([c[0], c[2], c[5], *c[6:9]])
     d[0, 1] = d[1, 0] = c[1]
     d[0, 2] = d[2, 0] = c[3]
@@ -553,7 +561,9 @@ def _orthotropic(c: tuple[float, ...]) -> FloatArray:
 
 
 def _anisotropic(c: tuple[float, ...]) -> FloatArray:
-    """D1111, D1122, D2222, D1133, ...: the upper triangle by columns, components ordered 11, 22, 33, 12, 13, 23."""
+    """Return the stiffness (6, 6) from D1111, D1122, D2222, D1133, ...: the upper triangle by columns, components
+    ordered 11, 22, 33, 12, 13, 23.
+    """
     d = np.zeros((6, 6))
     columns, rows = np.tril_indices(6)
     d[rows, columns] = d[columns, rows] = c
@@ -561,7 +571,7 @@ def _anisotropic(c: tuple[float, ...]) -> FloatArray:
 
 
 def define_expansion(number: int, material: Material, orientation: Orientation | None) -> None:
-    """Give a material of the host its thermal expansion, if it has any.
+    """Define the thermal expansion of a material in the host, if it has any.
 
     orientation: its directions; None if the material of the host is in them.
     """
@@ -574,14 +584,14 @@ def define_expansion(number: int, material: Material, orientation: Orientation |
 
 
 def rotated_compliance(compliance: FloatArray, axes: FloatArray) -> FloatArray:
-    """(..., 6, 6) compliance in global axes. Local stress = T global stress, so S_global = T^T S_local T."""
+    """Rotate a (..., 6, 6) compliance to global axes. Local stress = T global stress, so S_global = T^T S_local T."""
     t = _turn(axes)
     rotated: FloatArray = np.swapaxes(t, -1, -2) @ compliance @ t
     return rotated
 
 
 def _turn(axes: FloatArray) -> FloatArray:
-    """(..., 6, 6) components of a stress in global axes to those in the axes of the material (..., 3, 3)."""
+    """Return the (..., 6, 6) matrix that turns a stress in global axes to the axes of the material (..., 3, 3)."""
     t = np.zeros((*axes.shape[:-2], 6, 6))
     a = np.moveaxis(axes, (-2, -1), (0, 1))
     for row, (i, j) in enumerate(_PAIRS):
