@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contact: blocks of contact points, how they move over their surfaces, and what bonds and friction do there."""
+"""Contact: blocks of contact points, their motion over the surfaces, bonds and friction."""
 
 from uel.contact.block import ContactBlock, contact_blocks
 from uel.contact.rigid_surface import RigidSurface

@@ -94,7 +94,7 @@ class ContactBlock:
         self._pattern = (self._equations, self._equations)
 
     def number(self, find: Find, last: NDArray[np.int32]) -> None:
-        """Say where the unknowns are.
+        """Set the numbers of the unknowns.
 
         Parameters
         ----------
@@ -107,7 +107,8 @@ class ContactBlock:
         self._equations = self._equations_of(self.rows, self._motion.nodes)
 
     def track(self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool) -> bool:
-        """Before a pass, find what the points are opposite to; whether the matrix has place for it, if it is wanted.
+        """Find, before a pass, the point of the main surface opposite each contact point. Return whether the matrix has
+        entries for them, if it is wanted.
 
         Parameters
         ----------
@@ -129,7 +130,7 @@ class ContactBlock:
         return False
 
     def couplings(self) -> NDArray[np.int32]:
-        """(r, unknowns) unknowns that points have together, now or soon."""
+        """Return (r, unknowns) unknowns that points couple, now or soon."""
         return self._equations_of(*self._motion.links())
 
     def _equations_of(self, points: IntArray, nodes: IntArray) -> NDArray[np.int32]:
@@ -139,7 +140,7 @@ class ContactBlock:
         return np.stack([*columns, *multipliers], axis=1).astype(np.int32)
 
     def bind(self, indptr: NDArray[np.int32], indices: NDArray[np.int32]) -> None:
-        """Take the CSR pattern of the matrix, which has the couplings."""
+        """Store the CSR pattern of the matrix, which has the couplings."""
         self._pattern = indptr, indices
         own = np.concatenate([self._equations[:, : self.pair.dimension], self._equations[:, -1:]], axis=1)
         self._own_places = _binding.scatter_map(own, indptr, indices)
@@ -147,7 +148,7 @@ class ContactBlock:
     def evaluate(
         self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, data: FloatArray | None
     ) -> None:
-        """One pass: add the contact forces to residual and their derivatives to the matrix.
+        """Run one pass: add the contact forces to residual and their derivatives to the matrix.
 
         The status of the points changes in passes that follow a solve, but never twice in an iteration: it depends on
         the status at the end of the one before.
@@ -203,7 +204,8 @@ class ContactBlock:
             self._penetration = np.where(missed, clearance, 0.0)
 
     def _penalty(self, clearance: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Contact forces (m,) of a stiffness, negative without contact, and their derivatives by the overclosure.
+        """Return contact forces (m,) of a stiffness, negative without contact,
+        and their derivatives by the overclosure.
 
         PENALTY=NONLINEAR: the stiffness grows linearly with the overclosure between two of its values (Abaqus Analysis
         User's Guide, "Contact constraint enforcement methods in Abaqus/Standard").
@@ -219,7 +221,9 @@ class ContactBlock:
         return stiffness * (given.initial * deep + later * grown), stiffness * (given.initial + later * share)
 
     def _status_before(self, call: Call) -> IntArray:
-        """Status at the end of the iteration before, that at the start of the increment in the first pass."""
+        """Return the status at the end of the previous iteration,
+        in the first pass that at the start of the increment.
+        """
         if call.iteration == 0:
             self._before = self._status
         elif call.iteration != self._iteration:
@@ -228,7 +232,9 @@ class ContactBlock:
         return self._before
 
     def _closed(self, before: IntArray, clearance: FloatArray, force: FloatArray, small: float) -> NDArray[np.bool_]:
-        """Closed points open under tension, open ones close where they penetrate, by more than rounding."""
+        """Return the mask of closed points: they open under tension,
+        and open ones close at a penetration above rounding.
+        """
         tension = ROUNDING * np.abs(force).max() + small * self._scale
         return np.where(before == OPEN, clearance < -small, force >= -tension)
 
@@ -240,7 +246,9 @@ class ContactBlock:
         state: tuple[FloatArray, FloatArray, NDArray[np.bool_]],
         friction: _Friction,
     ) -> None:
-        """Add what points with this motion, these multipliers (or forces), forces and status contribute."""
+        """Add the contributions of contact and friction at points with this motion, multipliers (or forces),
+        and status.
+        """
         multiplier, force, closed = state
         clearances, slips = motion
         normal, pushed = clearances.gradient, clearances.pushed
@@ -278,7 +286,7 @@ class ContactBlock:
     def _add_bonds(
         self, residual: FloatArray, data: FloatArray | None, clearances: Clearances, bonding: Bonding
     ) -> None:
-        """Add what bonds contribute."""
+        """Add the contributions of bonds."""
         assert self._bonds is not None
         points = np.flatnonzero(self._bonds.bonded & self._motion.above)
         normal, shear, slips = bonding.normal[points], bonding.shear[points], bonding.slips
@@ -298,7 +306,7 @@ class ContactBlock:
 
     @property
     def trial_changes(self) -> ContactChanges:
-        """What the last iteration changed, and how well the constraints are fulfilled at its end."""
+        """Changes in the last iteration, and the errors of the constraints at its end."""
         before, after = self._before, self._status_trial
         switched = (before == OPEN) != (after == OPEN)
         return ContactChanges(
@@ -331,23 +339,23 @@ class ContactBlock:
 
     @property
     def energies(self) -> tuple[FloatArray, float]:
-        """Of the bonds after the last iteration: ENERGY (8,) and what damage dissipates."""
+        """Energies of the bonds after the last iteration: ENERGY (8,) and the dissipation by damage."""
         return (np.zeros(8), 0.0) if self._bonds is None else self._bonds.energies
 
     def commit(self) -> None:
-        """End of a converged increment."""
+        """Commit the trial state at the end of a converged increment."""
         self._status, self._slip = self._status_trial, self._slip_trial
         self._motion.commit()
         if self._bonds is not None:
             self._bonds.commit()
 
     def kept(self) -> Saved:
-        """Committed state, not copied."""
+        """Return the committed state, not copied."""
         kept: Saved = {"status": self._status, "slip": self._slip, "scale": self._scale, "motion": self._motion.kept()}
         return kept if self._bonds is None else {**kept, "bonds": self._bonds.kept()}
 
     def resume(self, saved: Saved) -> None:
-        """Begin with what `kept` returned. Raises ValueError if it is not of these points."""
+        """Restore the state that `kept` returned. Raises ValueError if it is not of these points."""
         if np.shape(saved["status"]) != self._status.shape or np.shape(saved["slip"]) != self._slip.shape:
             raise ValueError(f"contact pair {self.pair.name}")
         self._status, self._slip, self._scale = saved["status"], saved["slip"], saved["scale"]
@@ -359,7 +367,9 @@ class ContactBlock:
 
 
 def contact_blocks(model: Model, blocks: Sequence[ElementBlock]) -> list[ContactBlock]:
-    """A block of each contact pair of a model; their points are numbered behind the elements of its other blocks."""
+    """Build a block for each contact pair of a model; their points are numbered after
+    the elements of the other blocks.
+    """
     found = [ContactBlock(model, pair) for pair in model.contacts]
     following = blocks[-1].first + len(blocks[-1].group.labels)
     for block in found:
@@ -380,7 +390,7 @@ class _Friction:
         sticks: FloatArray,
         small: float,
     ) -> None:
-        """sticks: (m,) part of the stiffness of sticking points.
+        """Compute the friction of closed points; sticks: (m,) part of the stiffness of sticking points.
 
         small: rounding of the slip; an increment after one with slip begins with sticking on every processor.
         """

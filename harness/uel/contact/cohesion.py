@@ -29,7 +29,7 @@ TRACTION, DAMAGE, DISSIPATED, VISCOUS, CRITERION = slice(3, 6), 6, slice(7, 10),
 
 @dataclass(frozen=True, slots=True)
 class Bonding:
-    """What the bonds of m points do; zero without a bond.
+    """Response of the bonds of m points; zero without a bond.
 
     slips   since the start
     normal  (m,) forces that pull the surfaces together
@@ -47,7 +47,7 @@ class Bonds:
     """The bonds of a pair: committed and trial slips since the start (m, components) and states of the law."""
 
     def __init__(self, pair: ContactPair | SlidingPair, bonded: NDArray[np.bool_], components: int) -> None:
-        """Points (m,) that are bonded; components of the slips."""
+        """Prepare the bonds of the points in the mask (m,); components of the slips. Raises DeckError."""
         cohesion = pair.property.cohesion
         assert cohesion is not None
         self._pair, self._cohesion, self.bonded = pair, cohesion, bonded
@@ -70,13 +70,13 @@ class Bonds:
 
     @property
     def damage(self) -> FloatArray:
-        """(m,) at the start of the increment; 1 without a bond."""
+        """Damage (m,) at the start of the increment; 1 without a bond."""
         return np.where(self.bonded, self._state[:, DAMAGE], 1.0)
 
     def respond(
         self, time: float, clearance: FloatArray, slips: Slips, areas: FloatArray, pulled: NDArray[np.bool_]
     ) -> Bonding:
-        """A trial of the increment, which takes this time.
+        """Compute a trial response over the time increment.
 
         Parameters
         ----------
@@ -125,34 +125,36 @@ class Bonds:
 
     @property
     def energies(self) -> tuple[FloatArray, float]:
-        """ENERGY (8,), with what is stored and what the viscosity dissipates, and what damage does, after a trial."""
+        """Energies after a trial: ENERGY (8,) with the stored energy and the viscous dissipation,
+        and the dissipation by damage.
+        """
         state, energy = self._state_trial, np.zeros(8)
         energy[1], energy[2] = self._areas @ self._stored, self._areas @ state[:, VISCOUS]
         return energy, float(self._areas @ state[:, DISSIPATED].sum(axis=1))
 
     @property
     def output(self) -> dict[str, FloatArray]:
-        """(m,) by their names in Abaqus, NaN without a bond."""
+        """Variables (m,) by their names in Abaqus, NaN without a bond."""
         damage = self._cohesion.damage
         names = {} if damage is None else {"CSDMG": DAMAGE, f"CS{damage.criterion}CRT": CRITERION}
         return {name: np.where(self.bonded, self._state_trial[:, place], np.nan) for name, place in names.items()}
 
     def commit(self) -> None:
-        """End of a converged increment."""
+        """Commit the trial state at the end of a converged increment."""
         self.slip, self._state = self._slip_trial, self._state_trial
 
     def kept(self) -> Saved:
-        """Committed state, not copied."""
+        """Return the committed state, not copied."""
         return {"bonded": self.bonded, "slip": self.slip, "state": self._state}
 
     def resume(self, saved: Saved) -> None:
-        """Begin with what `kept` returned."""
+        """Restore the state that `kept` returned."""
         self.bonded, self.slip, self._state = saved["bonded"], saved["slip"], saved["state"]
         self._slip_trial, self._state_trial = self.slip, self._state
 
 
 def _isotropic(cohesion: Cohesion) -> bool:
-    """Whether the tractions do not depend on the direction of the slip."""
+    """Return whether the tractions do not depend on the direction of the slip."""
     first, second = directions(cohesion.stiffness, 3)[1:]
     damage = cohesion.damage
     if damage is None or first != second:

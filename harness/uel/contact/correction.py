@@ -21,7 +21,7 @@ from uel.model.contact import Pieces, Rounded
 def corrections(
     rounded: Sequence[Rounded], pieces: Pieces, coordinates: FloatArray, place: tuple[IntArray, FloatArray]
 ) -> FloatArray:
-    """How far surfaces are outside of points (m,) of their faces, before any displacement.
+    """Compute how far the curved surfaces are outside of points (m,) of their faces, before any displacement.
 
     Parameters
     ----------
@@ -46,7 +46,9 @@ def corrections(
 
 
 def _distances(shape: Rounded, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Distances (...,) of points (..., d) from the centre, axis or circle of centres, and their gradients (..., d)."""
+    """Return distances (...,) of points (..., d) from the centre, axis or circle of centres,
+    and their gradients (..., d).
+    """
     apart = points - shape.centre
     height = apart @ shape.axis
     across = apart - height[..., None] * shape.axis

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Axes that turn with a face, and what a vector has along them, with first and second derivatives.
+"""Axes that turn with a face, and the components of a vector along them, with first and second derivatives.
 
 A jet holds vectors that depend on k variables. The variables are the components of the tangents of the face at the
 anchor point, and of the vector d from there to the secondary node. All of them are linear in the displacements, so that
@@ -18,7 +18,7 @@ from uel.elements.rotations import PERMUTATION
 from uel.model.arrays import FloatArray
 
 TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
-"""Turns a vector of the plane by a right angle."""
+"""Matrix that turns a vector of the plane by a right angle."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +71,7 @@ def cross(a: Jet, b: Jet) -> Jet:
 
 
 def make_variables(vectors: Sequence[FloatArray], *, constant: bool = False) -> list[Jet]:
-    """Return jets of vectors (m, d), whose components are the variables; constant: there are none."""
+    """Return jets of vectors (m, d), whose components are the variables; constant: without variables."""
     m, dimension = vectors[0].shape
     count = 0 if constant else len(vectors) * dimension
     found = []
@@ -84,7 +84,7 @@ def make_variables(vectors: Sequence[FloatArray], *, constant: bool = False) -> 
 
 
 def combine(tangents: Sequence[Jet], parts: FloatArray) -> Jet:
-    """Return the vectors with these components (m, d) along the tangents of a face and what is normal to them."""
+    """Return the vectors with these components (m, d) along the tangents of a face and the normal to them."""
     base = [*tangents, tangents[0].turned() if len(tangents) == 1 else cross(*tangents)]
     total = base[0].times(parts[:, 0])
     for number, vector in enumerate(base[1:], start=1):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How contact points move in small sliding: clearances and slips, with their derivatives by the displacements.
+"""Motion of contact points in small sliding: clearances and slips, with their derivatives by the displacements.
 
 The clearance of a point is g = n . d: d from the anchor point to the secondary node, n the normal of the tangent plane.
 Without NLGEOM both are those of the mesh, and g is linear. With NLGEOM the plane goes with the face: n = v / |v|, and v
@@ -30,7 +30,7 @@ Find = Callable[[IntArray, IntArray | int], IntArray]
 
 @dataclass(frozen=True, slots=True)
 class Clearances:
-    """Of m points.
+    """Clearances of m points.
 
     value     (m,)
     gradient  (m, u)
@@ -65,7 +65,7 @@ class Slips:
 
 
 class Motion(Protocol):
-    """How the points of a pair move.
+    """Motion of the points of a pair.
 
     nodes      (m, n) secondary node of each point, then those that move it, which may change
     components of the slip
@@ -76,20 +76,20 @@ class Motion(Protocol):
 
     @property
     def above(self) -> NDArray[np.bool_]:
-        """(m,) whether the main surface is there."""
+        """Mask (m,) of the points that face the main surface."""
 
     @property
     def areas(self) -> FloatArray:
-        """(m,) of the secondary surface that belong to the points."""
+        """Areas (m,) of the secondary surface that belong to the points."""
 
     def unknowns_of(self, count: int) -> tuple[tuple[int, int], ...]:
-        """(local node, dof) of each unknown of a point that has this number of nodes."""
+        """Return (local node, dof) of each unknown of a point that has this number of nodes."""
 
     def start(self) -> FloatArray:
-        """(m,) clearances before the analysis."""
+        """Return (m,) clearances before the analysis."""
 
     def track(self, u: FloatArray, du: FloatArray, find: Find, *, first: bool) -> None:
-        """Find what the points are opposite to at displacements u, du after the start of an increment (n,).
+        """Find the places opposite the points at displacements u, du after the start of an increment (n,).
 
         find: numbers of the unknowns; first: in an increment.
         """
@@ -99,29 +99,31 @@ class Motion(Protocol):
         """Whether `links` has the present nodes of each point."""
 
     def reach(self) -> None:
-        """Let `links` have the present nodes."""
+        """Update `links` to the present nodes."""
 
     def links(self) -> tuple[IntArray, IntArray]:
-        """Points (r,) and nodes (r, n) that are linked, or may soon be."""
+        """Return points (r,) and nodes (r, n) that are linked, or may soon be."""
 
     def clearances(self, moved: FloatArray, *, nlgeom: bool) -> Clearances:
-        """At unknowns (m, u) of the points."""
+        """Compute the clearances at unknowns (m, u) of the points."""
 
     def slips(self, moved: FloatArray, change: FloatArray, elastic: FloatArray) -> Slips:
-        """At unknowns (m, u), changed in the increment, which began with this elastic slip (m, components)."""
+        """Compute the slips at unknowns (m, u), changed in the increment,
+        which began with this elastic slip (m, components).
+        """
 
     def commit(self) -> None:
-        """End of a converged increment."""
+        """Commit the trial state at the end of a converged increment."""
 
     def kept(self) -> Saved:
-        """Committed state, not copied."""
+        """Return the committed state, not copied."""
 
     def resume(self, saved: Saved) -> None:
-        """Begin with what `kept` returned."""
+        """Restore the state that `kept` returned."""
 
 
 def displacements(count: int, dimension: int) -> tuple[tuple[int, int], ...]:
-    """(local node, dof) of the displacements of some nodes, one after the other."""
+    """Return (local node, dof) of the displacements of some nodes, one after the other."""
     return tuple((node, dof) for node in range(count) for dof in range(1, dimension + 1))
 
 
@@ -133,7 +135,7 @@ class SmallSliding:
     known = True
 
     def __init__(self, pair: ContactPair, coordinates: FloatArray) -> None:
-        """Coordinates (nodes, 3) are those of all nodes of the model."""
+        """Prepare the sums over nodes; coordinates (nodes, 3) are those of all nodes of the model."""
         dimension = pair.dimension
         self.nodes = pair.nodes
         self.components, self.areas = dimension - 1, pair.areas
@@ -155,31 +157,31 @@ class SmallSliding:
         self._now: Jet | None = None
 
     def unknowns_of(self, count: int) -> tuple[tuple[int, int], ...]:
-        """Displacements of one node after the other."""
+        """Return the displacements of one node after the other."""
         return displacements(count, self._shape[2])
 
     def start(self) -> FloatArray:
-        """(m,) clearances before the analysis."""
+        """Return (m,) clearances before the analysis."""
         return self._clearances
 
     def track(self, u: FloatArray, du: FloatArray, find: Find, *, first: bool) -> None:
-        """They stay where they are."""
+        """Do nothing: the anchor points stay in place."""
 
     def reach(self) -> None:
-        """They have them."""
+        """Do nothing: the nodes of a point never change."""
 
     def links(self) -> tuple[IntArray, IntArray]:
-        """Points (m,) and their nodes (m, n)."""
+        """Return points (m,) and their nodes (m, n)."""
         return np.arange(len(self.nodes)), self.nodes
 
     def clearances(self, moved: FloatArray, *, nlgeom: bool) -> Clearances:
-        """At displacements."""
+        """Compute the clearances at displacements."""
         self._now = None
         return self.finite(moved) if nlgeom else self.linear(moved)
 
     def slips(self, moved: FloatArray, change: FloatArray, elastic: FloatArray) -> Slips:
-        """After `clearances`: with NLGEOM by how much the parts of d along axes that turn with the face change in the
-        increment, without it the displacement along the axes of the mesh.
+        """Compute the slips, after `clearances`. With NLGEOM they change by the change in the increment of the parts of
+        d along axes that turn with the face, without it by the displacement along the axes of the mesh.
         """
         axes = np.broadcast_to(np.eye(self.components), (len(change), self.components, self.components))
         now = self._now
@@ -195,23 +197,23 @@ class SmallSliding:
         return Slips(elastic + now.value[:, 1:] - then.value[:, 1:], by, by, turned, axes)
 
     def commit(self) -> None:
-        """They have no history."""
+        """Do nothing: there is no history."""
 
     def kept(self) -> Saved:
-        """Nothing."""
+        """Return nothing: there is no history."""
         return {}
 
     def resume(self, saved: Saved) -> None:
-        """Begin with what `kept` returned."""
+        """Do nothing: there is no history."""
 
     def linear(self, moved: FloatArray) -> Clearances:
-        """In small displacements."""
+        """Compute the clearances in small displacements."""
         gradient = self._along(self._normals)
         value = self._clearances + np.einsum("mu,mu->m", gradient, moved)
         return Clearances(value, gradient, gradient, None, float(np.finfo(float).eps * np.abs(moved).max()))
 
     def finite(self, moved: FloatArray) -> Clearances:
-        """In large displacements."""
+        """Compute the clearances in large displacements."""
         places = self._at(moved)
         self._now = now = components(*self._axes(places))
         gradient = np.einsum("mk,mku->mu", now.first[:, 0], self._sums)
@@ -223,27 +225,27 @@ class SmallSliding:
         return Clearances(now.value[:, 0], gradient, gradient, bent, rounding)
 
     def _curved(self, points: IntArray, matrix: FloatArray) -> FloatArray:
-        """(r, u, u) derivatives by the displacements from those (r, k, k) by tangents and d."""
+        """Return (r, u, u) derivatives by the displacements from those (r, k, k) by tangents and d."""
         sums = self._sums[points]
         return np.asarray(np.einsum("mku,mkv->muv", sums, np.einsum("mkl,mlv->mkv", matrix, sums)))
 
     def _at(self, moved: FloatArray) -> FloatArray:
-        """(m, n, dimension) places of the nodes at displacements."""
+        """Return (m, n, dimension) places of the nodes at displacements."""
         return np.asarray(self._places + moved.reshape(self._shape))
 
     def _vectors(self, places: FloatArray) -> list[FloatArray]:
-        """Tangents (m, dimension) of the face at the anchor point, then d."""
+        """Return the tangents (m, dimension) of the face at the anchor point, then d."""
         m, dimension = self._shape[0], self._shape[2]
         found = np.einsum("mku,mu->mk", self._sums, flat_rows(places)).reshape(m, dimension, dimension)
         return [found[:, number] for number in range(found.shape[1])]
 
     def _axes(self, places: FloatArray, *, constant: bool = False) -> tuple[list[Jet], Jet]:
-        """Normal and directions of slip, and d; constant: without derivatives."""
+        """Return normal and directions of slip, and d; constant: without derivatives."""
         *tangents, apart = make_variables(self._vectors(places), constant=constant)
         return turning_axes(tangents, self._parts, self._first), apart
 
     def _first_direction(self) -> FloatArray:
-        """(m, dimension) first direction of slip before the analysis.
+        """Return the (m, dimension) first direction of slip before the analysis.
 
         It is the projection of the global 1-axis, or of the 3-axis where the 1-axis is within 0.1 degrees of the normal
         (Abaqus Analysis User's Guide, "Conventions"). In the plane it follows from the normal.
@@ -254,17 +256,17 @@ class SmallSliding:
         return _across(np.where(steep[:, None], np.eye(3)[2], np.eye(3)[0]), self._normals)
 
     def _along(self, direction: FloatArray) -> FloatArray:
-        """(m, u) derivative of d along a direction (m, dimension)."""
+        """Return the (m, u) derivative of d along a direction (m, dimension)."""
         dimension = self._shape[2]
         return np.asarray(np.einsum("md,mdu->mu", direction, self._sums[:, -dimension:]))
 
     def _base(self, tangents: list[FloatArray]) -> FloatArray:
-        """(m, dimension, dimension) the tangents and what is normal to them, in columns."""
+        """Return (m, dimension, dimension) the tangents and the normal to them, in columns."""
         normal = tangents[0] @ TURN.T if len(tangents) == 1 else np.cross(tangents[0], tangents[1])
         return np.stack([*tangents, normal], axis=2)
 
 
 def _across(vectors: FloatArray, normals: FloatArray) -> FloatArray:
-    """Parts of vectors (m, 3) across normals (m, 3), of length one."""
+    """Return the parts of vectors (m, 3) across normals (m, 3), scaled to length one."""
     found = vectors - np.einsum("md,md->m", normals, vectors)[:, None] * normals
     return np.asarray(found / np.linalg.norm(found, axis=1)[:, None])

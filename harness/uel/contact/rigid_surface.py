@@ -16,33 +16,33 @@ ROTATION = 6
 
 
 class RigidSurface:
-    """An analytical rigid surface as the main surface of a pair; as `contact_surface.Surface`."""
+    """Analytical rigid surface as the main surface of a pair; implements `surface.Surface`."""
 
     dofs: tuple[int, ...] = (1, 2, ROTATION)
     unknowns: tuple[tuple[int, int], ...] = tuple((1, dof) for dof in (1, 2, ROTATION))
 
     def __init__(self, profile: RigidProfile, coordinates: FloatArray) -> None:
-        """Coordinates (nodes, 2) are those of all nodes of the model."""
+        """Prepare the surface; coordinates (nodes, 2) are those of all nodes of the model."""
         self._profile, self._start = profile, coordinates[profile.reference]
 
     def nodes_of(self, piece: IntArray) -> IntArray:
-        """The reference node."""
+        """Return the reference node for each piece, see `Surface.nodes_of`."""
         return np.full((len(piece), 1), self._profile.reference)
 
     def ring_of(self, piece: IntArray) -> IntArray:
-        """All pieces, which have the same node."""
+        """Return all pieces as neighbours, as they have the same node."""
         count = len(self._profile.radius)
         return np.broadcast_to(np.arange(count), (len(piece), count))
 
     def sizes(self, piece: IntArray, moved: FloatArray) -> FloatArray:
-        """As of `Surface`."""
+        """Return half of the lengths of pieces, see `Surface.sizes`."""
         del moved
         profile = self._profile
         half = np.linalg.norm(profile.half, axis=1)
         return np.asarray(np.where(profile.radius > 0.0, profile.radius * np.abs(profile.half[:, 1]), half)[piece])
 
     def at(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> Place:
-        """As of `Surface`."""
+        """Return points of pieces, see `Surface.at`."""
         here = moved[self._profile.reference]
         turn = _turn(here[2])
         at, tangents, second = self._unmoved(piece, natural[:, 0])
@@ -53,7 +53,7 @@ class RigidSurface:
         )
 
     def _unmoved(self, piece: IntArray, natural: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Points, tangents and their derivatives (m, 2) before any motion."""
+        """Return points, tangents and their derivatives (m, 2) before any motion."""
         profile = self._profile
         middle, half, radius = profile.middle[piece], profile.half[piece], profile.radius[piece][:, None]
         angle = half[:, 0] + natural * half[:, 1]
@@ -64,7 +64,7 @@ class RigidSurface:
         return at, np.where(round_, along, half), np.where(round_, -radius * speed**2 * out, 0.0)
 
     def by_unknowns(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """As of `Surface`."""
+        """Return the derivatives of points and tangents, see `Surface.by_unknowns`."""
         place, m = self.at(piece, natural, moved), len(piece)
         arm = place.at - self._start - moved[self._profile.reference, :2]
         at = np.concatenate([np.broadcast_to(np.eye(2), (m, 2, 2)), _left(arm)[:, :, None]], axis=2)
@@ -74,7 +74,7 @@ class RigidSurface:
     def loaded(
         self, piece: IntArray, natural: FloatArray, moved: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """As of `Surface`."""
+        """Return the motions along which forces do work and their derivatives, see `Surface.loaded`."""
         at, tangents = self.by_unknowns(piece, natural, moved)
         again = np.zeros((len(piece), 2, 3, 3))
         # an arm that turns by a right angle and again
@@ -84,7 +84,9 @@ class RigidSurface:
     def track(
         self, points: FloatArray, looks: FloatArray, moved: FloatArray, before: IntArray, *, everywhere: bool
     ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
-        """As of `Surface`, always everywhere: the first of the nearest pieces, if not the one so far."""
+        """Find the nearest pieces, see `Surface.track`, always on the whole surface: the first of the nearest, if not
+        the one so far.
+        """
         del everywhere
         profile, m, count = self._profile, len(points), len(self._profile.radius)
         here = moved[profile.reference]
@@ -113,10 +115,10 @@ class RigidSurface:
 
 
 def _turn(angle: float) -> FloatArray:
-    """(2, 2) rotation."""
+    """Return the (2, 2) rotation by an angle."""
     return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
 
 
 def _left(vectors: FloatArray) -> FloatArray:
-    """Vectors (..., 2) turned by a right angle to the left."""
+    """Return vectors (..., 2) turned by a right angle to the left."""
     return np.stack([-vectors[..., 1], vectors[..., 0]], axis=-1)

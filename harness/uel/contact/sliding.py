@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How contact points move in finite sliding: over a main surface, in its present place, from one piece to the next.
+"""Motion of contact points in finite sliding: over a main surface, in its present place, from one piece to the next.
 
 The point opposite a node x is the nearest one X of the surface: x - X = g n. With W the motion of the node against that
 point of the main surface, tau the tangents, and G = d tau / du at fixed natural coordinates xi,
@@ -32,7 +32,7 @@ from uel.model.restart import Saved
 
 @dataclass(frozen=True, slots=True)
 class Opposition:
-    """Where p points and the main surface are, with derivatives by the unknowns (u) of both.
+    """Places of p points and of the main surface opposite them, with derivatives by the unknowns (u) of both.
 
     place    of the main surface opposite the points
     value    (p,) clearances
@@ -55,11 +55,11 @@ class Opposition:
 
     @property
     def gradient(self) -> FloatArray:
-        """(p, u) of the clearances."""
+        """Gradients (p, u) of the clearances."""
         return np.asarray(np.einsum("md,mdu->mu", self.place.normal, self.against))
 
     def swing(self, points: IntArray, forces: FloatArray) -> FloatArray:
-        """Derivatives (r, u, u) of what forces (r, d) on these points (r,) do on the unknowns."""
+        """Return the derivatives (r, u, u) of the nodal forces that forces (r, d) on these points (r,) cause."""
         pulled = np.einsum("md,madu->mau", forces, self.sliding[points])
         found = -np.einsum("mau,mav->muv", pulled, self.glide[points])
         if self.twice is not None:
@@ -67,7 +67,7 @@ class Opposition:
         return np.asarray(found)
 
     def curvature(self, points: IntArray, force: FloatArray) -> FloatArray:
-        """The same of contact forces (r,), with what the normals do."""
+        """Return the derivatives (r, u, u) for contact forces (r,), which turn with the normals."""
         place = self.place.take(points)
         across = np.einsum("md,madu->mau", place.normal, self.turning[points])
         bent = np.einsum("md,mabd->mab", place.normal, place.second)
@@ -87,7 +87,7 @@ class Opposites:
     def __init__(
         self, main: Pieces | RigidProfile, coordinates: FloatArray, nodes: IntArray, shapes: FloatArray, facing: float
     ) -> None:
-        """Points are sums of nodes (p, k) times shapes (p, k).
+        """Prepare points that are sums of nodes (p, k) times shapes (p, k).
 
         Parameters
         ----------
@@ -111,7 +111,7 @@ class Opposites:
         self.above = np.zeros(count, dtype=np.bool_)
 
     def points(self, moved: FloatArray) -> FloatArray:
-        """(p, d) at displacements (n, dofs)."""
+        """Return (p, d) places of the points at displacements (n, dofs)."""
         dimension = self._coordinates.shape[1]
         places = self._coordinates[self._nodes] + moved[self._nodes, :dimension]
         return np.asarray(np.einsum("pk,pkd->pd", self._shapes, places))
@@ -124,22 +124,22 @@ class Opposites:
         )
 
     def nodes_of(self) -> IntArray:
-        """(p, k + l) nodes of the points and of the pieces opposite them."""
+        """Return (p, k + l) nodes of the points and of the pieces opposite them."""
         return np.concatenate([self._nodes, self.surface.nodes_of(self.piece)], axis=1)
 
     def place(self, moved: FloatArray) -> Place:
-        """Of the main surface."""
+        """Return the places opposite the points on the main surface."""
         return self.surface.at(self.piece, self.natural, moved)
 
     def values(self, moved: FloatArray) -> FloatArray:
-        """Clearances; those of points beside the surface are distances."""
+        """Return the clearances; those of points beside the surface are distances."""
         place = self.place(moved)
         apart = self.points(moved) - place.at
         along = np.einsum("md,md->m", apart, place.normal)
         return np.asarray(np.where(self.above, along, np.linalg.norm(apart, axis=1)))
 
     def opposition(self, moved: FloatArray, chosen: IntArray) -> Opposition:
-        """Clearances and derivatives of some points."""
+        """Return clearances and derivatives of some points."""
         given = self.piece[chosen], self.natural[chosen], moved
         place = self.surface.at(*given)
         at, tangents = self.surface.by_unknowns(*given)
@@ -179,7 +179,7 @@ class FiniteSliding:
     """The points of a pair, each with the piece of the main surface that is opposite it."""
 
     def __init__(self, pair: SlidingPair, coordinates: FloatArray, facing: float = EQUAL) -> None:
-        """Coordinates (nodes, 3) are those of all nodes of the model; facing: as of `Opposites`."""
+        """Prepare the points; coordinates (nodes, 3) are those of all nodes of the model; facing: as in `Opposites`."""
         dimension, m = pair.dimension, len(pair.secondary)
         self._pair, self._dimension = pair, dimension
         self._coordinates = coordinates[:, :dimension]
@@ -200,16 +200,16 @@ class FiniteSliding:
 
     @property
     def above(self) -> NDArray[np.bool_]:
-        """(m,) whether the main surface is there."""
+        """Mask (m,) of the points that face the main surface."""
         return self._opposite.above
 
     def unknowns_of(self, count: int) -> tuple[tuple[int, int], ...]:
-        """Of the points: those of the secondary node and of the main surface."""
+        """Return the unknowns of a point: those of the secondary node and of the main surface."""
         del count
         return self._unknowns
 
     def _own_normals(self, moved: FloatArray) -> FloatArray:
-        """(m, d) sums of the normals of the faces of the secondary nodes; zero of a surface of nodes."""
+        """Return (m, d) mean unit normals of the faces of the secondary nodes; zero for a surface of nodes."""
         places = (self._coordinates + moved[:, : self._dimension])[self._pair.secondary]
         sums = np.zeros_like(places)
         for faces in self._pair.faces:
@@ -219,7 +219,7 @@ class FiniteSliding:
         return unit(sums)
 
     def start(self) -> FloatArray:
-        """(m,) clearances before the analysis, 0 where rounding alone makes them different from 0."""
+        """Return (m,) clearances before the analysis, 0 if they differ from 0 by rounding alone."""
         return self._clearance
 
     @property
@@ -229,11 +229,13 @@ class FiniteSliding:
 
     @property
     def start_normals(self) -> FloatArray:
-        """(m, d) outward normals of the main surface opposite to the points, before the analysis."""
+        """Outward normals (m, d) of the main surface opposite the points, before the analysis."""
         return self._normal
 
     def track(self, u: FloatArray, du: FloatArray, find: Find, *, first: bool) -> None:
-        """Find the pieces that are opposite: in the first pass of an increment anywhere, then from those so far."""
+        """Find the pieces opposite the points: in the first pass of an increment anywhere,
+        then from the present ones.
+        """
         if self._numbers is None:
             self._numbers = find(np.arange(len(self._coordinates))[:, None], np.array(self._surface.dofs))
         self._moved, self._moved_before = (np.append(values, 0.0)[self._numbers] for values in (u, u - du))
@@ -246,7 +248,7 @@ class FiniteSliding:
 
     @property
     def moved(self) -> FloatArray:
-        """(nodes, dofs) displacements of all nodes at the last `track`."""
+        """Displacements (nodes, dofs) of all nodes at the last `track`."""
         return self._moved
 
     @property
@@ -256,11 +258,11 @@ class FiniteSliding:
         return bool((ring == self._opposite.piece[:, None]).any(axis=1).all())
 
     def reach(self) -> None:
-        """Let `links` start from the present pieces."""
+        """Restart `links` from the present pieces."""
         self._reachable = self._opposite.piece
 
     def links(self) -> tuple[IntArray, IntArray]:
-        """Points with the nodes of their pieces, at the last `reach`, and of the neighbours of these."""
+        """Return points with the nodes of their pieces, at the last `reach`, and of the neighbours of these."""
         ring = self._surface.ring_of(self._reachable)
         m, count = ring.shape
         nodes = self._surface.nodes_of(ring.ravel())
@@ -269,7 +271,7 @@ class FiniteSliding:
         )
 
     def clearances(self, moved: FloatArray, *, nlgeom: bool) -> Clearances:
-        """In the present place of the surface, with NLGEOM or without."""
+        """Compute the clearances in the present place of the surface, with NLGEOM or without."""
         del moved, nlgeom
         self._now = now = self._opposite.opposition(self._moved, np.arange(len(self.nodes)))
         self._normal = normal = now.place.normal
@@ -278,7 +280,9 @@ class FiniteSliding:
         return Clearances(now.value, now.gradient, pushed, now.curvature, rounding)
 
     def slips(self, moved: FloatArray, change: FloatArray, elastic: FloatArray) -> Slips:
-        """In the present tangent plane, after `clearances`; components are those of the global axes."""
+        """Compute the slips in the present tangent plane, after `clearances`;
+        components are those of the global axes.
+        """
         del moved, change
         now = self._now
         place, glide = now.place, now.glide
@@ -307,21 +311,21 @@ class FiniteSliding:
         return Slips(value, by, now.carried, now.swing, _axes(place))
 
     def commit(self) -> None:
-        """The next increment begins with these normals."""
+        """Store the present normals as those at the start of the next increment."""
         self._normal_before = self._normal
 
     def kept(self) -> Saved:
-        """Pieces and normals."""
+        """Return the state to be saved: pieces and normals."""
         return {"piece": self._opposite.piece, "reachable": self._reachable, "normal": self._normal_before}
 
     def resume(self, saved: Saved) -> None:
-        """Begin with what `kept` returned."""
+        """Restore the state that `kept` returned."""
         self._opposite.piece, self._reachable, self._normal_before = saved["piece"], saved["reachable"], saved["normal"]
         self.nodes = self._opposite.nodes_of()
 
 
 def _axes(place: Place) -> FloatArray:
-    """(m, directions, d) along the first tangent and, in space, across it; in the plane the normal turned left."""
+    """Return (m, directions, d) unit vectors along the first tangent and, in space, across it."""
     first = place.tangents[:, 0]
     first = first / np.linalg.norm(first, axis=1)[:, None]
     if first.shape[1] == 2:
@@ -330,7 +334,7 @@ def _axes(place: Place) -> FloatArray:
 
 
 def normals_of(corners: FloatArray) -> FloatArray:
-    """(f, d) normals of faces by their corners (f, k, d), not of length one."""
+    """Return (f, d) normals of faces by their corners (f, k, d), not of length one."""
     first = corners[:, 1] - corners[:, 0]
     if corners.shape[2] == 2:
         return np.stack([first[:, 1], -first[:, 0]], axis=1)
@@ -338,12 +342,12 @@ def normals_of(corners: FloatArray) -> FloatArray:
 
 
 def unit(vectors: FloatArray) -> FloatArray:
-    """Vectors (m, d) of length one; zero ones stay."""
+    """Return vectors (m, d) scaled to length one; zero ones stay zero."""
     length = np.linalg.norm(vectors, axis=1)[:, None]
     return np.asarray(vectors / np.where(length > 0.0, length, 1.0))
 
 
 def rounding_of(coordinates: FloatArray, moved: FloatArray) -> float:
-    """Error that the arithmetic makes in places (n, d) at displacements (n, dofs)."""
+    """Return the rounding error of places (n, d) at displacements (n, dofs)."""
     places = coordinates + moved[:, : coordinates.shape[1]]
     return float(np.finfo(float).eps * np.abs(places).max())

@@ -14,7 +14,7 @@ from uel.model.arrays import FloatArray, IntArray
 from uel.model.contact import Pieces
 
 STEPS: Final = 20
-"""Of Newton's method, for the point of a piece that is nearest to a node."""
+"""Most iterations of Newton's method for the point of a piece that is nearest to a node."""
 
 EQUAL: Final = 1e-9
 """Difference of distances, over the size of a piece, that counts as none, and of natural coordinates."""
@@ -29,9 +29,10 @@ WALK: Final = 50
 """Pieces that a node may pass in one iteration."""
 
 BEYOND: Final = {3: 0.125, 4: 0.0, 8: 1.0}
-"""How far a piece may leave the box of its nodes, over the size of the box, by the number of its monomials: the largest
-sum of the negative shape functions. Those of a line with a middle node are -1/8 in the middle of a half, those of the
-corners of a quadrilateral with middle nodes -1/4 in its middle."""
+"""Distance by which a piece may leave the box of its nodes, over the size of the box, by the number of its monomials:
+the largest sum of the negative shape functions. Those of a line with a middle node are -1/8 in the middle of a half,
+those of the corners of a quadrilateral with middle nodes -1/4 in its middle.
+"""
 
 ROUNDED: Final = 1e-6
 """Error of angles that is rounding."""
@@ -52,18 +53,18 @@ class Place:
 
     @property
     def metric(self) -> FloatArray:
-        """(m, a, a) products of the tangents, with an inverse also where an extended face has no area."""
+        """Products (m, a, a) of the tangents, with an inverse also where an extended face has no area."""
         found = np.einsum("mad,mbd->mab", self.tangents, self.tangents)
         size = np.trace(found, axis1=1, axis2=2)[:, None, None]
         return np.asarray(found + EQUAL**2 * size * np.eye(found.shape[1]))
 
     def take(self, points: IntArray) -> Place:
-        """Some of the points."""
+        """Return some of the points."""
         return Place(self.at[points], self.tangents[points], self.second[points])
 
     @property
     def normal(self) -> FloatArray:
-        """(m, d) outward, of length one."""
+        """Outward normals (m, d) of length one."""
         first = self.tangents[:, 0]
         if self.at.shape[1] == 2:
             found = np.stack([first[:, 1], -first[:, 0]], axis=1)
@@ -87,31 +88,32 @@ class Surface(Protocol):
     unknowns: tuple[tuple[int, int], ...]
 
     def nodes_of(self, piece: IntArray) -> IntArray:
-        """(m, k) nodes of pieces (m,)."""
+        """Return (m, k) nodes of pieces (m,)."""
 
     def ring_of(self, piece: IntArray) -> IntArray:
-        """(m, r) neighbours of pieces (m,), and themselves."""
+        """Return (m, r) neighbours of pieces (m,), and themselves."""
 
     def sizes(self, piece: IntArray, moved: FloatArray) -> FloatArray:
-        """(m,) about half of the lengths of pieces (m,)."""
+        """Return (m,) about half of the lengths of pieces (m,)."""
 
     def at(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> Place:
-        """Points (m,) of pieces, by their natural coordinates (m, a)."""
+        """Return the points (m,) of pieces at their natural coordinates (m, a)."""
 
     def by_unknowns(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Derivatives of points (m, d, u) and tangents (m, a, d, u) by the unknowns."""
+        """Return the derivatives of points (m, d, u) and tangents (m, a, d, u) by the unknowns."""
 
     def loaded(
         self, piece: IntArray, natural: FloatArray, moved: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray | None]:
-        """Motions (m, d, u) along which forces on points do work, their derivatives (m, a, d, u) along the surface and
-        (m, d, u, u) by the unknowns; None: zero.
+        """Return motions (m, d, u) along which forces on points do work, their derivatives (m, a, d, u) along the
+        surface and (m, d, u, u) by the unknowns; None: zero.
         """
 
     def track(
         self, points: FloatArray, looks: FloatArray, moved: FloatArray, before: IntArray, *, everywhere: bool
     ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
-        """The pieces nearest to points (m, d), the natural coordinates (m, a) there, and whether points are above them.
+        """Find the pieces nearest to points (m, d), the natural coordinates (m, a) there,
+        and whether points are above them.
 
         Parameters
         ----------
@@ -147,7 +149,7 @@ class _Present:
 
     @classmethod
     def of(cls, pieces: Pieces, places: FloatArray) -> _Present:
-        """By the places (nodes, d) of all nodes of the model."""
+        """Make the pieces from the places (nodes, d) of all nodes of the model."""
         corners = places[pieces.nodes]
         polynomials = _polynomials(pieces.shapes, corners)
         count = polynomials.shape[1]
@@ -164,12 +166,12 @@ class _Present:
         return cls(polynomials, _sizes(corners), low - beyond, high + beyond, axes, angles)
 
     def at(self, piece: IntArray, natural: FloatArray) -> Place:
-        """As of `Surface`."""
+        """Return points of pieces, see `Surface.at`."""
         return _place(self.polynomials[piece], natural)
 
     def least(self, points: FloatArray, looks: FloatArray, candidates: IntArray, facing: float) -> FloatArray:
-        """(m, c) lower bounds of the distances of points from candidates; infinite where none of the normals looks the
-        other way.
+        """Return (m, c) lower bounds of the distances of points from candidates;
+        infinite if none of the normals faces the point.
         """
         beside = np.maximum(self.low[candidates] - points[:, None], points[:, None] - self.high[candidates])
         beside = np.maximum(beside, 0.0)
@@ -183,8 +185,8 @@ class FaceSurface:
     """A main surface of faces of elements."""
 
     def __init__(self, pieces: Pieces, coordinates: FloatArray, facing: float = EQUAL) -> None:
-        """Coordinates (nodes, d) are those of all nodes of the model; pieces with a normal whose cosine with that of a
-        point exceeds `facing` are not opposite it.
+        """Prepare the surface; coordinates (nodes, d) are those of all nodes of the model. Pieces with a normal whose
+        cosine with that of a point exceeds `facing` are not opposite it.
         """
         dimension = coordinates.shape[1]
         self.pieces, self._coordinates, self._dimension, self._facing = pieces, coordinates, dimension, facing
@@ -201,32 +203,32 @@ class FaceSurface:
         self._of_node[np.repeat(np.arange(len(counts)), counts), rank] = order // pieces.nodes.shape[1]
 
     def nodes_of(self, piece: IntArray) -> IntArray:
-        """As of `Surface`."""
+        """Return the nodes of pieces, see `Surface.nodes_of`."""
         return np.asarray(self.pieces.nodes[piece])
 
     def ring_of(self, piece: IntArray) -> IntArray:
-        """As of `Surface`."""
+        """Return the neighbours of pieces, see `Surface.ring_of`."""
         return np.asarray(self.pieces.ring[piece])
 
     def at(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> Place:
-        """As of `Surface`."""
+        """Return points of pieces, see `Surface.at`."""
         nodes = self.pieces.nodes[piece]
         return _place(_polynomials(self.pieces.shapes[piece], self._coordinates[nodes] + moved[nodes]), natural)
 
     def sizes(self, piece: IntArray, moved: FloatArray) -> FloatArray:
-        """As of `Surface`: largest distances of nodes from their middle."""
+        """Return the sizes of pieces, see `Surface.sizes`: largest distances of nodes from their middle."""
         nodes = self.pieces.nodes[piece]
         return _sizes(self._coordinates[nodes] + moved[nodes])
 
     def by_unknowns(self, piece: IntArray, natural: FloatArray, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """As of `Surface`."""
+        """Return the derivatives of points and tangents, see `Surface.by_unknowns`."""
         del moved
         return self._spread(self.pieces.shapes[piece], natural)
 
     def loaded(
         self, piece: IntArray, natural: FloatArray, moved: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray | None]:
-        """As of `Surface`."""
+        """Return the motions along which forces do work and their derivatives, see `Surface.loaded`."""
         del moved
         return *self._spread(self.pieces.loads[piece], natural), None
 
@@ -240,7 +242,7 @@ class FaceSurface:
     def track(
         self, points: FloatArray, looks: FloatArray, moved: FloatArray, before: IntArray, *, everywhere: bool
     ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
-        """As of `Surface`."""
+        """Find the nearest pieces, see `Surface.track`."""
         present, found = _Present.of(self.pieces, self._coordinates + moved), before.copy()
         if everywhere:
             places = self._coordinates[self._own] + moved[self._own]
@@ -264,18 +266,18 @@ class FaceSurface:
         return found, natural, above
 
     def distances(self, points: FloatArray, moved: FloatArray) -> FloatArray:
-        """(m,) of points (m, d) from the nearest piece, whatever its normal."""
+        """Return the distances (m,) of points (m, d) from the nearest piece, whatever its normal."""
         before, looks = np.zeros(len(points), dtype=np.int64), np.zeros_like(points)
         piece, natural, _ = self.track(points, looks, moved, before, everywhere=True)
         return np.asarray(np.linalg.norm(points - self.at(piece, self._inside(piece, natural), moved).at, axis=1))
 
     def locate(self, piece: IntArray, points: FloatArray) -> FloatArray:
-        """Natural coordinates (m, a) of points (m, d) on pieces (m,), extended, before any displacement."""
+        """Return natural coordinates (m, a) of points (m, d) on pieces (m,), extended, before any displacement."""
         return self._project(_Present.of(self.pieces, self._coordinates), piece, points)
 
     def nearest(self, points: FloatArray) -> tuple[IntArray, FloatArray]:
-        """Nodes (m, k) of the pieces, before any displacement, that are nearest to points (m, d), and their shares
-        there: those that are rounding are zero.
+        """Return the nodes (m, k) of the pieces nearest to points (m, d) before any displacement, and their shape
+        functions there, zero up to rounding.
         """
         still = np.zeros_like(self._coordinates)
         before = np.zeros(len(points), dtype=np.int64)
@@ -287,7 +289,7 @@ class FaceSurface:
     def _nearest(
         self, present: _Present, points: FloatArray, looks: FloatArray, candidates: IntArray
     ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
-        """Of candidates (m, c) the nearest piece: as in `track`. Of some that are as near it is the first one.
+        """Find the nearest piece of candidates (m, c), as in `track`; of several as near the first.
 
         The one whose box is nearest comes first; others only if their boxes are not further away than it is.
         """
@@ -319,8 +321,8 @@ class FaceSurface:
     def _reach(
         self, present: _Present, points: FloatArray, looks: FloatArray, piece: IntArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Distances (m,) of points from pieces (m,), infinite from those that do not look the other way, and natural
-        coordinates (m, a).
+        """Return distances (m,) of points from pieces (m,), infinite from those that do not face the point,
+        and natural coordinates (m, a).
         """
         natural = self._project(present, piece, points)
         place = present.at(piece, self._inside(piece, natural))
@@ -328,14 +330,16 @@ class FaceSurface:
         return np.where(away, np.inf, np.linalg.norm(points - place.at, axis=1)), natural
 
     def _inside(self, piece: IntArray, natural: FloatArray) -> FloatArray:
-        """Natural coordinates of the nearest point that belongs to the piece."""
+        """Return natural coordinates of the nearest point that belongs to the piece."""
         pieces = self.pieces
         end = np.clip(natural, pieces.low[piece], pieces.high[piece])
         over = np.maximum(end.sum(axis=1) - pieces.total[piece], 0.0)[:, None]
         return np.asarray(np.clip(end - over / end.shape[1], pieces.low[piece], pieces.high[piece]))
 
     def _project(self, present: _Present, piece: IntArray, points: FloatArray) -> FloatArray:
-        """Natural coordinates where pieces, extended, are perpendicular to the way to points, by Newton's method."""
+        """Return natural coordinates where pieces, extended, are perpendicular to the way to points,
+        by Newton's method.
+        """
         low, high = self.pieces.low[piece], self.pieces.high[piece]
         natural, reach = 0.5 * (low + high), 2.0 * (high - low)
         rows = np.arange(len(piece))
@@ -364,17 +368,17 @@ class FaceSurface:
 
 
 def _polynomials(shapes: FloatArray, places: FloatArray) -> FloatArray:
-    """(m, p, d) coefficients of the monomials, of nodes at places (m, k, d) with shapes (m, k, p)."""
+    """Return (m, p, d) coefficients of the monomials, for nodes at places (m, k, d) with shapes (m, k, p)."""
     return np.asarray(np.einsum("mkp,mkd->mpd", shapes, places))
 
 
 def _sizes(places: FloatArray) -> FloatArray:
-    """(m,) largest distances of nodes, at places (m, k, d), from their middle."""
+    """Return (m,) largest distances of nodes, at places (m, k, d), from their middle."""
     return np.asarray(np.linalg.norm(places - places.mean(axis=1, keepdims=True), axis=2).max(axis=1))
 
 
 def _place(polynomials: FloatArray, natural: FloatArray) -> Place:
-    """Where polynomials (m, p, d) are."""
+    """Evaluate polynomials (m, p, d) at natural coordinates."""
     values, first, second = monomials(natural, polynomials.shape[1])
     return Place(
         np.einsum("mp,mpd->md", values, polynomials),
@@ -384,7 +388,7 @@ def _place(polynomials: FloatArray, natural: FloatArray) -> Place:
 
 
 def weights_of(shapes: FloatArray, natural: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """N (m, k) of coefficients (m, k, p), and their first (m, k, a) and second derivatives (m, k, a, a)."""
+    """Evaluate N (m, k) of coefficients (m, k, p), and their first (m, k, a) and second derivatives (m, k, a, a)."""
     values, first, second = monomials(natural, shapes.shape[2])
     return (
         np.einsum("mkp,mp->mk", shapes, values),
@@ -394,7 +398,8 @@ def weights_of(shapes: FloatArray, natural: FloatArray) -> tuple[FloatArray, Flo
 
 
 def monomials(natural: FloatArray, count: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """The first ones of 1, xi, xi^2 or 1, xi, eta, xi eta, xi^2, eta^2, xi^2 eta, xi eta^2, and their derivatives.
+    """Evaluate the first ones of 1, xi, xi^2 or 1, xi, eta, xi eta, xi^2, eta^2, xi^2 eta, xi eta^2,
+    and their derivatives.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How contact points move in finite sliding of surface to surface: the clearance of a point is a mean over samples.
+"""Motion of contact points in surface-to-surface finite sliding: the clearance of a point is a mean over samples.
 
 The clearance of a secondary node is the mean of those of samples of its faces, weighted by its shape function, and so
 is the force on the nodes of both surfaces: a constant pressure gives each surface the forces that it has on it, where
@@ -46,7 +46,7 @@ class SurfaceSliding:
     """The points of a pair, with the samples over which they are means."""
 
     def __init__(self, pair: SurfacePair, coordinates: FloatArray) -> None:
-        """Coordinates (nodes, 3) are those of all nodes of the model."""
+        """Prepare the surfaces; coordinates (nodes, 3) are those of all nodes of the model."""
         assert isinstance(pair.main, Pieces)
         self._pair, self._main, self._dimension = pair, pair.main, pair.dimension
         self._coordinates = coordinates[:, : pair.dimension]
@@ -67,22 +67,24 @@ class SurfaceSliding:
         self._start = np.where(np.abs(start) <= EQUAL * size, 0.0, start)
 
     def unknowns_of(self, count: int) -> tuple[tuple[int, int], ...]:
-        """Displacements of one node after the other."""
+        """Return the displacements of one node after the other."""
         return displacements(count, self._dimension)
 
     def start(self) -> FloatArray:
-        """(m,) clearances before the analysis, 0 where rounding alone makes them different from 0."""
+        """Return (m,) clearances before the analysis, 0 if they differ from 0 by rounding alone."""
         return self._start
 
     def at_nodes(self) -> tuple[NDArray[np.bool_], FloatArray, FloatArray]:
-        """Before the analysis: (m,) whether points can touch, clearances (m,) and normals (m, d) at their nodes."""
+        """Return, before the analysis, the mask (m,) of points that can touch, and clearances (m,) and normals (m,
+        d) at their nodes.
+        """
         start = self._slip.start() - corrections(
             self._pair.rounded[1], self._main, self._coordinates, self._slip.places
         )
         return self.above & self._slip.above, start, self._slip.start_normals
 
     def track(self, u: FloatArray, du: FloatArray, find: Find, *, first: bool) -> None:
-        """Find the pieces that are opposite: in the first pass of an increment of new samples."""
+        """Find the pieces opposite the samples; the first pass of an increment chooses new samples."""
         self._slip.track(u, du, find, first=first)
         self._moved = self._slip.moved
         if not first:
@@ -93,12 +95,12 @@ class SurfaceSliding:
         self._sampled = self._moved if first else None
 
     def _looks(self) -> FloatArray:
-        """(q, d) normals of the secondary surface at the samples."""
+        """Return (q, d) normals of the secondary surface at the samples."""
         places = self._coordinates + self._moved
         return unit(normals_of(places[self._pair.own.nodes]))[self._face]
 
     def _sample(self) -> None:
-        """Choose samples, and find what is opposite them."""
+        """Choose samples, and find the pieces opposite them."""
         self._face, natural, share = self._in_plane() if self._dimension == 2 else self._in_space()
         pair, face = self._pair, self._face
         nodes = pair.own.nodes[face]
@@ -118,8 +120,8 @@ class SurfaceSliding:
         self._average()
 
     def _reaches(self) -> NDArray[np.bool_]:
-        """(q,) whether nothing is between samples and the faces opposite them: one behind a face is in the body of this
-        face, where no other face is nearer, and not at the far side of its own body.
+        """Return the mask (q,) of samples with nothing between them and the faces opposite them. A sample behind a face
+        is in the body of this face, where no other face is nearer, and not at the far side of its own body.
         """
         values = self._opposite.values(self._moved)
         there = values >= -self._pair.deepest[self._face]
@@ -130,7 +132,9 @@ class SurfaceSliding:
         return there
 
     def _in_plane(self) -> tuple[IntArray, FloatArray, FloatArray]:
-        """Faces of samples, their natural coordinates, and the parts of the lengths, in natural coordinates."""
+        """Return the faces of samples, their natural coordinates, and their parts of the lengths,
+        in natural coordinates.
+        """
         count = len(self._pair.own.nodes)
         cutting = np.unique(self._main.nodes)
         places = self._coordinates[cutting] + self._moved[cutting]
@@ -149,7 +153,7 @@ class SurfaceSliding:
         return np.repeat(face[start], 3), points, (half[:, None] * _GAUSS[1]).ravel()
 
     def _in_space(self) -> tuple[IntArray, FloatArray, FloatArray]:
-        """As in the plane, with areas: middles of equal parts."""
+        """Return the same as `_in_plane`, with areas: the samples are the middles of equal parts."""
         four = np.isinf(self._pair.own.total)
         faces, points, shares = [], [], []
         for chosen, (places, share) in ((np.flatnonzero(four), _SQUARE), (np.flatnonzero(~four), _TRIANGLE)):
@@ -159,7 +163,7 @@ class SurfaceSliding:
         return np.concatenate(faces), np.concatenate(points), np.concatenate(shares)
 
     def _average(self) -> None:
-        """Clearances and areas of the points, and the weights of the samples in them."""
+        """Compute clearances and areas of the points, and the weights of the samples in them."""
         m, opposite = len(self._pair.secondary), self._opposite
         values = opposite.values(self._moved) - self._outside
         here = (opposite.above & self._there)[:, None]
@@ -175,7 +179,7 @@ class SurfaceSliding:
         self._find_nodes()
 
     def _find_nodes(self) -> None:
-        """The nodes that move each point, and where in them those of its samples and of its slip are.
+        """Find the nodes that move each point, and the places in them of the nodes of its samples and of its slip.
 
         Pairs of a sample and a point are those with a weight; a point that touches nothing has its own node alone.
         """
@@ -195,12 +199,12 @@ class SurfaceSliding:
         self._slip_places = np.searchsorted(keys, of_slips) - first[self._touching][:, None]
 
     def _key(self, point: IntArray, nodes: IntArray) -> IntArray:
-        """One number for a point and a node, smallest for its own node."""
+        """Return one number for a point and a node, smallest for its own node."""
         own = nodes == self._pair.secondary[point]
         return np.asarray(point * self._base + np.where(own, 0, nodes + 1))
 
     def _rows(self, keys: IntArray) -> tuple[IntArray, IntArray]:
-        """Points that sorted keys have, and a row of nodes of each, with its own node repeated to fill it."""
+        """Return the points in sorted keys, and a row of nodes of each, filled up with its own node."""
         point, node = keys // self._base, keys % self._base - 1
         points, first, counts = np.unique(point, return_index=True, return_counts=True)
         rows = np.repeat(self._pair.secondary[points][:, None], max(int(counts.max(initial=1)), 1), axis=1)
@@ -214,7 +218,7 @@ class SurfaceSliding:
         return bool(np.isin(self._keys, self._linked).all())
 
     def reach(self) -> None:
-        """Let `links` have the nodes that move each point now, and those of neighbouring pieces."""
+        """Update `links` to the nodes that move each point now, and those of neighbouring pieces."""
         self._slip.reach()
         surface, pieces = self._opposite.surface, self._opposite.piece[self._used]
         ring = surface.ring_of(pieces)
@@ -226,11 +230,11 @@ class SurfaceSliding:
         self._linked = np.unique(np.concatenate([self._keys, *(keys.ravel() for keys in both)]))
 
     def links(self) -> tuple[IntArray, IntArray]:
-        """Points and their nodes, at the last `reach`."""
+        """Return points and their nodes, at the last `reach`."""
         return self._rows(self._linked)
 
     def clearances(self, moved: FloatArray, *, nlgeom: bool) -> Clearances:
-        """In the present place of the surface, with NLGEOM or without."""
+        """Compute the clearances in the present place of the surface, with NLGEOM or without."""
         self._slip.clearances(moved, nlgeom=nlgeom)
         self._now = now = self._opposite.opposition(self._moved, self._used)
         m, width = len(self.nodes), self.nodes.shape[1] * self._dimension
@@ -241,13 +245,15 @@ class SurfaceSliding:
         return Clearances(self._clearances, gradient, gradient, self._curvature, rounding)
 
     def _unknowns(self, places: IntArray) -> IntArray:
-        """(r, u) where the unknowns of nodes at these places (r, n) are in those of a point."""
+        """Return (r, u) places, among the unknowns of a point, of those of nodes at these places (r, n)."""
         dimension = self._dimension
         every = places[:, :, None] * dimension + np.arange(dimension)
         return np.asarray(every.reshape(len(places), places.shape[1] * dimension))
 
     def _spread(self, points: IntArray, forces: FloatArray) -> tuple[IntArray, IntArray, FloatArray]:
-        """Pairs of samples and points, which of these points (r,) they have, and their parts of the forces (r, ...)."""
+        """Return the pairs of samples and these points (r,), the point of each pair,
+        and its part of the forces (r, ...).
+        """
         place = np.full(len(self.nodes), -1)
         place[points] = np.arange(len(points))
         pairs = np.flatnonzero(place[self._point_of] >= 0)
@@ -255,23 +261,23 @@ class SurfaceSliding:
         return pairs, of_point, (self._weight_of[pairs] * forces[of_point].T).T
 
     def _gather(self, pairs: IntArray, of_point: IntArray, values: FloatArray, count: int) -> FloatArray:
-        """(count, U, U) sums of values (pairs, u, u) by points."""
+        """Sum values (pairs, u, u) by points to (count, U, U)."""
         width, at = self.nodes.shape[1] * self._dimension, self._unknowns(self._places[pairs])
         places = (of_point[:, None, None] * width + at[:, :, None]) * width + at[:, None]
         return _sums(places, values, count * width * width).reshape(count, width, width)
 
     def _curvature(self, points: IntArray, force: FloatArray) -> FloatArray:
-        """Derivatives (r, U, U) of what contact forces (r,) on these points do."""
+        """Return the derivatives (r, U, U) of the nodal forces that contact forces (r,) on these points cause."""
         pairs, of_point, parts = self._spread(points, force)
         return self._gather(pairs, of_point, self._now.curvature(self._sample_of[pairs], parts), len(points))
 
     def _turned(self, points: IntArray, force: FloatArray) -> FloatArray:
-        """Derivatives (r, U, U) of what friction forces (r, d) on these points do."""
+        """Return the derivatives (r, U, U) of the nodal forces that friction forces (r, d) on these points cause."""
         pairs, of_point, parts = self._spread(points, force)
         return self._gather(pairs, of_point, self._now.swing(self._sample_of[pairs], parts), len(points))
 
     def slips(self, moved: FloatArray, change: FloatArray, elastic: FloatArray) -> Slips:
-        """Of the nodes; friction forces are means over the samples."""
+        """Compute the slips of the nodes; friction forces are means over the samples."""
         found = self._slip.slips(moved, change, elastic)
         m, n, dimension = *self.nodes.shape, self._dimension
         # (m, n, d, t), then the directions t first
@@ -285,33 +291,33 @@ class SurfaceSliding:
         return Slips(found.value, first[0], first[1], self._turned, found.axes)
 
     def commit(self) -> None:
-        """The next increment begins with these normals."""
+        """Store the present normals as those at the start of the next increment."""
         self._slip.commit()
 
     def kept(self) -> Saved:
-        """State of the slips, and the links."""
+        """Return the state to be saved: that of the slips, and the links."""
         return {"slip": self._slip.kept(), "linked": self._linked}
 
     def resume(self, saved: Saved) -> None:
-        """Begin with what `kept` returned."""
+        """Restore the state that `kept` returned."""
         self._slip.resume(saved["slip"])
         self._linked, self._sampled = saved["linked"], None
 
 
 def _sums(places: IntArray, values: FloatArray, count: int) -> FloatArray:
-    """(count,) sums of values at places of the same shape."""
+    """Sum values at places of the same shape to (count,)."""
     return np.bincount(places.ravel(), values.ravel(), count).astype(np.float64)
 
 
 def _square() -> tuple[FloatArray, float]:
-    """Places and area of samples of a square from -1 to 1."""
+    """Return places and area of samples of a square from -1 to 1."""
     middles = (2.0 * np.arange(ALONG) + 1.0) / ALONG - 1.0
     x, y = np.meshgrid(middles, middles)
     return np.stack([x.ravel(), y.ravel()], axis=1), 4.0 / ALONG**2
 
 
 def _triangle() -> tuple[FloatArray, float]:
-    """Of a triangle with sides of one: of the triangles into which its sides are cut."""
+    """Return places and area of samples of a triangle with sides of one: one sample in each of equal triangles."""
     x, y = np.meshgrid(np.arange(ALONG), np.arange(ALONG))
     upward = np.stack([x, y], axis=-1)[x + y < ALONG] + 1 / 3
     downward = np.stack([x, y], axis=-1)[x + y < ALONG - 1] + 2 / 3
