@@ -44,7 +44,7 @@ class Amplitude:
     smoothing: float | None = None
 
     def value(self, step_time: float, total_time: float) -> float:
-        """Factor at a time; constant outside the table, A0 before t0 of PERIODIC and DECAY."""
+        """Return the factor at a time; constant outside the table, A0 before t0 of PERIODIC and DECAY."""
         time = total_time if self.total_time else step_time
         if self.type is AmplitudeType.PERIODIC:
             return self._periodic(time)
@@ -60,7 +60,7 @@ class Amplitude:
         return float(values[k] + (values[k + 1] - values[k]) * xi**3 * (10 - 15 * xi + 6 * xi**2))
 
     def corners(self, begin: float) -> FloatArray:
-        """Step times (k,) of the corners of a table, in a step that begins at a total time."""
+        """Return the step times (k,) of the corners of a table, in a step that begins at a total time."""
         return self.data[:, 0] - (begin if self.total_time else 0.0)
 
     def _periodic(self, time: float) -> float:
@@ -86,10 +86,10 @@ class UserAmplitude(Amplitude):
     table: list[tuple[float, float]] = field(default_factory=list)
 
     def value(self, step_time: float, total_time: float) -> float:
-        """Factor at a time: linear between the ends of increments; 0 before UAMP is called."""
+        """Return the factor at a time: linear between the ends of increments; 0 before UAMP is called."""
         times, values = np.array(self.table or [(0.0, 0.0)]).T
         return float(np.interp(total_time, times, values))
 
     def corners(self, begin: float) -> FloatArray:
-        """Step times (k,) at which increments ended."""
+        """Return the step times (k,) at which increments ended."""
         return np.array([time for time, _ in self.table]) - begin

@@ -21,7 +21,7 @@ def flat_rows(values: FloatArray) -> FloatArray:
 
 
 def first_largest(values: FloatArray) -> IntArray:
-    """Index of the largest entry along the first axis; of equal ones, the first, on every processor.
+    """Return the index of the largest entry along the first axis; of equal ones, the first, on every processor.
 
     An entry that is not finite counts as the largest.
     """

@@ -21,19 +21,20 @@ SLIP_TOLERANCE: Final = 0.005
 """Default SLIP TOLERANCE of *FRICTION: largest elastic slip over the length of a face (Abaqus Keywords Guide)."""
 
 INITIAL: Final = 0.01
-"""Of PENALTY=NONLINEAR: initial over final stiffness, the default of Abaqus (Scripting Reference, NormalBehavior)."""
+"""Initial over final stiffness of PENALTY=NONLINEAR, the default of Abaqus (Scripting Reference, NormalBehavior)."""
 
 STIFFENED: Final = 0.03
-"""Of PENALTY=NONLINEAR: overclosure of the final stiffness over the length of a face, the default likewise."""
+"""Overclosure of the final stiffness of PENALTY=NONLINEAR over the length of a face, the default likewise."""
 
 STIFFENING: Final = 1 / 3
-"""Of PENALTY=NONLINEAR: overclosure up to which there is the initial stiffness over that of the final one, both from
-the clearance of zero pressure on, the default likewise."""
+"""Overclosure up to which PENALTY=NONLINEAR has the initial stiffness, over that of the final one, both measured from
+the clearance of zero pressure, the default likewise.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class Cohesion:
-    """*COHESIVE BEHAVIOR of a contact property, with what its *DAMAGE INITIATION and so on say.
+    """*COHESIVE BEHAVIOR of a contact property, with its *DAMAGE INITIATION and the keywords after it.
 
     stiffness  tractions per separation (force/length^3): normal, first and second shear direction
     """
@@ -181,7 +182,7 @@ class SlidingPair:
 
 @dataclass(frozen=True, slots=True)
 class Rounded:
-    """What pieces of a surface approximate, of d dimensions.
+    """Curved surface, of d dimensions, that pieces of a surface approximate.
 
     pieces  (q,) of the surface
     centre  (d,) of a circle in the plane or a sphere, or a point on the axis of revolution

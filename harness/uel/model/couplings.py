@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*DISTRIBUTING in large displacements: what is coupled, and how well a constraint is fulfilled."""
+"""*DISTRIBUTING in large displacements: the coupled nodes, and the errors of the constraints."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ class DamageEvolution:
 
 @dataclass(frozen=True, slots=True)
 class Damage:
-    """*DAMAGE INITIATION of a traction-separation response, with what follows it.
+    """*DAMAGE INITIATION of a traction-separation response, with the keywords after it.
 
     criterion  'MAXS', 'QUADS', 'MAXE', 'QUADE', or in contact 'MAXU', 'QUADU'
     onset      nominal stresses, strains or separations at the onset: normal, first and second shear direction

@@ -47,7 +47,7 @@ class Family:
     faces: tuple[Face, ...] = ()
 
     def face_family(self, face: Face) -> Family:
-        """The family of one of its faces."""
+        """Return the family of one of the faces."""
         return FAMILIES[self.dimension - 1, len(face)]
 
     @property
@@ -57,7 +57,7 @@ class Family:
 
 
 def _faces(nodes: int, *faces: Face) -> tuple[Face, ...]:
-    """Faces of the first nodes: those of a linear cell from those of the quadratic one."""
+    """Cut the faces of a quadratic cell to its first nodes: the faces of the linear cell."""
     return tuple(tuple(node for node in face if node < nodes) for face in faces)
 
 
@@ -153,7 +153,7 @@ class SolidType:
 
     @property
     def dimension(self) -> int:
-        """2 or 3."""
+        """Dimension: 2 or 3."""
         return self.family.dimension
 
     @property
@@ -181,7 +181,7 @@ class HeatType(SolidType):
         return ("1", "2", "3")[: self.dimension]
 
     def dofs(self, node: int) -> tuple[int, ...]:
-        """Dofs of a local node, from 0."""
+        """Return the dofs of a local node, from 0."""
         del node
         return (11,)
 
@@ -221,7 +221,7 @@ class ContinuumType(SolidType):
 
     @property
     def hourglass_control(self) -> bool:
-        """True where displacements other than rigid ones leave its only point without strain."""
+        """Whether displacements other than rigid ones leave the only point without strain."""
         return self.points == 1 and self.family in (QUAD4, HEX8)
 
     @property
@@ -251,7 +251,7 @@ class ContinuumType(SolidType):
         return max(self.points, self._over_radius(self.family.linear.full_points))
 
     def dofs(self, node: int) -> tuple[int, ...]:
-        """Dofs of a local node, from 0."""
+        """Return the dofs of a local node, from 0."""
         displacements = tuple(range(1, self.dimension + 1))
         if self.electrical:
             return (*displacements, POTENTIAL)
@@ -277,7 +277,7 @@ class ContinuumShellType(ContinuumType):
 
     @property
     def layered(self) -> bool:
-        """Its layers are those of *SHELL SECTION."""
+        """Whether *SOLID SECTION, COMPOSITE may give it layers: they are those of *SHELL SECTION."""
         return False
 
 
@@ -305,11 +305,11 @@ class CohesiveType:
 
     @property
     def dimension(self) -> int:
-        """2 or 3."""
+        """Dimension: 2 or 3."""
         return self.face.dimension + 1
 
     def dofs(self, node: int) -> tuple[int, ...]:
-        """Dofs of a local node, from 0."""
+        """Return the dofs of a local node, from 0."""
         del node
         return tuple(range(1, self.dimension + 1))
 
@@ -343,7 +343,7 @@ class SurfaceType:
 
     @property
     def dimension(self) -> int:
-        """3."""
+        """Dimension: 3."""
         return 3
 
     @property
@@ -366,7 +366,7 @@ class SurfaceType:
 
     @property
     def hourglass_control(self) -> bool:
-        """True where displacements other than rigid ones leave its only point without strain."""
+        """Whether displacements other than rigid ones leave the only point without strain."""
         return self.points == 1 and self.family is QUAD4
 
 
@@ -385,7 +385,7 @@ class ShellType(SurfaceType):
         return {f"E{k}": edge for k, edge in enumerate(self.family.faces, 1)}
 
     def dofs(self, node: int) -> tuple[int, ...]:
-        """Dofs of a local node, from 0."""
+        """Return the dofs of a local node, from 0."""
         del node
         return (1, 2, 3, 4, 5, 6)
 
@@ -400,7 +400,7 @@ class MembraneType(SurfaceType):
         return "MEMBRANE SECTION"
 
     def dofs(self, node: int) -> tuple[int, ...]:
-        """Dofs of a local node, from 0."""
+        """Return the dofs of a local node, from 0."""
         del node
         return (1, 2, 3)
 
@@ -451,7 +451,7 @@ class BeamType:
         return along if self.dimension == 3 else {"P2": along["P2"]}
 
     def dofs(self, node: int) -> tuple[int, ...]:
-        """Dofs of a local node, from 0."""
+        """Return the dofs of a local node, from 0."""
         del node
         return (1, 2, 3, 4, 5, 6) if self.dimension == 3 else (1, 2, 6)
 
@@ -492,13 +492,13 @@ class RigidType:
         return ways if self.dimension == 3 else dict(zip(("SNEG", "SPOS"), ways.values(), strict=True))
 
     def dofs(self, node: int) -> tuple[int, ...]:
-        """Dofs of a local node, from 0."""
+        """Return the dofs of a local node, from 0."""
         del node
         return tuple(range(1, self.dimension + 1))
 
 
 class DiscreteKind(IntEnum):
-    """What a discrete element is; values but that of trusses are JTYPE of fortran/host/elements/beam/discrete.f90."""
+    """Kind of a discrete element; values but that of trusses are JTYPE of fortran/host/elements/beam/discrete.f90."""
 
     TRUSS = 1
     AXIAL_SPRING = 2
@@ -525,7 +525,7 @@ class DiscreteType:
     section: str
 
     def dofs(self, node: int) -> tuple[int, ...]:
-        """Dofs of a local node, from 0."""
+        """Return the dofs of a local node, from 0."""
         del node
         return tuple(range(1, self.dimension + 1))
 
@@ -543,7 +543,7 @@ _UNCOUPLED: Final = (
     *("CPS4I", "CPE4I", "C3D8I", "CPS6", "CPE6", "CAX6", "C3D15"),
     *("CPE3H", "CPE6H", "CAX3H", "CAX6H", "C3D4H", "C3D15H"),
 )
-"""Those without a counterpart with temperatures, in Abaqus or here."""
+"""Types without a counterpart with temperatures, in Abaqus or here."""
 
 _SOLIDS: Final = {
     kind.name: kind
@@ -591,7 +591,7 @@ COUPLED: Final = {
     for name, kind in (_SOLIDS | HYBRID).items()
     if name not in _UNCOUPLED
 }
-"""The same with temperatures at their corners."""
+"""Solids and hybrid elements with temperatures at their corners."""
 
 GENERALISED: Final = {
     name: replace(kind, name=name, generalised=True)
@@ -606,7 +606,7 @@ PIEZOELECTRIC: Final = {
     for name, kind in _SOLIDS.items()
     if not (kind.hourglass_control or kind.incompatible)
 }
-"""The same with an electrical potential at all nodes."""
+"""Solids with an electrical potential at all nodes."""
 
 _HEAT: Final = {"2D": ("3", "4", "6", "8"), "AX": ("3", "4", "6", "8"), "3D": ("4", "6", "8", "10", "15", "20")}
 HEAT: Final = {

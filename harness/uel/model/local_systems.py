@@ -12,7 +12,7 @@ import numpy as np
 from uel.model.arrays import FloatArray, IntArray
 
 SMALLEST_SINE = 1e-10
-"""Of the angle between two directions that are not parallel."""
+"""Sine of the angle between two directions up to which they are parallel."""
 
 
 class SystemKind(StrEnum):
@@ -57,7 +57,7 @@ class LocalSystem:
         return rectangular and not self.nodes and self.points.ndim == 2 and np.ndim(self.angle) == 0
 
     def axes(self, elements: IntArray, nodes: FloatArray, places: FloatArray) -> FloatArray:
-        """Directions at the points of elements.
+        """Compute the directions at the points of elements.
 
         Parameters
         ----------
@@ -111,7 +111,8 @@ def _check_radii(polar: FloatArray, radial: FloatArray, sizes: FloatArray) -> No
 
 
 def _frame(first: FloatArray, second: FloatArray, fault: str = "the points a, b and c are collinear") -> FloatArray:
-    """(..., 3, 3) right-handed directions: along the first vectors, in the plane with the second ones, normal to it.
+    """Return (..., 3, 3) right-handed directions: along the first vectors, in the plane with the second ones,
+    normal to it.
 
     Raises UndefinedDirectionsError, with the fault as its message, where they are zero, parallel or no numbers.
     """
@@ -126,7 +127,7 @@ def _frame(first: FloatArray, second: FloatArray, fault: str = "the points a, b 
 
 
 def rotated(axes: FloatArray, axis: int, angle: float | FloatArray) -> FloatArray:
-    """Directions (..., 3, 3), in rows, turned about one of them, 1 to 3, by an angle in degrees."""
+    """Turn directions (..., 3, 3), in rows, about one of them, 1 to 3, by an angle in degrees."""
     first, second = axis % 3, (axis + 1) % 3
     radians = np.radians(angle)
     c, s = np.cos(radians)[..., None], np.sin(radians)[..., None]
@@ -137,7 +138,8 @@ def rotated(axes: FloatArray, axis: int, angle: float | FloatArray) -> FloatArra
 
 
 def orthonormal(directions: FloatArray) -> FloatArray:
-    """Directions (..., 3, 3) from the first two rows, as ORIENT gives them: the second is made normal to the first.
+    """Return directions (..., 3, 3) from the first two rows, as ORIENT gives them:
+    the second is made normal to the first.
 
     Raises UndefinedDirectionsError for the first that are no numbers, zero or parallel.
     """

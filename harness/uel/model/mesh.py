@@ -31,12 +31,12 @@ class Mesh:
     normals: FloatArray | None = None
 
     def name(self, node: int) -> str:
-        """Name of a node as Abaqus prints it: its label, or INSTANCE.label."""
+        """Return the name of a node as Abaqus prints it: its label, or INSTANCE.label."""
         return full_name(self.instances[node], int(self.labels[node]))
 
 
 def full_name(instance: str, label: int) -> str:
-    """Name of a node or element: its label, or INSTANCE.label."""
+    """Return the name of a node or element: its label, or INSTANCE.label."""
     return f"{instance}.{label}" if instance else str(label)
 
 
@@ -91,7 +91,9 @@ class ElementGroup:
 
 
 def is_in_space(coordinates: FloatArray, groups: Iterable[ElementGroup]) -> bool:
-    """False where all nodes are in one plane z = constant, and no shells, membranes or beams in space can leave it."""
+    """Return False if all nodes are in one plane z = constant, and no shells,
+    membranes or beams in space can leave it.
+    """
     if np.ptp(coordinates[:, 2]) > 0.0:
         return True
     kinds = (group.built_in for group in groups)

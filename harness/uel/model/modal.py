@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What modal steps are given: which modes of *FREQUENCY respond, how they are damped, and how the supports move."""
+"""Data of modal steps: the modes of *FREQUENCY that respond, their damping, and the motion of the supports."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class ModalDamping:
     by_frequency: bool = False
 
     def of(self, modes: NDArray[np.int64], frequencies: FloatArray) -> FloatArray:
-        """Factors (modes, 1 or 2) of modes, from 1; modes that no range has are not damped."""
+        """Return factors (modes, 1 or 2) of modes, from 1; modes outside all ranges are not damped."""
         if self.by_frequency:
             at = self.ranges[:, 0]
             return np.column_stack([np.interp(frequencies, at, factors) for factors in self.factors.T])
@@ -73,13 +73,13 @@ class BaseMotion:
     imaginary: bool = False
 
     def value(self, step_time: float, total_time: float) -> float:
-        """Displacement, velocity or acceleration at a time or a frequency."""
+        """Return displacement, velocity or acceleration at a time or a frequency."""
         return self.scale * self.amplitude.value(step_time, total_time)
 
 
 @dataclass(frozen=True, slots=True)
 class Superposition:
-    """Modes that respond, and what acts on them.
+    """Modes that respond, and the damping and base motions that act on them.
 
     selected      (k, 2) ranges of *SELECT EIGENMODES: first and last mode, from 1, or lowest and highest frequency,
                   cycles per time; None: all modes
@@ -92,7 +92,7 @@ class Superposition:
     base: tuple[BaseMotion, ...] = ()
 
     def modes(self, frequencies: FloatArray) -> NDArray[np.int64]:
-        """Numbers, from 1, of the modes that respond, by the frequencies of all."""
+        """Return the numbers, from 1, of the modes that respond, by the frequencies of all."""
         numbers = np.arange(1, len(frequencies) + 1)
         if self.selected is None:
             return numbers
@@ -103,7 +103,7 @@ class Superposition:
         return chosen
 
     def viscous(self, modes: NDArray[np.int64], omega: FloatArray) -> FloatArray:
-        """(modes,) 2 xi omega: viscous damping over generalized mass; omega (modes,): radians per time."""
+        """Return (modes,) 2 xi omega: viscous damping over generalized mass; omega (modes,): radians per time."""
         found = np.zeros(len(modes))
         for damping in self.damping:
             factors = damping.of(modes, omega / (2 * np.pi))
@@ -114,7 +114,7 @@ class Superposition:
         return found
 
     def structural(self, modes: NDArray[np.int64], omega: FloatArray) -> FloatArray:
-        """(modes,) structural damping s: the stiffness is complex, 1 + i s times the real one."""
+        """Return (modes,) structural damping s: the stiffness is complex, 1 + i s times the real one."""
         found = np.zeros(len(modes))
         for damping in self.damping:
             if damping.kind is DampingKind.STRUCTURAL:
@@ -141,7 +141,7 @@ class FrequencyRange:
     logarithmic: bool = True
 
     def points(self, natural: FloatArray) -> list[float]:
-        """Frequencies, ascending; natural frequencies (k,) within the range divide it into intervals."""
+        """Return the frequencies, ascending; natural frequencies (k,) within the range divide it into intervals."""
         if not self.highest:
             return [self.lowest]
         inside = np.unique(natural[(natural > self.lowest) & (natural < self.highest)])
@@ -152,7 +152,7 @@ class FrequencyRange:
         return [found[0], *(self.factor * point for point in found[1:-1]), found[-1]]
 
     def _between(self, first: float, last: float) -> list[float]:
-        """Points inside an interval."""
+        """Return the points inside an interval."""
         # Abaqus Analysis User's Guide, "Direct-solution steady-state dynamic analysis", the bias parameter
         place = np.linspace(-1.0, 1.0, self.number)[1:-1]
         place = 0.5 + 0.5 * np.sign(place) * np.abs(place) ** (1.0 / self.bias)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The model a deck describes, flattened and resolved: no names are left to look up."""
+"""Model of a deck, flattened and resolved: no names are left to look up."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ TEMPERATURE = 11
 
 
 def is_local(dof: int) -> bool:
-    """Whether a dof is along a direction of *TRANSFORM."""
+    """Return whether a dof is along a direction of *TRANSFORM."""
     return FIRST_LOCAL < dof <= FIRST_LOCAL + _MOTION
 
 
 def dof_in_deck(dof: int) -> int:
-    """The dof as the deck numbers it."""
+    """Return the dof as the deck numbers it."""
     if dof == CONCENTRATION:
         return TEMPERATURE
     return dof - FIRST_LOCAL if is_local(dof) else dof
@@ -118,6 +118,6 @@ class Model:
 
 
 def constraints_with_multipliers(model: Model) -> list[tuple[str, Source]]:
-    """Keywords, with their places, that Lagrange multipliers or stiffnesses between nodes enforce."""
+    """Return the keywords, with their places, that Lagrange multipliers or stiffnesses between nodes enforce."""
     contacts = [(f"*{pair.keyword}", pair.source) for pair in model.contacts]
     return contacts + [("*DISTRIBUTING with NLGEOM", coupling.source) for coupling in model.couplings]

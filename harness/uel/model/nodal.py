@@ -35,7 +35,7 @@ for _dof in range(11, LARGEST_DOF + 1):
 _NAMES["displacement"][CONCENTRATION] = "NNC11"
 
 _CHARGES = {"RCHG": ("reaction", 9), "CECHG": ("load", 9)}
-"""Charges of piezoelectric elements, minus what the array has."""
+"""Charges of piezoelectric elements: minus the values of the array."""
 
 COMPONENTS = {name: (quantity, dof) for quantity, names in _NAMES.items() for dof, name in names.items()} | _CHARGES
 """Array of `Solution` and dof of each component."""
@@ -76,7 +76,9 @@ class Component:
     sign: int = 1
 
     def values(self, solution: Solution, positions: IntArray | slice = slice(None)) -> FloatArray:
-        """Values at some unknowns; of a harmonic response amplitudes, or phase angles in degrees from -180 to 180."""
+        """Return values at some unknowns; of a harmonic response amplitudes,
+        or phase angles in degrees from -180 to 180.
+        """
         values: FloatArray = self.sign * getattr(solution, self.quantity)[positions]
         if solution.imaginary is None:
             return values
@@ -86,7 +88,7 @@ class Component:
 
 
 class NodalIndex:
-    """Where the unknown of a node and dof is in the arrays of a solution."""
+    """Index of the unknown of a node and dof in the arrays of a solution."""
 
     def __init__(self, nodes: int, solution: Solution) -> None:
         self._position = np.full((nodes, CONCENTRATION + 1), -1, dtype=np.int64)
@@ -95,12 +97,12 @@ class NodalIndex:
         self._position[solution.node[of_nodes], solution.dof[of_nodes]] = of_nodes
 
     def find(self, nodes: IntArray, dof: int) -> IntArray:
-        """Positions (len(nodes),), -1 where a node does not have the dof."""
+        """Return positions (len(nodes),), -1 for nodes without the dof."""
         found: IntArray = self._position[nodes, dof]
         return found
 
     def components(self, variables: Iterable[str], nodes: IntArray, *, harmonic: bool = False) -> list[Component]:
-        """Components of the variables asked for that any of the nodes has, in order and without repetition.
+        """Return the requested components that any of the nodes has, in order and without repetition.
 
         Where the response is harmonic there are phase angles too.
         """
@@ -118,7 +120,7 @@ class NodalIndex:
 
 
 def _name(quantity: str, dof: int) -> str:
-    """Name of a component; fluxes are those of dof 11, of heat or of a concentration."""
+    """Return the name of a component; fluxes are those of dof 11, of heat or of a concentration."""
     return _NAMES[quantity].get(dof) or _NAMES[quantity][dof_in_deck(dof)]
 
 
@@ -127,7 +129,7 @@ def _known(variable: str) -> bool:
 
 
 def _meant(variable: str) -> tuple[str, Iterable[int]]:
-    """Array of `Solution` and dofs of a variable; no dofs of one that is not known."""
+    """Return the array of `Solution` and the dofs of a variable; no dofs if it is unknown."""
     if variable in COMPONENTS:
         quantity, dof = COMPONENTS[variable]
         return quantity, ((dof,) if quantity == "displacement" or dof != TEMPERATURE else (dof, CONCENTRATION))

@@ -22,7 +22,7 @@ PERTURBATION_TIME = 1e-36
 """Period of a perturbation step, in which no time passes."""
 
 ROUNDING = 1e-6
-"""Of an increment."""
+"""Rounding of an increment."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ class LinearPerturbation(Procedure):
 
     @property
     def extent(self) -> tuple[str, float]:
-        """Its one increment."""
+        """Unit and total of the progress: one increment."""
         return "increment", 1
 
 
@@ -53,11 +53,11 @@ class StaticPerturbation(LinearPerturbation):
 
     @property
     def lflag(self) -> int:
-        """1."""
+        """LFLAGS(1): 1."""
         return 1
 
     def head(self) -> Iterator[HeadLine]:
-        """That it is linear."""
+        """Yield the line that the step is linear."""
         yield "A LINEAR PERTURBATION ABOUT THE BASE STATE"
 
 
@@ -83,7 +83,7 @@ class Frequency(LinearPerturbation):
 
     @property
     def lflag(self) -> int:
-        """41."""
+        """LFLAGS(1): 41."""
         return 41
 
     @property
@@ -92,7 +92,7 @@ class Frequency(LinearPerturbation):
         return "mode", self.number or 1
 
     def head(self) -> Iterator[HeadLine]:
-        """Which modes, and how they are scaled."""
+        """Yield the choice of the modes, and their scaling."""
         yield "NUMBER OF EIGENVALUES", f"{self.number or 'ALL':>10}"
         if math.isfinite(self.highest):
             yield "HIGHEST FREQUENCY OF INTEREST (CYCLES/TIME)", self.highest
@@ -121,7 +121,7 @@ class Buckle(LinearPerturbation):
 
     @property
     def lflag(self) -> int:
-        """1, which no user element gets: they are refused."""
+        """LFLAGS(1): 1, which no user element gets: they are refused."""
         return 1
 
     @property
@@ -130,7 +130,7 @@ class Buckle(LinearPerturbation):
         return "mode", self.number
 
     def head(self) -> Iterator[HeadLine]:
-        """How many modes, and how they are scaled."""
+        """Yield the number of modes, and their scaling."""
         yield "NUMBER OF EIGENVALUES", f"{self.number:>10}"
         if math.isfinite(self.highest):
             yield "HIGHEST EIGENVALUE OF INTEREST", self.highest
@@ -159,17 +159,17 @@ class SteadyState(LinearPerturbation):
 
     @property
     def needs_modes(self) -> bool:
-        """Also where natural frequencies divide the ranges."""
+        """Whether modes are needed: also if natural frequencies divide the ranges."""
         return self.modal or self.natural
 
     def frequencies(self, natural: FloatArray) -> tuple[float, ...]:
-        """Cycles per time; natural (k,): the natural frequencies."""
+        """Return the frequencies in cycles per time; natural (k,): the natural frequencies."""
         divides = natural if self.natural else np.zeros(0)
         return tuple(frequency for given in self.ranges for frequency in given.points(divides))
 
     @property
     def lflag(self) -> int:
-        """95."""
+        """LFLAGS(1): 95."""
         return 95
 
     @property
@@ -178,7 +178,7 @@ class SteadyState(LinearPerturbation):
         return "frequency", len(self.frequencies(np.zeros(0)))
 
     def head(self) -> Iterator[HeadLine]:
-        """Which frequencies."""
+        """Yield the frequencies."""
         given = self.frequencies(np.zeros(0))
         if self.natural:
             yield "THE FREQUENCY RANGES ARE DIVIDED BY THE EIGENFREQUENCIES"
@@ -210,7 +210,7 @@ class ModalSteadyState(SteadyState):
 
     @property
     def lflag(self) -> int:
-        """92, which no element gets: only the modes respond."""
+        """LFLAGS(1): 92, which no element gets: only the modes respond."""
         return 92
 
 
@@ -227,7 +227,7 @@ class ModalDynamic(LinearPerturbation):
 
     @property
     def lflag(self) -> int:
-        """91, which no element gets: only the modes respond."""
+        """LFLAGS(1): 91, which no element gets: only the modes respond."""
         return 91
 
     @property
@@ -247,6 +247,6 @@ class ModalDynamic(LinearPerturbation):
         return [self.initial * k for k in range(1, count)] + [self.period]
 
     def head(self) -> Iterator[HeadLine]:
-        """Its increments."""
+        """Yield the increments."""
         yield "FIXED TIME INCREMENTS"
         yield from (("TIME INCREMENT IS", self.initial), ("TIME PERIOD IS", self.period))

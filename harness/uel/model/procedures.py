@@ -117,12 +117,12 @@ class Procedure(ABC):
 
     @property
     def default_amplitude(self) -> str:
-        """How loads vary where neither they nor *STEP name an amplitude: RAMP or STEP."""
+        """Amplitude of loads if neither they nor *STEP name one: RAMP or STEP."""
         return "RAMP"
 
     @property
     def full_title(self) -> str:
-        """The title, with what the step is in addition."""
+        """Title with the further properties of the step."""
         return self.title
 
     @property
@@ -132,11 +132,11 @@ class Procedure(ABC):
 
     @property
     def extent(self) -> tuple[str, float]:
-        """What the step progresses in, and its total, for the progress display."""
+        """Unit and total of the step's progress, for the progress display."""
         return "time", self.period
 
     def head(self) -> Iterator[HeadLine]:
-        """What .msg and .dat say about it at the start of the step."""
+        """Yield the lines of .msg and .dat about the procedure at the start of the step."""
         if self.riks is not None:
             yield from self._arc_lengths(self.riks)
         elif self.direct:
@@ -169,7 +169,7 @@ class Static(Procedure):
 
     @property
     def lflag(self) -> int:
-        """1 automatic, 2 fixed increments."""
+        """LFLAGS(1): 1 automatic, 2 fixed increments."""
         return 2 if self.direct else 1
 
 
@@ -188,7 +188,7 @@ class Visco(Procedure):
 
     @property
     def lflag(self) -> int:
-        """21."""
+        """LFLAGS(1): 21."""
         return 21
 
     @property
@@ -206,7 +206,7 @@ class Geostatic(Procedure):
 
     @property
     def lflag(self) -> int:
-        """61."""
+        """LFLAGS(1): 61."""
         return 61
 
 
@@ -242,12 +242,12 @@ class Dynamic(Procedure):
 
     @property
     def params(self) -> tuple[float, float, float]:
-        """Of the integrator."""
+        """Parameters of the integrator: alpha, beta, gamma."""
         return self.alpha, self.beta, self.gamma
 
     @property
     def lflag(self) -> int:
-        """11 automatic, 12 fixed increments."""
+        """LFLAGS(1): 11 automatic, 12 fixed increments."""
         return 12 if self.direct else 11
 
     @property
@@ -256,7 +256,7 @@ class Dynamic(Procedure):
         return "RAMP" if self.integrator is Integrator.BACKWARD_EULER else "STEP"
 
     def head(self) -> Iterator[HeadLine]:
-        """Increments, integrator, and how accurate it has to be."""
+        """Yield increments, integrator, and its tolerances."""
         # without arguments super() does not find the class that slots=True makes
         yield from Procedure.head(self)
         if self.integrator is Integrator.HHT:
@@ -304,11 +304,11 @@ class Diffusive(Procedure):
 
     @property
     def complaint(self) -> str:
-        """What .msg says where the change in an increment is too large."""
+        """Message of .msg about a change that is too large for an increment."""
         return f"THE {self.unknown.upper()} CHANGES BY MORE THAN {self.limit} IN THE INCREMENT."
 
     def head(self) -> Iterator[HeadLine]:
-        """Increments, and how accurate they have to be."""
+        """Yield increments, and the largest change in one of them."""
         yield from Procedure.head(self)
         if math.isfinite(self.largest_change):
             yield f"MAXIMUM {self.unknown.upper()} CHANGE IN AN INCREMENT IS", self.largest_change
@@ -327,12 +327,12 @@ class HeatTransfer(Diffusive):
 
     @property
     def lflag(self) -> int:
-        """31 steady, 32 transient, 33 with fixed increments."""
+        """LFLAGS(1): 31 steady, 32 transient, 33 with fixed increments."""
         return 30 + self._kind
 
     @property
     def stores_heat(self) -> bool:
-        """Unless it is steady."""
+        """Whether heat capacity counts: not in a steady state."""
         return not self.steady
 
 
@@ -347,7 +347,7 @@ class CoupledTemperatureDisplacement(HeatTransfer):
 
     @property
     def lflag(self) -> int:
-        """71 steady, 72 transient, 73 with fixed increments."""
+        """LFLAGS(1): 71 steady, 72 transient, 73 with fixed increments."""
         return 70 + self._kind
 
 
@@ -364,5 +364,5 @@ class MassDiffusion(Diffusive):
 
     @property
     def lflag(self) -> int:
-        """131 to 133, which only built-in elements are told: Abaqus lists none for *MASS DIFFUSION."""
+        """LFLAGS(1): 131 to 133, for built-in elements only: Abaqus lists none for *MASS DIFFUSION."""
         return 130 + self._kind

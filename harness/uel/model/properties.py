@@ -44,7 +44,7 @@ _CONSTANTS: Final = {
 
 
 def isotropic_fault(young: float, poisson: float) -> str:
-    """What is wrong with the constants of an isotropic material, '' where nothing is.
+    """Describe the fault in the constants of an isotropic material, '' if there is none.
 
     A Poisson's ratio of 0.5 is an incompressible material, which trusses can have.
     """
@@ -108,7 +108,7 @@ class Creep:
 
 
 class CreepLaw(IntEnum):
-    """Of a network; values are those of fortran/host/materials/networks.f90."""
+    """Creep law of a network; values are those of fortran/host/materials/networks.f90."""
 
     POWER = 1
     HYPERBOLIC = 2
@@ -147,7 +147,7 @@ class Potential(StrEnum):
 
 
 HIGHEST_ORDER: Final = 6
-"""Of N of *HYPERELASTIC, coefficients given directly (Abaqus Keywords Guide; host/materials/hyperelastic.f90)."""
+"""Largest N of *HYPERELASTIC, coefficients given directly (Abaqus Keywords Guide; host/materials/hyperelastic.f90)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,12 +183,12 @@ class UserPotential:
 
     @property
     def routine(self) -> str:
-        """Which gives the energy."""
+        """Routine that gives the energy."""
         return "UHYPER" if self.directions is None else "UANISOHYPER_INV"
 
     @property
     def keyword(self) -> str:
-        """Of the deck."""
+        """Keyword of the deck."""
         return "HYPERELASTIC" if self.directions is None else "ANISOTROPIC HYPERELASTIC"
 
 
@@ -203,7 +203,7 @@ class Holzapfel:
 
 
 class HybridFormulation(IntEnum):
-    """What hybrid elements expect of UMAT; values are those of fortran/host/routines/umat.f90."""
+    """Formulation of UMAT that hybrid elements expect; values are those of fortran/host/routines/umat.f90."""
 
     INCREMENTAL = 0
     TOTAL = 1
@@ -313,7 +313,7 @@ class Material:
 
     @property
     def viscous(self) -> Viscoelastic | Creep | Network | None:
-        """What lets stresses depend on time."""
+        """Source of the time dependence of stresses, None if they do not depend on time."""
         return self.viscoelastic or self.creep or next(iter(self.networks), None)
 
     @property
@@ -480,7 +480,7 @@ class ShellSection:
 
     @property
     def thickness(self) -> float:
-        """Of all layers."""
+        """Thickness of all layers."""
         return sum(layer.thickness for layer in self.layers)
 
     @property
@@ -669,7 +669,7 @@ Section = (
 
 
 def materials_of(section: Section) -> tuple[Material, ...]:
-    """Materials of a section: one of each layer."""
+    """Return the materials of a section: one for each layer."""
     if isinstance(section, ShellSection | CompositeSection):
         return tuple(layer.material for layer in section.layers)
     material: Material | None = getattr(section, "material", None)

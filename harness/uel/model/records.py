@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a step procedure reports while it runs; output writes it, nothing else passes between the two."""
+"""Records that a step procedure reports while it runs; output writes them, and nothing else passes between the two."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Convergence(StrEnum):
 
     @property
     def accepted(self) -> bool:
-        """True where the field is in equilibrium."""
+        """Whether the field is in equilibrium."""
         return self not in (Convergence.NOT_ACHIEVED, Convergence.CORRECTION_TOO_LARGE)
 
 
@@ -116,7 +116,7 @@ class AttemptEnded:
 
 @dataclass(frozen=True, slots=True)
 class AttemptAbandoned(AttemptEnded):
-    """It is abandoned, and the times are those of its start; `next_increment` is tried next (0: no attempt is left)."""
+    """Abandoned attempt. The times are those of its start; `next_increment` is tried next (0: no attempt is left)."""
 
     next_increment: float
     reason: str
@@ -176,15 +176,15 @@ ENERGIES: Final = (
 """Energies of the whole model that a general step has."""
 
 ELEMENT_ENERGIES: Final = ("ALLAE", "ALLCD", "ALLDMD", "ALLIE", "ALLKE", "ALLPD", "ALLSE", "ALLVD")
-"""Those that are sums over elements, which element sets have too."""
+"""Energies that are sums over elements, which element sets have too."""
 
 
 PLASTIC: Final = 3
-"""Place in ENERGY of what plasticity or, in some elements, damage dissipates."""
+"""Place in ENERGY of the dissipation by plasticity or, in some elements, by damage."""
 
 
 def energies_of_elements(energy: FloatArray, damage: float) -> dict[str, float]:
-    """Return energies by Abaqus name from a sum (8,) of ENERGY, and what damage dissipates."""
+    """Return energies by Abaqus name from a sum (8,) of ENERGY, and the dissipation by damage."""
     kinetic, elastic, creep, plastic, viscous, artificial, electrostatic = (float(e) for e in energy[:7])
     return {
         "ALLSE": elastic,
@@ -221,7 +221,7 @@ class StepDone:
 
 @dataclass(frozen=True, slots=True)
 class Warned:
-    """Something the user should know; printed to .msg as a warning."""
+    """Warning for the user, printed to .msg."""
 
     message: str
 
@@ -243,7 +243,7 @@ class SearchHelped:
 
 @dataclass(frozen=True, slots=True)
 class Noted:
-    """Something worth knowing that needs no action; printed to .msg as a note."""
+    """Note for the user that needs no action, printed to .msg."""
 
     message: str
 
@@ -280,7 +280,7 @@ Record = (
 
 @dataclass(frozen=True, slots=True)
 class PointVariables:
-    """What the SVARS of an element type mean at its integration points.
+    """Layout of the SVARS of an element type at its integration points.
 
     kind    'continuum', 'interface' or, with names that the deck gives, 'user'
     names   name of each variable of a point, in order ('S11', ..., 'DAMAGE'), '' for one without a name

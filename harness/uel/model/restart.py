@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*RESTART: when a step keeps its state, where a run resumes, and what a kept state consists of."""
+"""*RESTART: the increments after which a step keeps its state, the place where a run resumes, and the kept state."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class RestartWrite:
         return 2 if self.overlay else 1
 
     def due(self, increment: int, before: float, after: float, *, last: bool) -> bool:
-        """Whether the state is kept after an increment.
+        """Return whether the state is kept after an increment.
 
         Parameters
         ----------
@@ -100,7 +100,7 @@ class KeptState:
 
 @dataclass(frozen=True, slots=True)
 class Resumption:
-    """Kept state from which an analysis goes on; end_step: its step ends there."""
+    """Kept state that an analysis resumes; end_step: its step ends there."""
 
     analysis: Saved
     file: str

@@ -159,7 +159,7 @@ class DistributedLoad:
 
 
 class LoadKind(StrEnum):
-    """What a distributed load on a built-in element is: a load on a face, on a volume, along an edge, or along a beam.
+    """Kind of a distributed load on a built-in element: on a face, on a volume, along an edge, or along a beam.
 
     The direction of LOCAL_LINE has components along t, 1 and 2 of the beam. Of the loads on edges of shells only the
     general one, EDLD, has a direction.
@@ -215,7 +215,7 @@ class ElementLoad:
 
 
 class HeatLaw(IntEnum):
-    """How heat enters: as a flux, or by exchange with a sink through a film or with the surroundings by radiation.
+    """Law of a heat load: a flux, or exchange with a sink through a film or with the surroundings by radiation.
 
     The numbers are those of fortran/host/elements/heat/loads.f90.
     """
@@ -310,7 +310,9 @@ class VerticalStress:
     lateral: tuple[float, float]
 
     def components(self, elevation: FloatArray, count: int) -> FloatArray:
-        """Stress (..., count) in Abaqus' order at elevations: 6 components in space, 4, or 3 in plane stress."""
+        """Return the stress (..., count) in Abaqus' order at elevations: 6 components in space, 4,
+        or 3 in plane stress.
+        """
         (first, second), (low, high) = self.stress, self.elevation
         vertical = first + (second - first) * (elevation - low) / (high - low)
         found = np.zeros((*elevation.shape, count))
@@ -363,7 +365,7 @@ class EnergyRequest:
 
 
 class Position(StrEnum):
-    """Where the values of *EL PRINT are."""
+    """Location of the values of *EL PRINT."""
 
     POINTS = "INTEGRATION POINTS"
     CENTROID = "CENTROIDAL"
@@ -384,7 +386,7 @@ class ElementRequest:
 
 @dataclass(frozen=True, slots=True)
 class OutputRequests:
-    """What the step writes. field_frequency: every k-th increment a .vtu, 0 never; the last one always unless 0.
+    """Output of a step. field_frequency: every k-th increment a .vtu, 0 never; the last one always unless 0.
 
     field_intervals: also at the end of each of so many parts of the step, at the first increment that gets there.
     energy_print: every k-th increment the energies of the whole model in .dat, 0 never.
@@ -404,7 +406,7 @@ class OutputRequests:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """*STEP. `amplitude` RAMP or STEP; `new_boundary`/`new_loads`: OP=NEW removes what earlier steps prescribed.
+    """*STEP. `amplitude` RAMP or STEP; `new_boundary`/`new_loads`: OP=NEW removes the prescriptions of earlier steps.
 
     Of heat loads OP=NEW removes those of the keywords in `new_heat_loads`.
 

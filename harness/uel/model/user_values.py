@@ -15,7 +15,7 @@ from uel.model.arrays import FloatArray
 
 @dataclass(frozen=True, slots=True)
 class UserValues:
-    """What a routine is called for, at the end of an increment.
+    """Arguments of a routine that gives values at the end of an increment.
 
     routine  its name
     time     step and total time
@@ -64,7 +64,7 @@ class AskedAmplitude:
 
 @dataclass(frozen=True, slots=True)
 class GivenAmplitude:
-    """What UAMP returns: the value, the state variables, and whether the step ends with this increment."""
+    """Results of UAMP: the value, the state variables, and whether the step ends with this increment."""
 
     value: float
     state: FloatArray
@@ -81,7 +81,7 @@ class GivesValues(Protocol):
     uamp: int | None
 
     def user_values(self, asked: UserValues) -> FloatArray:
-        """Values (n,) that the routine makes of those given."""
+        """Return the values (n,) that the routine makes of the given ones."""
 
     def user_amplitude(self, asked: AskedAmplitude) -> GivenAmplitude:
-        """What UAMP gives."""
+        """Return the results of UAMP."""
