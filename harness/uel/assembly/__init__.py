@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""From elements to a system of equations: numbering, sparsity, scatter, constraints."""
+"""Assembly of elements to a system of equations: numbering, sparsity, scatter, constraints."""
 
 from uel.assembly.constraints import Constraints
 from uel.assembly.dofs import DofMap

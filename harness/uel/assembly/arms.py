@@ -115,7 +115,7 @@ class Arms:
         return choose(self.slopes(start), self._length[self.of], self.own, self.of, self._held, self._free)
 
     def suit(self, start: FloatArray) -> bool:
-        """Whether prescribed displacements would choose the same unknowns to eliminate at unknowns (n,)."""
+        """Return whether prescribed displacements would choose the same unknowns to eliminate at unknowns (n,)."""
         return np.array_equal(self._choose(start).eliminated, self.held.eliminated)
 
     @property
@@ -139,14 +139,14 @@ class Arms:
 
     @property
     def units(self) -> FloatArray:
-        """(references, 6) units in which movements of reference nodes have the size of those of their nodes."""
+        """Units (references, 6) in which movements of reference nodes have the size of those of their nodes."""
         found = np.ones(self.columns.shape)
         found[:, _TURNS] = 1.0 / np.where(self._length > 0.0, self._length, 1.0)[:, None]
         return found
 
     @property
     def curved(self) -> IntArray:
-        """(references, 6) unknowns of `curvature` that are left, -1 for those between which it is always zero."""
+        """Unknowns (references, 6) of `curvature` that are left, -1 for those between which it is always zero."""
         found = self.sources[:, :COLUMNS].copy()
         steady = np.ones(len(found), dtype=np.bool_)
         steady[[row for row, _ in self.held.solved]] = False
@@ -154,7 +154,7 @@ class Arms:
         return found
 
     def _find_idle(self, free: NDArray[np.bool_]) -> tuple[IntArray, IntArray]:
-        """Rows and columns of rotations without effect: all nodes lie on a line through the reference node.
+        """Find rows and columns of rotations without effect: all nodes lie on a line through the reference node.
 
         Of the rotation vectors that differ by turns about this line, the component along the nearest axis stays.
         free: (references, 6) where nothing else determines an unknown.
@@ -186,7 +186,8 @@ class Arms:
             raise DeckError(arm.source, f"{message}: nothing balances it")
 
     def replace_held(self, equations: Sequence[Equation]) -> list[Equation]:
-        """Equations to first order, where those of prescribed displacements stand for the unknowns they eliminate.
+        """Return the equations to first order, with those of prescribed displacements
+        replaced by the unknowns they eliminate.
 
         The coefficients of these are those of `coefficients`. So do equations that hold rotations without effect.
         """
@@ -231,7 +232,7 @@ class Arms:
 
     @property
     def rows(self) -> IntArray:
-        """(k + references, 6) unknowns that depend on others, of nodes and of reference nodes; -1 elsewhere."""
+        """Unknowns (k + references, 6) that depend on others, of nodes and of reference nodes; -1 elsewhere."""
         nodes = np.where(self._follows, self.own, -1)
         gone = np.where(self.sources[:, :COLUMNS] < 0, self.columns, -1)
         gone[self._idle] = -1
@@ -239,13 +240,13 @@ class Arms:
 
     @property
     def row_sources(self) -> IntArray:
-        """(k + references, 6 + w) unknowns on which these rows depend."""
+        """Unknowns (k + references, 6 + w) on which these rows depend."""
         return np.vstack([self.sources[self.of], self.sources])
 
     @property
     def steady(self) -> NDArray[np.bool_]:
-        """(k + references, 6 + w) whether the coefficients of a source never change: those of displacements of
-        reference nodes of which none is eliminated.
+        """Mask (k + references, 6 + w) of coefficients that never change: those of displacements of reference nodes
+        without an eliminated one.
         """
         steady = np.zeros(self.sources.shape, dtype=np.bool_)
         steady[:, _MOVES] = True
@@ -253,7 +254,7 @@ class Arms:
         return np.vstack([steady[self.of], steady])
 
     def place(self, start: FloatArray, increment: FloatArray) -> FloatArray:
-        """An increment (n,) with those of all nodes that follow. Raises SingularMatrixError.
+        """Return an increment (n,) completed by those of all dependent nodes. Raises SingularMatrixError.
 
         Those that are eliminated from reference nodes come first.
         """
@@ -267,17 +268,19 @@ class Arms:
         return placed
 
     def levers(self, u: FloatArray) -> FloatArray:
-        """Forces and moments (k, 3, 6) about the global axes by the forces on each node: force, then component."""
+        """Return forces and moments (k, 3, 6) about the global axes by the forces on each node: force,
+        then component.
+        """
         turned = np.einsum("kij,kj->ki", rotation_matrices(self._angles(u))[self.of], self._arm)
         return _with_moves(np.einsum("iab,ka->kbi", PERMUTATION, turned))
 
     def slopes(self, u: FloatArray) -> FloatArray:
-        """Derivatives (k, 3, 6) of the displacements of each node by the unknowns of its reference node."""
+        """Return derivatives (k, 3, 6) of the displacements of each node by the unknowns of its reference node."""
         levers = self.levers(u)
         return _with_moves(levers[:, :, _TURNS] @ spin_matrices(self._angles(u))[self.of])
 
     def coefficients(self, by_reference: FloatArray) -> FloatArray:
-        """Coefficients (k + references, 6, 6 + w) of `rows` on `row_sources`, from `slopes` or `levers`."""
+        """Return coefficients (k + references, 6, 6 + w) of `rows` on `row_sources`, from `slopes` or `levers`."""
         reduction = self._reduction(by_reference)
         found = np.zeros((len(self.own) + len(self.references), COLUMNS, self.sources.shape[1]))
         found[: len(self.own), _MOVES] = by_reference @ reduction[self.of]
@@ -285,7 +288,7 @@ class Arms:
         return found
 
     def curvature(self, u: FloatArray, residual: FloatArray, slopes: FloatArray) -> FloatArray:
-        """Stiffness (references, 6, 6) that forces (n,) add to reference nodes as their arms turn.
+        """Return the stiffness (references, 6, 6) that forces (n,) add to reference nodes as their arms turn.
 
         Prescribed displacements of nodes that follow act with the forces that they pass on. The arms are those of
         unknowns u (n,), the turns are about the position of `slopes`.
@@ -302,19 +305,21 @@ class Arms:
         return np.asarray(left.transpose(0, 2, 1) @ self._turning(u, force) @ right, dtype=np.float64)
 
     def excesses(self, u: FloatArray) -> FloatArray:
-        """Differences of these values at unknowns u (n,), over the lengths that they are computed from."""
+        """Return the errors of the redundant prescribed displacements at unknowns u (n,),
+        over the lengths that they are computed from.
+        """
         held, own = self.held, self.held.redundant
         following, given = self._following(u)[held.arm, held.axis][own], u[held.unknown[own]]
         size = self._length[held.reference[own]] + np.abs(following) + np.abs(given)
         return np.asarray(np.abs(given - following) / size, dtype=np.float64)
 
     def _following(self, u: FloatArray) -> FloatArray:
-        """Displacements (k, 3) of the nodes from those of their reference nodes."""
+        """Return the displacements (k, 3) of the nodes from those of their reference nodes."""
         turned = np.einsum("kij,kj->ki", rotation_matrices(self._angles(u))[self.of], self._arm)
         return np.asarray(_gathered(u, self.columns[:, _MOVES])[self.of] + turned - self._arm, dtype=np.float64)
 
     def _settle(self, u: FloatArray, row: int, equations: IntArray, own: IntArray) -> None:
-        """Set the eliminated unknowns of a reference node in u (n,)."""
+        """Solve for the eliminated unknowns of a reference node, and set them in u (n,). Raises SingularMatrixError."""
         arm, axis = self.held.arm[equations], self.held.axis[equations]
         columns = self.held.eliminated[equations]
         for _ in range(ITERATIONS):
@@ -329,7 +334,7 @@ class Arms:
         raise SingularMatrixError(*self._dofs.name(int(own[0])), UNREACHABLE)
 
     def _reduction(self, by_reference: FloatArray) -> FloatArray:
-        """Q and Q_p (references, 6, 6 + w)."""
+        """Return Q and Q_p (references, 6, 6 + w)."""
         found = np.zeros((len(self.references), COLUMNS, self.sources.shape[1]))
         found[:, range(COLUMNS), range(COLUMNS)] = 1.0
         for row, equations in self.held.solved:
@@ -342,7 +347,7 @@ class Arms:
         return found
 
     def _turning(self, u: FloatArray, force: FloatArray) -> FloatArray:
-        """Derivatives (references, 3, 3) of minus the moments of forces (k, 3) on the nodes by rotations."""
+        """Return the derivatives (references, 3, 3) of minus the moments of forces (k, 3) on the nodes by rotations."""
         moments = np.zeros((len(self.references), 3, 3))
         np.add.at(moments, self.of, force[:, :, None] * self._arm[:, None, :])
         angles = self._angles(u)
@@ -360,11 +365,11 @@ class Arms:
 
 
 def _with_moves(turning: FloatArray) -> FloatArray:
-    """(k, 3, 6) of what depends on rotations as (k, 3, 3) says, and on displacements in the same direction."""
+    """Prepend the unit derivatives by displacements to those by rotations (k, 3, 3): (k, 3, 6)."""
     moving = np.broadcast_to(np.eye(3), turning.shape)
     return np.concatenate([moving, turning], axis=2)
 
 
 def _gathered(values: FloatArray, unknowns: IntArray) -> FloatArray:
-    """Values of unknowns, zero where there is none."""
+    """Return the values of unknowns, zero for unknown -1."""
     return np.asarray(np.append(values, 0.0)[unknowns], dtype=np.float64)

@@ -43,7 +43,7 @@ class Constraints:
         equations: Sequence[Equation] = (),
         places: Mapping[int, Source] | None = None,
     ) -> None:
-        """Symbolic work on a set of constraints.
+        """Do the symbolic work on a set of constraints.
 
         Parameters
         ----------
@@ -84,7 +84,7 @@ class Constraints:
         self._find_pattern()
 
     def _find_pattern(self) -> None:
-        """Symbolic work on the pattern of the system."""
+        """Do the symbolic work on the pattern of the system."""
         if self._t is not None:
             self.reduced_indptr, self.reduced_indices, self._map = reduced_pattern(self._system, self._t)
         else:
@@ -93,14 +93,14 @@ class Constraints:
         self._pattern = self._system.indices
 
     def _follow_pattern(self) -> None:
-        """Repeat that if the system has another pattern."""
+        """Repeat the symbolic work if the system has another pattern."""
         if self._pattern is not self._system.indices:
             self._find_pattern()
 
     def matches(
         self, prescribed: IntArray, equations: Sequence[Equation], arms: Sequence[Arm], start: FloatArray
     ) -> bool:
-        """True if these constraints also serve the given ones, so that symbolic work need not be repeated.
+        """Return whether these constraints also serve the given ones, so that symbolic work need not be repeated.
 
         Parameters
         ----------
@@ -122,7 +122,7 @@ class Constraints:
         return [(one.unknown, one.source) for one in self._redundant]
 
     def _excesses(self, u: FloatArray) -> list[float]:
-        """By how much each of these two values differs from the other, over the terms that they are computed from."""
+        """Return the errors of the redundant equations, over the sums of the magnitudes of their terms."""
         return [one.excess(u) for one in self._redundant]
 
     def refuse_contradictions(self, u: FloatArray, moment: str) -> None:
@@ -142,25 +142,25 @@ class Constraints:
 
     @property
     def ranks(self) -> Ranks:
-        """Those of the system: each has the part of T^T K T of its elements."""
+        """Ranks of the system: each has the part of T^T K T of its elements."""
         return self._system.ranks
 
     @property
     def coordinates(self) -> FloatArray:
-        """(n_q, 3) original coordinates of the nodes of the free unknowns, for orderings and multigrid."""
+        """Original coordinates (n_q, 3) of the nodes of the free unknowns, for orderings and multigrid."""
         return self._system.dofs.coordinates[self.free]
 
     @property
     def dofs(self) -> IntArray:
-        """(n_q,) dofs of the free unknowns."""
+        """Dofs (n_q,) of the free unknowns."""
         return self._system.dofs.dof[self.free]
 
     def name(self, unknown: int) -> tuple[str, int]:
-        """Node name and dof of an unknown, for messages."""
+        """Return node name and dof of an unknown, for messages."""
         return self._system.dofs.name(unknown)
 
     def name_of(self, reduced: int) -> tuple[str, int]:
-        """Node name and dof of a free unknown, for messages.
+        """Return node name and dof of a free unknown, for messages.
 
         Parameters
         ----------
@@ -170,7 +170,7 @@ class Constraints:
         return self._system.dofs.name(int(self.free[reduced]))
 
     def place(self, start: FloatArray, increment: FloatArray) -> FloatArray:
-        """An increment (n,) that fulfils the constraints: sums of those of `expand` do if they are linear.
+        """Return an increment (n,) that fulfils the constraints; if they are linear, sums of those of `expand` do.
 
         Parameters
         ----------
@@ -190,7 +190,7 @@ class Constraints:
     def follow(
         self, u: FloatArray, residual: FloatArray, increment: FloatArray | None = None, weight: float = 1.0
     ) -> None:
-        """Take T and P of a state, and what the tangent has of forces that act as T changes.
+        """Update T and P to a state, and the stiffness that forces add to the tangent as T changes.
 
         Parameters
         ----------
@@ -206,7 +206,7 @@ class Constraints:
         """
 
     def expand(self, dq: FloatArray, dprescribed: FloatArray) -> FloatArray:
-        """du = T dq + P dp.
+        """Compute du = T dq + P dp.
 
         Parameters
         ----------
@@ -243,7 +243,7 @@ class Constraints:
         return self.expand(direction[self.free], direction[self.prescribed])
 
     def inertia(self, mass: sparse.csr_array) -> sparse.csr_array:
-        """Return what `tangential` needs of a mass matrix (n, n)."""
+        """Return the part of a mass matrix (n, n) that `tangential` uses."""
         return sparse.csr_array(mass.shape)
 
     def tangential(self, velocity: FloatArray, inertia: sparse.csr_array) -> FloatArray:
@@ -267,12 +267,14 @@ class Constraints:
         return velocity
 
     def convective(self, u: FloatArray, velocity: FloatArray) -> FloatArray:
-        """Accelerations (n,) at unknowns u (n,) with velocities (n,), where the free and prescribed ones have none."""
+        """Return accelerations (n,) at unknowns u (n,) with velocities (n,),
+        if the free and prescribed ones have none.
+        """
         del velocity
         return np.zeros_like(u)
 
     def reduce_vector(self, vector: FloatArray) -> FloatArray:
-        """T^T r.
+        """Compute T^T r.
 
         Parameters
         ----------
@@ -289,7 +291,7 @@ class Constraints:
         return np.asarray(self._t_transposed @ vector)
 
     def reactions(self, residual: FloatArray) -> FloatArray:
-        """Reaction forces, RF of Abaqus: -P^T r.
+        """Compute reaction forces, RF of Abaqus: -P^T r.
 
         Parameters
         ----------
@@ -306,7 +308,7 @@ class Constraints:
         return reaction
 
     def reduce(self, data: FloatArray) -> FloatArray:
-        """CSR values of T^T K T from those of K.
+        """Compute the CSR values of T^T K T from those of K.
 
         Parameters
         ----------
@@ -326,11 +328,11 @@ class Constraints:
         return self._reduced
 
     def reduce_tangent(self, data: FloatArray) -> FloatArray:
-        """`reduce` of a tangent, with what the constraints add to it."""
+        """Reduce a tangent as `reduce` does, and add the stiffness of the constraints."""
         return self.reduce(data)
 
     def prescribed_residual(self, data: FloatArray, dprescribed: FloatArray) -> FloatArray:
-        """K P dp: internal force of prescribed increments, to be subtracted from the residual before solving.
+        """Compute K P dp: internal force of prescribed increments, to be subtracted from the residual before solving.
 
         Parameters
         ----------
@@ -351,7 +353,7 @@ class Constraints:
 
 
 def _columns(n: int, chosen: IntArray, dependent: IntArray, coefficients: sparse.csr_array) -> sparse.csr_array:
-    """(n, chosen) matrix that gives all unknowns from the chosen independent ones."""
+    """Return the (n, chosen) matrix that gives all unknowns from the chosen independent ones."""
     by_dependent = coefficients[:, chosen].tocoo()
     rows = np.concatenate([chosen, dependent[by_dependent.row]])
     columns = np.concatenate([np.arange(len(chosen)), by_dependent.col])
@@ -364,7 +366,9 @@ def _row_of_entries(system: System) -> IntArray:
 
 
 def _take_pattern(system: System, free: IntArray) -> tuple[NDArray[np.int32], NDArray[np.int32], IntArray]:
-    """Pattern of the rows and columns of free unknowns, and the positions of its entries in the full matrix."""
+    """Return the pattern of the rows and columns of free unknowns,
+    and the positions of its entries in the full matrix.
+    """
     number = np.full(len(system), -1, dtype=np.int32)
     number[free] = np.arange(len(free))
     row, column = number[_row_of_entries(system)], number[system.indices]
@@ -375,7 +379,7 @@ def _take_pattern(system: System, free: IntArray) -> tuple[NDArray[np.int32], ND
 def reduced_pattern(
     system: System, t: sparse.csr_array, values: FloatArray | None = None
 ) -> tuple[NDArray[np.int32], NDArray[np.int32], sparse.csr_array]:
-    """Pattern of T^T K T, and the matrix M that gives its values from those of K.
+    """Return the pattern of T^T K T, and the matrix M that gives its values from those of K.
 
     Entry (i, j) of K contributes T[i, a] T[j, b] to entry (a, b), or `values` in place of these products.
     """
@@ -388,7 +392,7 @@ def reduced_pattern(
 
 
 def products(system: System, t: sparse.csr_array) -> tuple[IntArray, IntArray, IntArray]:
-    """Entries of T, left and right, whose product with an entry of K is a term of T^T K T; and that entry."""
+    """Return entries of T, left and right, whose product with an entry of K is a term of T^T K T; and that entry."""
     count = np.diff(t.indptr)
     row, column = _row_of_entries(system), system.indices
     terms = count[row] * count[column]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbering of the unknowns: which node and dof each of them is."""
+"""Numbering of the unknowns by node and dof."""
 
 from __future__ import annotations
 
@@ -86,12 +86,12 @@ class DofMap:
 
     @property
     def of_nodes(self) -> NDArray[np.bool_]:
-        """(n,) whether an unknown is of a node, which moves in space and time; of an element or contact it is not."""
+        """Mask (n,) of the unknowns of nodes, which move in space and time; of an element or contact it is False."""
         found: NDArray[np.bool_] = self.node < len(self.mesh.labels)
         return found
 
     def find(self, nodes: IntArray | int, dof: IntArray | int) -> IntArray:
-        """Unknowns of (node, dof) pairs.
+        """Return the unknowns of (node, dof) pairs.
 
         Parameters
         ----------
@@ -111,7 +111,7 @@ class DofMap:
         return np.asarray(np.where(known, found, -1), dtype=np.int64)
 
     def equations_of(self, block: Block) -> NDArray[np.int32]:
-        """The unknowns of each element of a block.
+        """Return the unknowns of each element of a block.
 
         Parameters
         ----------
@@ -127,11 +127,13 @@ class DofMap:
         return np.stack(columns, axis=1).astype(np.int32)
 
     def element(self, unknown: int) -> str:
-        """Name of the element that has an unknown, '' for one of a node."""
+        """Return the name of the element that has an unknown, '' for an unknown of a node."""
         return self._elements.get(int(self.node[unknown]), "")
 
     def name(self, unknown: int) -> tuple[str, int]:
-        """Node name and dof of an unknown, for messages; a pressure is one of its element, or of a contact point."""
+        """Return node name and dof of an unknown, for messages; a pressure is one of its element,
+        or of a contact point.
+        """
         if (number := int(self.dof[unknown]) - COUPLED) >= 0:
             return f"{self.element(unknown)}, forces of its distributing coupling", number + 1
         if int(self.dof[unknown]) == MULTIPLIER:
@@ -141,7 +143,9 @@ class DofMap:
         return self.mesh.name(int(self.node[unknown])), dof_in_deck(int(self.dof[unknown]))
 
     def in_global(self, forces: Forces) -> Forces:
-        """Forces (n,) with those along directions of *TRANSFORM added to the global components of their nodes."""
+        """Return forces (n,) with those along directions of *TRANSFORM added to the
+        global components of their nodes.
+        """
         along, into, cosines = self._local
         if not len(along):
             return forces
@@ -155,8 +159,9 @@ def _names(block: ElementBlock) -> list[str]:
 
 
 def _positions(mesh: Mesh, block: Block, local: int) -> IntArray:
-    """(m,) nodes with this local number, or the reference node; behind those of an element it is the element, which
-    follows all nodes."""
+    """Return (m,) nodes with this local number, or the reference node. The number after the nodes of an element stands
+    for the element itself, numbered after all nodes.
+    """
     if local == REFERENCE and isinstance(block, ElementBlock):
         return np.full(len(block.group.labels), block.group.reference)
     if local < block.group.nodes.shape[1]:

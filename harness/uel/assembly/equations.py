@@ -35,7 +35,7 @@ class Redundant:
     source: Source
 
     def excess(self, u: FloatArray) -> float:
-        """Sum of the terms at unknowns (n,), over that of their absolute values."""
+        """Return the error at unknowns (n,): the sum of the terms over that of their absolute values."""
         terms = self.coefficients * u[self.unknowns]
         size = float(np.abs(terms).sum())
         return abs(float(terms.sum())) / size if size else 0.0
@@ -44,7 +44,7 @@ class Redundant:
 def eliminate(
     dofs: DofMap, equations: Sequence[Equation], prescribed: IntArray
 ) -> tuple[IntArray, sparse.csr_array, list[Redundant]]:
-    """Dependent unknowns and their coefficients on all others, and equations without a dependent unknown.
+    """Find dependent unknowns and their coefficients on all others, and equations without a dependent unknown.
 
     The dependent unknown of an equation is that of its first term; if that is prescribed, another one of the equation.
 
@@ -110,7 +110,8 @@ def _choose_others(
     by_unknown: dict[int, int],
     held: set[int],
 ) -> list[Redundant]:
-    """Dependent unknowns of equations whose first one is prescribed: Gaussian elimination, the largest term as pivot.
+    """Choose dependent unknowns of equations whose first one is prescribed: Gaussian elimination,
+    largest term as pivot.
 
     It replaces in `terms` what the equations before it have made dependent, so that the choice of one leaves an unknown
     to the next, as the six equations of an average motion need. Returns the equations that have none left.
@@ -143,25 +144,27 @@ def _choose_others(
 
 
 def _replace(own: dict[int, float], unknown: int, equation: Mapping[int, float]) -> None:
-    """Replace an unknown of an equation by what it depends on."""
+    """Replace an unknown of an equation by the unknowns that it depends on."""
     if factor := own.pop(unknown, 0.0):
         for other, value in equation.items():
             own[other] = own.get(other, 0.0) - factor * value
 
 
 def _largest(own: Mapping[int, float], held: set[int], dependent: Mapping[int, int]) -> int:
-    """Unknown with the largest coefficient of those that are neither prescribed nor dependent; -1 without any."""
+    """Return the unknown with the largest coefficient of those neither prescribed nor dependent;
+    -1 if there is none.
+    """
     left = [unknown for unknown in own if unknown not in held and unknown not in dependent]
     return max(left, key=lambda unknown: abs(own[unknown]), default=-1)
 
 
 def _solved(own: Mapping[int, float], pivot: int) -> dict[int, float]:
-    """Coefficients of an equation without that of the pivot, over it."""
+    """Return the coefficients of an equation without that of the pivot, over it."""
     return {unknown: value / own[pivot] for unknown, value in own.items() if unknown != pivot}
 
 
 def _terms(dofs: DofMap, equation: Equation) -> dict[int, float]:
-    """Coefficient of each unknown, terms in order, repeated ones added."""
+    """Return the coefficient of each unknown, terms in order, repeated ones added. Raises DeckError."""
     terms: dict[int, float] = {}
     for node, dof, coefficient in equation.terms:
         unknown = int(dofs.find(node, dof))
@@ -174,7 +177,7 @@ def _terms(dofs: DofMap, equation: Equation) -> dict[int, float]:
 def _resolve(
     dofs: DofMap, sources: Sequence[Source], dependent: IntArray, direct: sparse.csr_array
 ) -> sparse.csr_array:
-    """Replace dependent unknowns on the right-hand sides by what they depend on: the sum of N^k D over k >= 0."""
+    """Replace dependent unknowns on the right-hand sides by those that they depend on: the sum of N^k D over k >= 0."""
     between = direct[:, dependent]
     if between.nnz == 0:
         return direct
@@ -199,6 +202,6 @@ def _resolve(
 
 
 def named(dofs: DofMap, unknown: int) -> str:
-    """Name an unknown in messages."""
+    """Return the name of an unknown in messages."""
     node, dof = dofs.name(unknown)
     return f"node {node}, dof {dof}"

@@ -45,7 +45,7 @@ class HeldFollowers:
 
     @property
     def redundant(self) -> NDArray[np.bool_]:
-        """(m,) whether an equation is redundant."""
+        """Mask (m,) of the redundant equations."""
         found: NDArray[np.bool_] = self.eliminated < 0
         return found
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Elements whose forces are linear in the displacements: called once, then their matrices stand for them."""
+"""Elements whose forces are linear in the displacements: they are called once, then replaced by their matrices."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class LinearElements:
     """
 
     def __init__(self, blocks: Sequence[ElementBlock], entries: int) -> None:
-        """Blocks of the system in any order; entries of its matrix."""
+        """Select the linear blocks of the system, in any order; entries: of its matrix."""
         self._blocks = [block for block in blocks if block.linear and block.matrix_entries <= MOST_ENTRIES]
         self._matrices: dict[int, FloatArray] = {}
         self._data = np.zeros(entries)
@@ -51,7 +51,7 @@ class LinearElements:
         self._unread: Behind | None = None
 
     def applies(self, call: Call, motion: Motion | None, nrhs: int) -> bool:
-        """Whether the matrices stand for the elements in a pass, once they are known.
+        """Return whether a pass may use the matrices in place of the elements, once they are known.
 
         Parameters
         ----------
@@ -79,7 +79,9 @@ class LinearElements:
     def learn(
         self, block: ElementBlock, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, data: FloatArray
     ) -> BlockReport:
-        """A normal pass over a block that keeps its matrices; arguments and result as in `ElementBlock.evaluate`."""
+        """Run a normal pass over a block, and keep its matrices if its forces are linear;
+        arguments and result as in `ElementBlock.evaluate`.
+        """
         report, matrices = block.evaluate_apart(call, u, du, residual)
         block.add_matrices(matrices, data)
         if id(block) in self._matrices:
@@ -93,14 +95,14 @@ class LinearElements:
         return report
 
     def rebind(self, entries: int) -> None:
-        """Take over a new pattern with that many entries."""
+        """Add the stored matrices into a new pattern with this number of entries."""
         self._data = np.zeros(entries)
         for block in self._blocks:
             if id(block) in self._matrices:
                 block.add_matrices(self._matrices[id(block)], self._data)
 
     def relearn(self, call: Call, u: FloatArray) -> None:
-        """Learn the matrices in the state at the end of an increment, if they apply to the call; states stay."""
+        """Compute the matrices in the state at the end of an increment, if they apply to the call; states stay."""
         if not self.applies(call, None, 1):
             return
         for block in self._blocks:
@@ -116,12 +118,13 @@ class LinearElements:
         np.copyto(data, self._data)
 
     def passed(self, call: Call, u: FloatArray, du: FloatArray, *, spared: bool) -> None:
-        """End of a pass over all elements; spared: the linear ones were not called."""
+        """Record the end of a pass over all elements; spared: the linear ones were not called."""
         if call.flags.request is Request.NORMAL:
             self._behind = Behind(call, u.copy(), du.copy()) if spared else None
 
     def catch_up(self) -> FloatArray:
-        """End of an increment: call the elements that cannot wait; returns their ENERGY (8,), which the pass lacks.
+        """Call the elements that cannot wait at the end of an increment, and return their ENERGY (8,),
+        which the pass lacks.
 
         Raises
         ------
@@ -145,7 +148,7 @@ class LinearElements:
         return energy
 
     def waits(self, block: ElementBlock) -> bool:
-        """Whether the state of a block is older than the end of the last increment."""
+        """Return whether the state of a block is older than the end of the last increment."""
         return self._unread is not None and block.can_wait and block in self
 
     def bring_up(self) -> None:

@@ -104,7 +104,7 @@ class System:
         spare_linear: bool = False,
         ranks: Ranks = ALONE,
     ) -> None:
-        """Blocks of a model with this mesh, these constraints, contact pairs and distributing couplings.
+        """Assemble blocks of a model with this mesh, these constraints, contact pairs and distributing couplings.
 
         This rank keeps a part of the elements.
 
@@ -135,7 +135,7 @@ class System:
             block.keep(np.flatnonzero(found == self.ranks.rank))
 
     def _bind(self) -> None:
-        """Make the pattern, in new arrays, and tell all blocks where they are in it."""
+        """Build the pattern, in new arrays, and bind all blocks to it."""
         bound: tuple[ElementBlock | DistributingBlock, ...] = (*self._of_elements, *self.coupled)
         numbers = [self.dofs.equations_of(block) for block in bound]
         couplings = [pair.couplings() for pair in self.contacts]
@@ -200,7 +200,7 @@ class System:
     def _evaluate_own(
         self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool, nrhs: int, motion: Motion | None
     ) -> Evaluation:
-        """Sums over the elements of this rank; arguments and errors as those of `evaluate`."""
+        """Sum over the elements of this rank; arguments and errors as in `evaluate`."""
         columns = np.zeros((nrhs, len(self.dofs)))
         tracked = [pair.track(call, u, du, matrix=matrix) for pair in self.contacts]
         if not all(tracked):
@@ -261,7 +261,7 @@ class System:
         )
 
     def _evaluate_all(self, act: Callable[[], Evaluation], nrhs: int) -> Evaluation:
-        """Sums over the elements of all ranks; act: gives those of this one. The matrix stays a part.
+        """Sum over the elements of all ranks; act: returns the sums of this one. The matrix stays distributed.
 
         The ranks exchange one array, that of the sums, in which each has a place for what is not a sum.
         """
@@ -305,7 +305,7 @@ class System:
         )
 
     def _calling_order(self, error: Exception) -> float:
-        """Position in the model of the element that an error names; infinite if it names none."""
+        """Return the position in the model of the element that an error names; infinite if it names none."""
         if isinstance(error, ElementError):
             for block in self.blocks:
                 found = np.flatnonzero(block.group.labels == error.element)
@@ -314,7 +314,7 @@ class System:
         return math.inf
 
     def artificial_mass(self, call: Call) -> FloatArray:
-        """Mass of the built-in elements that have one, for unit density.
+        """Return the mass of the built-in elements that have an artificial one, for unit density.
 
         Parameters
         ----------
@@ -332,7 +332,7 @@ class System:
         return data
 
     def stress_matrix(self, call: Call, u: FloatArray, added: FloatArray | None = None) -> FloatArray:
-        """Initial stress matrix: what stresses add to the stiffness as they turn with the material.
+        """Return the initial stress matrix: the stiffness of stresses that turn with the material.
 
         Parameters
         ----------
@@ -360,7 +360,7 @@ class System:
         return data
 
     def commit(self) -> None:
-        """End of a converged increment: the state of the last normal pass becomes the committed one.
+        """Commit the state of the last normal pass at the end of a converged increment.
 
         Raises
         ------
@@ -375,7 +375,7 @@ class System:
             self._last.energy[:] += energy
 
     def _commit_own(self) -> FloatArray:
-        """Commit the elements of this rank; returns ENERGY (8,) of those that the last pass spared."""
+        """Commit the elements of this rank, and return ENERGY (8,) of those that the last pass spared."""
         energy = self._linear.catch_up()
         for block in (*self.blocks, *self.loaded):
             if not self._linear.waits(block):
@@ -385,13 +385,13 @@ class System:
         return energy
 
     def viscous_change(self) -> float:
-        """Largest change of a viscous strain rate in the increment times its length, by the last pass."""
+        """Return the largest change of a viscous strain rate in the increment times its length, by the last pass."""
         return float(
             self.ranks.largest(np.array([max((block.viscous_change for block in self.blocks), default=0.0)]))[0]
         )
 
     def states(self) -> States:
-        """Committed states of all elements.
+        """Return the committed states of all elements.
 
         Returns
         -------
@@ -406,12 +406,12 @@ class System:
         return self.share_states()
 
     def _read_state(self, index: int) -> ElementState | None:
-        """Of one block, without a call of its elements; None if that does not do."""
+        """Return the state of one block, or None if it takes a call of the elements or other ranks to read it."""
         block = self.blocks[index]
         return None if self.ranks.size > 1 or self._linear.waits(block) else block.state(index)
 
     def share_states(self) -> tuple[ElementState, ...]:
-        """What rank 0 asks of all ranks when it reads the states: gives it those of this one. Raises KernelError."""
+        """Collect the states of all ranks; rank 0 asks the others to do so when it reads them. Raises KernelError."""
         self.ranks.agree(self._linear.bring_up, self._calling_order)
         own = [(block.rows, block.state(k)) for k, block in enumerate(self.blocks)]
         if self.ranks.size == 1:
@@ -419,7 +419,8 @@ class System:
         return tuple(map(_joined, zip(*self.ranks.collect(own), strict=True)))
 
     def contact_fields(self) -> dict[str, FloatArray]:
-        """Contact variables (nodes,) by Abaqus name at the end of the increment, NaN at nodes that are in no point.
+        """Return contact variables (nodes,) by Abaqus name at the end of the increment,
+        NaN at nodes without a contact point.
 
         A node of several pairs has those of the one where its clearance is smallest.
         """
@@ -446,7 +447,7 @@ class System:
         return found
 
     def kept(self) -> Saved:
-        """Committed states of all elements and of loads on their faces, not copied. Raises KernelError."""
+        """Return the committed states of all elements and of loads on their faces, not copied. Raises KernelError."""
         self._linear.bring_up()
         return {
             "blocks": [block.kept() for block in self.blocks],
@@ -457,7 +458,7 @@ class System:
         }
 
     def resume(self, saved: Saved) -> None:
-        """Begin with what `kept` returned. Raises ValueError if it is not of these elements."""
+        """Restore the state that `kept` returned. Raises ValueError if it is not of these elements."""
         if len(saved["blocks"]) != len(self.blocks):
             raise ValueError("groups of elements")
         if len(saved["contacts"]) != len(self.contacts):
@@ -478,7 +479,7 @@ class System:
                     face.resume_some(elements, own)
 
     def relearn(self, call: Call, u: FloatArray, saved: Saved) -> None:
-        """Learn the matrices of linear elements again, if the system had when `saved` was kept.
+        """Compute the matrices of linear elements if the system had them when `saved` was kept.
 
         Parameters
         ----------
@@ -500,7 +501,7 @@ class System:
         return [block for block in self.loaded if isinstance(block, FollowerBlock)]
 
     def product(self, data: FloatArray, vector: FloatArray) -> FloatArray:
-        """K x, with the parts of K of all ranks.
+        """Compute K x, with the parts of K of all ranks.
 
         Parameters
         ----------
@@ -517,7 +518,7 @@ class System:
         return self.ranks.sum(np.asarray(self.matrix(data) @ vector))
 
     def matrix(self, data: FloatArray | ComplexArray) -> sparse.csr_array:
-        """The matrix with the given CSR values, on several ranks the part of this one's elements.
+        """Return the matrix with these CSR values, on several ranks the part of this one's elements.
 
         Parameters
         ----------
@@ -533,7 +534,7 @@ class System:
 
 
 def _joined(parts: tuple[tuple[IntArray, ElementState], ...]) -> ElementState:
-    """State of a group from those of its elements on each rank, with their rows in the group."""
+    """Join the states of a group on each rank, which come with their rows in the group."""
     rows = np.argsort(np.concatenate([rows for rows, _ in parts]))
     state = parts[0][1]
     svars, energy = (np.concatenate(one)[rows] for one in zip(*((s.svars, s.energy) for _, s in parts), strict=True))
@@ -541,7 +542,7 @@ def _joined(parts: tuple[tuple[IntArray, ElementState], ...]) -> ElementState:
 
 
 def build_pattern(n: int, numbers: Sequence[NDArray[np.int32]]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Sparsity of the assembled matrix.
+    """Build the sparsity pattern of the assembled matrix.
 
     numbers holds, per block, the (m, k) unknowns of its elements. Returns row starts and columns.
     """

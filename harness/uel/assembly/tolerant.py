@@ -22,7 +22,7 @@ class TolerantSystem(System):
     """A system whose elements may read outside their arrays: if that makes NaN, they read zeros from then on."""
 
     def __init__(self, model: Model, library: Library, linear: Collection[str] = (), ranks: Ranks = ALONE) -> None:
-        """Blocks of all elements of a model; linear: types of user elements that the user says are linear."""
+        """Build the blocks of all elements of a model; linear: types of user elements that the user says are linear."""
         blocks = build_blocks(model, library, strict=False, zeros=True, linear=linear)
         contacts = contact_blocks(model, blocks)
         coupled = distributing_blocks(model, blocks, sum(len(pair.rows) for pair in contacts))
@@ -31,7 +31,7 @@ class TolerantSystem(System):
         self._tolerated = False
 
     def evaluate(self, call: Call, u: FloatArray, du: FloatArray, **options: Any) -> Evaluation:
-        """As that of a system; reads outside arrays give a warning, once.
+        """Evaluate as a system does; reads outside arrays give a warning, once.
 
         After the warning guards hold values that are as good as zero, until the `guard_values` around the run ends.
 
@@ -67,7 +67,7 @@ class TolerantSystem(System):
         return super().evaluate(call, u, du, **options)
 
     def _read_outside(self, call: Call, u: FloatArray, du: FloatArray, options: dict[str, Any]) -> tuple[str, ...]:
-        """The array outside which zero in place of NaN lets the pass succeed; all of them if several do."""
+        """Return the array outside which zero in place of NaN lets the pass succeed; all of them if several do."""
         for names in (*((name,) for name in ARRAYS), ARRAYS):
             with guard_values(dict.fromkeys(names, AS_GOOD_AS_ZERO)), suppress(NotFiniteError):
                 super().evaluate(call, u, du, **options)

@@ -39,7 +39,7 @@ class TurningConstraints(Constraints):
         arms: Sequence[Arm],
         start: FloatArray | None = None,
     ) -> None:
-        """Arguments as of `Constraints`, and those of `Arms`; start: zero by default.
+        """Prepare the constraints; arguments as in `Constraints`, and those of `Arms`; start: zero by default.
 
         Raises DeckError, also if nodes of arms have other constraints.
         """
@@ -64,7 +64,7 @@ class TurningConstraints(Constraints):
         self.follow(start, np.zeros(n))
 
     def _find_pattern(self) -> None:
-        """As of `Constraints`, with the entries of T and P that change."""
+        """Do the symbolic work as `Constraints` does, and find the entries of T and P that change."""
         super()._find_pattern()
         if not self.arms:
             # T is not complete yet
@@ -85,17 +85,19 @@ class TurningConstraints(Constraints):
     def matches(
         self, prescribed: IntArray, equations: Sequence[Equation], arms: Sequence[Arm], start: FloatArray
     ) -> bool:
-        """As of `Constraints`, if they would be built alike at the start: so that a restart of the step builds them."""
+        """Return whether these constraints serve, as in `Constraints`, and would be built alike at the start: so that a
+        restart of the step builds the same.
+        """
         return super().matches(prescribed, equations, arms, start) and self._turning.suit(start)
 
     def place(self, start: FloatArray, increment: FloatArray) -> FloatArray:
-        """With the arms at their finite rotations."""
+        """Return an increment (n,) with the arms at their finite rotations."""
         return self._turning.place(start, increment)
 
     def follow(
         self, u: FloatArray, residual: FloatArray, increment: FloatArray | None = None, weight: float = 1.0
     ) -> None:
-        """As of `Constraints`."""
+        """Update T, P and their tangent, see `Constraints.follow`."""
         self._follow_pattern()
         assert self._t is not None
         self._acting = u if increment is None else u - (1.0 - weight) * increment
@@ -108,7 +110,9 @@ class TurningConstraints(Constraints):
         self._curvature = weight * self._turning.curvature(self._acting, residual, slopes)[self._curved[0]]
 
     def inertia(self, mass: sparse.csr_array) -> sparse.csr_array:
-        """As of `Constraints`: the part between nodes that follow, also without an arm, and reference nodes."""
+        """Return the part of the mass between reference nodes and dependent nodes, also those without an arm;
+        see `Constraints.inertia`.
+        """
         moving = np.zeros(mass.shape[0])
         moving[np.unique(self._of_bodies()[0].indices)] = 1.0
         chosen = sparse.dia_array((moving[None, :], [0]), shape=mass.shape)
@@ -117,7 +121,9 @@ class TurningConstraints(Constraints):
         return found
 
     def tangential(self, velocity: FloatArray, inertia: sparse.csr_array) -> FloatArray:
-        """As of `Constraints`, each body by itself: what consistent masses couple between bodies is left out."""
+        """Return velocities as `Constraints.tangential`, each body by itself:
+        consistent masses between bodies are left out.
+        """
         following = self.along(velocity)
         moving, columns, body, own = self._of_bodies()
         units = self._turning.units
@@ -139,7 +145,7 @@ class TurningConstraints(Constraints):
         return found
 
     def _of_bodies(self) -> tuple[sparse.csc_array, IntArray, IntArray, IntArray]:
-        """Columns of (T P) that move bodies, which ones they are, and row and column of each in `units`.
+        """Return the columns of (T P) that move bodies, their numbers, and row and column of each in `units`.
 
         Those of prescribed rotations count: the velocities that an integration gives them and nodes on arms differ by
         the error of chords for arcs. Those of prescribed displacements do not, of which the others are sums.
@@ -154,7 +160,9 @@ class TurningConstraints(Constraints):
         return both[:, columns[body, own]], columns[body, own], body, own
 
     def convective(self, u: FloatArray, velocity: FloatArray) -> FloatArray:
-        """As of `Constraints`: centripetal, by central differences of T and P; these are those of u afterwards."""
+        """Compute centripetal accelerations, by central differences of T and P, which are those of u afterwards;
+        see `Constraints.convective`.
+        """
         zero = np.zeros_like(u)
         spin = float(np.abs(velocity[self._turning.rotations]).max(initial=0.0))
         if not spin:
@@ -168,34 +176,34 @@ class TurningConstraints(Constraints):
         return np.asarray((ahead - behind) / (2.0 * time))
 
     def reduce_tangent(self, data: FloatArray) -> FloatArray:
-        """As of `Constraints`."""
+        """Reduce a tangent and add the stiffness of the arms, see `Constraints.reduce_tangent`."""
         reduced = self.reduce(data)
         np.add.at(reduced, self._curved[1], self._curvature)
         return reduced
 
     def refuse_unbalanced(self, residual: FloatArray) -> None:
-        """As of `Constraints`."""
+        """Refuse moments that nothing balances, see `Constraints.refuse_unbalanced`."""
         self._turning.refuse_idle_moments(self._acting, residual)
 
     @property
     def overconstraints(self) -> list[tuple[int, Source]]:
-        """As of `Constraints`, with prescribed displacements of nodes that follow."""
+        """Overconstraints, see `Constraints`, with prescribed displacements of nodes on arms."""
         return super().overconstraints + self._turning.redundant
 
     def _excesses(self, u: FloatArray) -> list[float]:
-        """As of `Constraints`."""
+        """Return the errors of the redundant equations, then those of the arms."""
         own: list[float] = self._turning.excesses(u).tolist()
         return super()._excesses(u) + own
 
     def _set(self, by_reference: FloatArray) -> None:
-        """Set what T and P have of the arms: their `levers` or `slopes`."""
+        """Set the entries of T and P that arms determine, from their `levers` or `slopes`."""
         assert self._t is not None
         chosen = self._turning.coefficients(by_reference)[self._chosen]
         for matrix, (own, places) in ((self._t, self._of_free), (self._p, self._of_prescribed)):
             matrix.data[places] = chosen[own]
 
     def _find_curved(self) -> tuple[tuple[IntArray, ...], IntArray]:
-        """Pairs of unknowns of a reference node with a stiffness of arms: in `Arms.curvature`, and in T^T K T."""
+        """Find pairs of unknowns of a reference node with a stiffness of arms: in `Arms.curvature`, and in T^T K T."""
         number = np.full(len(self._system) + 1, -1)
         number[self.free] = np.arange(len(self.free))
         turns = number[self._turning.curved]
@@ -209,7 +217,7 @@ class TurningConstraints(Constraints):
 def _with_entries(
     matrix: sparse.csr_array, chosen: IntArray, rows: IntArray, columns: IntArray
 ) -> tuple[sparse.csr_array, tuple[IntArray, IntArray]]:
-    """A matrix with entries of unknowns (rows, columns), of which it has the columns `chosen`.
+    """Return a matrix of columns `chosen` with entries of unknowns (rows, columns) added to its pattern.
 
     Also returns which of the entries it has, and where.
     """
