@@ -47,13 +47,13 @@ class EndedError(UelError):
 
 
 Tell = Callable[[str], None]
-"""Gets told now and then what is being done."""
+"""Function that is told now and then what is being done."""
 
 
 def examine_apart(
     deck: Path, user: list[Path], *, call_limit: float = CALL_LIMIT, tell: Tell | None = None, **options: Any
 ) -> Examination:
-    """As `examine`; if user code ends the process: what was found before, and a failure of the check that ran.
+    """Run `examine` in a separate process; if user code ends it, keep what was found and fail the check that ran.
 
     call_limit: seconds that one call of a user routine may take. Raises UelError, also if no check had begun.
     """
@@ -78,7 +78,7 @@ def call_apart(
     sanitized: bool = False,
     **options: Any,
 ) -> T:
-    """What a function returns in a separate process; it takes `progress`. Raises UelError, and EndedError.
+    """Call a function in a separate process; it takes `progress`. Raises UelError, and EndedError.
 
     sanitized: debug builds have AddressSanitizer, where that is possible.
     """
@@ -113,7 +113,7 @@ def call_apart(
 
 
 def _snapshot(file: Path) -> Snapshot:
-    """How far the process has come."""
+    """Read the progress of the separate process."""
     if not file.exists():
         return Snapshot(Running("its start"))
     snapshot: Snapshot = pickle.loads(file.read_bytes())

@@ -49,7 +49,7 @@ _CORNERS: Final = {
 
 
 def gradient_integrals(points: FloatArray) -> FloatArray | None:
-    """Integrals (nodes, dimensions) of dN/dx over the cell that nodes (nodes, dimensions) in Abaqus' order make.
+    """Return the integrals (nodes, dimensions) of dN/dx over the cell of nodes (nodes, dimensions) in Abaqus' order.
 
     A uniform stress s has the nodal forces of their products with s. None if the nodes make no cell, or a degenerate or
     inverted one.
@@ -78,7 +78,7 @@ def gradient_integrals(points: FloatArray) -> FloatArray | None:
 
 
 def _powers(key: tuple[int, int], *, simplex: bool) -> np.ndarray:
-    """(nodes, dimensions) exponents of the monomials that the shape functions are made of."""
+    """Return exponents (nodes, dimensions) of the monomials that the shape functions are made of."""
     dimensions, nodes = key
     quadratic = key in _EDGES
     every = np.array(list(product(range(3 if quadratic else 2), repeat=dimensions)))
@@ -93,7 +93,7 @@ def _powers(key: tuple[int, int], *, simplex: bool) -> np.ndarray:
 
 
 def _slopes(place: FloatArray, powers: np.ndarray) -> FloatArray:
-    """(monomials, dimensions) derivatives of the monomials at a place."""
+    """Return derivatives (monomials, dimensions) of the monomials at a place."""
     columns = []
     for direction in range(len(place)):
         lower = powers.copy()
@@ -103,7 +103,7 @@ def _slopes(place: FloatArray, powers: np.ndarray) -> FloatArray:
 
 
 def _rule(dimensions: int, *, simplex: bool) -> list[tuple[FloatArray, float]]:
-    """Places and weights of an integration rule; in simplices that of the box that collapses to them."""
+    """Return the places and weights of an integration rule; in simplices that of the box that collapses to them."""
     places, weights = np.polynomial.legendre.leggauss(POINTS)
     rule = []
     for chosen in product(range(POINTS), repeat=dimensions):

@@ -98,7 +98,7 @@ def _clear(file: Path | None, *, shuffle: bool) -> None:
 
 @contextmanager
 def display(*, shown: bool, console: Console | None = None) -> Iterator[Tell | None]:
-    """A function that shows on a terminal what is being done; None if nothing is to be shown."""
+    """Yield a function that shows the current check on a terminal; None if nothing is to be shown."""
     if not shown:
         yield None
         return
@@ -116,7 +116,7 @@ def tell_order(
 
 
 def deck_and_user(files: list[Path], user: list[Path]) -> tuple[Path, list[Path]]:
-    """Which of the files is the deck and which are the user's. Raises UelError."""
+    """Separate the deck from the user's files. Raises UelError."""
     decks = [file for file in files if file.suffix.lower() == ".inp"]
     others = [file for file in files if file not in decks] + user
     if len(decks) != 1:

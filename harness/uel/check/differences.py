@@ -17,12 +17,12 @@ STEPS: Final = 10.0 ** np.arange(-2, -9, -1)
 """Steps of the differences, over the scale of an unknown."""
 
 KINK: Final = 1e-3
-"""Of the largest entry of a column: forward and backward differences that differ by more belong to two branches."""
+"""Limit relative to the largest entry of a column: forward and backward differences further apart span two branches."""
 
 
 @dataclass(frozen=True, slots=True)
 class Differences:
-    """-dRHS/dU by central differences.
+    """Differences: -dRHS/dU by central differences.
 
     matrix  (n, n), column j by unknown j
     error   (n, n) estimate of its error, from another step
@@ -49,7 +49,7 @@ def differences(state: ElementState, scales: FloatArray) -> Differences:
 def _column(
     state: ElementState, here: FloatArray, column: int, scale: float
 ) -> tuple[FloatArray, FloatArray, bool] | None:
-    """The column with the smallest error, of several steps."""
+    """Compute the column with several steps and return the one with the smallest error."""
     best, least, before = None, np.inf, None
     shift = np.zeros(len(state.u))
     for step in scale * STEPS:

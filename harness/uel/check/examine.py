@@ -45,7 +45,7 @@ class TypeReport:
 
     @property
     def conclusion(self) -> Conclusion:
-        """Failed if any check failed; passed if, of the checks made, one that judges forces applied."""
+        """Conclusion: failed if any check failed; passed if, of the checks made, one that judges forces applied."""
         verdicts = {name: finding.verdict for name, finding in self.findings.items()}
         if Verdict.FAILED in verdicts.values():
             return Conclusion.FAILED
@@ -59,7 +59,7 @@ class TypeReport:
 
     @property
     def unseen(self) -> str:
-        """Why nothing was looked at, as a sentence; '' if something was."""
+        """Reason why nothing was looked at, as a sentence; '' if something was."""
         if self.conclusion is not Conclusion.NOTHING:
             return ""
         reasons = [
@@ -86,14 +86,14 @@ class Examination:
 
     @property
     def conclusion(self) -> Conclusion:
-        """The worst of all types: a failure, then one of which nothing was looked at."""
+        """Worst conclusion of all types: a failure, then one of which nothing was looked at."""
         found = {report.conclusion for report in self.types}
         worst = Conclusion.FAILED, Conclusion.NOTHING, Conclusion.PASSED
         return next((one for one in worst if one in found), Conclusion.NOTHING)
 
     @property
     def passed(self) -> bool:
-        """No check failed, and every type was looked at."""
+        """True if no check failed, and every type was looked at."""
         return self.conclusion is Conclusion.PASSED
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a check found."""
+"""Result of a check."""
 
 from __future__ import annotations
 
@@ -44,12 +44,12 @@ class Finding:
 
 
 def passed(message: str, figure: float | None = None, limit: float | None = None) -> Finding:
-    """All is well; parameters are entries of `Finding`."""
+    """Return the finding that all is well; parameters are entries of `Finding`."""
     return Finding(Verdict.PASSED, message, figure, limit)
 
 
 def not_applicable(reason: str) -> Finding:
-    """The check says nothing about this element; reason: why, and with which deck it would."""
+    """Return the finding of a check that does not apply; reason: why, and with which deck it would."""
     return Finding(Verdict.NOT_APPLICABLE, reason)
 
 
@@ -61,5 +61,5 @@ def failed(
     limit: float | None = None,
     entries: tuple[str, ...] = (),
 ) -> Finding:
-    """Something is wrong; parameters are entries of `Finding`."""
+    """Return the finding of a mistake; parameters are entries of `Finding`."""
     return Finding(Verdict.FAILED, message, figure, limit, entries, advice)

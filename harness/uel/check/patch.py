@@ -26,7 +26,7 @@ CORNERS: Final = {(2, 3): 3, (2, 4): 4, (2, 6): 3, (2, 8): 4, (2, 9): 4, (3, 4):
 
 
 def patches_of(model: Model, kind: str, dimensions: int) -> Iterator[tuple[int, list[int]]]:
-    """Corner nodes around which all edges or faces are shared by two elements of a type with the same properties.
+    """Yield corner nodes around which all edges or faces are shared by two elements of a type with equal properties.
 
     Elements of other types on the same nodes, for plotting, do not count. Yields the node and the positions of its
     elements in the model.

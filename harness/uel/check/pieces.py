@@ -27,7 +27,7 @@ def in_pieces(state: ElementState, ends: list[float]) -> Iterator[Returned]:
 
 
 def _part(call: Call, number: int, share: float, left: float) -> Call:
-    """The call of a part of an increment: number from 0, size over that of the increment, what is left after it."""
+    """Return the call of a part of an increment; share: its size over the increment's; left: the share after it."""
     loads, fields, size = call.distributed, call.predefined, call.time_increment
     return replace(
         call,

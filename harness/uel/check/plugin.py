@@ -25,7 +25,7 @@ class CheckFailedError(Exception):
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Options of pytest."""
+    """Add the options to pytest."""
     group = parser.getgroup("uel", "checks of Abaqus user elements")
     group.addoption("--deck", action="append", default=[], metavar="DECK.inp", help="check the user elements of a deck")
     group.addoption("--uel", action="append", default=[], metavar="FILE", help="user routines of --deck")
@@ -46,7 +46,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """A deck of --deck."""
+    """Collect a deck of --deck."""
     if file_path in [Path(deck).resolve() for deck in parent.config.getoption("--deck")]:
         return UelDeck.from_parent(parent, path=file_path)
     return None
@@ -77,7 +77,7 @@ class UelDeck(pytest.File):
 
 
 class UelCheck(pytest.Item):
-    """One check of one element type."""
+    """Test item: a check of an element type."""
 
     def __init__(self, *, report: TypeReport, finding: Finding, **options: object) -> None:
         super().__init__(**options)  # type: ignore[arg-type]
@@ -93,9 +93,9 @@ class UelCheck(pytest.Item):
             raise CheckFailedError(f"{finding.message}\n{finding.advice}")
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: object = None) -> str:
-        """The finding without a traceback."""
+        """Return the finding without a traceback."""
         return str(excinfo.value)
 
     def reportinfo(self) -> tuple[Path, int | None, str]:
-        """Head of a failure."""
+        """Return the head of a failure."""
         return self.path, None, f"{self.path.name}: {self.name}, elements: {self._report.elements}"

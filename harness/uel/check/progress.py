@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is being checked at the moment, for messages in case it ends the process."""
+"""Progress of the checks: the one that runs, for messages in case it ends the process."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ class Running:
 
 
 Progress = Callable[[Running, Any], None]
-"""Gets told what begins, and what has been found until then."""
+"""Function that is told what begins, and what has been found until then."""
 
 
 def untold(running: Running, outcome: Any) -> None:
-    """Nobody wants to know."""
+    """Ignore the progress: nobody asks for it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Snapshot:
-    """How far a process has come.
+    """Progress of a process.
 
     running   what it was doing; None at its end
     outcome   result, or what had been found until then

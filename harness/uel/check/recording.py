@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the elements of a deck are called with: the passes of an ordinary run, kept so that they can be repeated."""
+"""Recording: the passes of an ordinary run, kept so that the calls of its elements can be repeated."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ from uel.usersub import Library, names_line, trap
 
 @dataclass(frozen=True, slots=True)
 class Pass:
-    """One call of all elements: U, DU, V and A (n,) of the system, whether AMATRX was wanted, and NRHS."""
+    """Pass over all elements: U, DU, V and A (n,) of the system, whether AMATRX was wanted, and NRHS."""
 
     call: Call
     u: FloatArray
@@ -50,7 +50,7 @@ class Pass:
 
     @property
     def normal(self) -> bool:
-        """Whether it asks for RHS and AMATRX of an iteration of a general step; in a linear one RHS is a change."""
+        """True if it asks for RHS and AMATRX of an iteration of a general step; in a linear one RHS is a change."""
         return self.call.flags.request is Request.NORMAL and not self.call.flags.linear and self.matrix
 
 
@@ -76,7 +76,7 @@ Event = Pass | Commit | External
 
 @dataclass(frozen=True, slots=True)
 class Build:
-    """How the user's files are compiled, see `usersub.load`."""
+    """Options for compiling the user's files, see `usersub.load`."""
 
     zero_locals: bool = False
     debug: bool = False
@@ -115,7 +115,7 @@ class Recording:
 
 @contextmanager
 def opened(model: Model, user: Sequence[Path], build: Build = _ORDINARY) -> Iterator[Library]:
-    """The user routines, freshly loaded; what they print goes to a folder that is removed.
+    """Load the user routines afresh; what they print goes to a folder that is removed.
 
     An error inside gets notes of what the deck and the compilers warned of before.
     """
@@ -139,7 +139,7 @@ def opened(model: Model, user: Sequence[Path], build: Build = _ORDINARY) -> Iter
 
 
 def record_leniently(deck: Path, user: Sequence[Path], increments: int) -> Recording:
-    """As `record`, not strict; repeated with zero in local variables without a value if these make NaN."""
+    """Call `record`, not strict; repeat it with zero in local variables without a value if these make NaN."""
     recording, error = None, None
     try:
         recording = record(deck, user, increments, strict=False)
@@ -161,7 +161,7 @@ def record_leniently(deck: Path, user: Sequence[Path], increments: int) -> Recor
 
 
 def _with_place(error: ElementError, deck: Path, user: Sequence[Path], increments: int) -> ElementError:
-    """The error with file and line, if a build that stops at the first mistake tells them."""
+    """Add file and line to the error, if a build that stops at the first mistake tells them."""
     if names_line(str(error)):
         return error
     told = ""
@@ -220,7 +220,7 @@ def record(
 
 
 def _general(events: Sequence[Event]) -> Pass:
-    """A static call in the state of the last call, for decks whose steps are linear perturbations."""
+    """Return a static call in the state of the last call, for decks whose steps are linear perturbations."""
     last = [event for event in events if isinstance(event, Pass)][-1]
     call = replace(last.call, flags=Flags(Static().lflag, last.call.flags.nlgeom))
     return replace(last, call=call, matrix=True, du=np.zeros_like(last.du), nrhs=1)
@@ -259,7 +259,7 @@ class _RecordedSystem(System):
 
 
 class _RecordedRoutines:
-    """Keeps the calls of user routines that a procedure makes."""
+    """Keeper of the calls of user routines that a procedure makes."""
 
     def __init__(self, library: Library, events: list[Event]) -> None:
         self.sdvini, self.sigini, self.orient = library.sdvini, library.sigini, library.orient

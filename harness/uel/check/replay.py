@@ -19,17 +19,17 @@ from uel.procedures import set_initial_states
 from uel.usersub import Library
 
 Order = Callable[[int], IntArray]
-"""From the number of elements to their positions (in Abaqus' order) in calling order; called for every pass."""
+"""Function from the number of elements to their positions (in Abaqus' order) in calling order, called in every pass."""
 
 
 def abaqus_order(count: int) -> IntArray:
-    """Ascending element numbers, as Abaqus calls user elements on one thread."""
+    """Return ascending element numbers, as Abaqus calls user elements on one thread."""
     return np.arange(count)
 
 
 @dataclass(frozen=True, slots=True)
 class Results:
-    """What the elements returned in one pass.
+    """Results of the elements in one pass.
 
     values    RHS, AMATRX, SVARS, ENERGY and PNEWDT of all elements, one after the other; see Elements.entry
     called    (elements,) whether the element has been called
@@ -69,7 +69,7 @@ class Elements:
         return len(self.singles)
 
     def entry(self, position: int, index: int) -> str:
-        """Name of an entry of Results.values of an element, counted from its first: 'RHS(3)', 'AMATRX(1,2)'."""
+        """Name an entry of Results.values of an element, counted from its first: 'RHS(3)', 'AMATRX(1,2)'."""
         n, svars = self._lengths(position)
         return entry(index, n, self._columns, svars)
 
@@ -83,12 +83,12 @@ class Elements:
         values[self.starts[position] : self.starts[position + 1]] = returned.flat(self._columns)
 
     def _lengths(self, position: int) -> tuple[int, int]:
-        """Unknowns and SVARS of an element."""
+        """Return the unknowns and SVARS of an element."""
         block = self.singles[position].block
         return len(block.unknowns), block.trial(0).svars.shape[1]
 
     def commit(self) -> None:
-        """End of a converged increment."""
+        """Commit the state at the end of a converged increment."""
         for single in self.singles:
             single.block.commit()
 

@@ -21,7 +21,7 @@ _STYLES: Final = {Verdict.PASSED: "green", Verdict.FAILED: "bold red", Verdict.N
 
 
 def table(outcome: Examination) -> Group:
-    """For each element type a table and what to change; then how the run ended, and warnings about the deck."""
+    """Make a table for each element type, with what to change; then how the run ended, and warnings about the deck."""
     parts: list[Table | Text] = []
     for report in outcome.types:
         title = f"{outcome.deck.name}: {report.type}, elements: {report.elements}, states: {report.states}"
@@ -53,7 +53,7 @@ def _advice(report: TypeReport) -> list[Text]:
 
 
 def as_json(outcome: Examination) -> str:
-    """All findings, for other programs."""
+    """Write all findings as JSON, for other programs."""
     data = {
         "deck": str(outcome.deck),
         "user": [str(file) for file in outcome.user],
@@ -72,5 +72,5 @@ def as_json(outcome: Examination) -> str:
 
 
 def error_as_json(error: UelError) -> str:
-    """Why nothing could be checked, for other programs."""
+    """Write the reason why nothing could be checked as JSON, for other programs."""
     return json.dumps({"conclusion": Conclusion.NOTHING, "passed": False, "error": str(error)}, indent=2) + "\n"

@@ -22,7 +22,7 @@ ROTATIONS: Final = (4, 5, 6)
 """Dofs of rotations."""
 
 ALIKE: Final = 1e-6
-"""Of the forces that the displacements would make one by one: smaller forces cancel."""
+"""Limit relative to the forces that the displacements would cause one by one: smaller forces cancel."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,11 +58,11 @@ class Body:
         return len(points) < len(set(self.local[self.displacement].tolist()))
 
     def translation(self, direction: int) -> FloatArray:
-        """(n,) unit displacement in a direction."""
+        """Return the unit displacement (n,) in a direction."""
         return np.where(self.displacement & (self.axis == direction), 1.0, 0.0)
 
     def small_rotations(self) -> list[FloatArray]:
-        """(n,) displacements of unit rotations about the centre of the nodes, without the terms of second order."""
+        """Return displacements (n,) of unit rotations about the nodes' centre, without second-order terms."""
         arms = self.points - self.points.mean(axis=0)
         found = []
         for number, (i, j) in enumerate(PLANES.get(self.dimensions, ())):
@@ -74,7 +74,7 @@ class Body:
         return found
 
     def rotations(self, angle: float) -> list[tuple[FloatArray, FloatArray]]:
-        """For finite rotations: displacements (n,), and the matrix (n, n) that turns the forces."""
+        """Return displacements (n,) of finite rotations, each with the matrix (n, n) that turns the forces."""
         arms = self.points - self.points.mean(axis=0)
         found = []
         for number, (i, j) in enumerate(PLANES.get(self.dimensions, ())):
@@ -93,7 +93,7 @@ class Body:
 
 
 def uniform_strains(body: Body) -> FloatArray:
-    """(strains, n) displacements of unit strains: normal ones, then engineering shear strains, without rotation."""
+    """Return displacements (strains, n) of unit strains: normal, then engineering shear ones, without rotation."""
     fields = []
     for i, j in [(i, i) for i in range(body.dimensions)] + list(combinations(range(body.dimensions), 2)):
         field = np.zeros(len(body.axis))
@@ -106,7 +106,7 @@ def uniform_strains(body: Body) -> FloatArray:
 
 
 def body_of(subject: Subject, state: ElementState) -> Body | None:
-    """The element of a state as a body; None if fewer than two nodes move in all COORDINATES= directions."""
+    """Return the element of a state as a body; None if fewer than two nodes move in all COORDINATES= directions."""
     points = subject.coordinates(state)
     dofs, local = subject.dofs, subject.local_nodes
     dimensions = points.shape[1]
@@ -122,7 +122,7 @@ def body_of(subject: Subject, state: ElementState) -> Body | None:
 
 
 def _with_own_rotations(subject: Subject, body: Body) -> Body:
-    """A plane body whose nodes also rotate, by a dof of the author's choice (as in Cosserat continua).
+    """Add the nodes' own rotations to a plane body, by a dof of the author's choice (as in Cosserat continua).
 
     That dof is one whose uniform value cancels the forces that a rotation of the displacements makes at rest.
     """
@@ -143,7 +143,7 @@ def _with_own_rotations(subject: Subject, body: Body) -> Body:
 
 
 def makes_inertia(state: ElementState, body: Body) -> bool:
-    """Whether, in a dynamic step, a translation within the increment makes forces without V and A: inertia of DU."""
+    """Report whether a translation in a dynamic increment causes forces without V and A: inertia of DU."""
     if not state.dynamic:
         return False
     here = state.quiet().evaluate(matrix=False).rhs[0]
@@ -157,7 +157,7 @@ def makes_inertia(state: ElementState, body: Body) -> bool:
 
 
 def _elsewhere(state: ElementState, motion: FloatArray) -> tuple[ElementState, ElementState]:
-    """The state of an element that has moved within the increment, and of one that was there from the start."""
+    """Return the state of an element that has moved within the increment, and of one that was there from the start."""
     return state.moved(motion), state.carried(motion)
 
 
@@ -169,7 +169,7 @@ INERTIA: Final = "the element computes inertia from DU, not from A: take a deck 
 
 
 def body_at_rest(subject: Subject) -> tuple[ElementState, Body] | Finding:
-    """The first state without displacements and its body, or the finding that there is none, or inertia of DU."""
+    """Return the first state without displacements and its body, or a finding if there is none, or inertia of DU."""
     state = next(iter(subject.resting), None)
     if state is None:
         return not_applicable(AT_REST)

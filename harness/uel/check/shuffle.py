@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Does an element depend on the calling order?
+"""Dependence of an element on the calling order.
 
 Abaqus calls user elements by ascending number on one thread, and in no fixed order on several threads or processes.
 The calls of a run are repeated with the elements in random order, a new one in every pass, and each element has to
@@ -51,12 +51,12 @@ class TypeVerdict:
 
     @property
     def passed(self) -> bool:
-        """Every call gave the same bits."""
+        """True if every call gave the same bits."""
         return self.refusal is None and not self.different
 
     @property
     def verdict(self) -> str:
-        """The outcome in a few words."""
+        """Outcome in a few words."""
         if self.refusal is not None:
             return "refused, depends on the order"
         if self.different:
@@ -74,7 +74,7 @@ class Shuffled:
 
     @property
     def passed(self) -> bool:
-        """No element depends on the order, and the run converged for all increments asked for."""
+        """True if no element depends on the order, and the run converged for all increments asked for."""
         return self.recording.ending is None and all(kind.passed for kind in self.types)
 
 
@@ -125,7 +125,7 @@ def _compare(
 
 
 def report(outcome: Shuffled) -> Group:
-    """Table of the verdicts, and what to do about failures."""
+    """Return the table of the verdicts, and what to do about failures."""
     recording = outcome.recording
     passes = sum(isinstance(event, Pass) and event.call.flags.request is not Request.MASS for event in recording.events)
     title = f"{recording.model.deck.name}: {ORDERS} random orders (seed {outcome.seed}) against Abaqus' order"
@@ -141,7 +141,7 @@ def report(outcome: Shuffled) -> Group:
 
 
 def advice_on_order(kind: TypeVerdict, *, ours: bool) -> str:
-    """What to change in an element that depends on the order; ours: whether it is one of the project's."""
+    """Advise on an element that depends on the order; ours: whether it is one of the project's."""
     if kind.refusal is None:
         return (
             f"{kind.type}: something outlives a call and is not in SVARS: look for SAVE, COMMON, module variables, and "

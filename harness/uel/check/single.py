@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""One element, called by itself."""
+"""Single element, called by itself."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from uel.model.mesh import full_name
 
 @dataclass(frozen=True, slots=True)
 class Returned:
-    """What one element returned: RHS (NRHS, n), AMATRX (n, n), SVARS, ENERGY (8,), PNEWDT."""
+    """Output of one element: RHS (NRHS, n), AMATRX (n, n), SVARS, ENERGY (8,), PNEWDT."""
 
     rhs: FloatArray
     amatrx: FloatArray
@@ -24,14 +24,14 @@ class Returned:
     pnewdt: float
 
     def flat(self, columns: int) -> FloatArray:
-        """All values one after the other, as `entry` counts them; RHS is padded to this number of columns."""
+        """Return all values one after the other, as `entry` counts them; RHS is padded to this number of columns."""
         missing = np.zeros((columns - len(self.rhs), self.rhs.shape[1]))
         parts = [self.rhs, missing, self.amatrx.T]
         return np.concatenate([part.ravel() for part in parts] + [self.svars, self.energy, [self.pnewdt]])
 
 
 def first_difference(expected: Returned, found: Returned) -> str:
-    """The first entry whose bits differ, as a sentence; '' if there is none."""
+    """Name the first entry whose bits differ, in a sentence; '' if there is none."""
     columns, n = expected.rhs.shape
     values = expected.flat(columns), found.flat(columns)
     unequal = np.flatnonzero(values[0].view(np.int64) != values[1].view(np.int64))
@@ -42,7 +42,7 @@ def first_difference(expected: Returned, found: Returned) -> str:
 
 
 def entry(index: int, n: int, columns: int, svars: int) -> str:
-    """Name of an entry of Returned.flat, counted from 0: 'RHS(3)', 'AMATRX(1,2)'."""
+    """Name an entry of Returned.flat, counted from 0: 'RHS(3)', 'AMATRX(1,2)'."""
     for array, size in (("RHS", columns * n), ("AMATRX", n * n), ("SVARS", svars), ("ENERGY", 8), ("PNEWDT", 1)):
         if index < size or array == "PNEWDT":
             break
@@ -68,13 +68,13 @@ class Single:
 
     @property
     def name(self) -> str:
-        """Its number, or INSTANCE.number."""
+        """Number of the element, or INSTANCE.number."""
         group = self.block.group
         return full_name(group.instance, int(group.labels[0]))
 
     @property
     def svars(self) -> FloatArray:
-        """(nsvars,) at the start of the increment."""
+        """State variables (nsvars,) at the start of the increment."""
         svars: FloatArray = self.block.state(0).svars[0]
         return svars
 
@@ -85,11 +85,11 @@ class Single:
         return energy
 
     def twin(self, *, strict: bool) -> Single:
-        """A copy of the element in the same committed state; calls of it do not affect this one."""
+        """Copy the element in its committed state; calls of the copy do not affect this one."""
         return Single(self.block.split(strict=strict)[0])
 
     def placed(self, coordinates: FloatArray) -> Single:
-        """A copy of the element in the same committed state, with other coordinates (nodes of the model, 3)."""
+        """Copy the element in its committed state, with other coordinates (nodes of the model, 3)."""
         return Single(self.block.split(strict=False, coordinates=coordinates)[0])
 
     def evaluate(

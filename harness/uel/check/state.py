@@ -50,7 +50,7 @@ class ElementState:
         return self.single.evaluate(self.call, self.u, self.du, self.motion, matrix=matrix, nrhs=self.nrhs)
 
     def influence(self, surroundings: AbstractContextManager[None], expected: Returned) -> str:
-        """How surroundings of the call change what it returns, as a sentence; '' if they do not."""
+        """Describe how surroundings of the call change what it returns, in a sentence; '' if they do not."""
         with surroundings:
             try:
                 return first_difference(expected, self.evaluate())
@@ -58,32 +58,32 @@ class ElementState:
                 return str(error)
 
     def moved(self, shift: FloatArray) -> ElementState:
-        """The state with another end of the increment: shift (n,) added to U and DU; in dynamics V and A follow."""
+        """Move the end of the increment: shift (n,) is added to U and DU; in dynamics V and A follow."""
         rates = self._rates()
         motion = Motion(self.motion.velocity + rates[0] * shift, self.motion.acceleration + rates[1] * shift)
         return replace(self, u=self.u + shift, du=self.du + shift, motion=motion)
 
     def moved_on(self, shift: FloatArray) -> ElementState:
-        """A further increment, shift (n,), from the end of this one; the element keeps the state of its start."""
+        """Make a further increment, shift (n,), from the end of this one; the element keeps the state of its start."""
         return replace(self.moved(shift), du=shift)
 
     def carried(self, shift: FloatArray) -> ElementState:
-        """The state of an element that was elsewhere from the start: U + shift (n,)."""
+        """Return the state of an element that was elsewhere from the start: U + shift (n,)."""
         return replace(self, u=self.u + shift)
 
     def part(self, share: float) -> ElementState:
-        """The state at this fraction of the increment of displacements."""
+        """Return the state at this fraction of the increment of displacements."""
         return replace(self, u=self.u - (1.0 - share) * self.du, du=share * self.du)
 
     def settled(self) -> ElementState:
-        """The next increment, in which nothing moves."""
+        """Return the next increment, in which nothing moves."""
         still = replace(self, single=self.single.twin(strict=False))
         still.evaluate()
         still.single.block.commit()
         return replace(still, du=np.zeros_like(self.u))
 
     def later(self) -> ElementState:
-        """The same motion one increment later: in the first one an element may use constants as its state."""
+        """Repeat the motion one increment later: in the first one an element may use constants as its state."""
         call = self.call
         return self.called(
             increment=call.increment + 1,
@@ -92,23 +92,23 @@ class ElementState:
         )
 
     def quiet(self) -> ElementState:
-        """In a dynamic step the state without velocities and accelerations; else the state itself."""
+        """Drop velocities and accelerations in a dynamic step; else return the state itself."""
         if not self.dynamic:
             return self
         zero = Motion(np.zeros(len(self.u)), np.zeros(len(self.u)))
         return replace(self, motion=zero, inertia=False)
 
     def still(self) -> ElementState:
-        """The state at the start of the increment, at rest and without loads on the element."""
+        """Return the state at the start of the increment, at rest and without loads on the element."""
         zero = Motion(np.zeros(len(self.u)), np.zeros(len(self.u)))
         return replace(self.part(0.0), motion=zero).called(distributed=None)
 
     def called(self, **changes: Any) -> ElementState:
-        """The state with changed arguments that all elements share, fields of Call."""
+        """Change arguments that all elements share, fields of Call."""
         return replace(self, call=replace(self.call, **changes))
 
     def asked(self, request: Request) -> ElementState:
-        """The state with another LFLAGS(3)."""
+        """Return the state with another LFLAGS(3)."""
         return replace(self, call=self.call.asking(request))
 
     @property
@@ -117,13 +117,13 @@ class ElementState:
         return self.call.flags.procedure in DYNAMIC
 
     def with_svars(self, svars: FloatArray) -> ElementState:
-        """The state with other state variables (nsvars,) at the start of the increment."""
+        """Return the state with other state variables (nsvars,) at the start of the increment."""
         single = self.single.twin(strict=False)
         single.block.initial.initialise(np.array([0]), svars)
         return replace(self, single=single)
 
     def depends_on(self, chosen: np.ndarray) -> bool:
-        """Whether RHS changes with these state variables (nsvars,) on entry. Raises KernelError."""
+        """Report whether RHS changes with these state variables (nsvars,) on entry. Raises KernelError."""
         expected = self.evaluate(matrix=False).rhs
         for value in CHANGES:
             try:
@@ -135,11 +135,11 @@ class ElementState:
         return False
 
     def strictly(self) -> ElementState:
-        """The state of a copy for which a write outside an array is an error."""
+        """Return the state with a copy of the element for which a write outside an array is an error."""
         return replace(self, single=self.single.twin(strict=True))
 
     def _rates(self) -> tuple[float, float]:
-        """Derivatives of V and A by U."""
+        """Return the derivatives of V and A by U."""
         call = self.call
         if not (self.dynamic and self.inertia and call.time_increment):
             return 0.0, 0.0
@@ -148,7 +148,7 @@ class ElementState:
 
 
 def state_of(single: Single, made: Pass, equations: np.ndarray) -> ElementState:
-    """A call of the run, with a copy of the element as it is now."""
+    """Return a call of the run, with a copy of the element as it is now."""
     call = made.call
     n = len(equations)
     motion = made.motion.at(equations) if made.motion else Motion(np.zeros(n), np.zeros(n))

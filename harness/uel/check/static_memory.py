@@ -25,19 +25,19 @@ _ANY: Final = re.compile(r"^([0-9a-f]+) (?:[0-9a-f]+ )?[A-Za-z] (uel|uelmat)_$",
 
 @dataclass(frozen=True, slots=True)
 class Variable:
-    """One variable: its name as in the user's source, and its place in memory."""
+    """Variable in memory: its name as in the user's source, its address and its size."""
 
     name: str
     address: int
     size: int
 
     def bytes(self) -> NDArray[np.uint8]:
-        """What it holds now, copied."""
+        """Copy its present bytes."""
         return np.frombuffer(ctypes.string_at(self.address, self.size), dtype=np.uint8)
 
 
 def variables_of(library: Library) -> list[Variable] | None:
-    """Variables of a loaded library; None where its symbols cannot be read (nm is missing, or it is stripped)."""
+    """Return the variables of a loaded library; None if its symbols cannot be read (no nm, or it is stripped)."""
     nm = shutil.which("nm")
     if nm is None:
         return None
@@ -58,7 +58,7 @@ def variables_of(library: Library) -> list[Variable] | None:
 
 
 def readable(symbol: str) -> str:
-    """Name of a variable in the user's source from that of gfortran's symbol."""
+    """Return the name of a variable in the user's source from that of gfortran's symbol."""
     if match := re.fullmatch(r"__(\w+)_MOD_(\w+)", symbol):
         return f"{match[2].upper()} of module {match[1].upper()}"
     if match := re.fullmatch(r"(\w+?)\.\d+(?:\.\w+)*", symbol):

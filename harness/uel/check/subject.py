@@ -88,7 +88,7 @@ class Subject:
     _magnitudes: list[FloatArray] = field(default_factory=list)
 
     def differences(self, state: ElementState) -> Differences:
-        """Differences of RHS at a state, made once for each state.
+        """Return the differences of RHS at a state, made once for each state.
 
         Parameters
         ----------
@@ -110,7 +110,7 @@ class Subject:
         return self._differences[id(state)]
 
     def stiffness(self, state: ElementState) -> FloatArray:
-        """Magnitudes of the stiffness: the larger of AMATRX and the differences of RHS, so that either may be wrong.
+        """Return magnitudes of the stiffness: the larger of AMATRX and the differences of RHS, as either may be wrong.
 
         Without inertia these are the differences, because AMATRX of a dynamic step includes mass. Else they are at
         least a fraction of those at the other states, so that rounding does not count where an element yields.
@@ -138,18 +138,18 @@ class Subject:
         return largest
 
     def quiet(self, state: ElementState) -> ElementState:
-        """One of the states without inertia, see `ElementState.quiet`; the same one each time."""
+        """Return one of the states without inertia, see `ElementState.quiet`; the same object each time."""
         return self._quiet.setdefault(id(state), state.quiet())
 
     @property
     def usual_forces(self) -> FloatArray:
-        """(n,) forces that AMATRX makes of the displacements of the run, at its states."""
+        """Forces (n,) that AMATRX makes of the displacements of the run, at its states."""
         forces: FloatArray = self.largest_stiffness @ self.scales
         return forces
 
     @property
     def largest_stiffness(self) -> FloatArray:
-        """(n, n) largest magnitude of each entry of AMATRX at the states of the run. Raises KernelError."""
+        """Largest magnitude (n, n) of each entry of AMATRX at the states of the run. Raises KernelError."""
         if not self._magnitudes:
             self._magnitudes.append(np.max([np.abs(state.evaluate().amatrx) for state in self.states], axis=0))
         return self._magnitudes[0]
@@ -176,7 +176,7 @@ class Subject:
 
     @property
     def all_states(self) -> tuple[ElementState, ...]:
-        """From the run, then random ones."""
+        """States from the run, then random ones."""
         return self.states + self.random
 
     @property
@@ -190,16 +190,16 @@ class Subject:
 
     @property
     def local_nodes(self) -> np.ndarray:
-        """(n,) local node of each unknown, from 0."""
+        """Local node (n,) of each unknown, from 0."""
         return np.array([node for node, _ in self.definition.dofs])
 
     @property
     def dofs(self) -> np.ndarray:
-        """(n,) dof of each unknown, as Abaqus numbers them."""
+        """Dof (n,) of each unknown, as Abaqus numbers them."""
         return np.array([dof for _, dof in self.definition.dofs])
 
     def coordinates(self, state: ElementState) -> FloatArray:
-        """Original coordinates of the nodes of an element.
+        """Return the original coordinates of the nodes of an element.
 
         Parameters
         ----------
@@ -216,13 +216,13 @@ class Subject:
 
     @property
     def advice_is_ours(self) -> bool:
-        """The element is one of the project's."""
+        """True if the element is one of the project's."""
         return not self.recording.user
 
 
 @contextmanager
 def subject_of(recording: Recording, kind: str, order: TypeVerdict, seed: int) -> Iterator[Subject]:
-    """A user element type of a recorded run, with loaded user routines that have just been through the run.
+    """Yield a user element type of a recorded run, with loaded user routines that have just been through the run.
 
     States are left out at which an element cannot be called again because it needs calls of other elements.
     """
@@ -250,7 +250,7 @@ def subject_of(recording: Recording, kind: str, order: TypeVerdict, seed: int) -
 
 
 def _strange(elements: Elements, results: Results, kind: str) -> str:
-    """The first value, returned by an element of a type in a pass, that is not finite; '' if there is none."""
+    """Name the first value, returned by an element of a type in a pass, that is not finite; '' if there is none."""
     if not results.made.normal or np.isfinite(results.values).all():
         return ""
     wrong = np.flatnonzero(~np.isfinite(results.values))
@@ -264,7 +264,7 @@ def _strange(elements: Elements, results: Results, kind: str) -> str:
 
 
 def _patches(recording: Recording, group: ElementGroup, elements: Elements, made: Pass) -> tuple[Patch, ...]:
-    """Some of the nodes that are surrounded by elements of the type."""
+    """Choose some of the nodes that are surrounded by elements of the type."""
     assert group.definition is not None
     found = list(patches_of(recording.model, group.type, group.definition.coordinates))
     if not found:
@@ -277,7 +277,7 @@ def _patches(recording: Recording, group: ElementGroup, elements: Elements, made
 
 
 def _states(elements: Elements, kind: str, made: Pass, last: Pass) -> Iterator[tuple[ElementState, Returned]]:
-    """Of the most deformed element of a type, of others, and of one with a load, with what they return now."""
+    """Yield states of the most deformed element of a type, of others and of a loaded one, with what they return now."""
     positions = np.flatnonzero(elements.types == kind)
     dofs = np.array([dof for _, dof in elements.singles[positions[0]].block.unknowns])
     deformation = [deformations(last.u[elements.equations[position]], dofs).max() for position in positions]
@@ -292,7 +292,7 @@ def _states(elements: Elements, kind: str, made: Pass, last: Pass) -> Iterator[t
 
 
 def _error_of(state: ElementState) -> str:
-    """Why a call ends the analysis; '' if it returns."""
+    """Return the error with which a call ends the analysis; '' if it returns."""
     try:
         state.evaluate()
     except KernelError as error:
@@ -301,12 +301,12 @@ def _error_of(state: ElementState) -> str:
 
 
 def diagonal(coordinates: FloatArray) -> float:
-    """Diagonal of the box around nodes (nodes, dimensions); 1 if all coincide."""
+    """Return the diagonal of the box around nodes (nodes, dimensions); 1 if all coincide."""
     return float(np.linalg.norm(np.ptp(coordinates, axis=0))) or 1.0
 
 
 def deformations(u: FloatArray, dofs: np.ndarray) -> FloatArray:
-    """(n,) for each unknown, by how much the displacements of its dof differ from node to node."""
+    """Return the variation (n,) of the displacements from node to node, for each unknown that of its dof."""
     ranges = {dof: float(np.ptp(u[dofs == dof])) for dof in np.unique(dofs).tolist()}
     return np.array([ranges[dof] for dof in dofs.tolist()])
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which of several equal values a message names: the same one on every processor, whatever the last bits are."""
+"""Ties between equal values: a message names the same one on every processor, whatever the last bits are."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ EQUAL: Final = 1e-6
 
 
 def exceeds(value: float, largest: float) -> bool:
-    """Whether a value exceeds the largest one so far by more than rounding."""
+    """Report whether a value exceeds the largest one so far by more than rounding."""
     return value > (1.0 + EQUAL) * largest
 
 
 def first_largest(values: FloatArray) -> int:
-    """Index, in the flattened array, of the first of the largest values (none of them negative)."""
+    """Return the index, in the flattened array, of the first of the largest values (none of them negative)."""
     flat = values.ravel()
     return int(np.argmax(flat >= (1.0 - EQUAL) * flat.max()))
 
 
 def ranked(values: FloatArray) -> list[int]:
-    """Indices of values (n,), the largest first; equal ones in their order."""
+    """Return the indices of values (n,), the largest first; equal ones in their order."""
     left, found = np.argsort(-values, kind="stable").tolist(), []
     while left:
         same = [index for index in left if values[index] >= (1.0 - EQUAL) * values[left[0]]]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""One check per file; each takes a Subject and returns a Finding."""
+"""Checks of elements, one per file; each takes a Subject and returns a Finding."""
 
 from __future__ import annotations
 

@@ -21,11 +21,11 @@ TRANSIENT: Final = 32, 33, 72, 73
 """LFLAGS(1) of transient heat transfer, uncoupled and coupled."""
 
 TOLERANCE: Final = 1e-6
-"""Of the sum of a capacity matrix: differences of RHS."""
+"""Tolerance of the difference to RHS, relative to the sum of a capacity matrix."""
 
 
 def check_capacity(subject: Subject, state: ElementState) -> Finding | None:
-    """Sums over each dof that is no displacement: one matrix may be lumped and the other consistent.
+    """Compare the sums for each dof that is no displacement: one matrix may be lumped and the other consistent.
 
     None if the element has no such dof, or returns no capacity with LFLAGS(3) = 4.
     """
@@ -52,7 +52,7 @@ def check_capacity(subject: Subject, state: ElementState) -> Finding | None:
 
 
 def _of_rates(subject: Subject, state: ElementState) -> FloatArray:
-    """(n, n) -dRHS/d(DU/DTIME) with the same U."""
+    """Return -dRHS/d(DU/DTIME) (n, n) with the same U."""
     columns = []
     for step in np.diag(subject.scales):
         there, back = (replace(state, du=sign * step).evaluate(matrix=False).rhs[0] for sign in (1.0, -1.0))

@@ -18,14 +18,14 @@ from uel.model.arrays import FloatArray
 from uel.usersub import UNSET, guard_values
 
 TOLERANCE: Final = 1e-9
-"""Of the largest entry."""
+"""Tolerance relative to the largest entry."""
 
 SLOPE: Final = 1e-6
-"""Of the largest entry: central differences with respect to velocities."""
+"""Tolerance of central differences with respect to velocities, relative to the largest entry."""
 
 
 def check_damping(subject: Subject, state: ElementState, moving: ElementState | None, flags: Flags) -> Finding:
-    """The damping matrices in the base state; in a state of *DYNAMIC, if there is one, against velocities."""
+    """Check the damping matrices in the base state, and against velocities in a state of *DYNAMIC, if there is one."""
     stiffness = state.evaluate().amatrx
     viscous, structural = (_matrix(state, flags, kind) for kind in (Damping.VISCOUS, Damping.STRUCTURAL))
     for kind, matrix in ((Damping.VISCOUS, viscous), (Damping.STRUCTURAL, structural)):
@@ -53,7 +53,7 @@ def check_damping(subject: Subject, state: ElementState, moving: ElementState | 
 
 
 def _against_velocities(subject: Subject, state: ElementState, flags: Flags) -> Finding | None:
-    """A finding if the viscous matrix is not what RHS of a dynamic call loses with V, over 1 + alpha."""
+    """Return a finding if the viscous matrix is not -dRHS/dV of a dynamic call over 1 + alpha."""
     viscous = _matrix(state, flags, Damping.VISCOUS)
     slope = _slope(subject, state) / (1.0 + state.call.params[0])
     row, column = np.unravel_index(first_largest(np.abs(viscous - slope)), slope.shape)
@@ -78,14 +78,14 @@ def _agree(one: FloatArray, other: FloatArray) -> bool:
 
 
 def _slope(subject: Subject, state: ElementState) -> FloatArray:
-    """(n, n) -dRHS/dV."""
+    """Return -dRHS/dV (n, n)."""
     steps = subject.scales / max(state.call.time_increment, 1e-300)
     columns = [(_sped(state, -step) - _sped(state, step)) / (2 * step.sum()) for step in np.diag(steps)]
     return np.array(columns).T
 
 
 def _sped(state: ElementState, shift: FloatArray) -> FloatArray:
-    """RHS with other velocities and nothing else changed."""
+    """Return RHS with other velocities and nothing else changed."""
     motion = Motion(state.motion.velocity + shift, state.motion.acceleration)
     column: FloatArray = replace(state, motion=motion).evaluate(matrix=False).rhs[0]
     return column

@@ -22,7 +22,7 @@ PASSES: Final = 8
 """Number of first passes of the run that are repeated, with the elements called in Abaqus' order."""
 
 ROUNDING: Final = 1e-9
-"""Of the largest entry of its kind: difference of two results that has other causes than an uninitialised variable."""
+"""Largest difference with causes other than an uninitialised variable, relative to the largest entry of its kind."""
 
 ADVICE: Final = (
     "It happens in the calls of the run, perhaps without visible harm. `uel run --debug` stops there; in Abaqus it "
@@ -43,7 +43,7 @@ class _Replayed:
 
 
 def check(subject: Subject) -> Finding:
-    """Run-time checks find nothing, and local variables without a value have no effect."""
+    """Check that run-time checks find nothing, and that local variables without a value have no effect."""
     recording = subject.recording
     if not recording.user or not all(map(is_source, recording.user)):
         return not_applicable("there are no user sources to compile")
@@ -64,13 +64,13 @@ def check(subject: Subject) -> Finding:
 
 
 def _first(recording: Recording) -> tuple[Event, ...]:
-    """Events up to the last pass to be repeated."""
+    """Return the events up to the last pass to be repeated."""
     places = [k for k, event in enumerate(recording.events) if isinstance(event, Pass)]
     return recording.events[: places[min(PASSES, len(places)) - 1] + 1]
 
 
 def _replayed(recording: Recording, kind: str, build: Build) -> _Replayed:
-    """The repeated calls of the elements of a type."""
+    """Repeat the calls of the elements of a type."""
     values: list[FloatArray] = []
     names: list[str] = []
     with closing(replay(replace(recording, build=build), abaqus_order, strict=False)) as passes:
@@ -85,7 +85,7 @@ def _replayed(recording: Recording, kind: str, build: Build) -> _Replayed:
 
 
 def _difference(zeros: _Replayed, marked: _Replayed) -> str:
-    """Where the content of uninitialised variables changes results, as a sentence; '' if nowhere."""
+    """Name, in a sentence, a result that uninitialised variables change; '' if there is none."""
     arrays = np.array([name.partition("(")[0] for name in zeros.names])
     magnitudes = np.max([np.nanmax(np.abs(values), axis=0) for values in zeros.values], axis=0)
     scale = np.array([magnitudes[arrays == array].max() for array in arrays])
@@ -100,7 +100,7 @@ def _difference(zeros: _Replayed, marked: _Replayed) -> str:
 
 
 def _line(recording: Recording, kind: str, known: KernelError | None = None) -> str:
-    """Where calculation with NaN begins, as the end of a sentence; '' if the known error has a place."""
+    """Return the line where calculation with NaN begins, to end a sentence; '' if the known error has a place."""
     if known is not None and names_line(str(known)):
         return ""
     trapping = trap(True)

@@ -16,16 +16,16 @@ from uel.check.subject import NOT_MOVING, Subject
 from uel.check.ties import exceeds
 
 SHARES: Final = 1.0, 0.1, 0.01, 0.001
-"""Of the increment: the work is from the trapezoidal rule, which is accurate for small increments."""
+"""Fractions of the increment: the work is from the trapezoidal rule, which is accurate for small increments."""
 
 STEPS: Final = tuple(10.0 ** (-0.5 * k) for k in range(15, -1, -1))
-"""Of a share: a second trapezoidal sum goes by these, for stiff interfaces that are damaged early in it."""
+"""Fractions of a share for a second trapezoidal sum, for stiff interfaces that are damaged early in it."""
 
 TOLERANCE: Final = 1e-2
-"""Of the work."""
+"""Tolerance relative to the work."""
 
 LEAST: Final = 1e-8
-"""Of sum |force| |displacement|: smaller work is rounding."""
+"""Smallest work above rounding, relative to sum |force| |displacement|."""
 
 INSTANT: Final = 1e-6
 """Part of the increment in which nothing happens."""
@@ -47,7 +47,7 @@ ADVICE_ON_TIME: Final = (
 
 
 def check(subject: Subject) -> Finding:
-    """The sum of ENERGY(1) to ENERGY(7) grows by the work of the internal forces."""
+    """Check that the sum of ENERGY(1) to ENERGY(7) grows by the work of the internal forces."""
     reason = _reason_against(subject)
     if reason:
         return not_applicable(reason)
@@ -84,7 +84,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _reason_against(subject: Subject) -> str:
-    """Why work and ENERGY cannot be compared, '' if they can."""
+    """Return the reason why work and ENERGY cannot be compared, '' if they can."""
     states = subject.all_states
     if (subject.dofs > MECHANICAL).any():
         return "dofs other than displacements and rotations, whose work is unknown: it is for mechanical elements"
@@ -98,7 +98,7 @@ def _reason_against(subject: Subject) -> str:
 
 
 def _on_entry(state: ElementState) -> tuple[float, float]:
-    """Energy on entry, and what a call at the start of the increment makes of it: no displacements, nearly no time.
+    """Return the energy on entry, and after a call at the increment's start: no displacements, nearly no time.
 
     An ageing element loses energy with time, and a viscous one turns it into another kind.
     """
@@ -111,7 +111,7 @@ def _on_entry(state: ElementState) -> tuple[float, float]:
 
 
 def _lost(subject: Subject, pairs: list[tuple[float, float]]) -> Finding | None:
-    """A finding if a call in which nothing happens changes the energy."""
+    """Return a finding if a call in which nothing moves changes the energy."""
     rounding = 1e-10 * max(abs(energy) for pair in pairs for energy in pair)
     for state, (entry, start) in zip(subject.states, pairs, strict=True):
         if abs(start - entry) > TOLERANCE * max(abs(start), abs(entry)) + rounding:
@@ -130,8 +130,9 @@ def _depends_on_time(state: ElementState) -> bool:
 
 
 def _stored_and_work(state: ElementState, share: float) -> Iterator[tuple[float, float]]:
-    """Growth of the energy over a part of the increment, and work of the internal forces by two sums; not where both
-    are zero.
+    """Yield the growth of the energy over a part of the increment, and the work of the internal forces by two sums.
+
+    Parts in which both are zero are left out.
     """
     start, end = state.part(0.0).evaluate(), state.part(share).evaluate()
     stored = float(end.energy[STORED].sum() - start.energy[STORED].sum())

@@ -18,8 +18,9 @@ from uel.errors import KernelError
 from uel.model.arrays import FloatArray
 
 GROWTH: Final = 3.0
-"""Of random displacements from increment to increment, from those of the run to the size of the element: an element
-that yields or breaks at some strain does so at one of them."""
+"""Growth factor of random displacements from increment to increment, from those of the run to the size of the element:
+an element that yields or breaks at some strain does so at one of them.
+"""
 
 ENOUGH: Final = 0.1
 """Displacements over the size of the element for which a call has to return without asking for a smaller increment."""
@@ -35,7 +36,7 @@ MORE: Final = 16
 break much later than another."""
 
 REACH: Final = 1000.0
-"""Their largest displacements over those of the first ones: to break, a stiff and strong interface moves far."""
+"""Ratio of their largest displacements to the first paths': to break, a stiff and strong interface moves far."""
 
 MOVES: Final = 3
 """Largest dof that is a displacement."""
@@ -45,7 +46,7 @@ SHOWN: Final = 6
 
 
 def check(subject: Subject) -> Finding:
-    """If RHS depends on state variables, calls write some of them.
+    """Check that calls write some of the state variables on which RHS depends.
 
     Not necessarily all: one that stays the same here may change under other loads.
     """
@@ -79,7 +80,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _judge(states: tuple[ElementState, ...], unwritten: np.ndarray) -> Finding:
-    """Finding for state variables (nsvars,) that none of the calls has written."""
+    """Judge the state variables (nsvars,) that none of the calls has written."""
     if not any(state.depends_on(unwritten) for state in states):
         if any(state.depends_on(~unwritten) for state in states):
             return passed("RHS depends on state variables that are written")
@@ -100,13 +101,13 @@ def _judge(states: tuple[ElementState, ...], unwritten: np.ndarray) -> Finding:
 
 
 def _of_run(subject: Subject) -> Iterator[tuple[ElementState, bool]]:
-    """States of the run with negative zeros, which any sum changes; their displacements are not large."""
+    """Yield states of the run with negative zeros, which any sum changes; their displacements are not large."""
     for state in subject.all_states:
         yield state.with_svars(_negative_zeros(state.single.svars)), False
 
 
 def _paths(subject: Subject, numbers: Iterable[int], reach: float) -> Iterator[tuple[ElementState, bool]]:
-    """States with negative zeros on random paths, and whether displacements are large.
+    """Yield states with negative zeros on random paths, and whether displacements are large.
 
     They are increments of ever larger displacements, up to the size of the element times `reach`, the last of which are
     in a later step.
@@ -127,12 +128,12 @@ def _paths(subject: Subject, numbers: Iterable[int], reach: float) -> Iterator[t
 
 
 def _negative_zeros(svars: FloatArray) -> FloatArray:
-    """-0.0 in place of 0.0."""
+    """Replace 0.0 by -0.0."""
     return np.where(svars == 0.0, -0.0, svars)
 
 
 def _writes(state: ElementState, places: list[int]) -> bool:
-    """Whether a call changes a state variable whose value on entry is far from the usual ones."""
+    """Report whether a call changes a state variable whose value on entry is far from the usual ones."""
     for place, value in product(places, CHANGES):
         given = state.single.svars
         given[place] += value

@@ -18,19 +18,19 @@ PIECES: Final = 1, 2, 8, 16
 """Numbers of parts in which the increment is made."""
 
 CLOSER: Final = 0.75
-"""Of the first difference: if the last one is larger, nothing converges."""
+"""Limit of the last difference relative to the first: above it, nothing converges."""
 
 DYNAMIC: Final = "a dynamic step, whose forces include inertia: take a deck with a static step"
 
 TOLERANCE: Final = 1e-6
-"""Of the largest force: smaller differences count as zero."""
+"""Tolerance relative to the largest force: smaller differences count as zero."""
 
 LATER: Final = 3
 """Number by which KINC is changed."""
 
 
 def check(subject: Subject) -> Finding:
-    """The forces of 16 and of 8 increments differ by less than those of 2 and of one."""
+    """Check that the forces of 16 and 8 increments differ by less than those of 2 and 1."""
     states = [state for state in subject.states if state.du.any() and not state.dynamic and state.call.time_increment]
     if not states:
         moves = any(state.du.any() for state in subject.states)
@@ -62,7 +62,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _depends_on_number(state: ElementState) -> bool:
-    """Whether RHS depends on KINC, apart from the first increment, in which an element may begin."""
+    """Report whether RHS depends on KINC, apart from the first increment, which an element may treat differently."""
     if state.call.increment < 2:
         return False
     later = state.called(increment=state.call.increment + LATER)
@@ -70,7 +70,7 @@ def _depends_on_number(state: ElementState) -> bool:
 
 
 def _in_pieces(state: ElementState, pieces: int) -> FloatArray:
-    """Forces at the end of the increment, made in equal parts from its start."""
+    """Return the forces at the end of the increment, made in equal parts from its start."""
     *_, last = in_pieces(state, [k / pieces for k in range(1, pieces + 1)])
     forces: FloatArray = last.rhs[0]
     return forces

@@ -18,7 +18,7 @@ SCALARS: Final = (
 
 
 def check(subject: Subject) -> Finding:
-    """They have the same values after a call as before."""
+    """Check that the inputs have the same values after a call as before."""
     changes: dict[str, str] = {}
     with watched_inputs() as made:
         for state in subject.states:

@@ -19,7 +19,7 @@ TWICE: Final = 2.0
 
 
 def check(subject: Subject) -> Finding:
-    """RHS changes with the magnitude of each load of type Un that the deck puts on an element."""
+    """Check that RHS changes with the magnitude of each load of type Un that the deck puts on an element."""
     changes: dict[int, bool] = {}
     where: dict[int, ElementState] = {}
     for state in subject.states:
@@ -44,7 +44,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _mine(state: ElementState) -> np.ndarray:
-    """(loads,) True for those on the element of a state that have a magnitude."""
+    """Return the mask (loads,) of the loads on the state's element that have a magnitude."""
     loads = state.call.distributed
     if loads is None:
         return np.zeros(0, dtype=np.bool_)
@@ -53,13 +53,13 @@ def _mine(state: ElementState) -> np.ndarray:
 
 
 def _kinds(state: ElementState) -> list[int]:
-    """Types of these loads."""
+    """Return the types of these loads."""
     loads = state.call.distributed
     return [] if loads is None else sorted(set(loads.kinds[_mine(state)].tolist()))
 
 
 def _changes(state: ElementState, kind: int) -> bool:
-    """Whether RHS depends on loads of a type."""
+    """Report whether RHS depends on loads of a type."""
     loads = state.call.distributed
     assert loads is not None
     # DDLMAG stays: the load is ADLMAG, not its change in this increment

@@ -23,7 +23,7 @@ ADVICE: Final = (
 
 
 def check(subject: Subject) -> Finding:
-    """What the memory of local variables held before a call has no effect."""
+    """Check that leftovers in the memory of local variables have no effect."""
     if error := subject.recording.unset:
         message = (
             f"the deck runs only if local variables without a value are zero, as in the other checks; else {error}"

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What an element leaves unwritten, writes outside its arrays, and reads there."""
+"""Memory checks: output that an element leaves unwritten, and writes and reads outside its arrays."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ OUTSIDE: Final = (
 
 
 def check_filled(subject: Subject) -> Finding:
-    """RHS and AMATRX hold NaN before the call, and no NaN after it."""
+    """Check that RHS and AMATRX hold no NaN after a call before which they held NaN."""
     for state in subject.states:
         with guard_values({UNSET: float("nan")}):
             try:
@@ -60,7 +60,7 @@ def check_filled(subject: Subject) -> Finding:
 
 
 def check_outside(subject: Subject) -> Finding:
-    """Guards around each argument are intact after the call, whatever it asks for."""
+    """Check that the guards around each argument are intact after a call, whatever it asks for."""
     with room(ROOM), writes_outside() as found:
         for state in subject.states:
             for what, called in _requests(state.strictly()):
@@ -79,20 +79,20 @@ def check_outside(subject: Subject) -> Finding:
 
 
 def _requests(state: ElementState) -> Iterator[tuple[str, ElementState]]:
-    """The call itself, then all other requests of Abaqus, each with a description. See no_time.py for KINC = 0."""
+    """Yield the call itself, then all other requests of Abaqus with a description; KINC = 0 is in no_time.py."""
     yield "", state
     for request in REQUESTS:
         yield f" with LFLAGS(3) = {request}", state.asked(request)
 
 
 def _sizes(subject: Subject) -> dict[str, str]:
-    """Sizes of the arrays that do not depend on the unknowns of the element, for messages."""
+    """Return the sizes of the arrays that do not depend on the unknowns of the element, for messages."""
     sizes = {"TIME": 2, "PARAMS": 3, "LFLAGS": 7, "JPROPS": subject.definition.integer_properties}
     return {name: f" of {size}" for name, size in sizes.items()}
 
 
 def check_undeclared(subject: Subject) -> Finding:
-    """What lies beyond the declared ends of an array has no effect."""
+    """Check that memory beyond the declared ends of an array has no effect."""
     for state in subject.states:
         with around({}):
             expected = state.evaluate()
@@ -106,7 +106,7 @@ def check_undeclared(subject: Subject) -> Finding:
 
 
 def _poisons() -> Iterator[tuple[str, AbstractContextManager[None]]]:
-    """Arrays, with what lies around them."""
+    """Yield the arrays, with what lies around them."""
     for array in READ:
         for poison in POISONS:
             yield array, guard_values({array: poison})

@@ -15,13 +15,13 @@ from uel.usersub import writes_outside
 
 
 def check(subject: Subject) -> Finding:
-    """Both with DU = 0: Abaqus makes such calls and ignores their results, but they have to return."""
+    """Check that both calls return, with DU = 0: Abaqus makes such calls and ignores their results."""
     with writes_outside() as outside:
         return _check(subject, outside)
 
 
 def _whole(state: ElementState) -> ElementState:
-    """The state with writes outside arrays as errors; the given state if it makes such a write anyway."""
+    """Return the state with writes outside arrays as errors, or unchanged if it makes such a write anyway."""
     strict = state.strictly()
     try:
         strict.evaluate()

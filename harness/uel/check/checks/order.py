@@ -10,7 +10,7 @@ from uel.check.subject import Subject
 
 
 def check(subject: Subject) -> Finding:
-    """What `uel check --shuffle` says."""
+    """Turn the result of `uel check --shuffle` into a finding."""
     order = subject.order
     if order.passed:
         return passed(f"{order.calls} calls in {ORDERS} random orders return the same bits")

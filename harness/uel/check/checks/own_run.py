@@ -33,7 +33,7 @@ OTHERWISE: Final = "Run the deck with `uel run`: it has to complete before more 
 
 
 def check(subject: Subject) -> Finding:
-    """It converged for all increments asked for, or all that the deck has, and for at least one."""
+    """Check that the run converged in all increments asked for, or all that the deck has, and in at least one."""
     recording = subject.recording
     failure, done = recording.failure or recording.ending, recording.increments
     if failure is None and done:
@@ -54,13 +54,13 @@ def check(subject: Subject) -> Finding:
 
 
 def _concerns(failure: UelError, kind: str, model: Model) -> bool:
-    """Whether elements of a type are to blame; if no user element is, all are."""
+    """Report whether elements of a type are to blame; if no user element is, all are."""
     blamed = _blamed(failure, model) & {group.type for group in model.groups if group.definition is not None}
     return not blamed or kind in blamed
 
 
 def _blamed(failure: UelError, model: Model) -> set[str]:
-    """Type of the element that failed, or types of those at the unconstrained node and dof."""
+    """Return the type of the element that failed, or types of those at the unconstrained node and dof."""
     if isinstance(failure, ElementError):
         return {failure.element_type}
     if not isinstance(failure, SingularMatrixError):

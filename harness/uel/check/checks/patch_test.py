@@ -23,16 +23,16 @@ from uel.check.ties import exceeds
 from uel.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-8
-"""Of the forces that the single elements exert there."""
+"""Tolerance relative to the forces that the single elements exert there."""
 
 RESISTED: Final = 1e-9
-"""Of the largest stiffness: a gradient with a smaller one is not resisted, as along an interface."""
+"""Smallest stiffness relative to the largest: a gradient with less is not resisted, as along an interface."""
 
 SILENT: Final = 1e-9
-"""Of the forces of a gradient: those of a uniform field below this are none."""
+"""Smallest force of a uniform field relative to those of a gradient: less counts as zero."""
 
 GENTLE: Final = 1e-3
-"""Of the size of a scalar field in the run: its terms of third order are below the tolerance."""
+"""Gradient relative to the size of a scalar field in the run: its terms of third order are below the tolerance."""
 
 NO_FIELD: Final = (
     "no displacements or other fields at the nodes of an element with a volume, or fields of which a uniform value has "
@@ -56,7 +56,7 @@ class _Field:
     within: bool
 
     def forces(self, state: ElementState) -> FloatArray:
-        """(n,) RHS of the field, from rest."""
+        """Return RHS (n,) of the field, from rest."""
         still = state.still().quiet()
         if self.within:
             change: FloatArray = still.moved(self.values).evaluate().rhs[0] - still.evaluate().rhs[0]
@@ -68,7 +68,7 @@ class _Field:
 
 
 def check(subject: Subject) -> Finding:
-    """From rest, with every gradient as large as those of the run: at nodes of the deck, or else of single elements."""
+    """Apply each gradient from rest, as large as those of the run, at nodes of the deck, or else to single elements."""
     states = [state for patch in subject.patches for state in patch.states] or list(subject.states)
     if any(state.call.predefined is not None for state in states):
         return not_applicable("predefined fields, which cause forces of their own: take a deck without them")
@@ -79,7 +79,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _at_nodes(subject: Subject) -> Finding:
-    """Balance of the forces at nodes of the deck that are surrounded by elements of the type."""
+    """Check the balance of forces at nodes of the deck that are surrounded by elements of the type."""
     figure, message, names = 0.0, "", list[str]()
     for patch in subject.patches:
         # of one size in all elements
@@ -107,7 +107,7 @@ def _at_nodes(subject: Subject) -> Finding:
 
 
 def _left(subject: Subject, patch: Patch, members: tuple[_Field, ...]) -> float:
-    """Unbalanced force at a node, over the largest force of a single element there."""
+    """Return the unbalanced force at a node, over the largest force of a single element there."""
     sums: dict[int, float] = {}
     largest = 0.0
     for state, field in zip(patch.states, members, strict=True):
@@ -121,7 +121,7 @@ def _left(subject: Subject, patch: Patch, members: tuple[_Field, ...]) -> float:
 
 
 def _alone(subject: Subject) -> Finding:
-    """Nodal forces of single elements against those of a uniform stress or flux in their cell."""
+    """Check the nodal forces of single elements against those of a uniform stress or flux in their cell."""
     figure, message, judged = 0.0, "", 0
     for state in {one.single.name: one for one in reversed(subject.states)}.values():
         fields = list(_fields(subject, state, _size(subject, state)))
@@ -150,7 +150,7 @@ def _alone(subject: Subject) -> Finding:
 
 
 def _scattered(subject: Subject, patch: Patch) -> bool:
-    """Whether the stresses of the elements differ by one factor for all gradients: their stiffness scatters."""
+    """Report whether the elements' stresses differ by one factor for all gradients: their stiffness scatters."""
     size = _size(subject, patch.states[0])
     stresses: list[dict[bytes, list[FloatArray]]] = []
     for state in patch.states:
@@ -173,13 +173,13 @@ def _scattered(subject: Subject, patch: Patch) -> bool:
 
 
 def _deviation(subject: Subject, state: ElementState, field: _Field) -> float | None:
-    """Deviation of the nodal forces from those of any uniform stress, over the largest; None if there is no cell."""
+    """Return the deviation of nodal forces from those of any uniform stress, over the largest; None without a cell."""
     found = _stress(subject, state, field)
     return None if found is None else found[1]
 
 
 def _stress(subject: Subject, state: ElementState, field: _Field) -> tuple[FloatArray, float] | None:
-    """The uniform stress (components) that explains the nodal forces best, and what is left over the largest force."""
+    """Fit a uniform stress (components) to the nodal forces; also return the remainder over the largest force."""
     local, forces = subject.local_nodes, field.forces(state)
     nodes = np.unique(local[field.rows])
     if not np.array_equal(nodes, np.arange(len(nodes))):
@@ -199,7 +199,7 @@ def _stress(subject: Subject, state: ElementState, field: _Field) -> tuple[Float
 
 
 def _resisted(subject: Subject, state: ElementState, fields: list[_Field]) -> bool:
-    """Whether each gradient costs energy, but for rotations: a volume, not an interface, a shell or a membrane.
+    """Report whether each gradient but rotations costs energy: a volume, not an interface, a shell or a membrane.
 
     The symmetric part of the energies (fields, fields) of each kind of unknown has no other zero.
     """
@@ -220,12 +220,12 @@ def _resisted(subject: Subject, state: ElementState, fields: list[_Field]) -> bo
 
 
 def _size(subject: Subject, state: ElementState) -> float:
-    """Length over which a field changes by its size in the run."""
+    """Return the length over which a field changes by its size in the run."""
     return diagonal(subject.coordinates(state))
 
 
 def _fields(subject: Subject, state: ElementState, size: float) -> Iterator[_Field]:
-    """Displacements, and other dofs of which a uniform value has no forces, that are linear in space."""
+    """Yield fields linear in space, of displacements and of other dofs whose uniform value has no forces."""
     body = body_of(subject, state)
     if body is not None and not body.coincident:
         strain = float(subject.scales[body.displacement].max()) / size
@@ -238,14 +238,14 @@ def _fields(subject: Subject, state: ElementState, size: float) -> Iterator[_Fie
 
 
 def _scalar(subject: Subject, state: ElementState, body: Body | None) -> np.ndarray:
-    """(n,) True for unknowns other than displacements and rotations."""
+    """Mask the unknowns (n,) other than displacements and rotations."""
     turns = False if body is None else body.turning.any(axis=0)
     chosen: np.ndarray = (subject.dofs > subject.coordinates(state).shape[1]) & ~np.isin(subject.dofs, ROTATIONS)
     return chosen & ~turns
 
 
 def _scalar_fields(subject: Subject, state: ElementState, dof: int, size: float) -> Iterator[_Field]:
-    """Gradients of one dof in all directions, if a uniform value has no forces and the nodes are distinct."""
+    """Yield the gradients of one dof in all directions, if a uniform value has no forces and the nodes are distinct."""
     rows = subject.dofs == dof
     points = subject.coordinates(state)[subject.local_nodes]
     distinct = np.unique(points[rows].round(12), axis=0)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What RHS is in a linear step, *STATIC with PERTURBATION: part of `requests`."""
+"""RHS in a linear step, *STATIC with PERTURBATION: part of `requests`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from uel.check.ties import first_largest
 from uel.elements import Flags, Request
 
 TOLERANCE: Final = 1e-6
-"""Of the largest force."""
+"""Tolerance relative to the largest force."""
 
 ADVICE: Final = (
     "In a linear step (LFLAGS(4) = 1) U is the base state. RHS is what the loads of the step on the element add "
@@ -26,7 +26,7 @@ ADVICE: Final = (
 
 
 def check_perturbation(subject: Subject, states: list[ElementState], flags: Flags) -> Finding:
-    """RHS without loads on the element, at each of the states as a base state."""
+    """Check RHS without loads on the element, at each of the states as a base state."""
     known = flags.request is Request.PERTURBATION
     change = (subject.scales if known else 0.0) * np.linspace(-1.0, 1.0, len(subject.scales))
     for state in states:

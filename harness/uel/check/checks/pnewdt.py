@@ -10,11 +10,11 @@ from uel.check.finding import Finding, failed, passed
 from uel.check.subject import Subject
 
 UNTOUCHED: Final = 1e30
-"""Larger values are the one on entry."""
+"""Limit above which PNEWDT is the value on entry."""
 
 
 def check(subject: Subject) -> Finding:
-    """It is positive, and asks for no smaller increment if nothing has moved in this one."""
+    """Check that PNEWDT is positive, and asks for no smaller increment if nothing has moved in this one."""
     found: list[float] = []
     for state in subject.all_states:
         value = state.evaluate().pnewdt

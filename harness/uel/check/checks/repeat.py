@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The same input gives the same output, whatever calls come in between."""
+"""Repeatability: equal input gives equal output, whatever calls come in between."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ RESIDUALS: Final = (
 
 
 def check(subject: Subject) -> Finding:
-    """As in the iterations of an increment: different U in between, SVARS on entry always those of its start.
+    """Repeat calls as in the iterations of an increment: other U in between, SVARS on entry always those of its start.
 
     Where UEXTERNALDB hands data on, a call is compared with the same call just before the others.
     """
@@ -61,7 +61,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _call(states: Iterable[ElementState]) -> None:
-    """What they return does not matter."""
+    """Call the elements and ignore what they return."""
     for state in states:
         with suppress(KernelError):
             state.evaluate()

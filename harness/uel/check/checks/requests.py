@@ -28,14 +28,14 @@ PERTURBATIONS: Final = Frequency().lflag, SteadyState().lflag
 """LFLAGS(1) of procedures that ask for the mass matrix alone."""
 
 TOLERANCE: Final = 1e-9
-"""Of the largest entry."""
+"""Tolerance relative to the largest entry."""
 
 LINEAR: Final = 1e-6
-"""Of the largest entry: differences with respect to accelerations, and of half increments."""
+"""Tolerance of differences by accelerations, and of half increments, relative to the largest entry."""
 
 
 def check(subject: Subject) -> Finding:
-    """The answer to each request that the deck makes agrees with normal calls."""
+    """Check that the answer to each request that the deck makes agrees with normal calls."""
     findings = list(_findings(subject))
     wrong = next((finding for finding in findings if finding.verdict is Verdict.FAILED), None)
     if wrong is not None:
@@ -83,7 +83,7 @@ def _findings(subject: Subject) -> Iterator[Finding]:
 
 
 def _residual(states: list[ElementState]) -> Finding:
-    """The residual alone in a static step."""
+    """Check the residual alone in a static step."""
     for state in states:
         normal = state.evaluate().rhs[0]
         with guard_values({UNSET: float("nan")}):
@@ -100,7 +100,7 @@ def _residual(states: list[ElementState]) -> Finding:
 
 
 def _half_increment(subject: Subject, state: ElementState) -> Finding:
-    """The residual at half an increment of a dynamic step: with U and A it changes as that of a normal call does.
+    """Check the residual at half an increment of a dynamic step: with U and A it changes like that of a normal call.
 
     Both hold -M A + (1 + alpha) G(U); terms of earlier increments differ, and are the same before and after a change.
     """
@@ -129,7 +129,7 @@ def _half_increment(subject: Subject, state: ElementState) -> Finding:
 
 
 def _weights(subject: Subject, states: list[ElementState]) -> Finding:
-    """The weights of the operator of Hilber, Hughes and Taylor: (1 + alpha) G - alpha G_old.
+    """Check the weights of the operator of Hilber, Hughes and Taylor: (1 + alpha) G - alpha G_old.
 
     G changes with U as RHS with LFLAGS(3) = 6 does; elements that do not answer that request are not judged.
     """
@@ -164,7 +164,7 @@ def _weights(subject: Subject, states: list[ElementState]) -> Finding:
 
 
 def _mass(subject: Subject, state: ElementState) -> Finding:
-    """The mass matrix of a dynamic step: -dRHS/dA, with either request."""
+    """Check the mass matrix of a dynamic step: -dRHS/dA, with either request."""
     with guard_values({UNSET: float("nan")}):
         mass = state.asked(Request.MASS).evaluate().amatrx
         initial = state.asked(Request.INITIAL_ACCELERATION).evaluate().amatrx
@@ -197,7 +197,7 @@ def _mass(subject: Subject, state: ElementState) -> Finding:
 
 
 def _mass_alone(subject: Subject, state: ElementState, flags: Flags) -> Finding:
-    """The mass matrix for eigenfrequencies and harmonic responses."""
+    """Check the mass matrix for eigenfrequencies and harmonic responses."""
     asking = state.called(flags=flags)
     with guard_values({UNSET: float("nan")}):
         mass = asking.evaluate().amatrx
@@ -212,7 +212,7 @@ def _mass_alone(subject: Subject, state: ElementState, flags: Flags) -> Finding:
 
 
 def _written(states: list[ElementState]) -> Finding | None:
-    """A finding if calls of a dynamic step that end no increment write SVARS."""
+    """Return a finding if calls of a dynamic step that end no increment write SVARS."""
     for state in states:
         for request in (Request.RESIDUAL, Request.MASS):
             with watched_inputs() as made:
@@ -230,7 +230,7 @@ def _written(states: list[ElementState]) -> Finding | None:
 
 
 def _indefinite(state: ElementState, mass: FloatArray) -> Finding | None:
-    """A finding if a mass matrix is not symmetric, or has negative eigenvalues."""
+    """Return a finding if a mass matrix is not symmetric, or has negative eigenvalues."""
     size = float(np.abs(mass).max())
     if np.abs(mass - mass.T).max() > TOLERANCE * size:
         return failed(
@@ -250,7 +250,7 @@ def _indefinite(state: ElementState, mass: FloatArray) -> Finding | None:
 
 
 def _stiffness(state: ElementState, flags: Flags) -> Finding:
-    """The stiffness alone, for a perturbation of the state that earlier steps have left."""
+    """Check the stiffness alone, for a perturbation of the state that earlier steps have left."""
     normal = state.evaluate().amatrx
     with guard_values({UNSET: float("nan")}):
         alone = state.called(flags=flags).evaluate().amatrx
@@ -267,17 +267,17 @@ def _stiffness(state: ElementState, flags: Flags) -> Finding:
 
 
 def _accelerations(subject: Subject, state: ElementState) -> FloatArray:
-    """(n,) accelerations of the displacements of the run within an increment."""
+    """Return accelerations (n,) of the displacements of the run within an increment."""
     return subject.scales / max(state.call.time_increment, 1e-300) ** 2
 
 
 def _accelerated(state: ElementState, shift: FloatArray) -> ElementState:
-    """With other accelerations and nothing else changed."""
+    """Return the state with a shift added to its accelerations and nothing else changed."""
     return replace(state, motion=Motion(state.motion.velocity, state.motion.acceleration + shift))
 
 
 def _inertia(subject: Subject, state: ElementState, heaviest: float) -> FloatArray:
-    """(n, n) -dRHS/dA, in which RHS is linear; heaviest: mass by which the change of RHS is above its rounding."""
+    """Return (n, n) -dRHS/dA, in which RHS is linear; heaviest: mass by which the change of RHS is above rounding."""
     here = state.evaluate().rhs[0]
     steps = np.maximum(_accelerations(subject, state), float(np.abs(here).max()) / heaviest if heaviest else 0.0)
     columns = [(here - _accelerated(state, step).evaluate().rhs[0]) / step.sum() for step in np.diag(steps)]

@@ -27,7 +27,7 @@ _OPEN: Final = Path("/dev/fd")
 
 
 def check(subject: Subject) -> Finding:
-    """Equal calls change neither the number of open files nor the allocated memory."""
+    """Check that equal calls change neither the number of open files nor the allocated memory."""
     if not _OPEN.is_dir():
         return not_applicable("the system does not say which files are open")
     state = subject.states[-1]

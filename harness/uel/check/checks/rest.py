@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""No displacements, no loads, no fields: no forces."""
+"""Rest: no displacements, no loads, no fields, no forces."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from uel.check.ties import exceeds, first_largest
 from uel.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-9
-"""Of the forces that the displacements of the run cause."""
+"""Tolerance relative to the forces that the displacements of the run cause."""
 
 MECHANICAL: Final = 6
 """Largest dof whose reaction is a force or a moment."""
 
 
 def check(subject: Subject) -> Finding:
-    """RHS with U = 0 and DU = 0 before anything has happened."""
+    """Check RHS with U = 0 and DU = 0 before anything has happened."""
     states = [state for state in subject.resting if state.call.predefined is None]
     mechanical = subject.dofs <= MECHANICAL
     if not states or not mechanical.any():
@@ -48,5 +48,5 @@ def check(subject: Subject) -> Finding:
 
 
 def _usual(stiffness: FloatArray, scales: FloatArray) -> float:
-    """Largest force caused by the displacements of the run."""
+    """Return the largest force caused by the displacements of the run."""
     return float((stiffness @ scales).max()) or 1.0

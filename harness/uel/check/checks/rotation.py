@@ -17,17 +17,17 @@ from uel.errors import KernelError
 from uel.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-6
-"""Of the sum of |stiffness| |motion|."""
+"""Tolerance relative to the sum of |stiffness| |motion|."""
 
 TINY: Final = 1e-7
 """Angle of a rotation whose terms of second order are below the tolerance."""
 
 ANGLE: Final = np.pi / 6
-"""Of the finite rotation."""
+"""Angle of the finite rotation (rad)."""
 
 
 def check(subject: Subject) -> Finding:
-    """From the start of the analysis, with linear kinematics, or finite ones where the step has NLGEOM."""
+    """Rotate from the start of the analysis, with linear kinematics, or finite ones where the step has NLGEOM."""
     states = subject.resting
     bodies = [body_of(subject, state) for state in states]
     known = [(state, body) for state, body in zip(states, bodies, strict=True) if body is not None]
@@ -42,7 +42,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _judge(state: ElementState, first: float, small: float, finite: float) -> Finding:
-    """Finding for the largest relative forces of infinitesimal, of small and of finite rotations."""
+    """Judge the largest relative forces of infinitesimal, small and finite rotations."""
     nlgeom = state.call.flags.nlgeom
     degrees = round(float(np.degrees(ANGLE)))
     if finite <= TOLERANCE:
@@ -84,20 +84,20 @@ def _judge(state: ElementState, first: float, small: float, finite: float) -> Fi
 
 
 def _says(share: float) -> str:
-    """What a rotation does, as the end of a sentence."""
+    """Describe the effect of a rotation, as the end of a sentence."""
     if not np.isfinite(share):
         return "ends the analysis"
     return f"causes forces of {100 * share:.3g} % of what the stiffness would make of it"
 
 
 def _forces(state: ElementState) -> FloatArray:
-    """RHS (n,) without loads on the element, which need not rotate with it."""
+    """Return RHS (n,) without loads on the element, which need not rotate with it."""
     forces: FloatArray = state.called(distributed=None).evaluate().rhs[0]
     return forces
 
 
 def _linear(subject: Subject, state: ElementState, body: Body, angle: float | None) -> float:
-    """Largest relative force of the rotations without second-order terms, by default as large as the run's strains."""
+    """Return the largest relative force of rotations without second-order terms, by default of the run's strains."""
     here, largest = _forces(state), 0.0
     angle = angle or float(subject.scales[body.displacement].max()) / body.size
     for motion in body.small_rotations():
@@ -107,7 +107,7 @@ def _linear(subject: Subject, state: ElementState, body: Body, angle: float | No
 
 
 def _turned(subject: Subject, state: ElementState, body: Body) -> float:
-    """Largest relative deviation of the forces from the rotated ones, for finite rotations; infinite without forces."""
+    """Return the largest relative deviation of forces from rotated ones, for finite rotations; or infinity."""
     here, largest = _forces(state), 0.0
     for motion, turn in body.rotations(float(ANGLE)):
         try:

@@ -23,7 +23,7 @@ EQUAL: Final = 1e-6
 
 
 def check(subject: Subject) -> Finding:
-    """If extension is the same in all directions, shear is not a factor of 2 or 4 off an isotropic material."""
+    """Check that, if extension is isotropic, shear is not a factor of 2 or 4 off an isotropic material."""
     found = body_at_rest(subject)
     if isinstance(found, Finding):
         return found
@@ -45,7 +45,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _isotropic(moduli: FloatArray, count: int) -> float:
-    """Isotropic shear modulus from the extensions in this number of directions; 0 if these differ."""
+    """Return the isotropic shear modulus from the extensions in this number of directions; 0 if these differ."""
     normal = moduli[:count, :count]
     along, across = np.diag(normal), normal[~np.eye(count, dtype=np.bool_)]
     coupling = np.abs(moduli[:count, count:]).max(initial=0.0)
@@ -56,7 +56,7 @@ def _isotropic(moduli: FloatArray, count: int) -> float:
 
 
 def _judge(state: ElementState, isotropic: float, moduli: dict[tuple[int, int], float]) -> Finding:
-    """Finding for the shear moduli in the planes of two directions."""
+    """Judge the shear moduli in the planes of two directions."""
     for (i, j), modulus in moduli.items():
         for factor in MISTAKES:
             if abs(modulus - factor * isotropic) <= EQUAL * isotropic:
@@ -73,7 +73,7 @@ def _judge(state: ElementState, isotropic: float, moduli: dict[tuple[int, int], 
 
 
 def _exchanged(moduli: FloatArray, count: int, planes: list[tuple[int, int]]) -> str:
-    """A normal and a shear strain with which the stiffness is isotropic if they are exchanged; '' if there are none.
+    """Name a normal and a shear strain whose exchange makes the stiffness isotropic; '' if there are none.
 
     It has to be isotropic in shear, too: two anisotropic stiffnesses are not alike by chance.
     """
@@ -88,7 +88,7 @@ def _exchanged(moduli: FloatArray, count: int, planes: list[tuple[int, int]]) ->
 
 
 def _moduli(subject: Subject, state: ElementState, body: Body) -> FloatArray:
-    """Work of unit strains, first normal and then engineering shear strains, on each other's forces."""
+    """Return the work of unit strains, first normal and then engineering shear strains, on each other's forces."""
     matrix = subject.differences(state).matrix if state.dynamic else state.evaluate().amatrx
     strains = uniform_strains(body)
     work: FloatArray = strains @ matrix @ strains.T

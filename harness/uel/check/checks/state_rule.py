@@ -25,10 +25,10 @@ BEYOND: Final = 1e-3
 """Size of the part after them, over that of the others."""
 
 LARGER: Final = 1e-2
-"""Another size of that part."""
+"""Larger size of that part, over that of the others."""
 
 TOLERANCE: Final = 1e-3
-"""Of the largest force: what material laws solved by iteration may leave."""
+"""Tolerance relative to the largest force: the error that material laws solved by iteration may leave."""
 
 CLOSER: Final = 0.5
 """Jump with many parts over that with few: that of a right element falls at least with the square root."""
@@ -40,7 +40,7 @@ SLOWER: Final = 0.1
 """Factor of both DU and DTIME, with which no rate changes."""
 
 SILENT: Final = 1e-6
-"""Of the forces of the run's displacements: smaller forces count as zero."""
+"""Smallest force relative to those of the run's displacements: less counts as zero."""
 
 SMOOTH: Final = 10.0
 """Factor of the forces that the stiffness makes of the further part: a smaller change is that part's own. Where the
@@ -58,7 +58,7 @@ class _Jump:
 
 
 def check(subject: Subject) -> Finding:
-    """The change by a small increment after the last one gets smaller with the increments."""
+    """Check that the change by a small increment after the last one shrinks with the increments."""
     states = [
         _without_history(state.quiet()) for state in subject.states if state.du.any() and state.call.time_increment
     ]
@@ -91,7 +91,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _has_history(state: ElementState) -> bool:
-    """Whether RHS depends on SVARS, in this increment or, as they are now, in the next one."""
+    """Report whether RHS depends on SVARS, in this increment or, as they are now, in the next one."""
     every = np.ones(len(state.single.svars))
     try:
         return state.depends_on(every) or state.later().depends_on(every)
@@ -101,7 +101,7 @@ def _has_history(state: ElementState) -> bool:
 
 
 def _without_time(subject: Subject, state: ElementState) -> Finding | None:
-    """A finding if forces depend on DU, which is not a rate, and on no state to which it could be added."""
+    """Return a finding if forces depend on DU, which is not a rate, and on no state to which it could be added."""
     fast, slow = (
         replace(state, du=share * state.du).called(time_increment=share * state.call.time_increment)
         for share in (1.0, SLOWER)
@@ -130,17 +130,17 @@ def _without_time(subject: Subject, state: ElementState) -> Finding | None:
 
 
 def _without_history(state: ElementState) -> ElementState:
-    """Without the forces of earlier increments, which *DYNAMIC weights by alpha."""
+    """Drop the forces of earlier increments, which *DYNAMIC weights by alpha."""
     return state.called(params=(0.0, *state.call.params[1:]))
 
 
 def _stiffness(subject: Subject, state: ElementState) -> FloatArray:
-    """(n, n) magnitudes of the stiffness; in a dynamic step, where AMATRX includes mass, from differences."""
+    """Return magnitudes (n, n) of the stiffness; in a dynamic step, where AMATRX includes mass, from differences."""
     return np.abs(subject.differences(state).matrix) if state.dynamic else subject.largest_stiffness
 
 
 def _jump(subject: Subject, state: ElementState, parts: int, beyond: float) -> _Jump:
-    """The jump at the end of the increment, made in equal parts with another part after them."""
+    """Compute the jump at the end of the increment, made in equal parts with another part after them."""
     *_, last, next_one = in_pieces(state, [*(k / parts for k in range(1, parts + 1)), 1.0 + beyond / parts])
     before, after = last.rhs[0], next_one.rhs[0]
     kind, least = kinds(subject.dofs), SILENT * subject.usual_forces

@@ -14,11 +14,11 @@ from uel.check.subject import Subject
 from uel.check.ties import exceeds, first_largest
 
 TOLERANCE: Final = 1e-6
-"""Of the largest entry for the same kinds of dof."""
+"""Tolerance relative to the largest entry for the same kinds of dof."""
 
 
 def check(subject: Subject) -> Finding:
-    """Without UNSYMM the solver uses (AMATRX + its transpose)/2, except in coupled temperature-displacement steps."""
+    """Check symmetry: without UNSYMM the solver symmetrises AMATRX except in coupled temperature-displacement steps."""
     figure, message, entry = 0.0, "", ""
     for state in subject.all_states:
         amatrx = state.evaluate().amatrx

@@ -17,7 +17,7 @@ from uel.check.ties import exceeds, ranked
 from uel.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-5
-"""Of the largest entry for the same kinds of dof; smaller errors do not change the number of iterations."""
+"""Tolerance relative to the largest entry for the same kinds of dof; smaller errors need no more iterations."""
 
 ALIKE: Final = 1e-3
 """Relative difference up to which a matrix counts as another one, to say what is wrong with it."""
@@ -37,7 +37,7 @@ class _Worst:
 
 
 def check(subject: Subject) -> Finding:
-    """Every entry of AMATRX is -dRHS/dU, at all states where RHS has no kink."""
+    """Check that every entry of AMATRX is -dRHS/dU, at all states where RHS has no kink."""
     worst: _Worst | None = None
     columns = 0
     for state in subject.all_states:
@@ -72,12 +72,12 @@ def check(subject: Subject) -> Finding:
 
 
 def kinds(dofs: np.ndarray) -> np.ndarray:
-    """(n,) number shared by unknowns of the same unit: displacements 1, rotations 4, else the dof."""
+    """Assign a number (n,) to each unknown by its unit: displacements 1, rotations 4, else the dof."""
     return np.where(dofs <= 3, 1, np.where(dofs <= 6, 4, dofs))
 
 
 def block_scales(magnitude: FloatArray, dofs: np.ndarray) -> FloatArray:
-    """(n, n) largest entry among those of the same kinds of row and column; 1 where all are zero."""
+    """Return the largest entry (n, n) among those of the same kinds of row and column; 1 where all are zero."""
     kind = kinds(dofs)
     scale = np.ones_like(magnitude)
     for row in np.unique(kind):
@@ -117,7 +117,7 @@ def _advice(worst: _Worst, subject: Subject) -> str:
 
 
 def _concerned(worst: _Worst, dofs: np.ndarray) -> str:
-    """Which dofs the wrong entries belong to, as a sentence; '' if these are all, or too many to name."""
+    """Name the dofs to which the wrong entries belong, in a sentence; '' if these are all, or too many to name."""
     kind = kinds(dofs)
     rows, columns = np.nonzero(worst.deviation > TOLERANCE)
     pairs = sorted(set(zip(kind[rows].tolist(), kind[columns].tolist(), strict=True)))
@@ -138,7 +138,7 @@ def _advice_on_zero(state: ElementState, subject: Subject) -> str:
 
 
 def _missing_coupling(given: FloatArray, found: FloatArray, rows: np.ndarray, columns: np.ndarray) -> str:
-    """Dofs between which AMATRX is zero and should not be, as the end of a sentence; '' if there are none."""
+    """Name dofs between which AMATRX is zero and should not be, as the end of a sentence; '' if there are none."""
     for force in np.unique(rows):
         for unknown in np.unique(columns):
             block = np.ix_(rows == force, columns == unknown)

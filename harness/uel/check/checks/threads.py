@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two elements do not write the same memory, which threads would do at the same time."""
+"""Thread safety: two elements do not write the same memory, which threads would do at the same time."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Changes = dict[str, set[int]]
 
 
 def check(subject: Subject) -> Finding:
-    """Calls of two elements change different bytes of the variables that outlive a call, or none."""
+    """Check that calls of two elements change different bytes of the variables that outlive a call, or none."""
     variables = variables_of(subject.library)
     if variables is None:
         return not_applicable("the symbols of the library cannot be read (nm is missing, or the library is stripped)")
@@ -55,7 +55,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _growing(subject: Subject, state: ElementState, seed: int) -> Iterator[ElementState]:
-    """Ever larger random displacements, so that a variable that keeps the largest value of all calls changes too."""
+    """Yield ever larger random displacements: a variable that keeps the largest value of all calls then changes too."""
     rng = np.random.default_rng(seed)
     for number in range(ROUNDS):
         shift = GROWTH**number * subject.scales * rng.uniform(-1.0, 1.0, len(subject.scales))
@@ -66,7 +66,7 @@ def _growing(subject: Subject, state: ElementState, seed: int) -> Iterator[Eleme
 def _changes(
     variables: list[Variable], mine: Iterator[ElementState], theirs: Iterator[ElementState]
 ) -> tuple[Changes, Changes]:
-    """What alternate calls of the two change."""
+    """Find the words of memory that alternate calls of the two elements change."""
     changed: tuple[Changes, Changes] = {}, {}
     before = [variable.bytes() for variable in variables]
     for pair in zip(mine, theirs, strict=True):

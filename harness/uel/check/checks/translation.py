@@ -17,11 +17,11 @@ from uel.check.ties import exceeds, first_largest
 from uel.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-8
-"""Of the sum of |stiffness| |translation|: the force of the motion if nothing cancelled."""
+"""Tolerance relative to the sum of |stiffness| |translation|: the force of the motion if nothing cancelled."""
 
 
 def check(subject: Subject) -> Finding:
-    """RHS does not change when the element moves in any direction, by its size and by its deformation in the run."""
+    """Check that RHS does not change in translations by the element's size and by its deformation in the run."""
     figure, message = 0.0, ""
     for state in map(subject.quiet, subject.all_states):
         body = body_of(subject, state)
@@ -48,7 +48,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _added(subject: Subject, state: ElementState, motion: FloatArray) -> tuple[float, int, float]:
-    """Largest force that a motion adds, over what the stiffness makes of its parts; its row; the force."""
+    """Return the largest force that a motion adds, over what the stiffness makes of its parts; its row; the force."""
     here = state.evaluate()
     # in dynamics an element may compute inertia from DU: then it was elsewhere from the start
     moved = state.carried(motion) if state.dynamic else state.moved(motion)
@@ -58,7 +58,7 @@ def _added(subject: Subject, state: ElementState, motion: FloatArray) -> tuple[f
 
 
 def relative(change: FloatArray, stiffness: FloatArray, motion: FloatArray) -> tuple[float, int]:
-    """Largest change of RHS over the sum of |stiffness| |motion|, and its row."""
+    """Return the largest change of RHS over the sum of |stiffness| |motion|, and its row."""
     cost = float((stiffness @ np.abs(motion)).max())
     row = first_largest(change)
     return float(change[row]) / cost if cost else float(change[row] > 0.0), row

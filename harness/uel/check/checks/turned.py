@@ -17,13 +17,13 @@ from uel.check.ties import first_largest
 from uel.model.arrays import FloatArray
 
 ANGLE: Final = 0.5
-"""Of the turn: no multiple of a symmetry."""
+"""Angle of the turn (rad): no multiple of a symmetry."""
 
 SEED: Final = 1
-"""Of the random displacements."""
+"""Seed of the random displacements."""
 
 TOLERANCE: Final = 1e-8
-"""Of the largest force, or entry of the mass matrix."""
+"""Tolerance relative to the largest force, or entry of the mass matrix."""
 
 ADVICE: Final = (
     "The forces of the element turn with it, the mass matrix does not: it is in the element's local axes. Turn it to "
@@ -32,7 +32,7 @@ ADVICE: Final = (
 
 
 def check_turned(subject: Subject, state: ElementState, asking: ElementState) -> Finding | None:
-    """A finding if the forces turn with the coordinates of the element, and the mass matrix does not.
+    """Return a finding if the forces turn with the element's coordinates and the mass matrix does not.
 
     state: of a step in which RHS has internal forces; asking: of the call that asks for the mass matrix.
     """
@@ -69,7 +69,7 @@ def check_turned(subject: Subject, state: ElementState, asking: ElementState) ->
 
 
 def _complete(subject: Subject, body: Body) -> bool:
-    """Whether all other unknowns are rotations of nodes that have them about all axes."""
+    """Report whether all other unknowns are rotations of nodes that have them about all axes."""
     rotations = np.isin(subject.dofs, ROTATIONS)
     if not (body.displacement | rotations).all():
         return False
@@ -78,7 +78,7 @@ def _complete(subject: Subject, body: Body) -> bool:
 
 
 def _of_unknowns(subject: Subject, body: Body, turn: FloatArray) -> FloatArray:
-    """(n, n) matrix that turns displacements and rotations of the nodes, and their forces."""
+    """Return the matrix (n, n) that turns displacements and rotations of the nodes, and their forces."""
     dofs, local = subject.dofs, subject.local_nodes
     rotations = np.isin(dofs, ROTATIONS)
     axes = np.where(rotations, dofs - ROTATIONS[0], np.where(body.displacement, body.axis, 0))
@@ -91,7 +91,7 @@ def _of_unknowns(subject: Subject, body: Body, turn: FloatArray) -> FloatArray:
 
 
 def _placed(subject: Subject, state: ElementState, turn: FloatArray) -> ElementState:
-    """The state of an element whose coordinates are turned about the origin."""
+    """Return the state of an element whose coordinates are turned about the origin."""
     coordinates = subject.recording.model.mesh.coordinates.copy()
     count = len(turn)
     coordinates[:, :count] = coordinates[:, :count] @ turn.T
@@ -99,7 +99,7 @@ def _placed(subject: Subject, state: ElementState, turn: FloatArray) -> ElementS
 
 
 def _forces(state: ElementState, motion: FloatArray) -> FloatArray:
-    """(n,) RHS that displacements cause in the element at the start of its increment."""
+    """Return RHS (n,) that displacements cause in the element at the start of its increment."""
     still = state.still().quiet()
     change: FloatArray = still.moved(motion).evaluate().rhs[0] - still.evaluate().rhs[0]
     return change

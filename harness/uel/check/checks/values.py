@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What UEL returns beside RHS and AMATRX is finite."""
+"""Finite values: the results of UEL beside RHS and AMATRX."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from uel.check.subject import Subject
 
 
 def check(subject: Subject) -> Finding:
-    """SVARS, ENERGY and PNEWDT of all elements of the type in all iterations of the run."""
+    """Check that SVARS, ENERGY and PNEWDT are finite in all iterations of the run, for all elements of the type."""
     if not subject.strange:
         return passed("SVARS, ENERGY and PNEWDT are finite in all iterations of the run")
     advice = (

@@ -18,18 +18,18 @@ from uel.check.subject import Subject
 from uel.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-9
-"""Of the largest eigenvalue: a mode with a smaller one costs no energy."""
+"""Limit relative to the largest eigenvalue: a mode with a smaller one costs no energy."""
 
 SHEARED: Final = 1e-6
-"""Of the largest energy of a uniform strain: one that costs less costs none."""
+"""Limit relative to the largest energy of a uniform strain: one that costs less costs none."""
 
 DIFFERENCES: Final = 1e-6
-"""The same for differences of RHS, in a dynamic step."""
+"""Limit relative to the largest eigenvalue for differences of RHS, in a dynamic step."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Stiffness:
-    """(k, k) matrix of the displacements, its name, and its tolerance."""
+    """Stiffness: matrix (k, k) of the displacements, its name, and its tolerance."""
 
     name: str
     limit: float
@@ -37,7 +37,7 @@ class _Stiffness:
 
 
 def check(subject: Subject) -> Finding:
-    """Eigenvalues of the symmetric part of AMATRX for the displacements, at rest."""
+    """Check the eigenvalues of the symmetric part of AMATRX for the displacements, at rest."""
     found = body_at_rest(subject)
     if isinstance(found, Finding):
         return found
@@ -73,7 +73,7 @@ def check(subject: Subject) -> Finding:
 def _judge(
     state: ElementState, stiffness: _Stiffness, expected: int, uniform: FloatArray, *, interface: bool
 ) -> Finding:
-    """Finding, given the expected number of rigid-body motions; interface: nodes coincide.
+    """Judge the stiffness by the expected number of rigid-body motions; interface: nodes coincide.
 
     uniform: (strains, k) displacements of uniform strains.
     """
@@ -106,7 +106,7 @@ def _judge(
 
 
 def _advice(stiffness: _Stiffness, uniform: FloatArray, count: int) -> str:
-    """Advice for an element with this number of deformations that cost no energy."""
+    """Return the advice for an element with this number of deformations that cost no energy."""
     symmetric = 0.5 * (stiffness.matrix + stiffness.matrix.T)
     values = np.linalg.eigvalsh(uniform @ symmetric @ uniform.T)
     if values[0] <= SHEARED * values[-1]:
@@ -123,7 +123,7 @@ def _advice(stiffness: _Stiffness, uniform: FloatArray, count: int) -> str:
 
 
 def _suppressed(subject: Subject, body: Body) -> bool:
-    """Whether the elements around a node of the deck have no zero modes together but rigid-body motions."""
+    """Report whether the elements around a node of the deck together have only rigid-body motions as zero modes."""
     for patch in subject.patches:
         nodes = np.unique([state.single.block.group.nodes[0] for state in patch.states])
         moved = np.unique(subject.dofs[body.displacement | body.turning.any(axis=0)])
@@ -149,12 +149,12 @@ def _suppressed(subject: Subject, body: Body) -> bool:
 
 
 def _rigid(body: Body) -> FloatArray:
-    """(motions, n) translations and small rotations."""
+    """Return translations and small rotations (motions, n)."""
     translations = [body.size * body.translation(direction) for direction in range(body.dimensions)]
     return np.array(translations + body.small_rotations())
 
 
 def _resisted(amatrx: FloatArray, rigid: FloatArray) -> float:
-    """Largest force of a rigid-body motion, over what its parts would make."""
+    """Return the largest force of a rigid-body motion, over what its parts would make."""
     forces, costs = np.abs(amatrx @ rigid.T).max(axis=0), (np.abs(amatrx) @ np.abs(rigid.T)).max(axis=0)
     return float(np.max(forces / np.where(costs > 0.0, costs, 1.0)))
