@@ -12,7 +12,7 @@ from uel.cli.values import part, positive
 
 
 def add_batch(batch: argparse.ArgumentParser) -> None:
-    """Options of `uel batch`."""
+    """Add the options of `uel batch`."""
     batch.formatter_class = argparse.RawDescriptionHelpFormatter
     batch.description = (
         "Each run has a folder of its own in the output folder, and a line of its table results.csv. The same command\n"
@@ -56,7 +56,7 @@ def add_batch(batch: argparse.ArgumentParser) -> None:
 
 
 def run_batch(options: argparse.Namespace) -> int:
-    """`uel batch`."""
+    """Run `uel batch`."""
     from uel.batch.command import batch  # noqa: PLC0415
 
     completed = batch(

@@ -12,7 +12,7 @@ from uel.cli.values import positive
 
 
 def add_check(check: argparse.ArgumentParser) -> None:
-    """Options of `uel check`."""
+    """Add the options of `uel check`."""
     check.epilog = (
         "Exit code: 0 all checks that apply passed, and at least one per element type judged forces; 1 a check failed, "
         "possibly the run itself; 2 nothing was looked at: the deck or a file is wrong, or no check applies."
@@ -37,7 +37,7 @@ def add_check(check: argparse.ArgumentParser) -> None:
 
 
 def check_elements(options: argparse.Namespace) -> int:
-    """`uel check`."""
+    """Run `uel check`."""
     from rich.console import Console  # noqa: PLC0415
 
     from uel.check.command import check  # noqa: PLC0415

@@ -22,7 +22,7 @@ from uel.parallel import launched
 from uel.running import isolation, sanitizer
 
 SPELLINGS: Final = {"run": from_abaqus, "law": properties_first, "insert": mark_properties}
-"""What brings the words after a subcommand into the order and spelling of its options."""
+"""Functions that bring the words after a subcommand into the order and spelling of its options."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -58,7 +58,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def parse(arguments: Sequence[str]) -> tuple[list[str], argparse.Namespace]:
-    """Words of a command line in this command's spelling, and its options; ends the process if they are wrong.
+    """Put a command line in this command's spelling, and parse its options; ends the process if they are wrong.
 
     Of several ranks of `uel run` only the first one says what is wrong.
     """

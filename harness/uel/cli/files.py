@@ -10,13 +10,13 @@ from pathlib import Path
 
 
 def add_new(new: argparse.ArgumentParser) -> None:
-    """Options of `uel new`."""
+    """Add the options of `uel new`."""
     new.add_argument("name", type=Path, metavar="NAME", help="name of the element and of its new folder")
     new.set_defaults(function=begin_element)
 
 
 def begin_element(options: argparse.Namespace) -> int:
-    """`uel new`."""
+    """Run `uel new`."""
     from uel.project import create  # noqa: PLC0415
 
     for file in create(options.name):
@@ -26,7 +26,7 @@ def begin_element(options: argparse.Namespace) -> int:
 
 
 def add_amalgamate(amalgamate: argparse.ArgumentParser) -> None:
-    """Options of `uel amalgamate`."""
+    """Add the options of `uel amalgamate`."""
     amalgamate.add_argument(
         "-o", "--output", type=Path, required=True, metavar="FILE.for", help="the file that is written"
     )
@@ -34,7 +34,7 @@ def add_amalgamate(amalgamate: argparse.ArgumentParser) -> None:
 
 
 def write_amalgam(options: argparse.Namespace) -> int:
-    """`uel amalgamate`."""
+    """Run `uel amalgamate`."""
     from uel.usersub.built import path_of_amalgam  # noqa: PLC0415
 
     shutil.copyfile(path_of_amalgam(), options.output)

@@ -12,7 +12,7 @@ from uel.cli.values import positive
 
 
 def add_fit(fit: argparse.ArgumentParser) -> None:
-    """Options of `uel fit`."""
+    """Add the options of `uel fit`."""
     fit.description = (
         "Runs the deck with other values until its curve is the measured one, in the sense of least squares. An "
         "interrupted fit resumes where it stopped."
@@ -50,7 +50,7 @@ def add_fit(fit: argparse.ArgumentParser) -> None:
 
 
 def fit_parameters(options: argparse.Namespace) -> int:
-    """`uel fit`."""
+    """Run `uel fit`."""
     from uel.fit.command import fit  # noqa: PLC0415
     from uel.fit.estimate import CONVERGED  # noqa: PLC0415
 

@@ -12,7 +12,7 @@ from uel.errors import UsageError, tell
 
 
 def add_insert(insert: argparse.ArgumentParser) -> None:
-    """Options of `uel insert`."""
+    """Add the options of `uel insert`."""
     insert.description = (
         "The mesh is cut where the options say, and the nodes there are doubled; loads, sets, surfaces and constraints "
         "of the deck follow. See harness/uel/insertion/README.md."
@@ -65,12 +65,12 @@ def add_insert(insert: argparse.ArgumentParser) -> None:
 
 
 def mark_properties(_: argparse.ArgumentParser, words: list[str]) -> list[str]:
-    """Properties, which may stand anywhere, as an option: other options take any number of names."""
+    """Turn properties, which may stand anywhere, into an option: other options take any number of names."""
     return [f"--property={word}" if re.match(r"\w[\w ]*=", word) else word for word in words]
 
 
 def insert_elements(options: argparse.Namespace) -> int:
-    """`uel insert`."""
+    """Run `uel insert`."""
     from uel.insertion.command import insert  # noqa: PLC0415
     from uel.insertion.selection import Wanted  # noqa: PLC0415
 

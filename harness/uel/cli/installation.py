@@ -11,12 +11,12 @@ from uel.errors import UelError, tell
 
 
 def add_solvers(solvers: argparse.ArgumentParser) -> None:
-    """Options of `uel solvers`."""
+    """Add the options of `uel solvers`."""
     solvers.set_defaults(function=list_solvers)
 
 
 def list_solvers(_: argparse.Namespace) -> int:
-    """`uel solvers`."""
+    """Run `uel solvers`."""
     from rich.console import Console  # noqa: PLC0415
     from rich.table import Table  # noqa: PLC0415
 
@@ -40,27 +40,27 @@ def list_solvers(_: argparse.Namespace) -> int:
 
 
 def add_doctor(doctor: argparse.ArgumentParser) -> None:
-    """Options of `uel doctor`."""
+    """Add the options of `uel doctor`."""
     doctor.epilog = "Exit code: 0 all that is indispensable works; 1 something is broken."
     doctor.set_defaults(function=examine_installation)
 
 
 def examine_installation(_: argparse.Namespace) -> int:
-    """`uel doctor`."""
+    """Run `uel doctor`."""
     from uel.doctor import report  # noqa: PLC0415
 
     return 0 if report(tell) else 1
 
 
 def add_completion(completion: argparse.ArgumentParser, parser: argparse.ArgumentParser) -> None:
-    """Options of `uel completion`; parser: of all commands."""
+    """Add the options of `uel completion`; parser: of all commands."""
     completion.epilog = "For bash: uel completion bash > ~/.local/share/bash-completion/completions/uel"
     completion.add_argument("shell", choices=["bash", "zsh", "fish"], help="whose script it is")
     completion.set_defaults(function=print_completion, parser=parser)
 
 
 def print_completion(options: argparse.Namespace) -> int:
-    """`uel completion`."""
+    """Run `uel completion`."""
     try:
         import shtab  # noqa: PLC0415
     except ImportError:

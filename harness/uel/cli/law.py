@@ -11,7 +11,7 @@ from uel.cli.values import ABOVE_ZERO, FINITE, NOT_NEGATIVE, PART, positive
 
 
 def add_law(law: argparse.ArgumentParser) -> None:
-    """Options of `uel law`."""
+    """Add the options of `uel law`."""
     law.add_argument("properties", nargs="*", metavar="NAME=VALUE", help="properties (those of the paper's table 2)")
     law.add_argument("--deck", type=Path, metavar="DECK.inp", help="take properties and element type from a deck")
     law.add_argument("--elset", metavar="NAME", help="... from the *UEL PROPERTY of this set (the first)")
@@ -56,12 +56,12 @@ def add_law(law: argparse.ArgumentParser) -> None:
 
 
 def properties_first(_: argparse.ArgumentParser, words: list[str]) -> list[str]:
-    """Properties, which may stand anywhere between the options, before these."""
+    """Move properties, which may stand anywhere between the options, before these."""
     return sorted(words, key=lambda word: word.startswith("-") or "=" not in word)
 
 
 def explore_law(options: argparse.Namespace) -> int:
-    """`uel law`."""
+    """Run `uel law`."""
     from rich.console import Console  # noqa: PLC0415
 
     from uel.delamination.law_report import Exploration, explore, path_points, summary  # noqa: PLC0415

@@ -19,7 +19,7 @@ from uel.cli.run import add_run
 
 
 def build_parser() -> argparse.ArgumentParser:
-    """Subcommands and their options."""
+    """Build the parser of the subcommands and their options."""
     parser = argparse.ArgumentParser(prog="uel", description="Run Abaqus decks with user elements, without Abaqus.")
     parser.add_argument(
         "--version", action=_Version, nargs=0, default=argparse.SUPPRESS, help="print the version and exit"
@@ -48,7 +48,7 @@ def build_parser() -> argparse.ArgumentParser:
 
 
 class _Version(argparse.Action):
-    """Looks the version up where it is asked for: reading the metadata of packages takes time."""
+    """Option that looks the version up where it is asked for: reading the metadata of packages takes time."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         from uel.doctor import release  # noqa: PLC0415

@@ -9,7 +9,7 @@ from pathlib import Path
 
 
 def add_reproduce(reproduce: argparse.ArgumentParser) -> None:
-    """Options of `uel reproduce`."""
+    """Add the options of `uel reproduce`."""
     reproduce.epilog = "An interrupted run resumes where it stopped."
     reproduce.add_argument(
         "cases", nargs="*", metavar="CASE", help="law, patch, dcb, enf, frmm, sensitivity (all of them)"
@@ -22,7 +22,7 @@ def add_reproduce(reproduce: argparse.ArgumentParser) -> None:
 
 
 def reproduce_paper(options: argparse.Namespace) -> int:
-    """`uel reproduce`."""
+    """Run `uel reproduce`."""
     from rich.console import Console  # noqa: PLC0415
 
     from uel.paper.reproduce.command import reproduce  # noqa: PLC0415

@@ -11,7 +11,7 @@ from uel.cli.values import NOT_NEGATIVE, PART, positive
 
 
 def add_plot(plot: argparse.ArgumentParser) -> None:
-    """Options of `uel plot`."""
+    """Add the options of `uel plot`."""
     plot.epilog = (
         "load: load over displacement, or the columns --y of NAME_history.csv over --x; energies: of the whole model; "
         "iterations: of each increment, and its size; interface: tractions and damage along an interface in the plane; "
@@ -45,7 +45,7 @@ def add_plot(plot: argparse.ArgumentParser) -> None:
 
 
 def plot_jobs(options: argparse.Namespace) -> int:
-    """`uel plot`."""
+    """Run `uel plot`."""
     from uel.output.pictures.jobs import Asked, draw  # noqa: PLC0415
     from uel.output.results import Result  # noqa: PLC0415
 
@@ -58,14 +58,14 @@ def plot_jobs(options: argparse.Namespace) -> int:
 
 
 def add_report(report: argparse.ArgumentParser) -> None:
-    """Options of `uel report`."""
+    """Add the options of `uel report`."""
     report.add_argument("job", type=Path, metavar="JOB", help="name of a job that has run, with its folder")
     report.add_argument("-o", "--output", type=Path, metavar="FILE.html", help="the page (JOB.html)")
     report.set_defaults(function=write_report)
 
 
 def write_report(options: argparse.Namespace) -> int:
-    """`uel report`."""
+    """Run `uel report`."""
     from uel.report import report  # noqa: PLC0415
 
     print(f"written: {report(options.job, options.output)}")
@@ -73,7 +73,7 @@ def write_report(options: argparse.Namespace) -> int:
 
 
 def add_front(front: argparse.ArgumentParser) -> None:
-    """Options of `uel front`."""
+    """Add the options of `uel front`."""
     front.epilog = "Written: JOB_front.csv and JOB_front.png, next to the files of the job."
     front.add_argument("job", type=Path, metavar="JOB", help="name of a job that has run, with its folder")
     front.add_argument("--damage", type=PART, default=0.5, metavar="D", help="damage at the front (0.5)")
@@ -81,7 +81,7 @@ def add_front(front: argparse.ArgumentParser) -> None:
 
 
 def trace_front(options: argparse.Namespace) -> int:
-    """`uel front`."""
+    """Run `uel front`."""
     from uel.output.pictures.front import draw_fronts, fronts, write_fronts  # noqa: PLC0415
     from uel.output.results import Result  # noqa: PLC0415
 

@@ -29,7 +29,7 @@ ABAQUS_OPTIONS = {
 
 
 def add_run(run: argparse.ArgumentParser) -> None:
-    """Options of `uel run`."""
+    """Add the options of `uel run`."""
     run.epilog = (
         "Abaqus' spelling works too: uel run job=NAME user=FILE. "
         "Exit code: 0 the analysis has completed; 1 an error, an interrupt or the system ended it; 2 wrong usage."
@@ -93,7 +93,7 @@ def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
 
 
 def run_job(options: argparse.Namespace) -> int:
-    """`uel run`."""
+    """Run `uel run`."""
     from uel.output.ending import ending  # noqa: PLC0415
     from uel.parallel.ranks import begin  # noqa: PLC0415
     from uel.running.job import run  # noqa: PLC0415 (keeps the other commands quick)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def add_run_options(command: argparse.ArgumentParser) -> list[argparse.Action]:
-    """Options that say how a deck runs, of commands that run decks."""
+    """Add the options that say how a deck runs, for commands that run decks."""
     user = command.add_argument(
         "--user",
         type=Path,
@@ -50,7 +50,7 @@ def add_run_options(command: argparse.ArgumentParser) -> list[argparse.Action]:
 
 
 def add_call_limit(command: argparse.ArgumentParser) -> argparse.Action:
-    """Option of commands that call user code."""
+    """Add the option of commands that call user code."""
     return command.add_argument(
         "--call-limit",
         type=NOT_NEGATIVE,
@@ -61,12 +61,12 @@ def add_call_limit(command: argparse.ArgumentParser) -> argparse.Action:
 
 
 def add_same_process(command: argparse.ArgumentParser) -> None:
-    """Option of commands that work in a separate process."""
+    """Add the option of commands that work in a separate process."""
     command.add_argument(isolation.SAME_PROCESS, action="store_true", help="for debuggers: run in this process")
 
 
 def settings_of(options: argparse.Namespace) -> Settings:
-    """How the runs of a command are made."""
+    """Collect the settings of the runs of a command."""
     from uel.batch.runs import Settings  # noqa: PLC0415
 
     how = [action for action in options.of_runs if action.dest not in ("user", "call_limit")]
@@ -74,7 +74,7 @@ def settings_of(options: argparse.Namespace) -> Settings:
 
 
 def words_of(actions: Sequence[argparse.Action], options: argparse.Namespace) -> list[str]:
-    """Words of the command line that give these options."""
+    """Return the words of the command line that give these options."""
     words: list[str] = []
     for action in actions:
         value = getattr(options, action.dest)

@@ -9,11 +9,11 @@ import math
 from collections.abc import Callable
 
 _MANY = 1 << 31
-"""Above every sensible count."""
+"""Limit above every sensible count."""
 
 
 def number(words: str, holds: Callable[[float], bool] = math.isfinite) -> Callable[[str], float]:
-    """Converter of an option to a finite number that meets a condition; words say what is expected."""
+    """Make a converter of an option to a finite number that meets a condition; words say what is expected."""
 
     def read(text: str) -> float:
         try:
@@ -40,7 +40,7 @@ PART = number("a number from 0 to 1", lambda value: 0.0 <= value <= 1.0)
 
 
 def positive(text: str) -> int:
-    """A whole number of 1 or more, given as an option."""
+    """Convert an option to a whole number of 1 or more."""
     return int(
         number("a whole number of 1 or more", lambda value: value >= 1.0 and value == int(value) and value < _MANY)(
             text
@@ -49,7 +49,7 @@ def positive(text: str) -> int:
 
 
 def part(text: str) -> tuple[int, int]:
-    """Which of how many parts, given as an option."""
+    """Convert an option I/N to part I of N parts."""
     index, _, count = text.partition("/")
     if index.isdecimal() and count.isdecimal() and 1 <= int(index) <= int(count) < _MANY:
         return int(index), int(count)
@@ -57,7 +57,7 @@ def part(text: str) -> tuple[int, int]:
 
 
 def assignment(text: str) -> tuple[str, float]:
-    """Name and value of a parameter, given as an option."""
+    """Split the name and value of a parameter, given as an option."""
     from uel.batch.values import value_of  # noqa: PLC0415 (keeps the other commands quick)
 
     name, _, value = text.partition("=")
