@@ -22,7 +22,7 @@ from uel.running.sanitizer import applies_to
 from uel.solver.threads import one_thread_each
 
 _STALE: Final = (".json", ".sta", ".msg")
-"""Its entry, and files by which a run is judged: those of an earlier one are removed before it begins."""
+"""Endings of a run's entry and of the files by which it is judged: earlier ones are removed before it begins."""
 
 _MOST_TOLD: Final = 3
 """Runs that have not completed, of which the reasons are told."""
@@ -91,7 +91,7 @@ def batch(
 
 
 def cores() -> int:
-    """Cores that this process may use: a scheduler may grant less than the machine has."""
+    """Return the cores that this process may use: a scheduler may grant less than the machine has."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
@@ -111,7 +111,7 @@ def _run(
 
 
 class _Runner:
-    """Runs a deck by `uel run` in a process of its own, whatever happens to it."""
+    """Runner of a deck by `uel run` in a process of its own, whatever happens to it."""
 
     def __init__(self, records: Records, settings: Settings, signals: Sequence[int]) -> None:
         self._records = records
@@ -119,7 +119,7 @@ class _Runner:
         self._signals = signals
 
     def __call__(self, run: BatchRun, folder: Path) -> Entry | None:
-        """Entry of the run; None if the batch is interrupted, or if another one has this run."""
+        """Return the entry of the run; None if the batch is interrupted, or if another one has this run."""
         place = folder / run.name
         place.mkdir(parents=True, exist_ok=True)
         stem = place / run.name

@@ -38,21 +38,21 @@ class Deck(Protocol):
         """Name of the deck `NAME.inp`, of its folder and of its entry."""
 
     def files(self) -> dict[str, str]:
-        """The deck and the files that it includes, by name: their texts, or digests of them."""
+        """Return the deck and the files that it includes, by name: their texts, or digests of them."""
 
 
 class StoredRow:
-    """What a `Store` keeps of a run: base of dataclasses of numbers and texts."""
+    """Row that a `Store` keeps of a run: base of dataclasses of numbers and texts."""
 
     __slots__ = ()
 
     def to_json(self) -> dict[str, object]:
-        """Values by name, in types of JSON."""
+        """Return the values by name, in types of JSON."""
         return asdict(self)  # type: ignore[call-overload, no-any-return]
 
     @classmethod
     def from_json(cls, values: Mapping[str, object]) -> Self:
-        """Entry of the values that `to_json` gave."""
+        """Create an entry from the values that `to_json` gave."""
         return cls(**values)
 
 
@@ -63,10 +63,10 @@ T = TypeVar("T")
 
 
 class Keeper(Protocol[DeckT_contra, EntryT]):
-    """Keeps the entries of runs."""
+    """Keeper of the entries of runs."""
 
     def get(self, deck: DeckT_contra, /) -> EntryT | None:
-        """Entry of a deck; None if it has to run."""
+        """Return the entry of a deck; None if it has to run."""
 
     def put(self, deck: DeckT_contra, entry: EntryT, /) -> None:
         """Keep an entry."""
@@ -91,7 +91,7 @@ class Store(Generic[EntryT]):
             self._entries = json.loads(path.read_text(encoding="utf-8"))
 
     def get(self, deck: Deck) -> EntryT | None:
-        """Entry of a deck; None if there is none, or if the deck or the sources have changed since."""
+        """Return the entry of a deck; None if there is none, or if the deck or the sources have changed since."""
         entry = self._entries.get(deck.name)
         if entry is None or entry["fingerprint"] != fingerprint(deck):
             return None
@@ -109,7 +109,7 @@ class Store(Generic[EntryT]):
 
 
 def fingerprint(deck: Deck) -> str:
-    """Digest of a deck with all its files, and of the sources that its results depend on."""
+    """Return the digest of a deck with all its files, and of the sources that its results depend on."""
     digest = hashlib.sha256(_sources())
     for name, content in sorted(deck.files().items()):
         digest.update(f"{name}\n{content}".encode())
@@ -120,12 +120,12 @@ _PACKAGES: Final = (
     *(uel.assembly, uel.contact, uel.deck, uel.elements, uel.model, uel.procedures, uel.solver),
     *(uel.parallel, uel.usersub),
 )
-"""From the deck to the records of a run."""
+"""Packages that determine a run, from the deck to the records."""
 
 
 @cache
 def _sources() -> bytes:
-    """Digest of the sources at the first call: a batch continues with what it has imported."""
+    """Return the digest of the sources at the first call: a batch continues with what it has imported."""
     digest = hashlib.sha256(path_of_amalgam().read_bytes())
     for package in _PACKAGES:
         # __path__ of an editable installation is not a folder
@@ -170,7 +170,7 @@ def complete(
     work: Callable[[DeckT], float] = lambda _: 1.0,
     threads: bool = False,
 ) -> dict[DeckT, EntryT]:
-    """Entries of all decks, in their order; those not in the store are computed and kept.
+    """Return the entries of all decks, in their order; those not in the store are computed and kept.
 
     A deck is left out for which the function returns None: it has not run to an end.
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How far a batch is: n of N, and the time left.
+"""Progress of a batch: n of N, and the time left.
 
 The estimate of `rich` counts what has ended in the last half a minute, in which no run of a large model ends; and it
 takes all runs for equally long. Here the runs that are left take as long, for their work, as those that have ended.
@@ -24,7 +24,7 @@ from rich.text import Text
 
 
 def time_left(elapsed: float, done: float, left: float) -> float | None:
-    """Seconds until the work that is left is done, if it goes on as in the seconds that have elapsed; None: unknown.
+    """Estimate the seconds for the work that is left, at the pace so far; None: unknown.
 
     Until a hundredth is done it is: the seconds are those of starting, more than of working.
     """
@@ -34,7 +34,7 @@ def time_left(elapsed: float, done: float, left: float) -> float | None:
 
 
 def clock(seconds: float | None) -> str:
-    """H:MM:SS."""
+    """Format seconds as H:MM:SS."""
     return "-:--:--" if seconds is None else str(timedelta(seconds=round(max(seconds, 0.0))))
 
 
@@ -42,7 +42,7 @@ class TimeLeft(ProgressColumn):
     """The time left, as of the run that ended last, less the time since."""
 
     def render(self, task: Task) -> Text:
-        """The column."""
+        """Render the column."""
         left = task.fields["left"]
         since = (task.elapsed or 0.0) - task.fields["at"]
         return Text(clock(left if left is None else left - since), style="progress.remaining")
@@ -87,7 +87,7 @@ class BatchProgress:
         self._progress.stop()
 
     def ended(self, work: float, line: str) -> None:
-        """A run of so much work has ended; `line` says how, none if empty."""
+        """Count a run of so much work as ended; `line` says how, none if empty."""
         self._done += work
         task = self._progress.tasks[self._task]
         elapsed = task.elapsed or 0.0

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is kept of each run of a batch, beside its files, and the table of all of them.
+"""Records of a batch: an entry for each run, beside its files, and the table of all of them.
 
 A run has a folder of its own, FOLDER/NAME, with the files of the job and the entry NAME.json, so that batches on
 several machines may share FOLDER.
@@ -40,7 +40,7 @@ _OF_HISTORY: Final = ("max", "min", "last")
 
 @dataclass(frozen=True, slots=True)
 class Entry(StoredRow):
-    """How a run ended.
+    """Ending of a run.
 
     status          COMPLETED, ENDED_EARLY after some increments, or FAILED before the first one was complete
     reason          why it did not complete: first line of its error
@@ -59,7 +59,7 @@ class Entry(StoredRow):
 
     @property
     def completed(self) -> bool:
-        """Whether the analysis has completed."""
+        """True if the analysis has completed."""
         return self.status == COMPLETED
 
     def __str__(self) -> str:
@@ -68,7 +68,7 @@ class Entry(StoredRow):
 
 
 def measure(stem: Path, code: int, log: Path) -> Entry:
-    """Entry of a run from its files; code: exit code of `uel run`, log: what it printed."""
+    """Return the entry of a run from its files; code: exit code of `uel run`, log: what it printed."""
     try:
         result = Result(stem)
     except UelError:
@@ -86,7 +86,7 @@ def measure(stem: Path, code: int, log: Path) -> Entry:
 
 
 def _reason(log: Path, code: int) -> str:
-    """First error that a run printed."""
+    """Return the first error that a run printed."""
     lines = log.read_text("utf-8", errors="replace").splitlines()
     said = [line.removeprefix(SPEAKER) for line in lines if line.startswith(SPEAKER)]
     errors = (text for text in said if not text.startswith(NOT_USED.partition(",")[0]))
@@ -94,7 +94,7 @@ def _reason(log: Path, code: int) -> str:
 
 
 def _history(result: Result) -> list[tuple[str, list[float]]]:
-    """Largest, smallest and last value of the columns that have any."""
+    """Return the largest, smallest and last value of the columns that have any."""
     known = {name: values[~np.isnan(values)] for name, values in result.history.items() if name not in FIXED}
     return [
         (name, [float(values.max()), float(values.min()), float(values[-1])])
@@ -119,7 +119,7 @@ class Records:
         self._keep_failed = keep_failed
 
     def read(self, run: BatchRun) -> Entry | None:
-        """Entry of a run; None if there is none of its present inputs."""
+        """Return the entry of a run; None if there is none of its present inputs."""
         try:
             return self._store(run).get(run)
         except (ValueError, LookupError, TypeError):
@@ -127,7 +127,7 @@ class Records:
             return None
 
     def get(self, run: BatchRun, /) -> Entry | None:
-        """Entry of a run; None if it has to run."""
+        """Return the entry of a run; None if it has to run."""
         entry = self.read(run)
         return entry if entry is not None and (entry.completed or self._keep_failed) else None
 
@@ -153,7 +153,7 @@ class Records:
 
 
 def _table(runs: Sequence[BatchRun], entries: Sequence[Entry | None]) -> str:
-    """Names and values, how each run ended, its files, and its history; a cell without a value is empty."""
+    """Return the names and values, how each run ended, its files, and its history; a cell without a value is empty."""
     parameters = dict.fromkeys(name for run in runs for name, _ in run.values)
     columns = dict.fromkeys(name for entry in entries if entry is not None for name, _ in entry.history)
     buffer = io.StringIO()

@@ -19,7 +19,7 @@ from uel.errors import DeckError, UsageError
 from uel.files import read_whole
 
 ENDING: Final = ".inp"
-"""Of decks in a folder, in any case."""
+"""Ending of decks in a folder, in any case."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,13 +38,13 @@ class BatchRun:
     inputs: tuple[tuple[str, str], ...]
 
     def files(self) -> dict[str, str]:
-        """What its results depend on, by name."""
+        """Return the inputs on which its results depend, by name."""
         return dict(self.inputs)
 
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """How the runs of a batch are made.
+    """Settings of the runs of a batch.
 
     user        user files
     options     words of the command `uel run` on which results depend
@@ -57,12 +57,12 @@ class Settings:
 
     @property
     def debug(self) -> bool:
-        """Whether the user files are compiled with run-time checks."""
+        """True if the user files are compiled with run-time checks."""
         return "--debug" in self.options
 
 
 def list_runs(places: Sequence[Path], table: Path | None, settings: Settings) -> list[BatchRun]:
-    """The runs, in the order of the decks or of the rows; the user files are compiled, once for all of them.
+    """List the runs, in the order of the decks or of the rows; the user files are compiled once for all of them.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ def list_runs(places: Sequence[Path], table: Path | None, settings: Settings) ->
 
 
 def _decks(place: Path, survey: Callable[[Path], Survey]) -> list[Path]:
-    """A deck, or those of a folder."""
+    """Return a deck, or those of a folder. Raises UsageError."""
     if not place.is_dir():
         if not place.exists():
             raise UsageError(f"{place}: no such deck or folder")
@@ -123,7 +123,7 @@ def _decks(place: Path, survey: Callable[[Path], Survey]) -> list[Path]:
 
 
 def _survey(deck: Path) -> Survey:
-    """As `survey_deck`; of a deck that cannot be read, the deck: its run says why."""
+    """Call `survey_deck`; for a deck that cannot be read, return the deck alone: its run says why."""
     try:
         return survey_deck(deck)
     except DeckError:
@@ -147,7 +147,7 @@ def _check_names(decks: Iterable[Path]) -> None:
 
 
 def _digest(file: Path) -> str:
-    """Digest of a file; '' if it cannot be read."""
+    """Return the digest of a file; '' if it cannot be read."""
     try:
         return hashlib.sha256(read_whole(file)).hexdigest()
     except (OSError, ValueError):

@@ -36,7 +36,7 @@ class Row:
 
 
 def read_table(path: Path, deck: Path, parameters: Sequence[str]) -> list[Row]:
-    """Rows of a table: names of parameters in its first line, with commas between them, then a line for each run.
+    """Read the rows of a table: names of parameters in the first line, with commas between, then a line for each run.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ def read_table(path: Path, deck: Path, parameters: Sequence[str]) -> list[Row]:
 
 
 def read_cells(path: Path, name: str) -> Iterator[tuple[Source, list[str]]]:
-    """Cells of the lines of a CSV file that are not empty, with their places.
+    """Yield the cells of the lines of a CSV file that are not empty, with their places.
 
     Raises UsageError, with the name for the file, if it cannot be read, and DeckError if it is no table.
     """
@@ -104,7 +104,7 @@ def _check_names(source: Source, names: Sequence[str], deck: Path, parameters: S
 
 
 def _row(source: Source, names: Sequence[str], cells: Sequence[str], places: dict[str, Source]) -> Row:
-    """The row of a line; places: of the jobs so far, which this one is added to."""
+    """Read the row of a line; places: of the jobs so far, to which this one is added. Raises DeckError."""
     if len(cells) != len(names):
         found = "1 value" if len(cells) == 1 else f"{len(cells)} values"
         raise DeckError(source, f"expected a value for each of {', '.join(names)}, found {found}")

@@ -8,7 +8,7 @@ import math
 
 
 def value_of(text: str) -> float:
-    """The number that a text stands for, whole where it is written so; ValueError if it is none, or not finite."""
+    """Convert a text to a number, whole where it is written so; ValueError if it is none, or not finite."""
     if "_" in text:
         raise ValueError
     try:
