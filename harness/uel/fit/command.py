@@ -83,7 +83,7 @@ def fit(
 
 
 class _Runs:
-    """Makes the runs of a fit, all of which are rows of one batch: what has run before is not repeated."""
+    """Runner of a fit, whose runs are rows of one batch: what has run before is not repeated."""
 
     def __init__(
         self,
@@ -104,7 +104,7 @@ class _Runs:
         return len(self._rows)
 
     def curves(self, points: Sequence[FloatArray]) -> list[FloatArray]:
-        """Curves of runs with these values, at the places of the measured one."""
+        """Return the curves of runs with these values, at the places of the measured one."""
         first = len(self._rows)
         self._rows += [[f"fit-{first + k:03d}", *map(repr, map(float, p))] for k, p in enumerate(points, 1)]
         self._folder.mkdir(parents=True, exist_ok=True)
@@ -147,7 +147,7 @@ def _summary(variables: Sequence[Variable], found: Fit, runs: int) -> list[str]:
 
 
 def _write(stem: Path, variables: Sequence[Variable], measured: Measurement, found: Fit) -> None:
-    """NAME_fit.csv with the variables, NAME_fit_curve.csv with the curves and their derivatives."""
+    """Write NAME_fit.csv with the variables, and NAME_fit_curve.csv with the curves and their derivatives."""
     names = [variable.name for variable in variables]
     head = ["name", "value", "lower", "upper", "start", "low", "high", *(f"correlation {name}" for name in names)]
     rows = [
@@ -169,7 +169,7 @@ def _write_table(path: Path, head: Sequence[str], rows: Sequence[Sequence[object
 
 
 def _draw(path: Path, variables: Sequence[Variable], measured: Measurement, found: Fit) -> None:
-    """The curves, and how they depend on the variables."""
+    """Draw the curves, and how they depend on the variables."""
     from uel.output.pictures.plots import Curve, Panel, grid  # noqa: PLC0415 (the runs come first)
 
     x, y = map(str, measured.columns)

@@ -30,7 +30,7 @@ class Measurement:
     columns: tuple[Column, Column]
 
     def of_run(self, history: Mapping[str, FloatArray], job: str) -> FloatArray:
-        """Values of a run (n,) at the places x, from a start at (0, 0) on.
+        """Return the values of a run (n,) at the places x, from a start at (0, 0) on.
 
         Raises
         ------
@@ -55,7 +55,7 @@ class Measurement:
 
 
 def read_measurement(path: Path, x: str | None, y: str | None) -> Measurement:
-    """Measured curve from a CSV file: a line of two names, then lines of two numbers.
+    """Read a measured curve from a CSV file: a line of two names, then lines of two numbers.
 
     Parameters
     ----------

@@ -21,10 +21,10 @@ STEP = 0.05
 TOLERANCE = 3e-3
 """Relative change of the parameters, and of the sum of squares, at which the search ends."""
 LEVEL = 0.95
-"""Of the confidence intervals."""
+"""Level of the confidence intervals."""
 
 CONVERGED = "converged"
-"""Why the search ended, if it has found what it sought."""
+"""Reasons why the search ended, if it has found what it sought."""
 
 Curves = Callable[[Sequence[FloatArray]], list[FloatArray]]
 """Curves (n,) of runs with these values (k,) of the variables, several at a time."""
@@ -55,7 +55,7 @@ class Fit:
 
 
 class _SpentError(Exception):
-    """No runs are left."""
+    """Error of a search for which no runs are left."""
 
 
 class _Search:
@@ -77,11 +77,11 @@ class _Search:
         self._least = np.inf
 
     def residual(self, place: FloatArray) -> FloatArray:
-        """Differences (n,), as part of the largest measured value."""
+        """Return the differences (n,), as part of the largest measured value."""
         return self._at(place)[0]
 
     def jacobian(self, place: FloatArray) -> FloatArray:
-        """Derivatives (n, k) of these."""
+        """Return the derivatives (n, k) of the residuals."""
         return self._at(place)[1]
 
     def _at(self, place: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -169,7 +169,7 @@ def fit_curve(
 
 
 def _covariance(slopes: FloatArray, variance: float) -> FloatArray:
-    """Of the variables (k, k); infinite for those on which nothing depends."""
+    """Return the covariance (k, k) of the variables; infinite for those on which nothing depends."""
     covariance = np.diag(np.full(slopes.shape[1], np.inf))
     moving = np.linalg.norm(slopes, axis=0) > 1e-9
     inner = slopes[:, moving]

@@ -34,7 +34,7 @@ class Variable:
 
 
 def read_variable(text: str) -> Variable:
-    """Variable of a word NAME=LOW:HIGH or NAME=LOW:START:HIGH; without a start their geometric mean. UsageError."""
+    """Read a variable, NAME=LOW:HIGH or NAME=LOW:START:HIGH; the start defaults to the geometric mean. UsageError."""
     name, _, rest = text.partition("=")
     try:
         values = [float(value_of(word.strip())) for word in rest.split(":")]
@@ -50,7 +50,7 @@ def read_variable(text: str) -> Variable:
 
 
 def prepare_deck(deck: Path, variables: Sequence[Variable], folder: Path) -> Path:
-    """The deck with all variables among its parameters: itself, or a copy in the folder, NAME_fit.inp.
+    """Write the deck with all variables among its parameters: itself, or a copy in the folder, NAME_fit.inp.
 
     A variable that *PARAMETER of the deck does not define is a property of our interface elements, such as GIC, on the
     data lines of *UEL PROPERTY in the deck itself. In the copy a parameter stands there, and included files are named
@@ -87,7 +87,7 @@ def prepare_deck(deck: Path, variables: Sequence[Variable], folder: Path) -> Pat
 
 
 def _place_of(group: ElementGroup, name: str, deck: Path) -> tuple[int, int] | None:
-    """Line from 1 of *UEL PROPERTY in the deck, and position from 0 of a property; None if there is no such."""
+    """Find a property on *UEL PROPERTY in the deck: line from 1 and position from 0; None if there is no such."""
     section = group.section
     if not isinstance(section, UserProperty) or group.definition is None or section.source.file != str(deck):
         return None
@@ -121,5 +121,5 @@ def _replace(lines: list[str], keyword: int, position: int, text: str) -> bool:
 
 
 def _with_folder(line: str, folder: Path) -> str:
-    """A line whose INPUT= names its file with the folder."""
+    """Give the file that INPUT= names in a line its folder."""
     return _INPUT.sub(lambda m: f'{m[1]}"{(folder / m[2].strip().strip(chr(34))).resolve()}"{m[3]}', line)
