@@ -73,11 +73,11 @@ class Deck:
 
     @property
     def start(self) -> Source:
-        """The first line, for errors that have no other place."""
+        """First line, for errors that have no other place."""
         return Source(str(self.file), 1)
 
     def _stand_in(self) -> None:
-        """Which node and element of the whole model stands for each."""
+        """Map nodes and elements of the whole model to those of the first instance of their part. Raises DeckError."""
         self.node_of = np.arange(len(self.flat.mesh.labels))
         self.element_of = np.arange(sum(len(owner.elements) for owner in self.owners))
         self.first: dict[str, Owner] = {}
@@ -140,7 +140,7 @@ class Deck:
             raise self.error(last, f"elements {names} share a face, which can belong to two elements at most")
 
     def _read_sections(self) -> None:
-        """Section of each solid, -1 for none, and the keywords that give them."""
+        """Read the section of each solid, -1 for none, and the keywords that give them."""
         self.section_blocks: list[tuple[Owner, Block]] = []
         self.sections = np.full(self.solids.count, -1)
         self._sectioned = np.zeros(len(self.element_of), dtype=bool)
@@ -154,23 +154,23 @@ class Deck:
                     self.section_blocks.append((owner, block))
 
     def lacks_section(self, positions: IntArray) -> NDArray[np.bool_]:
-        """Whether elements of the whole model have no section."""
+        """Mask the elements of the whole model that have no section."""
         return ~self._sectioned[positions]
 
     def surface_names(self) -> list[str]:
-        """Names of all surfaces."""
+        """Return the names of all surfaces."""
         return list(self._surfaces())
 
     def owner_of(self, position: int) -> Owner:
-        """Who has an element of the whole model."""
+        """Return the owner of an element of the whole model."""
         return next(o for o in reversed(self.owners) if len(o.elements) and o.element_offset <= position)
 
     def owner_of_node(self, index: int) -> Owner:
-        """Who has a node of the whole model."""
+        """Return the owner of a node of the whole model."""
         return next(o for o in reversed(self.owners) if len(o.nodes) and o.node_offset <= index)
 
     def name(self, number: int) -> str:
-        """Label of a solid, with its instance."""
+        """Return the label of a solid, with its instance."""
         position = int(self.positions[number])
         owner = self.owner_of(position)
         return full_name(owner.name, int(owner.elements[position - owner.element_offset]))
@@ -181,12 +181,12 @@ class Deck:
         return run, int(np.flatnonzero(run.positions == self.positions[number])[0])
 
     def error(self, number: int, message: str) -> DeckError:
-        """An error at a solid: 'element 7 (C3D10)', then the message."""
+        """Make an error at a solid: 'element 7 (C3D10)', then the message."""
         run, row = self.run_of(number)
         return DeckError(run.run.source(row), f"element {self.name(number)} ({run.run.type.name}): {message}")
 
     def solids_of(self, name: str, option: str) -> IntArray | None:
-        """Solids of an element set, None where there is no set of this name; UsageError where it has no solids."""
+        """Return the solids of an element set, None for an unknown set. Raises UsageError where it has no solids."""
         key = self._key(name, self.flat.elsets, option)
         if key is None:
             return None
@@ -197,18 +197,18 @@ class Deck:
         return numbers
 
     def nodes_of(self, name: str, option: str) -> IntArray | None:
-        """Nodes of a node set, None where there is no set of this name."""
+        """Return the nodes of a node set, None where there is no set of this name."""
         key = self._key(name, self.flat.nsets, option)
         return None if key is None else np.unique(self.node_of[self.flat.nsets[key]])
 
     def surface(self, name: str, option: str) -> tuple[Owner, Block] | None:
-        """*SURFACE of a name, and who has it."""
+        """Return the *SURFACE of a name, and its owner."""
         blocks = self._surfaces()
         key = self._key(name, blocks, option)
         return None if key is None else blocks[key]
 
     def faces_of(self, owner: Owner, block: Block) -> NDArray[np.bool_]:
-        """Which faces of the solids belong to a *SURFACE of elements."""
+        """Mask the faces of the solids that belong to a *SURFACE of elements."""
         found = np.zeros(len(self.solids.element), dtype=bool)
         if block.options.given("COMBINE"):
             raise block.error("a combined surface is not supported here; expected one of sets or elements and faces")
@@ -231,13 +231,13 @@ class Deck:
         }
 
     def unknown(self, option: str, what: str, name: str, *known: Iterable[str]) -> UsageError:
-        """The error for a name that the deck does not have."""
+        """Make the error for a name that the deck does not have."""
         names = list(dict.fromkeys(name for names in known for name in names))
         listed = ", ".join(names[:20]) + (", ..." if len(names) > 20 else "") if names else "none"
         return UsageError(f"{option}: the mesh has no {what} {name} (it has: {listed}){nearest(name.upper(), names)}")
 
     def _key(self, name: str, known: Container[str], option: str) -> str | None:
-        """The name of a set as the whole model has it: SET, INSTANCE.SET, PART.SET, or SET of one part."""
+        """Find the name of a set as the whole model has it: SET, INSTANCE.SET, PART.SET, or SET of one part."""
         name = " ".join(name.replace('"', "").upper().split())
         if name in known:
             return name
@@ -250,7 +250,7 @@ class Deck:
 
 
 def _face_family(run: ElementRun, dimension: int) -> Family | None:
-    """Family of shells, membranes, rigid and other elements of a dimension; None for other elements."""
+    """Return the family of shells, membranes, rigid and other elements of a dimension; None for other elements."""
     kind = None if run.type.definition else BUILT_IN[run.type.name]
     family: Family | None = getattr(kind, "family", None)
     if family is None or family.dimension != dimension:
@@ -260,7 +260,7 @@ def _face_family(run: ElementRun, dimension: int) -> Family | None:
 
 
 def _solid_family(run: ElementRun) -> Family | None:
-    """Family of the solids of a run, built in or U1 and U9 of the project; None for other elements."""
+    """Return the family of the solids of a run, built in or U1 and U9 of the project; None for other elements."""
     if run.type.definition is None:
         kind = BUILT_IN[run.type.name]
         return kind.family if isinstance(kind, ContinuumType) else None

@@ -48,7 +48,7 @@ Items = tuple[tuple[str, float], ...]
 
 @dataclass(frozen=True, slots=True)
 class Insertion:
-    """What is inserted.
+    """Result of an insertion.
 
     kind        type of the elements, '' without any
     elements    number of elements
@@ -68,7 +68,7 @@ class Insertion:
     plies: tuple[tuple[str, str, int], ...] = ()
 
     def lines(self, elset: str) -> list[str]:
-        """What to tell the user."""
+        """Return the lines that tell the user about it."""
         lines = [f"warning: {warning}" for warning in self.warnings]
         lines += [
             f"--plies: cut between {lower} and {upper}: {count} face{'s' * (count != 1)}"
@@ -94,7 +94,7 @@ def insert(
     solids: Sequence[str] = (),
     values: Sequence[str] = (),
 ) -> tuple[str, Insertion]:
-    """Text of a deck with interface elements.
+    """Write the deck with interface elements.
 
     Parameters
     ----------
@@ -166,7 +166,7 @@ def _read(files: Sequence[Path], solids: Sequence[str]) -> Deck:
 
 
 def _meeting(deck: Deck, selection: Selection) -> list[str]:
-    """Warning that cuts between sections meet, as where the section of a ply changes along it."""
+    """Return a warning that cuts between sections meet, as where the section of a ply changes along it."""
     faces = np.flatnonzero(selection.meets)
     if not len(faces):
         return []
@@ -179,7 +179,7 @@ def _meeting(deck: Deck, selection: Selection) -> list[str]:
 
 
 def _with_elements(deck: Deck, selection: Selection, pieces: Cut) -> tuple[IntArray, int]:
-    """Faces below and above, (faces, 2), that get elements; and how many get none, for they cannot open."""
+    """Return the faces below and above, (faces, 2), that get elements; and how many get none, for they cannot open."""
     pairs = deck.solids.pairs
     order = np.stack([selection.below, 1 - selection.below], axis=1)
     sides = np.take_along_axis(pairs, order, axis=1)[selection.cuts & ~selection.crack]
@@ -190,7 +190,7 @@ def _with_elements(deck: Deck, selection: Selection, pieces: Cut) -> tuple[IntAr
 
 
 def _kind(deck: Deck, sides: IntArray, name: str) -> InterfaceType:
-    """The type of the elements: the one asked for, or the recommended one; DeckError where it does not fit."""
+    """Return the type of the elements, as asked for or recommended. Raises UsageError, DeckError if it does not fit."""
     known = interface_types()
     if name and name.upper() not in known:
         reason = ""
@@ -230,7 +230,7 @@ def _kind(deck: Deck, sides: IntArray, name: str) -> InterfaceType:
 
 
 def _face_families(deck: Deck, faces: IntArray) -> list[Family]:
-    """Family of each face."""
+    """Return the family of each face."""
     solids = deck.solids
     flat = solids.cells[0].family.dimension - 1
     sizes = solids.sizes[faces]
@@ -239,7 +239,7 @@ def _face_families(deck: Deck, faces: IntArray) -> list[Family]:
 
 
 def _changed(deck: Deck, pieces: Cut, warnings: list[str]) -> dict[int, IntArray]:
-    """New nodes of the elements that have doubles, by their place in the whole model; adds to the warnings."""
+    """Return the new nodes of elements that have doubles, by position in the whole model; adds to the warnings."""
     found: dict[int, IntArray] = {}
     for before, after in zip(deck.solids.cells, pieces.cells, strict=True):
         rows = np.flatnonzero(np.any(before.nodes != after.nodes, axis=1))
@@ -273,7 +273,7 @@ def _changed(deck: Deck, pieces: Cut, warnings: list[str]) -> dict[int, IntArray
 def _on_faces(
     deck: Deck, run: Run, rows: IntArray, cells: Mapping[int, Cells], warnings: list[str]
 ) -> tuple[IntArray, NDArray[np.bool_]]:
-    """Nodes after the cut of shells and the like on faces of solids, and which of them are on no side.
+    """Return the nodes after the cut of shells and the like on faces of solids, and which of them are on no side.
 
     Those without a section, groups of faces of a mesh, stay where both sides have them.
     """
@@ -301,7 +301,7 @@ def _on_faces(
 
 
 def _interface_type(run: Run) -> InterfaceType | None:
-    """The interface element that the elements of a run are, None for others."""
+    """Return the type of a run of interface elements, None for others."""
     kind = known_types().get(run.run.type.name)
     return kind if kind is not None and kind.nodes == run.run.type.nodes else None
 
@@ -320,7 +320,7 @@ def _write_interface(
     elset: str,
     values: Mapping[Items, IntArray],
 ) -> None:
-    """Elements, sets and properties, part by part."""
+    """Write elements, sets and properties, part by part."""
     cells = {group.family.number: group for group in pieces.cells}
     nodes = element_nodes(kind, deck.solids, sides[:, 0], sides[:, 1], cells)
     positions = deck.positions[deck.solids.element[sides[:, 0]]]
@@ -352,7 +352,7 @@ def _write_interface(
 def _values(
     kind: InterfaceType, sections: Sections, sides: tuple[Faces, Faces], given: Mapping[str, float]
 ) -> dict[Items, IntArray]:
-    """Elements by their properties, which those between like solids have in common."""
+    """Return the elements by their properties, which those between like solids have in common."""
     (below, first), (above, second) = (sections.sides(faces) for faces in sides)
     found: dict[Items, list[IntArray]] = {}
     pairs, which = np.unique(np.column_stack([first, second]), axis=0, return_inverse=True)
@@ -363,7 +363,7 @@ def _values(
 
 
 def _two_sides(deck: Deck, sides: IntArray) -> tuple[Faces, Faces]:
-    """Faces of the solids below and above."""
+    """Return the faces of the solids below and above."""
     solids = deck.solids
     corners = face_nodes(solids, sides[:, 0])[:, : int(solids.corners[sides[0, 0]])]
     normals = face_normals(solids.points[corners])
@@ -371,7 +371,7 @@ def _two_sides(deck: Deck, sides: IntArray) -> tuple[Faces, Faces]:
 
 
 def _ties(deck: Deck, pieces: Cut) -> list[str]:
-    """Warnings of ties to a surface that is cut: which of two nodes in one place a node follows is not decided."""
+    """Return warnings of ties to a cut surface: which of two nodes in one place a node follows is not decided."""
     doubled = np.zeros(len(deck.solids.points) + 1, dtype=bool)
     doubled[pieces.origins] = True
     found = []

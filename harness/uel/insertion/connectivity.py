@@ -44,13 +44,13 @@ class InterfaceType:
 
     @property
     def dimension(self) -> int:
-        """2 or 3."""
+        """Dimension, 2 or 3."""
         return self.face.dimension + 1
 
 
 @cache
 def known_types() -> dict[str, InterfaceType]:
-    """Interface elements by their names."""
+    """Return the interface elements by their names."""
     found = {
         name: InterfaceType(name, 0, kind.face, kind.nodes, kind.bottom, kind.top) for name, kind in COHESIVE.items()
     }
@@ -67,7 +67,7 @@ def known_types() -> dict[str, InterfaceType]:
 
 @cache
 def interface_types() -> dict[str, InterfaceType]:
-    """Those that can be inserted: not U3 and U10, which know their neighbours by numbers."""
+    """Return the types that can be inserted: not U3 and U10, which know their neighbours by numbers."""
     layouts = element_layouts()
     return {
         name: kind
@@ -77,7 +77,7 @@ def interface_types() -> dict[str, InterfaceType]:
 
 
 def fitting(faces: set[Family], solids: set[Family]) -> list[InterfaceType]:
-    """Types that fit between all these faces of all these solids, the recommended one first."""
+    """Return the types that fit between all these faces of all these solids, the recommended one first."""
     found = [
         kind
         for kind in interface_types().values()
@@ -88,7 +88,7 @@ def fitting(faces: set[Family], solids: set[Family]) -> list[InterfaceType]:
 
 
 def face_nodes(solids: Solids, faces: IntArray) -> IntArray:
-    """Nodes of faces of one family, (faces, nodes): corners so that the normal points out of the solid, then middles.
+    """Return the nodes of faces of one family, (faces, nodes): corners with the normal out of the solid, then middles.
 
     In the plane, the normal of an edge is its direction turned by 90 degrees, counter-clockwise; in space, corners are
     counter-clockwise seen from outside.
@@ -106,7 +106,7 @@ def face_nodes(solids: Solids, faces: IntArray) -> IntArray:
 
 
 def face_normals(corners: FloatArray) -> FloatArray:
-    """(faces, 3) unit normals of faces with these corners, (faces, corners, 3), in the order of `face_nodes`."""
+    """Return unit normals (faces, 3) of faces with these corners, (faces, corners, 3), in the order of `face_nodes`."""
     count = corners.shape[1]
     if count == 2:
         along = corners[:, 1] - corners[:, 0]
@@ -122,7 +122,7 @@ def face_normals(corners: FloatArray) -> FloatArray:
 def element_nodes(
     kind: InterfaceType, solids: Solids, faces: IntArray, opposite: IntArray, after: Mapping[int, Cells]
 ) -> IntArray:
-    """Nodes of interface elements, (faces, nodes of the type), by their numbers after the cut.
+    """Return the nodes of interface elements, (faces, nodes of the type), by their numbers after the cut.
 
     Parameters
     ----------
@@ -153,7 +153,7 @@ def element_nodes(
 def attached(
     kind: InterfaceType, solids: Solids, nodes: IntArray, after: Mapping[int, Cells]
 ) -> tuple[IntArray, NDArray[np.bool_]]:
-    """Nodes after the cut of interface elements that a mesh has, and which of them lie between no solids.
+    """Return the nodes after the cut of interface elements that a mesh has, and which of them lie between no solids.
 
     nodes: theirs before the cut, (elements, nodes of the type).
     """
@@ -172,7 +172,7 @@ def attached(
 
 
 def beside(solids: Solids, faces: IntArray, nodes: IntArray, after: Mapping[int, Cells]) -> IntArray:
-    """Nodes after the cut of elements on faces of solids, as those solids have them.
+    """Return the nodes after the cut of elements on faces of solids, as those solids have them.
 
     Parameters
     ----------
@@ -186,7 +186,7 @@ def beside(solids: Solids, faces: IntArray, nodes: IntArray, after: Mapping[int,
 
 
 def _rows(solids: Solids, after: Mapping[int, Cells], numbers: IntArray) -> tuple[IntArray, IntArray]:
-    """Nodes of solids before and after the cut, filled with -1 where there are types with fewer nodes."""
+    """Return the nodes of solids before and after the cut, filled with -1 where there are types with fewer nodes."""
     widest = max(group.nodes.shape[1] for group in solids.cells)
     old, new = np.full((2, len(numbers), widest), NONE)
     for group in solids.cells:
@@ -198,12 +198,12 @@ def _rows(solids: Solids, after: Mapping[int, Cells], numbers: IntArray) -> tupl
 
 
 def _local(rows: IntArray, wanted: IntArray) -> IntArray:
-    """Where in each row the wanted nodes stand."""
+    """Return the column of each wanted node in each row."""
     return np.stack([np.argmax(rows == column[:, None], axis=1) for column in wanted.T], axis=1)
 
 
 def _turned(family: Family, local: IntArray, place: Face) -> IntArray:
-    """Order of a solid's nodes that brings those of a face to `place`; local: (faces, nodes of the face) now."""
+    """Return the order of a solid's nodes that brings those of a face to `place`; local: (faces, nodes of the face)."""
     middles, beside = _edges(family)
     corners = sum(node < family.corners for node in place)
     face = local[:, :corners]
@@ -224,7 +224,7 @@ def _turned(family: Family, local: IntArray, place: Face) -> IntArray:
 
 @cache
 def _edges(family: Family) -> tuple[IntArray, list[list[int]]]:
-    """Node in the middle of the edge between two corners, -1 without one, and the corners next to each corner."""
+    """Return the node in the middle of the edge between two corners, -1 without one, and each corner's neighbours."""
     middles = np.full((family.corners, family.corners), NONE)
     beside: list[set[int]] = [set() for _ in range(family.corners)]
     for face in family.faces:

@@ -26,12 +26,12 @@ _DEFAULTS = ("CPS3", "CPS4", "CPS6", "CPS8", "C3D4", "C3D6", "C3D8", "C3D10", "C
 
 
 def is_mesh(file: Path) -> bool:
-    """Whether a file is a mesh of another program, by the ending of its name."""
+    """Report whether a file is a mesh of another program, by the ending of its name."""
     return file.suffix.lower() not in DECKS
 
 
 def read_mesh(file: Path, types: Sequence[str]) -> list[str]:
-    """Lines of a deck with the nodes, elements and sets of a mesh that meshio reads.
+    """Write the lines of a deck with the nodes, elements and sets of a mesh that meshio reads.
 
     Groups of solids become element sets, groups of faces, edges and points node sets; the dimension of the solids is
     the largest that cells of the mesh have.
@@ -91,7 +91,7 @@ _DIMENSIONS |= {name: 2 if name == "quad9" else 3 for name in (*_FULL, "pyramid"
 
 
 def _types(names: Sequence[str]) -> list[ContinuumType]:
-    """Types of solids, those that are named first."""
+    """Return the types of solids, those that are named first."""
     chosen = []
     for name in (*names, *_DEFAULTS):
         if name.upper() not in CONTINUUM:
@@ -119,7 +119,7 @@ def _load(file: Path) -> Any:
 
 
 def _oriented(nodes: IntArray, points: np.ndarray, kind: ContinuumType) -> IntArray:
-    """Nodes of cells, those that run clockwise in the plane turned over."""
+    """Return the nodes of cells, with those that run clockwise in the plane turned over."""
     if kind.dimension == 3:
         return nodes
     corners = points[nodes[:, : kind.corners], :2]
@@ -132,7 +132,7 @@ def _oriented(nodes: IntArray, points: np.ndarray, kind: ContinuumType) -> IntAr
 
 
 def _sets(file: Path, mesh: Any, solid: Sequence[bool], starts: Sequence[int], used: set[int]) -> list[str]:
-    """*ELSET and *NSET of the groups of a mesh."""
+    """Write *ELSET and *NSET of the groups of a mesh."""
     elements: dict[str, list[IntArray]] = {}
     nodes: dict[str, list[IntArray]] = {}
     for name, members in _groups(mesh).items():
@@ -158,7 +158,7 @@ def _sets(file: Path, mesh: Any, solid: Sequence[bool], starts: Sequence[int], u
 
 
 def _by_label(file: Path, groups: Mapping[str, list[IntArray]]) -> dict[str, list[IntArray]]:
-    """Groups by names that Abaqus reads without quotes, in which blanks do not count: 'ply 1' is PLY_1.
+    """Rename groups so that Abaqus reads them without quotes; blanks do not count: 'ply 1' becomes PLY_1.
 
     Raises UsageError where two groups have one name.
     """
@@ -172,7 +172,7 @@ def _by_label(file: Path, groups: Mapping[str, list[IntArray]]) -> dict[str, lis
 
 
 def _groups(mesh: Any) -> Mapping[str, Sequence[Any]]:
-    """Cells of each group, block by block; groups that Gmsh gives numbers only are PHYSICAL-number."""
+    """Return the cells of each group, block by block; groups that Gmsh gives numbers only are PHYSICAL-number."""
     found: dict[str, Sequence[Any]] = {
         name: members for name, members in mesh.cell_sets.items() if not name.startswith("gmsh:")
     }

@@ -72,7 +72,7 @@ def _neighbours(deck: Deck, sections: Sections, kind: InterfaceType, faces: IntA
 
 
 def _read_states(deck: Deck) -> States:
-    """Temperatures and initial stresses of the instances that stand for all."""
+    """Return the temperatures and initial stresses of the instances that stand for all."""
     problems, root = Problems(), deck.structure.root
     initial = read_initial_values(root, "TEMPERATURE", deck.flat, problems, None)
     stresses = read_initial_stresses(root, deck.flat, problems)
@@ -86,7 +86,7 @@ def _read_states(deck: Deck) -> States:
 
 
 def _temperatures(deck: Deck, block: Block) -> Iterator[Load]:
-    """Entries of *TEMPERATURE; what varies by an amplitude is what a routine gives, for it is not the value alone."""
+    """Yield the entries of *TEMPERATURE; one with an amplitude counts as given by a routine."""
     if block.name != "TEMPERATURE":
         return
     varies = block.options.given("AMPLITUDE") or block.options.flag("USER")

@@ -21,7 +21,7 @@ _OF_ABAQUS = ("THICKNESS", "ALPHAN", "ALPHAT", *_LAW, "VISCOSITY", "ETA", "POWER
 
 
 def read_values(words: Sequence[str]) -> dict[str, float]:
-    """Values by name from NAME=VALUE; an underscore stands for a blank. Raises UsageError."""
+    """Return the values by name from NAME=VALUE; an underscore stands for a blank. Raises UsageError."""
     values: dict[str, float] = {}
     for word in words:
         name, _, text = word.partition("=")
@@ -39,7 +39,7 @@ def read_values(words: Sequence[str]) -> dict[str, float]:
 
 
 def names_of(kind: InterfaceType) -> tuple[str, ...]:
-    """Names of the properties of a type."""
+    """Return the names of the properties of a type."""
     if not kind.jtype:
         return tuple(name for name in _OF_ABAQUS if name != "THICKNESS" or kind.dimension == 2)
     layout = element_layouts()[kind.jtype]
@@ -47,7 +47,7 @@ def names_of(kind: InterfaceType) -> tuple[str, ...]:
 
 
 def check_values(kind: InterfaceType, values: Mapping[str, float]) -> None:
-    """UsageError for a name that the type does not have, a law that is not complete, or a value out of its range."""
+    """Raise UsageError for a name that the type lacks, a law that is not complete, or a value out of its range."""
     known = names_of(kind)
     for name in values:
         if name not in known:
@@ -66,12 +66,12 @@ def check_values(kind: InterfaceType, values: Mapping[str, float]) -> None:
 
 
 def _law_of(given: Mapping[str, float]) -> int:
-    """LAW, if it is not given: a mixed mode criterion with an exponent needs the law that has one."""
+    """Return LAW, if it is not given: a mixed mode criterion with an exponent needs the law that has one."""
     return int(given.get("LAW", 2 if given.get("ETA") or given.get("POWER") else 1))
 
 
 def element_values(kind: InterfaceType, given: Mapping[str, float], below: Side, above: Side) -> dict[str, float]:
-    """Properties of an element: given ones, then those of its solids. Raises UsageError."""
+    """Return the properties of an element: given ones, then those of its solids. Raises UsageError."""
     known = names_of(kind)
     values = ({"LAW": float(_law_of(given))} if "LAW" in known else {}) | dict(given)
     if given.get("ALPHAN") and not given.get("ALPHAT"):
@@ -111,21 +111,21 @@ def _place(side: Side) -> str:
 
 
 def property_lines(kind: InterfaceType, elset: str, material: str, values: Mapping[str, float]) -> list[str]:
-    """The keyword that gives elements of a set their properties, with their names as comments."""
+    """Write the keyword that gives elements of a set their properties, with their names as comments."""
     if kind.jtype:
         return uel_property(kind.jtype, elset, values)
     return traction_section(elset, material, values.get("THICKNESS"))
 
 
 def definition_lines(kind: InterfaceType) -> list[str]:
-    """*USER ELEMENT of a type of the project; nothing for those of Abaqus."""
+    """Write *USER ELEMENT of a type of the project; nothing for those of Abaqus."""
     if not kind.jtype:
         return []
     return user_element(kind.jtype)
 
 
 def material_lines(kind: InterfaceType, name: str, values: Mapping[str, float]) -> list[str]:
-    """Material and section controls of elements of Abaqus, which belong to no part; nothing for the project's own."""
+    """Write material and section controls of elements of Abaqus, in no part; nothing for the project's own."""
     if kind.jtype:
         return []
     stiffness = values["ALPHAN"]

@@ -39,7 +39,7 @@ _NODAL = ("BOUNDARY", "INITIAL CONDITIONS", "TEMPERATURE", "FIELD", "PRESSURE ST
 _LOADS = ("CLOAD", "CFLUX", "CECHARGE", "CFILM", "CRADIATE")
 _NODE_BLOCKS = ("NODE", *(entry.name for entry in GENERATING if entry.name != "ELGEN"))
 _LOADED = "-OLD"
-"""Ends the name of a set of the old nodes alone."""
+"""Ending of the name of a set of the old nodes alone."""
 
 
 @dataclass(slots=True)
@@ -61,7 +61,7 @@ class Edits:
 
 
 class Rewriting:
-    """Turns a cut into edits of the deck."""
+    """Editor that turns a cut into edits of the deck."""
 
     def __init__(self, deck: Deck, cut: Cut) -> None:
         self._deck, self._cut = deck, cut
@@ -77,7 +77,7 @@ class Rewriting:
         self._number_nodes()
 
     def _number_nodes(self) -> None:
-        """Labels of the new nodes: on from the largest one of their part."""
+        """Label the new nodes, on from the largest label of their part."""
         self._labels = np.concatenate([self._deck.flat.mesh.labels, np.zeros(len(self._cut.origins), dtype=np.int64)])
         self._new: dict[str, IntArray] = {}
         for owner in self._deck.first.values():
@@ -88,12 +88,12 @@ class Rewriting:
                 self._new[owner.name] = self._count + mine
 
     def labels(self, nodes: IntArray) -> IntArray:
-        """Labels of nodes, old or new."""
+        """Return the labels of nodes, old or new."""
         found: IntArray = self._labels[nodes]
         return found
 
     def write_nodes(self) -> None:
-        """*NODE of the new nodes of each part, after all others of it."""
+        """Write *NODE of the new nodes of each part, after all others of it."""
         for name, nodes in self._new.items():
             owner = self._owner(name)
             local = owner.points[self._cut.origins[nodes - self._count] - owner.node_offset]
@@ -105,7 +105,7 @@ class Rewriting:
             self.edits.append(self._last(owner, *_NODE_BLOCKS), lines)
 
     def write_elements(self, new: dict[int, IntArray]) -> None:
-        """Connectivity of elements that changes; new: nodes of some elements by their place in the whole model."""
+        """Write the connectivity of elements that changes; new: nodes by position of the element in the whole model."""
         self._changed = new
         for owner in self._deck.first.values():
             rows = {
@@ -134,7 +134,7 @@ class Rewriting:
                     self.edits.lines[id(block), other] = []
 
     def _rewrite_generated(self, owner: Owner, block: Block, new: dict[int, IntArray]) -> None:
-        """*ELGEN becomes *ELEMENT where elements that it makes change."""
+        """Write *ELGEN as *ELEMENT where elements that it makes change."""
         places = {block.source_of(index) for index in range(len(block.lines))}
         runs = [run for run in owner.mesh.runs if len(run.labels) and run.source(0) in places]
         if not any(np.isin(run.labels, list(new)).any() for run in runs):
@@ -152,7 +152,7 @@ class Rewriting:
         self.edits.whole[id(block)] = lines
 
     def write_sets(self) -> None:
-        """Doubles in the node sets, and sets of the old nodes for loads."""
+        """Write the doubles into the node sets, and sets of the old nodes for loads."""
         loaded = self._rename_loads()
         flat = self._deck.flat
         for owner in self._deck.first.values():
@@ -177,7 +177,7 @@ class Rewriting:
                     self.edits.append(max(last, key=lambda block: self._order[id(block)]), lines)
 
     def _one_each(self, members: IntArray, present: set[int] | None) -> list[tuple[int, int]]:
-        """Each node with itself or, where a set has only doubles of it, with one of these."""
+        """Return each node with itself or, where a set has only doubles of it, with one of these."""
         found = []
         for node in members.tolist():
             own = int(self._deck.node_of[node])
@@ -186,7 +186,7 @@ class Rewriting:
         return found
 
     def _nodes_after(self, owner: Owner, blocks: Sequence[Block]) -> set[int]:
-        """Nodes that the elements of *NSET, ELSET= have after the cut."""
+        """Return the nodes that the elements of *NSET, ELSET= have after the cut."""
         elements = [self._deck.flat.elements(b.options.text("ELSET"), b.source, owner.name) for b in blocks]
         positions = self._deck.element_of[np.concatenate(elements)]
         found: set[int] = set()
@@ -197,7 +197,7 @@ class Rewriting:
         return found
 
     def _set_lines(self, owner: Owner, name: str, members: Sequence[tuple[int, int]]) -> list[str]:
-        """*NSET of nodes: each with the old node of whose instance it is."""
+        """Write *NSET of nodes: each with the old node of whose instance it is."""
         lines: list[str] = []
         of: dict[str, list[int]] = {}
         for old, node in members:
@@ -209,7 +209,7 @@ class Rewriting:
         return lines
 
     def _rename_loads(self) -> set[str]:
-        """Loads on sets whose nodes are doubled go to sets of the old nodes; returns the names of the former."""
+        """Move loads on sets whose nodes are doubled to sets of the old nodes; return the names of the former."""
         found: set[str] = set()
         for block in self._deck.blocks:
             if block.name not in _LOADS:
@@ -230,13 +230,13 @@ class Rewriting:
         return found
 
     def _first_name(self, key: str) -> str:
-        """Name of a set of an instance in the instance that stands for its part."""
+        """Return the name of a set of an instance in the instance that stands for its part."""
         instance, dot, name = key.rpartition(".")
         first = self._deck.first.get(self._deck.part_of.get(instance, ""))
         return f"{first.name}.{name}" if dot and first is not None else key
 
     def write_nodal_lines(self) -> None:
-        """Data lines that name single nodes, once more for their doubles."""
+        """Repeat data lines that name single nodes for their doubles."""
         for block in self._deck.blocks:
             nodal = block.name in _NODAL or (block.name == "SURFACE" and block.options.text("TYPE") == "NODE")
             if not nodal or (
@@ -251,7 +251,7 @@ class Rewriting:
                     self.edits.lines[id(block), index] = [block.lines[index], *again]
 
     def _copies_of_label(self, block: Block, name: str, row: Row) -> list[str]:
-        """What to write for the doubles of a single node."""
+        """Return the names of the doubles of a single node, as its data line writes them."""
         instance, _, label = name.rpartition(".")
         if not is_integer(label) and not is_integer(name):
             return []
@@ -262,7 +262,7 @@ class Rewriting:
         return [f"{before}{self._labels[copy]}" for copy in self._copies.get(int(self._deck.node_of[node]), [])]
 
     def write_equations(self) -> None:
-        """*EQUATION and *MPC with nodes that are doubled."""
+        """Write *EQUATION and *MPC with nodes that are doubled."""
         for owner in self._deck.first.values():
             for block in owner.blocks:
                 if block.name == "EQUATION":
@@ -305,7 +305,7 @@ class Rewriting:
         return self._deck.flat.nodes(row.name(index, "node or node set"), row.source, owner.name)
 
     def _tuples(self, sets: Sequence[IntArray]) -> Iterator[list[tuple[int, int]]]:
-        """Old and present node of each term, for each node of the first set and each of its doubles."""
+        """Yield the old and present node of each term, for each node of the first set and each of its doubles."""
         size = len(sets[0])
         for nodes in zip(*(np.resize(each, size).tolist() for each in sets), strict=True):
             first = int(self._deck.node_of[nodes[0]])
@@ -313,7 +313,7 @@ class Rewriting:
                 yield [(nodes[0], number), *((node, self._same_side(node, number)) for node in nodes[1:])]
 
     def _same_side(self, node: int, other: int) -> int:
-        """Of a node and its doubles, the one whose solids lie in the direction of those of another node."""
+        """Choose, among a node and its doubles, the one whose solids lie in the direction of those of another node."""
         own = int(self._deck.node_of[node])
         candidates = [own, *self._copies.get(own, [])]
         if len(candidates) == 1 or not self._cut.towards[other].any():
@@ -323,7 +323,7 @@ class Rewriting:
         return candidates[int(np.argmax(np.round(towards @ self._cut.towards[other] / length, 12)))]
 
     def _reference(self, owner: Owner, old: int, node: int) -> str:
-        """Name of a node in a keyword of an owner."""
+        """Return the name of a node in a keyword of an owner."""
         place = self._deck.owner_of_node(old).name
         return full_name("" if place == owner.name else place, int(self._labels[node]))
 
@@ -331,7 +331,7 @@ class Rewriting:
         return next(owner for owner in self._deck.owners if owner.name == name)
 
     def _last(self, owner: Owner, *names: str) -> Block:
-        """The last block of an owner with one of these keywords."""
+        """Return the last block of an owner with one of these keywords."""
         return max((block for block in owner.blocks if block.name in names), key=lambda block: self._order[id(block)])
 
     def after_elements(self, owner: Owner, lines: Sequence[str]) -> None:
@@ -345,7 +345,7 @@ class Rewriting:
         self.edits.append(self._deck.blocks[last], lines)
 
     def text(self) -> str:
-        """The deck with all edits."""
+        """Return the deck with all edits."""
         lines: list[str] = []
         edits = self.edits
         last = {id(passage.block): place for place, passage in enumerate(self._deck.passages) if passage.block}
@@ -367,25 +367,25 @@ class Rewriting:
 
 
 def element_lines(label: int, nodes: IntArray) -> list[str]:
-    """Data lines of an element: at most sixteen numbers on each."""
+    """Write the data lines of an element, at most sixteen numbers on each."""
     words = [str(label), *map(str, nodes.tolist())]
     rows = [", ".join(words[start : start + 2 * PER_LINE]) for start in range(0, len(words), 2 * PER_LINE)]
     return [f"{row}," for row in rows[:-1]] + rows[-1:]
 
 
 def _numbered_rows(block: Block) -> Iterator[tuple[int, Row]]:
-    """Data lines that hold something, with their places."""
+    """Iterate over data lines that hold something, with their indices."""
     return ((index, block.row(index)) for index, line in enumerate(block.lines) if line.strip(", \t"))
 
 
 def _defines(block: Block, name: str) -> bool:
-    """Whether a block gives nodes to a node set."""
+    """Report whether a block gives nodes to a node set."""
     options = [option for option in ("NSET", "NEW SET") if block.options.known(option)]
     return block.name in ("NSET", *_NODE_BLOCKS) and any(block.options.text(option) == name for option in options)
 
 
 def _without_input(block: Block, lines: Sequence[str]) -> Sequence[str]:
-    """A keyword line without INPUT=, whose lines follow it now."""
+    """Drop INPUT= from a keyword line, whose data lines follow it now."""
     if not (block.options.known("INPUT") and block.options.given("INPUT")):
         return lines
     fields = split_fields("".join(line for line in lines if not line.startswith("**")))
@@ -398,6 +398,6 @@ def _without_input(block: Block, lines: Sequence[str]) -> Sequence[str]:
 
 
 def quoted(name: str) -> str:
-    """A name of a set as a deck has it."""
+    """Write the name of a set as a deck has it, quoted where needed."""
     plain = unquote(name)
     return plain if re.fullmatch(r"[A-Z_][\w.-]*", plain) else f'"{plain}"'

@@ -39,7 +39,7 @@ from uel.model.properties import CompositeSection, ElasticType, Material, Orient
 PARALLEL = 1e-4
 """Radians between an axis of a material and the normal of the interface that are rounding."""
 _DECIMALS = 4
-"""Of angles in degrees: coordinates of seven digits give no more."""
+"""Decimals of angles in degrees: coordinates of seven digits give no more."""
 _PLANES = {Tensor.PLANE_STRESS: 0, Tensor.PLANE_STRAIN: 1, Tensor.SOLID: None}
 _NAMES = ("E1", "E2", "E3", "NU12", "NU13", "NU23", "G12", "G13", "G23")
 
@@ -76,7 +76,7 @@ class Faces:
     above: bool
 
     def take(self, rows: IntArray) -> Faces:
-        """Some of them."""
+        """Select some of the faces."""
         return Faces(self.numbers[rows], self.normals[rows], self.above)
 
 
@@ -93,13 +93,13 @@ class _Moduli:
 
     @property
     def isotropic(self) -> bool:
-        """Whether axes do not matter."""
+        """True if the axes do not matter."""
         e, nu, g = self.young[0], self.ratios[0], self.shear[0]
         alike = self.young == (e,) * 3 and self.ratios == (nu,) * 3 and self.shear == (g,) * 3
         return alike and math.isclose(g, e / (2.0 * (1.0 + nu)), rel_tol=1e-12)
 
     def renamed(self, order: tuple[int, ...]) -> _Moduli:
-        """The same with the axes in another order: nu_ij is nu_ji E_i/E_j."""
+        """Reorder the axes: nu_ij is nu_ji E_i/E_j."""
         pairs = {(0, 1): 0, (0, 2): 1, (1, 2): 2}
         new = [(order[i], order[j]) for i, j in pairs]
         ratios = [
@@ -111,7 +111,7 @@ class _Moduli:
         return _Moduli((first, second, third), (ratios[0], ratios[1], ratios[2]), (shear[0], shear[1], shear[2]))
 
     def named(self, angle: float) -> dict[str, float]:
-        """Properties by name."""
+        """Return the properties by name."""
         return dict(zip(_NAMES, (*self.young, *self.ratios, *self.shear), strict=True)) | {"ANGLE": angle}
 
 
@@ -136,7 +136,7 @@ class Sections:
         return list(self._oblique.values())
 
     def section(self, number: int, type: ElementType) -> SolidSection | CompositeSection | str:
-        """Section of solids of a type, by its number in the deck; or why there is none."""
+        """Return the section of solids of a type, by its number in the deck; or why there is none."""
         key = number, type.name
         if key not in self._made:
             self._made[key] = self._make(number, type)
@@ -156,7 +156,7 @@ class Sections:
         return made
 
     def kinds(self, faces: IntArray) -> Iterator[tuple[int, ElementType, IntArray]]:
-        """Section, -1 for none, type of the solids, and rows of faces (k,), for each kind of solids that has them."""
+        """Yield section, -1 for none, type and rows of faces (k,) for each kind of solids that has faces."""
         deck = self._deck
         numbers = deck.solids.element[faces]
         pairs = np.column_stack([deck.sections[numbers], deck.run_index[numbers]])
@@ -184,7 +184,7 @@ class Sections:
         return found, which
 
     def _sides_of(self, number: int, type: ElementType, faces: Faces) -> Iterator[tuple[Side, IntArray]]:
-        """Sides of the faces of solids of a section and a type, each with its rows."""
+        """Yield the sides of the faces of solids of a section and a type, each with its rows."""
         kind = BUILT_IN.get(type.name)
         plane = _PLANES[kind.tensor] if isinstance(kind, ContinuumType) else None
         every = np.arange(len(faces.numbers))
@@ -220,7 +220,7 @@ class Sections:
         return self._deck.name(int(self._deck.solids.element[faces.numbers[rows[0]]]))
 
     def _layers(self, section: CompositeSection, faces: Faces) -> Iterator[tuple[SolidLayer | None, IntArray]]:
-        """Layer of a solid at each face, None where the face crosses them."""
+        """Yield the layer of a solid at each face, None where the face crosses them."""
         first, last = STACK_FACES[section.direction]
         side = self._deck.solids.side[faces.numbers]
         for layer, rows in (
@@ -234,7 +234,7 @@ class Sections:
     def _constants(
         self, owner: Owner, section: SolidSection | CompositeSection, layer: SolidLayer, faces: Faces
     ) -> Iterator[tuple[dict[str, float], IntArray]]:
-        """Elastic constants of a layer in the axes of an element that owns it, each with its rows.
+        """Yield the elastic constants of a layer in the axes of an element that owns it, each with its rows.
 
         Raises ValueError, which says why they are not known.
         """
@@ -281,7 +281,7 @@ class Sections:
     def _angles(
         self, owner: Owner, section: SolidSection | CompositeSection, layer: SolidLayer, faces: Faces
     ) -> tuple[IntArray, FloatArray]:
-        """Order of the axes of a material, (k, 3), the one across last, and angle of the first, (k,), at faces."""
+        """Return the order of a material's axes, (k, 3), the one across last, and the first's angle, (k,), at faces."""
         axes = self._axes(owner, section, layer, faces)
         if self._deck.solids.cells[0].family.dimension == 2:
             if np.any(np.abs(axes[:, 2, 2]) < math.cos(PARALLEL)):
@@ -309,7 +309,7 @@ class Sections:
     def _axes(
         self, owner: Owner, section: SolidSection | CompositeSection, layer: SolidLayer, faces: Faces
     ) -> FloatArray:
-        """Axes (k, 3, 3) of a material, in rows, in the middles of faces of an instance."""
+        """Return the axes (k, 3, 3) of a material, in rows, in the middles of faces of an instance."""
         deck, orientation = self._deck, layer.orientation
         shape = len(faces.numbers), 3, 3
         if orientation is None:
@@ -331,7 +331,7 @@ class Sections:
             raise ValueError(f"orientation {orientation.name}: {error}; it is not in element {name}") from None
 
     def _local_axes(self, owner: Owner, orientation: Orientation, faces: Faces) -> FloatArray:
-        """Axes of an orientation that differs from point to point."""
+        """Return the axes of an orientation that differs from point to point."""
         deck, system = self._deck, orientation.system
         assert system is not None
         if system.kind is SystemKind.USER:
@@ -360,7 +360,7 @@ def _direction_of(section: SolidSection | CompositeSection) -> int:
 
 
 def _thickness(block: Block) -> float | None:
-    """Thickness out of the plane of a section keyword, None where it has none."""
+    """Return the thickness out of the plane of a section keyword, None where it has none."""
     if block.name != "SOLID SECTION":
         return None
     row = next(block.rows(), None)
@@ -368,7 +368,7 @@ def _thickness(block: Block) -> float | None:
 
 
 def _moduli(material: Material) -> _Moduli:
-    """Moduli of a material; ValueError says why they are not known."""
+    """Return the moduli of a material; ValueError says why they are not known."""
     elastic = material.elastic
     if elastic is None:
         raise ValueError(f"material {material.name} has no *ELASTIC")
@@ -390,13 +390,13 @@ def _moduli(material: Material) -> _Moduli:
 
 
 def _half_turn(radians: FloatArray) -> FloatArray:
-    """Angles in degrees, above -90 and up to 90: half a turn leaves an orthotropic material as it is."""
+    """Reduce angles to degrees above -90 and up to 90: half a turn leaves an orthotropic material as it is."""
     degrees = np.round(np.degrees(radians), _DECIMALS)
     return np.asarray(np.round(90.0 - (90.0 - degrees) % 180.0, _DECIMALS))
 
 
 def _along(normals: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Directions s and t, (k, 3), at faces: s is the projection of x, or of z where x is within 0.1 degrees of n."""
+    """Return directions s and t, (k, 3), at faces: s is x projected, or z where x is within 0.1 degrees of n."""
     aligned = np.abs(normals[:, 0]) > math.cos(math.radians(0.1))
     beside = np.where(aligned[:, None], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0])
     s = beside - np.sum(beside * normals, axis=1, keepdims=True) * normals

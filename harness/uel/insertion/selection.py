@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which faces of the mesh are cut, which solid of each is below, and which of the cut is an initial crack."""
+"""Selection of the faces to cut, of the solid below each, and of the cut faces that are an initial crack."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True)
 class Wanted:
-    """Where to cut.
+    """Places to cut, as the user names them.
 
     between   pairs of element sets: the first is below
     surfaces  surfaces of elements, which are below
@@ -67,7 +67,7 @@ class Selection:
 
 
 def select(deck: Deck, wanted: Wanted) -> Selection:
-    """Faces that are wanted; UsageError where a name is unknown or names no face between two solids."""
+    """Find the faces that are wanted. Raises UsageError where a name is unknown or names no face between two solids."""
     solids = deck.solids
     sides = solids.element[solids.pairs]
     found = Selection(
@@ -118,7 +118,7 @@ def _take(found: Selection, option: str, which: Mask, below: IntArray | None = N
 
 
 def _upwards(deck: Deck) -> IntArray:
-    """Which solid of each pair is below by its place: along z, where that is the same y, then x."""
+    """Find which solid of each pair is below by its position: along z, where that is the same y, then x."""
     solids = deck.solids
     centroids = solids.centroids[solids.element[solids.pairs]]
     ahead = centroids[:, 1] - centroids[:, 0]
@@ -143,7 +143,7 @@ def _solids(deck: Deck, name: str, option: str) -> Mask:
 
 
 def _within(deck: Deck, nodes: IntArray) -> Mask:
-    """Pairs of faces whose nodes all are among these."""
+    """Return the pairs of faces whose nodes all are among these."""
     inside = np.zeros(len(deck.solids.points) + 1, dtype=bool)
     inside[nodes] = True
     inside[NONE] = True
@@ -152,7 +152,7 @@ def _within(deck: Deck, nodes: IntArray) -> Mask:
 
 
 def _surface(deck: Deck, name: str, option: str) -> Mask:
-    """(pairs, 2) which faces belong to a surface of elements."""
+    """Mask the faces (pairs, 2) that belong to a surface of elements."""
     at = deck.surface(name, option)
     if at is None:
         raise deck.unknown(option, "surface", name, deck.surface_names())
@@ -164,7 +164,7 @@ def _surface(deck: Deck, name: str, option: str) -> Mask:
 
 
 def _plies(deck: Deck, names: Sequence[str]) -> tuple[IntArray, Sequence[str]]:
-    """(solids,) number of the ply of each, -1 for none; names of the plies: those given, or sets of the sections."""
+    """Assign a ply to each solid, (solids,), -1 for none; return the plies' names too, as given or by section."""
     found = np.full(deck.solids.count, NONE)
     if not names:
         found = deck.sections.copy()
@@ -203,7 +203,7 @@ def _meeting(deck: Deck, cuts: Mask) -> Mask:
 
 
 def _crack(deck: Deck, name: str) -> Mask:
-    """Pairs of faces in a node set, at the elements of a set, or in a surface."""
+    """Return the pairs of faces in a node set, at the elements of a set, or in a surface."""
     nodes = deck.nodes_of(name, "--crack")
     if nodes is not None:
         return _within(deck, nodes)

@@ -22,7 +22,7 @@ from uel.model.element_types import Family
 WIDEST = 8
 """Nodes of the largest face."""
 NONE = -1
-"""Fills rows of nodes that have fewer."""
+"""Number that fills rows of nodes that have fewer."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +79,7 @@ class Solids:
 
     @cached_property
     def centroids(self) -> FloatArray:
-        """(solids, 3) means of the corners."""
+        """Means (solids, 3) of the corners."""
         found = np.zeros((self.count, 3))
         for group in self.cells:
             found[group.numbers] = self.points[group.nodes[:, : group.family.corners]].mean(axis=1)
@@ -87,20 +87,20 @@ class Solids:
 
     @cached_property
     def families(self) -> IntArray:
-        """(solids,) number of the family of each."""
+        """Number (solids,) of the family of each."""
         found = np.zeros(self.count, dtype=np.int64)
         for group in self.cells:
             found[group.numbers] = group.family.number
         return found
 
     def shared_by_three(self) -> IntArray:
-        """Solids at a face that belongs to more than two."""
+        """Return the solids at a face that belongs to more than two."""
         lengths = np.diff([*self._starts, len(self._order)])
         start = int(self._starts[np.argmax(lengths > 2)])
         return self.element[self._order[start : start + 3]]
 
     def faces_at(self, corners: IntArray) -> IntArray:
-        """A face with these corners for each row (rows, corners), -1 where there is none."""
+        """Find the face with these corners for each row (rows, corners), -1 where there is none."""
         rows = np.full((len(corners), 4), NONE)
         rows[:, : corners.shape[1]] = corners
         rows = np.sort(rows, axis=1)
@@ -115,7 +115,7 @@ class Solids:
         return found
 
     def _keys(self) -> IntArray:
-        """Corners of each face in ascending order."""
+        """Return the corners of each face in ascending order."""
         corners = np.where(np.arange(4) < self.corners[:, None], self.nodes[:, :4], NONE)
         return np.sort(corners, axis=1)
 
@@ -134,7 +134,7 @@ class Cut:
     towards: FloatArray
 
     def copies(self, count: int) -> dict[int, list[int]]:
-        """New nodes of each node, of `count` old ones, that has any."""
+        """Return the new nodes of each node that has any; count: number of old nodes."""
         found: dict[int, list[int]] = {}
         for number, origin in enumerate(self.origins.tolist(), start=count):
             found.setdefault(origin, []).append(number)
@@ -190,7 +190,7 @@ def cut(solids: Solids, cuts: NDArray[np.bool_]) -> Cut:
 
 
 def _links(solids: Solids, number: IntArray, which: NDArray[np.bool_]) -> IntArray:
-    """(links, 2) pairs of numbered places of a node, in two solids that share a face there."""
+    """Return pairs (links, 2) of numbered places of a node, in two solids that share a face there."""
     pairs = solids.pairs[which]
     # a face has the same nodes in both solids, in another order
     orders = np.argsort(solids.nodes[pairs], axis=2)
@@ -200,7 +200,7 @@ def _links(solids: Solids, number: IntArray, which: NDArray[np.bool_]) -> IntArr
 
 
 def _parts(links: IntArray, count: int) -> IntArray:
-    """(count,) number of the connected part of each place."""
+    """Return the number (count,) of the connected part of each place."""
     from scipy.sparse import coo_array  # noqa: PLC0415 (keeps the command quick)
     from scipy.sparse.csgraph import connected_components  # noqa: PLC0415
 
@@ -210,7 +210,7 @@ def _parts(links: IntArray, count: int) -> IntArray:
 
 
 def _equal_rows(rows: IntArray) -> tuple[IntArray, IntArray]:
-    """Order in which equal rows follow each other, earlier ones first, and where in it each run of them starts."""
+    """Return the order in which equal rows follow each other, earlier ones first, and the start of each run of them."""
     order = np.lexsort(rows.T[::-1])
     ordered = rows[order]
     new = np.ones(len(rows), dtype=bool)
