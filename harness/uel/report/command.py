@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What `uel report` does: gather what is known about a job and write its page."""
+"""Command `uel report`: gather what is known about a job and write its page."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def report(job: Path, path: Path | None = None) -> Path:
 
 
 def _facts(result: Result) -> list[str]:
-    """What one wants to know first."""
+    """Collect the facts that a reader wants first."""
     facts = [str(result.counts)]
     if load := largest_load(result):
         facts.append(load)
@@ -82,7 +82,7 @@ def _facts(result: Result) -> list[str]:
 
 
 def _times(result: Result) -> list[tuple[str, str]]:
-    """Where processor time went; empty for a run that did not write it."""
+    """Split the processor time by its use; empty for a run that did not write it."""
     times = read_times(result.file(".msg"))
     if times is None:
         return []
@@ -117,7 +117,7 @@ class _Deck:
 
     @classmethod
     def of(cls, result: Result) -> _Deck:
-        """The deck that the .dat file names."""
+        """Read the deck that the .dat file names."""
         path = read_deck_place(result.file(".dat"))
         if path is None:
             return cls(None, None, [], [f"{result.file('.dat').name} does not name the deck of the job."])

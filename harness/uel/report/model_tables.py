@@ -53,7 +53,7 @@ class Table:
 
 
 def element_table(model: Model) -> Table:
-    """Numbers of elements by type, and what each type is."""
+    """Return the numbers of elements by type, and what each type is."""
     counts: dict[str, int] = {}
     meanings: dict[str, str] = {}
     for group in model.groups:
@@ -65,7 +65,7 @@ def element_table(model: Model) -> Table:
 
 
 def step_table(model: Model, status: Sequence[StatusRow]) -> Table:
-    """Steps with what they took."""
+    """Make the table of the steps with what they took."""
     rows = []
     for step in model.steps:
         mine = [row for row in status if row.step == step.number]
@@ -79,7 +79,7 @@ def step_table(model: Model, status: Sequence[StatusRow]) -> Table:
 
 
 def property_tables(model: Model) -> Iterator[Table]:
-    """The properties of each section, once."""
+    """Yield a table of properties for each section, once."""
     seen: set[Source] = set()
     for group in model.groups:
         section = group.section
@@ -94,7 +94,7 @@ def property_tables(model: Model) -> Iterator[Table]:
 
 
 def layout_of(definition: UserElement | None) -> ElementLayout | None:
-    """The project's element that a deck defines, by its number, nodes and variables; None for any other."""
+    """Return the project's element that a deck defines, by its number, nodes and variables; None for any other."""
     layout = element_layouts().get(definition.number) if definition else None
     if definition and layout and (layout.nodes, layout.svars) == (definition.nodes, definition.variables):
         return layout
@@ -133,7 +133,7 @@ def _named(values: Sequence[float], names: Sequence[str], array: str) -> list[Ro
 
 
 def _said_once(rows: Sequence[Row]) -> list[Row]:
-    """Rows whose last cell is empty where it repeats the one above."""
+    """Return the rows whose last cell is empty where it repeats the one above."""
     above = ["", *(row[-1] for row in rows)]
     return [(*row[:-1], "" if row[-1] == last else row[-1]) for row, last in zip(rows, above, strict=False)]
 
@@ -187,7 +187,7 @@ def _beam_rows(section: BeamSection) -> Iterator[Row]:
 
 
 def _materials(section: ShellSection | CompositeSection) -> list[Material]:
-    """Each material of the layers once."""
+    """Return each material of the layers once."""
     return list({layer.material.name: layer.material for layer in section.layers}.values())
 
 

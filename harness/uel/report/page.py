@@ -54,7 +54,7 @@ _PLACE: Final = re.compile(r"(?P<file>\S[^\n:]*\.\w+):(?P<line>\d+)")
 
 @dataclass(frozen=True, slots=True)
 class Content:
-    """What the page shows.
+    """Content of the page.
 
     job, heading  name of the job, *HEADING of its deck
     completed     whether the analysis has completed
@@ -129,7 +129,7 @@ def _remarks(content: Content, title: str, remarks: Sequence[str]) -> Iterator[s
 
 
 def _linked(content: Content, text: str) -> str:
-    """Text with links to the lines of the deck that it names."""
+    """Link the lines of the deck that a text names."""
     parts: list[str] = []
     end = 0
     for match in _PLACE.finditer(text):
@@ -149,7 +149,7 @@ def _table(content: Content, table: Table) -> Iterator[str]:
 
 
 def _rows(head: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[str]:
-    """A table; columns of numbers are set to the right."""
+    """Yield a table in HTML; columns of numbers are set to the right."""
     right = [all(_NUMBER.fullmatch(row[k]) for row in rows) for k in range(len(head))]
     sides = [' class="number"' if is_number else "" for is_number in right]
     yield '<div class="scroll"><table>'
@@ -162,7 +162,7 @@ def _rows(head: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[str]:
 
 
 def _deck(content: Content) -> Iterator[str]:
-    """The deck with the numbers of its lines; links open it."""
+    """Yield the deck with the numbers of its lines; links open it."""
     if content.deck is None or not content.lines:
         return
     unfolded = " open" if len(content.lines) <= _LONGEST_OPEN else ""

@@ -38,7 +38,7 @@ class Picture:
 
 
 def pictures(result: Result) -> Iterator[Picture]:
-    """Pictures of a job, in the order of the page."""
+    """Yield the pictures of a job, in the order of the page."""
     with tempfile.TemporaryDirectory() as folder:
         for kind, caption in _CURVES:
             yield from _picture(result, kind, Asked(), Path(folder) / f"{kind}.svg", caption)
@@ -48,7 +48,7 @@ def pictures(result: Result) -> Iterator[Picture]:
 
 
 def _picture(result: Result, kind: str, asked: Asked, path: Path, caption: str) -> Iterator[Picture]:
-    """The picture, unless the job has no output for it."""
+    """Yield the picture, unless the job has no output for it."""
     try:
         draw(kind, [result], path, asked)
     except UelError:
@@ -58,7 +58,7 @@ def _picture(result: Result, kind: str, asked: Asked, path: Path, caption: str) 
 
 
 def _fields(result: Result) -> list[str]:
-    """Displacement, and a field of the cells."""
+    """Return the fields to draw: the displacement, and one of the cells."""
     if not result.frames:
         return []
     mesh = result.mesh()
