@@ -17,7 +17,7 @@ PLACEHOLDER: Final = "my_uel"
 """Name of the template's element, in texts and names of files."""
 
 _OURSELVES: Final = "THIS-PROGRAM"
-"""Stands in the template for what `pip install` takes to install this program."""
+"""Placeholder in the template for what `pip install` takes to install this program."""
 _NAME = re.compile(r"[A-Za-z]\w{0,63}", re.ASCII)
 
 
@@ -59,7 +59,7 @@ def create(target: Path) -> list[Path]:
 
 
 def requirement() -> str:
-    """What installs this program again: from where it came, by the record that installers keep of it (PEP 610)."""
+    """Return the pip requirement that installs this program again, from installers' record of its origin (PEP 610)."""
     try:
         installed = metadata.distribution("uel")
     except metadata.PackageNotFoundError:

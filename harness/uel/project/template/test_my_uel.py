@@ -14,7 +14,7 @@ YOUNG, POISSON, LENGTH, HEIGHT, THICKNESS, STRETCH = 70000.0, 0.3, 20.0, 10.0, 2
 
 
 def test_patch(tmp_path: Path) -> None:
-    """Uniaxial stress, which distorted quads reproduce exactly: F = E A u/L, and the height shrinks by nu H u/L."""
+    """Stretch a patch uniaxially: distorted quads reproduce F = E A u/L, and the height shrinks by nu H u/L."""
     end = {name: values[-1] for name, values in uel.run(DECK, USER, output_dir=tmp_path).history.items()}
     strain = STRETCH / LENGTH
     assert sum(end[f"RF1[ALL:{node}]"] for node in (3, 6, 9)) == pytest.approx(YOUNG * strain * HEIGHT * THICKNESS)
