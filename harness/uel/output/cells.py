@@ -39,7 +39,7 @@ class Cells:
 
 
 def cells_of(group: ElementGroup, variables: PointVariables | None, *, solid: bool) -> Cells:
-    """Cells of a group; `solid`: the model is three-dimensional."""
+    """Return the cells of a group; `solid`: the model is three-dimensional."""
     nodes, kind = group.nodes, group.built_in
     if isinstance(kind, SolidType):
         family: Family | None = kind.family
@@ -61,18 +61,18 @@ def cells_of(group: ElementGroup, variables: PointVariables | None, *, solid: bo
 
 
 def _family(nodes: int, *dimensions: int) -> Family | None:
-    """The family of a number of nodes, in the first of the dimensions that has one."""
+    """Return the family of a number of nodes, in the first of the dimensions that has one."""
     return next((FAMILIES[found, nodes] for found in dimensions if (found, nodes) in FAMILIES), None)
 
 
 def is_solid(model: Model) -> bool:
-    """True if the nodes do not all lie in one plane z = constant."""
+    """Report whether the nodes do not all lie in one plane z = constant."""
     z = model.mesh.coordinates[:, 2]
     return bool(len(z)) and bool(np.ptp(z) > 0.0)
 
 
 def cell_values(states: Sequence[ElementState], cells: tuple[Cells, ...]) -> dict[str, list[FloatArray]]:
-    """Means over the integration points, by variable, an array for each group; NaN where a group lacks the variable.
+    """Return means over the integration points, by variable, an array for each group; NaN without the variable.
 
     Coordinates of the points are left out, because the cell shows them, and variables without a name. What changes over
     a section is at the first and the last section point of shells, with _SNEG and _SPOS in its name, and at those of

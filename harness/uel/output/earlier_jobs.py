@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a job takes from the field output of an earlier one: displacements, temperatures."""
+"""Field output of an earlier job that a job takes over: displacements, temperatures."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from uel.model.perturbations import PERTURBATION_TIME
 from uel.output.results import Result
 
 ENDINGS = (".fil", ".odb", ".sim")
-"""Of result files of Abaqus, which a deck may name; those of this program have none of them."""
+"""Endings of result files of Abaqus, which a deck may name; those of this program have none of them."""
 
 
 class EarlierJobs:
@@ -31,7 +31,7 @@ class EarlierJobs:
         self._folders = folders
 
     def shape(self, job: str, step: int, mode: int, increment: int) -> tuple[IntArray, FloatArray]:
-        """Displacements.
+        """Read displacements.
 
         Parameters
         ----------
@@ -63,7 +63,7 @@ class EarlierJobs:
         return np.asarray(mesh.point_data["NODE"]), np.asarray(mesh.point_data["U"])
 
     def temperatures(self, job: str, step: int, increment: int) -> tuple[IntArray, FloatArray]:
-        """Temperatures of dof 11.
+        """Read temperatures of dof 11.
 
         Parameters
         ----------

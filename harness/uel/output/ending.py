@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How a run went, in the sentences that `uel run` ends with."""
+"""Outcome of a run, in the sentences that `uel run` ends with."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _FILES: Final = (".sta", ".msg", ".dat", "_history.csv", "_interface.csv", ".pvd
 
 
 def ending(result: Result) -> list[str]:
-    """Lines about a completed run: its first warnings, how it went, its largest load and its files."""
+    """Return the lines about a completed run: its first warnings, how it went, its largest load and its files."""
     last = result.status[-1]
     # a linear step takes no time, and may have a frequency in its place
     time = f", total time {last.total_time:g}" if last.time_increment > PERTURBATION_TIME else ""
@@ -32,7 +32,7 @@ def ending(result: Result) -> list[str]:
 
 
 def progress(result: Result) -> str:
-    """How far a run has come that ended early; '' before its first increment was complete."""
+    """Describe the progress of a run that ended early; '' before its first increment was complete."""
     if not result.counts.increments:
         return ""
     load = largest_load(result)
@@ -40,7 +40,7 @@ def progress(result: Result) -> str:
 
 
 def largest_load(result: Result) -> str:
-    """The largest load of the load-displacement curve, as a sentence; '' if the history has no such curve."""
+    """Describe the largest load of the load-displacement curve; '' if the history has no such curve."""
     curve = result.load_curve
     if curve is None:
         return ""
@@ -51,7 +51,7 @@ def largest_load(result: Result) -> str:
 
 
 def duration(seconds: float) -> str:
-    """A time with its unit."""
+    """Format a time with its unit."""
     if seconds < 0.1:
         return "less than 0.1 s"
     if seconds < 59.5:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the message file calls the fields of an analysis."""
+"""Terms of the message file for the fields of an analysis."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from uel.model.model import CONCENTRATION, Model
 
 @dataclass(frozen=True, slots=True)
 class FieldTerms:
-    """What Abaqus calls the flux of a field and the quantity conjugate to it; `dofs` belong to the field."""
+    """Abaqus' terms for the flux of a field and the quantity conjugate to it; `dofs` belong to the field."""
 
     flux: str
     quantity: str
@@ -29,7 +29,7 @@ FIELDS = {
 
 
 def fields_of(model: Model) -> list[str]:
-    """Fields that the elements of a model have; built-in elements have displacements, or concentrations, only."""
+    """Return the fields of a model's elements; built-in elements have displacements, or concentrations, only."""
     if model.diffusive:
         return ["concentration"]
     dofs: set[int] = set()

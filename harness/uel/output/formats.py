@@ -13,7 +13,7 @@ from pathlib import Path
 
 
 def engineering(value: float) -> str:
-    """Six digits and an exponent that is a multiple of three, as .msg has errors of contact: 442.915E-03."""
+    """Format six digits and an exponent that is a multiple of three, as .msg has errors of contact: 442.915E-03."""
     if value == 0.0:
         return "0.00000"
     exponent = 3 * (int(f"{value:.5e}".partition("e")[2]) // 3)
@@ -21,7 +21,7 @@ def engineering(value: float) -> str:
 
 
 def general(value: float, width: int = 11, digits: int = 3) -> str:
-    """Fortran's `1PGw.d`, with which the .msg and .dat files are written.
+    """Format as Fortran's `1PGw.d`, with which the .msg and .dat files are written.
 
     A number that rounds into [0.1, 10**digits) has `digits` significant digits and four blanks in place of the
     exponent; any other has one digit more and an exponent.
@@ -37,7 +37,7 @@ def general(value: float, width: int = 11, digits: int = 3) -> str:
 
 
 def exponential(value: float, width: int = 15, digits: int = 7) -> str:
-    """Fortran's `1PEw.d`, with which the .dat file prints values at nodes: one digit before the point, d behind it."""
+    """Format as Fortran's `1PEw.d`, as .dat prints values at nodes: one digit before the point, d behind it."""
     if not math.isfinite(value):
         return general(value, width)
     # zero has no sign
@@ -50,12 +50,12 @@ def _scientific(value: float, width: int, digits: int) -> str:
 
 
 def status_number(value: float, digits: int) -> str:
-    """C's `%#.<digits>g`, with which the .sta file is written; zero has one digit more than C gives it."""
+    """Format as C's `%#.<digits>g`, with which the .sta file is written; zero has one digit more than C gives it."""
     return f"{0.0:.{digits}f}" if value == 0.0 else f"{value:#.{digits}g}"
 
 
 def program() -> str:
-    """Name and version for the head of every file."""
+    """Return name and version for the head of every file."""
     try:
         return f"uel {version('uel')}"
     except PackageNotFoundError:
@@ -96,7 +96,7 @@ class TextFile:
 
 
 def read_remarks(path: Path, kind: str) -> list[str]:
-    """Remarks of a kind in a file, each on one line; none if there is no such file."""
+    """Read the remarks of a kind in a file, each on one line; none if there is no such file."""
     if not path.exists():
         return []
     found = re.findall(
@@ -106,7 +106,7 @@ def read_remarks(path: Path, kind: str) -> list[str]:
 
 
 def remark(kind: str, text: str) -> str:
-    """A note, warning or error (`kind` NOTE, WARNING, ERROR) with lines as long as Abaqus', continued under the text.
+    """Format a note, warning or error (`kind` NOTE, WARNING, ERROR) with lines as long as Abaqus', indented below it.
 
     Notes and warnings of Abaqus are in upper case; names and paths are left as they are.
     """

@@ -49,11 +49,11 @@ from uel.output.files.state_files import StateFiles
 from uel.output.progress import ProgressDisplay
 
 ERRORS = {CONTACT: ("penetration", "contact force error"), COUPLING: ("displacement error", "rotation error")}
-"""What the checks of constraints measure, where those of fields have a residual and a correction."""
+"""Names of the errors that the checks of constraints measure, in place of the residual and correction of fields."""
 
 
 class JobOutput:
-    """Writes NAME.sta, .msg, .dat, _history.csv, _interface.csv, .pvd with its .vtu files, _restart; shows progress.
+    """Writer of NAME.sta, .msg, .dat, _history.csv, _interface.csv, .pvd with .vtu files, _restart, and of progress.
 
     Files of an earlier job of the same name are replaced.
 
@@ -164,12 +164,12 @@ class JobOutput:
 
     @property
     def warnings(self) -> list[str]:
-        """Those in the .dat file: about the deck, about its output requests; then those in the .msg file."""
+        """Warnings in the .dat file: about the deck, about its output requests; then those in the .msg file."""
         return [*self._data.warnings, *self._message.warnings]
 
     @property
     def reached(self) -> str:
-        """Where the run is, as the end of a sentence."""
+        """Position of the run, as the end of a sentence."""
         steps, last = self._model.steps, self._last
         if last is None:
             return "before its first increment was complete"
@@ -179,7 +179,7 @@ class JobOutput:
 
     @property
     def unbalanced(self) -> list[str]:
-        """Where the last iteration was farthest from convergence, a sentence for each field that it did not accept."""
+        """Sentences on where the last iteration was farthest from convergence, one per field that did not accept it."""
         failed = []
         for check in self._checks:
             residual, correction = ERRORS.get(check.field, (f"residual {check.field}", "correction"))
@@ -304,7 +304,7 @@ class JobOutput:
         self._data.increment(record, last=last)
 
     def _monitored(self, record: IncrementDone) -> float | None:
-        """Value of the dof of *MONITOR."""
+        """Return the value of the dof of *MONITOR."""
         monitor = self._model.steps[record.step - 1].output.monitor
         if monitor is None:
             return None

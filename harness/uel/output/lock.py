@@ -16,7 +16,7 @@ from uel.errors import UelError, UsageError
 
 
 def job_stem(job: str, folder: str | Path | None) -> Path:
-    """Folder and name of a job; raises UsageError if the name cannot be one."""
+    """Return folder and name of a job. Raises UsageError if the name cannot be one."""
     if not job or job in (".", "..") or "/" in job or "\0" in job:
         raise UsageError(
             f"'{job}' cannot be a job name: expected a file name without folders (--output-dir takes the folder)"
@@ -25,7 +25,7 @@ def job_stem(job: str, folder: str | Path | None) -> Path:
 
 
 class LockedError(UelError):
-    """Another process runs a job of this name in this folder."""
+    """Error of a job while another process runs a job of this name in this folder."""
 
 
 @contextmanager

@@ -9,6 +9,6 @@ from uel.model.records import ElementState, PointVariables
 
 
 def point_values(state: ElementState, variables: PointVariables) -> FloatArray:
-    """Values (m, points, variables) of the elements of a group."""
+    """Return the values (m, points, variables) of the elements of a group."""
     count = variables.points * len(variables.names)
     return state.svars[:, :count].reshape(len(state.svars), variables.points, len(variables.names))

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class ProgressDisplay:
-    """One line for the step that runs: time, increment, iteration, residual against its tolerance, cutbacks."""
+    """Line for the step that runs: time, increment, iteration, residual against its tolerance, cutbacks."""
 
     def __init__(self, model: Model, *, quiet: bool, console: Console | None = None) -> None:
         console = console or Console(stderr=True)
@@ -86,7 +86,7 @@ class ProgressDisplay:
             self._progress.stop()
 
     def _ratio(self, checks: tuple[FieldCheck, ...]) -> str:
-        """Largest ratio of residual to tolerance of all fields."""
+        """Return the largest ratio of residual to tolerance of all fields."""
         controls = self._model.steps[self._step - 1].controls
         ratios = [
             abs(check.residual.value) / (controls_of(check.field, controls).r_n * check.time_average_flux)

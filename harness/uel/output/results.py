@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a job wrote, read back from its files, whether it finished, failed or was killed."""
+"""Results of a job, read back from its files, whether it finished, failed or was killed."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Counts:
 
     @classmethod
     def of(cls, rows: Sequence[StatusRow]) -> Counts:
-        """Those of some lines of a status file."""
+        """Count increments, iterations and cutbacks in some lines of a status file."""
         done = sum(not row.cutback for row in rows)
         return cls(done, sum(row.total_iterations for row in rows), len(rows) - done)
 
@@ -79,7 +79,7 @@ class Result:
         return self._stem.name
 
     def file(self, ending: str) -> Path:
-        """Path of a file of the job.
+        """Return the path of a file of the job.
 
         Parameters
         ----------
@@ -128,7 +128,7 @@ class Result:
 
     @cached_property
     def load_curve(self) -> LoadCurve | None:
-        """The load-displacement curve: see harness/uel/output/pictures/load_curve.py. None if the history has none."""
+        """Load-displacement curve: see harness/uel/output/pictures/load_curve.py. None if the history has none."""
         linear = {row.step for row in self.status if row.time_increment <= PERTURBATION_TIME}
         rows = ~np.isin(self.history["step"], list(linear))
         return load_curve({name: values[rows] for name, values in self.history.items()})
@@ -139,7 +139,7 @@ class Result:
         return read_frames(self.file(".pvd"))
 
     def mesh(self, increment: int = -1, step: int | None = None) -> meshio.Mesh:
-        """Mesh with all fields of an increment.
+        """Read the mesh with all fields of an increment.
 
         Parameters
         ----------
@@ -161,7 +161,7 @@ class Result:
         return read_field_mesh(self.file(".pvd"), step, increment)
 
     def field(self, name: str, increment: int = -1, step: int | None = None) -> FloatArray:
-        """One field of an increment.
+        """Read one field of an increment.
 
         Parameters
         ----------
@@ -190,7 +190,7 @@ class Result:
         raise UelError(f"{self.file('.pvd')}: no field '{name}'; available fields: {known}")
 
     def interface(self, increment: int = -1, step: int | None = None) -> dict[str, FloatArray]:
-        """Interface profile of an increment, by column: 'element', 'point', 'X', 'SEPN', 'TN', 'DAMAGE', ...
+        """Read the interface profile of an increment, by column: 'element', 'point', 'X', 'SEPN', 'TN', 'DAMAGE', ...
 
         Parameters
         ----------
@@ -210,5 +210,5 @@ class Result:
         return read_interface(self.file("_interface.csv"), step, increment)
 
     def interfaces(self) -> list[dict[str, FloatArray]]:
-        """Interface profiles of all increments that were written, in order."""
+        """Read the interface profiles of all increments that were written, in order."""
         return read_profiles(self.file("_interface.csv"))

@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""When an increment is written: every k-th of a step, or the first in each part of it, and the last one; which one of
-those that were written is read."""
+"""Schedule of the increments that are written, and choice of the one that is read.
+
+Written are every k-th increment of a step, or the first in each part of it, and the last one.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,7 @@ from uel.model.steps import Step
 
 
 class Schedule:
-    """Decides for one file; remembers what was written, so that the last increment is not written twice."""
+    """Schedule of one file; remembers what was written, so that the last increment is not written twice."""
 
     def __init__(self) -> None:
         self._written = (0, 0)
@@ -23,7 +25,7 @@ class Schedule:
         self._parts = (0, 0)
 
     def due(self, frequency: int, record: IncrementDone, *, last: bool) -> bool:
-        """True if the increment must be written now; `last`: no increment of the step follows."""
+        """Report whether the increment must be written now; `last`: no increment of the step follows."""
         place = (record.step, record.increment)
         if frequency < 1 or place == self._written or not (last or record.increment % frequency == 0):
             return False
@@ -31,7 +33,7 @@ class Schedule:
         return True
 
     def due_field(self, step: Step, record: IncrementDone, *, last: bool) -> bool:
-        """`due` of the field output of a step."""
+        """Report whether the field output of a step is `due`."""
         parts = step.output.field_intervals
         # the sum of the increments may be a little short of the end of a part
         done = (record.step, math.floor(parts * record.step_time / step.procedure.period + 1e-9))
@@ -44,7 +46,7 @@ class Schedule:
 
 
 def find_written(path: Path, what: str, places: Sequence[tuple[int, int]], step: int | None, increment: int) -> int:
-    """Which entry of a file is asked for.
+    """Find the entry of a file that is asked for.
 
     Parameters
     ----------

@@ -24,12 +24,12 @@ CONTROL_NAMES = {
 
 
 def controls_of(field: str, controls: Controls) -> FieldControls:
-    """Tolerances of a field of the records ('force', ...)."""
+    """Return the tolerances of a field of the records ('force', ...)."""
     return controls.fields.get(CONTROL_NAMES.get(field, field), controls.default)
 
 
 def procedure(step: Step) -> str:
-    """Kind of the step and its time incrementation."""
+    """Return the kind of the step and its time incrementation."""
     given = step.procedure
     lines = [
         f"                        S T E P  {step.number:6d}     {' '.join(given.full_title)}",
@@ -43,7 +43,7 @@ def procedure(step: Step) -> str:
 
 
 def _head_line(line: HeadLine) -> str:
-    """A line of the head of a step; a line with others below it is indented less."""
+    """Format a line of the head of a step; a line with others below it is indented less."""
     if isinstance(line, str):
         return f"{' ' * (5 if line.endswith('WITH -') else 10)}{line}"
     words, value = line
@@ -51,7 +51,7 @@ def _head_line(line: HeadLine) -> str:
 
 
 def completed(record: IncrementDone, period: float) -> str:
-    """How far an increment has come, in time or along a path."""
+    """Print how far an increment has come, in time or along a path."""
     if isinstance(record, BucklingMode):
         return f" MODE{record.increment:6d},  EIGENVALUE{general(record.step_time)}\n"
     if isinstance(record, ModeShape):
@@ -75,7 +75,7 @@ def completed(record: IncrementDone, period: float) -> str:
 def tolerances(
     step: Step, fields: Iterable[str], *, hybrid: bool = False, coupled: bool = False, contact: bool = False
 ) -> str:
-    """Everything that the convergence checks and the time incrementation of the step depend on.
+    """Return everything that the convergence checks and the time incrementation of the step depend on.
 
     hybrid: the model has hybrid elements; coupled: it has distributing couplings that turn; contact: it has contact
     pairs.
@@ -116,7 +116,7 @@ def tolerances(
 
 
 def _row(words: str, value: float) -> str:
-    """A line of 80 columns: counts end there, tolerances have three digits and factors four."""
+    """Format a line of 80 columns: counts end there, tolerances have three digits and factors four."""
     if isinstance(value, int):
         return f"     {words:<70}{value:5d}\n"
     if " FACTOR " in words or " RATIO " in words:

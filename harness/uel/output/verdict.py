@@ -29,7 +29,7 @@ def forget_verdict(stem: Path) -> None:
 
 
 def close_ended_run(stem: Path, reason: str) -> None:
-    """As `write_verdict`, for a run of another process, unless a new run of this name has begun."""
+    """Call `write_verdict` for a run of another process, unless a new run of this name has begun."""
     with suppress(LockedError, OSError), locked(stem):
         write_verdict(stem, reason)
 

@@ -38,11 +38,11 @@ _USER_ELEMENT_OUTPUT = (
 _PLACE: Final = "     INPUT FILE: "
 _GIVEN: Final = "PARAMETERS GIVEN IN PLACE OF THE VALUES IN THE DECK: "
 _HEAD_LINES: Final = 10
-"""In which the place of the deck is."""
+"""Number of lines in which the place of the deck is."""
 
 
 class DataFile:
-    """Writes NAME.dat; `warnings` are those in it."""
+    """Writer of NAME.dat; `warnings` are those in it."""
 
     def __init__(self, path: Path, model: Model) -> None:
         self._model = model
@@ -63,11 +63,11 @@ class DataFile:
         )
 
     def step_started(self, record: StepStarted) -> None:
-        """Head of a step."""
+        """Write the head of a step."""
         self._file.write(f"\n\n{procedure(self._model.steps[record.step - 1])}")
 
     def increment(self, record: IncrementDone, *, last: bool) -> None:
-        """Summary and tables of an increment, if the step prints any."""
+        """Write the summary and tables of an increment, if the step prints any."""
         step = self._model.steps[record.step - 1]
         if self._index is None:
             self._index = NodalIndex(len(self._model.mesh.labels), record.solution)
@@ -102,7 +102,7 @@ class DataFile:
         self._file.write(text)
 
     def modes(self, record: ModesFound | BucklingFactors) -> None:
-        """Table of eigenvalues."""
+        """Write the table of eigenvalues."""
         self._file.write(_natural(record) if isinstance(record, ModesFound) else _buckling(record))
 
     def _missing(self, record: IncrementDone, index: NodalIndex) -> None:
@@ -120,17 +120,17 @@ class DataFile:
                 self.remark("WARNING", f"{place}: {name} IS NOT AVAILABLE AND IS LEFT OUT")
 
     def remark(self, kind: str, text: str) -> None:
-        """A note, warning or error."""
+        """Write a note, warning or error."""
         if kind == "WARNING":
             self.warnings.append(text)
         self._file.write(f"\n{remark(kind, text)}")
 
     def text(self, text: str) -> None:
-        """Text of a user routine, unchanged."""
+        """Write the text of a user routine, unchanged."""
         self._file.write_lines(text)
 
     def close(self, error: str | None, others: int = 0) -> None:
-        """Verdict of the job; others: warnings in .msg, which .dat does not have."""
+        """Write the verdict of the job; others: warnings in .msg, which .dat does not have."""
         if error is not None:
             self.remark("ERROR", error)
         verdict = "BEEN COMPLETED" if error is None else "NOT BEEN COMPLETED"
@@ -142,7 +142,7 @@ class DataFile:
         self._file.close()
 
     def _input(self) -> str:
-        """How the deck was understood: size, user elements, ignored keywords, warnings."""
+        """Summarise the deck as it was understood: size, user elements, ignored keywords, warnings."""
         model = self._model
         elements = sum(len(group.labels) for group in model.groups)
         used = used_nodes(model)
@@ -181,7 +181,7 @@ class DataFile:
 
 
 def read_deck_place(path: Path) -> Path | None:
-    """The deck of a job by its .dat file; None if that does not say."""
+    """Read the path of a job's deck from its .dat file; None if that does not say."""
     if not path.exists():
         return None
     with path.open(encoding="utf-8", errors="replace") as file:
@@ -190,14 +190,14 @@ def read_deck_place(path: Path) -> Path | None:
 
 
 def read_given(path: Path) -> dict[str, float]:
-    """Parameters that replaced those of the deck, by the .dat file of a job."""
+    """Read the parameters that replaced those of the deck from the .dat file of a job."""
     notes = [note.removeprefix(_GIVEN) for note in read_remarks(path, "NOTE") if note.startswith(_GIVEN)]
     pairs = [pair.partition(" = ") for note in notes for pair in note.split(", ")]
     return {name: float(value) for name, _, value in pairs}
 
 
 def echo(deck: Path) -> str:
-    """The deck with line numbers; included files are not followed."""
+    """Return the deck with line numbers; included files are not followed."""
     try:
         lines = deck.read_text("utf-8", errors="replace").splitlines()
     except OSError:
@@ -207,7 +207,7 @@ def echo(deck: Path) -> str:
 
 
 def _natural(record: ModesFound) -> str:
-    """Table of natural frequencies."""
+    """Return the table of natural frequencies."""
     text = (
         "\n\n                              E I G E N V A L U E    O U T P U T\n\n"
         " MODE NO      EIGENVALUE              FREQUENCY               GENERALIZED MASS\n"
@@ -221,7 +221,7 @@ def _natural(record: ModesFound) -> str:
 
 
 def _buckling(record: BucklingFactors) -> str:
-    """Table of buckling loads."""
+    """Return the table of buckling loads."""
     text = (
         "\n\n                              E I G E N V A L U E    O U T P U T\n\n"
         ' BUCKLING LOAD ESTIMATE = ("DEAD" LOADS) + EIGENVALUE * ("LIVE" LOADS).\n'
@@ -235,7 +235,7 @@ def _buckling(record: BucklingFactors) -> str:
 
 
 def _user_element(name: str, definition: UserElement) -> str:
-    """What *USER ELEMENT says about a type."""
+    """Print what *USER ELEMENT says about a type."""
     dofs: dict[int, list[str]] = {}
     for node, dof in definition.dofs:
         dofs.setdefault(node, []).append(str(dof))
@@ -261,11 +261,11 @@ def _user_element(name: str, definition: UserElement) -> str:
 
 
 def _request(keyword: str, option: str, name: str) -> str:
-    """A keyword with its set, if it has one."""
+    """Return a keyword with its set, if it has one."""
     return f"{keyword}, {option}={name}" if name else keyword
 
 
 def _places(keyword: str, found: list[str]) -> str:
-    """A keyword with the first places where it occurs."""
+    """Return a keyword with the first places where it occurs."""
     more = f" and {len(found) - 3} more" if len(found) > 3 else ""
     return f"{keyword:<24} {', '.join(found[:3])}{more}"

@@ -39,7 +39,7 @@ _ENTRY = re.compile(r'<DataSet timestep="([^"]+)" part="0" file="([^"]*step(\d+)
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """One entry of the .pvd file."""
+    """Entry of the .pvd file."""
 
     step: int
     increment: int
@@ -48,7 +48,7 @@ class Frame:
 
 
 class FieldFiles:
-    """Writes NAME.pvd and NAME_vtu/*.vtu."""
+    """Writer of NAME.pvd and NAME_vtu/*.vtu."""
 
     def __init__(self, pvd: Path, model: Model) -> None:
         self._pvd = pvd
@@ -87,7 +87,7 @@ class FieldFiles:
         )
 
     def _plan(self, solution: Solution) -> None:
-        """Cells and point arrays: they do not change during a run."""
+        """Plan the cells and point arrays, which do not change during a run."""
         self._folder.mkdir(parents=True, exist_ok=True)
         solid = is_solid(self._model)
         variables = {state.group: state.variables for state in solution.elements}
@@ -125,7 +125,7 @@ class FieldFiles:
 
 
 def _imaginary(values: dict[str, Values]) -> dict[str, Values]:
-    """Imaginary parts by the names of their arrays."""
+    """Return the imaginary parts by the names of their arrays."""
     return {f"{name}_imaginary": value for name, value in values.items()}
 
 
@@ -144,7 +144,7 @@ class _PointArray:
 
 
 def _quoted(name: str) -> str:
-    """A file name in XML."""
+    """Escape a file name for XML."""
     return escape(name).replace("\n", "&#10;")
 
 
@@ -160,7 +160,7 @@ def _replace(path: Path, text: str) -> None:
 
 
 def read_frames(pvd: Path) -> list[Frame]:
-    """Increments that were written, in order; empty if there are none."""
+    """Return the increments that were written, in order; empty if there are none."""
     if not pvd.exists():
         return []
     return [
@@ -170,7 +170,7 @@ def read_frames(pvd: Path) -> list[Frame]:
 
 
 def read_field_mesh(pvd: Path, step: int | None = None, increment: int = -1) -> meshio.Mesh:
-    """Mesh with point and cell data of one increment.
+    """Read the mesh with point and cell data of one increment.
 
     Parameters
     ----------

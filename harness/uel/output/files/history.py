@@ -30,7 +30,7 @@ FIXED = ("step", "increment", "time")
 
 
 class HistoryFile:
-    """Writes NAME_history.csv; its first line is written with the first increment, when the dofs are known."""
+    """Writer of NAME_history.csv; its first line is written with the first increment, when the dofs are known."""
 
     def __init__(self, path: Path, model: Model) -> None:
         self._model = model
@@ -133,7 +133,7 @@ class _SetEnergies:
 
 
 class _Column:
-    """One value of a row: a nodal component at its position, or an energy, of a set or of the whole model."""
+    """Value of a row: a nodal component at its position, or an energy, of a set or of the whole model."""
 
     def __init__(
         self,
@@ -157,7 +157,7 @@ class _Column:
 
 
 def _places(model: Model, nset: str, nodes: IntArray) -> list[str]:
-    """Text in the brackets of the columns of a set."""
+    """Return the text in the brackets of the columns of a set."""
     if nset and len(nodes) == 1:
         return [nset]
     names = [model.mesh.name(int(node)) for node in nodes]
@@ -165,7 +165,7 @@ def _places(model: Model, nset: str, nodes: IntArray) -> list[str]:
 
 
 def read_history(path: Path) -> dict[str, FloatArray]:
-    """Columns by name; NaN where a step does not write a column. An unfinished last row is left out."""
+    """Read columns by name; NaN where a step does not write a column. An unfinished last row is left out."""
     lines = [line for line in path.read_text("utf-8").splitlines(keepends=True) if line.endswith("\n")]
     if not lines:
         return {name: np.zeros(0) for name in FIXED}

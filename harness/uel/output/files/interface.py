@@ -26,7 +26,7 @@ FIXED = ("step", "increment", "time", "element", "point")
 
 
 class InterfaceFile:
-    """Writes NAME_interface.csv; there is no such file if the model has no interface elements that we know."""
+    """Writer of NAME_interface.csv; there is no such file if the model has no interface elements that we know."""
 
     def __init__(self, path: Path, model: Model) -> None:
         path.unlink(missing_ok=True)
@@ -77,13 +77,13 @@ class InterfaceFile:
 
 
 def read_profiles(path: Path) -> list[dict[str, FloatArray]]:
-    """All profiles that were written, each by column as `read_interface` gives it; raises UelError without a file."""
+    """Read all profiles that were written, each by column as in `read_interface`. Raises UelError without a file."""
     names, blocks = _read_blocks(path)
     return [dict(zip(names, rows.T.copy(), strict=True)) for rows in blocks.values()]
 
 
 def read_interface(path: Path, step: int | None = None, increment: int = -1) -> dict[str, FloatArray]:
-    """Profile of one increment, by column, in the order of the elements.
+    """Read the profile of one increment, by column, in the order of the elements.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def read_interface(path: Path, step: int | None = None, increment: int = -1) -> 
 
 
 def _read_blocks(path: Path) -> tuple[list[str], dict[tuple[int, int], FloatArray]]:
-    """Rows by step and increment. A last block that a killed run left unfinished is left out."""
+    """Read rows by step and increment. A last block that a killed run left unfinished is left out."""
     if not path.exists():
         needed = "interface elements of the project, or cohesive elements, and the deck has *OUTPUT, FIELD"
         raise UelError(f"{path}: no such file; it is written only if the model has {needed}")

@@ -41,7 +41,7 @@ LOST: Final = "THE OUTPUT REQUESTED FOR INCREMENT {0.increment} OF STEP {0.step}
 
 
 class MessageFile:
-    """Writes NAME.msg; `warnings` are those in it."""
+    """Writer of NAME.msg; `warnings` are those in it."""
 
     def __init__(self, path: Path, model: Model) -> None:
         self._model = model
@@ -55,7 +55,7 @@ class MessageFile:
         self._counts = dict.fromkeys(("increments", "cutbacks", "iterations", "searches", "helped", "errors"), 0)
 
     def step_started(self, record: StepStarted) -> None:
-        """Head of a step: tolerances and controls."""
+        """Write the head of a step: tolerances and controls."""
         step = self._model.steps[record.step - 1]
         now = datetime.now()
         limits = {"hybrid": self._hybrid, "coupled": self._coupled, "contact": self._touches}
@@ -68,7 +68,7 @@ class MessageFile:
         )
 
     def attempt_started(self, record: AttemptStarted) -> None:
-        """First line of an attempt."""
+        """Write the first line of an attempt."""
         along_path = self._model.steps[record.step - 1].procedure.riks is not None
         self._file.write(
             f"\n\n  INCREMENT{record.increment:6d} STARTS. ATTEMPT NUMBER{record.attempt:3d}, "
@@ -76,7 +76,7 @@ class MessageFile:
         )
 
     def iteration(self, record: IterationDone) -> None:
-        """Block of one iteration: a paragraph for each field."""
+        """Write the block of one iteration: a paragraph for each field."""
         self._counts["iterations"] += 1
         self._counts["searches"] += max(len(record.line_search) - 1, 0)
         kind = "SEVERE DISCONTINUITY" if record.severe else "EQUILIBRIUM"
@@ -89,7 +89,7 @@ class MessageFile:
         self._file.write("".join([text, *contact, *others]))
 
     def abandoned(self, record: AttemptAbandoned) -> None:
-        """Reason why an attempt was abandoned."""
+        """Write the reason why an attempt was abandoned."""
         if record.next_increment > 0.0:
             self._counts["cutbacks"] += 1
         self._file.write(f" \n\n{remark('NOTE', record.reason)}")
@@ -104,7 +104,7 @@ class MessageFile:
         self._file.write(f" \n\n{remark('NOTE', text)}")
 
     def increment(self, record: IncrementDone) -> None:
-        """Summary of a converged increment."""
+        """Write the summary of a converged increment."""
         self._counts["increments"] += 1
         period = self._model.steps[record.step - 1].procedure.period
         grows, path = "", record.load_factor
@@ -118,14 +118,14 @@ class MessageFile:
         )
 
     def step_done(self, record: StepDone) -> None:
-        """Totals of a step."""
+        """Write the totals of a step."""
         self._file.write(
             f"\n\n STEP{record.step:4d} IS COMPLETE:{record.increments:6d} INCREMENTS,{record.cutbacks:5d} CUTBACKS,"
             f"{record.iterations:6d} ITERATIONS\n"
         )
 
     def remark(self, kind: str, text: str) -> None:
-        """A note, warning or error."""
+        """Write a note, warning or error."""
         if kind == "WARNING":
             self.warnings.append(text)
         elif kind == "ERROR":
@@ -133,11 +133,11 @@ class MessageFile:
         self._file.write(f" \n\n{remark(kind, text)}")
 
     def text(self, text: str) -> None:
-        """Text of a user routine, unchanged."""
+        """Write the text of a user routine, unchanged."""
         self._file.write_lines(text)
 
     def close(self, error: str | None, lost: IncrementDone | None = None) -> None:
-        """Verdict, summary and times of the job; lost: converged, but its output could not be written."""
+        """Write verdict, summary and times of the job; lost: converged, but its output could not be written."""
         if error is None:
             self._file.write("\n\n          THE ANALYSIS HAS BEEN COMPLETED\n")
         else:
@@ -175,7 +175,7 @@ class MessageFile:
         return text + f"{_verdict(check.verdict, words)}\n"
 
     def _coupling(self, check: FieldCheck) -> str:
-        """Errors of distributing couplings, a line for displacements and one for rotations."""
+        """Return the errors of distributing couplings, a line for displacements and one for rotations."""
         errors = {"DISPLACEMENT": check.residual, "ROTATION": check.correction}
         lines = [
             f"{f' LARGEST {words} ERROR':<34}{general(found.value)}   AT REFERENCE NODE "
@@ -186,7 +186,7 @@ class MessageFile:
         return "".join(["\n", *lines, f"          THE DISTRIBUTING COUPLING EQUATIONS HAVE {verdict}CONVERGED\n"])
 
     def _contact(self, check: FieldCheck, *, severe: bool) -> str:
-        """Errors of the contact constraints, in two lines and a verdict."""
+        """Return the errors of the contact constraints, in two lines and a verdict."""
         errors = {"MAX. PENETRATION ERROR": check.residual, "MAX. CONTACT FORCE ERROR": check.correction}
         lines = [
             f"   {words} {engineering(found.value)} AT NODE {self._model.mesh.name(found.node)} OF CONTACT PAIR\n"
@@ -227,7 +227,7 @@ class MessageFile:
 
 
 def read_times(path: Path) -> tuple[float, float] | None:
-    """Processor time and wall-clock time of a job in seconds, from its message file.
+    """Read the processor time and wall-clock time of a job in seconds from its message file.
 
     None if that was not written to its end.
     """
@@ -250,7 +250,7 @@ _FORCE_ERROR: Final = "THE ESTIMATED CONTACT FORCE ERROR IS OUTSIDE THE TOLERANC
 
 
 def _changes(contact: Sequence[ContactChanges]) -> str:
-    """What an iteration changed in all contact pairs; '' for nothing."""
+    """Count the status changes of an iteration in all contact pairs; '' if there are none."""
     rows = {
         "SEVERE DISCONTINUITIES OCCURRED DURING THIS ITERATION.": sum(changes.count for changes in contact),
         "POINTS CHANGED FROM OPEN TO CLOSED": sum(changes.closed for changes in contact),
@@ -263,14 +263,14 @@ def _changes(contact: Sequence[ContactChanges]) -> str:
 
 
 def _origin(check: FieldCheck) -> str:
-    """Origin of a time average that is not of the field's own flux."""
+    """Return the origin of a time average that is not of the field's own flux."""
     if not check.converted:
         return ""
     return f" FROM {'MOMENT' if check.field == 'force' else 'FORCE'} FIELD"
 
 
 def _verdict(verdict: Convergence, words: FieldTerms) -> str:
-    """Sentence of a verdict."""
+    """Return the sentence of a verdict."""
     flux, quantity = f"{words.flux:<9}", f"{words.quantity:<9}"
     return {
         Convergence.LINEAR: f"          THE {flux} EQUILIBRIUM RESPONSE WAS LINEAR IN THIS INCREMENT",

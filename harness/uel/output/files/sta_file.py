@@ -31,7 +31,7 @@ _ROW = re.compile(
 
 @dataclass(frozen=True, slots=True)
 class StatusRow:
-    """One line of the status file.
+    """Line of the status file.
 
     An abandoned attempt (`cutback`) has the times of its start, a converged one those of its end. `monitor` is the
     value of the degree of freedom of *MONITOR, if one is asked for. With `riks` the step time is the load
@@ -68,7 +68,7 @@ class StatusRow:
 
     @classmethod
     def read(cls, line: str) -> StatusRow | None:
-        """Row of a line, None for a line that is not a row."""
+        """Read the row of a line, None for a line that is not a row."""
         match = _ROW.match(line)
         if match is None:
             return None
@@ -89,13 +89,13 @@ class StatusRow:
 
 
 def head() -> str:
-    """First lines of the file of a run that begins now."""
+    """Return the first lines of the file of a run that begins now."""
     now = datetime.now()
     return f" {program()}                  DATE {now:%d-%b-%Y} TIME {now:%H:%M:%S}\n{HEADER}"
 
 
 class StatusFile:
-    """Writes NAME.sta."""
+    """Writer of NAME.sta."""
 
     def __init__(self, path: Path) -> None:
         self._file = TextFile(path)
@@ -112,12 +112,12 @@ class StatusFile:
 
 
 def read_status(path: Path) -> list[StatusRow]:
-    """Lines of a status file, of ours or of Abaqus; a line that a killed run left unfinished is left out."""
+    """Read the lines of a status file, of ours or of Abaqus; a line that a killed run left unfinished is left out."""
     lines = path.read_text("utf-8", errors="replace").splitlines(keepends=True)
     rows = [StatusRow.read(line) for line in lines if line.endswith("\n")]
     return [row for row in rows if row is not None]
 
 
 def has_completed(path: Path) -> bool:
-    """True if the status file says that the analysis has completed."""
+    """Report whether the status file says that the analysis has completed."""
     return COMPLETED in path.read_text("utf-8", errors="replace").splitlines()

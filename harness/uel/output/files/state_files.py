@@ -32,7 +32,7 @@ from uel.model.restart import DeckPart, KeptState
 from uel.output.schedule import find_written
 
 FORMAT: Final = 3
-"""Of the files: a change of what they hold, or of what it means, gets another number."""
+"""Version of the files: a change of what they hold, or of what it means, gets another number."""
 
 _NAME: Final = re.compile(r"step(\d+)_increment(\d+)\.npz")
 _ARRAY: Final = "array"
@@ -41,16 +41,16 @@ _UNREADABLE: Final = (
     *(OSError, EOFError, BadZipFile, zlib.error, struct.error, ValueError, KeyError, IndexError, TypeError),
     *(AttributeError, NotImplementedError, RuntimeError, MemoryError, OverflowError, SyntaxError),
 )
-"""What zipfile and numpy raise for bytes that are no archive of arrays."""
+"""Exceptions that zipfile and numpy raise for bytes that are no archive of arrays."""
 
 
 def folder_of(stem: Path) -> Path:
-    """Folder of the states of a job, of which `stem` is the folder and name."""
+    """Return the folder of the states of a job, of which `stem` is the folder and name."""
     return stem.with_name(f"{stem.name}_restart")
 
 
 class StateFiles:
-    """Writes the states of a job.
+    """Writer of the states of a job.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ class StateFiles:
 
 
 def read_state(stem: Path, step: int | None = None, increment: int | None = None) -> KeptState:
-    """A state of a job.
+    """Read a state of a job.
 
     Parameters
     ----------
@@ -189,7 +189,7 @@ def _named(arrays: Sequence[FloatArray]) -> dict[str, Any]:
 
 
 def _numbered(value: Any, arrays: list[FloatArray]) -> Any:
-    """A part of a state with numbers in place of its arrays, which are added to the list."""
+    """Replace the arrays of a part of a state by numbers, and append them to the list."""
     if isinstance(value, np.ndarray):
         arrays.append(value)
         return {_ARRAY: len(arrays) - 1}
@@ -201,7 +201,7 @@ def _numbered(value: Any, arrays: list[FloatArray]) -> Any:
 
 
 def _filled(value: Any, arrays: Sequence[FloatArray]) -> Any:
-    """The inverse of `_numbered`; tuples have become lists."""
+    """Invert `_numbered`; tuples have become lists."""
     if isinstance(value, dict):
         if value.keys() == {_ARRAY}:
             return arrays[value[_ARRAY]]

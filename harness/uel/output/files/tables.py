@@ -76,7 +76,7 @@ class _Table:
 
 
 def used_nodes(model: Model) -> NDArray[np.bool_]:
-    """(nodes,) whether a node belongs to an element or a constraint; others are not part of the analysis."""
+    """Mask the nodes, (nodes,), of elements and constraints; others are not part of the analysis."""
     used = np.zeros(len(model.mesh.labels), dtype=bool)
     for group in model.groups:
         used[group.nodes] = True
@@ -88,7 +88,7 @@ def used_nodes(model: Model) -> NDArray[np.bool_]:
 
 
 def node_tables(request: NodeRequest, model: Model, solution: Solution, index: NodalIndex, *, nlgeom: bool) -> str:
-    """Tables of one *NODE PRINT request, with the components of each variable that the nodes have.
+    """Return the tables of one *NODE PRINT request, with the components of each variable that the nodes have.
 
     nlgeom: coordinates are those of the moved nodes.
     """
@@ -123,7 +123,7 @@ def node_tables(request: NodeRequest, model: Model, solution: Solution, index: N
 def _node_values(
     variable: str, nodes: IntArray, model: Model, solution: Solution, index: NodalIndex, *, nlgeom: bool
 ) -> dict[str, FloatArray]:
-    """Values (nodes,) of the components of a variable by their names; none where no node has it."""
+    """Return the values (nodes,) of the components of a variable by their names; none where no node has it."""
     axes = _COORDINATES[: 3 if is_solid(model) else 2]
     if variable in ("COORD", *axes):
         values = model.mesh.coordinates[nodes]
@@ -140,7 +140,7 @@ def _node_values(
 
 
 def element_tables(request: ElementRequest, model: Model, solution: Solution) -> str:
-    """Tables of one *EL PRINT request, one for each element type that keeps any of the variables."""
+    """Return the tables of one *EL PRINT request, one for each element type that keeps any of the variables."""
     text = ""
     for group, inside, state in chosen_elements(request.elements, model, solution):
         for names, values, sections in _element_values(group, state, inside, request.variables):
@@ -165,7 +165,7 @@ ENERGIES = {
 
 
 def energy_table(solution: Solution, total_time: float) -> str:
-    """Energies of the whole model, '' if the procedure has none."""
+    """Return the energies of the whole model, '' if the procedure has none."""
     names = [name for name in ENERGIES if name in solution.energies]
     if not names:
         return ""
@@ -180,7 +180,7 @@ def energy_table(solution: Solution, total_time: float) -> str:
 def missing_variables(
     request: NodeRequest | ElementRequest, model: Model, solution: Solution, index: NodalIndex
 ) -> list[str]:
-    """Variables of a request that none of its nodes or elements has."""
+    """Return the variables of a request that none of its nodes or elements has."""
     if isinstance(request, NodeRequest):
         return [
             name
@@ -196,7 +196,7 @@ def missing_variables(
 
 
 def not_extrapolated(request: ElementRequest, model: Model) -> list[str]:
-    """Element types with values at the integration points only, for a request that asks for another position."""
+    """Return element types with values at the integration points only, for a request of another position."""
     if request.position is Position.POINTS:
         return []
     first, types = 0, []
@@ -211,7 +211,7 @@ def not_extrapolated(request: ElementRequest, model: Model) -> list[str]:
 def chosen_elements(
     elements: IntArray, model: Model, solution: Solution
 ) -> list[tuple[ElementGroup, IntArray, ElementState]]:
-    """Groups that have some of the elements (positions in the model), which of their elements, and their state."""
+    """Return the groups that have some of the elements (positions in the model), these elements, and their state."""
     states = {state.group: state for state in solution.elements}
     chosen = []
     first = 0
@@ -257,7 +257,7 @@ def _element_table(
     values: FloatArray,
     sections: Sections,
 ) -> str:
-    """Tables of values (elements, points, names), at the points or at the position that the request asks for."""
+    """Write tables of values (elements, points, names), at the points or at the position that the request asks for."""
     position, lines, labels, values = _at_position(request.position, mesh, group, inside, values, sections)
     layout = _SECTION_POINTS if sections else _LAYOUTS[position]
     which = f"ELEMENTS WITH TYPE {group.type} {layout.title}"
@@ -284,7 +284,7 @@ def _element_table(
 def _at_position(
     position: Position, mesh: Mesh, group: ElementGroup, inside: IntArray, values: FloatArray, sections: Sections
 ) -> tuple[Position, list[str], list[str], FloatArray]:
-    """Position, heads of lines, labels for extremes, and values (lines, names), from those (elements, points, names).
+    """Return position, heads of lines, labels for extremes, and values (lines, names) of (elements, points, names).
 
     Values that are not extrapolated are those at the points.
     """
@@ -317,7 +317,7 @@ def _at_position(
 def _element_values(
     group: ElementGroup, state: ElementState, inside: IntArray, variables: tuple[str, ...]
 ) -> list[tuple[list[str], FloatArray, Sections]]:
-    """Names and values (elements, points, names) of the variables that the elements keep, and the section points.
+    """Return names and values (elements, points, names) of the elements' variables, and the section points.
 
     Section points have a line where Abaqus prints them by default: the first and the last one of shells, some of beams.
     SDV are the SVARS of a user element, one line per element, and STATEV at the points of a built-in one; other names
@@ -353,7 +353,7 @@ def _element_values(
 
 
 def _asked(variable: str, name: str) -> bool:
-    """True if a requested variable (S, E, S11, SDV, SF, SE) includes a component (S11, SDV1, SF1, SM1, SK1)."""
+    """Report whether a requested variable (S, E, S11, SDV, SF, SE) includes a component (S11, SDV1, SF1, SM1, SK1)."""
     if (variable, name[:2]) in (("SF", "SM"), ("SE", "SK")):
         return True
     suffix = name.removeprefix(variable)
@@ -371,5 +371,5 @@ def _short(value: float) -> str:
 
 
 def _label(mesh: Mesh, node: int) -> str:
-    """Number of a node; a table has no room for the name of its instance."""
+    """Return the number of a node; a table has no room for the name of its instance."""
     return str(int(mesh.labels[node]))

@@ -18,7 +18,7 @@ from uel.output.pictures.load_curve import COLUMN, FORCES, move_as_one
 
 _TERM = re.compile(r"\s*(?:([-+]?\d*\.?\d*(?:[eE][-+]?\d+)?)\s*\*\s*|([-+]))?([A-Za-z].*?)\s*")
 _SUM = "SUM OF "
-"""Before the name of a sum where a run or a picture tells it."""
+"""Prefix of the name of a sum where a run or a picture tells it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,11 +37,11 @@ class Column:
         return signs.get(self.factor, f"{self.factor:g}*") + self.name
 
     def names(self, name: str) -> bool:
-        """Whether a column has this name; upper and lower case are the same."""
+        """Report whether a column has this name; upper and lower case are the same."""
         return name.upper().removeprefix(_SUM) == self.name.upper().removeprefix(_SUM)
 
     def find(self, history: Mapping[str, FloatArray], where: str) -> FloatArray:
-        """Its values times the factor, one for each row.
+        """Return the column's values times the factor, one for each row.
 
         Raises
         ------
@@ -69,7 +69,7 @@ class Column:
 
 
 def column_names(history: Mapping[str, FloatArray]) -> str:
-    """What a history has, for messages: of a set with nodes one by one its name, and the first and last node."""
+    """List the columns of a history for messages; of a set with nodes one by one: its name, the first and last node."""
     names: dict[str, list[str]] = {}
     for name in history:
         if name not in ("step", "increment"):
@@ -86,7 +86,7 @@ def _of_set(match: re.Match[str]) -> str:
 
 
 def read_column(text: str) -> Column:
-    """Column of a word such as `2*U2[LOAD_TOP]`; raises UsageError."""
+    """Read the column of a word such as `2*U2[LOAD_TOP]`. Raises UsageError."""
     match = _TERM.fullmatch(text)
     try:
         if match is None:

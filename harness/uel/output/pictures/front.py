@@ -39,7 +39,7 @@ from uel.output.pictures.triangles import Places, TriangulatedSurface, Ways
 from uel.output.results import Result
 
 DAMAGE = 0.5
-"""Of the front."""
+"""Damage at the front."""
 
 _ALIGNED = np.cos(np.radians(0.1))
 """Abaqus takes the z axis for the local direction s where the normal is within 0.1 degrees of the x axis."""
@@ -52,7 +52,7 @@ _CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 
 @dataclass(frozen=True, slots=True)
 class Front:
-    """One line of one surface in one increment.
+    """Line of one surface in one increment.
 
     step, increment, time  when; total time
     surface, line          numbers from 1, of the surfaces of a model and of the lines on one of them
@@ -102,7 +102,7 @@ class _Surface:
         self._to_corners: tuple[IntArray, FloatArray, FloatArray] | None = None
 
     def at_nodes(self, places: FloatArray, values: FloatArray, shears: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Values at the nodes from those at the integration points, which are at `places` (m, 4, 3).
+        """Return the values at the nodes from those at the integration points, which are at `places` (m, 4, 3).
 
         Parameters
         ----------
@@ -137,7 +137,7 @@ class _Surface:
 
 
 def _directions(corners: FloatArray, reach: float) -> FloatArray:
-    """Local directions s and t, (m, 4, 2, 3), at the points next to the corners (m, 4, 3) of faces."""
+    """Return the local directions s and t, (m, 4, 2, 3), at the points next to the corners (m, 4, 3) of faces."""
     xi, eta = reach * _CORNERS.T
     # derivatives of the bilinear functions of the corners, (points, corners)
     along = 0.25 * _CORNERS[:, 0] * (1.0 + eta[:, None] * _CORNERS[:, 1])
@@ -165,7 +165,7 @@ class _Fields:
 
 
 def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
-    """Fronts of all increments of the field output, in order; none in an increment without such a damage.
+    """Return the fronts of all increments of the field output, in order; none in an increment without such a damage.
 
     Parameters
     ----------
@@ -275,7 +275,7 @@ def _draw_lines(figure: Figure, found: list[Front]) -> None:
 
 
 def _surfaces(mesh: meshio.Mesh) -> list[_Surface]:
-    """Surfaces of interface elements with a damage, in the order of their first elements."""
+    """Return the surfaces of interface elements with a damage, in the order of their first elements."""
     cells, labels = [], []
     damage = mesh.cell_data.get("DAMAGE", [])
     for block, values, names in zip(mesh.cells, damage, mesh.cell_data["ELEMENT"], strict=False):
@@ -293,7 +293,7 @@ def _surfaces(mesh: meshio.Mesh) -> list[_Surface]:
 
 
 def _fields(surface: _Surface, profile: Mapping[str, FloatArray]) -> _Fields:
-    """Fields at the nodes of a surface from the integration points."""
+    """Return the fields at the nodes of a surface from the integration points."""
     order = np.lexsort((profile["point"], profile["element"]))
     labels = profile["element"][order].astype(np.int64)
     rows = order[np.isin(labels, surface.elements)]
@@ -314,7 +314,7 @@ def _fields(surface: _Surface, profile: Mapping[str, FloatArray]) -> _Fields:
 
 
 def _lines(surface: _Surface, damage: FloatArray, level: float) -> list[tuple[Places, IntArray]]:
-    """Lines of a damage on a surface, as places at the distance of the elements and their triangles."""
+    """Return the lines of a damage on a surface, as places at the distance of the elements and their triangles."""
     if not damage.min() < level < damage.max():
         return []
     triangles = surface.triangles
@@ -328,7 +328,7 @@ def _lines(surface: _Surface, damage: FloatArray, level: float) -> list[tuple[Pl
 def _along(
     surface: _Surface, fields: _Fields, line: Places, triangles: IntArray, reach: float
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Places, normals, tractions and energy release rates of a front, as in `Front`."""
+    """Return the places, normals, tractions and energy release rates of a front, as in `Front`."""
     mesh = surface.triangles
     points = line.values(mesh.nodes)
     normal = _unit(line.values(mesh.normals))
@@ -357,7 +357,7 @@ def _along(
 def _components(
     mesh: TriangulatedSurface, fields: _Fields, places: Places, along: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Tractions and separations (n, k, 3) at places (n, k): normal, ahead of the front and along it.
+    """Return the tractions and separations (n, k, 3) at places (n, k): normal, ahead of the front and along it.
 
     along: (n, 3) the direction of the front, normal to which the ways go; ahead and along turn with the surface.
     """
@@ -373,7 +373,7 @@ def _components(
 
 
 def _damage_beside(way: Ways, damage: FloatArray, distance: float) -> FloatArray:
-    """Damage (n,) at a distance along ways; beyond an edge of the surface, where a crack is, 1."""
+    """Return the damage (n,) at a distance along ways; beyond an edge of the surface, where a crack is, 1."""
     values = way.places.values(damage[:, None])[..., 0]
     found = np.ones(len(values))
     for row, (lengths, there) in enumerate(zip(way.lengths, values, strict=True)):
@@ -384,19 +384,19 @@ def _damage_beside(way: Ways, damage: FloatArray, distance: float) -> FloatArray
 
 
 def _unit(vectors: FloatArray) -> FloatArray:
-    """Vectors (..., 3) at length 1; those of length 0 stay."""
+    """Scale vectors (..., 3) to length 1; those of length 0 stay."""
     size = np.linalg.norm(vectors, axis=-1, keepdims=True)
     return np.asarray(vectors / np.where(size == 0.0, 1.0, size))
 
 
 def _tangents(points: FloatArray) -> FloatArray:
-    """Chords (n, 3) between the second neighbours of points of a line."""
+    """Return the chords (n, 3) between the second neighbours of points of a line."""
     index = np.arange(len(points))
     return np.asarray(points[np.minimum(index + 2, len(points) - 1)] - points[np.maximum(index - 2, 0)])
 
 
 def _reaches(surface: _Surface, damage: FloatArray, lines: list[Places]) -> list[float]:
-    """Half the length of the ways through the process zone of each front.
+    """Return half the length of the ways through the process zone of each front.
 
     It holds all that is damaged in part and closer to this front than to others, and three faces.
     """

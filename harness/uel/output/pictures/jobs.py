@@ -49,7 +49,7 @@ _APART: Final = 1e-4
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """What to draw.
+    """Request for a picture.
 
     x, y            columns of the history, with a factor if wanted; '' and none: load over displacement
     measured        CSV files of measured curves
@@ -138,7 +138,7 @@ def _values(result: Result, column: Column) -> FloatArray:
 
 
 def _energies(results: Sequence[Result], path: Path, _: Asked) -> Path:
-    """Energies of the whole model over time, those that are not zero; a panel each if there are several jobs."""
+    """Draw the energies of the whole model over time, those that are not zero; a panel each for several jobs."""
     histories = [result.history for result in results]
     names = [name for name in ENERGIES if any(_matters(history, name) for history in histories)]
     if not names:
@@ -158,7 +158,7 @@ def _energies(results: Sequence[Result], path: Path, _: Asked) -> Path:
 
 
 def _matters(history: Mapping[str, FloatArray], name: str) -> bool:
-    """Whether an energy is visible beside the others."""
+    """Report whether an energy is visible beside the others."""
     sizes = {other: np.abs(history[other]) for other in ENERGIES if other in history}
     largest = max((float(values[np.isfinite(values)].max(initial=0.0)) for values in sizes.values()), default=0.0)
     size = sizes.get(name, np.zeros(0))
@@ -166,7 +166,7 @@ def _matters(history: Mapping[str, FloatArray], name: str) -> bool:
 
 
 def _iterations(results: Sequence[Result], path: Path, _: Asked) -> Path:
-    """Iterations of each increment, those of abandoned attempts included, and its size, over time."""
+    """Draw the iterations of each increment, those of abandoned attempts included, and its size, over time."""
     panels: list[list[Curve]] = [[], []]
     for result in results:
         done = _of_increments(result.status)
@@ -180,7 +180,7 @@ def _iterations(results: Sequence[Result], path: Path, _: Asked) -> Path:
 
 
 def _of_increments(rows: Sequence[StatusRow]) -> list[tuple[StatusRow, int]]:
-    """Converged increments with the iterations of all their attempts."""
+    """Return the converged increments with the iterations of all their attempts."""
     done: list[tuple[StatusRow, int]] = []
     spent = 0
     for row in rows:
@@ -192,7 +192,7 @@ def _of_increments(rows: Sequence[StatusRow]) -> list[tuple[StatusRow, int]]:
 
 
 def _interface(results: Sequence[Result], path: Path, asked: Asked) -> Path:
-    """Tractions and damage along an interface in the plane."""
+    """Draw tractions and damage along an interface in the plane."""
     profiles = [result.interface(asked.increment, asked.step) for result in results]
     sizes = {
         name: max(float(np.nanmax(np.abs(profile[name]))) for profile in profiles if name in profile)
@@ -213,7 +213,7 @@ def _interface(results: Sequence[Result], path: Path, asked: Asked) -> Path:
 
 
 def _position(result: Result, profile: Mapping[str, FloatArray]) -> tuple[tuple[FloatArray, np.ndarray], list[int]]:
-    """Coordinates along the interface and the order of the points; where in that order another interface begins.
+    """Return coordinates along the interface and the order of the points; where in it another interface begins.
 
     The direction is that in which the points spread most; on an interface along an axis this is its coordinate.
     """
@@ -243,7 +243,7 @@ def _position(result: Result, profile: Mapping[str, FloatArray]) -> tuple[tuple[
 
 
 def _mesh(results: Sequence[Result], path: Path, asked: Asked) -> Path:
-    """The deformed mesh."""
+    """Draw the deformed mesh."""
     if len(results) > 1:
         raise UsageError("--kind mesh: expected one job")
     mesh = results[0].mesh(asked.increment, asked.step)
@@ -274,6 +274,6 @@ def _curve(label: str, x: FloatArray, y: FloatArray) -> Curve:
 
 
 def _name(result: Result, results: Sequence[Result]) -> str:
-    """Name of a job in the legend: with its folder where another job has the same."""
+    """Return the name of a job in the legend: with its folder where another job has the same."""
     same = sum(other.job == result.job for other in results) > 1
     return str(result.file("")) if same else result.job

@@ -55,7 +55,7 @@ class LoadCurve:
 
 
 def load_curve(history: Mapping[str, FloatArray]) -> LoadCurve | None:
-    """The load-displacement curve of a history; None if there is none.
+    """Find the load-displacement curve of a history; None if there is none.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def load_curve(history: Mapping[str, FloatArray]) -> LoadCurve | None:
 
 @dataclass(frozen=True, slots=True)
 class _Set:
-    """One component of the nodes of a set: their columns by the name of the node, '' if there is only one."""
+    """Component of the nodes of a set: their columns by the name of the node, '' if there is only one."""
 
     component: str
     dof: int
@@ -92,7 +92,7 @@ class _Set:
     nodes: dict[str, FloatArray]
 
     def place(self, node: str) -> str:
-        """Text in the brackets of the column of a node."""
+        """Return the text in the brackets of the column of a node."""
         return f"{self.name}:{node}" if node else self.name
 
 
@@ -101,7 +101,7 @@ _Pair = tuple[str, FloatArray, str, FloatArray]
 
 
 def _sets(history: Mapping[str, FloatArray]) -> _Sets:
-    """Mechanical components by quantity, dof and set."""
+    """Return the mechanical components by quantity, dof and set."""
     found: _Sets = {}
     for name, values in history.items():
         match = COLUMN.fullmatch(name)
@@ -113,7 +113,7 @@ def _sets(history: Mapping[str, FloatArray]) -> _Sets:
 
 
 def _pairs(sets: _Sets, force: _Set) -> Iterator[_Pair]:
-    """Displacements and forces of the nodes of a set, or of all together where they move as one."""
+    """Yield the displacements and forces of the nodes of a set, or of all together where they move as one."""
     moved = sets.get(("displacement", force.dof, force.name))
     if moved is None:
         return
@@ -129,14 +129,14 @@ def _pairs(sets: _Sets, force: _Set) -> Iterator[_Pair]:
 
 
 def move_as_one(displacements: Iterable[FloatArray]) -> bool:
-    """Whether nodes, each with its displacement in each increment, have the same ones, but for rounding."""
+    """Report whether nodes have the same displacement in each increment, but for rounding."""
     u = np.array([*displacements])
     u = u[:, np.isfinite(u).all(axis=0)]
     return bool(np.ptp(u, axis=0).max(initial=0.0) <= _TIE * np.abs(u).max(initial=0.0))
 
 
 def _work(u: FloatArray, force: FloatArray) -> float:
-    """Work of a force from the origin, of increments without their signs: unloading counts too."""
+    """Return the work of a force from the origin, of increments without their signs: unloading counts too."""
     rows = np.isfinite(u) & np.isfinite(force)
     du, ends = np.diff(u[rows], prepend=0.0), np.append(0.0, force[rows])
     return float(np.abs(du * (ends[1:] + ends[:-1])).sum()) / 2.0

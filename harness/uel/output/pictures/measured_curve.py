@@ -15,7 +15,7 @@ from uel.output.pictures.column import Column, read_column
 
 
 def read_curve(path: Path, axes: Sequence[Column] = ()) -> tuple[FloatArray, FloatArray]:
-    """Abscissae and ordinates of a measured curve.
+    """Read abscissae and ordinates of a measured curve.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def read_curve(path: Path, axes: Sequence[Column] = ()) -> tuple[FloatArray, Flo
 
 
 def _place(cells: Sequence[str], axis: Column) -> tuple[int, float] | None:
-    """The cell of a head that names an axis, and what takes its values to the axis."""
+    """Find the cell of a head that names an axis, and the factor from its values to those of the axis."""
     for k, cell in enumerate(cells):
         try:
             column = read_column(cell)
@@ -73,7 +73,7 @@ def _place(cells: Sequence[str], axis: Column) -> tuple[int, float] | None:
 
 
 def _cells(line: str) -> list[str]:
-    """Cells of a line; a comma is a decimal mark where something else separates."""
+    """Return the cells of a line; a comma is a decimal mark where something else separates."""
     for separator in (";", "\t"):
         if separator in line:
             return [cell.strip().strip('"').replace(",", ".") for cell in line.split(separator)]

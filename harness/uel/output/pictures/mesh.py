@@ -35,7 +35,7 @@ from uel.output.pictures.space import SCREEN, Faces, render_faces
 
 _FAMILIES: Final = {family.cell: family for family in FAMILIES.values()}
 _WIDTH: Final = 7.0
-"""Of a picture, in inches."""
+"""Width of a picture, in inches."""
 _MOST_EDGED: Final = 4000
 """Cells from which on their edges would cover the colours."""
 _BELOW: Final = {"location": "bottom", "shrink": 0.6, "aspect": 40, "pad": 0.02}
@@ -101,12 +101,12 @@ def draw_mesh(
 
 
 def in_space(mesh: meshio.Mesh) -> bool:
-    """Whether a mesh is not all in the plane of x and y."""
+    """Report whether a mesh is not all in the plane of x and y."""
     return bool(np.ptp(mesh.points[:, 2]) > 0.0)
 
 
 def visible_scale(points: FloatArray, u: FloatArray) -> float:
-    """1 if displacements are visible, else a factor of one digit that makes the largest a fiftieth of the model."""
+    """Return 1 if displacements are visible, else a factor of one digit that makes the largest 1/50 of the model."""
     size = float(np.ptp(points, axis=0).max(initial=0.0))
     largest = float(np.linalg.norm(u, axis=1).max(initial=0.0))
     if largest == 0.0 or size == 0.0 or largest >= _LARGE * size:
@@ -115,7 +115,7 @@ def visible_scale(points: FloatArray, u: FloatArray) -> float:
 
 
 def fields_of(mesh: meshio.Mesh) -> list[str]:
-    """Names that `draw_mesh` takes."""
+    """Return the names that `draw_mesh` takes."""
     names: list[str] = []
     for name, values in mesh.point_data.items():
         vector = np.ndim(values) == 2
@@ -128,7 +128,7 @@ _Block = tuple[Family, IntArray, FloatArray]
 
 
 def _cell_values(mesh: meshio.Mesh, field: str, path: Path) -> list[FloatArray]:
-    """Values of each block of cells. Raises UsageError."""
+    """Return the values of each block of cells. Raises UsageError."""
     if field in mesh.cell_data:
         return [np.asarray(values, dtype=float) for values in mesh.cell_data[field]]
     vector, component = field[:-1], field[-1:]
@@ -143,7 +143,7 @@ def _cell_values(mesh: meshio.Mesh, field: str, path: Path) -> list[FloatArray]:
 
 
 def _colours(blocks: Sequence[_Block]) -> ScalarMappable:
-    """From values to colours, one range for all blocks; that of one value, such as a damage of 1, has zero too."""
+    """Map values to colours, one range for all blocks; that of one value, such as a damage of 1, has zero too."""
     values = np.concatenate([of_block for *_, of_block in blocks])
     values = values[np.isfinite(values)]
     low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 1.0)
@@ -163,7 +163,7 @@ class _Drawn:
 
 
 def _draw_plane(figure: Figure, blocks: Sequence[_Block], before: FloatArray, after: FloatArray) -> _Drawn:
-    """Cells and lines, with the outline of the undeformed model."""
+    """Draw cells and lines, with the outline of the undeformed model."""
     axis = figure.add_subplot()
     colours = _colours(blocks)
     edge = 0.2 if sum(len(cells) for _, cells, _ in blocks) < _MOST_EDGED else 0.0
@@ -195,7 +195,7 @@ def _draw_plane(figure: Figure, blocks: Sequence[_Block], before: FloatArray, af
 
 
 def _draw_space(figure: Figure, blocks: Sequence[_Block], _before: FloatArray, after: FloatArray) -> _Drawn:
-    """Outer faces of solids, and faces of interfaces, of those that have the field."""
+    """Draw outer faces of solids, and faces of interfaces, of those that have the field."""
     axis: Any = figure.add_axes((0.0, 0.0, 1.0, 1.0), projection="3d")
     colours = _colours(blocks)
     faces: list[FloatArray] = []
@@ -228,7 +228,7 @@ def _draw_space(figure: Figure, blocks: Sequence[_Block], _before: FloatArray, a
 
 
 def _shown(figure: Figure, axis: Any, points: FloatArray) -> Bbox:
-    """What axes in space show, in inches: the points, and the three axes with their numbers."""
+    """Return the extent of axes in space, in inches: the points, and the three axes with their numbers."""
     axis.apply_aspect()
     axis.M = axis.get_proj()
     across, up, *_ = proj3d.proj_transform(*points.T, axis.M)
@@ -239,7 +239,7 @@ def _shown(figure: Figure, axis: Any, points: FloatArray) -> Bbox:
 
 
 def _render_space(figure: Figure, blocks: Sequence[_Block], _: FloatArray, after: FloatArray) -> _Drawn:
-    """The same by PyVista, with the outline of all solids."""
+    """Draw a mesh in space by PyVista, with the outline of all solids."""
     faces = [Faces(after[nodes], of_faces) for nodes, of_faces in _faces_with_values(blocks)]
     solids = [after[nodes] for block in blocks if block[0].dimension == 3 for nodes, _ in outer_faces(*block)]
     edges = sum(len(group.values) for group in faces) < _MOST_EDGED
@@ -259,7 +259,7 @@ def _render_space(figure: Figure, blocks: Sequence[_Block], _: FloatArray, after
 
 
 def _cut(figure: Figure, drawn: _Drawn) -> Bbox | str:
-    """What to save of a figure: axes in space are a square, most of which is empty around a plate."""
+    """Return the part of a figure to save: axes in space are a square, most of which is empty around a plate."""
     if drawn.shown is None:
         return "tight"
     bar = drawn.bar["cax"].get_tightbbox().get_points() / figure.dpi
@@ -267,7 +267,7 @@ def _cut(figure: Figure, drawn: _Drawn) -> Bbox | str:
 
 
 def _faces_with_values(blocks: Sequence[_Block]) -> Iterator[tuple[IntArray, FloatArray]]:
-    """Nodes and values of the outer faces of solids, and of interfaces, of the blocks that have the field."""
+    """Yield the nodes and values of the outer faces of solids, and of interfaces, of the blocks that have the field."""
     for family, cells, values in blocks:
         if not np.isfinite(values).any():
             continue
@@ -278,12 +278,12 @@ def _faces_with_values(blocks: Sequence[_Block]) -> Iterator[tuple[IntArray, Flo
 
 
 def outline(family: Family) -> list[int]:
-    """Nodes of a cell in the plane in order around it, those in the middle of its edges included."""
+    """Return the nodes of a cell in the plane in order around it, those in the middle of its edges included."""
     return [node for face in family.faces for node in (face[0], *face[2:])]
 
 
 def outer_faces(family: Family, cells: IntArray, values: FloatArray) -> list[tuple[IntArray, FloatArray]]:
-    """Corners of the faces that belong to one cell of the block, by their number of corners, and the cells' values."""
+    """Return the corners of faces that belong to one cell of the block, by number of corners, and the cells' values."""
     found = []
     for corners in sorted({_corners(face) for face in family.faces}):
         faces = [list(face[:corners]) for face in family.faces if _corners(face) == corners]
@@ -295,5 +295,5 @@ def outer_faces(family: Family, cells: IntArray, values: FloatArray) -> list[tup
 
 
 def _corners(face: Sequence[int]) -> int:
-    """Number of corners of a face in space, whose other nodes are in the middle of its edges."""
+    """Return the number of corners of a face in space, whose other nodes are in the middle of its edges."""
     return len(face) if len(face) < 6 else len(face) // 2

@@ -41,7 +41,7 @@ STYLE: dict[Any, Any] = {
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """One curve of a figure.
+    """Curve of a figure.
 
     kind  'line'; 'reference' (thin, grey, drawn below the others: theory); 'points' (markers only: few values, as from
           an experiment or another code); 'marked' (line with a marker at every value)
@@ -55,7 +55,7 @@ class Curve:
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """One pair of axes of a `grid`: title, labels with units, and the ranges shown (all of the data by default)."""
+    """Pair of axes of a `grid`: title, labels with units, and the ranges shown (all of the data by default)."""
 
     title: str
     curves: Sequence[Curve]
@@ -86,7 +86,7 @@ def load_displacement(curves: Sequence[Curve], path: Path, *, x_label: str = "Di
 
 
 def profiles(panels: Sequence[Sequence[Curve]], path: Path, *, y_labels: Sequence[str]) -> Path:
-    """Several quantities along one interface, one panel each above a common axis.
+    """Draw several quantities along one interface, one panel each above a common axis.
 
     Curves of the same label look the same in every panel and appear once in the legend.
     """
@@ -101,7 +101,7 @@ def stacked(
     *,
     from_zero: bool = False,
 ) -> Path:
-    """Panels above a common axis.
+    """Draw panels above a common axis.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def stacked(
 
 
 def grid(rows: Sequence[Sequence[Panel]], path: Path, *, share_y: bool = False, legend: bool = True) -> Path:
-    """Panels in rows and columns, each with axes of its own.
+    """Draw panels in rows and columns, each with axes of its own.
 
     Parameters
     ----------
@@ -174,7 +174,7 @@ def grid(rows: Sequence[Sequence[Panel]], path: Path, *, share_y: bool = False, 
 
 
 def _legend(figure: Figure, axes: Iterable[Any], letters: int) -> None:
-    """One legend above all axes, if there is more than one curve; `letters` is what fits on a line."""
+    """Draw one legend above all axes, if there is more than one curve; `letters` is what fits on a line."""
     handles = {label: handle for axis in axes for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)}
     if len(handles) > 1:
         longest = max(map(len, handles))
@@ -188,7 +188,7 @@ def _legend(figure: Figure, axes: Iterable[Any], letters: int) -> None:
 
 
 def _looks(curves: Sequence[Curve]) -> dict[str, dict[str, Any]]:
-    """Arguments of `plot` for each label."""
+    """Return the arguments of `plot` for each label."""
     looks: dict[str, dict[str, Any]] = {}
     drawn = references = 0
     for curve in curves:

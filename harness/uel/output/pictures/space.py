@@ -25,9 +25,9 @@ from uel.model.arrays import FloatArray, IntArray
 
 INSTALL: Final = "pip install pyvista"
 _SECONDS: Final = 300.0
-"""More than any picture takes: a display that does not answer would be waited for without end."""
+"""Seconds, more than any picture takes: a display that does not answer would be waited for without end."""
 _SIZE: Final = (2800, 2000)
-"""Of the picture before its margins are cut off, in pixels: so many that it is smooth where it is shown smaller."""
+"""Size of the picture before its margins are cut off, in pixels: so large that it is smooth where shown smaller."""
 _TO_EYE: Final = np.array([0.5, -0.87, 0.55]) / np.linalg.norm([0.5, -0.87, 0.55])
 _RIGHT: Final = np.cross([0.0, 0.0, 1.0], _TO_EYE) / np.linalg.norm(np.cross([0.0, 0.0, 1.0], _TO_EYE))
 SCREEN: Final = np.array([_RIGHT, np.cross(_TO_EYE, _RIGHT)])
@@ -49,7 +49,7 @@ class Faces:
 
 
 def has_pyvista() -> bool:
-    """Whether PyVista is installed."""
+    """Report whether PyVista is installed."""
     return find_spec("pyvista") is not None
 
 
@@ -96,7 +96,7 @@ def render_faces(
 
 
 def _reason(done: subprocess.CompletedProcess[str]) -> str:
-    """Why the process has not drawn."""
+    """Return the reason why the process has not drawn."""
     if done.returncode < 0:
         name = signal.Signals(-done.returncode).name
         return f"VTK ended with {name}, as it does without OpenGL; install libegl1 and libgl1-mesa-dri, or libosmesa6"
@@ -105,7 +105,7 @@ def _reason(done: subprocess.CompletedProcess[str]) -> str:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """The process that draws: the file with the arrays, and the picture."""
+    """Draw in a process of its own; arguments: the file with the arrays, and the picture."""
     import pyvista  # noqa: PLC0415
 
     file, picture = arguments
@@ -140,14 +140,14 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _surface(pyvista: Any, corners: FloatArray) -> Any:
-    """Faces (k, corners, 3) as PyVista has them."""
+    """Return the faces (k, corners, 3) as PyVista has them."""
     count, each, _ = corners.shape
     nodes: IntArray = np.arange(count * each).reshape(count, each)
     return pyvista.PolyData(corners.reshape(-1, 3), faces=np.insert(nodes, 0, each, axis=1).ravel())
 
 
 def _without_margins(picture: np.ndarray) -> np.ndarray:
-    """The picture without its white margins."""
+    """Cut off the white margins of the picture."""
     inside = np.argwhere((picture < 1.0).any(axis=2))
     if not len(inside):
         return picture

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from uel.model.arrays import FloatArray, IntArray
 
 NONE = -1
-"""Stands for the triangle beyond an edge of the surface."""
+"""Number that stands for the triangle beyond an edge of the surface."""
 
 _INWARDS = 1e-6
 """Part of the way to the middle of a triangle by which a plane is moved that only touches the triangle."""
@@ -31,15 +31,15 @@ class Places:
     weights: FloatArray
 
     def values(self, field: FloatArray) -> FloatArray:
-        """Values (..., c) of a field (nodes, c)."""
+        """Return the values (..., c) of a field (nodes, c)."""
         return np.asarray(np.einsum("...k,...kc->...c", self.weights, field[self.nodes]))
 
     def take(self, rows: IntArray) -> Places:
-        """Some of them."""
+        """Select some of the places."""
         return Places(self.nodes[rows], self.weights[rows])
 
     def towards(self, others: Places, share: FloatArray) -> Places:
-        """Places at a share (...,) of the way to others."""
+        """Return places at a share (...,) of the way to others."""
         weights = ((1.0 - share)[..., None] * self.weights, share[..., None] * others.weights)
         return Places(np.concatenate([self.nodes, others.nodes], axis=-1), np.concatenate(weights, axis=-1))
 
@@ -87,7 +87,7 @@ class TriangulatedSurface:
         self.neighbours = self._neighbours()
 
     def _neighbours(self) -> IntArray:
-        """(m, 3) triangle beyond each edge, which begins at the node of the same place; -1 where there is not one."""
+        """Find the triangle (m, 3) beyond each edge, which begins at the node of that column; -1 where none is."""
         pairs = np.sort(np.stack([self.triangles, np.roll(self.triangles, -1, axis=1)], axis=2), axis=2).reshape(-1, 2)
         _, edge, counts = np.unique(pairs, axis=0, return_inverse=True, return_counts=True)
         edge = edge.ravel()
@@ -99,7 +99,7 @@ class TriangulatedSurface:
         return found.reshape(-1, 3)
 
     def lines(self, values: FloatArray, level: float) -> list[Line]:
-        """Lines where a field (nodes,), linear in each triangle, has a value."""
+        """Return the lines where a field (nodes,), linear in each triangle, has a value."""
         above = values > level
         corners = above[self.triangles]
         crossed = corners != np.roll(corners, -1, axis=1)
@@ -116,7 +116,7 @@ class TriangulatedSurface:
     def _follow(
         self, crossed: NDArray[np.bool_], left: NDArray[np.bool_], triangle: int, edge: int
     ) -> Iterator[tuple[int, int]]:
-        """Triangles and edges that a line crosses: where it comes in, and then where it leaves each triangle."""
+        """Yield triangles and edges that a line crosses: where it enters, and then where it leaves each triangle."""
         first = triangle
         edge = edge if edge != NONE else int(np.argmax(crossed[triangle]))
         yield triangle, edge
@@ -137,16 +137,16 @@ class TriangulatedSurface:
         return Line(Places(np.stack([begin, end], axis=1), np.stack([1.0 - share, share], axis=1)), triangles[1:])
 
     def length(self, line: Line) -> float:
-        """Length of a line."""
+        """Return the length of a line."""
         return float(self._arc(line)[-1])
 
     def _arc(self, line: Line) -> FloatArray:
-        """(n,) length of a line up to each of its places."""
+        """Return the length (n,) of a line up to each of its places."""
         steps = np.linalg.norm(np.diff(line.places.values(self.nodes), axis=0), axis=1)
         return np.concatenate([[0.0], np.cumsum(steps)])
 
     def even(self, line: Line, distance: float) -> tuple[Places, IntArray]:
-        """Middles of at least three equal parts of a line, about so long, and their triangles."""
+        """Return the middles of at least three equal parts of a line, about so long, and their triangles."""
         arc = self._arc(line)
         parts = max(3, round(arc[-1] / distance))
         at = arc[-1] * (np.arange(parts) + 0.5) / parts
@@ -209,7 +209,7 @@ class TriangulatedSurface:
         return Ways(Places(nodes, weights), np.stack(lengths, axis=1))
 
     def _shift(self, triangles: IntArray, origin: FloatArray, planes: FloatArray) -> FloatArray:
-        """(n,) by which planes are moved that touch their first triangle and do not cut it."""
+        """Return the distances (n,) by which planes are moved that touch their first triangle and do not cut it."""
         corners = self.nodes[self.triangles[triangles]] - origin[:, None]
         heights = np.einsum("nkd,nd->nk", corners, planes)
         above = heights > 0.0
@@ -225,7 +225,7 @@ class TriangulatedSurface:
         directions: FloatArray,
         shift: FloatArray,
     ) -> tuple[Places, IntArray]:
-        """Where planes leave triangles that they entered by an edge, -1 for the first ones; and by which edge."""
+        """Find where planes leave triangles that they entered by an edge, -1 for the first ones; and by which edge."""
         nodes = self.triangles[triangle]
         heights = np.einsum("nkd,nd->nk", self.nodes[nodes] - origin[:, None], planes) - shift[:, None]
         beyond = np.roll(heights, -1, axis=1)
@@ -245,7 +245,7 @@ class TriangulatedSurface:
         return Places(ends[rows, edge], weights[rows, edge]), edge
 
     def _same_edge(self, triangle: IntArray, edge: IntArray, other: IntArray) -> IntArray:
-        """Place of an edge of each triangle in its neighbour."""
+        """Return the place of an edge of each triangle in its neighbour."""
         rows = np.arange(len(triangle))
         own = self.triangles[triangle]
         ends = np.sort(np.stack([own[rows, edge], own[rows, (edge + 1) % 3]], axis=1), axis=1)
