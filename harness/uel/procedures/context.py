@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the parts of a general step share: what the step prescribes, its constraints, its checks, its calls."""
+"""Context of a general step, which its parts share: prescribed values and loads, constraints, checks, calls."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from uel.solver.newton import Acting, Factoriser
 
 
 class StepContext:
-    """One general step, apart from its procedure.
+    """General step, apart from its procedure.
 
     start       total time at the start of the step
     step_time   at the start of the increment; the total time is that of the state
@@ -40,7 +40,7 @@ class StepContext:
     solver: Factoriser
 
     def __init__(self, setting: Setting, *, fallback: bool = False) -> None:
-        """Takes over the step's prescribed values and loads; symbolic work is repeated only if they differ.
+        """Take over the step's prescribed values and loads; symbolic work is repeated only if they differ.
 
         Raises DeckError.
         """
@@ -74,7 +74,7 @@ class StepContext:
         self.start, self.step_time, self.increment = state.total_time, 0.0, 0
 
     def _constrain(self, setting: Setting, *, fallback: bool) -> None:
-        """Constraints and linear solver of the step, those of the last one if they are the same."""
+        """Set the constraints and the linear solver of the step, those of the last one if they are the same."""
         state, equations = self.state, setting.model.equations
         arms = setting.model.arms if self.step.nlgeom else ()
         constraints, solver, start = state.constraints, state.solver, self.beginning["displacement"]
@@ -105,17 +105,17 @@ class StepContext:
         return self.step_time, self.state.total_time
 
     def load_at(self, step_time: float, u: FloatArray | None = None) -> FloatArray:
-        """Loads and fading forces (n,); those of DLOAD at displacements u (n,), by default those of the state."""
+        """Return loads and fading forces (n,); those of DLOAD at displacements u (n,), by default the state's."""
         return self.loads_at(step_time, u) + self.released.at(step_time, self.start + step_time)
 
     def loads_at(self, step_time: float, u: FloatArray | None = None) -> FloatArray:
-        """Loads (n,) without fading forces, as those of `load_at`."""
+        """Return the loads (n,) without fading forces, as in `load_at`."""
         time = step_time, self.start + step_time
         found = self.load.at(*time)
         return found + self.load.of_user(time, self._at(u)) if self.load.by_user else found
 
     def steady_at(self, step_time: float) -> FloatArray:
-        """Loads and fading forces (n,) without those of DLOAD."""
+        """Return loads and fading forces (n,) without those of DLOAD."""
         total = self.start + step_time
         return self.load.at(step_time, total) + self.released.at(step_time, total)
 
@@ -123,13 +123,13 @@ class StepContext:
         return self.state.displacement if u is None else u
 
     def acting(self, end: float, u: FloatArray) -> Acting:
-        """What acts at a step time and displacements (n,) besides the steady loads, where DLOAD gives any."""
+        """Return the forces at a step time and displacements (n,) beside the steady loads, where DLOAD gives any."""
         time, start = (end, self.start + end), self.times
         on_elements = self.conditions.distributed(start, time)
         return Acting(self.load.of_user(time, u), self.load.with_faces(on_elements, start, time, u))
 
     def prescribed_at(self, step_time: float) -> FloatArray:
-        """Prescribed values (n,), those of DISP among them."""
+        """Return the prescribed values (n,), those of DISP among them."""
         time = step_time, self.start + step_time
         values, by_user = self.prescribed.at(*time), self.state.boundaries.by_user
         if len(by_user):
@@ -144,11 +144,11 @@ class StepContext:
         return values
 
     def places(self, nodes: IntArray) -> FloatArray:
-        """(k, 3) coordinates of nodes at the start of the increment; with NLGEOM those of the displaced nodes."""
+        """Return coordinates (k, 3) of nodes at the start of the increment; with NLGEOM those of displaced nodes."""
         return places(self.system.dofs, nodes, self.state.displacement if self.step.nlgeom else None)
 
     def call(self, size: float, step_time: float, total_time: float, u: FloatArray | None = None) -> Call:
-        """Arguments of the passes of an increment that ends at these times; u as that of `load_at`."""
+        """Return the arguments of the passes of an increment that ends at these times; u as in `load_at`."""
         step, end = self.step, (step_time, total_time)
         distributed, predefined = self.conditions.at(self.times, end, max(self.increment, 1), self.user, self.places)
         return Call(
@@ -170,7 +170,7 @@ class StepContext:
 
 
 def _renewing(setting: Setting, constraints: Constraints) -> Callable[[], LinearSolver | None]:
-    """Chooses another linear solver where the pattern of the constraints is not that of the last one."""
+    """Choose another linear solver where the pattern of the constraints is not that of the last one."""
     pattern = constraints.reduced_indices
 
     def renew() -> LinearSolver | None:

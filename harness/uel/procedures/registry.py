@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What runs a step, by its procedure: the only place that asks which procedure a step has.
+"""Registry of the runs of a step by its procedure: the only place that asks which procedure a step has.
 
 A general step is assembled here from a path and parts. A further procedure is registered like those below.
 """
@@ -38,7 +38,7 @@ from uel.procedures.step_setting import Setting, StepRun
 
 @singledispatch
 def run_of(procedure: Procedure, setting: Setting) -> StepRun:
-    """What runs a step of this procedure; `run_of.register` adds that of another class.
+    """Return the run of a step of this procedure; `run_of.register` adds that of another class.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def _(procedure: ModalDynamic, setting: Setting) -> StepRun:
 
 
 def _in_time(context: StepContext, *parts: Part, fallback: bool = False) -> GeneralStep:
-    """A step of time increments, with damping if it asks for it."""
+    """Build a step of time increments, with damping if it asks for it."""
     damping = context.step.procedure.stabilize
     if damping is not None:
         parts = (*parts, ViscousForces(context, damping))

@@ -111,7 +111,7 @@ def run_steps(
 
 
 def _mass_pass(system: System, step: Step) -> None:
-    """The mass matrix that Abaqus asks of user elements at the start of the analysis; the results are not used.
+    """Ask user elements for the mass matrix, as Abaqus does at the start; the results are not used.
 
     It belongs to increment 1, but no time passes.
     """

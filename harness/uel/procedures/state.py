@@ -90,7 +90,7 @@ class ConvergedState:
 
     @classmethod
     def start(cls, system: System, model: Model) -> Self:
-        """State before the first step."""
+        """Return the state before the first step."""
         zero = np.zeros(len(system))
         boundaries = Boundaries(system.dofs, model.boundaries)
         velocity = initial_values(system.dofs, model.initial_velocities)
@@ -111,7 +111,7 @@ class ConvergedState:
         self.velocity = self.acceleration = np.zeros_like(self.displacement)
 
     def kept(self) -> Saved:
-        """Its arrays and numbers; prescribed values and loads follow from the steps that have begun."""
+        """Return its arrays and numbers; prescribed values and loads follow from the steps that have begun."""
         saved = {name: getattr(self, name) for name in (*ARRAYS, *_NUMBERS)}
         return {
             **saved,
@@ -141,7 +141,7 @@ class ConvergedState:
             self.conclude(begun.concluded)
 
     def conclude(self, step_time: float) -> None:
-        """The step ends before its period."""
+        """End the step before its period."""
         for given in (self.boundaries, self.loads, self.conditions):
             given.conclude(step_time)
         if self.begun:
@@ -176,7 +176,7 @@ class ConvergedState:
         )
 
     def _energies(self) -> dict[str, float]:
-        """Energies of the whole model as Abaqus sums them: ETOTAL is constant where the balance holds."""
+        """Return the energies of the whole model as Abaqus sums them: ETOTAL is constant where the balance holds."""
         found = energies_of_elements(self.energy, self.damage)
         total = found["ALLKE"] + found["ALLIE"] + found["ALLVD"] + self.stabilization - self.work
         return found | {"ALLSD": self.stabilization, "ALLWK": self.work, "ETOTAL": total}

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a step is run with, and what the sequence of steps needs from its run."""
+"""Setting with which a step is run, and the interface of its run that the sequence of steps needs."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class UserRoutines(GivesValues, Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """What a step is run with.
+    """Setting with which a step is run.
 
     state           at the end of the last step; the step continues it
     solver          name of a linear solver
@@ -57,18 +57,18 @@ class Setting:
 
 
 class StepRun(Protocol):
-    """What runs a step."""
+    """Run of a step."""
 
     @property
     def reached(self) -> tuple[tuple[float, float], float, int, int]:
         """Step and total time, no time increment, step and increment, as UEXTERNALDB gets them at the end."""
 
     def run(self) -> Iterator[Record]:
-        """Records of the step. Raises ConvergenceError, KernelError, SingularMatrixError, DeckError."""
+        """Run the step and yield its records. Raises ConvergenceError, KernelError, SingularMatrixError, DeckError."""
 
 
 def choose_solver(name: str, constraints: Constraints, effort: Effort) -> LinearSolver:
-    """Linear solver for the matrices of free unknowns; name as `uel.solver.linear.choose` takes it.
+    """Return the linear solver for the matrices of free unknowns; name as `uel.solver.linear.choose` takes it.
 
     What the solver does is added to the effort.
     """
@@ -84,14 +84,14 @@ def choose_solver(name: str, constraints: Constraints, effort: Effort) -> Linear
 
 
 def choose_rank_solver(name: str, constraints: Constraints, effort: Effort) -> RankSolver:
-    """As `choose_solver`, on several ranks."""
+    """Choose the solver as `choose_solver` does, on several ranks."""
     given = constraints.reduced_indptr, constraints.reduced_indices, constraints.coordinates, constraints.dofs
     pattern = Pattern(*given)
     return RankSolver(constraints.ranks, name, pattern, constraints.name_of, effort)
 
 
 def places(dofs: DofMap, nodes: IntArray, displacement: FloatArray | None) -> FloatArray:
-    """(k, 3) coordinates of nodes, moved by the displacements (n,) if there are any."""
+    """Return coordinates (k, 3) of nodes, moved by the displacements (n,) if there are any."""
     coordinates = dofs.mesh.coordinates[nodes]
     if displacement is None:
         return coordinates
@@ -106,7 +106,7 @@ class SolverTimes:
         self._effort, self._before = effort, replace(effort)
 
     def note(self) -> Noted:
-        """Times since then, for the message file."""
+        """Return the times since then, for the message file."""
         done = self._effort - self._before
         refused = f", {done.refused} OF WHICH HAD TO BE REPEATED IN FULL" if done.refused else ""
         return Noted(

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""When an iteration has converged: the criteria of Abaqus/Standard for one field, as pure functions.
+"""Convergence of an iteration: the criteria of Abaqus/Standard for one field, as pure functions.
 
 Abaqus Analysis User's Guide, "Convergence criteria for nonlinear problems". What the guide leaves open (which mean,
 which residual the estimate of the correction uses) is settled by printed checks of Abaqus; the tests hold them.
@@ -23,7 +23,7 @@ SMALL_PEAK = 0.1
 
 @dataclass(frozen=True, slots=True)
 class FieldMeasures:
-    """What decides the verdict on one field in one iteration; all values are magnitudes.
+    """Measures that decide the verdict on one field in one iteration; all values are magnitudes.
 
     q, q_time   average flux and its time average
     r           largest residual; r_previous the one before: that of the previous iteration, in iteration 1 that of
@@ -42,19 +42,19 @@ class FieldMeasures:
 
 
 def residual_tolerance(check: FieldMeasures, controls: FieldControls, i_p: int) -> float:
-    """Largest residual that counts as equilibrium: R_n q~, and R_P q~ after I_P iterations."""
+    """Return the largest residual that counts as equilibrium: R_n q~, and R_P q~ after I_P iterations."""
     return (controls.r_n if check.iteration <= i_p else controls.r_p) * check.q_time
 
 
 def estimated_correction(check: FieldMeasures) -> float | None:
-    """Correction expected of one more iteration, c r_i / r_(i-1); None without an earlier residual."""
+    """Return the correction expected of one more iteration, c r_i / r_(i-1); None without an earlier residual."""
     if not check.r_previous:
         return None
     return check.c * check.r / check.r_previous
 
 
 def judge(check: FieldMeasures, controls: FieldControls, i_p: int) -> Convergence:
-    """Verdict on one field.
+    """Judge one field.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ class FluxHistory:
     peaks: float = 0.0
 
     def average(self, q: float, controls: FieldControls) -> float:
-        """Time average flux if the current increment ended with the average flux q."""
+        """Return the time average flux if the current increment ended with the average flux q."""
         if controls.q_u > 0.0:
             return controls.q_u
         if self._carries(q, controls):
@@ -105,21 +105,21 @@ class FluxHistory:
         return self._mean()
 
     def converged(self, q: float, controls: FieldControls, peak: float = 0.0) -> FluxHistory:
-        """History after an increment that converged with the average flux q and the largest element force `peak`."""
+        """Return the history after an increment that converged with average flux q and largest element force `peak`."""
         if not self._carries(q, controls):
             return self
         return FluxHistory(self.initial, self.total + q, self.count + 1, self.peaks + peak)
 
     def floor(self, controls: FieldControls) -> float:
-        """Element nodal force that counts as zero in the next increment; -1 before any flux was seen in the step."""
+        """Return the element nodal force that counts as zero in the next increment; -1 before any flux in the step."""
         return controls.eps_l * self.peaks / self.count if self.count else -1.0
 
     def leaves_out(self, peak: float) -> bool:
-        """Whether element forces below the floor are left out of the average, if the largest one is `peak`."""
+        """Report whether element forces below the floor are left out of the average, if the largest one is `peak`."""
         return self.count > 0 and peak >= SMALL_PEAK * self.peaks / self.count
 
     def next_step(self, controls: FieldControls) -> FluxHistory:
-        """History at the start of the next step: q_0 where given, else the time average of this step."""
+        """Return the history at the start of the next step: q_0 where given, else the time average of this step."""
         return FluxHistory(controls.q_0 if controls.q_0 > 0.0 else self._mean())
 
     @property
@@ -128,11 +128,11 @@ class FluxHistory:
         return self._mean() if self.count or self.initial != INITIAL_FLUX else 0.0
 
     def unknown(self, controls: FieldControls) -> bool:
-        """Whether no converged increment has carried flux, and the controls give none."""
+        """Report whether no converged increment has carried flux, and the controls give none."""
         return not (self.count or controls.q_0 or controls.q_u) and self.initial == INITIAL_FLUX
 
     def seen(self, q: float, controls: FieldControls) -> bool:
-        """Whether there is flux, in the current increment by its average q, or in an earlier one of the step."""
+        """Report whether there is flux, in the current increment by its average q, or in an earlier one of the step."""
         return self.count > 0 or self._carries(q, controls)
 
     def _mean(self) -> float:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""From an iterate to the convergence checks of all fields."""
+"""Convergence checks of all fields in an iterate."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ ROTATIONS = range(4, 7)
 """Dofs that are rotations."""
 
 Positions = IntArray | slice
-"""Where the entries of a field are in a vector; a slice if that is all of it, which is much faster."""
+"""Positions of a field's entries in a vector; a slice if that is all of it, which is much faster."""
 
 
 @dataclass(slots=True)
@@ -104,7 +104,7 @@ class Checker:
 
     @property
     def flux_floor(self) -> FloatArray:
-        """(fields,) element nodal forces that do not count in the average flux in the next increment.
+        """Element nodal forces (fields,) that do not count in the average flux in the next increment.
 
         From the second increment of a step on, forces are left out that count as zero compared with the time average of
         the largest one: in printed iterations of a cube pulled along one axis, the average is that of the other entries
@@ -127,7 +127,7 @@ class Checker:
         self._start = [_largest(state.reduced, checked.free) if extrapolated else 0.0 for checked in self.fields]
 
     def check(self, state: Iterate) -> tuple[FieldCheck, ...]:
-        """Checks of all fields after an iteration, then those of volumes, distributing couplings and contact."""
+        """Check all fields after an iteration, then volumes, distributing couplings and contact."""
         if is_severe(state):
             self._calm = state.iteration
             for checked in self.fields:
@@ -144,7 +144,7 @@ class Checker:
         return (*checks, self._check_contact(state)) if state.evaluation.contact else checks
 
     def give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Cutback | None:
-        """Cutback after these checks, none of which need have failed; None to go on iterating.
+        """Return the cutback after these checks, none of which need have failed; None to go on iterating.
 
         iteration: of those in a row without severe discontinuities.
         """
@@ -158,7 +158,7 @@ class Checker:
         return out_of_iterations(iteration, self._time)
 
     def assumed_zero_flux(self, checks: Sequence[FieldCheck]) -> Iterator[FieldCheck]:
-        """Checks that pass as zero flux only because of Abaqus' initial time average flux, not by the actual flux."""
+        """Yield checks that pass as zero flux only by Abaqus' initial time average flux, not by the actual flux."""
         for checked, check in zip(self.fields, checks, strict=False):
             controls = checked.controls
             assumed = checked.history.unknown(controls) and not checked.converted
@@ -167,16 +167,16 @@ class Checker:
                 yield check
 
     def negligible_force(self) -> float:
-        """Largest force that is accepted without a correction in each field with flux so far; 0 before any."""
+        """Return the largest force accepted without a correction in each field with flux so far; 0 before any."""
         known = [(field.history.known, field.controls.r_l) for field in self.fields]
         return min((r_l * flux for flux, r_l in known if flux > 0.0), default=0.0)
 
     def time_averages(self) -> dict[str, float]:
-        """Time average flux of each field after the last check."""
+        """Return the time average flux of each field after the last check."""
         return {field.name: field.average for field in self.fields}
 
     def largest_ratio(self, residual: FloatArray, tolerances: Mapping[str, float]) -> float:
-        """Largest ratio of residual to tolerance, of the fields that have a tolerance."""
+        """Return the largest ratio of residual to tolerance, of the fields that have a tolerance."""
         reduced = self._constraints.reduce_vector(residual)
         ratios = [0.0]
         for checked in self.fields:
@@ -193,7 +193,7 @@ class Checker:
                 checked.history = checked.history.converged(checked.flux, checked.controls, checked.peak)
 
     def kept(self) -> Saved:
-        """Flux histories of the step by field."""
+        """Return the flux histories of the step by field."""
         return {checked.name: list(astuple(checked.history)) for checked in self.fields}
 
     def resume(self, saved: Saved) -> None:
@@ -202,14 +202,14 @@ class Checker:
             checked.history = FluxHistory(*saved[checked.name])
 
     def histories(self, before: Sequence[FluxHistory]) -> list[FluxHistory]:
-        """Flux histories by field number, at the end of the step."""
+        """Return the flux histories by field number, at the end of the step."""
         after = list(before)
         for checked in self.fields:
             after[checked.number] = checked.history
         return after
 
     def _take_flux(self, checked: FieldChecker, state: Iterate) -> None:
-        """Average flux of a field after an iteration, and its time average."""
+        """Update the average flux of a field after an iteration, and its time average."""
         evaluation = state.evaluation
         checked.peak = float(evaluation.largest[checked.number])
         leaves_out = checked.history.leaves_out(checked.peak)
@@ -218,7 +218,7 @@ class Checker:
         checked.average, checked.converted = checked.history.average(checked.flux, checked.controls), False
 
     def _convert(self) -> None:
-        """If forces count as zero beside moments over a length, use these as their time average; and the reverse.
+        """Take moments over a length as the average force, if forces count as zero beside them; and the reverse.
 
         Otherwise forces that are rounding errors of moments would be compared with themselves. Abaqus says that the
         field conversion ratio scales the relationship between two active fields when one is of negligible magnitude,
@@ -265,7 +265,7 @@ class Checker:
         )
 
     def _check_volume(self, state: Iterate) -> FieldCheck:
-        """Whether the changes of volume of hybrid elements, by displacements and by pressure, differ by little.
+        """Check that the volume changes of hybrid elements, by displacements and by pressure, differ by little.
 
         Abaqus' volumetric strain compatibility tolerance for hybrid solids.
         """
@@ -277,7 +277,7 @@ class Checker:
         return FieldCheck(VOLUME, 0.0, 0.0, found, nothing, nothing, verdict)
 
     def _check_coupling(self, state: Iterate, errors: CouplingErrors) -> FieldCheck:
-        """Whether reference nodes move as the nodes that distributing couplings spread their forces over.
+        """Check that reference nodes move with the nodes over which distributing couplings spread their forces.
 
         Abaqus' displacement and rotation compatibility tolerances.
         """
@@ -288,8 +288,10 @@ class Checker:
         return FieldCheck(COUPLING, 0.0, 0.0, displacement, nothing, rotation, verdict)
 
     def _check_contact(self, state: Iterate) -> FieldCheck:
-        """Whether points in contact penetrate little, compared with the largest increment of displacement, and those
-        that opened or closed have small forces, compared with the time average force.
+        """Check penetrations and contact forces.
+
+        Points in contact may penetrate little, compared with the largest increment of displacement, and those that
+        opened or closed may have small forces, compared with the time average force.
 
         With CONVERT SDI=NO no iteration passes that changes the status of a point.
         """
@@ -307,7 +309,7 @@ class Checker:
         return FieldCheck(CONTACT, 0.0, 0.0, penetration, nothing, force, verdict)
 
     def _find(self, vector: FloatArray, positions: Positions, unknowns: IntArray | None = None) -> Largest:
-        """Largest entry of a vector among positions; `unknowns` gives the unknown of each position."""
+        """Return the largest entry of a vector among positions; `unknowns` gives the unknown of each position."""
         chosen = vector[positions]
         if not len(chosen):
             return Largest(0.0, -1, 0)
@@ -322,25 +324,25 @@ def _worst(found: Iterable[Largest]) -> Largest:
 
 
 def _verdict(state: Iterate, *, fulfilled: bool) -> Convergence:
-    """Of constraints after an iteration."""
+    """Return the verdict on constraints after an iteration."""
     if not fulfilled:
         return Convergence.NOT_ACHIEVED
     return Convergence.LINEAR if state.iteration == 1 else Convergence.CONVERGED
 
 
 def is_severe(state: Iterate) -> bool:
-    """Whether an iteration changed the status of a contact point."""
+    """Report whether an iteration changed the status of a contact point."""
     return any(changes.count for changes in state.evaluation.contact)
 
 
 def was_linear(checks: Sequence[FieldCheck]) -> bool:
-    """Whether the response was linear in an increment that these checks accept, in all fields that have fluxes."""
+    """Report whether an increment that these checks accept was linear, in all fields that have fluxes."""
     verdicts = {check.verdict for check in checks}
     return Convergence.LINEAR in verdicts and verdicts <= {Convergence.LINEAR, Convergence.ZERO_FLUX}
 
 
 def length_of_moments(system: System, mesh: Mesh) -> float:
-    """Characteristic length of elements with rotations: the mean distance of consecutive nodes; 0 without any.
+    """Return the characteristic length of elements with rotations: mean distance of consecutive nodes, or 0.
 
     Abaqus prints a CHARACTERISTIC ELEMENT LENGTH but does not define it: 1 for squares of edge 1, 9.764E-04 for
     hexahedra whose mean edge is 9.771E-04.

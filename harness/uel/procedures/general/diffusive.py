@@ -32,22 +32,22 @@ class LimitedChange(Part):
         self._rate = math.inf
 
     def _change(self, last: Iterate) -> float:
-        """Largest change of a value that is not prescribed."""
+        """Return the largest change of a value that is not prescribed."""
         return float(np.abs(last.increment[self._limited]).max(initial=0.0))
 
     def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
-        """The change over the largest one."""
+        """Return the change over the largest one allowed."""
         if self._procedure.steady or math.isinf(self._procedure.largest_change):
             return None
         return Accuracy(self._change(last) / self._procedure.largest_change, self._procedure.complaint)
 
     def converged(self, last: Iterate, size: float) -> Iterable[Record]:
-        """The rate that END=SS looks at."""
+        """Update the rate that END=SS looks at."""
         self._rate = self._change(last) / size
         return ()
 
     def kept(self) -> Saved:
-        """The rate."""
+        """Return the rate."""
         return {"rate": self._rate}
 
     def resume(self, saved: Saved) -> None:
@@ -56,5 +56,5 @@ class LimitedChange(Part):
 
     @property
     def finished(self) -> bool:
-        """With END=SS: whether the state is steady."""
+        """True if the state is steady, with END=SS."""
         return self._rate < self._procedure.end_change

@@ -37,7 +37,7 @@ CONSISTENT = 1e-6
 """Relative difference up to which initial velocities fulfil the constraints: decks have six digits."""
 
 MOVED = 1e-6
-"""Of the size of the model: how far nodes move along their velocities, to see how volumes change."""
+"""Distance over the size of the model by which nodes move along their velocities, to see how volumes change."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +55,7 @@ class KeptVolume:
 
 
 def advance(procedure: Dynamic, before: Motion, size: float, increment: FloatArray) -> Motion:
-    """Velocities and accelerations at the end of an increment of displacement (n,), from those at its start."""
+    """Compute velocities and accelerations at the end of an increment of displacement (n,) from those at its start."""
     velocity, acceleration = before.velocity, before.acceleration
     if procedure.integrator is Integrator.BACKWARD_EULER:
         new = increment / size
@@ -123,14 +123,14 @@ class ImplicitIntegration(Part):
         state.energy, state.external = evaluation.energy, load + state.reaction
 
     def _at_rest(self, request: Request, moved: FloatArray | float = 0.0) -> Evaluation:
-        """A pass at the start of the step, without accelerations."""
+        """Make a pass at the start of the step, without accelerations."""
         context, state = self._context, self._context.state
         call = context.call(0.0, 0.0, context.start).asking(request)
         motion, still = Motion(state.velocity, np.zeros_like(state.velocity)), np.zeros_like(state.displacement)
         return context.system.evaluate(call, state.displacement + moved, still, motion=motion)
 
     def _incompressible(self) -> KeptVolume | None:
-        """What keeps the volume of incompressible hybrid elements, whose pressure changes at once; None without any.
+        """Build the constraint on the volume of incompressible hybrid elements, whose pressure has no rate; or None.
 
         The matrix B of their pressures keeps B v = 0, so that B a = - dB/dt v.
         """
@@ -151,19 +151,19 @@ class ImplicitIntegration(Part):
         return KeptVolume(rows, coupling, forces)
 
     def _stiffness(self, moved: FloatArray | float = 0.0) -> FloatArray:
-        """CSR values (nnz,) at the start of the step, of this rank."""
+        """Return CSR values (nnz,) at the start of the step, of this rank."""
         evaluation = self._at_rest(Request.STIFFNESS, moved)
         assert evaluation.data is not None
         return evaluation.data.copy()
 
     def _motion(self, size: float, increment: FloatArray) -> Motion:
-        """At the end of an increment; pressures of elements have no mass and no part in it."""
+        """Return the motion at the end of an increment; pressures of elements have no mass and no part in it."""
         before = Motion(self._context.state.velocity, self._context.state.acceleration)
         after, of_nodes = advance(self._procedure, before, size, increment), self._context.system.dofs.of_nodes
         return Motion(np.where(of_nodes, after.velocity, 0.0), np.where(of_nodes, after.acceleration, 0.0))
 
     def given(self, given: Increment, size: float) -> Increment:
-        """Loads weighted over the increment, and the motion that follows from displacements."""
+        """Weight the loads over the increment, and add the motion that follows from displacements."""
         alpha, state, context = self._procedure.alpha, self._context.state, self._context
         load = (1.0 + alpha) * given.load - alpha * context.load_at(context.step_time)
         guess = given.guess
@@ -172,7 +172,7 @@ class ImplicitIntegration(Part):
         return replace(given, guess=guess, load=load, weight=1.0 + alpha, motion=partial(self._motion, size))
 
     def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
-        """The half-increment residual: forces out of balance in the middle of the increment."""
+        """Return the half-increment residual: forces out of balance in the middle of the increment."""
         procedure, context = self._procedure, self._context
         if not (procedure.half_force or np.isfinite(procedure.half_increment)):
             return None
@@ -192,7 +192,7 @@ class ImplicitIntegration(Part):
         return Accuracy(ratio, HALF_INCREMENT)
 
     def _tolerances(self) -> dict[str, float]:
-        """Tolerance of the half-increment residual by field; only forces and moments have one."""
+        """Return the tolerance of the half-increment residual by field; only forces and moments have one."""
         procedure = self._procedure
         means = self._context.checker.time_averages().items()
         forces = {name: mean for name, mean in means if name in ("force", "moment")}
@@ -201,7 +201,7 @@ class ImplicitIntegration(Part):
         return {name: procedure.half_increment * mean for name, mean in forces.items()}
 
     def _half(self, last: Iterate, size: float) -> FloatArray:
-        """The increment in its middle: the cubic from the state at the start to the displacements at the end."""
+        """Interpolate the increment at its middle: a cubic from the start state to the displacements at the end."""
         state = self._context.state
         increment = last.increment / 8 + 0.375 * size * state.velocity + size**2 / 16 * state.acceleration
         increment = np.where(self._context.system.dofs.of_nodes, increment, 0.5 * last.increment)
@@ -218,7 +218,7 @@ class ImplicitIntegration(Part):
         return context.system.evaluate(call.asking(Request.RESIDUAL), at, increment, matrix=False, motion=motion)
 
     def kept(self) -> Saved:
-        """The load at the start of the last increment, this increment, and the inertia of nodes that follow others."""
+        """Return the load at the start of the last increment, this increment, and the inertia of dependent nodes."""
         matrix = self._inertia
         inertia = {} if matrix is None else {name: getattr(matrix, name) for name in ("data", "indices", "indptr")}
         return {"load": self._previous_load, "increment": self._previous, "inertia": inertia}

@@ -36,7 +36,7 @@ class Extrapolation:
         return a * size + b * size**2
 
     def kept(self) -> Saved:
-        """The increments that it needs."""
+        """Return the increments that it needs."""
         needed = {"LINEAR": 1, "PARABOLIC": 2}.get(self._mode, 0)
         return {"increments": [list(one) for one in (self._last, self._before)[:needed] if one is not None]}
 

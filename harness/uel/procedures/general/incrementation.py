@@ -32,7 +32,7 @@ UNTOUCHED = 1e10
 """A PNEWDT from this size on is the large value on entry, which a user element did not set."""
 
 _END = 1e-6
-"""Of the increment: a smaller remainder of the step is added to it, because sums of increments round."""
+"""Limit relative to the increment: a smaller remainder of the step is added, because sums of increments round."""
 
 _ROUNDING = 1e-12
 """Rounding of a sum of increments, relative to it."""
@@ -40,7 +40,7 @@ _ROUNDING = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Cutback:
-    """Why an attempt is abandoned, in Abaqus' words: `reason`; the next one takes `factor` times the increment.
+    """Cutback of an attempt for a `reason`, in Abaqus' words; the next one takes `factor` times the increment.
 
     cause  addition to the error that ends the job if no other attempt is left; '' for none
     """
@@ -58,7 +58,7 @@ Abaqus cuts the increment to a quarter there (abaqus_inputs/dcb_3d)."""
 
 
 def judge_rate(iteration: int, residuals: Sequence[float], tolerance: float, controls: TimeControls) -> Cutback | None:
-    """Cutback because of a field whose residual is still too large, None to go on iterating.
+    """Return a cutback for a field whose residual is still too large, None to go on iterating.
 
     Parameters
     ----------
@@ -87,12 +87,12 @@ def judge_rate(iteration: int, residuals: Sequence[float], tolerance: float, con
 
 
 def out_of_iterations(iteration: int, controls: TimeControls) -> Cutback | None:
-    """Cutback after iteration I_C."""
+    """Return the cutback after iteration I_C."""
     return Cutback(controls.d_c, TOO_MANY_ITERATIONS) if iteration >= controls.i_c else None
 
 
 def too_discontinuous(severe: int, controls: TimeControls, *, convert: bool) -> Cutback | None:
-    """Cutback after I_S severe discontinuity iterations, I_S^c with CONVERT SDI=YES."""
+    """Return the cutback after I_S severe discontinuity iterations, I_S^c with CONVERT SDI=YES."""
     most = controls.i_s_c if convert else controls.i_s
     return Cutback(controls.d_s, DISCONTINUOUS.format(severe)) if severe >= most else None
 
@@ -110,7 +110,7 @@ class Accuracy:
 
 
 def refused(pnewdt: float) -> Cutback | None:
-    """Cutback if a user element asks for a smaller increment: PNEWDT < 1."""
+    """Return a cutback if a user element asks for a smaller increment: PNEWDT < 1."""
     if pnewdt >= 1.0:
         return None
     return Cutback(pnewdt, f"A USER ELEMENT REQUESTS A SMALLER TIME INCREMENT, PNEWDT = {pnewdt:.4g}")
@@ -136,7 +136,7 @@ class IncrementControl:
         self.attempts = 0
 
     def kept(self) -> Saved:
-        """Sizes between two increments, neither of which is in parts."""
+        """Return the sizes between two increments, neither of which is in parts."""
         measures = [list(pair) for pair in self._measures]
         return {"size": self._size, "easy": self._easy, "measures": measures, "linear": self._always_linear}
 
@@ -146,7 +146,7 @@ class IncrementControl:
         self._measures = [(measure, size) for measure, size in saved["measures"]]
 
     def part(self, end: float) -> bool:
-        """Whether the current increment, to the step time `end`, may be taken in parts; `cut_back` gives their size.
+        """Take the current increment, up to step time `end`, in parts sized by `cut_back`; False if it may not be.
 
         After `end` the size of the whole is used again. If a part fails, the rest is taken at once: `in_parts` ends.
         """
@@ -156,7 +156,7 @@ class IncrementControl:
         return True
 
     def attempt(self, step_time: float) -> float:
-        """Size of the next attempt from `step_time`; the last increment ends with the period."""
+        """Return the size of the next attempt from `step_time`; the last increment ends with the period."""
         self.attempts += 1
         if self._whole and self._complete(step_time, self._whole[0]):
             self._size, self._whole, self.in_parts = self._whole[1], None, False
@@ -164,7 +164,7 @@ class IncrementControl:
         return self._size
 
     def following(self, step_time: float) -> float:
-        """Size of an increment from `step_time`; 0 at the end of the step."""
+        """Return the size of an increment from `step_time`; 0 at the end of the step."""
         end, size = self._procedure.period, self._size
         if self._whole:
             end, size = (end, self._whole[1]) if self._complete(step_time, self._whole[0]) else (self._whole[0], size)
@@ -172,7 +172,7 @@ class IncrementControl:
         return max(left, 0.0) if left <= size * (1.0 + _END) else size
 
     def cut_back(self, cutback: Cutback) -> tuple[float, str]:
-        """Size of the next attempt after one failed; (0, error) if the job ends.
+        """Return the size of the next attempt after one failed; (0, error) if the job ends.
 
         I_A cutbacks are allowed, thus I_A + 1 attempts.
         """
@@ -190,7 +190,7 @@ class IncrementControl:
         return self._size, ""
 
     def too_inaccurate(self, accuracy: Accuracy | None, *, linear: bool) -> Cutback | None:
-        """Cutback if the integration over time is too inaccurate, unless increments are fixed.
+        """Return a cutback if the integration over time is too inaccurate, unless increments are fixed.
 
         linear: the response was linear in the attempt, which has converged.
         """
@@ -240,7 +240,7 @@ class IncrementControl:
         self._size = min(max(self._size, self._procedure.minimum), self._procedure.maximum)
 
     def _growth_by_accuracy(self, measure: float) -> float:
-        """Growth if the last I_T measures, which go with the size, are up to W_G at this one: D_G over the last one.
+        """Return the growth if the last I_T measures at their sizes are up to W_G at this size: D_G over the last one.
 
         It is at most D_M, and D_D where the response was not linear. A problem that was linear in all attempts of the
         step keeps its matrix unless it may grow by D_L D_M.
@@ -255,7 +255,7 @@ class IncrementControl:
         return growth if growth >= (controls.d_l * most if self._always_linear else 1.0) else 1.0
 
     def finished(self, step_time: float) -> bool:
-        """Whether the period is reached."""
+        """Report whether the period is reached."""
         return self._complete(step_time, self._procedure.period)
 
     @staticmethod

@@ -65,7 +65,7 @@ class Spent:
 
     @property
     def total(self) -> int:
-        """Of both kinds."""
+        """Number of both kinds."""
         return self.severe + self.equilibrium
 
     def count(self, *, severe: bool) -> int:
@@ -78,7 +78,7 @@ class Spent:
 
 
 class GeneralStep:
-    """One general step: what all have in common, the path of its increments, and the parts of its procedure."""
+    """General step: what all have in common, the path of its increments, and the parts of its procedure."""
 
     def __init__(self, context: StepContext, path: Path, parts: Sequence[Part] = ()) -> None:
         self._context = context
@@ -97,7 +97,7 @@ class GeneralStep:
         return self._context.times, 0.0, self._step.number, self._context.increment
 
     def run(self) -> Iterator[Record]:
-        """Records of the step. Raises ConvergenceError, KernelError, SingularMatrixError."""
+        """Run the step and yield its records. Raises ConvergenceError, KernelError, SingularMatrixError."""
         context, cutbacks, iterations = self._context, 0, 0
         beginning: tuple[Part | Path, ...] = (*self._parts, self._path)
         for part in () if self._resumed else beginning:
@@ -125,7 +125,7 @@ class GeneralStep:
 
     @property
     def finished(self) -> bool:
-        """Whether no increment is left."""
+        """True if no increment is left."""
         return self._path.finished or any(part.finished for part in self._parts)
 
     def end(self, *, early: bool = False) -> None:
@@ -136,13 +136,13 @@ class GeneralStep:
 
     @property
     def _keeps(self) -> bool:
-        """Whether *RESTART, WRITE asks for any state."""
+        """True if *RESTART, WRITE asks for any state."""
         restart = self._step.restart
         return restart is not None and bool(restart.frequency or restart.intervals)
 
     @property
     def _obstacle(self) -> str:
-        """Why states cannot be kept; '' if they can."""
+        """Reason why states cannot be kept; '' if they can."""
         if self._system.ranks.size > 1:
             return "several processes run the job"
         if self._state.amplitudes.exist:
@@ -150,7 +150,7 @@ class GeneralStep:
         return self._path.obstacle
 
     def _is_due(self, size: float) -> bool:
-        """Whether *RESTART, WRITE keeps the state of the increment of this size that has converged."""
+        """Report whether *RESTART, WRITE keeps the state of the increment of this size that has converged."""
         restart, period = self._step.restart, self._step.procedure.period
         if restart is None or self._obstacle:
             return False
@@ -158,7 +158,7 @@ class GeneralStep:
         return restart.due(self._context.increment, after - size / period, after, last=self.finished)
 
     def _kept(self) -> Saved:
-        """The state between two increments."""
+        """Return the state between two increments."""
         context = self._context
         return {
             "step": self._step.number,
@@ -188,7 +188,7 @@ class GeneralStep:
         self._resumed = True
 
     def _attempt(self, increment: int) -> Generator[Record, None, tuple[bool, Spent]]:
-        """One attempt at an increment; returns whether it converged, and its iterations."""
+        """Attempt an increment; return whether it converged, and its iterations."""
         context, number, size = self._context, self._step.number, self._control.attempt(self._context.step_time)
         times = context.times
         yield AttemptStarted(number, increment, self._control.attempts, *times, size)
@@ -254,13 +254,13 @@ class GeneralStep:
                 yield Noted(SMALL_FLUX.format(check, check.field.upper()))
 
     def _accuracy(self, last: Iterate, size: float) -> Accuracy | None:
-        """How accurate the integration over time is, by the strictest part; None if nothing measures it."""
+        """Return the accuracy of the integration over time, by the strictest part; None if nothing measures it."""
         found = [accuracy for part in self._parts if (accuracy := part.accuracy(last, size)) is not None]
         return max(found, key=lambda accuracy: accuracy.measure, default=None)
 
     @property
     def _helped(self) -> bool:
-        """Whether the descent search took over in this attempt."""
+        """True if the descent search took over in this attempt."""
         return self._path.search is not None and bool(self._path.search.reason)
 
     def _passed_limit(self, last: Iterate, size: float) -> Cutback | None:
@@ -272,7 +272,7 @@ class GeneralStep:
         return Cutback(self._step.controls.time.d_f, PASSED) if in_parts else None
 
     def _give_up(self, spent: Spent, checks: Sequence[FieldCheck]) -> Cutback | None:
-        """Whether to cut back; with the fall-back the search takes over instead, with more iterations."""
+        """Return a cutback or None; with the fall-back the search takes over instead, with more iterations."""
         search = self._path.search
         if search is None:
             return self._too_long(spent, checks)
@@ -283,7 +283,7 @@ class GeneralStep:
         return Cutback(self._step.controls.time.d_c, SEARCH_TOO_LONG) if spent.total >= ITERATIONS else None
 
     def _too_long(self, spent: Spent, checks: Sequence[FieldCheck]) -> Cutback | None:
-        """Cutback by the last iteration: after severe discontinuities only their number counts."""
+        """Return the cutback by the last iteration: after severe discontinuities only their number counts."""
         if spent.severe and not spent.calm:
             return too_discontinuous(spent.severe, self._step.controls.time, convert=self._step.convert_sdi)
         return self._checker.give_up(spent.calm, checks)

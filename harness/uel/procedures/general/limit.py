@@ -22,7 +22,7 @@ PASSED = "THE DESCENT SEARCH PASSED THE LARGEST LOAD. THE INCREMENT IS TAKEN IN 
 
 
 class LimitLoad:
-    """Watches the load of one step. Forces are external ones (n,), at the start and at the end of an increment."""
+    """Monitor of the load of one step. Forces are external ones (n,), at the start and at the end of an increment."""
 
     def __init__(self) -> None:
         self._slope = 0.0
@@ -30,7 +30,7 @@ class LimitLoad:
         self._at_largest = False
 
     def passed(self, before: FloatArray, after: FloatArray, increment: FloatArray, size: float) -> bool:
-        """Whether an increment (n,) of the displacements in a time `size` starts at the largest load and bends."""
+        """Report whether an increment (n,) of displacements in a time `size` starts at the largest load and bends."""
         return self._at_largest and float((after - before) @ increment) < BENT * self._slope * size**2
 
     def converged(self, before: FloatArray, after: FloatArray, increment: FloatArray, size: float) -> None:

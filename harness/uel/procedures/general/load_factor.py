@@ -41,7 +41,7 @@ NEARBY = 1e-4
 """Difference of the load factor by which the change of loads of DLOAD is found: exact for those proportional to it."""
 
 REMAINDER = 1e-6
-"""Of an increment: a smaller remainder of the load factor is added to it."""
+"""Limit relative to an increment: a smaller remainder of the load factor is added to it."""
 
 
 class LoadFactorPath(Path):
@@ -55,7 +55,7 @@ class LoadFactorPath(Path):
     scale = 1.0
 
     def __init__(self, context: StepContext) -> None:
-        """Raises DeckError if an amplitude governs what the step prescribes."""
+        """Start the path. Raises DeckError if an amplitude governs what the step prescribes."""
         step, state = context.step, context.state
         super().__init__(context, IncrementControl(replace(step.procedure, period=math.inf), step.controls.time))
         _check(context)
@@ -72,10 +72,10 @@ class LoadFactorPath(Path):
 
     @abstractmethod
     def _control_of(self, given: PathIncrement, size: float) -> Control:
-        """What fixes the load factor in an increment."""
+        """Return the equation that fixes the load factor in an increment."""
 
     def begin(self, size: float) -> tuple[Iterator[Iterate], bool]:
-        """From the state at the start, or a little further in the direction of the last increment."""
+        """Start from the state at the start, or a little further in the direction of the last increment."""
         context, guess = self._context, None
         if self._last is not None:
             last, factor, length = self._last
@@ -100,7 +100,7 @@ class LoadFactorPath(Path):
         return self._follower.iterates(given, self._control_of(given, size)), guess is not None
 
     def _acting(self, total_time: float, u: FloatArray, change: float) -> Acting:
-        """Loads on elements and faces, and those of DLOAD, at displacements (n,) and a change of the load factor."""
+        """Return loads on elements and faces, and those of DLOAD, at displacements (n,) and a change of load factor."""
         context, period, load = self._context, self._context.step.procedure.period, self._context.load
         before, after = self._factor, self._factor + change
         times = (before * period, context.state.total_time), (after * period, total_time)
@@ -114,7 +114,7 @@ class LoadFactorPath(Path):
         return Acting(forces, distributed, change / NEARBY * (forces - nearby))
 
     def _loads_at(self, factor: float) -> tuple[FloatArray, FloatArray]:
-        """Loads and fading reactions."""
+        """Return loads and fading reactions."""
         (load, full), (released, rest) = self._loads, self._fading
         return load + factor * (full - load), released + factor * (rest - released)
 
@@ -171,7 +171,7 @@ class RiksPath(LoadFactorPath):
 
     @property
     def finished(self) -> bool:
-        """Whether the end that the step gives, or its last increment, is reached."""
+        """True if the end that the step gives, or its last increment, is reached."""
         if self._crossed:
             return True
         endless = self._riks.largest_factor is None and self._monitored < 0
@@ -182,7 +182,7 @@ class RiksPath(LoadFactorPath):
         return self._arc
 
     def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
-        """Whether the end that the step gives is crossed."""
+        """Report the end of the increment, and note whether it crosses the end that the step gives."""
         before = self._context.state.displacement
         reached = super().reach(last, size, checks)
         assert reached.load_factor is not None
@@ -208,12 +208,12 @@ class EnergyPath(LoadFactorPath):
         self._energy = Dissipation(context.constraints)
 
     def start(self) -> Iterable[Record]:
-        """How the step runs."""
+        """Yield a note on how the step runs."""
         yield Noted("ENERGY CONTROL: THE STEP TIME FOLLOWS FROM THE DISSIPATED ENERGY AND FALLS IN SNAP-BACKS")
 
     @property
     def finished(self) -> bool:
-        """Whether the full load is reached."""
+        """True if the full load is reached."""
         return self._factor >= 1.0
 
     def _control_of(self, given: PathIncrement, size: float) -> Control:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the increments of a general step follow: time, or (in `load_factor`) a path whose load factor is unknown."""
+"""Path that the increments of a general step follow: time, or (in `load_factor`) one whose load factor is unknown."""
 
 from __future__ import annotations
 
@@ -50,20 +50,20 @@ class Path(ABC):
 
     @property
     def search(self) -> Descent | None:
-        """The fall-back for when Newton's method fails, if there is one."""
+        """Fall-back search for when Newton's method fails, if there is one."""
         return None
 
     @property
     @abstractmethod
     def finished(self) -> bool:
-        """Whether the end of the step is reached."""
+        """True if the end of the step is reached."""
 
     def start(self) -> Iterable[Record]:
-        """Records before the first increment."""
+        """Return the records before the first increment."""
         return ()
 
     def end(self, size: float) -> float:
-        """Step time at the end of an increment, as far as it is known in advance.
+        """Return the step time at the end of an increment, as far as it is known in advance.
 
         Parameters
         ----------
@@ -74,11 +74,11 @@ class Path(ABC):
 
     @property
     def obstacle(self) -> str:
-        """Why its state cannot be kept, as the end of a sentence; '' if it can."""
+        """Reason why its state cannot be kept, as the end of a sentence; '' if it can."""
         return "the load factor is part of the solution"
 
     def kept(self) -> Saved:
-        """What an increment has from those before it in the step."""
+        """Return what an increment takes from those before it in the step."""
         return {}
 
     def resume(self, saved: Saved) -> None:
@@ -103,7 +103,7 @@ class Path(ABC):
 
     @abstractmethod
     def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
-        """Where a converged increment ends. Sets the step time of the context to it.
+        """Return where a converged increment ends. Sets the step time of the context to it.
 
         Parameters
         ----------
@@ -136,17 +136,17 @@ class TimePath(Path):
 
     @property
     def search(self) -> Descent | None:
-        """The fall-back; none in a part of an increment, where only the nearby equilibrium is wanted."""
+        """Fall-back search; none in a part of an increment, where only the nearby equilibrium is wanted."""
         return None if self.control.in_parts else self._descent
 
     @property
     def obstacle(self) -> str:
-        """With the fall-back it cannot: the search compares with the start of the analysis."""
+        """Reason why no states are kept: with the fall-back the search compares with the start of the analysis."""
         reason = "the search of --fallback compares with the start of the analysis; to keep states, run without it"
         return "" if self._descent is None else reason
 
     def kept(self) -> Saved:
-        """Sizes, extrapolation, and the matrix where the next increment may reuse it."""
+        """Return the sizes, extrapolation, and the matrix where the next increment may reuse it."""
         factorised = None if self._linear is None else self._newton.kept()
         self._newton.resume(factorised)
         return {
@@ -165,16 +165,16 @@ class TimePath(Path):
 
     @property
     def finished(self) -> bool:
-        """Whether the period has ended, or UAMP concludes the step."""
+        """True if the period has ended, or UAMP concludes the step."""
         return self.control.finished(self._context.step_time) or self._context.amplitudes.concluded
 
     def end(self, size: float) -> float:
-        """The sum of the increments, or the period if they differ only by rounding."""
+        """Return the sum of the increments, or the period if they differ only by rounding."""
         end = self._context.step_time + size
         return self._context.step.procedure.period if self.control.finished(end) else end
 
     def begin(self, size: float) -> tuple[Iterator[Iterate], bool]:
-        """From the state at the start, or an extrapolation."""
+        """Start from the state at the start, or an extrapolation."""
         given = self._given(size)
         if self.search is not None:
             return self.search.iterates(given), given.guess is not None
@@ -189,7 +189,7 @@ class TimePath(Path):
         return self._newton.iterates(given, same_matrix=again), given.guess is not None
 
     def _given(self, size: float) -> Increment:
-        """What the end of the increment prescribes."""
+        """Return the increment as its end prescribes it, with the additions of the parts."""
         context, end = self._context, self.end(size)
         displacement = context.state.displacement
         context.load.increment = context.increment
@@ -206,7 +206,7 @@ class TimePath(Path):
         return given
 
     def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
-        """The end of the increment."""
+        """Return the end of the increment."""
         self._linear = size if was_linear(checks) else None
         context, end = self._context, self.end(size)
         total = context.start + end

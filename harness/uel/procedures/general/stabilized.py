@@ -36,14 +36,14 @@ class ViscousForces(Part):
         self._force = np.zeros(len(context.system))
 
     def start(self) -> Iterator[Record]:
-        """The damping factor if it is given, or a warning if nothing is damped."""
+        """Note the damping factor if the deck gives it, or warn if nothing is damped."""
         if not self._context.system.ranks.largest(np.array([self._mass.any()], dtype=np.float64))[0]:
             yield Warned(NOTHING_DAMPED)
         elif self._factor:
             yield Noted(f"STABILIZE: THE DAMPING FACTOR IS {self._factor:.4g}")
 
     def given(self, given: Increment, size: float) -> Increment:
-        """With the viscous matrix."""
+        """Add the viscous matrix."""
         if not self._factor:
             return given
         return replace(given, damping=self._factor / size * self._mass)
@@ -64,7 +64,7 @@ class ViscousForces(Part):
             yield self._change(self._factor * limit * float(elastic) / state.stabilization)
 
     def kept(self) -> Saved:
-        """The factor, and the forces at the end of the increment."""
+        """Return the factor, and the forces at the end of the increment."""
         return {"factor": self._factor, "force": self._force}
 
     def resume(self, saved: Saved) -> None:
@@ -72,7 +72,7 @@ class ViscousForces(Part):
         self._factor, self._force = saved["factor"], saved["force"]
 
     def _choose(self, energy: float, dissipated: float) -> Iterator[Record]:
-        """Factor from the first increment: its internal energy, and what it would dissipate with a factor of one."""
+        """Choose the factor in the first increment by its internal energy and the dissipation by a factor of one."""
         if energy > 0.0 and dissipated > 0.0:
             yield self._change(self._damping.fraction * energy / dissipated)
 

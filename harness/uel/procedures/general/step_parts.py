@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a procedure adds to the increments of a general step: integration in time, damping, a limit of accuracy."""
+"""Part that a procedure adds to the increments of a general step: time integration, damping, a limit of accuracy."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Part:
         return ()
 
     def given(self, given: Increment, size: float) -> Increment:
-        """What the end of an increment prescribes, with the part's additions.
+        """Return the increment with the part's additions to what its end prescribes.
 
         Parameters
         ----------
@@ -32,7 +32,7 @@ class Part:
         return given
 
     def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
-        """How accurate the integration over time is in an increment in equilibrium.
+        """Measure the accuracy of the integration over time in an increment in equilibrium.
 
         Parameters
         ----------
@@ -68,7 +68,7 @@ class Part:
         return ()
 
     def kept(self) -> Saved:
-        """What an increment has from those before it in the step."""
+        """Return what an increment takes from those before it in the step."""
         return {}
 
     def resume(self, saved: Saved) -> None:
@@ -76,5 +76,5 @@ class Part:
 
     @property
     def finished(self) -> bool:
-        """Whether the part ends the step."""
+        """True if the part ends the step."""
         return False

@@ -59,7 +59,7 @@ class UnconstrainedSolver:
     def __init__(
         self, solver: LinearSolver, renew: Renew | None = None, negligible: Callable[[], float] = float
     ) -> None:
-        """Arguments as of `tolerate`."""
+        """Prepare the solver; arguments as in `tolerate`."""
         self._solver, self._renew, self.negligible = solver, renew, negligible
         self.free: SingularMatrixError | None = None
         self._matrix = sparse.csr_array((0, 0))
@@ -78,11 +78,11 @@ class UnconstrainedSolver:
             self._shift(error)
 
     def forget(self) -> None:
-        """As that of the solver."""
+        """Forget earlier matrices, as the solver does."""
         self._solver.forget()
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution for one right-hand side. Raises SingularMatrixError if it has none."""
+        """Solve for one right-hand side. Raises SingularMatrixError if it has no solution."""
         while True:
             try:
                 solution = self._solver.solve(rhs)
@@ -115,7 +115,7 @@ class UnconstrainedSolver:
         raise error
 
     def _stiffnesses(self) -> Iterator[FloatArray]:
-        """Stiffnesses to add: first only for unknowns without any stiffness, where its size does not matter."""
+        """Yield stiffnesses to add: first only for unknowns without any stiffness, where its size does not matter."""
         largest = abs(self._matrix).max(axis=1).toarray().ravel()
         empty = np.where(largest > 0.0, 0.0, largest.max(initial=0.0))
         if empty.any():

@@ -21,7 +21,7 @@ class ViscousStrain(Part):
         self._system, self._tolerance = context.system, tolerance
 
     def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
-        """The change over CETOL."""
+        """Return the change over CETOL."""
         if math.isinf(self._tolerance):
             return None
         return Accuracy(self._system.viscous_change() / self._tolerance, CHANGES_TOO_FAST)

@@ -31,11 +31,11 @@ FREE_EDGE = (
 )
 
 UNSYMMETRIC = 1e-6
-"""Of the largest entry of D: rounding is smaller."""
+"""Limit relative to the largest entry of D: rounding is smaller."""
 
 
 class BuckleStep(PerturbationStep):
-    """One step of eigenvalue buckling prediction."""
+    """Step of eigenvalue buckling prediction."""
 
     def __init__(self, setting: Setting, procedure: Buckle) -> None:
         super().__init__(setting)
@@ -43,7 +43,7 @@ class BuckleStep(PerturbationStep):
         self._remarks: list[Record] = []
 
     def _solve(self) -> list[Record]:
-        """The modes, those of the smallest loads first."""
+        """Compute the modes, those of the smallest loads first."""
         step, procedure = self._step, self._procedure
         values, vectors = self._buckle()
         inside = (values >= procedure.lowest) & (values <= procedure.highest)
@@ -56,7 +56,7 @@ class BuckleStep(PerturbationStep):
         return records
 
     def _buckle(self) -> tuple[FloatArray, FloatArray]:
-        """Eigenvalues, and vectors (n, k) of all unknowns."""
+        """Return the eigenvalues, and vectors (n, k) of all unknowns."""
         evaluation = self._pass(Request.NORMAL)
         assert evaluation.data is not None
         data = evaluation.data.copy()
@@ -80,7 +80,7 @@ class BuckleStep(PerturbationStep):
         return values, self._modes_of(vectors)
 
     def _load_stiffness(self) -> FloatArray:
-        """CSR values (nnz,) of the loads of the step that follow the faces of the base state."""
+        """Return CSR values (nnz,) of the loads of the step that follow the faces of the base state."""
         system, step = self._system, self._step
         data, still = np.zeros(len(system.indices)), np.zeros(len(system))
         call = self._call(Request.STIFFNESS)

@@ -30,7 +30,7 @@ FIRST = 10
 
 
 class FrequencyStep(PerturbationStep):
-    """One step of natural frequencies."""
+    """Step of natural frequencies."""
 
     def __init__(self, setting: Setting, procedure: Frequency) -> None:
         super().__init__(setting)
@@ -38,7 +38,7 @@ class FrequencyStep(PerturbationStep):
         self._given: dict[Request, FloatArray] = {}
 
     def _solve(self) -> list[Record]:
-        """The modes, lowest first."""
+        """Compute the modes, lowest first."""
         step, procedure = self._step, self._procedure
         values, vectors = self._modes()
         frequency = np.sign(values) * np.sqrt(np.abs(values)) / (2 * math.pi)
@@ -54,7 +54,7 @@ class FrequencyStep(PerturbationStep):
         return records
 
     def _modes(self) -> tuple[FloatArray, FloatArray]:
-        """Eigenvalues, and vectors (n, k) of all unknowns: as many as requested, or more than the range includes."""
+        """Return eigenvalues, and vectors (n, k) of all unknowns: as many as requested, or more than the range has."""
         pattern = self._constraints.reduced_indptr, self._constraints.reduced_indices
         pair = Pair(*pattern, self._matrix(Request.STIFFNESS), self._matrix(Request.MASS))
         if not np.any(pair.mass):
@@ -73,14 +73,14 @@ class FrequencyStep(PerturbationStep):
             count = min(2 * count, size)
 
     def _matrix(self, request: Request) -> FloatArray:
-        """CSR values of the symmetric part of a matrix of the free unknowns; that of all unknowns is kept."""
+        """Return CSR values of the symmetric part of a matrix of the free unknowns; that of all unknowns is kept."""
         evaluation = self._pass(request)
         assert evaluation.data is not None
         self._given[request] = evaluation.data.copy()
         return self._symmetric(evaluation.data)
 
     def _kept(self, values: FloatArray, masses: FloatArray, shapes: FloatArray) -> Modes:
-        """The modes for later steps."""
+        """Collect the modes for later steps."""
         along = np.array([self._system.dofs.dof == dof for dof in TRANSLATIONS], dtype=float)
         products = []
         for request, vectors in ((Request.STIFFNESS, shapes), (Request.MASS, np.vstack([shapes, along]))):
@@ -92,7 +92,7 @@ class FrequencyStep(PerturbationStep):
         return Modes(self._step.number, self._constraints, *given)
 
     def _scaled(self, vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Shapes (k, n) with the requested normalization, and their generalized masses."""
+        """Return the shapes (k, n) with the requested normalization, and their generalized masses."""
         largest = self._largest(vectors)
         factors = np.sign(largest) if self._procedure.by_mass else 1.0 / largest
         return (vectors * factors).T, factors**2

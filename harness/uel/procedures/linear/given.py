@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a linear step gives at a frequency or a time: loads and prescribed values with their amplitudes."""
+"""Loads and prescribed values of a linear step at a frequency or a time, with their amplitudes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Entry = TypeVar("Entry", Boundary, Load, ElementLoad)
 
 
 def given_at(step: Step, at: tuple[float, float], *, imaginary: bool = False, without: float = 1.0) -> Step:
-    """The step with the real or the imaginary part of what it gives.
+    """Return the step with the real or the imaginary part of its loads and prescribed values.
 
     at       arguments of the amplitudes: step and total time, or the frequency twice
     without  factor of what has no amplitude

@@ -42,7 +42,7 @@ class ModalStep(PerturbationStep):
         self._modes = modes.chosen(self._numbers)
 
     def _constrain(self, setting: Setting) -> Constraints:
-        """Those of *FREQUENCY. Raises DeckError where the step has others."""
+        """Return the modes of *FREQUENCY. Raises DeckError where the step has others."""
         found, step = self._found.constraints, setting.step
         given = setting.state.boundaries.in_perturbation(replace(step, new_boundary=True))
         same = np.array_equal(given, found.prescribed) if step.new_boundary else np.isin(given, found.prescribed).all()
@@ -52,7 +52,7 @@ class ModalStep(PerturbationStep):
         return found
 
     def run(self) -> Iterator[Record]:
-        """Records of the step. Raises KernelError, DeckError."""
+        """Run the step and yield its records. Raises KernelError, DeckError."""
         yield Noted(f"{len(self._numbers)} OF {len(self._found.values)} MODES OF STEP {self._found.step} RESPOND")
         yield from self._increments()
         yield StepDone(self._step.number, self._increment, 0, self._increment)
@@ -93,7 +93,7 @@ class ModalDynamicStep(ModalStep):
             self._user.external_database(2, 0, (end, begin + end), size, number, increment)
 
     def _advance(self, size: float, before: FloatArray, after: FloatArray) -> None:
-        """States at the end of an increment, between whose ends the forces (modes,) are linear."""
+        """Advance the modes to the end of an increment, between whose ends the forces (modes,) are linear."""
         if size not in self._steps:
             self._steps[size] = expm(size * self._rates)
         masses = self._modes.masses
@@ -101,7 +101,7 @@ class ModalDynamicStep(ModalStep):
         self._state_of_modes = np.einsum("mij,mj->mi", self._steps[size], self._state_of_modes)
 
     def _forces(self, step_time: float) -> tuple[FloatArray, FloatArray]:
-        """Forces (n,) at a time: all of them, and loads alone."""
+        """Return forces (n,) at a time: all of them, and loads alone."""
         at = step_time, self._state.total_time + step_time
         ramp = step_time / self._procedure.period if self._step.amplitude == "RAMP" else 1.0
         load = self._loads(given_at(self._step, at, without=ramp))
@@ -109,7 +109,7 @@ class ModalDynamicStep(ModalStep):
         return load - sum(moved), load
 
     def _superposed(self, forces: FloatArray, load: FloatArray) -> Solution:
-        """The state of all unknowns."""
+        """Superpose the modes to the state of all unknowns."""
         position, velocity, force = self._state_of_modes[:, :3].T
         acceleration = force - self._modes.values * position - self._viscous * velocity
         shapes, turned = self._modes.shapes, self._system.dofs.in_global

@@ -35,16 +35,16 @@ class Modes:
 
     @property
     def omega(self) -> FloatArray:
-        """(k,) natural frequencies, radians per time; 0 for modes that rounding, or instability, makes negative."""
+        """Natural frequencies (k,), radians per time; 0 for modes that rounding, or instability, makes negative."""
         return np.sqrt(np.maximum(self.values, 0.0))
 
     @property
     def frequencies(self) -> FloatArray:
-        """(k,) natural frequencies, cycles per time."""
+        """Natural frequencies (k,), cycles per time."""
         return self.omega / (2 * np.pi)
 
     def chosen(self, numbers: NDArray[np.int64]) -> Modes:
-        """Those with these numbers, from 1."""
+        """Select the modes with these numbers, from 1."""
         at = numbers - 1
         found = self.values[at], self.masses[at], self.shapes[at], self.stiffness[at], self.inertia[at]
         return Modes(self.step, self.constraints, *found, self.rigid)

@@ -43,11 +43,11 @@ ROTATIONS = np.array([4, 5, 6])
 """Dofs of nodes in space."""
 
 ROUNDING = 1e-8
-"""Of the average force of the elements."""
+"""Rounding relative to the average force of the elements."""
 
 
 class PerturbationStep:
-    """One linear step; subclasses define its solution."""
+    """Linear step; subclasses define its solution."""
 
     def __init__(self, setting: Setting) -> None:
         self._system, self._step, self._state, self._user = setting.system, setting.step, setting.state, setting.user
@@ -58,11 +58,11 @@ class PerturbationStep:
 
     @property
     def reached(self) -> tuple[tuple[float, float], float, int, int]:
-        """As for a general step."""
+        """Step and total time, no time increment, step and increment, as for a general step."""
         return (0.0, self._state.total_time), 0.0, self._step.number, self._increment
 
     def run(self) -> Iterator[Record]:
-        """Records of the step. Raises KernelError, SingularMatrixError, DeckError."""
+        """Run the step and yield its records. Raises KernelError, SingularMatrixError, DeckError."""
         yield Noted(f"LINEAR SOLVER {self._solver.name.upper()}: {self._solver.reason}")
         yield from warn_overconstrained(self._constraints)
         yield from self._increments()
@@ -70,7 +70,7 @@ class PerturbationStep:
         yield StepDone(self._step.number, self._increment, 0, self._increment)
 
     def _constrain(self, setting: Setting) -> Constraints:
-        """Constraints of the step."""
+        """Return the constraints of the step."""
         boundaries = setting.state.boundaries
         unknowns = boundaries.in_perturbation(setting.step)
         return Constraints(setting.system, unknowns, setting.model.equations, boundaries.sources)
@@ -81,15 +81,15 @@ class PerturbationStep:
         return self._choose_solver(self._solver_name)
 
     def _choose_solver(self, name: str) -> LinearSolver:
-        """The linear solver of this name."""
+        """Choose the linear solver of this name."""
         return choose_solver(name, self._constraints, self._state.effort)
 
     def _increments(self) -> Iterator[Record]:
-        """Records of all increments."""
+        """Yield the records of all increments."""
         yield from self._increment_by(self._solve)
 
     def _increment_by(self, solve: Callable[[], list[Record]]) -> Iterator[Record]:
-        """Records of the next increment, which `solve` finds."""
+        """Yield the records of the next increment, which `solve` finds."""
         step, total, size = self._step, self._state.total_time, self._step.procedure.period
         yield AttemptStarted(step.number, self._increment, 1, 0.0, total, size)
         self._user.external_database(1, 0, (0.0, total), size, step.number, self._increment)
@@ -97,7 +97,7 @@ class PerturbationStep:
         self._user.external_database(2, 0, (0.0, total), size, step.number, self._increment)
 
     def _solve(self) -> list[Record]:
-        """What the step finds: the response to its loads and prescribed values."""
+        """Compute the response to the step's loads and prescribed values."""
         evaluation = self._pass(Request.NORMAL)
         assert evaluation.data is not None
         constraints, step = self._constraints, self._step
@@ -118,7 +118,7 @@ class PerturbationStep:
         return [Warned(BASE_FORCES), done] if self._unloaded(evaluation) else [done]
 
     def _response(self, data: FloatArray, reduced: FloatArray, external: FloatArray) -> FloatArray:
-        """Change (n,) by forces and the prescribed values of the step.
+        """Return the change (n,) by forces and the prescribed values of the step.
 
         data, reduced: CSR values of the stiffness, of all unknowns and of the free ones, which is factorised.
         """
@@ -129,17 +129,17 @@ class PerturbationStep:
         return constraints.expand(self._solver.solve(constraints.reduce_vector(missing)), prescribed)
 
     def _loads(self, step: Step) -> FloatArray:
-        """Forces (n,) of the loads that the step, or a part of it, gives."""
+        """Return the forces (n,) of the loads that the step, or a part of it, gives."""
         time, state = (self._step_time, self._state.total_time), self._state
         return state.loads.in_perturbation(step, self._user, self._increment, time, state.displacement)
 
     @property
     def _step_time(self) -> float:
-        """None passes; a frequency may stand in its place."""
+        """Step time, 0 as none passes; a frequency may stand in its place."""
         return 0.0
 
     def _prescribed(self) -> FloatArray:
-        """Prescribed changes (n,), those of DISP among them. Raises DeckError without it."""
+        """Return the prescribed changes (n,), those of DISP among them. Raises DeckError without it."""
         step, state, user, dofs = self._step, self._state, self._user, self._system.dofs
         values, by_user = state.boundaries.perturbations(step), state.boundaries.perturbed_by_user(step)
         if len(by_user):
@@ -155,18 +155,18 @@ class PerturbationStep:
         return values
 
     def _symmetric(self, data: FloatArray) -> FloatArray:
-        """CSR values of the symmetric part of a matrix of the free unknowns."""
+        """Return CSR values of the symmetric part of a matrix of the free unknowns."""
         reduced = self._constraints.reduce(data)
         symmetric: FloatArray = 0.5 * (reduced + reduced[self._solver.pattern.transposed])
         return symmetric
 
     def _modes_of(self, vectors: FloatArray) -> FloatArray:
-        """(n, k) all unknowns of modes from the free ones."""
+        """Return all unknowns (n, k) of modes from the free ones."""
         none = np.zeros(len(self._constraints.prescribed))
         return np.array([self._constraints.expand(vector, none) for vector in vectors.T]).T
 
     def _largest(self, vectors: FloatArray) -> FloatArray:
-        """Displacement (k,) of modes (n, k) with the largest magnitude, or another unknown if nothing moves."""
+        """Return the largest displacement (k,) of modes (n, k), or another unknown if nothing moves."""
         displacements = self._system.dofs.dof <= LAST_DISPLACEMENT
         largest = []
         for vector in vectors.T:
@@ -185,13 +185,13 @@ class PerturbationStep:
         raise DeckError(self._step.source, f"*{keyword}: {message}; expected elements that act on dofs 4 to 6 of it")
 
     def _unloaded(self, evaluation: Evaluation) -> bool:
-        """Whether user elements return forces in a step without loads on them."""
+        """Report whether user elements return forces in a step without loads on them."""
         count = max(int(evaluation.flux_count.sum()), 1)
         largest = float(np.abs(evaluation.residual).max(initial=0.0))
         return not self._step.distributed and largest > ROUNDING * float(evaluation.flux.sum()) / count
 
     def _pass(self, request: Request, change: FloatArray | None = None) -> Evaluation:
-        """A pass over the elements in the base state, also for the matrix unless a perturbation is given."""
+        """Make a pass over the elements in the base state, also for the matrix unless a perturbation is given."""
         at = self._state.displacement
         du = np.zeros_like(at) if change is None else self._by_vectors(change)
         evaluation = self._system.evaluate(self._call(request), at, du, matrix=change is None)
@@ -200,13 +200,13 @@ class PerturbationStep:
         return replace(evaluation, data=self._by_spins(evaluation.data))
 
     def _stress_matrix(self, change: FloatArray | None = None) -> FloatArray:
-        """CSR values (nnz,) of the initial stress matrix of a perturbation (n,), or of the base state."""
+        """Return CSR values (nnz,) of the initial stress matrix of a perturbation (n,), or of the base state."""
         added = None if change is None else self._by_vectors(change)
         return self._by_spins(self._system.stress_matrix(self._call(Request.NORMAL), self._state.displacement, added))
 
     @cached_property
     def _vectors_by_spins(self) -> sparse.csr_array | None:
-        """(n, n) changes of all unknowns by those with spins in place of rotation vectors; None: they are the same."""
+        """Changes (n, n) of all unknowns by those with spins in place of rotation vectors; None: they are the same."""
         dofs, u = self._system.dofs, self._state.displacement
         nodes = np.unique(dofs.node[np.isin(dofs.dof, ROTATIONS)])
         unknowns = dofs.find(nodes[:, None], ROTATIONS)
@@ -222,11 +222,11 @@ class PerturbationStep:
         return sparse.coo_array((values, (rows, columns)), shape=(len(u), len(u))).tocsr()
 
     def _by_vectors(self, change: FloatArray) -> FloatArray:
-        """Changes (n,) of all unknowns, of rotation vectors in place of spins."""
+        """Convert changes (n,) of all unknowns from spins to rotation vectors."""
         return change if self._vectors_by_spins is None else np.asarray(self._vectors_by_spins @ change)
 
     def _by_spins(self, data: FloatArray) -> FloatArray:
-        """CSR values of a matrix whose columns are derivatives by spins, from those by rotation vectors."""
+        """Return CSR values of a matrix whose columns are derivatives by spins, from those by rotation vectors."""
         if self._vectors_by_spins is None:
             return data
         system, n = self._system, len(self._system)
@@ -268,7 +268,7 @@ class PerturbationStep:
         )
 
     def _elements(self, change: FloatArray) -> tuple[ElementState, ...]:
-        """Change of strain and stress of elastic built-in elements in small displacements; others are left out."""
+        """Return changes of strain and stress of elastic built-in elements in small displacements, not of others."""
         if self._step.nlgeom:
             return ()
         call = self._call(Request.NORMAL)

@@ -37,7 +37,7 @@ from uel.solver.linear import LinearSolver
 
 
 class HarmonicStep(PerturbationStep, ABC):
-    """One step of harmonic responses, each an increment; subclasses define the solution at a frequency."""
+    """Step of harmonic responses, each an increment; subclasses define the solution at a frequency."""
 
     _procedure: SteadyState
 
@@ -54,7 +54,7 @@ class HarmonicStep(PerturbationStep, ABC):
             yield from self._increment_by(self._solve)
 
     def _solve(self) -> list[Record]:
-        """The response at the frequency of the increment."""
+        """Compute the response at the frequency of the increment."""
         frequency = self._frequency
         rate = 2j * math.pi * frequency
         load = self._given(self._loads)
@@ -67,10 +67,10 @@ class HarmonicStep(PerturbationStep, ABC):
 
     @abstractmethod
     def _response_to(self, load: ComplexArray, rate: complex) -> tuple[ComplexArray, ComplexArray]:
-        """Displacements and reactions (n,) under loads (n,); rate: i w."""
+        """Return the displacements and reactions (n,) under loads (n,); rate: i w."""
 
     def _dynamic_stiffness(self, rate: complex) -> ComplexArray:
-        """(nnz,) CSR values of K + rate C + rate^2 M + i S over all unknowns."""
+        """Return CSR values (nnz,) of K + rate C + rate^2 M + i S over all unknowns."""
         data = self._matrix(Request.STIFFNESS) + rate**2 * self._matrix(Request.MASS)
         if not self._procedure.undamped:
             viscous, structural = (
@@ -80,7 +80,7 @@ class HarmonicStep(PerturbationStep, ABC):
         return data
 
     def _matrix(self, request: Request, damping: Damping = Damping.NONE) -> FloatArray:
-        """(nnz,) CSR values of a matrix of the elements in the base state."""
+        """Return CSR values (nnz,) of a matrix of the elements in the base state."""
         call, at = self._call(request).asking(request, damping), self._state.displacement
         evaluation = self._system.evaluate(call, at, np.zeros_like(at))
         assert evaluation.data is not None
@@ -91,7 +91,7 @@ class HarmonicStep(PerturbationStep, ABC):
         return self._frequency
 
     def _given(self, read: Callable[[Step], FloatArray]) -> ComplexArray:
-        """Loads or prescribed values (n,) at the frequency."""
+        """Return loads or prescribed values (n,) at the frequency."""
         at = self._frequency, self._frequency
         return read(given_at(self._step, at)) + 1j * read(given_at(self._step, at, imaginary=True))
 
@@ -103,7 +103,7 @@ class HarmonicStep(PerturbationStep, ABC):
         reaction: FloatArray,
         load: FloatArray,
     ) -> Solution:
-        """The real or the imaginary part."""
+        """Return the real or the imaginary part of the solution."""
         return replace(
             self._solution(displacement, {}),
             velocity=velocity,
@@ -115,7 +115,7 @@ class HarmonicStep(PerturbationStep, ABC):
 
 
 class SteadyStateStep(HarmonicStep):
-    """By the matrices of the model."""
+    """Step of harmonic responses by the matrices of the model."""
 
     def __init__(self, setting: Setting, procedure: SteadyState) -> None:
         self._procedure = procedure
@@ -147,7 +147,7 @@ class SteadyStateStep(HarmonicStep):
         return found, _by_parts(constraints.reactions, load - self._system.matrix(data) @ found)
 
     def _solution_of(self, data: ComplexArray, missing: ComplexArray) -> ComplexArray:
-        """Free unknowns (n_q,)."""
+        """Solve for the free unknowns (n_q,)."""
         solver = self._solver
         reduced = _by_parts(self._constraints.reduce, data)
         if self._complex is not None:
@@ -157,14 +157,14 @@ class SteadyStateStep(HarmonicStep):
 
 
 class ModalHarmonicStep(ModalStep, HarmonicStep):
-    """By modes; subclasses define their amplitudes."""
+    """Step of harmonic responses by modes; subclasses define their amplitudes."""
 
     def __init__(self, setting: Setting, procedure: SubspaceSteadyState | ModalSteadyState) -> None:
         self._procedure = procedure
         super().__init__(setting)
 
     def _with_base(self, load: ComplexArray, rate: complex) -> ComplexArray:
-        """Loads (n,), and those of the motion of the supports."""
+        """Add the loads of the motion of the supports to loads (n,)."""
         found = load.copy()
         for motion in self._superposition.base:
             part = 1j if motion.imaginary else 1.0
@@ -174,7 +174,7 @@ class ModalHarmonicStep(ModalStep, HarmonicStep):
         return found
 
     def _largest_terms(self, rate: complex) -> FloatArray:
-        """(modes,) what the difference w_i^2 - w^2 is measured by."""
+        """Return the scale (modes,) of the difference w_i^2 - w^2."""
         found: FloatArray = np.abs(self._modes.values) + abs(rate) ** 2
         return found
 
@@ -186,7 +186,7 @@ class ModalHarmonicStep(ModalStep, HarmonicStep):
 
 
 class SubspaceSteadyStateStep(ModalHarmonicStep):
-    """By the matrices of the model, which act on modes."""
+    """Step of harmonic responses by the matrices of the model, projected on modes."""
 
     def _response_to(self, load: ComplexArray, rate: complex) -> tuple[ComplexArray, ComplexArray]:
         matrix, shapes = self._system.matrix(self._dynamic_stiffness(rate)), self._modes.shapes
@@ -200,7 +200,7 @@ class SubspaceSteadyStateStep(ModalHarmonicStep):
 
 
 class ModalSteadyStateStep(ModalHarmonicStep):
-    """By modes, each for itself."""
+    """Step of harmonic responses by modes, each for itself."""
 
     def _response_to(self, load: ComplexArray, rate: complex) -> tuple[ComplexArray, ComplexArray]:
         modes, forces = self._modes, self._with_base(load, rate)
@@ -220,6 +220,6 @@ NEAR = 1e-10
 
 
 def _by_parts(linear: Callable[..., FloatArray], *values: ComplexArray) -> ComplexArray:
-    """A linear function of complex values; its next call may overwrite the result."""
+    """Apply a linear function to complex values; its next call may overwrite the result."""
     real = linear(*(np.ascontiguousarray(value.real) for value in values)).copy()
     return real + 1j * linear(*(np.ascontiguousarray(value.imag) for value in values))

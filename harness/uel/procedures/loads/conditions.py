@@ -58,7 +58,7 @@ class Conditions:
         self._reached: list[tuple[float, FloatArray]] = [(0.0, self._initial)]
 
     def _row(self, number: int) -> int:
-        """Place of a field: that of the equivalent pressure stress is the last one."""
+        """Return the row of a field: that of the equivalent pressure stress is the last one."""
         return self._nodes.fields - 1 if number == PRESSURE_STRESS else number
 
     def start_step(self, step: Step, total_time: float) -> StepConditions:
@@ -85,7 +85,7 @@ class Conditions:
         )
 
     def in_perturbation(self, step: Step, total_time: float) -> Distributed | None:
-        """Loads of the base state, with those of a perturbation step as increments, which do not outlast it."""
+        """Return loads of the base state, with those of a perturbation step as increments, which do not outlast it."""
         active = self._active.copy()
         for entry in step.distributed:
             active[self._slots.find(entry.elements, entry.kind)] = True
@@ -93,14 +93,14 @@ class Conditions:
         return _distributed(self._slots.places[active], self._slots.kinds[active], base[active], added[active])
 
     def initial(self) -> Predefined | None:
-        """Fields before the first step; None if the model has none."""
+        """Return the fields before the first step; None if the model has none."""
         if not len(self._nodes):
             return None
         values = self._initial.reshape(self._nodes.fields, self._nodes.nodes)
         return Predefined(values, np.zeros_like(values), self._initial[: self._nodes.nodes])
 
     def kept(self) -> Saved:
-        """Fields that UTEMP and UFIELD have given."""
+        """Return the fields that UTEMP and UFIELD have given."""
         given = self._reached if self._by_user.any() else []
         return {"reached": [list(one) for one in given]}
 
@@ -113,7 +113,7 @@ class Conditions:
             self._reached[:] = reached
 
     def conclude(self, step_time: float) -> None:
-        """The step ends before its period."""
+        """End the step before its period."""
         self._loads.conclude(step_time)
         self._fields.conclude(step_time)
 
@@ -163,7 +163,7 @@ class UserFields:
             values[slots] = user.user_values(asked)
 
     def at(self, total_time: float) -> FloatArray | None:
-        """All fields at the end of an increment, None if they are not known."""
+        """Return all fields at the end of an increment, None if they are not known."""
         return next((values for time, values in reversed(self.reached) if time == total_time), None)
 
     def keep(self, start: float, end: float, values: FloatArray) -> None:
@@ -189,7 +189,7 @@ class StepConditions:
     def at(
         self, start: Times, end: Times, increment: int, user: GivesValues, places: Places
     ) -> tuple[Distributed | None, Predefined | None]:
-        """Loads and fields of an increment between these step and total times; places are for UTEMP and UFIELD."""
+        """Return loads and fields of an increment between these step and total times; places: for UTEMP and UFIELD."""
         predefined = None
         distributed = self.distributed(start, end)
         if len(self.grid):
@@ -202,11 +202,11 @@ class StepConditions:
 
     @property
     def loaded(self) -> bool:
-        """Whether there are loads on user elements."""
+        """True if there are loads on user elements."""
         return bool(len(self.elements))
 
     def distributed(self, start: Times, end: Times) -> Distributed | None:
-        """Loads of an increment between these step and total times."""
+        """Return the loads of an increment between these step and total times."""
         values, before = self.loads.at(*end)[self.slots], self.loads.at(*start)[self.slots]
         return _distributed(self.elements, self.kinds, values, values - before)
 
@@ -219,7 +219,7 @@ class StepConditions:
         user: GivesValues,
         places: Places,
     ) -> tuple[FloatArray, FloatArray]:
-        """Fields at the end and at the start of an increment, those of the routines among them."""
+        """Return the fields at the end and at the start of an increment, those of the routines among them."""
         (_, start), (_, end) = times
         known = self.by_user.at(start)
         before = before if known is None else known
@@ -231,12 +231,12 @@ class StepConditions:
 
 
 def _as_loads(step: Step) -> list[Load]:
-    """Distributed loads, as `Loads` takes them."""
+    """Return the distributed loads, as `Loads` takes them."""
     return [Load(e.elements, e.kind, e.magnitude, e.amplitude, e.source) for e in step.distributed]
 
 
 def _distributed(elements: IntArray, kinds: IntArray, end: FloatArray, increment: FloatArray) -> Distributed | None:
-    """The loads as elements get them; None if there are none."""
+    """Return the loads as elements get them; None if there are none."""
     if not len(elements):
         return None
     given = kinds > 0  # UEL itself gives the magnitude of type UnNU

@@ -54,7 +54,7 @@ class _ShellTerms:
     terms: IntArray
 
     def at(self, magnitudes: FloatArray, floor: float) -> BlockReport:
-        """Their report at magnitudes (slots,); floor: below which forces are left out of the average."""
+        """Return their report at magnitudes (slots,); floor: below which forces are left out of the average."""
         found = abs(self.forces.data) * np.abs(np.repeat(magnitudes, np.diff(self.forces.indptr)))
         here = np.repeat(self.terms > 0, np.diff(self.forces.indptr))
         counted = here & (found > floor)
@@ -92,36 +92,36 @@ class StepLoads:
 
     @property
     def turning(self) -> bool:
-        """Whether there are loads that follow faces."""
+        """True if there are loads that follow faces."""
         return any(load.turning for load in self.distributed)
 
     @property
     def by_user(self) -> bool:
-        """Whether DLOAD gives any of them, on any rank."""
+        """True if DLOAD gives any of them, on any rank."""
         return any(load.by_user for load in self.distributed)
 
     def at(self, step_time: float, total_time: float) -> FloatArray:
-        """Loads (n,) at a time, without those of DLOAD."""
+        """Return the loads (n,) at a time, without those of DLOAD."""
         concentrated = self.concentrated.at(step_time, total_time)
         if not self.distributed:
             return concentrated
         return concentrated + self.ranks.sum(self._on_elements(step_time, total_time))
 
     def terms(self, times: tuple[float, float], floor: FloatArray) -> tuple[BlockReport, ...]:
-        """Loads on shells of this rank that are terms of the average force at a step and a total time."""
+        """Return the loads on shells of this rank that are terms of the average force at a step and a total time."""
         loads = (load for load in self.distributed if load.shells.terms.any())
         force = float(floor[FIELD_NAMES.index("force")])
         return tuple(load.shells.at(load.magnitudes.at(*times), force) for load in loads)
 
     def _on_elements(self, step_time: float, total_time: float) -> FloatArray:
-        """Nodal forces (n,) of the loads on the elements of this rank."""
+        """Return the nodal forces (n,) of the loads on the elements of this rank."""
         values = np.zeros(self.shape)
         for load in self.distributed:
             values += load.points.forces @ load.magnitudes.at(step_time, total_time)[load.points.slot]
         return values
 
     def of_user(self, time: tuple[float, float], u: FloatArray) -> FloatArray:
-        """Nodal forces (n,) of the loads that DLOAD gives at a step and a total time, at displacements (n,)."""
+        """Return nodal forces (n,) of the loads that DLOAD gives at a step and total time, at displacements (n,)."""
         return self.ranks.sum(self.ranks.agree(lambda: self._of_user(time, u)))
 
     def _of_user(self, time: tuple[float, float], u: FloatArray) -> FloatArray:
@@ -137,7 +137,7 @@ class StepLoads:
     def _given(
         self, time: tuple[float, float], places: NDArray[np.int32], coords: FloatArray, given: FloatArray
     ) -> FloatArray:
-        """Magnitudes (k,) of DLOAD."""
+        """Return the magnitudes (k,) of DLOAD."""
         # calls before the first increment belong to it
         moment = self.step, max(self.increment, 1), time
         return self.user.user_values(UserValues("DLOAD", *moment, places, coords, given))
@@ -150,7 +150,7 @@ class StepLoads:
         u: FloatArray,
         factor: FactorTimes | None = None,
     ) -> Distributed | None:
-        """What acts in an increment between these step and total times: on elements, on faces that it follows, heat.
+        """Return the loads of an increment between these step and total times: on elements, on faces they follow, heat.
 
         u (n,) are the displacements at which DLOAD is asked. factor: what it gets in place of step times; only then
         changes of its loads in the increment are known.
@@ -178,7 +178,7 @@ class StepLoads:
     def _on_faces_of_user(
         self, end: tuple[float, float], u: FloatArray, factor: FactorTimes | None
     ) -> Distributed | None:
-        """A load for each point of the faces whose pressure DLOAD gives."""
+        """Return a load for each point of the faces whose pressure DLOAD gives."""
         found = []
         for load in self.distributed:
             for faces in load.user_faces:
@@ -215,19 +215,19 @@ class _UserFaces:
     reference: FloatArray
 
     def asked(self, u: FloatArray) -> tuple[NDArray[np.int32], FloatArray]:
-        """Element number, point and JLTYP of the points, and where they are at displacements (n,)."""
+        """Return the element number, point and JLTYP of the points, and where they are at displacements (n,)."""
         labels, coords = self.block.group.labels[self.rows], self.block.points(self.rows, u)
         return _numbered(labels, self.block.points_of_face, self.block.load), coords.reshape(-1, 3)
 
     def distributed(self, end: FloatArray, increment: FloatArray) -> Distributed:
-        """A load for each point, of these magnitudes (k * points,)."""
+        """Return a load for each point, of these magnitudes (k * points,)."""
         count = self.block.points_of_face
         places = np.repeat(self.block.first + self.block.rows[self.rows], count)
         return Distributed(places, np.tile(np.arange(1, count + 1), len(self.rows)), end, increment)
 
 
 def _numbered(labels: IntArray, points: int, load: LoadType) -> NDArray[np.int32]:
-    """(k * points, 3) element number, point and JLTYP."""
+    """Return element number, point and JLTYP (k * points, 3)."""
     numbers = np.tile(np.arange(1, points + 1), len(labels))
     repeated = np.repeat(labels, points)
     return np.stack([repeated, numbers, np.full(len(repeated), load.jltyp)], axis=1).astype(np.int32)
@@ -287,7 +287,7 @@ class AllLoads:
     def in_perturbation(
         self, step: Step, user: GivesValues, increment: int, time: tuple[float, float], u: FloatArray
     ) -> FloatArray:
-        """Forces (n,) of a perturbation step, which do not outlast it.
+        """Return the forces (n,) of a perturbation step, which do not outlast it.
 
         increment, time and u (n,), the displacements of the base state, are for DLOAD. Raises DeckError without it.
         """
@@ -312,7 +312,7 @@ class AllLoads:
         time: tuple[float, float],
         u: FloatArray,
     ) -> Distributed:
-        """Loads of a perturbation step on a block of faces; other arguments as those of `in_perturbation`."""
+        """Return the loads of a perturbation step on a block of faces; other arguments as in `in_perturbation`."""
         magnitudes, loaded = np.zeros(len(block.elements)), np.zeros(len(block.elements), dtype=bool)
         for entry in step.surface_loads if block.surface else step.element_loads:
             if entry.type == block.load:
@@ -329,7 +329,7 @@ class AllLoads:
         return faces.distributed(values, values)
 
     def conclude(self, step_time: float) -> None:
-        """The step ends before its period."""
+        """End the step before its period."""
         for loads in (self._concentrated, self._elements.loads, self._surfaces.loads):
             loads.conclude(step_time)
         self._heat.conclude(step_time)
@@ -354,7 +354,7 @@ class _Points:
     terms: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
     def asked(self, chosen: IntArray, u: FloatArray | None) -> tuple[NDArray[np.int32], FloatArray]:
-        """Places (k, 3) of chosen points, and their coordinates at displacements u (n,), or in the initial shape."""
+        """Return places (k, 3) of chosen points, and coordinates at displacements u (n,) or in the initial shape."""
         coords = self.coords[chosen]
         if u is not None:
             coords = coords + (self.moved @ u).reshape(-1, 3)[chosen]
@@ -415,7 +415,7 @@ class _ElementLoads:
     def start_step(
         self, entries: Sequence[ElementLoad], new: bool, step: Step, total_time: float
     ) -> _StepElementLoads | None:
-        """Loads of a step; None if the model has none."""
+        """Start a step and return its loads; None if the model has none."""
         if not len(self._slots):
             return None
         if new:
@@ -432,7 +432,7 @@ class _ElementLoads:
         return _StepElementLoads(self._points, varying, *given, self._faces, self._face_slots, shells)
 
     def _has(self, kinds: list[int]) -> bool:
-        """Whether the step has loads of some types."""
+        """Report whether the step has loads of some types."""
         return bool(np.isin(self._slots.kinds[self._active], kinds).any())
 
     def _refer(self, entries: Sequence[ElementLoad]) -> None:
@@ -444,7 +444,7 @@ class _ElementLoads:
             self._reference[slots] += entry.magnitude
 
     def _faces_of_user(self) -> tuple[_UserFaces, ...]:
-        """Faces here that have a load of DLOAD in the step."""
+        """Return the faces here that have a load of DLOAD in the step."""
         found = []
         for block in self._user_faces:
             slots = self._slots.find(block.elements, self._types.index(block.load))
@@ -457,24 +457,24 @@ class _ElementLoads:
     def nonuniform(
         self, entry: ElementLoad, u: FloatArray | None
     ) -> tuple[NDArray[np.int32], FloatArray, Callable[[FloatArray], FloatArray]]:
-        """Where DLOAD is asked for an entry of a perturbation step, and what makes forces (n,) of its answers."""
+        """Return the points of DLOAD in a perturbation step, and a function from its answers to forces (n,)."""
         slots = self._slots.find(entry.elements, self._types.index(entry.type))
         chosen = np.flatnonzero(np.isin(self._points.slot, slots) & (self._points.places[:, 2] > 0))
         forces = self._points.forces[:, chosen]
         return (*self._points.asked(chosen, u), lambda found: np.asarray(forces @ found))
 
     def unlasting(self, entries: Sequence[ElementLoad]) -> FloatArray:
-        """Forces (n,) of entries of a perturbation step."""
+        """Return the forces (n,) of entries of a perturbation step."""
         magnitudes = self.loads.in_perturbation(self._as_loads(entries))
         return np.asarray(self._points.forces @ magnitudes[self._points.slot])
 
     def _as_loads(self, entries: Sequence[ElementLoad]) -> list[Load]:
-        """Those whose magnitudes the deck gives."""
+        """Return the loads whose magnitudes the deck gives."""
         uniform = (e for e in entries if not e.type.jltyp)
         return [Load(e.elements, self._types.index(e.type), e.magnitude, e.amplitude, e.source) for e in uniform]
 
     def _points_of(self, system: System, entry: ElementLoad) -> list[_Points]:
-        """Points of the elements that have loads of the entry's type, block by block."""
+        """Return the points of the elements that have loads of the entry's type, block by block."""
         chosen = np.flatnonzero(self._slots.kinds == self._types.index(entry.type))
         found = []
         for block in system.blocks:
@@ -500,7 +500,7 @@ class _ElementLoads:
 
 
 def _moved(system: System, nodes: IntArray, shapes: FloatArray) -> sparse.csr_array:
-    """(3 elements points, n) displacements of points from those of the nodes (elements, k); shapes (points, k)."""
+    """Build the matrix (3 elements points, n) of points' displacements from nodes (elements, k), shapes (points, k)."""
     unknowns = system.dofs.find(nodes[:, None, None, :], np.arange(1, 4)[:, None])
     shape = len(nodes), len(shapes), 3, nodes.shape[1]
     values = np.broadcast_to(shapes[:, None, :], shape)

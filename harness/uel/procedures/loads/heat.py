@@ -37,7 +37,7 @@ class StepHeat:
     variations: tuple[Variation, ...]
 
     def between(self, start: tuple[float, float], end: tuple[float, float]) -> Distributed | None:
-        """The loads of an increment between these step and total times, as elements get them; None without any."""
+        """Return the loads of an increment between these step and total times, as elements get them; or None."""
         if not len(self.elements):
             return None
         both = self.coefficients >= 0
@@ -87,7 +87,7 @@ class HeatLoads:
         )
 
     def conclude(self, step_time: float) -> None:
-        """The step ends before its period."""
+        """End the step before its period."""
         for loads in self._all:
             loads.magnitudes.conclude(step_time)
 
@@ -106,7 +106,7 @@ class _OfKeyword:
         return 2 * self._types.index(load) + part
 
     def find(self, places: IntArray, load: HeatLoadType, part: int) -> tuple[IntArray, IntArray]:
-        """Numbers of the magnitudes at places, and whether each is active."""
+        """Return the numbers of the magnitudes at places, and whether each is active."""
         found = self.slots.find(places, self._kind(load, part))
         return found, self._active[found]
 
@@ -140,7 +140,7 @@ class _OfKeyword:
         return [Load(e.places, self._kind(e.type, 1), e.coefficient, e.film_amplitude, e.source) for e in given]
 
     def _at_once(self, varying: Variation, entries: Sequence[HeatLoad]) -> Variation:
-        """Coefficients without an amplitude do not ramp."""
+        """Apply coefficients without an amplitude at once: they do not ramp."""
         base, slope = varying.base.copy(), varying.slope.copy()
         for load in self._coefficients(entries):
             if load.amplitude is None:

@@ -129,7 +129,7 @@ def _stresses_by_user(system: System, entry: InitialStress, user: InitialRoutine
 
 
 def _has_stress(group: ElementGroup) -> bool:
-    """Whether the elements are built-in ones with material points."""
+    """Report whether the elements are built-in ones with material points."""
     kind = BUILT_IN.get(group.type)
     if isinstance(kind, DiscreteType):
         return kind.kind is DiscreteKind.TRUSS

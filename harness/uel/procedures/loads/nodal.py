@@ -42,12 +42,12 @@ class ScaledUnknowns:
     amplitude: Amplitude
 
     def value(self, step_time: float, total_time: float) -> float:
-        """Value at a time."""
+        """Return the value at a time."""
         factor = self.amplitude.value(step_time, total_time)
         return factor if self.amplitude.absolute else self.magnitude * factor
 
     def without(self, unknowns: IntArray) -> ScaledUnknowns:
-        """The same curve for fewer unknowns."""
+        """Return this curve for fewer unknowns."""
         return ScaledUnknowns(self.unknowns[~np.isin(self.unknowns, unknowns)], self.magnitude, self.amplitude)
 
 
@@ -65,7 +65,7 @@ class Course:
     begin: float
 
     def value(self, step_time: float) -> FloatArray:
-        """Values at a time of the step: the start and the integral of the rate."""
+        """Return the values at a time of the step: the start and the integral of the rate."""
         if self.amplitude is None:
             return self.start + self.magnitude * step_time
         scale = 1.0 if self.amplitude.absolute else self.magnitude
@@ -73,7 +73,7 @@ class Course:
         return self.start + scale * float(np.trapezoid(factors, times))
 
     def following(self, period: float, displacement: FloatArray, total_time: float) -> Course:
-        """The same in the next step: it continues at the final rate, or along a curve in total time."""
+        """Continue in the next step, at the final rate, or along a curve in total time."""
         amplitude, magnitude = self.amplitude, self.magnitude
         if amplitude is not None and not amplitude.total_time:
             factor = amplitude.value(period, total_time)
@@ -81,12 +81,12 @@ class Course:
         return Course(self.unknowns, magnitude, amplitude, displacement[self.unknowns], total_time)
 
     def without(self, unknowns: IntArray) -> Course:
-        """The same for fewer unknowns."""
+        """Return this course for fewer unknowns."""
         kept = ~np.isin(self.unknowns, unknowns)
         return Course(self.unknowns[kept], self.magnitude, self.amplitude, self.start[kept], self.begin)
 
     def _sampled(self, amplitude: Amplitude, step_time: float) -> tuple[FloatArray, FloatArray]:
-        """Sampling points: the corners of a table, for which the trapezoidal rule is exact, and many in between."""
+        """Sample the amplitude at the corners of a table, for which the trapezoidal rule is exact, and in between."""
         corners = amplitude.corners(self.begin)
         times = np.union1d(np.linspace(0.0, step_time, SAMPLES), corners[(corners > 0) & (corners < step_time)])
         return times, np.array([amplitude.value(time, self.begin + time) for time in times.tolist()])
@@ -107,7 +107,7 @@ class Variation:
     courses: tuple[Course, ...] = ()
 
     def at(self, step_time: float, total_time: float) -> FloatArray:
-        """Values (n,) at a time."""
+        """Return the values (n,) at a time."""
         values = self.base + self.slope * (step_time / self.period)
         for curve in self.curves:
             values[curve.unknowns] += curve.value(step_time, total_time)
@@ -117,13 +117,13 @@ class Variation:
 
 
 def find_unknowns(dofs: Unknowns, entry: Boundary | Load | InitialValue) -> tuple[IntArray, IntArray]:
-    """Unknowns of an entry, and the nodes where no element uses its dof."""
+    """Return the unknowns of an entry, and the nodes where no element uses its dof."""
     found = dofs.find(entry.nodes, entry.dof)
     return found[found >= 0], entry.nodes[found < 0]
 
 
 def initial_values(dofs: DofMap, entries: Sequence[InitialValue]) -> FloatArray:
-    """Values (n,) of *INITIAL CONDITIONS; later entries replace earlier ones."""
+    """Return the values (n,) of *INITIAL CONDITIONS; later entries replace earlier ones."""
     values = np.zeros(len(dofs))
     for entry in entries:
         values[find_unknowns(dofs, entry)[0]] = entry.value
@@ -134,7 +134,7 @@ class Boundaries:
     """Prescribed degrees of freedom through the steps."""
 
     def __init__(self, dofs: DofMap, model_data: Sequence[Boundary]) -> None:
-        """model_data: *BOUNDARY before the first step, all of them zero."""
+        """Start with `model_data`: *BOUNDARY before the first step, all of them zero."""
         self._dofs = dofs
         self._active = np.zeros(len(dofs), dtype=bool)
         self._curves: tuple[ScaledUnknowns, ...] = ()
@@ -189,26 +189,26 @@ class Boundaries:
         return Variation(base, slope, self._period, self._curves, self._courses)
 
     def in_perturbation(self, step: Step) -> IntArray:
-        """Prescribed unknowns of a perturbation step, ascending; they do not outlast it."""
+        """Return the prescribed unknowns of a perturbation step, ascending; they do not outlast it."""
         active = np.zeros_like(self._active) if step.new_boundary else self._active.copy()
         for entry in step.boundaries:
             active[find_unknowns(self._dofs, entry)[0]] = True
         return np.flatnonzero(active)
 
     def perturbations(self, step: Step) -> FloatArray:
-        """Prescribed changes (n,) of a perturbation step."""
+        """Return the prescribed changes (n,) of a perturbation step."""
         values = np.zeros(len(self._dofs))
         for entry in step.boundaries:
             values[find_unknowns(self._dofs, entry)[0]] = 0.0 if entry.fixed else entry.magnitude
         return values
 
     def perturbed_by_user(self, step: Step) -> IntArray:
-        """Unknowns (k,) whose changes DISP gives in a perturbation step, ascending."""
+        """Return the unknowns (k,) whose changes DISP gives in a perturbation step, ascending."""
         found = [find_unknowns(self._dofs, entry)[0] for entry in step.boundaries if entry.user]
         return np.unique(np.concatenate([np.zeros(0, dtype=np.int64), *found]))
 
     def conclude(self, step_time: float) -> None:
-        """The step ends before its period."""
+        """End the step before its period."""
         self._period = step_time
 
     def _activate(self, entry: Boundary) -> IntArray:
@@ -223,10 +223,10 @@ class Unknowns(Protocol):
     """Numbering of pairs: unknowns by node and dof, and the like."""
 
     def __len__(self) -> int:
-        """Their number."""
+        """Return their number."""
 
     def find(self, nodes: IntArray | int, dof: IntArray | int) -> IntArray:
-        """Numbers of pairs; -1 for one that does not exist."""
+        """Return the numbers of pairs; -1 for one that does not exist."""
 
 
 class Loads:
@@ -274,18 +274,18 @@ class Loads:
         return self._previous
 
     def reached(self, total_time: float) -> FloatArray:
-        """Values (n,) at the end of the last general step."""
+        """Return the values (n,) at the end of the last general step."""
         return self._previous.at(self._previous.period, total_time)
 
     def in_perturbation(self, entries: Sequence[Load]) -> FloatArray:
-        """Values (n,) of a perturbation step, which do not outlast it."""
+        """Return the values (n,) of a perturbation step, which do not outlast it."""
         values = np.zeros(len(self._dofs))
         for entry in entries:
             np.add.at(values, find_unknowns(self._dofs, entry)[0], entry.magnitude)
         return values
 
     def conclude(self, step_time: float) -> None:
-        """The step ends before its period: what it reached stays."""
+        """End the step before its period: what it reached stays."""
         slope = self._previous.slope * (step_time / self._previous.period)
         self._previous = replace(self._previous, slope=slope, period=step_time)
 
@@ -297,7 +297,7 @@ class Slots:
     """
 
     def __init__(self, pairs: Sequence[tuple[IntArray, int]]) -> None:
-        """pairs: elements or nodes with a kind; a pair may occur several times."""
+        """Assign a number to each pair: an element or node with a kind; a pair may occur several times."""
         # JDLTYP of a nonuniform load is negative
         self._least = min((kind for _, kind in pairs), default=0)
         self._kinds = 1 + max((kind for _, kind in pairs), default=0) - self._least
@@ -312,11 +312,11 @@ class Slots:
         return np.atleast_1d(places).astype(np.int64) * self._kinds + int(kind) - self._least
 
     def find(self, places: IntArray | int, kind: IntArray | int) -> IntArray:
-        """Numbers of the pairs, which must be among those given."""
+        """Return the numbers of the pairs, which must be among those given."""
         return np.searchsorted(self._sorted, self._keys(places, kind))
 
     def find_some(self, places: IntArray, kind: int) -> IntArray:
-        """Numbers of the pairs that are among those given."""
+        """Return the numbers of the pairs that are among those given."""
         found = self.find(places, kind)
         known = found < len(self)
         found, keys = found[known], self._keys(places, kind)[known]
@@ -324,7 +324,7 @@ class Slots:
 
 
 def fading_forces(reaction: FloatArray, prescribed: IntArray, step: Step, unbalanced: FloatArray) -> Variation:
-    """Forces that fade in a step: reactions of degrees of freedom that it releases, and `unbalanced` ones.
+    """Return forces that fade in a step: reactions of degrees of freedom that it releases, and `unbalanced` ones.
 
     reaction (n,) is that at the end of the previous step, prescribed the unknowns prescribed in this one. unbalanced
     (n,) keeps initial stresses in equilibrium at the start; it fades with any AMPLITUDE= of the step.

@@ -61,7 +61,7 @@ class UserAmplitudes:
 
     @property
     def exist(self) -> bool:
-        """Whether UAMP gives any amplitude of the model."""
+        """True if UAMP gives any amplitude of the model."""
         return bool(self._courses)
 
     def start_step(self, step: Step, dofs: DofMap, nodal: NodalState, user: GivesValues) -> StepAmplitudes:
