@@ -17,14 +17,14 @@ from uel.solver.eigen import DENSE, RANK, Pair, UnstableError
 from uel.solver.newton import Factoriser
 
 NEGATIVE = 1e-6
-"""Of the largest flexibility: a smaller negative one is rounding."""
+"""Limit relative to the largest flexibility: a smaller negative one is rounding."""
 
 RESIDUAL = 1e-6
-"""Of the larger of the two terms of the equation."""
+"""Largest residual relative to the larger of the two terms of the equation."""
 
 
 def smallest_factors(pair: Pair, count: int, solver: Factoriser) -> tuple[FloatArray, FloatArray]:
-    """Eigenvalues (k,) of either sign, those of smallest magnitude first, and vectors (n, k).
+    """Return the eigenvalues (k,) of either sign, those of smallest magnitude first, and vectors (n, k).
 
     Parameters
     ----------

@@ -52,10 +52,10 @@ ITERATIONS = 500
 """Iterations after which an attempt is abandoned: dozens of elements may fail in it, and each takes a few."""
 
 SMALLEST_COSINE = 1e-6
-"""Of the angle between d and K_0^-1 r, in the metric of K_0; in delaminating beams it stays above 1e-4."""
+"""Smallest cosine between d and K_0^-1 r, in the metric of K_0; in delaminating beams it stays above 1e-4."""
 
 NEGLIGIBLE = 1e-8
-"""Of the prescribed values: if an extrapolation misses them by less, that is rounding."""
+"""Limit relative to the prescribed values: if an extrapolation misses them by less, that is rounding."""
 
 ROUNDING = 1e-14
 """Rounding error of a residual over the sum of all element forces."""
@@ -89,14 +89,14 @@ class Majoriser:
             self._data = data.copy()
 
     def blend(self, data: FloatArray, share: float) -> FloatArray:
-        """K + share (K_0 - K), CSR values; K itself for a share of 0."""
+        """Return K + share (K_0 - K), CSR values; K itself for a share of 0."""
         if not share:
             return data
         assert self._data is not None
         return (1.0 - share) * data + share * self._data
 
     def direction(self, reduced: FloatArray) -> FloatArray:
-        """K_0^-1 r (n,) of a reduced residual. Raises SingularMatrixError."""
+        """Return K_0^-1 r (n,) of a reduced residual. Raises SingularMatrixError."""
         assert self._data is not None and self._make is not None
         known = self._solver is not None
         if self._solver is None:
@@ -106,7 +106,7 @@ class Majoriser:
         return self._constraints.expand(self._solver.solve(reduced), np.zeros(len(self._constraints.prescribed)))
 
     def norm(self, vector: FloatArray) -> float:
-        """Square root of |v . K_0 v|."""
+        """Return the square root of |v . K_0 v|."""
         assert self._data is not None
         return float(np.sqrt(abs(vector @ self._system.product(self._data, vector))))
 
@@ -173,11 +173,11 @@ class Descent(Newton):
         self._constraints.follow(at, state.residual, state.increment, given.weight)
 
     def _lift(self, missing: FloatArray) -> FloatArray:
-        """Missing part of the prescribed values, (n,)."""
+        """Return the missing part of the prescribed values, (n,)."""
         return self._constraints.expand(np.zeros(len(self._constraints.free)), missing)
 
     def _downhill(self, state: Iterate, correction: FloatArray) -> FloatArray:
-        """The correction, or its negative, or K_0^-1 r where it is almost orthogonal to that."""
+        """Return the correction, or its negative, or K_0^-1 r where it is almost orthogonal to that."""
         slope = float(correction @ state.residual)
         steepest = self._majoriser.direction(state.reduced)
         length = self._majoriser.norm(correction) * self._majoriser.norm(steepest)
@@ -193,7 +193,7 @@ class Descent(Newton):
             self._share = self._share / CHANGE if self._share > FIRST_SHARE else 0.0
 
     def _descend(self, given: Increment, state: Iterate, missing: FloatArray, direction: FloatArray) -> Iterate:
-        """The state at the scale found along a direction, or along K_0^-1 r if there is no such scale."""
+        """Return the state at the scale found along a direction, or along K_0^-1 r if none is found there."""
         start = state.increment + self._lift(missing)
 
         def component(scale: float) -> float | None:
@@ -214,5 +214,5 @@ class Descent(Newton):
 
 
 def _noise(state: Iterate, correction: FloatArray) -> float:
-    """Work on a correction of the rounding errors of the residual."""
+    """Return the work on a correction of the rounding errors of the residual."""
     return ROUNDING * float(state.evaluation.flux.sum()) * float(np.abs(correction).max(initial=0.0))

@@ -23,11 +23,11 @@ SHIFT = 1e-6
 """First shift, as a fraction of the mean of K over that of M."""
 
 RANK = 1e-12
-"""Of the largest inverse eigenvalue: smaller ones belong to unknowns without mass."""
+"""Limit relative to the largest inverse eigenvalue: smaller ones belong to unknowns without mass."""
 
 
 class UnstableError(Exception):
-    """No eigenvalues: K is far from positive semidefinite, or is singular where there is no mass."""
+    """Error without eigenvalues: K is far from positive semidefinite, or is singular where there is no mass."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,12 +43,12 @@ class Pair:
         return len(self.indptr) - 1
 
     def matrix(self, data: FloatArray) -> sparse.csr_array:
-        """(n, n) of values on the pattern."""
+        """Build the matrix (n, n) of values on the pattern."""
         return sparse.csr_array((data, self.indices, self.indptr), shape=(len(self), len(self)))
 
 
 def lowest_eigenvalues(pair: Pair, count: int, solver: Factoriser) -> tuple[FloatArray, FloatArray]:
-    """Eigenvalues (k,) ascending and vectors (n, k); k is `count`, or less if there are no more.
+    """Return the eigenvalues (k,) ascending and vectors (n, k); k is `count`, or less if there are no more.
 
     The vectors have x^T M x = 1. `solver` is for matrices of the pattern. Raises UnstableError.
     """
@@ -65,7 +65,7 @@ def lowest_eigenvalues(pair: Pair, count: int, solver: Factoriser) -> tuple[Floa
 
 
 def _shifts(pair: Pair) -> Iterator[float]:
-    """Negative shifts, since K is singular if bodies are unconstrained; larger ones for unstable bodies."""
+    """Yield negative shifts, since K is singular if bodies are unconstrained; larger ones for unstable bodies."""
     stiffness, mass = (pair.matrix(data).diagonal() for data in (pair.stiffness, pair.mass))
     for power in range(4):
         yield -SHIFT * 100**power * float(np.abs(stiffness[mass > 0]).sum() / mass.sum())

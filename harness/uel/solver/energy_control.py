@@ -64,7 +64,7 @@ class Dissipation:
         self._size, self._rise = size, min(size, left)
 
     def change(self, state: PathIterate, directions: Directions, reaction: Reaction) -> float:
-        """Change of the load factor towards the target, linearised, within the limits of the increment."""
+        """Return the change of the load factor towards the target, linearised, within the limits of the increment."""
         v, u = directions.tangent, self._given.displacement
         work = float(self._external @ v)
         released = float((self._given.load_rate + reaction(v, 1.0)) @ u)
@@ -79,6 +79,6 @@ class Dissipation:
         return min(max(change, -self._size - state.factor), largest)
 
     def dissipated(self, state: PathIterate) -> float:
-        """Energy tau dissipated so far in the increment."""
+        """Return the energy tau dissipated so far in the increment."""
         change = state.factor * self._given.load_rate + self._constraints.reactions(state.residual) - self._reaction
         return 0.5 * float(self._external @ state.increment - change @ self._given.displacement)

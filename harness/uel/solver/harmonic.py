@@ -17,7 +17,7 @@ from uel.solver.linear import choose
 
 
 class ComplexSolver:
-    """Solves complex systems of one symmetric CSR pattern; arguments as those of `uel.solver.linear.choose`.
+    """Solver of complex systems of one symmetric CSR pattern; arguments as those of `uel.solver.linear.choose`.
 
     real  solver of the real systems
     """
@@ -42,12 +42,12 @@ class ComplexSolver:
         )
 
     def solve(self, data: ComplexArray, rhs: ComplexArray) -> ComplexArray:
-        """Solution (n,) of the matrix with these CSR values (nnz,). Raises SingularMatrixError."""
+        """Solve the system with these CSR values (nnz,) for (n,). Raises SingularMatrixError."""
         self.real.factorise(self._doubled(data).data)
         return self.real.solve(rhs.view(np.float64)).view(np.complex128)
 
     def _doubled(self, data: ComplexArray) -> sparse.csr_array:
-        """The real matrix of twice the size."""
+        """Build the real matrix of twice the size."""
         indptr, indices = self._pattern
         entries = np.array([[data.real, -data.imag], [data.imag, data.real]]).transpose(2, 0, 1)
         size = 2 * (len(indptr) - 1)

@@ -21,21 +21,21 @@ ROUNDING = 16 * float(np.finfo(float).eps)
 
 
 class Factoriser(Protocol):
-    """What is needed from a linear solver."""
+    """Interface of a linear solver that Newton's method needs."""
 
     def factorise(self, data: FloatArray) -> None:
         """Take the CSR values of the reduced matrix."""
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution for one right-hand side."""
+        """Solve for one right-hand side."""
 
     def forget(self) -> None:
-        """Let later solutions not depend on earlier matrices, to the bit."""
+        """Forget earlier matrices, so that later solutions do not depend on them, to the bit."""
 
 
 @dataclass(frozen=True, slots=True)
 class Acting:
-    """What acts from outside at certain displacements, where it depends on them or on a load factor.
+    """Forces from outside at certain displacements, where they depend on these or on a load factor.
 
     forces       (n,) on the nodes
     distributed  on elements and faces
@@ -49,7 +49,7 @@ class Acting:
 
 @dataclass(frozen=True, slots=True)
 class Increment:
-    """What defines an increment.
+    """Definition of an increment.
 
     call          of the passes after a solve; the first pass carries LFLAGS(5) = 1 if it starts from an extrapolation
     displacement  (n,) at the start
@@ -110,7 +110,7 @@ class Newton:
         self._pattern = system.indices
 
     def kept(self) -> FloatArray | None:
-        """CSR values of the matrix of the last solve, which the next one may reuse: to it a restart comes back."""
+        """Return the CSR values of the last solve's matrix, which the next may reuse: a restart continues with it."""
         return self._factorised
 
     def resume(self, factorised: FloatArray | None) -> None:
@@ -142,7 +142,7 @@ class Newton:
             missing = np.zeros_like(missing)
 
     def _rounded(self, given: Increment, guess: FloatArray) -> FloatArray:
-        """The guess, with the prescribed values where it differs from them only by rounding of the displacements.
+        """Return the guess with the prescribed values where it differs from them only by rounding of the displacements.
 
         Otherwise the last bits, and thus the units, would decide whether a part of them is missing.
         """
@@ -154,12 +154,12 @@ class Newton:
         return rounded
 
     def _advance(self, given: Increment, state: Iterate, missing: FloatArray) -> Iterate:
-        """The next iterate: a solve, a pass, and a line search if one is requested."""
+        """Return the next iterate: a solve, a pass, and a line search if one is requested."""
         correction = self._correction(state, missing)
         return self._taken(given, state, correction, searchable=not missing.any())
 
     def _taken(self, given: Increment, state: Iterate, correction: FloatArray, *, searchable: bool) -> Iterate:
-        """The state after a correction; scaling one that introduces prescribed values would miss them."""
+        """Apply a correction and return the state; scaling one that introduces prescribed values would miss them."""
         new = self._evaluate(given.call, given, state.iteration + 1, state.increment + correction, correction)
         if self._line_search.n_ls > 0 and searchable and new.evaluation.pnewdt >= 1.0:
             return self._searched(given, state, new)
@@ -194,7 +194,7 @@ class Newton:
         return self._constraints.expand(self._solver.solve(rhs), missing)
 
     def _trial(self, given: Increment, increment: FloatArray) -> tuple[Evaluation, FloatArray]:
-        """A pass for the residual alone, to which the constraints are set, and that residual."""
+        """Make a pass for the residual alone, to which the constraints are set; return it with that residual."""
         increment = self._constraints.place(given.displacement, increment)
         evaluation, load = self._pass(given.call.asking(Request.RESIDUAL), given, increment, matrix=False)
         residual = evaluation.residual + load
@@ -218,7 +218,7 @@ class Newton:
         return evaluation, load
 
     def _searched(self, given: Increment, before: Iterate, full: Iterate) -> Iterate:
-        """The state at the scale that line search finds; the last pass is a normal one at that scale."""
+        """Return the state at the scale that line search finds; the last pass is a normal one at that scale."""
         direction = full.correction
 
         def component(scale: float) -> float:

@@ -23,7 +23,7 @@ from uel.solver.newton import Acting, Factoriser, Iterate
 
 @dataclass(frozen=True, slots=True)
 class PathIncrement:
-    """What defines an increment along a path.
+    """Definition of an increment along a path.
 
     call             of the passes after a solve
     displacement     (n,) at the start
@@ -73,14 +73,14 @@ class Control(Protocol):
     """The equation that fixes the load factor."""
 
     def change(self, state: PathIterate, directions: Directions, reaction: Reaction) -> float:
-        """Change mu of the load factor in the iteration that follows `state`."""
+        """Return the change mu of the load factor in the iteration that follows `state`."""
 
 
 class Reaction(Protocol):
     """Linearised reactions."""
 
     def __call__(self, correction: FloatArray, factor: float) -> FloatArray:
-        """Change (n,) of the reactions by a correction and a change of the factor."""
+        """Return the change (n,) of the reactions by a correction and a change of the factor."""
 
 
 class PathFollower:

@@ -34,7 +34,7 @@ class ArcLength:
         self._last: tuple[FloatArray, float] | None = None
 
     def change(self, state: PathIterate, directions: Directions, reaction: Reaction) -> float:
-        """Along the tangent in iteration 1, in the plane normal to it afterwards.
+        """Return the change along the tangent in iteration 1, in the plane normal to it afterwards.
 
         The first increment of a step changes the load factor by its length; the length of later ones is measured
         in the scaled space in that unit.

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""One thread for the BLAS of numpy and scipy."""
+"""Thread limit: one thread for the BLAS of numpy and scipy."""
 
 from __future__ import annotations
 

@@ -78,7 +78,7 @@ class BandSolver(LinearSolver):
         return self._cut.pivot
 
     def _cut_around(self, begin: int, end: int, data: FloatArray) -> _Cut | None:
-        """The band cut left and right of the unknowns that change; None if that does not pay, or an end is singular."""
+        """Cut the band left and right of the unknowns that change; None if that does not pay, or an end is singular."""
         n, width = self.pattern.size, self._width
         margin = int(MARGIN * np.sqrt(n * width))
         begin, end = max(begin - margin, 0), min(end + margin, n)
@@ -102,12 +102,12 @@ class BandSolver(LinearSolver):
 
 
 def _storage(n: int, width: int) -> FloatArray:
-    """LAPACK's storage, (n, 3 width + 1): the first `width` entries of each column are for fill."""
+    """Return LAPACK's storage, (n, 3 width + 1): the first `width` entries of each column are for fill."""
     return np.zeros((n, 3 * width + 1))
 
 
 def _target(row: Positions, column: Positions, width: int) -> IntArray:
-    """Places of entries in the storage: (i, j) in row kl + ku + i - j of column j."""
+    """Return the places of entries in the storage: (i, j) in row kl + ku + i - j of column j."""
     return column.astype(np.int64) * (3 * width) + (2 * width + row)
 
 
@@ -124,7 +124,7 @@ class _Factors:
         self.pivot = 0.0 if info > 0 else float(np.abs(self._lu[2 * self.width]).min())
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution for one right-hand side (n,), which is overwritten."""
+        """Solve for one right-hand side (n,), which is overwritten."""
         return self._solve(0, rhs)
 
     def _solve(self, first: int, rhs: FloatArray) -> FloatArray:
@@ -134,7 +134,7 @@ class _Factors:
         return np.asarray(solution)
 
     def solve_end(self, rhs: FloatArray) -> FloatArray:
-        """Last unknowns of the solutions for right-hand sides that are zero but for the last rows.
+        """Return the last unknowns of the solutions for right-hand sides that are zero but for the last rows.
 
         Parameters
         ----------
@@ -152,7 +152,7 @@ class _Factors:
         return self._solve(self._lu.shape[1] - 2 * self.width, given)
 
     def spread(self, rhs: FloatArray) -> FloatArray:
-        """Solution (n,) for one right-hand side that is zero but for the last rows (width,)."""
+        """Return the solution (n,) for one right-hand side that is zero but for the last rows (width,)."""
         upper = 2 * self.width
         end = self.solve_end(rhs[:, None])[:, 0]
         eliminated = np.zeros(self._lu.shape[1])
@@ -161,7 +161,7 @@ class _Factors:
 
 
 class _End:
-    """One end of a band, numbered from outside; the middle follows.
+    """End of a band, numbered from outside; the middle follows.
 
     correction  (width, width) A_ML A_LL^-1 A_LM, unless the end is singular
     """
@@ -197,13 +197,13 @@ class _End:
             self.correction = self._below @ self.factors.solve_end(self._right)[width:]
 
     def eliminate(self, own: FloatArray, middle: FloatArray) -> FloatArray:
-        """Solution of the end alone (n,), and its forces subtracted from the first unknowns (width,) of the middle."""
+        """Solve the end alone (n,), and subtract its forces from the first unknowns (width,) of the middle."""
         alone = self.factors.solve(own)
         middle -= self._below @ alone[-len(middle) :]
         return alone
 
     def substitute(self, alone: FloatArray, middle: FloatArray) -> FloatArray:
-        """Solution of the end (n,) from that of the end alone, and the first unknowns (width,) of the middle."""
+        """Return the end's solution (n,) from that of the end alone, and the first unknowns (width,) of the middle."""
         return alone - self.factors.spread(self._right @ middle)
 
 
@@ -252,7 +252,7 @@ class _Cut:
         self.pivot = min(self._outside, self._middle.pivot)
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution for one right-hand side (n,), which is overwritten."""
+        """Solve for one right-hand side (n,), which is overwritten."""
         width, (first, last) = self._width, self._ends
         left, middle, right = rhs[: self.begin], rhs[self.begin : self.end], rhs[self.end :][::-1]
         if first is not None:

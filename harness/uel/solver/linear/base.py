@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What every linear solver offers: symbolic work once, numeric factorisation and solution often."""
+"""Base of every linear solver: symbolic work once, numeric factorisation and solution often."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ CHUNK: Final = 2**20
 
 
 def in_chunks(count: int) -> Iterator[slice]:
-    """Slices of `CHUNK` entries."""
+    """Return the slices of `CHUNK` entries."""
     return (slice(start, start + CHUNK) for start in range(0, count, CHUNK))
 
 
@@ -66,12 +66,12 @@ class Pattern:
 
     @property
     def in_space(self) -> bool:
-        """Whether the nodes are not all in one plane of two coordinates; False if their coordinates are not known."""
+        """True if the nodes are not all in one plane of two coordinates; False if their coordinates are not known."""
         return self.size > 0 and self.coordinates is not None and bool((np.ptp(self.coordinates, axis=0) > 0.0).all())
 
     @property
     def rows(self) -> NDArray[np.int32]:
-        """(nnz,) row of each entry."""
+        """Row (nnz,) of each entry."""
         return np.repeat(np.arange(self.size, dtype=np.int32), np.diff(self.indptr))
 
     @property
@@ -81,26 +81,26 @@ class Pattern:
 
     @cached_property
     def diagonal(self) -> IntArray:
-        """(n,) positions of the diagonal entries among all entries."""
+        """Positions (n,) of the diagonal entries among all entries."""
         return np.flatnonzero(self.rows == self.indices)
 
     @cached_property
     def transposed(self) -> NDArray[np.int32]:
-        """(nnz,) position of entry (j, i) for each entry (i, j)."""
+        """Position (nnz,) of entry (j, i) for each entry (i, j)."""
         places = np.arange(len(self.indices), dtype=np.int32)
         # the conversion keeps rows in order: entries of a column come by ascending rows
         return np.asarray(sparse.csr_array((places, self.indices, self.indptr), (self.size,) * 2).tocsc().data)
 
     def matrix(self, data: FloatArray) -> sparse.csr_array:
-        """Matrix with the given values, not copied."""
+        """Return the matrix with the given values, not copied."""
         return sparse.csr_array((data, self.indices, self.indptr), shape=(self.size, self.size))
 
     def rows_of(self, entries: IntArray) -> IntArray:
-        """Rows of the entries at some positions."""
+        """Return the rows of the entries at some positions."""
         return np.searchsorted(self.indptr, entries, side="right") - 1
 
     def is_symmetric(self, data: FloatArray, entries: IntArray | None = None) -> bool:
-        """Whether a matrix is symmetric to rounding, `SYMMETRIC`.
+        """Report whether a matrix is symmetric to rounding, `SYMMETRIC`.
 
         Parameters
         ----------
@@ -130,7 +130,7 @@ class Pattern:
 
 @dataclass(slots=True)
 class Effort:
-    """What a linear solver has done.
+    """Work of a linear solver.
 
     factorisations  of matrices, among them those in part
     in_part         of them, where the last factors were renewed only where the matrix had changed
@@ -151,7 +151,7 @@ class Effort:
 
 
 def is_accurate(residual: FloatArray, rhs: FloatArray, terms: Callable[[], FloatArray]) -> bool:
-    """Whether the backward error of a solution is that of a good factorisation, `ACCURATE`; one with NaN passes.
+    """Report whether a solution has the backward error of a good factorisation, `ACCURATE`; one with NaN passes.
 
     Parameters
     ----------
@@ -168,7 +168,7 @@ def is_accurate(residual: FloatArray, rhs: FloatArray, terms: Callable[[], Float
 
 
 class LinearSolver(ABC):
-    """Factorises matrices of one pattern.
+    """Solver that factorises matrices of one pattern.
 
     name         by which it is requested
     module, distribution  that it needs: to import, and to install
@@ -184,7 +184,7 @@ class LinearSolver(ABC):
     widest_band: ClassVar[tuple[int, int]] = (0, 0)
 
     def __init__(self, pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None = None) -> None:
-        """Symbolic work.
+        """Do the symbolic work.
 
         Parameters
         ----------
@@ -210,7 +210,7 @@ class LinearSolver(ABC):
         self._trusted = True
 
     def factorise(self, data: FloatArray) -> None:
-        """Numeric factorisation of the matrix with these CSR values, where they differ from the last ones.
+        """Factorise the matrix with these CSR values, where they differ from the last ones.
 
         Parameters
         ----------
@@ -251,7 +251,7 @@ class LinearSolver(ABC):
         self._regular = True
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution (n,) for one right-hand side (n,). Raises SingularMatrixError."""
+        """Solve for one right-hand side (n,). Raises SingularMatrixError."""
         if not self.pattern.size:
             return np.zeros(0)
         start, factorising = time.process_time(), self.effort.factorising
@@ -270,12 +270,12 @@ class LinearSolver(ABC):
         return solution
 
     def forget(self) -> None:
-        """Be as at first, but for the symbolic work: later solutions do not depend on earlier matrices, to the bit."""
+        """Forget earlier matrices, but for the symbolic work: later solutions do not depend on them, to the bit."""
         self._regular = self._unverified = self._probed = False
         self._trusted, self._passed = True, SUSPICIOUS
 
     def _is_accurate(self, solution: FloatArray, rhs: FloatArray) -> bool:
-        """Whether the backward error is that of a good factorisation, `ACCURATE`; a solution with NaN passes."""
+        """Report whether the backward error is that of a good factorisation, `ACCURATE`; a solution with NaN passes."""
         matrix = self.pattern.matrix(self._data)
         return is_accurate(rhs - matrix @ solution, rhs, lambda: abs(matrix) @ np.abs(solution))
 
@@ -334,4 +334,4 @@ class LinearSolver(ABC):
 
     @abstractmethod
     def _solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution (n,) with the last factors for one right-hand side (n,), which is not changed."""
+        """Solve with the last factors for one right-hand side (n,), which is not changed."""

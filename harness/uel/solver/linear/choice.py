@@ -29,7 +29,7 @@ from uel.solver.linear.superlu import SuperLUSolver
 SOLVERS: Final[dict[str, type[LinearSolver]]] = {
     solver.name: solver for solver in (BandSolver, PardisoSolver, MumpsSolver, SuperLUSolver)
 }
-"""By name. `auto` takes the band solver for narrow models, else the first of the others that is installed.
+"""Linear solvers by name. `auto` takes the band solver for narrow models, else the first other one installed.
 
 How narrow, `widest_band`, is measured: measured.json. The time of the band solver per unknown grows with the square of
 the half bandwidth, that of the others hardly at all in the plane, and in space like the size of the model.
@@ -56,7 +56,7 @@ class Availability:
 
 
 def available() -> list[Availability]:
-    """All solvers, in the order in which `auto` tries them."""
+    """List all solvers, in the order in which `auto` tries them."""
     rows = []
     for name, solver in SOLVERS.items():
         obstacle = _obstacle(solver)
@@ -70,7 +70,7 @@ def available() -> list[Availability]:
 
 
 def _when(solver: type[LinearSolver]) -> str:
-    """When `auto` takes a solver."""
+    """Describe when `auto` takes a solver."""
     others = [other for other in SOLVERS.values() if other is not BandSolver]
     if solver is BandSolver:
         widths = ", ".join(f"{'/'.join(map(str, other.widest_band))} (against {other.name})" for other in others)
@@ -87,7 +87,7 @@ def choose(
     coordinates: FloatArray | None = None,
     name_of: Callable[[int], tuple[str, int]] | None = None,
 ) -> LinearSolver:
-    """Solver for matrices of a CSR pattern: the one named, or with 'auto' the one that should be fastest.
+    """Choose the solver for matrices of a CSR pattern: the one named, or with 'auto' the one that should be fastest.
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ def _band_is_quicker(pattern: Pattern, ordering: BandOrdering, other: type[Linea
 
 @cache
 def _obstacle(solver: type[LinearSolver]) -> str:
-    """Why a solver cannot be used, '' if it can."""
+    """Return the reason why a solver cannot be used, '' if it can."""
     module, distribution = solver.module, solver.distribution
     try:
         # numpy says at length on stderr that a module was built for another version of it; the error says so too

@@ -25,11 +25,11 @@ if TYPE_CHECKING:
     from uel.solver.linear.ranks import Rows
 
 NAME: Final = "cluster"
-"""By which `--solver` requests it."""
+"""Name by which `--solver` requests it."""
 
 _DISTRIBUTION: Final = "mkl"
 _LIBRARIES: Final = ("libmkl_core", "libmkl_sequential", "libmkl_intel_lp64", "libmkl_blacs_intelmpi_lp64")
-"""Each needs those before it, and the last one MPICH or Intel MPI."""
+"""Libraries: each needs those before it, and the last one MPICH or Intel MPI."""
 
 _SYMMETRIC, _UNSYMMETRIC = -2, 1
 """MTYPE: symmetric, definite or not; unsymmetric with a symmetric pattern."""
@@ -53,12 +53,12 @@ _FIRST, _LAST = 40, 41
 
 
 class ClusterError(Exception):
-    """It returns an error code, or had to replace pivots."""
+    """Error code of the solver, or pivots that it had to replace."""
 
 
 @cache
 def obstacle() -> str:
-    """Why this process cannot use it, '' if it can."""
+    """Return the reason why this process cannot use it, '' if it can."""
     try:
         loaded()
     except PackageNotFoundError:
@@ -69,7 +69,7 @@ def obstacle() -> str:
 
 
 def version() -> str:
-    """Of oneMKL, '' without it."""
+    """Return the version of oneMKL, '' without it."""
     try:
         return distribution(_DISTRIBUTION).version
     except PackageNotFoundError:
@@ -78,7 +78,7 @@ def version() -> str:
 
 @cache
 def loaded() -> ctypes.CDLL:
-    """The library that has the solver."""
+    """Load the library that has the solver. Raises OSError."""
     files = {path.name.partition(".")[0]: path for path in distribution(_DISTRIBUTION).files or ()}
     found = [Path(str(files[name].locate())) for name in _LIBRARIES if name in files]
     if len(found) < len(_LIBRARIES):
@@ -110,7 +110,7 @@ class Cluster:
     """
 
     def __init__(self, ranks: Ranks, rows: Rows) -> None:
-        """rows: those of this rank, with columns ascending."""
+        """Start the solver; rows: those of this rank, with columns ascending."""
         self._ranks, self._rows = ranks, rows
         self._row = np.repeat(np.arange(len(rows.indptr) - 1, dtype=np.int64), np.diff(rows.indptr)) + rows.first
         self._diagonal = np.flatnonzero(self._row == rows.indices)
@@ -131,7 +131,7 @@ class Cluster:
         return False
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution (n,) for a right-hand side (n,) that all ranks have. Raises ClusterError, on all of them."""
+        """Solve for a right-hand side (n,) that all ranks have. Raises ClusterError, on all of them."""
         assert self._matrix is not None
         rows = self._rows
         own = rows.order[rows.first : rows.first + len(rows.indptr) - 1]
@@ -180,7 +180,7 @@ class _Matrix:
             raise ClusterError("pivots were replaced")
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution for the right-hand side of the rows of this rank. Raises ClusterError."""
+        """Solve for the right-hand side of the rows of this rank. Raises ClusterError."""
         return self._call(_SOLVE, rhs)
 
     def release(self) -> None:

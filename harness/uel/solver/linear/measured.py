@@ -20,7 +20,7 @@ PAGE: Final = Path(__file__).with_name("solvers.md")
 BEGIN, END = "<!-- rows of tests/programs/benchmarks/solvers.py -->", "<!-- end of the rows -->"
 
 HEADER: Final = ("matrix", "unknowns", "half bandwidth", "solver", "first", "in full", "in part", "solution", "GMRES")
-"""Of the table; times are CPU times in ms."""
+"""Head of the table; times are CPU times in ms."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,7 @@ def _time(value: float | None) -> str:
 
 
 def machine() -> str:
-    """This machine and the date, for the table."""
+    """Describe this machine and the date, for the table."""
     model = platform.processor() or platform.machine()
     cpuinfo = Path("/proc/cpuinfo")
     if cpuinfo.exists():
@@ -72,7 +72,7 @@ def machine() -> str:
 
 
 def read() -> Table:
-    """The rows kept."""
+    """Read the rows kept."""
     kept = json.loads(ROWS.read_text(encoding="utf-8"))
     return kept["machine"], [Measured(**row) for row in kept["rows"]]
 
@@ -85,7 +85,7 @@ def write(table: Table) -> None:
 
 
 def page(text: str, table: Table) -> str:
-    """The page with these rows in place of those in it."""
+    """Replace the rows in the page by these."""
     name, rows = table
     lines = [HEADER, ("---",) * len(HEADER), *(row.cells for row in rows)]
     body = "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
@@ -93,7 +93,7 @@ def page(text: str, table: Table) -> str:
 
 
 def replaced(text: str, begin: str, body: str) -> str:
-    """The page with another body between the line `begin` and the next line `END`."""
+    """Replace the body of the page between the line `begin` and the next line `END`."""
     before, _, rest = text.partition(begin)
     after = rest.partition(END)[2]
     return f"{before}{begin}\n\n{body}\n\n{END}{after}"

@@ -39,7 +39,7 @@ class MumpsSolver(LinearSolver):
         self._taken: NDArray[np.int32] | slice = slice(None)
 
     def forget(self) -> None:
-        """As that of other solvers; the kind of matrix is found and the analysis made anew."""
+        """Forget earlier matrices; the kind of matrix is found and the analysis made again."""
         super().forget()
         self._context, self._symmetric = None, True
 

@@ -23,7 +23,7 @@ class BandOrdering:
 
 
 def narrowest(pattern: Pattern) -> BandOrdering:
-    """The narrower of reverse Cuthill-McKee and of sorting the nodes along each direction.
+    """Choose the narrower of reverse Cuthill-McKee and of sorting the nodes along each direction.
 
     Sorting along a slender body is about half as wide as Cuthill-McKee, whose levels are slanted.
     """

@@ -20,7 +20,7 @@ from uel.solver.linear.base import LinearSolver, Pattern
 
 @dataclass(frozen=True, slots=True)
 class Type:
-    """How PARDISO takes a matrix.
+    """Type of matrix in PARDISO.
 
     number      its MTYPE
     parameters  entries of IPARM, from 0, that differ from `PARAMETERS`
@@ -75,7 +75,7 @@ IN_PART: Final = 38
 """Entry of IPARM: renew the factors where the entries listed in PERM differ."""
 
 LARGEST_SHARE: Final = 0.2
-"""Of the entries, which may change for the factors to be renewed in part.
+"""Largest share of the entries that may change for the factors to be renewed in part.
 
 30,000 unknowns of bricks: 0.33 s in full; in part 0.06 s for 1 % of the entries, 0.13 for 10 %, 0.41 for 50 %.
 """
@@ -99,7 +99,7 @@ class PardisoSolver(LinearSolver):
         self._matrix: _Matrix | None = None
 
     def forget(self) -> None:
-        """As that of other solvers; the kind of matrix is found anew."""
+        """Forget earlier matrices; the kind of matrix is found again."""
         super().forget()
         self._type, self._matrix = SYMMETRIC, None
 
@@ -151,7 +151,7 @@ class _Matrix:
     """Matrices of one pattern and type, as PARDISO holds them."""
 
     def __init__(self, pattern: Pattern, data: FloatArray, kind: Type) -> None:
-        """Analysis of the pattern, with the values (nnz,) of the first matrix. Raises PardisoError."""
+        """Analyse the pattern, with the values (nnz,) of the first matrix. Raises PardisoError."""
         from pypardiso import PyPardisoSolver  # noqa: PLC0415 (loads MKL, and need not be installed)
 
         self._handle = PyPardisoSolver(kind.number)
@@ -185,11 +185,11 @@ class _Matrix:
 
     @property
     def replaced(self) -> bool:
-        """Whether the last factorisation replaced small pivots."""
+        """True if the last factorisation replaced small pivots."""
         return bool(self._handle.iparm[REPLACED])
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution for one right-hand side (n,). Raises PardisoError."""
+        """Solve for one right-hand side (n,). Raises PardisoError."""
         return self._call(SOLVE, np.ascontiguousarray(rhs))
 
     def _taken(self, data: FloatArray) -> FloatArray:
@@ -201,14 +201,14 @@ class _Matrix:
 
 
 def _without_openmp(handle: Any) -> bool:
-    """Whether MKL runs on one thread without OpenMP; decided by the first call of MKL in a process."""
+    """Report whether MKL runs on one thread without OpenMP; decided by the first call of MKL in a process."""
     if os.environ.get(THREADS, "1") != "1":
         return False
     return bool(handle.libmkl.MKL_Set_Threading_Layer(_SEQUENTIAL) == _SEQUENTIAL)
 
 
 def upper_triangle(pattern: Pattern) -> tuple[NDArray[np.int32], Pattern]:
-    """Positions of the entries on and above the diagonal, and their pattern."""
+    """Return the positions of the entries on and above the diagonal, and their pattern."""
     upper = pattern.upper
     indptr = np.searchsorted(upper, pattern.indptr).astype(np.int32)
     return upper, Pattern(indptr, pattern.indices[upper])

@@ -24,24 +24,24 @@ if TYPE_CHECKING:
     from uel.solver.linear.ranks import Rows
 
 NAME: Final = "petsc"
-"""By which `--solver` requests it."""
+"""Name by which `--solver` requests it."""
 
 PREFIX: Final = "uel_"
-"""Of its options among those of PETSc."""
+"""Prefix of its options among those of PETSc."""
 
 _TOLERANCE: Final = 1e-2 * ACCURATE
-"""Of the residual over the right-hand side at which iterations end."""
+"""Tolerance of the residual over the right-hand side at which iterations end."""
 
 _INDEPENDENT: Final = 1e-10
 """Smallest over largest eigenvalue of the products of modes that count as independent."""
 
 _ROTATIONS: Final = (4, 5, 6)
-"""Their dofs."""
+"""Dofs of the motions."""
 
 
 @cache
 def obstacle(size: int) -> str:
-    """Why this process, one of so many ranks, cannot use it, '' if it can."""
+    """Return the reason why this process, one of so many ranks, cannot use it, '' if it can."""
     try:
         petsc = _loaded()
     except ImportError as error:
@@ -54,7 +54,7 @@ def obstacle(size: int) -> str:
 
 
 def version() -> str:
-    """Of petsc4py, '' without it."""
+    """Return the version of petsc4py, '' without it."""
     try:
         return version_of("petsc4py")
     except PackageNotFoundError:
@@ -63,7 +63,7 @@ def version() -> str:
 
 @cache
 def _loaded() -> Any:
-    """Its module, after MPI has started; it takes its options from PETSC_OPTIONS, not from those of this command."""
+    """Load its module, after MPI has started; it takes options from PETSC_OPTIONS, not from those of this command."""
     import petsc4py  # noqa: PLC0415 (need not be installed)
 
     petsc4py.init([])
@@ -79,7 +79,7 @@ class Petsc:
     """
 
     def __init__(self, ranks: Ranks, rows: Rows, pattern: Pattern) -> None:
-        """rows: those of this rank; pattern: with the coordinates and dofs of all unknowns, if they are known."""
+        """Start PETSc; rows: those of this rank; pattern: with coordinates and dofs of all unknowns, if known."""
         self._ranks, self._petsc = ranks, _loaded()
         ranks.before_end(self._petsc._finalize)
         self._size = len(rows.indptr) - 1
@@ -120,7 +120,7 @@ class Petsc:
         return False
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution (n,) for a right-hand side (n,) that all ranks have; NaN where the solver has failed."""
+        """Solve for a right-hand side (n,) that all ranks have; NaN where the solver has failed."""
         given, found = self._matrix.createVecs("left"), self._matrix.createVecs("right")
         given.array[:] = rhs[self._own]
         solution = np.zeros_like(rhs)
@@ -139,7 +139,7 @@ class Petsc:
         self._matrix = self._solver = None
 
     def _begin(self, values: FloatArray, *, symmetric: bool) -> None:
-        """Matrix and solver, with the options."""
+        """Create matrix and solver, with the options."""
         petsc, self._symmetric = self._petsc, symmetric
         size = (self._size, len(self._rows.order))
         self._matrix = petsc.Mat().createAIJ((size, size), csr=(self._indptr, self._indices, values))
@@ -158,7 +158,7 @@ class Petsc:
 
 
 def rigid_modes(coordinates: FloatArray, dofs: IntArray) -> FloatArray:
-    """Motions of a free body, one in each column, for each unknown; a unit of another kind moves by itself.
+    """Return the motions of a free body, one in each column, for each unknown; a unit of another kind moves by itself.
 
     Parameters
     ----------

@@ -33,7 +33,7 @@ SMALLEST: Final = 30_000
 
 
 def with_ranks() -> list[Availability]:
-    """Rows of the table of solvers: those of a job on several ranks, without starting MPI."""
+    """Return the rows of the table of solvers: those of a job on several ranks, without starting MPI."""
     missing = [name for name, release in (("mpi4py", find_spec("mpi4py")), ("mkl", version())) if not release]
     lack = f" ({' and '.join(missing)} not installed)" if missing else ""
     notes = {
@@ -67,7 +67,7 @@ class Rows:
     """
 
     def __init__(self, ranks: Ranks, pattern: Pattern, owners: IntArray) -> None:
-        """Symbolic work; owners (n,) has a rank for each unknown, the same array on all ranks."""
+        """Do the symbolic work; owners (n,) has a rank for each unknown, the same array on all ranks."""
         n = pattern.size
         self._ranks = ranks
         self.order = np.argsort(owners, kind="stable")
@@ -93,7 +93,7 @@ class Rows:
         self.indices: NDArray[np.int32] = (found % max(n, 1)).astype(np.int32)
 
     def assemble(self, data: FloatArray) -> FloatArray:
-        """Values of the rows of this rank from the part (nnz,) of each rank, added in the order of the ranks."""
+        """Assemble the rows of this rank from the part (nnz,) of each rank, added in the order of the ranks."""
         values = np.zeros(len(self.indices))
         parts = self._ranks.exchange_known(np.split(data[self._sent], self._ends), self._incoming)
         for places, part in zip(self._places, parts, strict=True):
@@ -102,7 +102,7 @@ class Rows:
 
 
 class RankSolver:
-    """Factorises matrices of one pattern, of which each rank has a part, on all ranks or on rank 0.
+    """Solver for matrices of one pattern, of which each rank has a part, on all ranks or on rank 0.
 
     name, reason  for the message file
     effort        of rank 0
@@ -112,7 +112,7 @@ class RankSolver:
     """
 
     def __init__(self, ranks: Ranks, name: str, pattern: Pattern, name_of: NameOf, effort: Effort) -> None:
-        """Symbolic work.
+        """Do the symbolic work.
 
         Parameters
         ----------
@@ -165,7 +165,7 @@ class RankSolver:
             self.effort.factorisations += 1
 
     def _is_new(self, data: FloatArray) -> bool:
-        """Whether a part of some rank differs from the last one, which this one replaces."""
+        """Report whether a part of some rank differs from the last one, which this one replaces."""
         different = None if self._data is None else np.flatnonzero(data != self._data)
         new = different is None or len(different) > 0
         # once a part is not symmetric, later ones hardly are
@@ -179,10 +179,10 @@ class RankSolver:
         return bool(any_new)
 
     def forget(self) -> None:
-        """Without effect: on several ranks no states are kept."""
+        """Do nothing: on several ranks no states are kept."""
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution (n,) for one right-hand side (n,), the same on all ranks. Raises SingularMatrixError."""
+        """Solve for one right-hand side (n,); all ranks get the same. Raises SingularMatrixError."""
         start = time.process_time()
         if self._together is not None:
             solution = self._together.solve(rhs)
@@ -202,7 +202,7 @@ class RankSolver:
         self._together = self._inner = self._chosen = None
 
     def _shared_out(self, name: str) -> Cluster | Substructures | Petsc | None:
-        """Solver of all ranks, with its name and reason; None: rank 0 alone. Raises UsageError."""
+        """Return the solver of all ranks, with its name and reason; None: rank 0 alone. Raises UsageError."""
         ranks, pattern = self._ranks, self._pattern
         if name not in ("auto", *_TOGETHER) or (name == "auto" and pattern.size < SMALLEST):
             return None
@@ -227,7 +227,7 @@ class RankSolver:
         return Petsc(ranks, rows, pattern) if other else Cluster(ranks, rows)
 
     def _missing(self, name: str, mine: str) -> str:
-        """What one of the ranks lacks for a solver, '' if none does. Raises UsageError if this solver is requested."""
+        """Name what a rank lacks for a solver, '' if nothing is lacking. Raises UsageError if it is requested."""
         reason = next(filter(None, self._ranks.everyones(mine)), "")
         if reason and name in _TOGETHER:
             raise UsageError(f"linear solver '{name}' cannot be used: {reason}")
@@ -249,7 +249,7 @@ class RankSolver:
         return None
 
     def _is_sound(self, solution: FloatArray, rhs: FloatArray) -> bool:
-        """Whether the matrix is regular, as `LinearSolver` judges; all ranks have the same solution."""
+        """Report whether the matrix is regular, as `LinearSolver` judges; all ranks have the same solution."""
         if not np.isfinite(solution).all():
             return False
         largest = float(np.abs(solution).max(initial=0.0))
@@ -270,7 +270,7 @@ class RankSolver:
         return True
 
     def _is_accurate(self, solution: FloatArray, rhs: FloatArray) -> bool:
-        """Whether the first solution of a matrix has the backward error of a good factorisation."""
+        """Report whether the first solution of a matrix has the backward error of a good factorisation."""
         if not self._unverified:
             return True
         self._unverified = False
@@ -280,7 +280,7 @@ class RankSolver:
         return is_accurate(residual, rhs, lambda: self._ranks.sum(np.asarray(abs(part) @ np.abs(solution))))
 
     def _give_up(self) -> None:
-        """Rank 0 does it from now on: it permutes, and deals with singular matrices."""
+        """Leave the solution to rank 0 from now on: it permutes, and deals with singular matrices."""
         assert self._together is not None
         self._together.release()
         self._together = None
@@ -328,7 +328,7 @@ class RankSolver:
 
 
 def _owners(ranks: Ranks, pattern: Pattern) -> IntArray:
-    """Rank of each unknown: the lowest one that has an element with it."""
+    """Return the rank of each unknown: the lowest one that has an element with it."""
     used = np.diff(pattern.indptr) > 1
     mine = np.where(used, float(ranks.size - ranks.rank), 0.0)
     found = ranks.size - ranks.largest(mine).astype(np.int64)

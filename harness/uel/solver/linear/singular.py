@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Determines whether a matrix is singular, and which unknown moves freely.
+"""Singularity of a matrix, and the unknown that moves freely.
 
 A small pivot alone does not tell: the tip of a slender beam held by an interface stiffness of 1e12 has one of 1e-13
 of the largest diagonal entry and is sound, that of an unconstrained body can be 1e-10 by accumulated rounding. So
@@ -38,7 +38,7 @@ def refuse_singular(
 
 
 def free_unknown(matrix: sparse.csr_array, *, certain: bool = False) -> int | None:
-    """Unknown that moves most in the direction the matrix does not resist, None if the matrix is regular.
+    """Return the unknown that moves most in the direction the matrix does not resist, None if the matrix is regular.
 
     With `certain`, a factorisation met a zero pivot: the matrix is taken as singular in any case.
     """
@@ -58,7 +58,7 @@ def free_unknown(matrix: sparse.csr_array, *, certain: bool = False) -> int | No
 
 
 def _shifted_factors(matrix: sparse.csr_array, largest: FloatArray) -> SuperLU:
-    """Factors of A + a diagonal of rounding size, grown until no pivot is exactly zero.
+    """Factorise A + a diagonal of rounding size, grown until no pivot is exactly zero.
 
     COLAMD bounds the fill whichever rows become pivots. The pattern of A + A^T does so only if pivots stay on the
     diagonal, which those of Lagrange multipliers and of unsymmetric elements do not: with it, 5,324 unknowns of bricks

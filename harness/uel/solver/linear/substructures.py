@@ -37,13 +37,13 @@ from uel.solver.linear.pardiso import (
 )
 
 NAME: Final = "substructures"
-"""By which `--solver` requests it."""
+"""Name by which `--solver` requests it."""
 
 MOST_SHARED: Final = 3000
 """Unknowns of several ranks up to which `auto` takes it: their dense matrix takes 72 MB and 18e9 operations."""
 
 STAND_IN: Final = 1e-8
-"""Of the largest diagonal entry of a rank: stiffness added to the unknowns that stay, and subtracted again.
+"""Stiffness over the largest diagonal entry of a rank, added to the unknowns that stay and subtracted again.
 
 PARDISO counts a pivot as replaced where such an unknown has a zero on the diagonal, as behind a crack on the rank that
 does not have the solid. What the two operations leave is 1e-8 of the last bit of the largest entry.
@@ -68,7 +68,7 @@ class Substructures:
     """
 
     def __init__(self, ranks: Ranks, pattern: Pattern, owners: IntArray) -> None:
-        """Symbolic work.
+        """Do the symbolic work.
 
         Parameters
         ----------
@@ -134,7 +134,7 @@ class Substructures:
         return bool(kept)
 
     def _taken(self, data: FloatArray) -> FloatArray:
-        """Values of the matrix of this rank.
+        """Return the values of the matrix of this rank.
 
         A diagonal entry may also be on a rank that has no other one of its row, as of a spring to the ground: it goes
         to the owner.
@@ -151,7 +151,7 @@ class Substructures:
         return values
 
     def _eliminate(self, kind: Type) -> FloatArray:
-        """Schur complement of this rank. Raises PardisoError."""
+        """Return the Schur complement of this rank. Raises PardisoError."""
         matrix, self._matrix = self._matrix, None
         if matrix is None or matrix.kind is not kind:
             # the memory of the old factors first
@@ -185,7 +185,7 @@ class Substructures:
         return not info
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solution (n,) for a right-hand side (n,) that all ranks have, the same on all of them."""
+        """Solve for a right-hand side (n,) that all ranks have; all get the same solution (n,)."""
         assert self._matrix is not None
         own, places = len(self._own), self._places[self._ranks.rank]
         given = np.zeros(len(self._here))
@@ -211,7 +211,7 @@ class Substructures:
 
 
 class _Handle:
-    """What PARDISO keeps of a matrix, and its function in the oneMKL of `loaded`."""
+    """Data that PARDISO keeps of a matrix, and its function in the oneMKL of `loaded`."""
 
     def __init__(self, kind: Type, perm: NDArray[np.int32]) -> None:
         self.mtype, self.perm = kind.number, perm
@@ -229,7 +229,7 @@ class _Matrix:
     """Matrices of one pattern and type, as PARDISO holds them."""
 
     def __init__(self, pattern: Pattern, own: int, kind: Type) -> None:
-        """The first `own` unknowns are eliminated, the others stay."""
+        """Prepare to eliminate the first `own` unknowns; the others stay."""
         self.kind = kind
         self._stay = pattern.size - own
         self._upper: NDArray[np.int32] | None = None
@@ -243,7 +243,7 @@ class _Matrix:
         weakref.finalize(self, call, self._handle, RELEASE, self._pattern, np.zeros(1), np.zeros(pattern.size))
 
     def factorise(self, values: FloatArray) -> FloatArray:
-        """Schur complement (stay, stay) of the matrix with these values (nnz,). Raises PardisoError."""
+        """Return the Schur complement (stay, stay) of the matrix with these values (nnz,). Raises PardisoError."""
         begun, nothing = self._values is not None, np.zeros(self._pattern.size)
         self._values = values if self._upper is None else values[self._upper]
         if not begun:
@@ -255,6 +255,6 @@ class _Matrix:
         return complement
 
     def solve(self, phase: int, rhs: FloatArray) -> FloatArray:
-        """Result (n,) of a phase of the solution for one right-hand side (n,). Raises PardisoError."""
+        """Return the result (n,) of a phase of the solution for one right-hand side (n,). Raises PardisoError."""
         assert self._values is not None
         return call(self._handle, phase, self._pattern, self._values, rhs)

@@ -16,7 +16,7 @@ from uel.model.arrays import FloatArray, IntArray
 from uel.solver.linear.base import LinearSolver, Pattern
 
 SMALL_PIVOT: Final = 1e-6
-"""Of the largest entry of the row: a smaller diagonal entry is not a pivot."""
+"""Limit relative to the largest entry of the row: a smaller diagonal entry is not a pivot."""
 MANY: Final = 0.01
 """Share of such entries from which the pattern of A + A^T says little about the fill."""
 
@@ -29,9 +29,9 @@ unknowns of quads, as 14. So GMRES ends after half of that time at most.
 FEWEST: Final = 8
 """Iterations below which a factorisation is better at once."""
 LARGEST_SHARE: Final = 0.05
-"""Of the entries, which may change for the factors of the matrix before to be kept."""
+"""Largest share of the entries that may change for the factors of the matrix before to be kept."""
 RESIDUAL: Final = 1e-11
-"""Of GMRES, over the right-hand side; ten times less than what is asked of the solution."""
+"""Residual of GMRES, over the right-hand side; ten times less than what is asked of the solution."""
 
 
 class SuperLUSolver(LinearSolver):
@@ -59,7 +59,7 @@ class SuperLUSolver(LinearSolver):
         self._behind, self._most = False, 0
 
     def forget(self) -> None:
-        """As that of other solvers; the order is found anew."""
+        """Forget earlier matrices; the order is found again."""
         super().forget()
         self._order = np.zeros(0, dtype=np.int64)
 
@@ -85,7 +85,7 @@ class SuperLUSolver(LinearSolver):
         return None
 
     def _pivots_are_on_diagonal(self, data: FloatArray) -> bool:
-        """Whether few diagonal entries are small beside the largest one of their row, which has entries."""
+        """Report whether few diagonal entries are small beside the largest one of their row, which has entries."""
         largest = np.maximum.reduceat(np.abs(data), self.pattern.indptr[:-1])
         small = np.abs(self.pattern.matrix(data).diagonal()) < SMALL_PIVOT * largest
         return float(np.mean(small)) <= MANY
@@ -112,7 +112,7 @@ class SuperLUSolver(LinearSolver):
         return self._solve_directly(rhs)
 
     def _solve_directly(self, rhs: FloatArray) -> FloatArray:
-        """Solution with the factors, of whatever matrix they are."""
+        """Solve with the factors, of whatever matrix they are."""
         solution = np.empty_like(rhs)
         solution[self._order] = self._lu.solve(rhs[self._order], "T")
         return solution
@@ -121,7 +121,7 @@ class SuperLUSolver(LinearSolver):
 def _factors(
     data: FloatArray, indices: NDArray[np.int32], indptr: NDArray[np.int32], ordering: str, *, on_diagonal: bool
 ) -> SuperLU:
-    """Factors of A^T: rows of A read as columns save a conversion."""
+    """Factorise A^T: rows of A read as columns save a conversion."""
     n = len(indptr) - 1
     return splu(
         sparse.csc_array((data, indices, indptr), shape=(n, n)),
