@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What `mpiexec` tells each process that it starts; known before MPI is loaded."""
+"""Data that `mpiexec` passes to each process that it starts; known before MPI is loaded."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Final
 
 _VARIABLES: Final = (("PMI_RANK", "PMI_SIZE"), ("OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"))
-"""Of MPICH and what descends from it, and of Open MPI."""
+"""Environment variables of MPICH and its descendants, and of Open MPI."""
 
 _DESCRIPTOR: Final = "PMI_FD"
 """Variable with the descriptor by which MPICH talks to `mpiexec`."""
@@ -28,12 +28,12 @@ class Launch:
 
     @property
     def name(self) -> str:
-        """For messages."""
+        """Name of the rank for messages."""
         return f"rank {self.rank} of {self.size}"
 
 
 def launched() -> Launch:
-    """How this process was started."""
+    """Find out how this process was started."""
     for rank, size in _VARIABLES:
         try:
             found = Launch(int(os.environ[rank]), int(os.environ[size]))
@@ -46,6 +46,6 @@ def launched() -> Launch:
 
 
 def without_launch() -> dict[str, str]:
-    """Environment of a process that is no rank, whoever started this one."""
+    """Return the environment of a process that is no rank, whoever started this one."""
     names = {name for pair in _VARIABLES for name in pair}
     return {name: value for name, value in os.environ.items() if name not in names}

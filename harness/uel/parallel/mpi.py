@@ -30,7 +30,7 @@ _NAP: Final = 2e-4
 """Seconds of such a sleep."""
 
 _HELP: Final[tuple[bool, Any]] = (True, None)
-"""What rank 0 says to the others in `lead` when it asks for help."""
+"""Message of rank 0 to the others in `lead` when it asks for help."""
 
 _TOGETHER: Final = 10.0
 """Seconds in which all ranks come to the end, unless only one of them has failed."""
@@ -78,7 +78,7 @@ class MpiRanks(Ranks):
             slate.token = self.token.encode()
 
     def sum(self, values: FloatArray) -> FloatArray:
-        """As that of `Ranks`."""
+        """Sum an array over the ranks, see `Ranks`."""
         total = np.empty_like(values)
         self._meet()
         self.comm.Reduce(values, None if self.rank else total, self._mpi.SUM, 0)
@@ -86,19 +86,19 @@ class MpiRanks(Ranks):
         return total
 
     def everyones(self, mine: _T) -> list[_T]:
-        """As that of `Ranks`."""
+        """Gather a value of each rank on all of them, see `Ranks`."""
         self._meet()
         return list(self.comm.allgather(mine))
 
     def collect(self, mine: _T) -> list[_T]:
-        """As that of `Ranks`; only what this rank gives where the others have ended."""
+        """Gather a value of each rank on rank 0, see `Ranks`; only this rank's where the others have ended."""
         if self._together is False:
             return [mine]
         self._meet()
         return self.comm.gather(mine, 0) or []
 
     def from_first(self, mine: _T) -> _T:
-        """As that of `Ranks`."""
+        """Broadcast a value from rank 0, see `Ranks`."""
         packed = np.frombuffer(pickle.dumps(mine), dtype=np.uint8) if not self.rank else np.zeros(0, dtype=np.uint8)
         size = np.array([len(packed)])
         self._wait(self.comm.Ibcast(size, 0))
@@ -108,7 +108,7 @@ class MpiRanks(Ranks):
         return found
 
     def exchange(self, parts: Sequence[np.ndarray[Any, np.dtype[_A]]]) -> list[np.ndarray[Any, np.dtype[_A]]]:
-        """As that of `Ranks`."""
+        """Exchange arrays with all ranks, see `Ranks`."""
         counts = np.array([len(part) for part in parts])
         incoming = np.empty_like(counts)
         self._wait(self.comm.Ialltoall(counts, incoming))
@@ -117,7 +117,7 @@ class MpiRanks(Ranks):
     def exchange_known(
         self, parts: Sequence[np.ndarray[Any, np.dtype[_A]]], incoming: IntArray
     ) -> list[np.ndarray[Any, np.dtype[_A]]]:
-        """As that of `Ranks`."""
+        """Exchange arrays of known lengths, see `Ranks`."""
         sent = np.concatenate(parts)
         received = np.empty(incoming.sum(), dtype=sent.dtype)
         counts = np.array([len(part) for part in parts])
@@ -126,7 +126,7 @@ class MpiRanks(Ranks):
         return np.split(received, np.cumsum(incoming)[:-1])
 
     def agree(self, act: Callable[[], _T], order: Callable[[Exception], float] = lambda _: math.inf) -> _T:
-        """As that of `Ranks`."""
+        """Act on all ranks, and raise an error of one on all of them, see `Ranks`."""
         failure: Exception | None = None
         try:
             result = act()
@@ -143,7 +143,7 @@ class MpiRanks(Ranks):
         raise AssertionError("unreachable")
 
     def tell(self, act: Callable[[], _T]) -> _T:
-        """As that of `Ranks`."""
+        """Act on rank 0 and broadcast the result or the error, see `Ranks`."""
         failure: Exception | None = None
         result: _T | None = None
         try:
@@ -167,7 +167,7 @@ class MpiRanks(Ranks):
         raise known
 
     def in_turn(self, act: Callable[[], _T]) -> _T:
-        """As that of `Ranks`."""
+        """Act on rank 0, then on the others, see `Ranks`."""
         first = self.agree(lambda: None if self.rank else act())
         others = self.agree(lambda: act() if self.rank else None)
         result = others if self.rank else first
@@ -175,7 +175,7 @@ class MpiRanks(Ranks):
         return result
 
     def lead(self, act: Callable[[], None], help_out: Callable[[], object]) -> None:
-        """As that of `Ranks`; rank 0 is on its own where the others have ended."""
+        """Act on rank 0 while the others wait to help, see `Ranks`; rank 0 acts alone where the others have ended."""
         if self._together is False:
             if not self.rank:
                 act()
@@ -199,31 +199,31 @@ class MpiRanks(Ranks):
             raise failure
 
     def ask(self) -> None:
-        """As that of `Ranks`. Raises OSError where the others have ended."""
+        """Ask the other ranks for help, see `Ranks`. Raises OSError where the others have ended."""
         if self._together is False:
             raise OSError("the other ranks have ended")
         self.from_first(_HELP)
 
     def ended(self, error: BaseException | None) -> bool:
-        """As that of `Ranks`."""
+        """Report whether all ranks end together, see `Ranks`."""
         if self._together is None:
             self._together = not isinstance(error, KeyboardInterrupt) and self._all_end(wait=error is None)
         return self._together
 
     def before_end(self, act: Callable[[], None]) -> None:
-        """As that of `Ranks`."""
+        """Register an act for the end of the ranks, see `Ranks`."""
         if act not in self._before_end:
             self._before_end.append(act)
 
     def close(self) -> None:
-        """As that of `Ranks`."""
+        """End MPI, see `Ranks`."""
         if self._together:
             for act in self._before_end:
                 act()
             self._mpi.Finalize()
 
     def _all_end(self, *, wait: bool) -> bool:
-        """Whether all ranks come here; wait: for as long as it takes."""
+        """Report whether all ranks come here; wait: for as long as it takes."""
         request, until = self._at_end.Ibarrier(), time.monotonic() + _TOGETHER
         while not request.Test():
             if not wait and time.monotonic() > until:
@@ -247,5 +247,5 @@ _Packed = tuple[type[Exception], tuple[Any, ...], dict[str, Any]]
 
 
 def _packed(error: Exception | None) -> _Packed | None:
-    """What another rank needs to raise the same error."""
+    """Pack what another rank needs to raise this error."""
     return None if error is None else (type(error), error.args, dict(vars(error)))

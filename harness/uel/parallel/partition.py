@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which rank calls which element: METIS cuts the graph of elements that share nodes."""
+"""Partition of the elements among the ranks: METIS cuts the graph of elements that share nodes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from uel.model.arrays import IntArray
 
 
 def owners_of(groups: Sequence[IntArray], parts: int) -> IntArray:
-    """Part of each element.
+    """Return the part of each element.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the ranks of a job tell each other. All of them call each of these functions, in the same order.
+"""Communication between the ranks of a job. All of them call each of these functions, in the same order.
 
 Rank 0 alone speaks: it writes the files and prints. What one rank cannot do, all of them learn of, so that they end
 together.
@@ -22,11 +22,11 @@ _T = TypeVar("_T")
 _A = TypeVar("_A", bound=np.generic)
 
 FAILURES: Final = (UelError, OSError, MemoryError)
-"""What one rank may meet and all of them have to learn of."""
+"""Errors that one rank may meet and all of them have to learn of."""
 
 
 class Ranks:
-    """One process, which is all ranks.
+    """Single process, which is all ranks.
 
     rank, size  number of this rank, from 0, and of all of them
     token       by which the ranks know this run
@@ -37,40 +37,40 @@ class Ranks:
     token = ""
 
     def sum(self, values: FloatArray) -> FloatArray:
-        """Sum over the ranks of an array, the same to the bit on all of them; not a copy on one rank."""
+        """Sum an array over the ranks, the same to the bit on all of them; not a copy on one rank."""
         return values
 
     def largest(self, values: FloatArray) -> FloatArray:
-        """Largest over the ranks of each entry of an array (k,)."""
+        """Return the largest value of each entry of an array (k,) over the ranks."""
         found: FloatArray = self.sum(self.apart(values)).reshape(self.size, -1).max(axis=0)
         return found
 
     def apart(self, values: FloatArray) -> FloatArray:
-        """An array (k,) whose `sum` (size k) has the values of all ranks one after another."""
+        """Return an array (k,) whose `sum` (size k) has the values of all ranks one after another."""
         places = np.zeros((self.size, len(values)))
         places[self.rank] = values
         return places.ravel()
 
     def everyones(self, mine: _T) -> list[_T]:
-        """What each rank gives, in their order, on all of them."""
+        """Gather a value of each rank, in their order, on all of them."""
         return [mine]
 
     def collect(self, mine: _T) -> list[_T]:
-        """What each rank gives, in their order, on rank 0; nothing on the others."""
+        """Gather a value of each rank, in their order, on rank 0; nothing on the others."""
         return [mine]
 
     def from_first(self, mine: _T) -> _T:
-        """What rank 0 gives, on all of them."""
+        """Broadcast a value from rank 0."""
         return mine
 
     def exchange(self, parts: Sequence[np.ndarray[Any, np.dtype[_A]]]) -> list[np.ndarray[Any, np.dtype[_A]]]:
-        """What each rank has for this one, in their order; parts: what this one has for each."""
+        """Exchange arrays: return those of each rank for this one, in order; parts: those of this one for each."""
         return list(parts)
 
     def exchange_known(
         self, parts: Sequence[np.ndarray[Any, np.dtype[_A]]], incoming: IntArray
     ) -> list[np.ndarray[Any, np.dtype[_A]]]:
-        """As `exchange`, where the lengths of what comes are known."""
+        """Exchange arrays as in `exchange`, where the lengths of what comes are known."""
         return list(parts)
 
     def agree(self, act: Callable[[], _T], order: Callable[[Exception], float] = lambda _: math.inf) -> _T:
@@ -91,7 +91,7 @@ class Ranks:
         return act()
 
     def tell(self, act: Callable[[], _T]) -> _T:
-        """What rank 0 gets by `act`, or the error, on all ranks; it is not None."""
+        """Act on rank 0; return the result, which is not None, or raise the error, on all ranks."""
         return act()
 
     def in_turn(self, act: Callable[[], _T]) -> _T:
@@ -120,7 +120,7 @@ class Ranks:
         """Do something once before `close` ends MPI, on all ranks and only if all of them come to the end."""
 
     def close(self) -> None:
-        """The last thing that ranks do together."""
+        """End the communication: the last thing that ranks do together."""
 
 
 ALONE: Final = Ranks()
@@ -128,7 +128,7 @@ ALONE: Final = Ranks()
 
 
 def begin(launch: Launch) -> Ranks:
-    """The ranks of which this process is one. Raises UsageError without what several ranks need."""
+    """Return the ranks to which this process belongs. Raises UsageError without what several ranks need."""
     if launch.size == 1:
         return ALONE
     from uel.parallel.mpi import MpiRanks  # noqa: PLC0415 (starts MPI)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What one rank leaves for the others where they do not talk any more: why it ended, in a file beside those of the job.
+"""Reason why a rank ended, in a file beside those of the job, for the ranks that it does not talk to any more.
 
 MPI waits for a rank that has ended without end. Those that watch the ranks see the file, and end theirs.
 """
@@ -23,7 +23,7 @@ def leave_word(stem: Path, token: str, reason: str) -> None:
 
 
 def read_word(stem: Path, token: str) -> str:
-    """Why a rank ended, '' if none has, or if there are no ranks."""
+    """Read the reason why a rank ended, '' if none has, or if there are no ranks."""
     if not token:
         return ""
     with suppress(OSError):
@@ -34,7 +34,7 @@ def read_word(stem: Path, token: str) -> str:
 
 
 def forget_word(stem: Path, token: str) -> None:
-    """Rank 0 has told it."""
+    """Remove the file: rank 0 has told the reason."""
     if not token:
         return
     with suppress(OSError):
