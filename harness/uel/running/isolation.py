@@ -49,7 +49,7 @@ _REASONS: Final = {
 
 @dataclass(frozen=True, slots=True)
 class End:
-    """How a process ended.
+    """Ending of a process.
 
     code         exit code, -n for signal n
     finished     whether it ended by itself
@@ -186,7 +186,7 @@ HANGS: Final = "ended because it hung after an abandoned call, usually inside a 
 
 
 class _Watch:
-    """Looks at a process now and then, and says when and why to kill it.
+    """Monitor that looks at a process now and then, and says when and why to kill it.
 
     It measures time by the number of its looks: none passes while all processes are stopped.
     """
@@ -228,7 +228,7 @@ _STOPPED: Final = ("T", "t")
 
 
 def _state(process: int) -> tuple[str, int]:
-    """State of a process, and ticks of processor time that it has used.
+    """Return the state of a process, and ticks of processor time that it has used.
 
     The state is "" if the system does not tell, or if it may be waiting for another process, such as a compiler.
     """
@@ -242,7 +242,7 @@ def _state(process: int) -> tuple[str, int]:
 
 
 def describe_end(code: int) -> str:
-    """Why a process ended, by its exit code: the end of a sentence."""
+    """Describe why a process ended, by its exit code: the end of a sentence."""
     if code >= 0:
         who = " by the Fortran library, in an input or output statement of a user routine" if code == _ENDED else ""
         where = f"; it looks up files from the current folder, {Path.cwd()}" if who else ""
@@ -255,7 +255,7 @@ def describe_end(code: int) -> str:
 
 
 def _take_all_stack() -> None:
-    """Local arrays of user routines are on the stack; Abaqus runs them with as much of it as the system gives."""
+    """Take all stack: local arrays of user routines are on it, and Abaqus gives as much as the system does."""
     _, hard = resource.getrlimit(resource.RLIMIT_STACK)
     most = MOST_STACK if hard == resource.RLIM_INFINITY else min(hard, MOST_STACK)
     resource.setrlimit(resource.RLIMIT_STACK, (most, hard))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""One job: a deck and a user file in, the files of Abaqus and a result out."""
+"""Job: a deck and a user file in, the files of Abaqus and a result out."""
 
 from __future__ import annotations
 
@@ -196,7 +196,7 @@ def _refuse_with_multipliers(model: Model, options: Mapping[str, bool]) -> None:
 
 
 def _safe_routines(model: Model, given: Collection[str]) -> frozenset[str]:
-    """Routines that the user says several threads may call, in capitals. Raises UsageError."""
+    """Return the routines that the user says several threads may call, in capitals. Raises UsageError."""
     known = known_routines(model)
     names = frozenset(name.upper() for name in given)
     for name in sorted(names.difference(known)):
@@ -206,7 +206,7 @@ def _safe_routines(model: Model, given: Collection[str]) -> frozenset[str]:
 
 
 def _linear_types(model: Model, given: Collection[str]) -> frozenset[str]:
-    """Types of user elements that the user says are linear, in capitals. Raises UsageError."""
+    """Return the types of user elements that the user says are linear, in capitals. Raises UsageError."""
     known = sorted({group.type for group in model.groups if group.definition is not None})
     types = frozenset(name.upper() for name in given)
     for name in sorted(types.difference(known)):
@@ -292,14 +292,14 @@ def _analyse(
 
 
 def _progress(stem: Path) -> str:
-    """How far a run has come, from its files; '' if they cannot tell."""
+    """Describe the progress of a run from its files; '' if they cannot tell."""
     with suppress(Exception):  # the error that counts is the one that ended the run
         return progress(Result(stem))
     return ""
 
 
 def _advice(error: str, *, fallback: bool, energy_control: bool) -> str:
-    """What can be tried where a step does not converge."""
+    """Suggest what can be tried where a step does not converge."""
     if error.startswith(TOO_MANY_INCREMENTS):
         return "what may help: a larger INC on *STEP"
     ways = [] if fallback else ["--fallback, a search where Newton's method fails"]
@@ -316,7 +316,7 @@ def _advice(error: str, *, fallback: bool, energy_control: bool) -> str:
 
 
 def _debug_helps(sources: Sequence[Path], message: str) -> bool:
-    """Whether an error without a line may have one in a debug build."""
+    """Report whether an error without a line may have one in a debug build."""
     compiled = bool(sources) and all(map(usersub.is_source, sources))
     return compiled and not usersub.names_line(message)
 

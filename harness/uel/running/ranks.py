@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a job on several ranks does beside that of one process: what it refuses, whose messages count, how it ends."""
+"""Job on several ranks, beside what one process does: what it refuses, whose messages count, how it ends."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def refuse_unshared(model: Model, ranks: Ranks) -> None:
 
 
 def messages_of(library: Library, ranks: Ranks) -> list[Message]:
-    """Messages of all ranks since the last call, on rank 0: its own, and those of others that it does not have too."""
+    """Return the messages of all ranks since the last call, on rank 0: its own, and others that it does not have."""
     own, *others = ranks.collect(library.messages()) or [[]]
     known = {(message.file, message.kind, message.text) for message in own}
     for messages in others:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""From which state of an old job a job goes on, and the decks of its model."""
+"""Restart of an old job: the state from which a job goes on, and the decks of its model."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from uel.parallel.ranks import Ranks
 def find_state(
     deck: Path, given: Mapping[str, float] | None, oldjob: Path, stem: Path
 ) -> tuple[Resumption, tuple[DeckPart, ...]]:
-    """The state from which a deck resumes an old job.
+    """Find the state from which a deck resumes an old job.
 
     A deck with *RESTART, READ says which; the deck of the old job itself goes on from its last one.
 
@@ -99,12 +99,12 @@ def refuse_options(
 
 
 def goes_on(resumed: Resumption) -> bool:
-    """Whether a restart begins within a step."""
+    """Report whether a restart begins within a step."""
     return not (resumed.analysis["finished"] or resumed.end_step)
 
 
 def decks_of(model: Model, given: Mapping[str, float] | None, parts: Sequence[DeckPart]) -> Sequence[DeckPart]:
-    """The decks of a model, as its states name them; none if it keeps no states."""
+    """Return the decks of a model, as its states name them; none if it keeps no states."""
     if parts or not any(step.restart for step in model.steps):
         return parts
     return (part_of(model.deck, given),)

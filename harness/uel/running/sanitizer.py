@@ -43,12 +43,12 @@ class NoSanitizerError(UelError):
 
 
 def applies_to(user: Sequence[Path]) -> bool:
-    """Whether any of the user's files is to be compiled."""
+    """Report whether any of the user's files is to be compiled."""
     return any(file.suffix.lower() != ".so" for file in user)
 
 
 def environment() -> Mapping[str, str]:
-    """Variables for a process with the runtime of the compiler that is installed. Raises NoSanitizerError."""
+    """Return variables for a process with the runtime of the installed compiler. Raises NoSanitizerError."""
     preload = ":".join(filter(None, (str(_runtime()), os.environ.get(_PRELOAD))))
     settings = ":".join(filter(None, (*_SETTINGS, os.environ.get(_OPTIONS))))
     variables = os.environ | {_PRELOAD: preload, _OPTIONS: settings}
@@ -71,7 +71,7 @@ def forget() -> None:
 
 
 def _runtime() -> Path:
-    """The shared library."""
+    """Find the shared library of the runtime."""
     compiler = next(filter(None, map(shutil.which, _COMPILERS)), "")
     asked = [compiler, f"-print-file-name={_LIBRARY}"]
     found = subprocess.run(asked, capture_output=True, text=True, check=False).stdout.strip() if compiler else ""
