@@ -61,7 +61,7 @@ def evaluate(
     residual: FloatArray,
     matrix: FloatArray,
 ) -> Outcome:
-    """One pass over a block.
+    """Make one pass over a block.
 
     options are: (A + A^T)/2 is assembled, AMATRX is assembled, what a write outside an array does, what an entry that
     is not set does, several threads may call. unknowns are u and du, (n,), v and a, (n,), or (1,) where nothing moves;
@@ -117,7 +117,7 @@ def exchange_guard_values(values: FloatArray) -> None:
 
 
 def exchange_room(entries: int) -> int:
-    """From now on guards after the arrays have at least this many entries; returns the number before."""
+    """Set the least number of entries of guards after the arrays from now on; return the one before."""
     room = np.array([entries], dtype=np.int32)
     host.host_exchange_room(room)
     return int(room[0])
@@ -131,31 +131,31 @@ def watch_inputs(on: bool) -> bool:
 
 
 def take_changes() -> tuple[Int32Array, FloatArray]:
-    """First entry (37,) of each argument that was changed since the last call (0: none), and values (37, 2)."""
+    """Return first entries (37,) of arguments that were changed since the last call (0: none), and values (37, 2)."""
     entries, values = host.host_take_changes()
     return entries, values.T
 
 
 def fill_stack(number: float | None) -> None:
-    """From now on local variables hold a number at the start of watched calls of elements; None: whatever is there."""
+    """Fill local variables with a number at the start of watched calls of elements from now on; None: leave them."""
     host.host_fill_stack(int(number is not None), number or 0.0)
 
 
 def exchange_around(argument: int, number: float) -> float:
-    """From now on a number surrounds an argument (from 0) in watched calls; returns the one before."""
+    """Surround an argument (from 0) with a number in watched calls from now on; return the one before."""
     held = np.array([number], dtype=np.float64)
     host.host_exchange_around(argument, held)
     return float(held[0])
 
 
 def take_outside() -> dict[int, int]:
-    """Arguments (from 0) outside which something was written since the last call, with the entry, from 1."""
+    """Return the arguments (from 0) outside which something was written since the last call, with the entry, from 1."""
     found, entries = host.host_take_outside()
     return {k: int(entries[k]) for k in np.flatnonzero(found).tolist()}
 
 
 def allocated() -> int:
-    """Bytes that this process has allocated; negative if the C library does not tell."""
+    """Return the bytes that this process has allocated; negative if the C library does not tell."""
     return int(host.host_allocated())
 
 
@@ -211,7 +211,7 @@ def linear_pass(
 
 
 def scatter_map(equations: Int32Array, indptr: Int32Array, indices: Int32Array) -> Int32Array:
-    """Positions (m, ndofel, ndofel) of (row, column) of element matrices in the values of a CSR matrix, from 0.
+    """Return positions (m, ndofel, ndofel) of (row, column) of element matrices in the values of a CSR matrix.
 
     equations (m, ndofel) from 0; the matrix has all their entries, columns ascending in each row.
     """
@@ -256,7 +256,7 @@ def define_heat_load(
 
 
 def integration_rule(family: int, points: int, nodes: int, dimension: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Weights (points,), shape functions (points, nodes) and their derivatives (points, nodes, dimension) of a family.
+    """Return weights (points,), shape functions (points, nodes), derivatives (points, nodes, dimension) of a family.
 
     The derivatives are with respect to parent coordinates. Raises ValueError if the host has no such rule.
     """
@@ -275,7 +275,7 @@ def define_rule(family: int, parent: FloatArray, weights: FloatArray, *, reduced
 
 
 def slopes_at_nodes(family: int, nodes: int) -> FloatArray:
-    """Derivatives (places, nodes, 2) of a surface's shape functions by parent coordinates, at each of its nodes."""
+    """Return derivatives (places, nodes, 2) of a surface's shape functions by parent coordinates, at each node."""
     slopes = np.zeros((nodes, 2, nodes))
     host.host_slopes_at_nodes(family, slopes.T)
     return slopes.transpose(0, 2, 1)
@@ -285,7 +285,7 @@ _ELEMENTS: Final = (
     *("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric", "truss"),
     *("generalised", "beam section", "membrane", "mass diffusion", "continuum shell"),
 )
-"""In the order of host_element_address."""
+"""Elements in the order of host_element_address."""
 
 
 def address_of(
@@ -307,7 +307,7 @@ def address_of(
         "continuum shell",
     ],
 ) -> int:
-    """Address of built-in elements.
+    """Return the address of built-in elements.
 
     Cohesive ones, springs and masses, heat that enters and linear elastic beams are called like UEL, the others like
     UELMAT.
@@ -316,7 +316,7 @@ def address_of(
 
 
 def take_messages() -> list[RawMessage]:
-    """Messages of STDB_ABQERR since the last call, oldest first."""
+    """Return the messages of STDB_ABQERR since the last call, oldest first."""
     found: list[RawMessage] = []
     while True:
         level, (element, step, increment), text = host.host_take_message()
@@ -373,7 +373,7 @@ def trap(on: bool) -> bool:
 
 
 def sanitizing() -> bool:
-    """Whether the runtime of AddressSanitizer is in this process, see harness/uel/running/sanitizer.py."""
+    """Report whether the runtime of AddressSanitizer is in this process, see harness/uel/running/sanitizer.py."""
     return bool(host.host_sanitizing())
 
 
@@ -383,7 +383,7 @@ def sanitize(on: bool) -> None:
 
 
 def take_frames() -> list[int]:
-    """Addresses of the calls that the last signal ended, innermost first; forgets them."""
+    """Return the addresses of the calls that the last signal ended, innermost first; forgets them."""
     addresses, count = host.host_take_frames()
     return [int(address) for address in addresses[:count]]
 

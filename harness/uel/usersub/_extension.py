@@ -29,7 +29,7 @@ finally:
 
 
 def padded(names: Sequence[str]) -> NDArray[np.bytes_]:
-    """Names as CHARACTER*80."""
+    """Return the names as CHARACTER*80."""
     return np.array([name.ljust(80) for name in names], dtype="S80")
 
 

@@ -85,7 +85,10 @@ def set_expansion(number: int, table: FloatArray, zero: float) -> None:
 
 
 def compliance(constants: Sequence[float]) -> FloatArray:
-    """Compliance (6, 6) of E1, E2, E3, nu12, nu13, nu23, G12, G13, G23; 11, 22, 33, 12, 13, 23, engineering shear."""
+    """Return the compliance (6, 6) of E1, E2, E3, nu12, nu13, nu23, G12, G13, G23.
+
+    Rows: 11, 22, 33, 12, 13, 23, with engineering shear.
+    """
     return host.host_compliance(np.array(constants))
 
 

@@ -119,16 +119,18 @@ def user_amplitude(address: int, asked: AskedAmplitude) -> tuple[float, FloatArr
 
 
 POINT_REALS: Final = 13
-"""Of a cohesive_point in host/materials/traction_separation.f90: separation (3), traction (3), damage, energies that
-damage dissipates (3), that of the viscosity, damage without viscosity, initiation criterion."""
+"""Reals of a cohesive_point in host/materials/traction_separation.f90: separation (3), traction (3), damage, energies
+that damage dissipates (3), that of the viscosity, damage without viscosity, initiation criterion.
+"""
 
 
 def traction_separation(
     law: tuple[FloatArray, Int32Array], time: float, separations: FloatArray, old: FloatArray
 ) -> tuple[FloatArray, FloatArray, tuple[int, float] | None]:
-    """Traction-separation response of points: states (m, POINT_REALS) and derivatives (m, 3, 3) of the tractions; the
-    row of a point whose fracture energy at the mode mix is below the elastic energy at the onset of damage, and by how
-    much.
+    """Return the traction-separation response of points: states (m, POINT_REALS) and tangents (m, 3, 3).
+
+    Also return the row of a point whose fracture energy at the mode mix is below the elastic energy at the onset of
+    damage, and by how much.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the build leaves the project's own kernels."""
+"""Paths of the project's own kernels, as the build leaves them."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from pathlib import Path
 
 
 def path_of_amalgam() -> Path:
-    """The kernels as one fixed-form file for Abaqus."""
+    """Return the path of the kernels as one fixed-form file for Abaqus."""
     return _packaged("delamination.for")
 
 
 def path_of_kernels() -> Path:
-    """The kernels as a shared library of user routines."""
+    """Return the path of the kernels as a shared library of user routines."""
     return _packaged("kernels.so")
 
 
 def path_of_layout() -> Path:
-    """The Fortran module that names every property and state variable of the kernels."""
+    """Return the path of the Fortran module that names every property and state variable of the kernels."""
     return _packaged("layout.f90")
 
 

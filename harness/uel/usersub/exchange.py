@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What Python and the compiled host exchange."""
+"""Exchange between Python and the compiled host."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ReversedArrays = tuple[*_Integers, *_Reals]
 
 
 class Called(NamedTuple):
-    """What the driver calls for a block.
+    """Routine that the driver calls for a block.
 
     address   of UEL or UELMAT
     material  number of the material in the host; 0 for none, then it is UEL
@@ -100,14 +100,14 @@ class BlockArrays:
 
     @cached_property
     def reversed(self) -> ReversedArrays:
-        """The same with the driver's shapes; made once, for each pass takes them."""
+        """Arrays with the driver's shapes; made once, for each pass takes them."""
         integers = self.labels, self.jprops, self.equations.T, self.map.T
         start = self.svars.T, self.energy.T, self.history.T
         end = self.svars_trial.T, self.energy_trial.T, self.history_trial.T
         return *integers, self.props, self.coords.T, *start, *end
 
     def of(self, rows: IntArray) -> BlockArrays:
-        """Those of some of the elements, copied."""
+        """Copy the arrays of some of the elements."""
         shared = ("jprops", "props")
         own = {one.name: getattr(self, one.name)[rows] for one in fields(self) if one.name not in shared}
         return replace(self, **own)

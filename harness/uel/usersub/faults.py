@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What goes wrong in a pass over a block of elements, and how that is handled (fortran/host/driver/driver.f90)."""
+"""Faults in a pass over a block of elements, and how they are handled (fortran/host/driver/driver.f90)."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from enum import IntEnum
 
 
 class Guards(IntEnum):
-    """What a write outside an array does to a pass."""
+    """Effect on a pass of a write outside an array."""
 
     STOP = 0
     NOTICE = 1
@@ -17,7 +17,7 @@ class Guards(IntEnum):
 
 
 class Entries(IntEnum):
-    """What an entry of RHS or AMATRX that is not set does to a pass."""
+    """Effect on a pass of an entry of RHS or AMATRX that is not set."""
 
     STOP = 0
     NOTICE = 1
@@ -25,7 +25,7 @@ class Entries(IntEnum):
 
 
 class Fault(IntEnum):
-    """What went wrong in a pass over a block."""
+    """Fault in a pass over a block."""
 
     NONE = 0
     LEFT = 1

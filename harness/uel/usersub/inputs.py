@@ -22,7 +22,7 @@ NAMES: Final = (
 """Arguments of UEL, and the last of UELMAT, in Abaqus' order."""
 
 SURROUNDED: Final = tuple(name for name in NAMES if name not in _binding.ARRAYS)
-"""Those that have room around them while they are watched; the others always have guards."""
+"""Arguments that have room around them while they are watched; the others always have guards."""
 
 _MARK: Final = -559038737.0
 """Values around them when writes are looked for: nothing that an element would write, as integer or as real."""

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the properties and state variables of the project's own elements mean, read from fortran/abaqus/layout.f90.
+"""Meaning of the properties and state variables of the project's own elements, read from fortran/abaqus/layout.f90.
 
 fortran/README.md holds what `markdown` returns.
 """
@@ -84,7 +84,7 @@ class ElementLayout:
 
     @property
     def unsymmetric(self) -> bool:
-        """Whether its *USER ELEMENT needs UNSYMM, without which Abaqus takes the symmetric part of AMATRX.
+        """True if its *USER ELEMENT needs UNSYMM, without which Abaqus takes the symmetric part of AMATRX.
 
         All interface elements do: the consistent tangent of softening in mixed mode, the derivative of the rotation
         with NLGEOM, and the traction of the solids are unsymmetric. A standard element with TANGENT 1 and small
@@ -95,7 +95,7 @@ class ElementLayout:
 
 @cache
 def element_layouts() -> dict[int, ElementLayout]:
-    """Every element type of the project by its JTYPE."""
+    """Return every element type of the project by its JTYPE."""
     return read_layouts(path_of_layout().read_text(encoding="utf-8"))
 
 
@@ -114,7 +114,7 @@ def without_user(name: str) -> str:
 
 
 def read_layouts(text: str) -> dict[int, ElementLayout]:
-    """Element types by their JTYPE from the text of a layout.f90."""
+    """Read the element types by their JTYPE from the text of a layout.f90."""
     tables = _tables(text)
     layouts = {}
     for fields, meaning in tables["elements"]:
@@ -148,7 +148,7 @@ def check_law_uses(jtype: int, given: Mapping[str, float], law: int) -> None:
 
 
 def variables(jtype: int) -> PointVariables | None:
-    """Meaning of the SVARS of an element type of the project, None if it has no such type."""
+    """Return the meaning of the SVARS of an element type of the project, None if it has no such type."""
     layout = element_layouts().get(jtype)
     if layout is None:
         return None
@@ -162,7 +162,7 @@ def variables(jtype: int) -> PointVariables | None:
 
 
 def is_continuum(jtype: int, integers: IntArray) -> bool:
-    """Whether elements of a type of the project are continuum elements that, with these JPROPS, store no stress."""
+    """Report whether elements of a type of the project, with these JPROPS, are continuum ones that store no stress."""
     layout = element_layouts().get(jtype)
     if layout is None or layout.faces[0]:
         return False
@@ -171,7 +171,7 @@ def is_continuum(jtype: int, integers: IntArray) -> bool:
 
 
 def shares_stress(jtype: int, integers: IntArray) -> bool:
-    """Whether elements of a type of the project, with these JPROPS, store stress for their neighbours, or take it."""
+    """Report whether elements of a type of the project, with these JPROPS, store stress for others, or take it."""
     layout = element_layouts().get(jtype)
     if layout is None:
         return False
@@ -181,7 +181,7 @@ def shares_stress(jtype: int, integers: IntArray) -> bool:
 
 
 def markdown() -> str:
-    """Tables of every element type."""
+    """Return the tables of every element type."""
     return "\n".join(_markdown_lines())
 
 
@@ -220,7 +220,7 @@ _ROW = re.compile(r"(\w+_item)\((.*)\)(?:, &|\])(?: !< (.*))?$")
 
 
 def _tables(text: str) -> dict[str, Rows]:
-    """Rows of each table, with numbers for names; ValueError if a table does not have the rows it announces."""
+    """Read the rows of each table, with numbers for names; ValueError if a table lacks rows that it announces."""
     numbers: dict[str, int] = {}
     tables: dict[str, Rows] = {}
     announced: dict[str, int] = {}
@@ -253,20 +253,20 @@ def _tables(text: str) -> dict[str, Rows]:
 
 
 def _of_family(rows: Rows, family: int) -> Rows:
-    """The properties that a family has, in the order and with the positions of its decks."""
+    """Return the properties that a family has, in the order and with the positions of its decks."""
     members = [row for row in rows if int(row[0][1]) & family]
     return [([str(n), *fields[2:]], text) for n, (fields, text) in enumerate(members, start=1)]
 
 
 def _variables_table(dimension: int, interface: bool) -> str:
-    """The table of the variables of a point."""
+    """Name the table of the variables of a point."""
     if not interface:
         return "continuum_variables" if dimension == 2 else "brick_variables"
     return "interface_variables" if dimension == 2 else "surface_variables"
 
 
 def _faces(fields: list[str]) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Nodes of the bottom and the top face from a row of `faces`."""
+    """Return the nodes of the bottom and the top face from a row of `faces`."""
     nodes = np.array(fields[2:], dtype=int).reshape(-1, 2, 4)  # corners, in space midside nodes; bottom, top
     bottom, top = (tuple((side[side > 0] - 1).tolist()) for side in (nodes[:, 0], nodes[:, 1]))
     return bottom, top

@@ -84,7 +84,7 @@ class Library:
         self.usdfld = addresses["USDFLD"]
 
     def variables(self, jtype: int) -> PointVariables | None:
-        """Meaning of the SVARS of an element type.
+        """Return the meaning of the SVARS of an element type.
 
         Parameters
         ----------
@@ -99,7 +99,7 @@ class Library:
         return layout.variables(jtype) if self.is_own else None
 
     def is_continuum(self, jtype: int, integers: IntArray) -> bool:
-        """Whether elements are continuum elements of the project whose stress no other element reads.
+        """Report whether elements are continuum elements of the project whose stress no other element reads.
 
         Parameters
         ----------
@@ -112,11 +112,11 @@ class Library:
 
     @property
     def is_own(self) -> bool:
-        """Whether it has the elements of the project."""
+        """True if it has the elements of the project."""
         return hasattr(self._handle, layout.MARKER)
 
     def shares_stress(self, jtype: int, integers: IntArray) -> bool:
-        """Whether elements of the project store stress for others, or take it; arguments as of `is_continuum`."""
+        """Report whether elements of the project store stress for others, or take it; arguments of `is_continuum`."""
         return self.is_own and layout.shares_stress(jtype, integers)
 
     def external_database(
@@ -157,7 +157,7 @@ class Library:
         return "no user routine"
 
     def user_values(self, asked: UserValues) -> FloatArray:
-        """Values that DISP, DLOAD, UTEMP or UFIELD makes of those given.
+        """Return the values that DISP, DLOAD, UTEMP or UFIELD makes of those given.
 
         Parameters
         ----------
@@ -187,7 +187,7 @@ class Library:
         return made
 
     def user_amplitude(self, asked: AskedAmplitude) -> GivenAmplitude:
-        """What UAMP gives.
+        """Call UAMP.
 
         Parameters
         ----------
@@ -217,7 +217,7 @@ class Library:
         return GivenAmplitude(value, state, bool(define[_CONCLUDE_STEP]))
 
     def stop_reason(self) -> str:
-        """Why a user routine ended the analysis, as the end of a sentence."""
+        """Return the reason why a user routine ended the analysis, as the end of a sentence."""
         if text := self._inbox.last_error():
             return f"stopped the analysis: {self._with_place(text)}"
         if lines := self._inbox.last_lines():
@@ -225,7 +225,7 @@ class Library:
         return "stopped the analysis (XIT) without a message"
 
     def _with_place(self, text: str) -> str:
-        """A text about a signal, 'in UEL: what it was', with file and line, and the routine if it is another one."""
+        """Add file and line, and the routine if it is another one, to a text about a signal: 'in UEL: what it was'."""
         place = innermost(_binding.take_frames(), self._handle._name, self.file)
         head, colon, tail = text.partition(": ")
         if place is None or not colon:
@@ -234,7 +234,7 @@ class Library:
         return f"{head}, {place.file} line {place.line}{inside}: {tail}"
 
     def messages(self) -> list[Message]:
-        """Texts of user routines since the last call: STDB_ABQERR, then what was printed to units 6 and 7."""
+        """Take the texts of user routines since the last call: STDB_ABQERR, then what was printed to units 6 and 7."""
         return self._inbox.take()
 
     def warn(self, text: str) -> None:
@@ -242,7 +242,7 @@ class Library:
         self._inbox.warn(text)
 
     def close(self) -> None:
-        """End of the job: disconnect units 6 and 7."""
+        """End the job: disconnect units 6 and 7."""
         if self._sanitized:
             _binding.sanitize(False)
         self._inbox.close()
@@ -317,12 +317,12 @@ def compile_ahead(user: Sequence[Path], *, deck: Path, zero_locals: bool = False
 
 
 def _include(deck: Path | None) -> tuple[Path, ...]:
-    """Folders in which INCLUDE lines are looked up after those of the sources."""
+    """Return the folders in which INCLUDE lines are looked up after those of the sources."""
     return () if deck is None else (deck.resolve().parent,)
 
 
 def _name_of(files: Sequence[Path]) -> str:
-    """Name of the user files in messages."""
+    """Return the name of the user files in messages."""
     others = f" and {len(files) - 1} more" if len(files) > 1 else ""
     return f"{files[0]}{others}" if files else "the project's kernels"
 
@@ -334,7 +334,7 @@ def _shared_library(files: Sequence[Path], include: Sequence[Path], **how: bool)
 
 
 def _is_shared(files: Sequence[Path]) -> bool:
-    """Whether the files are a shared library; raises CompileError if they are neither that nor sources."""
+    """Report whether the files are a shared library; raises CompileError if they are neither that nor sources."""
     for file in files:
         if not file.is_file():
             raise CompileError(file, "not a file" if file.exists() else "no such file")

@@ -25,7 +25,7 @@ _KINDS = {1: "note", -1: "warning", -2: "error", -3: "error"}
 
 @dataclass(frozen=True, slots=True)
 class Message:
-    """One text of a user routine.
+    """Text from a user routine.
 
     file      '.msg' or '.dat': where Abaqus puts it
     kind      'note', 'warning', 'error' (STDB_ABQERR) or 'print' (written to unit 6 or 7)
@@ -41,7 +41,7 @@ class Message:
 
 
 class Inbox:
-    """Collects the messages of a job. Units 6 and 7 are JOB.unit6 and JOB.unit7, removed once all has been read.
+    """Inbox of the messages of a job. Units 6 and 7 are JOB.unit6 and JOB.unit7, removed once all has been read.
 
     With the rank after these names in all processes of a job but the first.
     """
@@ -65,19 +65,19 @@ class Inbox:
             self.warn(f"{_LOCKED} since an earlier run: text printed there is lost")
 
     def take(self) -> list[Message]:
-        """All messages since the last call."""
+        """Return all messages since the last call."""
         self._collect()
         self._print()
         found, self._sent = self._sent, []
         return sorted(found, key=lambda message: message.kind == "print")
 
     def last_error(self) -> str:
-        """Text of the latest error or fatal error not yet read; '' if there is none."""
+        """Return the text of the latest error or fatal error not yet read; '' if there is none."""
         self._collect()
         return next((m.text for m in reversed(self._sent) if m.kind == "error"), "")
 
     def last_lines(self) -> list[str]:
-        """Last lines printed to unit 7, or else to unit 6, and not yet read."""
+        """Return the last lines printed to unit 7, or else to unit 6, and not yet read."""
         self._print()
         printed = {m.file: m.text.split("\n") for m in self._sent if m.kind == "print"}
         lines = [line.strip() for line in printed.get(".msg", printed.get(".dat", [])) if line.strip()]

@@ -26,13 +26,13 @@ _ENOUGH: Final = 100
 
 
 def array_wanted(message: str) -> str | None:
-    """Name of the array argument for which, by gfortran's message, a single value is passed."""
+    """Return the name of the array argument for which, by gfortran's message, a single value is passed."""
     found = _RANK.search(message)
     return found and found[1]
 
 
 def is_constant(text: str, line: int, column: int) -> bool:
-    """Whether a number, or the name of a PARAMETER, is at a line and column (from 1), or after it."""
+    """Report whether a number, or the name of a PARAMETER, is at a line and column (from 1), or after it."""
     rows = text.splitlines()
     found = _ARGUMENT.match(rows[line - 1], column - 1) if 1 <= line <= len(rows) else None
     if found is None or found[1] is None:
@@ -42,7 +42,7 @@ def is_constant(text: str, line: int, column: int) -> bool:
 
 
 def constants_for_arrays(output: str, texts: Mapping[str, str]) -> Iterator[str]:
-    """Sentences on what gfortran's output says about constants; texts of the files by bare name.
+    """Yield sentences on what gfortran's output says about constants; texts of the files by bare name.
 
     The memory after a variable may be what is meant; after a constant come other constants. Zeros are mended.
     """
@@ -57,7 +57,7 @@ def constants_for_arrays(output: str, texts: Mapping[str, str]) -> Iterator[str]
 
 
 def zeros_for_arrays(output: str) -> Iterator[Repair]:
-    """Repairs that pass zeros where the constant zero is passed for an array.
+    """Yield repairs that pass zeros where the constant zero is passed for an array.
 
     Routines that take a point, such as the centre of an element, get its first coordinate so. What follows the constant
     in Abaqus is not known, but zero everywhere is what is meant.
@@ -69,7 +69,7 @@ def zeros_for_arrays(output: str) -> Iterator[Repair]:
 
 
 def pass_zeros(text: str, line: int, column: int) -> str | None:
-    """The text in which the argument at a column, or after it, is an array of zeros; None if it is no constant zero."""
+    """Replace the constant zero at a column, or after it, by an array of zeros; None if the argument is none."""
     lines = text.splitlines(keepends=True)
     row = lines[line - 1] if 1 <= line <= len(lines) else ""
     found = _ZERO_ARGUMENT.match(row, column - 1)
@@ -83,7 +83,7 @@ def pass_zeros(text: str, line: int, column: int) -> str | None:
 
 
 def _is_zero(value: str, text: str) -> bool:
-    """Whether a number, or each PARAMETER of that name in the text, is zero."""
+    """Report whether a number, or each PARAMETER of that name in the text, is zero."""
     if not value[0].isalpha():
         return True
     given = re.compile(rf"^\s*[^!c*\n]*\bparameter\b[^!\n]*\b{value}\s*=\s*([^,)\n]*)", re.IGNORECASE | re.MULTILINE)

@@ -26,7 +26,7 @@ from typing import Any, Final
 from uel.files import read_whole
 
 _ABSOLUTE: Final = -1
-"""In place of the number of a search folder."""
+"""Stand-in for the number of a search folder in an absolute path."""
 _MODULES: Final = ("*.mod", "*.smod")
 _ESCAPED: Final = re.compile(r"\\([ #\\])|\$(\$)")
 _BETWEEN: Final = re.compile(r"(?<!\\)\s+")
@@ -46,7 +46,7 @@ class Built:
 
 
 def cache_folder() -> Path | None:
-    """Folder of compiled user files; None if there can be none, or if others could write there."""
+    """Return the folder of compiled user files; None if there can be none, or if others could write there."""
     base = Path(os.environ.get("XDG_CACHE_HOME", ""))
     try:
         folder = (base if base.is_absolute() else Path.home() / ".cache") / "uel" / "compiled"
@@ -61,7 +61,7 @@ def cache_folder() -> Path | None:
 
 
 def find(name: str, folders: Sequence[Path]) -> Built | None:
-    """Entry none of whose files, in these search folders, has changed since the compiler read it."""
+    """Return the entry none of whose files, in these search folders, has changed since the compiler read it."""
     cache = cache_folder()
     if cache is None:
         return None
@@ -114,14 +114,14 @@ def keep(name: str, library: Path, notes: Sequence[str], read: Iterable[Path], f
 
 
 def _digest_of_own(entry: dict[str, Any]) -> str:
-    """Digest of the files of an entry that are in the search folders, and of the modules there."""
+    """Return the digest of the files of an entry that are in the search folders, and of the modules there."""
     # one may be in several of them, by other names
     own = {(Path(name).name, digest) for place, name, digest in entry["read"] if digest and place != _ABSOLUTE}
     return hashlib.sha256(json.dumps([entry["modules"], sorted(own)]).encode()).hexdigest()
 
 
 def _stem(name: str, text: bytes) -> str:
-    """Name of both files of an entry, from its list."""
+    """Return the name of both files of an entry, from its list."""
     return f"{name}-{hashlib.sha256(text).hexdigest()[:16]}"
 
 
@@ -133,18 +133,18 @@ def keep_for_now(name: str, library: Path, notes: Sequence[str], read: str = "")
 
 @functools.cache
 def _scratch() -> tempfile.TemporaryDirectory[str]:
-    """Folder for libraries that cannot be cached; it is removed at the end of the process."""
+    """Return the folder for libraries that cannot be cached; it is removed at the end of the process."""
     return tempfile.TemporaryDirectory(prefix="uel-")
 
 
 def dependencies(text: str) -> list[str]:
-    """Names of the files that a compiler has read, from what it writes with -MD: a rule of make."""
+    """Return the names of the files that a compiler has read, from what it writes with -MD: a rule of make."""
     _, _, names = text.replace("\\\n", " ").partition(": ")
     return [_ESCAPED.sub(r"\1\2", name) for name in _BETWEEN.split(names.strip()) if name]
 
 
 def _places(read: Iterable[Path], folders: Sequence[Path]) -> Iterator[tuple[int, str, str]]:
-    """Search folder by number, name in it, and hash of each file; '' for files that would have been read instead."""
+    """Return search folder by number, name in it, and hash of each file; '' for files that would have come first."""
     for file in read:
         within = [(k, str(file.relative_to(folder))) for k, folder in enumerate(folders) if file.is_relative_to(folder)]
         if not within:
@@ -165,7 +165,7 @@ def _as_read(entry: dict[str, Any], folders: Sequence[Path]) -> bool:
 
 
 def _digest(file: Path) -> str:
-    """Hash of a file's content; '' if there is no such file."""
+    """Hash a file's content; '' if there is no such file."""
     try:
         return hashlib.sha256(read_whole(file)).hexdigest()
     except (OSError, ValueError):
@@ -173,7 +173,7 @@ def _digest(file: Path) -> str:
 
 
 def _modules(folders: Sequence[Path]) -> str:
-    """Hash of the module files that USE statements can find: compilers do not tell which of them they read."""
+    """Hash the module files that USE statements can find: compilers do not tell which of them they read."""
     found = hashlib.sha256()
     for number, folder in enumerate(folders):
         for file in sorted(file for pattern in _MODULES for file in folder.glob(pattern)):

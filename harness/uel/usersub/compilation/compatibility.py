@@ -16,7 +16,7 @@ from typing import Final
 
 
 def _error(message: str) -> re.Pattern[str]:
-    """What gfortran prints for an error, among warnings: the place, the lines that it shows, the message."""
+    """Compile the pattern of an error of gfortran, among warnings: the place, the lines that it shows, the message."""
     place = r"^(?P<file>[^\n]+?):(?P<line>\d+):(?P<column>\d+):\n(?:(?!.*(?:Error|Warning):).*\n)*?"
     return re.compile(f"{place}Error: {message}", re.MULTILINE)
 
@@ -70,7 +70,7 @@ class Repair:
 
 
 def repairs(errors: str) -> Iterator[Repair]:
-    """Repairs of what gfortran refuses in a file, from its messages."""
+    """Yield repairs of what gfortran refuses in a file, from its messages."""
     for found in _COMPARED_LOGICALS.finditer(errors):
         line, operator = int(found["line"]), found["operator"]
         change = partial(compare_logicals, line=line, column=int(found["column"]), operator=operator)
@@ -109,7 +109,7 @@ def repairs(errors: str) -> Iterator[Repair]:
 
 
 def double_quotes(text: str, line: int) -> str | None:
-    """The text in which an #include has double quotes around its file; None without single ones in the line."""
+    """Put double quotes around the file of an #include; None without single ones in the line."""
     lines = text.splitlines(keepends=True)
     row = lines[line - 1] if 1 <= line <= len(lines) else ""
     changed = re.sub(r"^(\s*#\s*include\s*)'([^'\"]+)'", r'\1"\2"', row)
@@ -120,7 +120,7 @@ def double_quotes(text: str, line: int) -> str | None:
 
 
 def lower_directive(text: str, line: int, name: str) -> str | None:
-    """The text in which the preprocessor's directive of this name is in small letters; None without it in the line."""
+    """Write the preprocessor's directive of this name in small letters; None without it in the line."""
     lines = text.splitlines(keepends=True)
     row = lines[line - 1] if 1 <= line <= len(lines) else ""
     changed = re.sub(rf"^(\s*#\s*){name}\b", lambda found: found[1] + name.lower(), row)
@@ -131,7 +131,7 @@ def lower_directive(text: str, line: int, name: str) -> str | None:
 
 
 def sign_of_one_kind(text: str, line: int, column: int) -> str | None:
-    """The text in which the second argument of SIGN, around a column (from 1), has the kind of the first one.
+    """Give the second argument of SIGN, around a column (from 1), the kind of the first one.
 
     None if the call is not on one line. Only the sign of the second argument matters.
     """
@@ -154,7 +154,7 @@ def _balanced(text: str) -> bool:
 
 
 def name_result(text: str, line: int, name: str) -> str | None:
-    """The text in which a function that calls itself in a line has RESULT; None if its head is not one plain line.
+    """Add RESULT to a function that calls itself in a line; None if its head is not one plain line.
 
     Within the function its name means a call if arguments follow, and the result otherwise.
     """
@@ -173,7 +173,7 @@ def name_result(text: str, line: int, name: str) -> str | None:
 
 
 def whole_bound(text: str, line: int) -> str | None:
-    """The text in which array bounds of a declaration, which may be real, become integers; None without one."""
+    """Convert array bounds of a declaration, which may be real, to integers; None without one."""
     lines = text.splitlines(keepends=True)
     if not 1 <= line <= len(lines):
         return None
@@ -194,7 +194,7 @@ def whole_bound(text: str, line: int) -> str | None:
 
 
 def _bounds(text: str) -> Iterator[str]:
-    """Bounds between parentheses, and the commas and colons that separate them."""
+    """Yield the bounds between parentheses, and the commas and colons that separate them."""
     start = 0
     for place, character in enumerate(text):
         if character in ",:" and _balanced(text[start:place]):
@@ -204,7 +204,7 @@ def _bounds(text: str) -> Iterator[str]:
 
 
 def _whole(bound: str) -> str:
-    """int() of a bound that names or numbers may make real, unless it has one."""
+    """Put int() around a bound that names or numbers may make real, unless it has one."""
     bare = bound.strip()
     real = _NAME.search(bare) or _REAL_NUMBER.search(bare)
     return f"int({bare})" if real and "=" not in bare and not bare.startswith("int(") else bound
@@ -214,7 +214,7 @@ TYPED: Final = "PARAMETER without parentheses, whose names have the types of the
 
 
 def hidden_types(text: str, file: str) -> Iterator[Repair]:
-    """Repairs of what gfortran accepts but reads differently from Abaqus' compiler: PARAMETER without parentheses.
+    """Yield repairs of what gfortran reads differently from Abaqus' compiler: PARAMETER without parentheses.
 
     There the constant gives its name a type, not the first letter, by which NU = 0.3D0 would be 0. Names that are
     declared somewhere in the file are left alone.
@@ -229,7 +229,7 @@ def hidden_types(text: str, file: str) -> Iterator[Repair]:
 
 
 def type_constants(text: str, line: int) -> str | None:
-    """The text in which the names of a PARAMETER without parentheses get the types of their constants.
+    """Give the names of a PARAMETER without parentheses the types of their constants.
 
     None if it is not one line of plain constants.
     """
@@ -251,7 +251,7 @@ def type_constants(text: str, line: int) -> str | None:
 
 
 def _bare_constants(row: str) -> list[tuple[str, str, str]] | None:
-    """Name, type and constant of each entry of a PARAMETER without parentheses; None for any other line."""
+    """Return the name, type and constant of each entry of a PARAMETER without parentheses; None for any other line."""
     found = _BARE_PARAMETER.match(row.partition("!")[0])
     if found is None:
         return None
@@ -266,13 +266,13 @@ def _bare_constants(row: str) -> list[tuple[str, str, str]] | None:
 
 
 def _continued(lines: list[str], line: int) -> bool:
-    """Whether a fixed-form statement continues after a line; in free form such a line ends with &, not a constant."""
+    """Report whether a fixed-form statement continues after a line; in free form that ends with &, not a constant."""
     following = lines[line] if line < len(lines) else ""
     return following[:5] == "     " and following[5:6].strip() not in ("", "0")
 
 
 def rename_import(text: str, line: int, module: str, name: str) -> str | None:
-    """The text in which a plain `use module` renames what has this name, so that the unit keeps its own."""
+    """Rename what has this name in a plain `use module`, so that the unit keeps its own; None without such a line."""
     lines = text.splitlines(keepends=True)
     row = lines[line - 1].rstrip() if 1 <= line <= len(lines) else ""
     if re.fullmatch(rf"\s*use\s+{module}", row, re.IGNORECASE) is None:
@@ -282,7 +282,7 @@ def rename_import(text: str, line: int, module: str, name: str) -> str | None:
 
 
 def compare_logicals(text: str, line: int, column: int, operator: str) -> str | None:
-    """The text with one comparison of logicals as .eqv. or .neqv.; None if that could change its meaning.
+    """Write one comparison of logicals as .eqv. or .neqv.; None if that could change its meaning.
 
     line and column are those of the first operand, from 1. `.eqv.` binds less than `.and.`, `.eq.` more: the comparison
     has to stand alone between its parentheses.
@@ -301,7 +301,7 @@ def compare_logicals(text: str, line: int, column: int, operator: str) -> str | 
 
 
 def _alone(row: str, start: int, end: int) -> str | None:
-    """The text between the parentheses around a place; None if they are not on the line."""
+    """Return the text between the parentheses around a place; None if they are not on the line."""
     first = _unmatched(row, range(start - 1, -1, -1), "(", ")")
     last = _unmatched(row, range(end, len(row)), ")", "(")
     return None if first is None or last is None else row[first + 1 : last]

@@ -57,7 +57,7 @@ def build(
     debug: bool = False,
     sanitized: bool = False,
 ) -> Built:
-    """Shared library of the files, compiled in this order; include: folders besides those of the sources.
+    """Compile the files, in this order, to a shared library; include: folders besides those of the sources.
 
     zero_locals: uninitialised local variables of Fortran are zero. debug: with run-time checks, and NaN in such
     variables unless they are zero; sanitized: also with AddressSanitizer. Raises CompileError with the compiler's
@@ -88,13 +88,13 @@ def build(
 
 
 def digest_of_sources(files: Sequence[Path], include: Sequence[Path] = ()) -> str:
-    """Digest of the files and of what their INCLUDE lines name, the same on any machine; arguments as for `build`."""
+    """Return the digest of the files and their INCLUDEs, the same on any machine; arguments as for `build`."""
     _, texts, _ = _scan(files, _folders(files, include))
     return hashlib.sha256("\0".join(texts).encode()).hexdigest()
 
 
 def _flags(language: Language, zero_locals: bool, debug: bool, sanitized: bool) -> tuple[str, ...]:
-    """Additional flags of the compiler of a language."""
+    """Return the additional flags of the compiler of a language."""
     checks = (*language.checks, *(SANITIZED if sanitized else ())) if debug else ()
     # C without checks leaves memory as it is, as its compiler does for Abaqus
     zeros = (language.zeros,) if zero_locals and (debug or language is FORTRAN) else ()
@@ -104,7 +104,7 @@ def _flags(language: Language, zero_locals: bool, debug: bool, sanitized: bool) 
 
 @dataclass(frozen=True, slots=True)
 class Opinion:
-    """What the compilers say about files that compile.
+    """Opinion of the compilers on files that compile.
 
     warnings    their text
     undeclared  gfortran's text when no name gets a type from its first letter
@@ -134,7 +134,7 @@ def listen(files: Sequence[Path], include: Sequence[Path] = ()) -> Opinion:
 def _without_implicit_types(
     files: Sequence[Path], folders: Sequence[Path], supply: Mapping[str, str | Path], work: Path
 ) -> str:
-    """What gfortran says about copies without IMPLICIT statements; work has the module files."""
+    """Return gfortran's messages on copies without IMPLICIT statements; work has the module files."""
     copies, texts = _supplied(supply, work / "declared")
     for path, text in texts.items():
         path.write_text(without_implicit(text, free=path.suffix.lower() == ".f90"), encoding="latin-1")
@@ -164,12 +164,12 @@ def _read(file: Path) -> str:
 
 
 def _texts(sources: Mapping[str, Sequence[Path]]) -> dict[str, str]:
-    """Texts of files by bare name."""
+    """Return the texts of files by bare name."""
     return {name: _read(paths[0]) for name, paths in sources.items()}
 
 
 def _key(compilers: Iterable[str], texts: Sequence[str]) -> str:
-    """Hash of what a result depends on, as far as that is known before compiling."""
+    """Hash what a result depends on, as far as that is known before compiling."""
     versions = [
         subprocess.run([compiler, "-dumpfullversion"], capture_output=True, text=True, check=False).stdout
         for compiler in compilers
@@ -228,7 +228,7 @@ def _refuse_devices(file: Path, name: str, folders: Sequence[Path]) -> None:
 
 
 def _matches(name: str, folders: Sequence[Path]) -> Iterator[Path]:
-    """Files of that name, which may include folders, in any case."""
+    """Yield the files of that name, which may include folders, in any case."""
     for folder in folders:
         if (folder / name).is_file():
             yield folder / name
@@ -242,7 +242,7 @@ def _matches(name: str, folders: Sequence[Path]) -> Iterator[Path]:
 
 
 def _named(folder: Path, name: str) -> list[Path]:
-    """Entries of a folder with that name, given in lower case."""
+    """Return the entries of a folder with that name, given in lower case."""
     return [entry for entry in sorted(folder.iterdir()) if entry.name.lower() == name]
 
 
@@ -256,7 +256,7 @@ def _compile(
     *,
     open_bounds: bool,
 ) -> tuple[Path, list[str]]:
-    """Library in the folder work, and notes for the user; the compilers list beside it what they read."""
+    """Build the library in the folder work, with notes for the user; the compilers list beside it what they read."""
     objects, notes, said = _objects(files, folders, supply, sources, work, flags, open_bounds=open_bounds)
     notes += dict.fromkeys(argument_ranks.constants_for_arrays(said, _texts(sources)))
     library = work / "user.so"
@@ -278,7 +278,7 @@ def _objects(
     *,
     open_bounds: bool = False,
 ) -> tuple[list[Path], list[str], str]:
-    """Object files, what was changed to compile them, and the compilers' output."""
+    """Compile object files; also return what was changed to compile them, and the compilers' output."""
     headers, texts = _supplied(supply, work / "include")
     for path, text in texts.items():
         path.write_text(text, encoding="latin-1")
@@ -302,7 +302,7 @@ def _objects(
 
 
 def _supplied(supply: Mapping[str, str | Path], folder: Path) -> tuple[Path, dict[Path, str]]:
-    """A folder, within another one, where INCLUDE lines find the supplied files, with their paths and texts."""
+    """Make a folder, within another one, where INCLUDE lines find the supplied files; return paths and texts too."""
     # deep enough that names with .. stay within
     upwards = max((name.count("..") for name in supply), default=0)
     folder = folder.joinpath(*["below"] * upwards)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the compilers say: the first error as a message, with a hint if it is for another compiler; warnings."""
+"""Diagnostics of the compilers: the first error as a message, with a hint if it is for another compiler; warnings."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ _FIXED_CONTINUATION: Final = re.compile(r"^ {5}[1-9&+]", re.MULTILINE)
 
 
 def first_error(output: str, texts: Mapping[str, str]) -> str:
-    """The compiler's first error: sentence, place, the source line with its column marked, and a hint.
+    """Return the compiler's first error: sentence, place, the source line with its column marked, and a hint.
 
     texts: contents of the user's files by bare name, for the hint.
     """
@@ -114,7 +114,7 @@ def _hint(sentence: str, name: str, texts: Mapping[str, str]) -> str:
 
 
 def _missing_module(module: str, name: str, texts: Mapping[str, str]) -> str:
-    """Where to find a module that a file uses and that is not compiled yet."""
+    """Say where to find a module that a file uses and that is not compiled yet."""
     definition = re.compile(rf"^\s*module\s+{module}\s*(?:!.*)?$", re.IGNORECASE | re.MULTILINE)
     files = [file for file, text in texts.items() if definition.search(text)]
     if not files:
@@ -125,7 +125,7 @@ def _missing_module(module: str, name: str, texts: Mapping[str, str]) -> str:
 
 
 def _looks_free(text: str) -> bool:
-    """Whether statements go on after a & at the end of a line, or many begin in the first five columns.
+    """Report whether statements go on after a & at the end of a line, or many begin in the first five columns.
 
     There fixed form has only labels, and it continues lines by column 6.
     """
@@ -137,7 +137,7 @@ def _looks_free(text: str) -> bool:
 
 
 def warnings_of(output: str) -> Iterator[tuple[str, int, int, str, str]]:
-    """Bare file name, line, column, text and option of each message of gfortran, gcc or g++."""
+    """Yield the bare file name, line, column, text and option of each message of gfortran, gcc or g++."""
     place: re.Match[str] | None = None
     for row in output.splitlines():
         if found := _PLACE.match(row):

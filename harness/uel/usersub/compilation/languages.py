@@ -34,7 +34,7 @@ class Language:
     runtime: tuple[str, ...]
 
     def program(self, file: Path) -> str:
-        """Path of the compiler; CompileError, with how to get it, where it is missing."""
+        """Return the path of the compiler; CompileError, with how to get it, where it is missing."""
         found = shutil.which(self.compiler)
         if found is None:
             message = f"compiling it needs {self.compiler}, which is not installed ({self.install})"
@@ -114,7 +114,7 @@ _ENVIRONMENT_FREE = re.compile(
 
 
 def is_source(file: Path) -> bool:
-    """Whether a file of user routines needs compiling.
+    """Report whether a file of user routines needs compiling.
 
     Parameters
     ----------
@@ -125,18 +125,18 @@ def is_source(file: Path) -> bool:
 
 
 def language_of(file: Path) -> Language:
-    """Language of a file by its ending, which is one of SUFFIXES in any case."""
+    """Return the language of a file by its ending, which is one of SUFFIXES in any case."""
     return next(language for language in LANGUAGES if file.suffix.lower() in language.suffixes)
 
 
 def linking(languages: Collection[Language]) -> tuple[Language, list[str]]:
-    """Language whose compiler links objects of these languages, and the libraries that the others need."""
+    """Return the language whose compiler links objects of these languages, and the libraries that the others need."""
     used = [language for language in LANGUAGES if language in languages]
     return used[0], [flag for language in used[1:] for flag in language.runtime]
 
 
 def is_free_form(file: Path, text: str) -> bool:
-    """True for .f90, for a text that an Intel directive declares as free form, and if Abaqus' environment file says so.
+    """Report free form: .f90, an Intel directive in the text that declares it, or Abaqus' environment file.
 
     That is the one beside the file, if its compile_fortran has the option -free.
     """

@@ -28,11 +28,11 @@ FLAGS: Final = (
 )
 
 _PREFIX: Final = "scipy_"
-"""What scipy's OpenBLAS puts before each name."""
+"""Prefix of scipy's OpenBLAS before each name."""
 
 
 def lapack_flags(objects: Sequence[Path], compiler: str) -> list[str]:
-    """Flags with which this compiler links the objects, which use plain names, with LAPACK and BLAS.
+    """Return the flags with which this compiler links the objects, which use plain names, with LAPACK and BLAS.
 
     The system's libraries are used if they are found, else the OpenBLAS in scipy's wheel, whose names have a prefix:
     the references in the objects are then renamed.
@@ -86,7 +86,7 @@ def _bundled_openblas() -> Path | None:
 
 
 def bundled_lapack() -> str:
-    """Path of the library that replaces the system's LAPACK if there is none; '' without one."""
+    """Return the path of the library that replaces the system's LAPACK if there is none; '' without one."""
     return str(_bundled_openblas() or "")
 
 
@@ -96,7 +96,7 @@ def _symbols(option: str, file: Path) -> Iterator[str]:
 
 
 def undefined_routine(message: str) -> str:
-    """The dynamic linker's message in the user's terms."""
+    """Put the dynamic linker's message in the user's terms."""
     found = re.search(r"undefined symbol: (\w+)", message)
     if found is None:
         return f"cannot be loaded: {message}"

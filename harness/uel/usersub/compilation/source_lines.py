@@ -30,7 +30,7 @@ class _Found(ctypes.Structure):
 
 
 def names_line(message: str) -> bool:
-    """Whether a message has file and line of a mistake in user code."""
+    """Report whether a message has file and line of a mistake in user code."""
     return _NAMED.search(message) is not None
 
 
@@ -44,7 +44,7 @@ class Place:
 
 
 def innermost(addresses: Sequence[int], loaded: str, library: Path) -> Place | None:
-    """Place of the first address in a library, which is loaded from a copy; None if its line is not known."""
+    """Return the place of the first address in a library, loaded from a copy; None if its line is not known."""
     offsets = _offsets(addresses, loaded)
     tool = shutil.which("addr2line")
     if not offsets or tool is None:
@@ -59,7 +59,7 @@ def innermost(addresses: Sequence[int], loaded: str, library: Path) -> Place | N
 
 
 def _offsets(addresses: Sequence[int], loaded: str) -> list[int]:
-    """Those in a loaded library, relative to its beginning."""
+    """Return the addresses in a loaded library, relative to its beginning."""
     look_up = getattr(ctypes.CDLL(None), "dladdr", None)
     found = _Found()
     offsets = []

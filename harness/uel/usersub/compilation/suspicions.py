@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the compilers suspect in a user's files: certain mistakes, and what is worth a look.
+"""Suspicions of the compilers about a user's files: certain mistakes, and code that is worth a look.
 
 A mistake is certain if it is wrong whenever it is executed. Correct code in the style of Fortran 77 gives no warnings:
 implicit types by the first letter, unused arguments, arrays declared with a bound of 1, REAL work arrays.
@@ -72,7 +72,7 @@ _SENTENCES: Final = (
     ("More actual than formal arguments|Missing actual argument", _COUNT),
     ("too few elements", "the routine may read and write the memory after it"),
 )
-"""The same for warnings without an option."""
+"""Sentences for warnings without an option."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +95,7 @@ class Suspicion:
 
 
 def suspicions(files: Sequence[Path], include: Sequence[Path] = ()) -> list[Suspicion]:
-    """What the compilers suspect in a user's files.
+    """List what the compilers suspect in a user's files.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def suspicions(files: Sequence[Path], include: Sequence[Path] = ()) -> list[Susp
 
 
 def _checked_lines(files: Sequence[Path], include: Sequence[Path]) -> set[tuple[str, int]]:
-    """Lines of Fortran in which a debug build checks an index: not those that are never reached."""
+    """Return the lines of Fortran in which a debug build checks an index: not those that are never reached."""
     try:
         library = build(files, include, debug=True).library.read_bytes()
     except CompileError:
@@ -143,13 +143,13 @@ class _Told:
         }
 
     def warnings(self) -> Iterator[Suspicion]:
-        """What is wrong, or worth a look."""
+        """Yield what is wrong, or worth a look."""
         for file, line, column, text, option in warnings_of(self._opinion.warnings):
             if judged := self._judge(file, line, column, text, option):
                 yield self._at(file, line, *judged)
 
     def misspelt(self) -> Iterator[Suspicion]:
-        """Names that are declared nowhere and occur once in their routine."""
+        """Yield the names that are declared nowhere and occur once in their routine."""
         for file, line, _, text, _ in warnings_of(self._opinion.undeclared):
             found = _UNDECLARED.search(text)
             unit = unit_at(self._units.get(file, []), line)
@@ -165,7 +165,7 @@ class _Told:
             yield self._at(file, line, f"'{found[1]}' is declared nowhere and used once: misspelt{meant}?", "", False)
 
     def truncated(self) -> Iterator[Suspicion]:
-        """Real values assigned to variables that are integers by their first letter, and used as real numbers."""
+        """Yield real values assigned to variables that are integers by their first letter, and used as real numbers."""
         for file, line, _, text, option in warnings_of(self._opinion.warnings):
             if option != "-Wconversion" or not re.search(r"from REAL\(\d+\) to INTEGER", text):
                 continue
@@ -185,14 +185,14 @@ class _Told:
             )
 
     def _declared(self, file: str, unit: Unit | None, name: str) -> bool:
-        """Whether a name has a declaration, anywhere in the file if the head of its unit is in another one."""
+        """Report whether a name has a declaration, anywhere in the file if the head of its unit is in another one."""
         if unit is not None:
             return name in unit.declared or name in unit.dummies
         declaration = rf"^\s*(?:integer|real|double\s*precision|dimension|common)\b.*\b{name}\b"
         return re.search(declaration, self._opinion.texts.get(file, ""), re.IGNORECASE | re.MULTILINE) is not None
 
     def _is_factor(self, file: str, unit: Unit | None, name: str) -> bool:
-        """Whether a name is multiplied as a real number wherever it becomes one."""
+        """Report whether a name is multiplied as a real number wherever it becomes one."""
         uses = []
         for other, line, column, text, option in warnings_of(self._opinion.warnings):
             same = other == file and unit_at(self._units[file], line) is unit and option == "-Wconversion-extra"
@@ -203,7 +203,7 @@ class _Told:
         return bool(uses) and all(uses)
 
     def single_precision(self) -> Iterator[Suspicion]:
-        """Constants that lose digits on their way into a variable of double precision: one message per file."""
+        """Yield constants that lose digits on their way into a variable of double precision: one message per file."""
         found: dict[str, list[tuple[int, str, str]]] = {}
         for file, line, _, _, option in warnings_of(self._opinion.warnings):
             if option == "-Wconversion-extra":
@@ -218,7 +218,7 @@ class _Told:
                 yield self._at(file, line, sentence, f"write {better}{others}", False)
 
     def _judge(self, file: str, line: int, column: int, text: str, option: str) -> tuple[str, str, bool] | None:
-        """Sentence, hint and whether the mistake is certain; None for style."""
+        """Return the sentence, hint and whether the mistake is certain; None for style."""
         if found := _BOUNDS.search(text):
             return self._outside(file, line, column, found)
         if found := _TYPES.search(text):
@@ -240,13 +240,13 @@ class _Told:
         return (text.replace(" at (1)", ""), hint, certain) if hint else None
 
     def _internal(self, file: str, text: str) -> bool:
-        """Whether a warning names a variable that the compiler made, such as the bounds of an intermediate array."""
+        """Report whether a warning names a variable that the compiler made, such as bounds of an intermediate array."""
         found = re.match(r"'(\w+)", text)
         known = self._opinion.texts.get(file, "")
         return found is not None and re.search(rf"\b{found[1]}\b", known, re.IGNORECASE) is None
 
     def _of_reals(self, file: str, line: int, column: int) -> bool:
-        """Whether a quotient of integers is part of the value of a real variable, and of no index or argument."""
+        """Report whether a quotient of integers is part of a real variable's value, and of no index or argument."""
         code = self._code(file, line)
         unit, assigned = unit_at(self._units.get(file, []), line), _ASSIGNED.match(code[6:])
         if assigned is None or column - 1 < 6 + assigned.start(2):
@@ -279,7 +279,7 @@ class _Told:
         return sentence, "" if not dummy else "declare the argument with its actual size", not dummy
 
     def _array(self, file: str, line: int, column: int) -> str:
-        """Name of the array whose index is at a column (from 1)."""
+        """Return the name of the array whose index is at a column (from 1)."""
         row = self._row(file, line)[:column]
         depth = 0
         for place in range(len(row) - 1, -1, -1):
@@ -301,7 +301,7 @@ class _Told:
 
 
 def _short(code: str) -> Iterator[tuple[str, str]]:
-    """Numbers in a line whose single precision loses digits, and how to write them in double precision."""
+    """Yield the numbers in a line whose single precision loses digits, and how to write them in double precision."""
     for constant in _CONSTANT.findall(code):
         if _rounded(float(constant)) != float(constant):
             yield constant, f"{constant}d0"
@@ -318,6 +318,6 @@ def _short(code: str) -> Iterator[tuple[str, str]]:
 
 
 def _rounded(value: float) -> float:
-    """A number in single precision."""
+    """Round a number to single precision."""
     short: float = struct.unpack("f", struct.pack("f", value))[0]
     return short

@@ -46,12 +46,12 @@ class Unit:
     read: set[str] = field(default_factory=set)
 
     def single(self, name: str) -> bool:
-        """Whether a name occurs once, and not in a declaration."""
+        """Report whether a name occurs once, and not in a declaration."""
         return self.names[name] == 1 and name not in self.declared and name not in self.dummies
 
 
 def units(text: str, *, free: bool) -> list[Unit]:
-    """Subroutines and functions in the order of the text; lines count from 1."""
+    """Return the subroutines and functions in the order of the text; lines count from 1."""
     found: list[Unit] = []
     for lines, statement in statements(text, free=free):
         if head := _HEAD.match(statement):
@@ -70,12 +70,12 @@ def units(text: str, *, free: bool) -> list[Unit]:
 
 
 def unit_at(found: list[Unit], line: int) -> Unit | None:
-    """The unit that contains a line."""
+    """Return the unit that contains a line."""
     return next((unit for unit in reversed(found) if unit.first <= line), None)
 
 
 def with_open_bounds(text: str, *, free: bool, but: frozenset[str] = frozenset()) -> str:
-    """The text in which dummy arrays with a last bound of 1, Fortran 66's notation for any size, have *.
+    """Write * for a last bound of 1 of dummy arrays, Fortran 66's notation for any size.
 
     but: names that stay as they are, in lower case.
     """
@@ -98,7 +98,7 @@ def _opened(row: str, names: frozenset[str]) -> str:
 
 
 def without_implicit(text: str, *, free: bool) -> str:
-    """The text without IMPLICIT statements other than IMPLICIT NONE; line numbers do not change."""
+    """Remove IMPLICIT statements other than IMPLICIT NONE; line numbers do not change."""
     rows = text.splitlines(keepends=True)
     for lines, statement in statements(text, free=free):
         if _IMPLICIT.match(statement):
@@ -108,7 +108,7 @@ def without_implicit(text: str, *, free: bool) -> str:
 
 
 def statements(text: str, *, free: bool) -> Iterator[tuple[list[int], str]]:
-    """Statements with the numbers of their lines (from 1): continued lines joined, comments and strings left out."""
+    """Yield statements with the numbers of their lines (from 1): continuation joined, comments and strings left out."""
     lines: list[int] = []
     statement, continued = "", False
     for number, row in enumerate(text.splitlines(), 1):
@@ -127,14 +127,14 @@ def statements(text: str, *, free: bool) -> Iterator[tuple[list[int], str]]:
 
 
 def _continues(row: str) -> bool:
-    """Whether a line of fixed form continues the one before it."""
+    """Report whether a line of fixed form continues the one before it."""
     if row.startswith("\t"):
         return row[1:2].isdigit() and row[1] != "0"
     return len(row) > 5 and not row[:5].strip() and "\t" not in row[:6] and row[5] not in " 0"
 
 
 def _body(row: str) -> str:
-    """A fixed-form line without label and continuation character."""
+    """Strip label and continuation character from a fixed-form line."""
     if row.startswith("\t"):
         return row[2:].strip() if _continues(row) else row[1:].strip()
     return row[6:].strip() if "\t" not in row[:6] else row.strip()
