@@ -34,22 +34,22 @@ class BeamCurve:
     load: FloatArray
 
     def between(self, first: float, last: float) -> BeamCurve:
-        """The part of it between two lengths of the crack."""
+        """Return the part of it between two lengths of the crack."""
         inside = (self.crack >= first) & (self.crack <= last)
         return BeamCurve(self.crack[inside], self.displacement[inside], self.load[inside])
 
     def with_origin(self) -> tuple[FloatArray, FloatArray]:
-        """Displacements and loads with the linear branch from the origin."""
+        """Return the displacements and loads with the linear branch from the origin."""
         return np.concatenate([[0.0], self.displacement]), np.concatenate([[0.0], self.load])
 
     def deviation(self, displacement: FloatArray, load: FloatArray) -> FloatArray:
-        """Relative distance of a load from the growth branch, at the displacements (n,) within it."""
+        """Return the relative distance of a load from the growth branch, at the displacements (n,) within it."""
         inside = (displacement >= self.displacement[0]) & (displacement <= self.displacement[-1])
         return np.asarray(load[inside] / np.interp(displacement[inside], self.displacement, self.load) - 1.0)
 
 
 def growth(problem: str, arms: Arms = ARMS) -> BeamCurve:
-    """Growth branch of 'dcb' (displacement of one arm), 'enf' or 'frmm' of table 2.
+    """Return the growth branch of 'dcb' (displacement of one arm), 'enf' or 'frmm' of table 2.
 
     Displacements rise with the crack's length in all three, so that growth is stable.
     """
@@ -60,7 +60,7 @@ def growth(problem: str, arms: Arms = ARMS) -> BeamCurve:
 
 
 def branch_deviation(problem: str, displacement: FloatArray, load: FloatArray) -> FloatArray:
-    """Relative distances of a load (N) from corrected beam theory at the displacements (mm) between those of BRANCH."""
+    """Return relative distances of a load (N) from corrected beam theory at the displacements (mm) within BRANCH."""
     return growth(problem).between(*BRANCH[problem]).deviation(displacement, load)
 
 

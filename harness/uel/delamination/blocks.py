@@ -84,7 +84,7 @@ class Specimen:
 
 
 def element_blocks(specimen: Specimen) -> list[str]:
-    """*USER ELEMENT, *ELEMENT and the properties of quads and interface elements."""
+    """Write *USER ELEMENT, *ELEMENT and the properties of quads and interface elements."""
     return [*_quad_elements(specimen), *_quad_properties(specimen), *_materials(specimen), *_interface(specimen)]
 
 
@@ -101,7 +101,7 @@ def _quad_elements(specimen: Specimen) -> list[str]:
 
 
 def _quad_sets(specimen: Specimen) -> list[tuple[str, int, int, int, Ply]]:
-    """Sets of quads: name, first and last row, the face along the interface (for U3), ply."""
+    """List the sets of quads: name, first and last row, the face along the interface (for U3), ply."""
     below, above = specimen.mesh.rows
     bottom, top = specimen.bottom, specimen.top
     if specimen.interface.type != "U3":
@@ -156,12 +156,12 @@ def _interface(specimen: Specimen) -> list[str]:
 
 
 def cohesive_section(interface: Interface, width: float | None = None) -> list[str]:
-    """*COHESIVE SECTION of the set INTERFACE with its material; width: out of the plane (mm), None in space."""
+    """Write *COHESIVE SECTION of the set INTERFACE with its material; width: out of plane (mm), None in space."""
     return [*traction_section("INTERFACE", "INTERFACE", width), *traction_material("INTERFACE", interface)]
 
 
 def traction_section(elset: str, material: str, width: float | None = None) -> list[str]:
-    """*COHESIVE SECTION of an element set; its *SECTION CONTROLS have the name of its material."""
+    """Write *COHESIVE SECTION of an element set; its *SECTION CONTROLS have the name of its material."""
     section = {"CONTROLS": material, "ELSET": elset, "MATERIAL": material}
     return [
         "** constitutive thickness" + (", width" if width else ""),
@@ -171,7 +171,7 @@ def traction_section(elset: str, material: str, width: float | None = None) -> l
 
 
 def traction_material(name: str, interface: Interface) -> list[str]:
-    """*SECTION CONTROLS and *MATERIAL of a name: the law of the user elements in Abaqus' words.
+    """Write *SECTION CONTROLS and *MATERIAL of a name: the law of the user elements in Abaqus' words.
 
     The controls let failed elements still resist compression, like the user elements.
     """
@@ -195,7 +195,7 @@ def traction_material(name: str, interface: Interface) -> list[str]:
 
 
 def bending_section(elset: str, material: str, modulus: float) -> list[str]:
-    """Section of quads that bend exactly (CPS4R), 1 mm wide; its material has a modulus (MPa) and nu = 0."""
+    """Write the section of quads that bend exactly (CPS4R), 1 mm wide; its material has a modulus (MPa) and nu = 0."""
     return [
         "*SECTION CONTROLS, NAME=BENDING, HOURGLASS=ENHANCED",
         keyword("SOLID SECTION", ELSET=elset, MATERIAL=material, CONTROLS="BENDING"),
@@ -207,7 +207,7 @@ def bending_section(elset: str, material: str, modulus: float) -> list[str]:
 
 
 def law_values(interface: Interface) -> dict[str, float]:
-    """Properties of the interface elements that do not depend on the specimen, by name."""
+    """Return the properties of the interface elements that do not depend on the specimen, by name."""
     law = interface.cohesive
     return {
         "ALPHAN": law.stiffness_normal,
@@ -232,7 +232,7 @@ def law_values(interface: Interface) -> dict[str, float]:
 
 
 def interface_values(specimen: Specimen) -> dict[str, float]:
-    """Properties of the interface elements by name."""
+    """Return the properties of the interface elements by name."""
     below, above = specimen.mesh.offsets
     values = law_values(specimen.interface)
     values |= {"THICKNESS": specimen.width, "OFFSETBOTTOM": below, "OFFSETTOP": above, "PLANE": 0}

@@ -19,19 +19,19 @@ from uel.model.arrays import FloatArray
 
 
 def stiffness_lost(spent: FloatArray, law: Cohesive) -> FloatArray:
-    """d of (9) from D (n,); for an infinite stiffness, written 0, its limit: 1 wherever D is above 0."""
+    """Compute d of (9) from D (n,); for an infinite stiffness, written 0, its limit: 1 wherever D is above 0."""
     ratio = softening_ratio(law)
     return np.asarray(np.divide(spent * (1.0 + ratio), spent + ratio, out=np.zeros_like(spent), where=spent > 0.0))
 
 
 def toughness_spent(lost: FloatArray, law: Cohesive) -> FloatArray:
-    """D from d of (9) (n,), of a law of finite stiffness."""
+    """Compute D from d of (9) (n,), of a law of finite stiffness."""
     ratio = softening_ratio(law)
     return np.asarray(lost * ratio / (1.0 + ratio - lost))
 
 
 def softening_ratio(law: Cohesive) -> float:
-    """k/alpha of mode I: softening stiffness over initial stiffness; 0 for an infinite stiffness, written 0."""
+    """Return k/alpha of mode I: softening stiffness over initial stiffness; 0 for an infinite stiffness."""
     if law.stiffness_normal == 0.0:
         return 0.0
     return 1.0 / (2.0 * law.toughness_1 * law.stiffness_normal / law.strength_normal**2 - 1.0)

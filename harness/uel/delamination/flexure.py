@@ -23,13 +23,13 @@ FRMM_LENGTH = 50.0
 
 
 def enf_mesh(size: float = 0.25, bump: float = 0.0) -> TwoArmMesh:
-    """Columns of `size` (mm) over the whole span; four quads over the height of an arm."""
+    """Mesh with columns of `size` (mm) over the whole span; four quads over the height of an arm."""
     x = np.round(np.linspace(0.0, SPAN, round(SPAN / size) + 1), 6)
     return two_arms(x, ARM_HEIGHT, 4, CRACK, bump)
 
 
 def frmm_mesh(size: float = 0.125, bump: float = 0.0, crack: float = CRACK) -> TwoArmMesh:
-    """Columns of `size` (mm) from ahead of the crack's tip to the clamp, up to 0.5 mm before.
+    """Mesh with columns of `size` (mm) from ahead of the crack's tip to the clamp, up to 0.5 mm before.
 
     The specimen is as many times longer than the paper's as its `crack` (mm).
     """
@@ -39,7 +39,7 @@ def frmm_mesh(size: float = 0.125, bump: float = 0.0, crack: float = CRACK) -> T
 
 
 def enf_deck(title: str, specimen: Specimen, deflection: float, increments: Increments, field_every: int) -> str:
-    """End-notched flexure: simply supported at both ends, mid-span of the upper face pushed down by `deflection`."""
+    """Write the end-notched flexure: supported at both ends, mid-span of the upper face pushed by `deflection` (mm)."""
     comments = ["simply supported; mid-span pushed down; the crack's faces have one deflection above the left support"]
     lines = deck_head(title, comments, specimen)
     mesh = specimen.mesh
@@ -61,7 +61,7 @@ def enf_deck(title: str, specimen: Specimen, deflection: float, increments: Incr
 
 
 def frmm_deck(title: str, specimen: Specimen, opening: float, increments: Increments, field_every: int) -> str:
-    """Fixed-ratio mixed mode: right end clamped, the upper arm's left corner pulled up by `opening` (mm)."""
+    """Write the fixed-ratio mixed mode: right end clamped, the upper arm's left corner pulled up by `opening` (mm)."""
     lines = deck_head(title, ["right end clamped; upper left corner pulled up, the lower arm is free"], specimen)
     lines += ["*BOUNDARY", "RIGHT, 1, 2"]
     lines += step_block(

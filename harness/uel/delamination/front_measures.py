@@ -26,7 +26,7 @@ def load(result: Result) -> FloatArray:
 
 
 def displacement(result: Result) -> FloatArray:
-    """Displacement (mm) on which the load works, by increment: of a double cantilever beam the opening."""
+    """Return the displacement (mm) on which the load works, by increment: of a double cantilever beam the opening."""
     name = next(name for name in LOADED if _columns(result, "U3", name))
     sign, ends = LOADED[name]
     return sign * ends * result.history[_columns(result, "U3", name)[0]]
@@ -37,18 +37,18 @@ def _columns(result: Result, variable: str, name: str) -> list[str]:
 
 
 def last_front(result: Result) -> Front:
-    """The longest front of the last increment that has one."""
+    """Return the longest front of the last increment that has one."""
     found = fronts(result)
     return max((front for front in found if front.time == found[-1].time), key=lambda front: len(front.places))
 
 
 def grown_fronts(result: Result, crack: float) -> list[Front]:
-    """Fronts across the specimen that have left the initial edge at `crack` (mm)."""
+    """Return the fronts across the specimen that have left the initial edge at `crack` (mm)."""
     return [front for front in fronts(result) if front.places[:, 0].min() > crack + GROWN]
 
 
 def dissipated_release(result: Result, crack: float, width: float) -> float:
-    """Energy dissipated per area that the mean front has covered (N/mm), over the second half of its way.
+    """Return the energy dissipated per area that the mean front has covered (N/mm), over the second half of its way.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def dissipated_release(result: Result, crack: float, width: float) -> float:
 
 
 def compliance_release(result: Result, crack: float, width: float) -> float:
-    """Energy release rate P^2/(2 B) dC/da of the mean front (N/mm), over the second half of its way.
+    """Return the energy release rate P^2/(2 B) dC/da of the mean front (N/mm), over the second half of its way.
 
     Parameters as for `dissipated_release`.
     """
@@ -76,6 +76,6 @@ def compliance_release(result: Result, crack: float, width: float) -> float:
 
 
 def mean_fronts(result: Result, crack: float) -> tuple[FloatArray, FloatArray]:
-    """Times and mean positions (mm) of the fronts that have left the initial edge."""
+    """Return times and mean positions (mm) of the fronts that have left the initial edge."""
     found = grown_fronts(result, crack)
     return np.array([front.time for front in found]), np.array([front.places[:, 0].mean() for front in found])

@@ -11,7 +11,7 @@ from uel.usersub.layout import element_layouts
 
 
 def user_element(jtype: int, **options: str | int) -> list[str]:
-    """*USER ELEMENT of an element type: its counts, UNSYMM where it needs it, and what else is given."""
+    """Write *USER ELEMENT of an element type: its counts, UNSYMM where it needs it, and what else is given."""
     layout = element_layouts()[jtype]
     counts: dict[str, str | int] = {"TYPE": f"U{jtype}", "NODES": layout.nodes, "COORDINATES": layout.dimension}
     counts |= {"PROPERTIES": len(layout.reals), "I_PROPERTIES": len(layout.integers), "VARIABLES": layout.svars}
@@ -20,7 +20,7 @@ def user_element(jtype: int, **options: str | int) -> list[str]:
 
 
 def uel_property(jtype: int, elset: str, values: Mapping[str, float], **options: str) -> list[str]:
-    """*UEL PROPERTY with properties by name, 0 if none is given; those of other element types are ignored.
+    """Write *UEL PROPERTY with properties by name, 0 by default; those of other element types are ignored.
 
     Integers follow the reals on the same lines, eight per line; comments above name them.
     """

@@ -14,40 +14,40 @@ PER_LINE = 8
 
 
 def number(value: float) -> str:
-    """A real number as short as it reads back to twelve digits, with a decimal point or an exponent; no minus zero."""
+    """Write a real number to twelve digits, as short as it reads back, with a point or an exponent; no minus zero."""
     text = f"{value + 0.0:.12g}"
     return text if any(mark in text for mark in ".en") else text + "."
 
 
 def keyword(name: str, *flags: str, **options: str | int) -> str:
-    """Keyword line: options, then flags; an underscore in an option's name stands for a blank."""
+    """Write a keyword line: options, then flags; an underscore in an option's name stands for a blank."""
     words = [f"{key.replace('_', ' ')}={value}" for key, value in options.items()]
     return ", ".join([f"*{name}", *words, *flags])
 
 
 def table(rows: Iterable[Iterable[float]]) -> list[str]:
-    """Data lines, integers as integers and reals as reals."""
+    """Write data lines, integers as integers and reals as reals."""
     return [", ".join(str(item) if isinstance(item, int) else number(item) for item in row) for row in rows]
 
 
 def wrapped(values: Sequence[float]) -> list[str]:
-    """Data lines of at most eight values."""
+    """Write data lines of at most eight values."""
     return table(values[k : k + PER_LINE] for k in range(0, len(values), PER_LINE))
 
 
 def captions(names: Sequence[str]) -> list[str]:
-    """Comment lines with the names of values, one for each data line of `wrapped`."""
+    """Write comment lines with the names of values, one for each data line of `wrapped`."""
     return ["** " + ", ".join(names[k : k + PER_LINE]) for k in range(0, len(names), PER_LINE)]
 
 
 def node_block(labels: IntArray, coordinates: FloatArray) -> list[str]:
-    """*NODE."""
+    """Write *NODE."""
     rows = zip(labels.tolist(), coordinates.tolist(), strict=True)
     return ["*NODE", *table([label, *point] for label, point in rows)]
 
 
 def node_set(name: str, labels: IntArray, *, generate: bool = False) -> list[str]:
-    """*NSET by labels; with `generate` by the first, the last and their difference where they are equidistant."""
+    """Write *NSET by labels; with `generate` by first, last and difference where they are equidistant."""
     steps = np.unique(np.diff(labels))
     if generate and len(steps) == 1:
         return [keyword("NSET", "GENERATE", NSET=name), *table([(int(labels[0]), int(labels[-1]), int(steps[0]))])]
@@ -55,16 +55,16 @@ def node_set(name: str, labels: IntArray, *, generate: bool = False) -> list[str
 
 
 def integer_table(rows: IntArray) -> str:
-    """Data lines of integers, as *ELEMENT, INPUT= reads them."""
+    """Write data lines of integers, as *ELEMENT, INPUT= reads them."""
     return "".join(", ".join(map(str, row)) + "\n" for row in rows.tolist())
 
 
 def element_block(kind: str, name: str, nodes: IntArray, first: int) -> list[str]:
-    """*ELEMENT of a type, into an element set, numbered from `first`."""
+    """Write *ELEMENT of a type, into an element set, numbered from `first`."""
     numbered = np.column_stack([np.arange(first, first + len(nodes)), nodes])
     return [keyword("ELEMENT", TYPE=kind, ELSET=name), *integer_table(numbered).splitlines()]
 
 
 def text(lines: Iterable[str]) -> str:
-    """File of these lines."""
+    """Join lines to the text of a file."""
     return "\n".join(lines) + "\n"

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""One interface element driven along paths of the separation: what `uel law` does.
+"""Interface element driven along paths of the separation, for `uel law`.
 
 The element is square and small, with a uniform separation. Separations and tractions are (normal, tangential). A
 standard element (U2, U5) is opened by its nodes. The two quads of a stabilised element (U4, U6) are strained so that
@@ -65,13 +65,13 @@ LARGEST: Final = 1 << 31
 
 
 def standard_properties() -> dict[str, float]:
-    """Properties of the paper's interface (tables 1 and 2), of every element type."""
+    """Return the properties of the paper's interface (tables 1 and 2), of every element type."""
     mesh = two_arms(np.array([0.0, 1.0]), 1.0, 1, crack=0.0)
     return interface_values(Specimen("law", mesh, Interface("U2", TABLE_2), 1.0, PLY_0, PLY_0))
 
 
 def given_properties(words: Iterable[str]) -> dict[str, float]:
-    """Properties from words NAME=VALUE; an underscore stands for a blank. Raises UsageError with the wrong word."""
+    """Read properties from words NAME=VALUE; an underscore stands for a blank. Raises UsageError naming the word."""
     layouts = element_layouts().values()
     integers = {item.name for layout in layouts for item in layout.integers}
     known = integers | {item.name for layout in layouts for item in layout.reals}
@@ -108,7 +108,7 @@ def refuse_ignored(given: Properties, jtype: int, number: int) -> None:
 
 
 def shown_properties(values: Properties, jtype: int) -> list[tuple[str, float]]:
-    """Properties of the law that are not zero, by name; those of the plies and the thickness do not change it."""
+    """Return the law's properties that are not zero, by name; those of plies and the thickness do not change it."""
     layout = element_layouts()[jtype]
     names = [item.name for item in (*layout.reals, *layout.integers)]
     names = [name for name in names if name != "THICKNESS" and not name.endswith((" BOTTOM", " TOP"))]
@@ -116,7 +116,7 @@ def shown_properties(values: Properties, jtype: int) -> list[tuple[str, float]]:
 
 
 def deck_properties(path: Path, elset: str | None = None) -> tuple[int, dict[str, float]]:
-    """Type and properties of the interface elements of a deck: of one element set, by default the first.
+    """Return the type and properties of the interface elements of a deck: of one element set, by default the first.
 
     The four-node stabilised element does not work without its neighbours; its law is that of the standard element.
     """
@@ -141,7 +141,7 @@ def deck_properties(path: Path, elset: str | None = None) -> tuple[int, dict[str
 
 @dataclass(frozen=True, slots=True)
 class LawCurve:
-    """One path.
+    """Path of the separation with the element's response.
 
     label    as in the legend
     columns  one value per increment, the start included: TIME, SEPN, SEPT, TN, TT, the other variables of the point,
@@ -153,7 +153,7 @@ class LawCurve:
 
 
 class LawElement:
-    """One interface element of a type with properties by name."""
+    """Interface element of a type with properties by name."""
 
     def __init__(self, library: Library, jtype: int, values: Properties, size: float = SIZE) -> None:
         layout = element_layouts()[jtype]
@@ -205,11 +205,11 @@ class LawElement:
         return traction
 
     def probe(self, separation: FloatArray) -> FloatArray:
-        """Traction of a standard element at a separation; the increment is not kept."""
+        """Return the traction of a standard element at a separation; the increment is not kept."""
         return self._traction(self._displacements(separation, self._gradient), 1.0)
 
     def variables(self) -> dict[str, float]:
-        """Committed variables of the first point by name."""
+        """Return the committed variables of the first point by name."""
         return dict(zip(self._names, self._block.state(0).svars[0].tolist(), strict=False))
 
     def _displacements(self, separation: FloatArray, gradient: FloatArray) -> FloatArray:
@@ -224,7 +224,7 @@ class LawElement:
         return np.array([normal, tangential])
 
     def _stress_operator(self, values: Properties) -> FloatArray:
-        """Matrix from the gradient to the quads' stress: the traction without separation is (1 - S) times it."""
+        """Build the matrix from gradient to quads' stress: without separation the traction is (1 - S) times this."""
         columns = []
         # far below onset
         step = 1e-3 * min(values["SIGMAMAX"], values["TAUMAX"]) / max(values["E2 BOTTOM"], values["G12 BOTTOM"])
@@ -236,7 +236,7 @@ class LawElement:
         return np.array(columns).T
 
     def _equilibrium(self, separation: FloatArray, dtime: float) -> FloatArray:
-        """Derivative of the displacement along the normal for which the quads' stress equals the traction.
+        """Solve for the derivative of the displacement along the normal that makes the quads' stress the traction.
 
         Newton's method with differences: 1 - dT/dsigma is S or, with a consistent law, positive as beta exceeds the
         steepest softening, so the solution is unique.
@@ -272,7 +272,7 @@ def _larger(one: FloatArray, other: FloatArray) -> bool:
 
 
 def along(points: FloatArray, increments: int) -> FloatArray:
-    """Separations (n, 2) on the straight lines from the origin through the points, each line in equal increments."""
+    """Return separations (n, 2) on straight lines from the origin through the points, each in equal increments."""
     corners = np.vstack([np.zeros((1, 2)), points])
     parts = [start + np.linspace(0, 1, increments + 1)[1:, None] * (end - start) for start, end in pairwise(corners)]
     return np.vstack([corners[:1], *parts])
@@ -281,7 +281,7 @@ def along(points: FloatArray, increments: int) -> FloatArray:
 def opening(
     angle: float, reach: float, increments: int, unload: Sequence[float] = (), close: float = 0.0
 ) -> FloatArray:
-    """Separations (n, 2) growing at a fixed angle, from opening (0) to sliding (90 degrees), up to `reach`.
+    """Return the separations (n, 2) growing at a fixed angle, from opening (0) to sliding (90 degrees), up to `reach`.
 
     The increments grow with the separation, so that the stiff rise has some. At the fractions `unload` of the reach
     the path goes back to the origin, on to a closure of `close` times the reach, and returns.
@@ -299,7 +299,7 @@ def opening(
 
 
 def reach_of(library: Library, values: Properties, angle: float) -> float:
-    """Separation at an angle (degrees) at which a thousandth of the strength is left of the traction."""
+    """Return the separation at an angle (degrees) at which a thousandth of the strength is left of the traction."""
     for name in ("SIGMAMAX", "TAUMAX", "GIC", "GIIC"):
         if not values[name] > 0.0:
             raise UelError(f"{name} = {values[name]:g}: expected a number above 0, which determines the reach")
@@ -326,7 +326,7 @@ def reach_of(library: Library, values: Properties, angle: float) -> float:
 
 
 def drive(element: LawElement, label: str, path: FloatArray, duration: float = 1.0) -> LawCurve:
-    """Tractions along a path, in increments of equal duration."""
+    """Compute tractions along a path, in increments of equal duration."""
     rows = []
     work, before, old = 0.0, np.zeros(2), np.zeros(2)
     dtime = duration / (len(path) - 1)

@@ -124,7 +124,7 @@ def _explore(asked: Exploration) -> tuple[list[LawCurve], list[Path]]:
 
 
 def path_points(text: str) -> FloatArray:
-    """Points 'NORMAL,TANGENTIAL NORMAL,TANGENTIAL ...', also with semicolons between them. Raises UsageError."""
+    """Read points 'NORMAL,TANGENTIAL NORMAL,TANGENTIAL ...', also with semicolons between. Raises UsageError."""
     try:
         points = np.array([[float(value) for value in point.split(",")] for point in text.replace(";", " ").split()])
     except ValueError:
@@ -135,7 +135,7 @@ def path_points(text: str) -> FloatArray:
 
 
 def write_csv(curves: Sequence[LawCurve], path: Path, what: str) -> None:
-    """A comment (#) with element and properties; one line per increment: the label of the curve, then its columns."""
+    """Write a comment (#) with element and properties; then a line per increment: the curve's label and its columns."""
     with path.open("w", newline="", encoding="utf-8") as file:
         file.write(f"# {what}\r\n")
         writer = csv.writer(file)
@@ -146,7 +146,7 @@ def write_csv(curves: Sequence[LawCurve], path: Path, what: str) -> None:
 
 
 def summary(curves: Sequence[LawCurve]) -> Table:
-    """Largest tractions, work and dissipation of each curve."""
+    """Return the largest tractions, work and dissipation of each curve."""
     table = Table("curve", "max TN", "max TT", "work", "dissipated I", "dissipated II", "damage")
     for curve in curves:
         columns = curve.columns
@@ -157,7 +157,7 @@ def summary(curves: Sequence[LawCurve]) -> Table:
 
 
 def _shown(values: list[float]) -> list[str]:
-    """Values of one kind; rounding, compared with the others, is shown as zero."""
+    """Return the values of one kind; rounding, compared with the others, is shown as zero."""
     largest = max(map(abs, values))
     return [f"{value if abs(value) > 1e-9 * largest else 0.0:.5g}" for value in values]
 
@@ -167,7 +167,7 @@ def _with_unit(words: str, unit: str) -> str:
 
 
 def draw_curves(curves: Sequence[LawCurve], path: Path, units: tuple[str, str], what: str = "") -> None:
-    """Normal traction over opening and tangential traction over sliding; arrows where a path turns.
+    """Draw normal traction over opening and tangential traction over sliding; arrows where a path turns.
 
     `what` it shows is below. A pressure much larger than the largest tension is cut off, and named.
     """
@@ -205,7 +205,7 @@ def _cut_pressure(axis: Any, curves: Sequence[LawCurve]) -> None:
 
 
 def _arrows(axis: Any, x: FloatArray, y: FloatArray, colour: str) -> None:
-    """An arrow in the middle of each part of a curve between two turns; none on a curve without turns."""
+    """Draw an arrow in the middle of each part of a curve between two turns; none on a curve without turns."""
     scale = np.array([max(float(np.ptp(x)), 1e-300), max(float(np.ptp(y)), 1e-300)])
     steps = np.diff(np.column_stack([x, y]), axis=0) / scale
     moving = np.flatnonzero(np.abs(np.diff(x)) > 0.0)
@@ -222,7 +222,7 @@ def _arrows(axis: Any, x: FloatArray, y: FloatArray, colour: str) -> None:
 
 
 def draw_surface(curves: Sequence[LawCurve], path: Path, units: tuple[str, str], what: str = "") -> None:
-    """Both tractions over opening and sliding, from curves of equally many increments, one per angle."""
+    """Draw both tractions over opening and sliding, from curves of equally many increments, one per angle."""
     grids = {name: np.array([curve.columns[name] for curve in curves]) for name in ("SEPN", "SEPT", "TN", "TT")}
     with mpl.rc_context(STYLE | {"axes.grid": False}):
         figure = Figure(figsize=(8.0, 3.8), layout="constrained")

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 
 
 def line(cells: Sequence[object]) -> str:
-    """A line of a table."""
+    """Write a line of a table."""
     return f"| {' | '.join(map(str, cells))} |"
 
 
 def head(cells: Sequence[object]) -> list[str]:
-    """The first two lines of a table."""
+    """Write the first two lines of a table."""
     return [line(cells), line(["---"] * len(cells))]

@@ -62,7 +62,7 @@ class SolidPly:
 
     @property
     def constants(self) -> dict[str, float]:
-        """The constants by name: E1, ..., NU12, ..., G12, ..."""
+        """Constants by name: E1, ..., NU12, ..., G12, ..."""
         names = [f"{name}{axes}" for name, pairs in _CONSTANTS.items() for axes in pairs]
         return dict(zip(names, (*self.moduli, *self.ratios, *self.shear), strict=True))
 
@@ -71,7 +71,7 @@ _CONSTANTS = {"E": ("1", "2", "3"), "NU": ("12", "13", "23"), "G": ("12", "13", 
 
 
 def isotropic(name: str, modulus: float, ratio: float) -> SolidPly:
-    """Isotropic material: Young's modulus (MPa), Poisson's ratio."""
+    """Create an isotropic material: Young's modulus (MPa), Poisson's ratio."""
     return SolidPly(name, (modulus,) * 3, (ratio,) * 3, (modulus / (2.0 * (1.0 + ratio)),) * 3)
 
 
@@ -87,7 +87,7 @@ class Cohesive:
     toughness_2: float = 1.002
 
     def with_stiffness(self, stiffness: float) -> Cohesive:
-        """Same strengths and toughnesses, another stiffness in both directions."""
+        """Change the stiffness in both directions, and keep strengths and toughnesses."""
         return replace(self, stiffness_normal=stiffness, stiffness_shear=stiffness)
 
 

@@ -54,7 +54,7 @@ class TwoArmMesh:
         return -(above + 1) * self.stride, -above * self.stride
 
     def line(self, number: int) -> IntArray:
-        """Labels of node line `number`, from 1 at the bottom, left to right."""
+        """Return the labels of node line `number`, from 1 at the bottom, left to right."""
         return number * self.stride + np.arange(1, self.columns + 2)
 
     @property
@@ -68,11 +68,11 @@ class TwoArmMesh:
         return self.line(sum(self.rows) + 2)
 
     def edge(self, column: int) -> IntArray:
-        """Labels of the nodes of all lines in a column of nodes (0 left, -1 right), bottom to top."""
+        """Return the labels of the nodes of all lines in a column of nodes (0 left, -1 right), bottom to top."""
         return np.array([self.line(number)[column] for number in range(1, sum(self.rows) + 3)])
 
     def nodes(self) -> tuple[IntArray, FloatArray]:
-        """Labels (n,) and coordinates (n, 2) of all nodes."""
+        """Return the labels (n,) and coordinates (n, 2) of all nodes."""
         heights = np.concatenate([self.lower, self.upper])
         labels, points = [], []
         for number, height in enumerate(heights, start=1):
@@ -84,7 +84,7 @@ class TwoArmMesh:
         return np.concatenate(labels), np.concatenate(points)
 
     def quads(self, arm: str) -> IntArray:
-        """Rows of element label and four nodes, counter-clockwise from the lower left; arm 'lower' or 'upper'."""
+        """Return rows of element label and four nodes, counter-clockwise from lower left; arm 'lower' or 'upper'."""
         below, above = self.rows
         # the second line of the interface starts the upper arm: its rows of quads begin one line later
         rows = range(1, below + 1) if arm == "lower" else range(below + 1, below + above + 1)
@@ -102,19 +102,19 @@ class TwoArmMesh:
         return (sum(self.rows) + 1) * self.stride + np.arange(self.first + 1, self.columns + 1)
 
     def interface4(self) -> IntArray:
-        """Rows of label and nodes of four-node interface elements: lower edge left to right, upper edge back."""
+        """Return rows of label and nodes of four-node interface elements: lower edge left to right, upper edge back."""
         low, high = (line[self.first :] for line in self.interface_lines)
         return np.column_stack([self.interface_labels, low[:-1], low[1:], high[1:], high[:-1]])
 
     def interface8(self) -> IntArray:
-        """Rows of label and nodes of eight-node interface elements: the quad below, then the quad above."""
+        """Return the rows of label and nodes of eight-node interface elements: the quad below, then the quad above."""
         below = self.quads("lower")[-self.columns :][self.first :, 1:]
         above = self.quads("upper")[: self.columns][self.first :, 1:]
         return np.column_stack([self.interface_labels, below, above])
 
 
 def two_arms(x: FloatArray, height: float, rows: int, crack: float, bump: float = 0.0) -> TwoArmMesh:
-    """Mesh of two arms of equal height.
+    """Mesh two arms of equal height.
 
     Parameters
     ----------
@@ -134,13 +134,13 @@ def two_arms(x: FloatArray, height: float, rows: int, crack: float, bump: float 
 
 
 def refined(mesh: TwoArmMesh, factor: int) -> TwoArmMesh:
-    """Every quad cut into factor x factor quads; the interface keeps its shape, bumps and all."""
+    """Cut every quad into factor x factor quads; the interface keeps its shape, bumps and all."""
     x, lower, upper, bumps = (cut(values, factor) for values in (mesh.x, mesh.lower, mesh.upper, mesh.bumps))
     return TwoArmMesh(np.round(x, 9), lower, upper, factor * mesh.first, bumps)
 
 
 def cut(values: FloatArray, factor: int, axis: int = 0) -> FloatArray:
-    """Values at the ends of intervals along an axis and, interpolated, at those of `factor` parts of each."""
+    """Return values at the ends of intervals along an axis and, interpolated, at those of `factor` parts of each."""
     last = values.shape[axis] - 1
     along = np.arange(factor * last + 1) / factor
     before = np.minimum(along.astype(int), last - 1)
@@ -149,7 +149,7 @@ def cut(values: FloatArray, factor: int, axis: int = 0) -> FloatArray:
 
 
 def graded_columns(start: float, end: float, size: float, ratio: float, largest: float) -> FloatArray:
-    """Edges from `start` to `end` whose spacing grows from `size` by `ratio` up to `largest`, stretched to fit.
+    """Return edges from `start` to `end` whose spacing grows from `size` by `ratio` up to `largest`, fitted.
 
     With end < start the edges run backwards. Lengths in mm.
     """
@@ -172,7 +172,7 @@ def graded_columns(start: float, end: float, size: float, ratio: float, largest:
 def crack_columns(
     length: float, fine: tuple[float, float], size: float, ratio: float, largest: tuple[float, float]
 ) -> FloatArray:
-    """Edges from 0 to `length`: columns of `size` in the interval `fine`, graded towards both ends (mm).
+    """Return the edges from 0 to `length`: columns of `size` in the interval `fine`, graded towards both ends (mm).
 
     The neighbours before and behind the interval grow by `ratio` up to the `largest` of each side.
     """

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How much a traction along or over the interface oscillates.
+"""Oscillation measures of a traction along or over the interface.
 
 The total variation of a profile, the sum of its steps up and down, counts the variation of the solution as well as what
 the discretisation adds. The oscillation index of a profile f is
@@ -61,12 +61,12 @@ PIECES = 6
 
 
 def total_variation(profile: FloatArray) -> float:
-    """Sum of |f_{k+1} - f_k| over a profile (n,); 0 for fewer than two values."""
+    """Return the sum of |f_{k+1} - f_k| over a profile (n,); 0 for fewer than two values."""
     return float(np.sum(np.abs(np.diff(profile))))
 
 
 def turns(profile: FloatArray) -> FloatArray:
-    """First value, local extrema and last value of a profile (n,); one value where it is constant."""
+    """Return the first value, local extrema and last value of a profile (n,); one value where it is constant."""
     values = profile[np.concatenate([[True], np.diff(profile) != 0.0])] if len(profile) else profile
     if len(values) < 3:
         return values
@@ -75,7 +75,7 @@ def turns(profile: FloatArray) -> FloatArray:
 
 
 def cancelled(profile: FloatArray, pieces: int) -> tuple[FloatArray, float]:
-    """Turns that are left (m <= pieces + 1,), ends included, and the largest difference c of those that cancelled.
+    """Return the turns left (m <= pieces + 1,), ends included, and the largest difference c of those that cancelled.
 
     Parameters
     ----------
@@ -96,13 +96,13 @@ def cancelled(profile: FloatArray, pieces: int) -> tuple[FloatArray, float]:
 
 
 def smooth_variation(profile: FloatArray) -> float:
-    """TV(g): total variation of the nearest profile of at most PIECES monotone pieces, of the least one of these."""
+    """Return TV(g): the least total variation of the nearest profiles of at most PIECES monotone pieces."""
     kept, largest = cancelled(profile, PIECES)
     return float(np.sum(np.abs(np.diff(kept)) - largest))
 
 
 def surface_variation(places: FloatArray, field: FloatArray, width: float) -> float:
-    """Integral of |grad f| over a surface, per unit of width; in the unit of f.
+    """Return the integral of |grad f| over a surface, per unit of width; in the unit of f.
 
     Parameters
     ----------
@@ -130,7 +130,7 @@ def _index(variation: float, real: float, scale: float) -> float:
 
 
 def oscillation_index(profile: FloatArray, real: FloatArray, scale: float) -> float:
-    """1 + (TV(f) - TV(g))/max(TV(g), scale).
+    """Return 1 + (TV(f) - TV(g))/max(TV(g), scale).
 
     Parameters
     ----------
@@ -145,15 +145,15 @@ def oscillation_index(profile: FloatArray, real: FloatArray, scale: float) -> fl
 
 
 def surface_index(places: FloatArray, field: FloatArray, real: FloatArray, scale: float, width: float) -> float:
-    """`oscillation_index` of fields (rows, columns) on a surface; places and width as in `surface_variation`."""
+    """Return the `oscillation_index` of fields (rows, columns) on a surface; places as in `surface_variation`."""
     return _index(surface_variation(places, field, width), surface_variation(places, real, width), scale)
 
 
 def error_index(profile: FloatArray, real: FloatArray, scale: float) -> float:
-    """1 + TV(f - g)/max(TV(g), scale), of profiles (n,) at the same points; parameters of `oscillation_index`."""
+    """Return 1 + TV(f - g)/max(TV(g), scale), of profiles (n,) at the same points, as in `oscillation_index`."""
     return 1.0 + total_variation(profile - real) / max(total_variation(real), scale)
 
 
 def raw_index(profile: FloatArray, scale: float) -> float:
-    """1 + (TV(f) - TV(g))/max(TV(g), scale) with the smooth profile g of at most PIECES monotone pieces."""
+    """Return 1 + (TV(f) - TV(g))/max(TV(g), scale), g smooth with at most PIECES monotone pieces."""
     return _index(total_variation(profile), smooth_variation(profile), scale)

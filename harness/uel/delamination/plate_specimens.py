@@ -32,7 +32,7 @@ ENERGIES = "ALLIE, ALLSE, ALLPD, ALLDMD, ALLWK"
 def dcb_deck(
     title: str, laminate: Laminate, opening: float, static: Static, *, part: str = WHOLE, every: int = 10
 ) -> list[str]:
-    """Double cantilever beam: the end clamped, the outer edges at x = 0 pulled apart by `opening` each (mm)."""
+    """Write the double cantilever beam: end clamped, outer edges at x = 0 pulled apart by `opening` each (mm)."""
     bottom, top = laminate.mesh.labels
     sets = {
         "CLAMPED": np.concatenate([bottom[..., -1].ravel(), top[..., -1].ravel()]),
@@ -49,7 +49,7 @@ def dcb_deck(
 def enf_deck(
     title: str, laminate: Laminate, deflection: float, static: Static, *, part: str = WHOLE, every: int = 10
 ) -> list[str]:
-    """End-notched flexure: supports below both ends, mid-span of the upper face pushed down by `deflection` (mm).
+    """Write the end-notched flexure: supports below both ends, mid-span of the upper face pushed by `deflection` (mm).
 
     *EQUATION ties the deflections of the crack's faces above the left support, as in the plane.
     """
@@ -74,7 +74,7 @@ def mmb_deck(
     part: str = WHOLE,
     every: int = 10,
 ) -> list[str]:
-    """Mixed-mode bending: a rigid lever on a roller at mid-span pulls the upper arm's end up.
+    """Write the mixed-mode bending: a rigid lever on a roller at mid-span pulls the upper arm's end up.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def mmb_deck(
 
 
 def circular_deck(title: str, laminate: Laminate, opening: float, static: Static, *, every: int = 10) -> list[str]:
-    """A quarter of two plates: the middle of the delamination, at x = y = 0, is pulled apart by `opening` each (mm)."""
+    """Write a quarter of two plates, whose middle at x = y = 0 is pulled apart by `opening` each (mm)."""
     bottom, top = laminate.mesh.labels
     sets = {
         "PLANE_X": np.concatenate([labels[:, :, 0].ravel() for labels in (bottom, top)]),
@@ -126,12 +126,12 @@ def circular_deck(title: str, laminate: Laminate, opening: float, static: Static
 
 
 def _column(laminate: Laminate, x: float) -> int:
-    """Column of nodes at x (mm)."""
+    """Return the column of nodes at x (mm)."""
     return int(np.argmin(np.abs(laminate.mesh.x - x)))
 
 
 def _equal(nodes: IntArray, others: IntArray) -> list[str]:
-    """*EQUATION: nodes with the deflections of others; the keyword even without equations."""
+    """Write *EQUATION: nodes with the deflections of others; the keyword even without equations."""
     pairs = zip(nodes.tolist(), others.tolist(), strict=True)
     rows = [line for node, other in pairs for line in ("2", *table([(node, 3, 1.0, other, 3, -1.0)]))]
     return ["*EQUATION", *rows]
@@ -140,7 +140,7 @@ def _equal(nodes: IntArray, others: IntArray) -> list[str]:
 def _sides(
     laminate: Laminate, part: str, sets: dict[str, IntArray], held: int | None = None
 ) -> tuple[dict[str, IntArray], list[str]]:
-    """Node sets with those that keep their y, and the boundary conditions; held: a node of a whole, unclamped beam."""
+    """Return node sets with those that keep y, and boundary conditions; held: a node of a whole, unclamped beam."""
     both = laminate.mesh.labels
     if part == HALF:
         return sets | {"SYMMETRY": np.concatenate([labels[:, 0].ravel() for labels in both])}, ["SYMMETRY, 2, 2"]

@@ -59,30 +59,30 @@ class TwoPlateMesh:
         return first, 1 + first.size + np.arange(np.prod(above)).reshape(above)
 
     def nodes(self) -> tuple[IntArray, FloatArray]:
-        """Labels (n,) and coordinates (n, 3) of all nodes."""
+        """Return the labels (n,) and coordinates (n, 3) of all nodes."""
         return np.concatenate([labels.ravel() for labels in self.labels]), self.positions.reshape(-1, 3)
 
     def bricks(self, plate: int, layer: int) -> IntArray:
-        """(nx*ny, 8) nodes of the bricks in a layer, from 0, of the lower (0) or the upper plate (1)."""
+        """Return nodes (nx*ny, 8) of the bricks in a layer, from 0, of the lower (0) or the upper plate (1)."""
         labels = self.labels[plate]
         return np.hstack([faces(labels[layer]), faces(labels[layer + 1])])
 
     def interface(self, kind: str) -> IntArray:
-        """Nodes of the interface elements: both faces, or the bricks below and above for U8."""
+        """Return the nodes of the interface elements: both faces, or the bricks below and above for U8."""
         below, above = self.labels
         layers = [*below[-2:], *above[:2]] if kind == "U8" else [below[-1], above[0]]
         return np.hstack([faces(layer)[self.bonded.ravel()] for layer in layers])
 
 
 def faces(layer: IntArray) -> IntArray:
-    """(n, 4) corners of the faces between the nodes of a layer (y, x), row after row, counter-clockwise from above."""
+    """Return corners (n, 4) of faces between the nodes of a layer (y, x), row by row, counter-clockwise from above."""
     across, along = layer.shape
     corners = [layer[j : across - 1 + j, i : along - 1 + i].ravel() for j, i in AROUND]
     return np.stack(corners, axis=-1)
 
 
 def two_plates(x: FloatArray, y: FloatArray, z: FloatArray, crack: float) -> TwoPlateMesh:
-    """Mesh of two plates of equal height with a straight front.
+    """Mesh two plates of equal height with a straight front.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def two_plates(x: FloatArray, y: FloatArray, z: FloatArray, crack: float) -> Two
 
 
 def refined(mesh: TwoPlateMesh, factor: int) -> TwoPlateMesh:
-    """Every brick cut into factor x factor x factor; faces keep their shape, bumps and all."""
+    """Cut every brick into factor x factor x factor; faces keep their shape, bumps and all."""
     x, y, lower, upper = (cut(values, factor) for values in (mesh.x, mesh.y, mesh.lower, mesh.upper))
     bonded = mesh.bonded.repeat(factor, axis=0).repeat(factor, axis=1)
     plates = np.split(mesh.positions, [len(mesh.lower)])
@@ -125,7 +125,7 @@ class Laminate:
 
 
 def mesh_blocks(laminate: Laminate) -> list[str]:
-    """Nodes and elements, with an element set for each ply and the set INTERFACE."""
+    """Write nodes and elements, with an element set for each ply and the set INTERFACE."""
     mesh, kind = laminate.mesh, laminate.interface.type
     lines = _generated_nodes(mesh) if laminate.generated else node_block(*mesh.nodes())
     count = 1
@@ -145,7 +145,7 @@ def mesh_blocks(laminate: Laminate) -> list[str]:
 
 
 def _layers(laminate: Laminate, name: str) -> Iterator[IntArray]:
-    """Bricks of each layer of a ply, from below."""
+    """Yield the bricks of each layer of a ply, from below."""
     for plate, stack in enumerate((laminate.lower, laminate.upper)):
         for k, ply in enumerate(stack):
             if ply.name == name:
@@ -153,7 +153,7 @@ def _layers(laminate: Laminate, name: str) -> Iterator[IntArray]:
 
 
 def _generated_nodes(mesh: TwoPlateMesh) -> list[str]:
-    """*NODE for the ends of the uniform parts of the lowest two lines along x, and what generates the others."""
+    """Write *NODE for the ends of the uniform parts of the lowest two lines along x, and what generates the others."""
     labels, points = mesh.nodes()
     places = dict(zip(labels.tolist(), points.tolist(), strict=True))
     outer = mesh.labels[0][0]
@@ -181,7 +181,7 @@ def _generated_nodes(mesh: TwoPlateMesh) -> list[str]:
 
 
 def _generated_elements(mesh: TwoPlateMesh, kind: str, name: str, layers: list[IntArray], first: int) -> list[str]:
-    """*ELEMENT for the first one of each layer (n, nodes), and *ELGEN for the others; numbered from `first`."""
+    """Write *ELEMENT for the first of each layer (n, nodes), and *ELGEN for the others; numbered from `first`."""
     labels = first + np.concatenate([[0], np.cumsum([len(layer) for layer in layers])])[:-1]
     lines = [keyword("ELEMENT", TYPE=kind, ELSET=name)]
     lines += table([label, *layer[0].tolist()] for label, layer in zip(labels.tolist(), layers, strict=True))
@@ -194,7 +194,7 @@ def _generated_elements(mesh: TwoPlateMesh, kind: str, name: str, layers: list[I
 
 
 def property_blocks(laminate: Laminate) -> list[str]:
-    """Sections, orientations, materials and the properties of the interface elements."""
+    """Write sections, orientations, materials and the properties of the interface elements."""
     lines = []
     for name, ply in plies(laminate).items():
         turned = {} if ply.isotropic else {"ORIENTATION": name}
@@ -218,5 +218,5 @@ def property_blocks(laminate: Laminate) -> list[str]:
 
 
 def plies(laminate: Laminate) -> dict[str, SolidPly]:
-    """Different plies by name, from below."""
+    """Return different plies by name, from below."""
     return {ply.name: ply for ply in (*laminate.lower, *laminate.upper)}

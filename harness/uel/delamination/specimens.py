@@ -30,23 +30,23 @@ PATCH_BUMP = -0.003
 
 
 def patch_mesh(bump: float) -> TwoArmMesh:
-    """10 x 10 quads on a square of 1 mm, interface at mid-height."""
+    """Mesh with 10 x 10 quads on a square of 1 mm, interface at mid-height."""
     return two_arms(np.linspace(0.0, 1.0, 11), 0.5, 5, crack=0.0, bump=bump)
 
 
 def dcb_mesh(size: float = 0.125, bump: float = 0.0) -> TwoArmMesh:
-    """Quads of `size` (mm) where the crack runs (up to 3 mm of opening), up to 0.5 mm before and 1 mm behind."""
+    """Mesh with quads of `size` (mm) where the crack runs (up to 3 mm of opening), 0.5 mm before, 1 mm behind."""
     x = crack_columns(LENGTH, (33.5, 61.0), size, ratio=1.15, largest=(0.5, 1.0))
     return two_arms(x, ARM_HEIGHT, 4, CRACK, bump)
 
 
 def dcb_ref_mesh() -> TwoArmMesh:
-    """600 x 8 quads of 0.25 x 0.3875 mm."""
+    """Mesh with 600 x 8 quads of 0.25 x 0.3875 mm."""
     return two_arms(np.linspace(0.0, LENGTH, 601), ARM_HEIGHT, 4, CRACK)
 
 
 def mesh_files(name: str, mesh: TwoArmMesh, interfaces: tuple[int, ...]) -> dict[str, str]:
-    """Files that the decks of a specimen share: nodes and node sets; quads; interface elements by number of nodes."""
+    """Write the files that decks of a specimen share: nodes and sets; quads; interface elements by number of nodes."""
     nodes = [*node_block(*mesh.nodes()), *node_set("RIGHT", mesh.edge(-1))]
     nodes += node_set("LOAD_TOP", mesh.top_line[:1]) + node_set("LOAD_BOTTOM", mesh.line(1)[:1])
     quads = np.concatenate([mesh.quads("lower"), mesh.quads("upper")])
@@ -56,7 +56,7 @@ def mesh_files(name: str, mesh: TwoArmMesh, interfaces: tuple[int, ...]) -> dict
 
 
 def deck_head(title: str, comments: list[str], specimen: Specimen) -> list[str]:
-    """Heading with comments, nodes, elements and the set TIP of the first interface element."""
+    """Write the heading with comments, nodes, elements and the set TIP of the first interface element."""
     lines = ["*HEADING", title, *(f"** {comment}" for comment in comments)]
     lines.append("** written by python -m uel.paper.decks; units N, mm, MPa")
     lines += ["** nodes", keyword("INCLUDE", INPUT=f"{specimen.name}_nodes.inp")]
@@ -66,7 +66,7 @@ def deck_head(title: str, comments: list[str], specimen: Specimen) -> list[str]:
 
 
 def dcb_deck(title: str, specimen: Specimen, opening: float, increments: Increments, field_every: int) -> str:
-    """Double cantilever beam: right end clamped, the left corners of both arms pulled apart by `opening` each (mm)."""
+    """Write the double cantilever beam: right end clamped, left corners pulled apart by `opening` each (mm)."""
     lines = deck_head(
         title, ["right end clamped; outer left corners pulled apart, the crack runs to the right"], specimen
     )
@@ -84,7 +84,7 @@ def dcb_deck(title: str, specimen: Specimen, opening: float, increments: Increme
 
 
 def patch_deck(title: str, specimen: Specimen, displacement: float, increments: Increments, *, slide: bool) -> str:
-    """Square pressed from above by `displacement` (mm); with `slide`, the bottom edge may contract sideways."""
+    """Write the square pressed from above by `displacement` (mm); with `slide`, its bottom may contract sideways."""
     note = "bottom edge free to slide but for its left end" if slide else "bottom edge held in both directions"
     lines = deck_head(title, [f"square of 1 mm pressed from above; {note}"], specimen)
     mesh = specimen.mesh
@@ -102,10 +102,10 @@ def patch_deck(title: str, specimen: Specimen, displacement: float, increments: 
 
 
 def patch_specimen(name: str, mesh: TwoArmMesh, kind: str, beta: float) -> Specimen:
-    """Patch of [0/0] with the standard element (U2) or the paper's (U3, U4)."""
+    """Describe the patch of [0/0] with the standard element (U2) or the paper's (U3, U4)."""
     return Specimen(name, mesh, Interface(kind, PATCH_LAW, beta=beta, consistent=False), 1.0, PLY_0, PLY_0)
 
 
 def dcb_specimen(name: str, mesh: TwoArmMesh, interface: Interface, quads: str = "U1") -> Specimen:
-    """Double cantilever beam of [0/0]."""
+    """Describe the double cantilever beam of [0/0]."""
     return Specimen(name, mesh, interface, WIDTH, PLY_0, PLY_0, quads)

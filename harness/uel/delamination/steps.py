@@ -46,7 +46,7 @@ def step_block(
     field_every: int = 10,
     built_in: bool = False,
 ) -> list[str]:
-    """*STEP to *END STEP.
+    """Write *STEP to *END STEP.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ class Output:
     energies: str = ""
 
     def lines(self) -> list[str]:
-        """*OUTPUT."""
+        """Write *OUTPUT."""
         lines = [f"*OUTPUT, FIELD, {self.when}", "*NODE OUTPUT", "U, RF"]
         if self.stresses:
             lines += ["*ELEMENT OUTPUT", "S, SDEG"]
@@ -115,7 +115,7 @@ def static_step(
     unsymmetric: bool = True,
     nlgeom: bool = False,
 ) -> list[str]:
-    """*STEP to *END STEP with *STATIC and the default solution controls.
+    """Write *STEP to *END STEP with *STATIC and the default solution controls.
 
     Parameters
     ----------

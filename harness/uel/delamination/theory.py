@@ -63,12 +63,12 @@ def dcb_load(arms: Arms, crack: float, toughness: float) -> float:
 
 
 def dcb_compliance(arms: Arms, crack: float) -> float:
-    """Displacement of one arm's end per load (mm/N): Delta/P = (a + chi h)^3 / (3 E11 I)."""
+    """Return the displacement of one arm's end per load (mm/N): Delta/P = (a + chi h)^3 / (3 E11 I)."""
     return (crack + arms.correction) ** 3 / (3.0 * arms.bending_stiffness)
 
 
 def dcb_crack(arms: Arms, compliance: float) -> float:
-    """Crack length (mm) whose compliance (mm/N, one arm) is the given one: the inverse of `dcb_compliance`."""
+    """Return the crack length (mm) with this compliance (mm/N, one arm): the inverse of `dcb_compliance`."""
     return math.cbrt(3.0 * arms.bending_stiffness * compliance) - arms.correction
 
 
@@ -92,7 +92,7 @@ def dcb_elastica(bending: float, toughness: float, width: float, opening: float)
     """
 
     def arm(end: float) -> tuple[float, float, float]:
-        """Load, rise of the end and length of an arm."""
+        """Return the load, rise of the end and length of an arm."""
         load = toughness * width / (2.0 * math.sin(end))
 
         def by_root(s: float) -> float:
@@ -111,7 +111,7 @@ def dcb_elastica(bending: float, toughness: float, width: float, opening: float)
 
 
 def dcb_displacement(arms: Arms, crack: float, toughness: float) -> float:
-    """Displacement of one arm's end (mm) while the crack of length a (mm) grows."""
+    """Return the displacement of one arm's end (mm) while the crack of length a (mm) grows."""
     return dcb_load(arms, crack, toughness) * dcb_compliance(arms, crack)
 
 
@@ -160,12 +160,12 @@ def frmm_load(arms: Arms, crack: float, toughness_1: float, toughness_2: float) 
 
 
 def frmm_mode_ratio(arms: Arms, crack: float) -> float:
-    """G_I/G_II of a fixed-ratio mixed-mode specimen: 4/3 of plain beams, with the corrections above."""
+    """Return G_I/G_II of a fixed-ratio mixed-mode specimen: 4/3 of plain beams, with the corrections above."""
     return 4.0 / 3.0 * ((crack + arms.correction) / (crack + MODE_2_CORRECTION * arms.correction)) ** 2
 
 
 def enf_compliance(arms: Arms, crack: float, half_span: float) -> float:
-    """Deflection at mid-span per load (mm/N) of an end-notched flexure specimen of span 2 L (mm).
+    """Return the deflection at mid-span per load (mm/N) of an end-notched flexure specimen of span 2 L (mm).
 
     (2 L^3 + 3 (a + 0.42 chi h)^3)/(8 B h^3 E11) and the shear of the whole beam, 3 L/(10 B h G12): that of the crack's
     end is in the correction.
@@ -176,7 +176,7 @@ def enf_compliance(arms: Arms, crack: float, half_span: float) -> float:
 
 
 def frmm_compliance(arms: Arms, crack: float, length: float) -> float:
-    """Displacement of the loaded end per load (mm/N) of a fixed-ratio mixed-mode specimen, clamped at `length` (mm).
+    """Return the loaded end's displacement per load (mm/N) of a fixed-ratio specimen, clamped at `length` (mm).
 
     By its two parts of equal and opposite, and of equal deflections of the arms:
     (a + chi h)^3/(6 E11 I) + (a + 0.42 chi h)^3/(8 E11 I) + L^3/(24 E11 I).
@@ -187,7 +187,7 @@ def frmm_compliance(arms: Arms, crack: float, length: float) -> float:
 
 
 def mmb_mode_mix(arms: Arms, crack: float, half_span: float, lever: float) -> float:
-    """G_II/G of a mixed-mode bending specimen with the load at the distance c from mid-span, for a crack (mm).
+    """Return G_II/G of a mixed-mode bending specimen with the load at the distance c from mid-span, for a crack (mm).
 
     G_I = 12 P^2 (3 c - L)^2 (a + chi h)^2/(16 B^2 h^3 L^2 E11), G_II = 9 P^2 (c + L)^2 (a + 0.42 chi h)^2 over the same
     (J. R. Reeder and J. H. Crews, AIAA Journal 28 (1990) 1270-1276, with the corrections above).
