@@ -51,7 +51,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def summary(results: Mapping[str, Result]) -> Table:
-    """Results of runs of the double cantilever beam [0/0], by name, and what they should be."""
+    """Return the results of runs of the double cantilever beam [0/0], by name, and what they should be."""
     first = next(iter(results.values()))
     end, theory = measures.final_displacement(first), float(measures.beam_theory(first)[-1])
     rows: list[tuple[str, str, Callable[[Result], str]]] = [
@@ -79,13 +79,13 @@ def summary(results: Mapping[str, Result]) -> Table:
 
 
 def _steady(result: Result) -> str:
-    """`dissipation_ratio`, which a run that ended before the crack grew does not have."""
+    """Format the `dissipation_ratio`, which a run that ended before the crack grew does not have."""
     load = measures.load(result)
     return f"{measures.dissipation_ratio(result):.4f}" if load[-1] < load.max() else ""
 
 
 def _range(result: Result, column: str) -> str:
-    """Smallest and largest value along the interface at the end."""
+    """Return the smallest and largest value along the interface at the end."""
     values = result.interface()[column]
     return f"{values.min():.0f} to {values.max():.0f}"
 

@@ -46,13 +46,13 @@ class Benchmark:
     name: str
 
     def files(self) -> dict[str, str]:
-        """The deck."""
+        """Return the deck by name."""
         return {f"{self.name}.inp": DECKS[self.name]()}
 
 
 @dataclass(frozen=True, slots=True)
 class Row(StoredRow):
-    """What a run took, and what it gave.
+    """Row of the table: cost and results of a run.
 
     stopped     '' for a run to the end, else why not
     calm        iterations of an increment that is not a snap, attempts given up among them: mean
@@ -73,7 +73,7 @@ class Row(StoredRow):
 
 
 def read_row(entry: Mapping[str, object]) -> Row:
-    """The row of an entry of the store."""
+    """Read the row of an entry of the store."""
     values = entry["values"]
     assert isinstance(values, dict)
     return Row(**{**entry, "values": {name: tuple(pair) for name, pair in values.items()}})  # type: ignore[arg-type]
@@ -110,7 +110,7 @@ def measure(deck: Benchmark, folder: Path) -> Row:
 
 
 def calm_iterations(result: Result, load: FloatArray) -> float:
-    """Mean number of iterations of an increment that is not a snap, with those of its attempts given up."""
+    """Return the mean number of iterations of an increment that is not a snap, with those of its attempts given up."""
     falls = -np.diff(load, prepend=0.0) > SNAP * np.abs(load).max()
     snap = falls | np.concatenate([[False], falls[:-1]])
     counts = np.zeros(len(load))
@@ -122,7 +122,7 @@ def calm_iterations(result: Result, load: FloatArray) -> float:
 
 
 def values_of(name: str, result: Result) -> dict[str, tuple[float, float]]:
-    """The benchmark's values and those of a run, by quantity."""
+    """Return the benchmark's values and those of a run, by quantity."""
     if name in BEAMS:
         return space_beam_measures.against_theory(BEAMS[name], result)
     if name.startswith("mmb"):
@@ -192,7 +192,7 @@ that has the same compliance; [the page](krueger_dcb/README.md#position-of-the-f
 
 
 def page(rows: Mapping[str, Row]) -> str:
-    """The page of these rows, by name of the deck."""
+    """Write the page of these rows, by name of the deck."""
     header = ("run", "unknowns", "increments", "given up", "iterations", "away from snaps", "CPU", "wall", "memory")
     lines = head(header)
     for name, row in rows.items():
@@ -214,7 +214,7 @@ def page(rows: Mapping[str, Row]) -> str:
 
 
 def row_store(path: Path) -> Store[Row]:
-    """The rows kept in a file."""
+    """Open the store of the rows in a file."""
     return Store(path, read_row)
 
 
@@ -257,7 +257,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def kept_rows(path: Path) -> dict[str, Row]:
-    """Rows of a file in the order of the decks, of whatever version of the sources."""
+    """Return the rows of a file in the order of the decks, of whatever version of the sources."""
     entries = json.loads(path.read_text(encoding="utf-8"))
     return {name: read_row(entries[name]["row"]) for name in DECKS if name in entries}
 

@@ -18,10 +18,10 @@ LENGTH, WIDTH, HEIGHT, CRACK = 60.0, 4.0, 2.0, 20.0
 """Length, width, height of an arm and length of the crack, mm."""
 
 BRICKS = (30, 2, 2)
-"""Of an arm: along, across, through its height."""
+"""Bricks of an arm: along, across, through its height."""
 
 STABILISED_BRICKS, FINE_BRICKS = (120, 2, 1), (240, 2, 2)
-"""Of the decks of U8, and of the one that they are compared with."""
+"""Bricks of the decks of U8, and of the one that they are compared with."""
 
 OPENING = 2.5
 """Distance of the tip lines at the end, mm; the step time is the opening."""
@@ -33,7 +33,7 @@ CONSISTENT = Interface("U8", LAW, law=2, eta=1.0)
 
 
 def bricks_files() -> dict[str, str]:
-    """The decks of the public model: with built-in elements, and with U7."""
+    """Write the decks of the public model: with built-in elements, and with U7."""
     return {
         "dcb_3d.inp": dcb_of_bricks("C3D8", replace(STANDARD, type="COH3D8"), BRICKS),
         "dcb_3d_u7.inp": dcb_of_bricks("C3D8", STANDARD, BRICKS),
@@ -41,7 +41,7 @@ def bricks_files() -> dict[str, str]:
 
 
 def stabilised_bricks_files() -> dict[str, str]:
-    """The specimen with U8 between incompatible bricks, at a stiffness of 1e8 N/mm^3 and an infinite one (0)."""
+    """Write the decks with U8 between incompatible bricks, at a stiffness of 1e8 N/mm^3 and an infinite one (0)."""
     stiff, infinite = (replace(CONSISTENT, cohesive=LAW.with_stiffness(stiffness)) for stiffness in (1.0e8, 0.0))
     return {
         "dcb_3d_u8_1e8.inp": dcb_of_bricks("C3D8I", stiff, STABILISED_BRICKS),
@@ -51,7 +51,7 @@ def stabilised_bricks_files() -> dict[str, str]:
 
 
 def dcb_of_bricks(bricks: str, interface: Interface, count: tuple[int, int, int]) -> str:
-    """The deck with a type of bricks, an interface and a number of bricks."""
+    """Write the deck with a type of bricks, an interface and a number of bricks."""
     x, y, z = (np.linspace(0.0, size, parts + 1) for size, parts in zip((LENGTH, WIDTH, HEIGHT), count, strict=True))
     mesh, plies = two_plates(x, y, z, CRACK), (ARM,) * count[2]
     title = f"Double cantilever beam of {bricks} and {interface.type}, bilinear law with BK"

@@ -79,7 +79,7 @@ class Column:
 
     @property
     def plies(self) -> tuple[SolidPly, SolidPly]:
-        """Of the lower and the upper block, in the axes of the deck."""
+        """Plies of the lower and the upper block, in the axes of the deck."""
         return TURNED if self.turned else PLY, PLY
 
 
@@ -125,7 +125,7 @@ COLUMNS = {
 
 
 def column_files() -> dict[str, str]:
-    """The decks."""
+    """Write the decks."""
     return {f"{name}.inp": text(_deck(column)) for name, column in COLUMNS.items()}
 
 
@@ -135,17 +135,17 @@ def normal_stiffness(column: Column) -> float:
 
 
 def shear_stiffness(column: Column) -> float:
-    """As `normal_stiffness`, along x."""
+    """Return the shear stiffness of a column along x, as `normal_stiffness` along the normal."""
     return _in_series([_moduli(ply, column.block)[1] for ply in column.plies])
 
 
 def _in_series(moduli: list[float]) -> float:
-    """Of two blocks."""
+    """Return the stiffness of two blocks in series."""
     return SIDE**2 / sum(SIDE / modulus for modulus in moduli)
 
 
 def _moduli(ply: SolidPly, block: str) -> tuple[float, float]:
-    """Stress over strain along the normal and in shear, with no strain in any other direction of the model."""
+    """Return stress over strain along the normal and in shear, with no strain in any other direction of the model."""
     compliance = np.diag([1.0 / modulus for modulus in ply.moduli])
     for (i, j), ratio in zip(((0, 1), (0, 2), (1, 2)), ply.ratios, strict=True):
         compliance[i, j] = compliance[j, i] = -ratio / ply.moduli[i]
@@ -187,7 +187,7 @@ def _deck(column: Column) -> list[str]:
 
 
 def _blocks(column: Column, labels: IntArray) -> list[str]:
-    """The blocks, elements 1 and 2, with their materials; U1 and U9 keep the stress of the face at the interface."""
+    """Write the blocks, elements 1 and 2, with their materials; U1 and U9 keep the stress of the interface's face."""
     lines = user_element(int(column.block[1:]), **_TENSORS[column.block]) if column.block in _TENSORS else []
     faces = {"U1": (3, 1), "U9": (2, 1)}.get(column.block, (0, 0))
     sides = zip(("BELOW", "ABOVE"), labels, column.plies, faces, strict=True)
@@ -209,7 +209,7 @@ def _blocks(column: Column, labels: IntArray) -> list[str]:
 
 
 def _interface(column: Column, labels: IntArray, owner: int) -> list[str]:
-    """The interface element, number 3."""
+    """Write the interface element, number 3."""
     layouts = element_layouts()
     nodes = labels
     if column.jtype != owner:
@@ -226,7 +226,7 @@ def _interface(column: Column, labels: IntArray, owner: int) -> list[str]:
 
 
 def _tied(labels: IntArray, places: FloatArray) -> list[str]:
-    """*EQUATION between the nodes of a block that have one height, but for the outer faces."""
+    """Write *EQUATION between the nodes of a block that have one height, but for the outer faces."""
     lines = []
     for block, points in zip(labels, places, strict=True):
         heights = points[:, -1]

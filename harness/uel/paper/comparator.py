@@ -39,7 +39,7 @@ NAMES = {
 
 
 def element_deck(element: str, mix: str) -> str:
-    """One element whose top moves away along the bisector of normal and tangent, all nodes prescribed."""
+    """Write one element whose top moves away along the bisector of normal and tangent, all nodes prescribed."""
     interface = replace(MIXES[mix], type=element)
     lines = ["*HEADING", f"One element {element}, opening and sliding in equal parts, {mix.upper()} criterion"]
     lines.append("** written by python -m uel.paper.decks; units N, mm, MPa")
@@ -78,7 +78,7 @@ END = 4.4
 
 
 def comparator_files() -> dict[str, str]:
-    """Decks and mesh files of abaqus_inputs/cohesive."""
+    """Write the decks and mesh files of abaqus_inputs/cohesive."""
     files = {f"{element.lower()}_{mix}.inp": element_deck(element, mix) for element in ELEMENTS for mix in MIXES}
     mesh = flexure.frmm_mesh(0.25)
     files |= specimens.mesh_files("frmm", mesh, (4, 8))

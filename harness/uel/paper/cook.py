@@ -25,7 +25,7 @@ CORNERS = np.array([[0.0, 0.0], [48.0, 44.0], [48.0, 60.0], [0.0, 44.0]])
 
 
 def cook_files() -> dict[str, str]:
-    """Decks with CPS4 and U1, and the one for CalculiX with what both share."""
+    """Write the decks with CPS4 and U1, and the one for CalculiX with what both share."""
     # one arm of N rows: the second arm of the mesh is empty
     mesh = TwoArmMesh(np.linspace(0.0, 1.0, N + 1), np.linspace(0.0, 1.0, N + 1), np.array([1.0]), 0, np.zeros(N + 1))
     labels, unit = mesh.nodes()
@@ -49,7 +49,7 @@ def cook_files() -> dict[str, str]:
 
 
 def _taper(unit: FloatArray) -> FloatArray:
-    """Bilinear map of the unit square to the panel, rounded to what the deck prints."""
+    """Map the unit square to the panel bilinearly, rounded to what the deck prints."""
     x, y = unit[:, :1], unit[:, 1:]
     low = (1.0 - x) * CORNERS[0] + x * CORNERS[1]
     high = (1.0 - x) * CORNERS[3] + x * CORNERS[2]

@@ -46,7 +46,7 @@ DCB_REF_INCREMENTS = replace(DCB_INCREMENTS, line_search=10)
 
 
 def patch_horizontal() -> dict[str, str]:
-    """Square patch with a horizontal interface, section 4.1.1."""
+    """Write the square patch with a horizontal interface, section 4.1.1."""
     files: dict[str, str] = {}
     for shape, bump in (("flat", 0.0), ("perturbed", build.PATCH_BUMP)):
         mesh = build.patch_mesh(bump)
@@ -67,7 +67,7 @@ def patch_horizontal() -> dict[str, str]:
 
 
 def dcb() -> dict[str, str]:
-    """Double cantilever beam of section 4.2, 3 mm each arm."""
+    """Write the double cantilever beam of section 4.2, 3 mm each arm."""
     mesh = build.dcb_mesh()
     files = build.mesh_files("dcb", mesh, (4, 8))
     for kind, name in KINDS.items():
@@ -91,7 +91,7 @@ def _dcb_deck(kind: str, name: str, exponent: str, stiffness: float, quads: str,
 
 
 def dcb_ref() -> dict[str, str]:
-    """Double cantilever beam that other codes have run: uniform mesh, 5 mm each arm in 100 increments."""
+    """Write the double cantilever beam that other codes have run: uniform mesh, 5 mm each arm in 100 increments."""
     mesh = build.dcb_ref_mesh()
     interface = Interface("U2", TABLE_2.with_stiffness(1.0e6), viscosity=VISCOSITY / 1.0e6)
     specimen = build.dcb_specimen("dcb_ref", mesh, interface)
@@ -101,18 +101,18 @@ def dcb_ref() -> dict[str, str]:
 
 
 def patch_inclined() -> dict[str, str]:
-    """Square patch with an inclined interface, section 4.1.2."""
+    """Write the square patch with an inclined interface, section 4.1.2."""
     return {name: content for case in inclined_cases() for name, content in case.files().items()}
 
 
 def paper(problem: str) -> dict[str, str]:
-    """Runs of sections 4.2 to 4.4, as `uel reproduce` makes them: both layups, three stiffnesses, two meshes."""
+    """Write the runs of sections 4.2 to 4.4 as in `uel reproduce`: two layups, three stiffnesses, two meshes."""
     cases = paper_cases(problem) + comparator_cases(problem) + (longer_cases() if problem == "frmm" else [])
     return {name: content for case in cases for name, content in case.files().items()}
 
 
 def all_files() -> dict[Path, str]:
-    """Every built file, by its path below abaqus_inputs."""
+    """Return every built file, by its path below abaqus_inputs."""
     problems = {"patch_horizontal": patch_horizontal, "dcb": dcb, "dcb_ref": dcb_ref, "quad_cook": cook_files}
     problems |= {
         "patch_inclined": patch_inclined,

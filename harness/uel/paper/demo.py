@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the consistent element is for, in five runs and two pictures.
+"""Demonstration of the consistent element, in five runs and two pictures.
 
 Three double cantilever beams on the same interface, whose nodes lie alternately 3 % of an element up and down: the
 standard element, the paper's stabilised one and the consistent one. Then an end-notched flexure of unlike plies, which
@@ -39,7 +39,7 @@ BEAMS = {
 }
 """Decks of abaqus_inputs/paper_dcb by element."""
 LAW = TABLE_2.with_stiffness(1.0e8)
-"""Their cohesive law."""
+"""Cohesive law of the beams."""
 SNAP = "enf_0_90_consistent_1e6.inp"
 """Deck of abaqus_inputs/paper_enf that snaps back."""
 NEWTON, ENERGY = "Newton's method", "energy control"
@@ -176,7 +176,7 @@ class Demonstration:
 
 
 def element_rows(beams: Mapping[str, Result]) -> dict[str, ElementRow]:
-    """Rows of the double cantilever beams."""
+    """Return the rows of the double cantilever beams."""
     return {name: _element_row(result) for name, result in beams.items()}
 
 
@@ -195,12 +195,12 @@ def _element_row(result: Result) -> ElementRow:
 
 
 def _tip(profile: Mapping[str, FloatArray]) -> float:
-    """Where the normal traction is largest (mm): damage beyond it is ahead of the process zone."""
+    """Find where the normal traction is largest (mm): damage beyond it is ahead of the process zone."""
     return float(profile["X"][profile["TN"].argmax()])
 
 
 def snap_row(snap: Mapping[str, Result]) -> SnapRow:
-    """Row of the end-notched flexure."""
+    """Return the row of the end-notched flexure."""
     moved, load = measures.displacement(snap[ENERGY]), measures.load(snap[ENERGY])
     back = int(np.argmax(np.maximum.accumulate(moved) - moved))
     turn = int(np.argmax(moved[: back + 1]))
@@ -210,7 +210,7 @@ def snap_row(snap: Mapping[str, Result]) -> SnapRow:
 
 
 def draw_interface(beams: Mapping[str, Result], folder: Path) -> Path:
-    """Tractions and damage around the front at the end of the runs, an element in each column."""
+    """Draw tractions and damage around the front at the end of the runs, an element in each column."""
     profiles = {name: result.interface() for name, result in beams.items()}
     # the other two write d of (9)
     profiles["consistent"]["DAMAGE"] = stiffness_lost(profiles["consistent"]["DAMAGE"], LAW)
@@ -268,7 +268,7 @@ def write_page(demonstration: Demonstration, path: Path) -> None:
 
 
 def page(rows: Mapping[str, ElementRow], snap: SnapRow) -> str:
-    """The page."""
+    """Write the page."""
     columns = ["peak (N)", "at 3 mm (N)", "lowest shear (MPa)", "highest", "its variation", "damage ahead (mm)"]
     table = head(["element", *columns, "iterations"])
     for name, row in rows.items():

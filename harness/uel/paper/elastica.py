@@ -16,7 +16,7 @@ LENGTH, HEIGHT, CRACK = 40.0, 0.4, 10.0
 """Length of the specimen, height of an arm, length of the crack, mm; the width is 1 mm."""
 
 QUADS = (240, 2)
-"""Of an arm: along, through its height."""
+"""Quads of an arm: along, through its height."""
 
 MODULUS = 50000.0
 STRENGTH, TOUGHNESS = 6.0, 0.5
@@ -35,12 +35,12 @@ TYPES = {
 
 
 def elastica_files() -> dict[str, str]:
-    """The decks."""
+    """Write the decks."""
     return {f"dcb_elastica_{kind.lower()}.inp": _deck(kind) for kind in TYPES}
 
 
 def _deck(kind: str) -> str:
-    """The deck with a type of interface element."""
+    """Write the deck with a type of interface element."""
     along, through = QUADS
     # by arm (bottom, top), height and length
     labels = 1 + np.arange(2 * (through + 1) * (along + 1)).reshape(2, through + 1, along + 1)

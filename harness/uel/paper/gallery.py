@@ -37,19 +37,19 @@ Results = Sequence[Result]
 
 @dataclass(frozen=True, slots=True)
 class Example:
-    """What shows a problem: decks of its folder, and what draws their results into a file."""
+    """Picture of a problem: decks of its folder, and a function that draws their results into a file."""
 
     decks: tuple[str, ...]
     draw: Callable[[Results, Path], Path]
 
 
 def fallback_of(folder: Path) -> bool:
-    """Whether the decks of a folder are run with `uel run --fallback`."""
+    """Report whether the decks of a folder are run with `uel run --fallback`."""
     return bool(tomllib.loads((folder / "reference.toml").read_text("utf-8")).get("fallback", False))
 
 
 def values_of(folder: Path, kind: str) -> list[Mapping[str, object]]:
-    """Entries of reference.toml of a kind."""
+    """Read the entries of reference.toml of a kind."""
     entries = tomllib.loads((folder / "reference.toml").read_text("utf-8"))["value"]
     return [entry for entry in entries if entry["kind"] == kind]
 
@@ -72,7 +72,7 @@ def _from_origin(values: FloatArray) -> FloatArray:
 
 
 def _beam(problem: str) -> Callable[[Results], list[Curve]]:
-    """Beam theory of a specimen of the paper, as far as it is compared, up to the end of the run."""
+    """Compute a specimen of the paper by beam theory, as far as it is compared, up to the end of the run."""
 
     def curve(results: Results) -> list[Curve]:
         x, y = growth(problem).between(0.0, BRANCH[problem][1]).with_origin()
@@ -83,7 +83,7 @@ def _beam(problem: str) -> Callable[[Results], list[Curve]]:
 
 
 def _other_codes(_: Results) -> list[Curve]:
-    """Peak and end of the beam that other codes have run."""
+    """Return peak and end of the beam that other codes have run."""
     value = {
         str(entry["quantity"]): float(str(entry["value"])) for entry in values_of(FOLDER / "dcb_ref", "other code")
     }
@@ -92,7 +92,7 @@ def _other_codes(_: Results) -> list[Curve]:
 
 
 def _abaqus(_: Results) -> list[Curve]:
-    """Published loads of Abaqus; the opening is the time."""
+    """Return the published loads of Abaqus; the opening is the time."""
     entries = [entry for entry in values_of(FOLDER / "dcb_3d", "other code") if "at" in entry]
     x, y = ([float(str(entry[name])) for entry in entries] for name in ("at", "value"))
     return [Curve("Abaqus", x, y, "points")]
@@ -108,13 +108,13 @@ def _elastica(results: Results) -> list[Curve]:
 
 
 def _krueger_dcb(_: Results) -> list[Curve]:
-    """The report's loads, of half of the width."""
+    """Return the report's loads, of half of the width."""
     moved, loads = np.array(list(literature.DCB_CRITICAL.values())).T
     return [Curve("Krueger, virtual crack closure", 2.0 * moved, 0.5 * loads, "points")]
 
 
 def _krueger_mmb(_: Results) -> list[Curve]:
-    """Where the report's cracks begin to grow, on a width of 1 mm."""
+    """Return the points where the report's cracks begin to grow, on a width of 1 mm."""
     moved, loads = np.array([value[1:] for value in literature.MMB_CRITICAL.values()]).T
     return [Curve("Krueger, virtual crack closure", moved, loads / literature.MMB_WIDTH, "points")]
 
@@ -126,14 +126,14 @@ def _circle(results: Results) -> list[Curve]:
 
 
 def _space_beam(results: Results) -> list[Curve]:
-    """Corrected beam theory in plane strain."""
+    """Compute the load curve by corrected beam theory in plane strain."""
     opening = np.linspace(0.0, measures.final_displacement(results[0]), 200)
     loads = dcb_curve(space_beams.ARMS, space_beams.CRACK, space_beams.LAW.toughness_1, 0.5 * opening)
     return [Curve("beam theory", opening, loads, "reference")]
 
 
 def _tractions(*names: str, exact: float | None = None) -> Callable[[Results, Path], Path]:
-    """Normal traction along an interface of runs, by name, and the exact one (MPa) where there is one."""
+    """Draw the normal traction along an interface of runs, by name, and the exact one (MPa) where there is one."""
 
     def drawn(results: Results, path: Path) -> Path:
         curves = []
@@ -149,7 +149,7 @@ def _tractions(*names: str, exact: float | None = None) -> Callable[[Results, Pa
 
 
 def _forces(*names: str) -> Callable[[Results, Path], Path]:
-    """Force that does the work over its displacement, of runs by name."""
+    """Draw the force that does the work over its displacement, of runs by name."""
 
     def drawn(results: Results, path: Path) -> Path:
         found = [result.load_curve for result in results]
@@ -164,7 +164,7 @@ def _forces(*names: str) -> Callable[[Results, Path], Path]:
 
 
 def _mesh(field: str) -> Callable[[Results, Path], Path]:
-    """Deformed mesh with a field."""
+    """Draw the deformed mesh with a field."""
     return lambda results, path: draw("mesh", results, path, Asked(field=field))
 
 
@@ -197,7 +197,7 @@ EXAMPLES: Final[Mapping[str, Example]] = {
     "quad_cook": Example(("cook_u1",), _mesh("U2")),
     "space_beams": Example(("dcb_0_0_turned",), _loads(_space_beam, OPENING)),
 }
-"""What is drawn, by folder of abaqus_inputs."""
+"""Pictures by folder of abaqus_inputs."""
 
 
 def write(problem: str, target: Path) -> None:

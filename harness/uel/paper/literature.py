@@ -28,7 +28,7 @@ T300 = SolidPly("T300_1076", (139400.0, 10160.0, 10160.0), (0.30, 0.30, 0.436), 
 """Table I of NASA/TM-2008-215123."""
 
 DCB_LENGTH, DCB_WIDTH, DCB_ARM, DCB_CRACK, DCB_TOUGHNESS = 150.0, 25.0, 1.5, 30.0, 0.1703
-"""Of the double cantilever beam (mm, N/mm)."""
+"""Dimensions and toughness of the double cantilever beam (mm, N/mm)."""
 
 DCB_CRITICAL = {
     30.0: (0.750, 60.7),
@@ -59,7 +59,7 @@ MMB_CRITICAL = {0.2: (92.9, 1.64, 128.5), 0.5: (41.3, 1.34, 385.0), 0.8: (27.3, 
 """G_II/G: length of the lever (mm), displacement (mm) and load (N) at which the crack starts to grow."""
 
 GRADING = 1.3, (3.0, 6.0)
-"""Of the columns away from the crack's tip: ratio of neighbours, and the largest ones before and behind (mm)."""
+"""Grading of the columns away from the crack's tip: ratio of neighbours, the largest before and behind (mm)."""
 
 METAL = isotropic("METAL", 70000.0, 0.3)
 CIRCLE_ARM, CIRCLE_CRACK, CIRCLE_TOUGHNESS, CIRCLE_STRENGTH = 1.0, 20.0, 0.5, 30.0
@@ -67,7 +67,7 @@ CIRCLE_ARM, CIRCLE_CRACK, CIRCLE_TOUGHNESS, CIRCLE_STRENGTH = 1.0, 20.0, 0.5, 30
 
 
 def literature_files() -> dict[str, Callable[[], dict[str, str]]]:
-    """What builds the decks, by folder."""
+    """Return the functions that build the decks, by folder."""
 
     def mmb() -> dict[str, str]:
         return {f"mmb_{100 * ratio:.0f}.inp": mmb_benchmark(ratio) for ratio in MMB_CRITICAL}
@@ -80,7 +80,7 @@ def literature_files() -> dict[str, Callable[[], dict[str, str]]]:
 
 
 def consistent(law: Cohesive, eta: float = 1.0) -> Interface:
-    """U8 with the consistent law, BK and local eigenvalues for beta."""
+    """Return U8 with the consistent law, BK and local eigenvalues for beta."""
     return Interface("U8", law, law=2, eta=eta)
 
 
@@ -93,7 +93,7 @@ def dcb_benchmark(
     increment: float = 0.0125,
     every: int = 2,
 ) -> str:
-    """Half of the double cantilever beam.
+    """Write half of the double cantilever beam.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ def dcb_benchmark(
 
 
 def large_dcb() -> str:
-    """The double cantilever beam with 100,860 unknowns, until its crack is about 33 mm long."""
+    """Write the double cantilever beam with 100,860 unknowns, until its crack is about 33 mm long."""
     return dcb_benchmark(0.25, 40, 4, (29.0, 39.0), 0.9, 0.04, 10)
 
 
@@ -135,7 +135,7 @@ def mmb_benchmark(ratio: float, size: float = 0.25) -> str:
 
 
 def circle(size: float = 0.75, fine: float = 33.75, opening: float = 2.1) -> str:
-    """A quarter of the circular delamination, on squares of `size` (mm) up to `fine`; opening: of each plate (mm)."""
+    """Write a quarter of the circular delamination, on squares of `size` (mm) up to `fine`; opening: per plate (mm)."""
     inner = np.linspace(0.0, fine, round(fine / size) + 1)
     edges = np.round(np.concatenate([inner, graded_columns(fine, fine + 12.0, size, 1.3, 4.0)[1:]]), 6)
     centres = 0.5 * (edges[1:] + edges[:-1])
@@ -160,12 +160,12 @@ def circle_load() -> float:
 
 
 def circle_bending() -> float:
-    """Bending stiffness D of a plate (N mm)."""
+    """Return the bending stiffness D of a plate (N mm)."""
     modulus, ratio = METAL.moduli[0], METAL.ratios[0]
     return modulus * CIRCLE_ARM**3 / (12.0 * (1.0 - ratio**2))
 
 
 def _beam(x: FloatArray, y: FloatArray, z: FloatArray, crack: float, ply: SolidPly, interface: Interface) -> Laminate:
-    """Two like arms with a straight front; z: heights of the layers of nodes above the interface (mm)."""
+    """Build two like arms with a straight front; z: heights of the layers of nodes above the interface (mm)."""
     plies = (ply,) * (len(z) - 1)
     return Laminate(two_plates(x, y, z, crack), interface, plies, plies)

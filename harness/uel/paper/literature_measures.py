@@ -59,51 +59,51 @@ def loads_at_compliances(result: Result) -> dict[float, float]:
 
 
 def mid_width_deviation(result: Result) -> float:
-    """Largest relative deviation of `mid_width_loads` from the benchmark."""
+    """Return the largest relative deviation of `mid_width_loads` from the benchmark."""
     loads = mid_width_loads(result)
     return max(abs(load / literature.DCB_CRITICAL[length][1] - 1.0) for length, load in loads.items())
 
 
 def opening_deviation(result: Result) -> float:
-    """Largest relative deviation of `loads_at_openings` from the benchmark."""
+    """Return the largest relative deviation of `loads_at_openings` from the benchmark."""
     loads = loads_at_openings(result)
     return max(abs(load / literature.DCB_CRITICAL[length][1] - 1.0) for length, load in loads.items())
 
 
 def compliance_deviation(result: Result) -> float:
-    """Largest relative deviation of `loads_at_compliances` from the benchmark."""
+    """Return the largest relative deviation of `loads_at_compliances` from the benchmark."""
     loads = loads_at_compliances(result)
     return max(abs(load / literature.DCB_CRITICAL[length][1] - 1.0) for length, load in loads.items())
 
 
 def thumbnail(result: Result) -> float:
-    """Distance (mm) by which the front is ahead in the middle of the width, at the end."""
+    """Return the distance (mm) by which the front is ahead in the middle of the width, at the end."""
     return float(np.ptp(last_front(result).places[:, 0]))
 
 
 def front_release(result: Result) -> float:
-    """Mean of the energy release rate along the front (N/mm), at the end."""
+    """Return the mean of the energy release rate along the front (N/mm), at the end."""
     return float(last_front(result).releases.sum(axis=1).mean())
 
 
 def dissipated_release(result: Result) -> float:
-    """Energy dissipated per area that the mean front has covered (N/mm), over the second half of its way."""
+    """Return the energy dissipated per area that the mean front has covered (N/mm), over the second half of its way."""
     return front_measures.dissipated_release(result, literature.DCB_CRACK, 0.5 * literature.DCB_WIDTH)
 
 
 def compliance_release(result: Result) -> float:
-    """Energy release rate P^2/(2 B) dC/da of the mean front (N/mm), over the second half of its way."""
+    """Return the energy release rate P^2/(2 B) dC/da of the mean front (N/mm), over the second half of its way."""
     return front_measures.compliance_release(result, literature.DCB_CRACK, 0.5 * literature.DCB_WIDTH)
 
 
 def first_mode_mix(result: Result) -> float:
-    """G_II/G where the crack has just begun to grow: on the first front."""
+    """Return G_II/G where the crack has just begun to grow: on the first front."""
     releases = fronts(result)[0].releases.mean(axis=0)
     return float(releases[1:].sum() / releases.sum())
 
 
 def circle_radii(result: Result) -> list[tuple[float, float, float]]:
-    """Radius of the front (mm), load and corrected closed form (N), by increment of the field output."""
+    """Return the radius of the front (mm), load and corrected closed form (N), by increment of the field output."""
     rows = []
     times, distances, loads = result.history["time"], displacement(result), load(result)
     for front in fronts(result):
@@ -117,18 +117,18 @@ def circle_radii(result: Result) -> list[tuple[float, float, float]]:
 
 
 def circle_deviation(result: Result) -> float:
-    """Relative deviation of the load from the closed form, at the end."""
+    """Return the relative deviation of the load from the closed form, at the end."""
     return circle_radii(result)[-1][1] / literature.circle_load() - 1.0
 
 
 def corrected_circle_deviation(result: Result) -> float:
-    """Largest relative deviation from the closed form with the compliance of the rim, once the front has moved 2 mm."""
+    """Return the largest relative deviation from the closed form with the rim's compliance, once 2 mm are covered."""
     grown = [row for row in circle_radii(result) if row[0] > literature.CIRCLE_CRACK + 2.0]
     return max(abs(load / corrected - 1.0) for _, load, corrected in grown)
 
 
 def circle_roundness(result: Result) -> float:
-    """Largest less smallest radius of the front at the end (mm)."""
+    """Return the largest less smallest radius of the front at the end (mm)."""
     return float(np.ptp(np.hypot(*last_front(result).places[:, :2].T)))
 
 

@@ -30,7 +30,7 @@ def load(result: Result) -> FloatArray:
 
 
 def displacement(result: Result) -> FloatArray:
-    """Displacement of the load (mm), by increment; in space that on which it works, for which both ends count."""
+    """Return the displacement (mm) of the load, by increment; in space that on which both ends' loads work."""
     history = result.history
     if "U2[LOAD_TOP]" in history:
         return history["U2[LOAD_TOP]"]
@@ -38,13 +38,13 @@ def displacement(result: Result) -> FloatArray:
 
 
 def dissipated(result: Result) -> FloatArray:
-    """Energy dissipated by damage and by its viscosity (N mm), by increment, under Abaqus' names for the element."""
+    """Return the energy that damage and its viscosity dissipate (N mm), by increment, by Abaqus' names."""
     names = ("ALLPD", "ALLVD") if "ALLPD" in result.history else ("ALLDMD", "ALLCD")
     return result.history[names[0]] + result.history[names[1]]
 
 
 def crack_growth(result: Result) -> FloatArray:
-    """Growth of the crack (mm) by the compliance method, by increment.
+    """Return the growth of the crack (mm) by the compliance method, by increment.
 
     The interface unloads to the origin, so that 2 Delta/P is the compliance of the damaged specimen at every moment;
     beam theory gives the crack length that belongs to it. The first increment, still elastic, is the start: errors of
@@ -61,12 +61,12 @@ def beam_theory(result: Result) -> FloatArray:
 
 
 def peak_load(result: Result) -> float:
-    """Largest load (N)."""
+    """Return the largest load (N)."""
     return float(load(result).max())
 
 
 def peak_opening(result: Result) -> float:
-    """Distance of the loaded corners at the largest load (mm)."""
+    """Return the distance of the loaded corners at the largest load (mm)."""
     return float(2.0 * displacement(result)[load(result).argmax()])
 
 
@@ -76,18 +76,18 @@ def final_load(result: Result) -> float:
 
 
 def final_displacement(result: Result) -> float:
-    """Displacement of the load at the end (mm)."""
+    """Return the displacement of the load at the end (mm)."""
     return float(displacement(result)[-1])
 
 
 def theory_deviation(result: Result) -> float:
-    """Largest relative distance from beam theory between the peak and the end."""
+    """Return the largest relative distance from beam theory between the peak and the end."""
     after = slice(int(load(result).argmax()), None)
     return float(np.max(np.abs(load(result)[after] / beam_theory(result)[after] - 1.0)))
 
 
 def dissipation_ratio(result: Result) -> float:
-    """Dissipated energy over G_Ic x width x crack growth, from the peak to the end.
+    """Return the dissipated energy over G_Ic x width x crack growth, from the peak to the end.
 
     Up to the peak the process zone forms: the compliance grows, at an energy release rate below G_Ic.
     """
@@ -97,59 +97,59 @@ def dissipation_ratio(result: Result) -> float:
 
 
 def energy_error(result: Result) -> float:
-    """External work minus stored and dissipated energy, over the external work, at the end."""
+    """Return the external work minus stored and dissipated energy, over the external work, at the end."""
     work, stored = result.history["ALLWK"][-1], result.history["ALLSE"][-1]
     return float((work - stored - dissipated(result)[-1]) / work)
 
 
 def traction_mean(result: Result) -> float:
-    """Mean of the normal traction along the interface at the end (MPa)."""
+    """Return the mean of the normal traction along the interface at the end (MPa)."""
     return float(np.mean(result.interface()["TN"]))
 
 
 def traction_deviation(result: Result) -> float:
-    """Standard deviation of the normal traction along the interface at the end (MPa)."""
+    """Return the standard deviation of the normal traction along the interface at the end (MPa)."""
     return float(np.std(result.interface()["TN"]))
 
 
 def traction_lowest(result: Result) -> float:
-    """Lowest normal traction along the interface at the end (MPa)."""
+    """Return the lowest normal traction along the interface at the end (MPa)."""
     return float(np.min(result.interface()["TN"]))
 
 
 def traction_highest(result: Result) -> float:
-    """Highest normal traction along the interface at the end (MPa)."""
+    """Return the highest normal traction along the interface at the end (MPa)."""
     return float(np.max(result.interface()["TN"]))
 
 
 def traction_variation(result: Result) -> float:
-    """Total variation of the normal traction along the interface at the end (MPa)."""
+    """Return the total variation of the normal traction along the interface at the end (MPa)."""
     return total_variation(result.interface()["TN"])
 
 
 def shear_variation(result: Result) -> float:
-    """Total variation of the shear traction along the interface at the end (MPa)."""
+    """Return the total variation of the shear traction along the interface at the end (MPa)."""
     return total_variation(result.interface()["TT"])
 
 
 def damage_variation(result: Result) -> float:
-    """Total variation of the damage along the interface at the end; 1 where it falls steadily from 1 to 0."""
+    """Return the total variation of the damage along the interface at the end; 1 where it falls steadily."""
     return total_variation(result.interface()["DAMAGE"])
 
 
 def enf_deviation(result: Result) -> float:
-    """Largest relative distance of an end-notched flexure's load from corrected beam theory on its growth branch."""
+    """Return the largest relative distance from corrected beam theory of an end-notched flexure in growth."""
     history = result.history
     return float(np.max(np.abs(branch_deviation("enf", -history["U2[MIDSPAN]"], -history["RF2[MIDSPAN]"]))))
 
 
 def frmm_deviation(result: Result) -> float:
-    """Largest relative distance of a fixed-ratio specimen's load from corrected beam theory on its growth branch."""
+    """Return the largest relative distance from corrected beam theory of a fixed-ratio specimen in growth."""
     return float(np.max(np.abs(branch_deviation("frmm", displacement(result), load(result)))))
 
 
 def rice_ratio(profile: Mapping[str, FloatArray]) -> float:
-    """G_I/G_II of a profile along the interface, both by Rice's integral around the process zone.
+    """Return G_I/G_II of a profile along the interface, both by Rice's integral around the process zone.
 
     That is minus the integral of traction times the slope of the separation. What single points have dissipated
     scatters by a quarter, as the crack runs in small jumps.
@@ -162,36 +162,36 @@ def rice_ratio(profile: Mapping[str, FloatArray]) -> float:
 
 
 def frmm_mode_ratio(result: Result) -> float:
-    """`rice_ratio` at three fifths of the step, a moment of steady growth in the fixed-ratio specimens."""
+    """Return the `rice_ratio` at three fifths of the step, a moment of steady growth in the fixed-ratio specimens."""
     profiles = result.interfaces()
     times = np.array([profile["time"][0] for profile in profiles])
     return rice_ratio(profiles[int(np.abs(times - 0.6).argmin())])
 
 
 def increments(result: Result) -> int:
-    """Number of increments done."""
+    """Count the increments done."""
     return sum(not row.cutback for row in result.status)
 
 
 def cutbacks(result: Result) -> int:
-    """Number of abandoned attempts."""
+    """Count the abandoned attempts."""
     return sum(row.cutback for row in result.status)
 
 
 def iterations(result: Result) -> int:
-    """Number of iterations, including those of abandoned attempts."""
+    """Count the iterations, including those of abandoned attempts."""
     return sum(row.total_iterations for row in result.status)
 
 
 def curve_distance(result: Result, other: Result) -> float:
-    """Largest distance of two load curves from the peak on, over the peak load; the other is interpolated."""
+    """Return the largest distance of two load curves from the peak on, over the peak load; other: interpolated."""
     after = slice(int(load(result).argmax()), None)
     between = np.interp(displacement(result)[after], displacement(other), load(other))
     return float(np.max(np.abs(load(result)[after] - between)) / peak_load(other))
 
 
 def whole_curve_distance(result: Result, other: Result) -> float:
-    """Largest distance of two load curves, all of them, over the peak load; the other is interpolated."""
+    """Return the largest distance of two load curves, all of them, over the peak load; the other is interpolated."""
     between = np.interp(displacement(result), displacement(other), load(other))
     return float(np.max(np.abs(load(result) - between)) / peak_load(other))
 

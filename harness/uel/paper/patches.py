@@ -41,7 +41,7 @@ class SlantedMesh(TwoArmMesh):
     decimals: int
 
     def nodes(self) -> tuple[IntArray, FloatArray]:
-        """Labels (n,) and coordinates (n, 2) of all nodes."""
+        """Return the labels (n,) and coordinates (n, 2) of all nodes."""
         interface = self.lower[-1] + self.slope * (self.x - self.x.mean()) + self.bumps
         base, crown = self.lower[0], self.upper[-1]
         share_below = (self.lower - base) / (self.lower[-1] - base)
@@ -54,7 +54,7 @@ class SlantedMesh(TwoArmMesh):
 
 
 def inclined_mesh(bump: float = 0.0, decimals: int = COLLINEAR) -> SlantedMesh:
-    """13 x 18 quads on a square of 1 mm.
+    """Mesh with 13 x 18 quads on a square of 1 mm.
 
     Parameters
     ----------
@@ -72,19 +72,19 @@ def inclined_mesh(bump: float = 0.0, decimals: int = COLLINEAR) -> SlantedMesh:
 
 
 def inclined_specimen(name: str, mesh: TwoArmMesh, layup: str, interface: Interface) -> Specimen:
-    """Patch of two plies."""
+    """Build the patch of two plies."""
     top, bottom = PLIES[layup]
     return Specimen(name, mesh, interface, 1.0, bottom, top)
 
 
 def plane_stress(ply: Ply) -> FloatArray:
-    """Stiffness of plane stress in the ply's axes, (3, 3), stresses over strains with the engineering shear strain."""
+    """Return the plane-stress stiffness in the ply's axes, (3, 3), stresses over strains with engineering shear."""
     e1, e2, nu12, g12 = ply.in_plane
     return np.linalg.inv(np.array([[1.0 / e1, -nu12 / e1, 0.0], [-nu12 / e1, 1.0 / e2, 0.0], [0.0, 0.0, 1.0 / g12]]))
 
 
 def stabilisation(bottom: Ply, top: Ply, areas: tuple[float, float], length: float) -> float:
-    """Stabilisation parameter of (21) with the weights of (22) (N/mm^3).
+    """Return the stabilisation parameter of (21) with the weights of (22) (N/mm^3).
 
     Parameters
     ----------

@@ -16,13 +16,13 @@ from uel.delamination.plates import faces
 from uel.delamination.steps import Output, static_step
 
 LENGTH, THICKNESS, CRACK = 40.0, 0.4, 6.0
-"""Of the film, and of its free end, mm; it is 1 mm wide."""
+"""Length of the film, its thickness, and length of its free end, mm; it is 1 mm wide."""
 
 QUADS = (240, 2)
 """Along the film and through it."""
 
 MODULUS, STIFFNESS, STRENGTH = 5000.0, 2000.0, 6.0
-"""Of the film (MPa), of the interface (N/mm^3) and its strength (MPa)."""
+"""Young's modulus of the film (MPa), stiffness (N/mm^3) and strength (MPa) of the interface."""
 
 TOUGHNESS = 0.5
 """N/mm: the force per width in steady state, where the film bends in a shape that moves along, and does not stretch."""
@@ -40,20 +40,20 @@ CONSISTENT = replace(STANDARD, type="U4", cohesive=STANDARD.cohesive.with_stiffn
 """U4 with the consistent law and an infinite stiffness."""
 
 BASE_MODULUS = 1.0e6 * MODULUS
-"""Of the quads in the base that U4 owns, MPa: a rigid body has no stress that could count."""
+"""Young's modulus of the quads in the base that U4 owns, MPa: a rigid body has no stress that could count."""
 
 LIFT = 25.0
-"""Of the free end, mm; it may move along the base."""
+"""Displacement of the free end, mm; it may move along the base."""
 
 
 def peel_files() -> dict[str, str]:
-    """The decks: with COH2D4, and with U2 and U4 in its place."""
+    """Write the decks: with COH2D4, and with U2 and U4 in its place."""
     standard = {"peel.inp": _deck(replace(STANDARD, type="COH2D4")), "peel_u2.inp": _deck(STANDARD)}
     return standard | {"peel_u4.inp": _deck(CONSISTENT)}
 
 
 def _deck(interface: Interface) -> str:
-    """The deck with an interface."""
+    """Write the deck with an interface."""
     kind = interface.type
     along, through = QUADS
     labels = 1 + np.arange((along + 1) * (through + 1)).reshape(through + 1, along + 1)
@@ -96,7 +96,7 @@ def _deck(interface: Interface) -> str:
 
 
 def _properties(interface: Interface) -> list[str]:
-    """Those of the interface, 1 mm wide."""
+    """Write the properties of the interface, 1 mm wide."""
     if interface.built_in:
         return cohesive_section(interface, 1.0)
     moduli = {"BOTTOM": BASE_MODULUS, "TOP": MODULUS} if interface.type == "U4" else {}

@@ -16,54 +16,54 @@ from uel.paper.space_beams import ARMS, CRACK, ETA, LAW, LENGTH, LEVER, WIDTH, S
 
 
 def beam_release(result: Result) -> float:
-    """Energy release rate by Rice's integral (N/mm): mean of the fronts over the second half of their way."""
+    """Return the energy release rate by Rice's integral (N/mm), mean over the second half of the fronts' way."""
     return float(_releases(result).sum())
 
 
 def beam_mode_mix(result: Result) -> float:
-    """(G_II + G_III)/G by Rice's integral over the second half of the way."""
+    """Return (G_II + G_III)/G by Rice's integral over the second half of the way."""
     releases = _releases(result)
     return float(releases[1:].sum() / releases.sum())
 
 
 def beam_dissipated_release(result: Result) -> float:
-    """Energy dissipated per area (N/mm) over the second half of the way."""
+    """Return the energy dissipated per area (N/mm) over the second half of the way."""
     return front_measures.dissipated_release(result, CRACK, WIDTH)
 
 
 def beam_compliance_release(result: Result) -> float:
-    """Energy release rate by the compliance (N/mm) over the second half of the way."""
+    """Return the energy release rate by the compliance (N/mm) over the second half of the way."""
     return front_measures.compliance_release(result, CRACK, WIDTH)
 
 
 def toughness(mix: float) -> float:
-    """Fracture energy of the law (N/mm) at a mode mix, by Benzeggagh and Kenane."""
+    """Return the fracture energy of the law (N/mm) at a mode mix, by Benzeggagh and Kenane."""
     return float(LAW.toughness_1 + (LAW.toughness_2 - LAW.toughness_1) * mix**ETA)
 
 
 def beam_toughness_ratio(result: Result) -> float:
-    """Rice's integral over the fracture energy of the law at its mode mix."""
+    """Return Rice's integral over the fracture energy of the law at its mode mix."""
     return beam_release(result) / toughness(beam_mode_mix(result))
 
 
 def beam_dissipation_ratio(result: Result) -> float:
-    """Energy dissipated per area over Rice's integral."""
+    """Return the energy dissipated per area over Rice's integral."""
     return beam_dissipated_release(result) / beam_release(result)
 
 
 def beam_front_depth(result: Result) -> float:
-    """Largest distance along x of two points of one front (mm)."""
+    """Return the largest distance along x of two points of one front (mm)."""
     return max(float(np.ptp(front.places[:, 0])) for front in front_measures.grown_fronts(result, CRACK))
 
 
 def beam_dcb_deviation(result: Result) -> float:
-    """Relative deviation of the load from corrected beam theory at the end: [0/0]."""
+    """Return the relative deviation of the load from corrected beam theory at the end: [0/0]."""
     opening = front_measures.displacement(result)[-1:]
     return float(front_measures.load(result)[-1] / dcb_curve(ARMS, CRACK, LAW.toughness_1, 0.5 * opening)[0] - 1.0)
 
 
 def beam_enf_deviation(result: Result) -> float:
-    """Largest relative deviation of the load from corrected beam theory while the crack grows: [0/0]."""
+    """Return the largest relative deviation of the load from corrected beam theory while the crack grows: [0/0]."""
     half = 0.5 * LENGTH
     cracks = np.linspace(CRACK, half, 300)
     loads = np.array([enf_load(ARMS, crack, LAW.toughness_2) for crack in cracks])
@@ -75,13 +75,13 @@ def beam_enf_deviation(result: Result) -> float:
 
 
 def beam_mix_deviation(result: Result) -> float:
-    """Deviation of the mode mix of mixed-mode bending from corrected beam theory, at the mean front's last position."""
+    """Return the deviation of the mode mix from corrected beam theory, at the mean front's last position."""
     crack = float(front_measures.mean_fronts(result, CRACK)[1][-1])
     return beam_mode_mix(result) - mmb_mode_mix(ARMS, crack, 0.5 * LENGTH, LEVER)
 
 
 def against_theory(case: SpaceBeam, result: Result) -> dict[str, tuple[float, float]]:
-    """What theory says, and what a run gave, by quantity."""
+    """Compare theory with a run: both values, by quantity."""
     mix, release = beam_mode_mix(result), beam_release(result)
     values = {
         "G by Rice's integral, for the law's at its mode mix (N/mm)": (toughness(mix), release),
@@ -100,7 +100,7 @@ def against_theory(case: SpaceBeam, result: Result) -> dict[str, tuple[float, fl
 
 
 def _releases(result: Result) -> FloatArray:
-    """G_I, G_II, G_III (3,), mean over the second half of the way."""
+    """Return G_I, G_II, G_III (3,), mean over the second half of the way."""
     found = front_measures.grown_fronts(result, CRACK)
     places = np.array([front.places[:, 0].mean() for front in found])
     later = [front for front, place in zip(found, places, strict=True) if place > 0.5 * (places[0] + places[-1])]

@@ -50,7 +50,7 @@ ETA = 2.0
 INTERFACE = Interface("U8", LAW, law=2, eta=ETA)
 
 LEVER = 35.0
-"""Of mixed-mode bending (mm)."""
+"""Length of the lever of mixed-mode bending (mm)."""
 
 DISPLACEMENTS = {
     ("dcb", "0_0"): 1.4,
@@ -58,7 +58,7 @@ DISPLACEMENTS = {
     ("enf", "0_0"): 2.1,
     ("mmb", "0_0"): 2.6,
 }
-"""Of an arm's end, of mid-span, of the load (mm), by specimen and plies."""
+"""Displacements of an arm's end, of mid-span, of the load (mm), by specimen and plies."""
 
 STATIC = (0.025, 1.0, 1.0e-6, 0.025)
 
@@ -77,7 +77,7 @@ class SpaceBeam:
         return f"{self.problem}_{self.plies}" + ("_turned" if self.turned else "")
 
     def deck(self, generated: bool = True) -> str:
-        """Text of the deck; with its mesh generated, or written out."""
+        """Write the deck; with its mesh generated, or written out."""
         lines = "turned mesh lines" if self.turned else "mesh lines along the front"
         title = f"{self.problem.upper()} of [{self.plies.replace('_', '/')}] in plane strain, {lines}"
         laminate = replace(laminate_of(self), generated=generated)
@@ -92,12 +92,12 @@ CASES = [SpaceBeam(problem, plies, turned) for problem, plies in DISPLACEMENTS f
 
 
 def space_beam_files() -> dict[str, str]:
-    """The decks."""
+    """Write the decks."""
     return {f"{case.name}.inp": case.deck() for case in CASES}
 
 
 def laminate_of(case: SpaceBeam) -> Laminate:
-    """Mesh and plies of a deck."""
+    """Build mesh and plies of a deck."""
     begin, end = FINE
     parts = ((0.0, begin, COARSE), (begin, end, SIZE), (end, LENGTH, COARSE))
     x = np.append(np.concatenate([np.arange(start, stop, size) for start, stop, size in parts]), LENGTH)
@@ -110,7 +110,7 @@ def laminate_of(case: SpaceBeam) -> Laminate:
 
 
 def _turned(positions: FloatArray) -> FloatArray:
-    """Positions of nodes (..., 3) with the lines across turned."""
+    """Return the positions of nodes (..., 3) with the lines across turned."""
     x, y, z = np.moveaxis(positions, -1, 0)
     slope = np.tan(np.radians(TURN)) * np.interp(x, *SLOPE)
     return np.stack([np.round(x + slope * (y - 0.5 * WIDTH), 9), y, z], axis=-1)

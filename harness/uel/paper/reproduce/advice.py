@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the sensitivities advise, from their numbers alone."""
+"""Advice from the numbers of the sensitivities alone."""
 
 from __future__ import annotations
 
@@ -15,8 +15,11 @@ SMOOTHER = 0.05
 
 @dataclass(frozen=True, slots=True)
 class Point:
-    """One value of a parameter: the value as shown; peak load in small increments, and as the run's own increments
-    sample it (N); variation of the traction (MPa); slope of the load curve in the first increment (N/mm)."""
+    """Results at a value of a parameter.
+
+    The value as shown; peak load in small increments, and as the run's own increments sample it (N); variation of the
+    traction (MPa); slope of the load curve in the first increment (N/mm).
+    """
 
     value: str
     peak: float
@@ -30,7 +33,7 @@ Curves = Mapping[str, Sequence[Point]]
 
 
 def settled(points: Sequence[Point]) -> Point | None:
-    """The first value from which on peak load and slope are those of the last; None if that is the last alone."""
+    """Find the first value from which on peak load and slope are those of the last; None if that is the last alone."""
     last = points[-1]
     for k, point in enumerate(points[:-1]):
         changes = [change for other in points[k:] for change in _changes(other, last)]
@@ -40,12 +43,12 @@ def settled(points: Sequence[Point]) -> Point | None:
 
 
 def _changes(one: Point, other: Point) -> tuple[float, float]:
-    """Of peak load and slope, relative."""
+    """Return the relative changes of peak load and slope."""
     return other.peak / one.peak - 1.0, other.slope / one.slope - 1.0
 
 
 def on_lengths(curves: Curves) -> str:
-    """Lengths of elements, from the largest."""
+    """Advise on lengths of elements, from the largest."""
     starts = {label: settled(points) for label, points in curves.items()}
     enough = [f"{label}: {start.value} mm" for label, start in starts.items() if start is not None]
     close = f"Peak load and slope are within {SETTLED:.0%} of those of the shortest elements from these lengths on"
@@ -61,7 +64,7 @@ def on_lengths(curves: Curves) -> str:
 
 
 def on_increments(curves: Curves) -> str:
-    """Numbers of increments, from the least."""
+    """Advise on numbers of increments, from the least."""
     texts = [f"Peak loads of the table are those in small increments, which these numbers change by {_most(curves)}."]
     for label, points in curves.items():
         missed = [point.sampled / point.peak - 1.0 for point in points]
@@ -73,7 +76,7 @@ def on_increments(curves: Curves) -> str:
 
 
 def on_stiffness(curves: Curves) -> str:
-    """Stiffnesses, from the lowest."""
+    """Advise on stiffnesses, from the lowest."""
     texts = []
     for label, points in curves.items():
         start, last = settled(points), points[-1]
@@ -100,7 +103,7 @@ def on_stiffness(curves: Curves) -> str:
 
 
 def on_strength(curves: Curves) -> str:
-    """Strengths."""
+    """Advise on strengths."""
     changes = {
         label: max(point.peak for point in points) / min(point.peak for point in points) - 1.0
         for label, points in curves.items()
@@ -114,7 +117,7 @@ def on_strength(curves: Curves) -> str:
 
 
 def on_choice(curves: Curves, default: str) -> str:
-    """Values in no order, of which one is the default."""
+    """Advise on values in no order, of which one is the default."""
     texts = []
     for label, points in curves.items():
         usual = next((point for point in points if point.value == default), None)

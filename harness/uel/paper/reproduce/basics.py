@@ -22,14 +22,14 @@ SWING = 0.01
 
 
 def swing(traction: FloatArray) -> float:
-    """Standard deviation over the mean's size."""
+    """Return the standard deviation over the mean's size."""
     return float(np.std(traction) / abs(np.mean(traction)))
 
 
 def patch_swing(
     evidence: Evidence, shape: str, layups: Sequence[str], element: str, *, moved: bool, decimals: int = COLLINEAR
 ) -> float:
-    """Standard deviation of the normal traction over its mean; the largest of the layups."""
+    """Return the standard deviation of the normal traction over its mean; the largest of the layups."""
     cases = (PatchCase(shape, layup, element, moved, decimals) for layup in layups)
     return max(swing(evidence.runs.patch(case).traction) for case in cases)
 
@@ -37,7 +37,7 @@ def patch_swing(
 def patch_gain(
     evidence: Evidence, shape: str, layups: Sequence[str], *, moved: bool = True, decimals: int = COLLINEAR
 ) -> float:
-    """Standard deviation of the paper's element's traction over the standard one's; the largest of the layups."""
+    """Return the traction's standard deviation, paper's element over the standard one; the largest of the layups."""
     found = []
     for layup in layups:
         spread = [
@@ -49,14 +49,14 @@ def patch_gain(
 
 
 def patch_beta_gain(evidence: Evidence) -> float:
-    """Standard deviation of the paper's traction on the moved nodes with beta by (21), over that with the paper's."""
+    """Return the standard deviation of the paper's traction on moved nodes, beta by (21) over the paper's beta."""
     case = PatchCase("horizontal", "0/0", "paper", moved=True)
     spread = [float(np.std(evidence.runs.patch(replace(case, beta=beta)).traction)) for beta in (BY_EQUATION_21, None)]
     return spread[0] / spread[1]
 
 
 def patch_slip(evidence: Evidence) -> float:
-    """Slip along the inclined interface over the length of its elements."""
+    """Return the slip along the inclined interface over the length of its elements."""
     profile = evidence.runs.patch(PatchCase("inclined", "0/0", "paper", moved=True)).profile
     mesh = inclined_mesh()
     length = float(np.hypot(1.0, mesh.slope) * (mesh.x[1] - mesh.x[0]))
@@ -64,12 +64,12 @@ def patch_slip(evidence: Evidence) -> float:
 
 
 def flat_swing(evidence: Evidence, element: str, stiffness: float) -> float:
-    """Standard deviation over mean on the straight interface, stiffness in both directions (N/mm^3)."""
+    """Return the standard deviation over mean on the straight interface, stiffness in both directions (N/mm^3)."""
     return swing(evidence.runs.patch(_stiff(element, stiffness)).traction)
 
 
 def flat_onset(evidence: Evidence, element: str) -> float:
-    """Exponent of the first stiffness at which the straight interface's traction oscillates; infinity for none."""
+    """Return the exponent of the first stiffness at which the straight interface's traction oscillates; or infinity."""
     for stiffness in STIFF:
         if flat_swing(evidence, element, stiffness) > SWING:
             return float(np.log10(stiffness))
@@ -77,7 +77,7 @@ def flat_onset(evidence: Evidence, element: str) -> float:
 
 
 def flat_onset_single(evidence: Evidence) -> float:
-    """As `flat_onset` for the standard element, with tractions from displacements rounded to single precision."""
+    """Find the `flat_onset` of the standard element, with displacements rounded to single precision."""
     for stiffness in STIFF:
         places, moved = evidence.runs.patch(_stiff("standard", stiffness)).displacements()
         rounded = moved.astype(np.float32).astype(float)
@@ -94,19 +94,19 @@ def _stiff(element: str, stiffness: float) -> PatchCase:
 
 
 def identity_with_standard(evidence: Evidence) -> float:
-    """Largest difference of the tractions of the two elements on moved nodes, beta = 3e12, over the mean traction."""
+    """Return the largest difference of both elements' tractions on moved nodes, beta = 3e12, over the mean traction."""
     standard = evidence.runs.patch(PatchCase("horizontal", "0/0", "standard", moved=True)).traction
     stiff = evidence.runs.patch(PatchCase("horizontal", "0/0", "paper", moved=True, beta=3.0e12)).traction
     return float(np.abs(stiff - standard).max() / abs(standard.mean()))
 
 
 def horizontal_beta(_: Evidence) -> float:
-    """Equation (21) for the 10 x 10 patch (N/mm^3)."""
+    """Evaluate equation (21) for the 10 x 10 patch (N/mm^3)."""
     return stabilisation(PLY_0, PLY_0, (0.01, 0.01), 0.1)
 
 
 def inclined_beta(_: Evidence, layup: str) -> float:
-    """Equation (21) for the inclined patch at the middle of the interface over the paper's value."""
+    """Evaluate equation (21) for the inclined patch at the middle of the interface over the paper's value."""
     mesh = inclined_mesh()
     step = float(mesh.x[1] - mesh.x[0])
     heights = float(mesh.lower[-1] - mesh.lower[-2]), float(mesh.upper[1] - mesh.upper[0])
@@ -116,17 +116,17 @@ def inclined_beta(_: Evidence, layup: str) -> float:
 
 
 def turon_stiffness(_: Evidence, thickness: float) -> float:
-    """Equation (25) with M = 100 and E22 (N/mm^3)."""
+    """Evaluate equation (25) with M = 100 and E22 (N/mm^3)."""
     return 100.0 * PLY_0.e2 / thickness
 
 
 def modulus_contrast(_: Evidence) -> float:
-    """E11/E22."""
+    """Return E11/E22."""
     return PLY_0.e1 / PLY_0.e2
 
 
 def isotropy(_: Evidence) -> float:
-    """Shear modulus of the 90-degree ply over E/(2(1 + nu)), 1 where X1-X2 is a plane of isotropy."""
+    """Return the shear modulus of the 90-degree ply over E/(2(1 + nu)), 1 where X1-X2 is a plane of isotropy."""
     return PLY_90.g12 / (PLY_90.e1 / (2.0 * (1.0 + PLY_90.nu12)))
 
 

@@ -34,7 +34,7 @@ PROBLEMS = {name: KINDS[name]._replace(displacement=ends) for name, ends in ENDS
 
 
 def _longer(crack: float) -> MeshedSpecimen:
-    """The fixed-ratio specimen with a longer crack, displaced as much as the crack's growth takes by beam theory."""
+    """Lengthen the crack of the fixed-ratio specimen, displaced as much as its growth takes by beam theory."""
     base = PROBLEMS["frmm"]
     reach = ((crack + ARMS.correction) / (CRACK + ARMS.correction)) ** 2
     ends = {layup: end * reach for layup, end in base.displacement.items()}
@@ -86,13 +86,13 @@ COMPARATORS = {
 
 
 def called(element: str) -> str:
-    """Name of an element in the title of a deck."""
+    """Return the name of an element in the title of a deck."""
     return "the paper's element" if element == "paper" else f"{element.replace('_', ' ')} element"
 
 
 @dataclass(frozen=True, slots=True)
 class PaperCase:
-    """One run.
+    """Case of a delamination test.
 
     problem, layup, element, stiffness   keys of PROBLEMS or LONGER, LAYUPS, ELEMENTS or COMPARATORS, STIFFNESSES
     perturbed     the interface nodes are moved
@@ -145,12 +145,12 @@ class PaperCase:
 
     @property
     def kind(self) -> MeshedSpecimen:
-        """The specimen."""
+        """Specimen."""
         return _SPECIMENS[self.problem]
 
     @property
     def fallback(self) -> bool:
-        """Search downhill where Newton's method fails; the paper's own method, secant and tolerance, does without."""
+        """True to search downhill where Newton's method fails; the paper's own method, by secant, does without."""
         return not self.secant
 
     @property
@@ -161,7 +161,7 @@ class PaperCase:
         return QUICK_SIZES[self.problem] if self.coarse else self.kind.size
 
     def sized(self, size: float) -> PaperCase:
-        """The case with another length of the elements; itself if it has that length."""
+        """Return the case with another length of the elements; itself if it has that length."""
         return self if size == self.element_size else replace(self, size=size)
 
     @property
@@ -171,13 +171,13 @@ class PaperCase:
 
     @property
     def own_separation(self) -> bool:
-        """The law has a separation of its own, so that the element writes D for its damage (damage.py)."""
+        """True if the law has a separation of its own, so that the element writes D for its damage (damage.py)."""
         interface = (ELEMENTS | COMPARATORS)[self.element]
         return not interface.built_in and interface.type == "U4" and interface.consistent
 
     @property
     def law(self) -> Cohesive:
-        """The law's parameters."""
+        """Parameters of the law."""
         stiffness, factor = STIFFNESSES[self.stiffness], self.strength
         return Cohesive(stiffness, stiffness, factor * TABLE_2.strength_normal, factor * TABLE_2.strength_shear)
 
@@ -188,18 +188,18 @@ class PaperCase:
 
     @property
     def work(self) -> float:
-        """What the run takes, in quads; increments hardly count, since more of them take fewer iterations each."""
+        """Cost of the run, in quads; with more increments each takes fewer iterations, so that they hardly count."""
         mesh = self.mesh()
         return START + mesh.columns * sum(mesh.rows)
 
     def mesh(self) -> TwoArmMesh:
-        """The mesh."""
+        """Build the mesh."""
         mesh = self.kind.mesh(self.element_size, BUMP * self.element_size * self.perturbed)
         heights = np.linspace(0.0, ARM_HEIGHT, self.rows + 1)
         return replace(mesh, lower=heights, upper=ARM_HEIGHT + heights)
 
     def files(self) -> dict[str, str]:
-        """Deck `NAME.inp` and the files that it includes."""
+        """Return the deck `NAME.inp` and the files that it includes."""
         mesh_name = f"{self.problem}_{'perturbed' if self.perturbed else 'structured'}"
         mesh = self.mesh()
         interface = self._interface(mesh)
@@ -246,7 +246,7 @@ class PaperCase:
 
 
 def paper_cases(problem: str, *, coarse: bool = False) -> list[PaperCase]:
-    """Runs of a specimen: both layups, the paper's two elements and the consistent one, three stiffnesses, both meshes.
+    """List the runs of a specimen: both layups, paper's and consistent elements, three stiffnesses, both meshes.
 
     With `coarse`, the perturbed mesh where the paper shows it: [0/0] at 1e8.
     """
@@ -258,7 +258,7 @@ def paper_cases(problem: str, *, coarse: bool = False) -> list[PaperCase]:
 
 
 def comparator_cases(problem: str, *, coarse: bool = False) -> list[PaperCase]:
-    """Runs with the built-in element and with its criterion; the built-in one also at the softest stiffness.
+    """List the runs with the built-in element and with its criterion; the built-in one also at the softest stiffness.
 
     With `coarse`, its criterion in the consistent element alone, and where the layup mixes the modes.
     """
@@ -269,7 +269,7 @@ def comparator_cases(problem: str, *, coarse: bool = False) -> list[PaperCase]:
 
 
 def longer_cases(*, coarse: bool = False) -> list[PaperCase]:
-    """Fixed-ratio specimens with longer cracks, whose mode ratio comes near to that of plain beams.
+    """Return the fixed-ratio specimens with longer cracks, whose mode ratio comes near to that of plain beams.
 
     With `coarse`, the shorter one alone.
     """
@@ -278,7 +278,7 @@ def longer_cases(*, coarse: bool = False) -> list[PaperCase]:
 
 
 def secant_cases(*, coarse: bool = False) -> list[PaperCase]:
-    """The paper's way to a solution, section 3.2: secant, small increments; the default residual, and a hundredfold.
+    """List the runs by the paper's way, section 3.2: secant, small increments; default and hundredfold residual.
 
     The latter also with as many increments as the other runs.
     """

@@ -102,7 +102,7 @@ def _cases(parts: Sequence[str], *, quick: bool) -> list[AnyCase]:
 
 
 def _peaks(parts: Sequence[str], *, quick: bool) -> list[PaperCase]:
-    """Cases whose peak loads are compared."""
+    """Return the cases whose peak loads are compared."""
     cases = [case for part in parts for case in curves.compared(part, coarse=quick)]
     return cases + (sensitivity.cases(coarse=quick) if "sensitivity" in parts else [])
 

@@ -92,7 +92,7 @@ def curves(problem: str, *, coarse: bool) -> list[tuple[PaperCase, PaperCase]]:
 
 
 def curve_rows(runs: Runs, problem: str, *, coarse: bool) -> list[list[str]]:
-    """Lines of the table of the curves."""
+    """Format the lines of the table of the curves."""
     lines = []
     for built_in, case in curves(problem, coarse=coarse):
         one, other = runs[built_in], runs[case]
@@ -126,7 +126,7 @@ def pairs(*, coarse: bool) -> list[tuple[PaperCase, PaperCase]]:
 
 
 def steady(run: Run) -> Steady:
-    """Loads and energies of a run."""
+    """Return the loads and energies of a run."""
     history = run.history
     stretch = np.linspace(*STRETCH, 200)
     given = history["ALLWK"] - history["ALLSE"]
@@ -143,7 +143,7 @@ def steady(run: Run) -> Steady:
 
 
 def expected(ours: Steady, built_in: Steady) -> float:
-    """Relative difference of the loads that the energies explain.
+    """Return the relative difference of the loads that the energies explain.
 
     At equal displacements the load of a slender specimen goes with the energy release rate to the power 3/4: with
     displacement ~ P a^3 and G ~ P^2 a^2, P^4 ~ G^3/displacement^2.
@@ -152,12 +152,12 @@ def expected(ours: Steady, built_in: Steady) -> float:
 
 
 def load_difference(ours: Steady, built_in: Steady) -> float:
-    """Relative difference of the mean loads in steady growth."""
+    """Return the relative difference of the mean loads in steady growth."""
     return ours.load / built_in.load - 1.0
 
 
 def text(runs: Runs, *, coarse: bool) -> str:
-    """What the table is, and what makes the difference of the loads smaller."""
+    """Explain the table, and what makes the difference of the loads smaller."""
     base = PaperCase("dcb", "0/90", "consistent_bk", "1e6", coarse=coarse)
     apart = {
         difference_of(case, base): load_difference(steady(runs[case]), steady(runs[one]))
@@ -168,7 +168,7 @@ def text(runs: Runs, *, coarse: bool) -> str:
 
 
 def difference_of(case: PaperCase, base: PaperCase) -> str:
-    """How a case differs from the usual one; empty for that."""
+    """Describe how a case differs from the usual one; empty for that."""
     if case.element_size != base.element_size:
         return f"elements of {case.element_size:.3g} mm"
     if case.rows != base.rows:
@@ -179,7 +179,7 @@ def difference_of(case: PaperCase, base: PaperCase) -> str:
 
 
 def trend(usual: float, others: Mapping[str, float]) -> str:
-    """What makes a difference smaller by more than FALLS of it, and what does not; nothing without others."""
+    """Say what makes a difference smaller by more than FALLS of it, and what does not; nothing without others."""
     if not others:
         return ""
     smaller = [what for what, value in others.items() if abs(value) < (1.0 - FALLS) * abs(usual)]
@@ -189,7 +189,7 @@ def trend(usual: float, others: Mapping[str, float]) -> str:
 
 
 def rows(runs: Runs, *, coarse: bool) -> list[list[str]]:
-    """Lines of the table."""
+    """Format the lines of the table."""
     lines = []
     for built_in, case in pairs(coarse=coarse):
         one, other = steady(runs[built_in]), steady(runs[case])

@@ -21,12 +21,12 @@ COMPARED = {"enf": ("standard", "paper", "consistent", "COH2D4"), "frmm": ("pape
 
 
 def compared(problem: str, *, coarse: bool) -> list[PaperCase]:
-    """Cases of a specimen whose peak loads are compared."""
+    """Return the cases of a specimen whose peak loads are compared."""
     return [PaperCase(problem, "0/90", element, "1e6", coarse=coarse) for element in COMPARED.get(problem, ())]
 
 
 def theory_distance(evidence: Evidence, problem: str, element: str, stiffnesses: Sequence[str] = SHOWN) -> float:
-    """Largest distance from corrected beam theory on the growth branch, relative.
+    """Return the largest distance from corrected beam theory on the growth branch, relative.
 
     The branch lies between the lengths of a sharp crack that `beams.BRANCH` gives.
     """
@@ -34,7 +34,7 @@ def theory_distance(evidence: Evidence, problem: str, element: str, stiffnesses:
 
 
 def theory_mean(evidence: Evidence, problem: str, element: str, stiffnesses: Sequence[str] = SHOWN) -> float:
-    """Mean distance from corrected beam theory on the growth branch, relative, the largest over the stiffnesses."""
+    """Return the mean relative distance from corrected beam theory in growth, the largest over the stiffnesses."""
     return max(float(np.mean(np.abs(_branch(evidence, problem, element, [stiffness])))) for stiffness in stiffnesses)
 
 
@@ -47,8 +47,11 @@ def _branch(evidence: Evidence, problem: str, element: str, stiffnesses: Iterabl
 
 
 def curve_distance(one: Run, other: Run, last: float = np.inf) -> float:
-    """Largest distance of two load curves over the largest load, up to a displacement; across a jump of the load, the
-    distance to the curve, not to its value at the same displacement, which the increments decide."""
+    """Return the largest distance of two load curves over the largest load, up to a displacement.
+
+    Across a jump of the load the distance to the curve counts, not to its value at the same displacement, which the
+    increments decide.
+    """
     peak = other.peak[0]
     inside = one.displacement <= last
     scale = np.array([other.displacement[-1], peak])
@@ -58,7 +61,7 @@ def curve_distance(one: Run, other: Run, last: float = np.inf) -> float:
 
 
 def to_line(point: FloatArray, line: FloatArray) -> float:
-    """Distance of a point (2,) from a line of straight pieces through the points (n, 2)."""
+    """Return the distance of a point (2,) from a line of straight pieces through the points (n, 2)."""
     start, along = line[:-1], np.diff(line, axis=0)
     squares = np.maximum(np.sum(along**2, axis=1), 1e-300)
     share = np.clip(np.sum((point - start) * along, axis=1) / squares, 0.0, 1.0)
@@ -66,7 +69,7 @@ def to_line(point: FloatArray, line: FloatArray) -> float:
 
 
 def methods_distance(evidence: Evidence, problem: str, layups: Sequence[str] = ("0/0", "0/90")) -> float:
-    """Largest distance of the load curves of the standard and the paper's element at equal stiffness."""
+    """Return the largest distance of the load curves of the standard and the paper's element at equal stiffness."""
     return max(
         curve_distance(evidence.run(problem, layup, "paper", s), evidence.run(problem, layup, "standard", s))
         for layup in layups
@@ -75,7 +78,7 @@ def methods_distance(evidence: Evidence, problem: str, layups: Sequence[str] = (
 
 
 def methods_peak_difference(evidence: Evidence, problem: str, layup: str, element: str) -> float:
-    """Relative difference of an element's peak load at 1e6 from the standard element's, with its sign."""
+    """Return the relative difference of an element's peak load at 1e6 from the standard element's, with its sign."""
     peaks = [evidence.peak(PaperCase(problem, layup, name, "1e6")) for name in (element, "standard")]
     return peaks[0] / peaks[1] - 1.0
 
@@ -83,26 +86,26 @@ def methods_peak_difference(evidence: Evidence, problem: str, layup: str, elemen
 def comparator_distance(
     evidence: Evidence, problem: str, layup: str, element: str, stiffness: str = "1e6", last: float = np.inf
 ) -> float:
-    """Largest distance of an element's load curve from COH2D4's over the peak load, up to a displacement (mm)."""
+    """Return the largest distance of an element's load curve from COH2D4's over the peak load, up to `last` (mm)."""
     built_in = evidence.run(problem, layup, "COH2D4", "1e6")
     return curve_distance(evidence.run(problem, layup, element, stiffness), built_in, last)
 
 
 def peak_difference(evidence: Evidence, problem: str, layup: str, element: str, stiffness: str = "1e6") -> float:
-    """Relative difference of an element's peak load from COH2D4's, without its sign."""
+    """Return the relative difference of an element's peak load from COH2D4's, without its sign."""
     built_in = evidence.peak(PaperCase(problem, layup, "COH2D4", "1e6"))
     return abs(evidence.peak(PaperCase(problem, layup, element, stiffness)) / built_in - 1.0)
 
 
 def single_iterations(evidence: Evidence) -> float:
-    """Share of the increments with the secant and the relaxed residual that converge in one iteration, at 1e6."""
+    """Return the share of increments with secant and relaxed residual that converge in one iteration, at 1e6."""
     case = next(case for case in secant_cases() if case.tolerance and case.stiffness == "1e6")
     lines = [line for line in evidence.case(case).status if not line.cutback]
     return sum(line.total_iterations == 1 for line in lines) / len(lines)
 
 
 def secant_reach(evidence: Evidence, stiffnesses: Sequence[str] = ("1e6", "1e8"), *, relaxed: bool) -> float:
-    """Smallest share of the displacement that the secant reaches in small increments, at the stiffnesses.
+    """Return the smallest share of the displacement that the secant reaches in small increments, at the stiffnesses.
 
     With `relaxed`, with a residual a hundred times the default.
     """
@@ -112,7 +115,7 @@ def secant_reach(evidence: Evidence, stiffnesses: Sequence[str] = ("1e6", "1e8")
 
 
 def smallest_increment(evidence: Evidence, *, secant: bool) -> float:
-    """Smallest increment over the one asked for, at 1e6 and 1e8: with the secant, or with the consistent tangent."""
+    """Return the smallest increment over the one asked for, at 1e6 and 1e8: with secant or consistent tangent."""
     cases = [case for case in secant_cases() if not case.increments]
     runs = [evidence.case(case if secant else replace(case, secant=False, tolerance=None)) for case in cases]
     return min(
@@ -121,7 +124,7 @@ def smallest_increment(evidence: Evidence, *, secant: bool) -> float:
 
 
 def iterations_ratio(evidence: Evidence) -> float:
-    """Iterations of the paper's element over those of the standard one, all specimens, layups and stiffnesses."""
+    """Return the iterations of the paper's element over the standard one's, all specimens, layups and stiffnesses."""
     totals = {"paper": 0, "standard": 0}
     for problem, layup, stiffness in itertools.product(PROBLEMS, LAYUPS, SHOWN):
         for element in totals:
@@ -130,12 +133,12 @@ def iterations_ratio(evidence: Evidence) -> float:
 
 
 def energy_error(evidence: Evidence, problem: str, element: str, stiffnesses: Sequence[str] = SHOWN) -> float:
-    """Largest `missing_energy` at the stiffnesses, without its sign, [0/0]."""
+    """Return the largest `missing_energy` at the stiffnesses, without its sign, [0/0]."""
     return max(abs(missing_energy(evidence.run(problem, "0/0", element, stiffness))) for stiffness in stiffnesses)
 
 
 def missing_energy(run: Run) -> float:
-    """External work less stored and dissipated energy at the end, over the external work."""
+    """Return the external work less stored and dissipated energy at the end, over the external work."""
     history = run.history
     work = history["ALLWK"][-1]
     # ALLDMD and ALLCD are those of the built-in elements

@@ -28,7 +28,7 @@ GREYS = ("0.93", "0.80")
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """What is drawn of a deck.
+    """Drawing of a deck.
 
     plies      name and quads (m, 4, 2) of each material
     interface  edges (n, 2, 2) of the bonded interface
@@ -49,7 +49,7 @@ class Drawing:
 
 
 def read_drawing(deck: Path) -> Drawing:
-    """What a deck of ours holds: quads, four- or eight-node interface elements, zero and prescribed displacements."""
+    """Read a deck of ours: quads, four- or eight-node interface elements, zero and prescribed displacements."""
     model = read_deck(deck)
     place = model.mesh.coordinates[:, :2]
     plies: dict[str, list[FloatArray]] = {}
@@ -84,7 +84,7 @@ def _moved(model: Model, place: FloatArray) -> list[tuple[FloatArray, FloatArray
 
 
 def draw_domain(deck: Path, path: Path) -> Path:
-    """Figure 1: the two domains, the interface between them with its normal, the initial crack."""
+    """Draw figure 1: the two domains, the interface between them with its normal, the initial crack."""
     drawing = read_drawing(deck)
     with mpl.rc_context(PLAIN):
         figure, (axis,) = _figure((7.0, 2.4), 1)
@@ -110,7 +110,7 @@ def draw_domain(deck: Path, path: Path) -> Path:
 
 
 def draw_square(decks: Sequence[tuple[str, Path]], path: Path, zoom: tuple[float, float, float] | None) -> Path:
-    """Figures 3 and 5: squares with supports, prescribed displacement and mesh.
+    """Draw figures 3 and 5: squares with supports, prescribed displacement and mesh.
 
     Parameters
     ----------
@@ -153,7 +153,7 @@ def _inset(axis: Any, drawing: Drawing, zoom: tuple[float, float, float]) -> Non
 
 
 def draw_beam(deck: Path, path: Path, tip: tuple[float, float]) -> Path:
-    """Figures 7, 12, 17: the whole specimen with supports and displacements, and the mesh near the crack's tip.
+    """Draw figures 7, 12, 17: the specimen with supports and displacements, and the mesh near the crack's tip.
 
     Parameters
     ----------
@@ -222,7 +222,7 @@ def _supports(axis: Any, drawing: Drawing) -> None:
 
 
 def _arrow(axis: Any, place: FloatArray, direction: FloatArray, length: float, label: str) -> None:
-    """Arrow from `place` in the direction of the displacement; one that presses ends at the place."""
+    """Draw an arrow from `place` in the direction of the displacement; one that presses ends at the place."""
     outward = place + direction * length
     low, high = axis.dataLim.intervaly
     pressing = (place[1] - 0.5 * (low + high)) * direction[1] < 0.0

@@ -21,17 +21,17 @@ from uel.paper.reproduce.runs import Profile, Run, Runs
 X = "$X_1$ [mm]"
 TRACTIONS = {"TN": "Normal traction [MPa]", "TT": "Tangential traction [MPa]", "LOST": "Damage $d$ of (9)"}
 CLOSE = {"dcb": (0.0, 4.0), "enf": (-4.0, 4.0), "frmm": (-3.0, 3.0)}
-"""... and the zooms."""
+"""Ranges of the zooms (mm)."""
 
 
 def front(profile: Profile) -> float:
-    """Place of the front: the last point whose damage is at least one half, or the first point (mm)."""
+    """Return the place of the front: the last point with a damage of one half or more, or the first point (mm)."""
     damaged = profile["LOST"] >= 0.5
     return float(profile["X"][damaged].max()) if damaged.any() else float(profile["X"].min())
 
 
 def draw_law(folder: Path) -> Path:
-    """Figure 2: both tractions over both separations, at the softest of the stiffnesses, where the rise shows."""
+    """Draw figure 2: both tractions over both separations, at the softest of the stiffnesses, where the rise shows."""
     properties = ["ALPHAN=1e4", "ALPHAT=1e4"]
     asked = Exploration(properties, surface=True, job="figure_02", output_dir=folder, units=("mm", "MPa"))
     _, files = explore(asked)
@@ -39,7 +39,7 @@ def draw_law(folder: Path) -> Path:
 
 
 def draw_horizontal_patch(runs: Runs, folder: Path) -> Path:
-    """Figure 4: normal traction along a straight and a perturbed horizontal interface."""
+    """Draw figure 4: normal traction along a straight and a perturbed horizontal interface."""
     cases = [PatchCase("horizontal", "0/0", "standard", moved) for moved in (False, True)]
     return grid(
         [[replace(_patch_panel(runs, case), y_range=(-1500.0, -500.0)) for case in cases]], folder / "figure_04.png"
@@ -47,7 +47,7 @@ def draw_horizontal_patch(runs: Runs, folder: Path) -> Path:
 
 
 def draw_inclined_patch(runs: Runs, folder: Path) -> Path:
-    """Figure 6: normal traction along the inclined interface, on straight, rounded and moved nodes."""
+    """Draw figure 6: normal traction along the inclined interface, on straight, rounded and moved nodes."""
     rows = [[_patch_panel(runs, PatchCase("inclined", p, "standard", *nodes)) for p in PLIES] for nodes in NODES]
     return grid(rows, folder / "figure_06.png", share_y=True)
 
@@ -62,7 +62,7 @@ def _patch_panel(runs: Runs, case: PatchCase) -> Panel:
 
 
 def draw_loads(runs: Runs, base: PaperCase, path: Path) -> Path:
-    """Figures 8, 13, 18: load over displacement; a row for each layup, a column for each element.
+    """Draw figures 8, 13, 18: load over displacement; a row for each layup, a column for each element.
 
     Theory stands below [0/0], COH2D4 with its own criterion and, where it has been run, beside all elements.
     """
@@ -85,7 +85,7 @@ def draw_loads(runs: Runs, base: PaperCase, path: Path) -> Path:
 
 
 def _sparse(label: str, run: Run) -> Curve:
-    """A load curve as some 25 points, the peak among them."""
+    """Thin a load curve to some 25 points, the peak among them."""
     chosen = np.union1d(np.arange(0, len(run.load), max(1, len(run.load) // 25)), run.peak_index)
     return Curve(label, run.displacement[chosen], run.load[chosen], "points")
 
@@ -99,7 +99,7 @@ def _theory(problem: str) -> list[Curve]:
 
 
 def draw_profiles(runs: Runs, base: PaperCase, names: Sequence[str], path: Path) -> Path:
-    """Figures 9, 11, 14, 16, 19, 20: tractions and damage by stiffness; a column for each element."""
+    """Draw figures 9, 11, 14, 16, 19, 20: tractions and damage by stiffness; a column for each element."""
     moment = MOMENTS[base.problem, base.layup]
     middle = front(runs[replace(base, element="standard", stiffness="1e6")].at(moment))
     rows = []
@@ -116,7 +116,7 @@ def draw_profiles(runs: Runs, base: PaperCase, names: Sequence[str], path: Path)
 
 
 def draw_perturbed(runs: Runs, base: PaperCase, name: str, path: Path) -> Path:
-    """Figures 10, 15: traction on the perturbed mesh; below, close to the front."""
+    """Draw figures 10, 15: traction on the perturbed mesh; below, close to the front."""
     moment = MOMENTS[base.problem, base.layup]
     rows: list[list[Panel]] = [[], []]
     middle = front(runs[replace(base, element="standard")].at(moment))
@@ -147,7 +147,7 @@ def _profile_panel(
 
 
 def problem_figures(runs: Runs, problem: str, *, coarse: bool, folder: Path) -> dict[str, Path]:
-    """All result figures of a specimen by the paper's numbers."""
+    """Draw all result figures of a specimen, by the paper's numbers."""
     base = PaperCase(problem, "0/0", "paper", "1e8", coarse=coarse)
     cross = replace(base, layup="0/90")
 

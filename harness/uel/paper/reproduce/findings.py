@@ -26,7 +26,7 @@ from uel.paper.study.rows import STRENGTHS, bonded_part, damage_variation
 
 @dataclass(frozen=True, slots=True)
 class Evidence:
-    """What was run, and whether on the coarser meshes."""
+    """Runs on which the findings rest, and whether they are on the coarser meshes."""
 
     runs: Runs
     coarse: bool
@@ -36,7 +36,7 @@ class Evidence:
         return self.runs[PaperCase(problem, layup, element, stiffness, perturbed, self.coarse)]
 
     def peak(self, case: PaperCase) -> float:
-        """Peak load (N) of a case on these meshes, in small increments where the command has run these."""
+        """Return the peak load (N) of a case on these meshes, in small increments where the command has run these."""
         return self.runs.peak(replace(case, coarse=self.coarse))
 
     def case(self, case: PaperCase) -> Run:
@@ -55,7 +55,7 @@ def variation(
     perturbed: bool = False,
     ever: bool = False,
 ) -> float:
-    """Total variation of a traction over that of the consistent element on the structured mesh, the largest.
+    """Return the total variation of a traction over that of the consistent element on the structured mesh, the largest.
 
     1 is a profile that rises and falls as the consistent element's, 1.05 one that adds a twentieth of ups and downs.
 
@@ -93,14 +93,14 @@ def _varies(profile: Profile, name: str) -> float:
 def smallest_variation(
     evidence: Evidence, problem: str, layup: str, element: str, tractions: Sequence[str], *, ever: bool = False
 ) -> float:
-    """The smallest among the tractions of `variation` at 1e8: all of them oscillate."""
+    """Return the smallest among the tractions of `variation` at 1e8: all of them oscillate."""
     return min(variation(evidence, problem, layup, element, [name], ever=ever) for name in tractions)
 
 
 def variation_gain(
     evidence: Evidence, problem: str, layup: str, tractions: Sequence[str], *, ever: bool = False
 ) -> float:
-    """What the paper's element adds to the smooth variation on the perturbed mesh, over what the standard one adds.
+    """Return the variation that the paper's element adds on the perturbed mesh, over what the standard one adds.
 
     At 1e8. Real variation, which bumps cause, is in both.
     """
@@ -122,7 +122,7 @@ def damage_turns(
     ever: bool = False,
     whole: bool = False,
 ) -> float:
-    """Largest departure of the damage (9) from a steady fall to 0: total variation over its largest value, less 1.
+    """Return the largest departure of the damage (9) from a steady fall: variation over largest value, less 1.
 
     Without the sign: damage that turns back varies more, damage that nowhere falls to 0 varies less. Up to as far ahead
     of the failed part as the figures show, or along the `whole` interface. `perturbed` and `ever` as above.
@@ -134,7 +134,7 @@ def damage_turns(
 
 
 def damage_near_tip(profile: Profile, problem: str) -> FloatArray:
-    """Damage (9) up to the end of the figures' stretch, counted from the first point that has not failed."""
+    """Return the damage (9) up to the end of the figures' stretch, counted from the first point that has not failed."""
     tip = float(bonded_part(profile)["X"][0])
     return profile["LOST"][profile["X"] <= tip + AROUND[problem][1]]
 
@@ -142,7 +142,7 @@ def damage_near_tip(profile: Profile, problem: str) -> FloatArray:
 def profile_distance(
     evidence: Evidence, problem: str, layup: str, elements: Sequence[str], traction: str, pair: Sequence[str]
 ) -> float:
-    """Largest distance of a traction's profiles at two stiffnesses, at the moment of the figures, over the strength."""
+    """Return the largest distance of a traction's profiles at two stiffnesses in the figures, over the strength."""
     found = []
     for element in elements:
         one, other = (moment(evidence.run(problem, layup, element, stiffness)) for stiffness in pair)
@@ -152,12 +152,12 @@ def profile_distance(
 
 
 def moment(run: Run) -> Profile:
-    """Profile at the moment that the figures show."""
+    """Return the profile at the moment that the figures show."""
     return run.at(MOMENTS[run.case.problem, run.case.layup])
 
 
 def oscillation_place(evidence: Evidence, problem: str, layup: str, element: str) -> float:
-    """Distance (mm) of the standard element's worst kink in the normal traction from the point where it changes sign.
+    """Return the distance (mm) of the standard element's worst kink in normal traction from its change of sign.
 
     The kink is the largest change between neighbouring points of the distance from the paper's element's profile.
     """
@@ -169,7 +169,7 @@ def oscillation_place(evidence: Evidence, problem: str, layup: str, element: str
 
 
 def sign_change(profile: Profile) -> float:
-    """Place where the normal traction turns from tension ahead of the crack to compression (mm)."""
+    """Return the place where the normal traction turns from tension ahead of the crack to compression (mm)."""
     peak = int(profile["TN"].argmax())
     return float(profile["X"][peak + int(np.argmax(profile["TN"][peak:] < 0.0))])
 
@@ -177,7 +177,7 @@ def sign_change(profile: Profile) -> float:
 def peak_traction_ratio(
     evidence: Evidence, problem: str, layup: str, elements: Sequence[str], pair: Sequence[str]
 ) -> float:
-    """Largest tangential traction at the first stiffness over that at the second, at the moment of the figures."""
+    """Return the largest tangential traction at the first stiffness over that at the second, as in the figures."""
     found = []
     for element in elements:
         low, high = (
@@ -188,7 +188,7 @@ def peak_traction_ratio(
 
 
 def local_error(evidence: Evidence, problem: str, element: str, traction: str, *, ever: bool = False) -> float:
-    """Largest distance of a traction from the consistent element's over the strength, ahead of the process zone.
+    """Return a traction's largest distance from the consistent element's over strength, ahead of the process zone.
 
     Both on the perturbed mesh, whose bumps cause variation that is real. `ever` as above.
     """
@@ -203,13 +203,13 @@ def local_error(evidence: Evidence, problem: str, element: str, traction: str, *
 
 
 def closed_stretch(smooth: Profile) -> tuple[float, float]:
-    """Where the normal traction is compressive ahead of the crack, to a hundredth of its largest pressure (mm)."""
+    """Find where the normal traction is compressive ahead of the crack, to a hundredth of its largest pressure (mm)."""
     pressed = smooth["X"][smooth["TN"] < 0.01 * smooth["TN"].min()]
     return sign_change(smooth), float(pressed.max())
 
 
 def closed_variation(evidence: Evidence, problem: str, element: str) -> float:
-    """As `variation`, of the normal traction on the perturbed mesh at 1e8 where it is compressive, [0/0]."""
+    """Return the `variation` of the normal traction on the perturbed mesh at 1e8 where it is compressive, [0/0]."""
     smooth = moment(evidence.run(problem, "0/0", "consistent", "1e8"))
     rough = moment(evidence.run(problem, "0/0", element, "1e8", perturbed=True))
     low, high = closed_stretch(smooth)
@@ -220,7 +220,7 @@ def closed_variation(evidence: Evidence, problem: str, element: str) -> float:
 
 
 def closed_error(evidence: Evidence, problem: str, element: str) -> float:
-    """Mean distance of the normal traction on the perturbed mesh from the structured one's, over the strength.
+    """Return the mean distance of the normal traction, perturbed from structured mesh, over the strength.
 
     At 1e8, in the compressive stretch of the consistent element, which is the reference too.
     """
@@ -233,7 +233,7 @@ def closed_error(evidence: Evidence, problem: str, element: str) -> float:
 
 
 def process_zone(evidence: Evidence) -> float:
-    """Interface elements in the process zone (0 < damage < 1), the fewest of the specimens, [0/0], 1e6, paper's."""
+    """Count elements in the process zone (0 < damage < 1), fewest of the specimens, [0/0], 1e6, paper's element."""
     counts = []
     for problem in PROBLEMS:
         damage = moment(evidence.run(problem, "0/0", "paper", "1e6"))["LOST"]
@@ -242,22 +242,22 @@ def process_zone(evidence: Evidence) -> float:
 
 
 def mode_ratio(evidence: Evidence, element: str, stiffness: str = "1e6", problem: str = "frmm") -> float:
-    """G_I/G_II of a fixed-ratio specimen, [0/0], from the tractions, at the moment of the figures."""
+    """Return G_I/G_II of a fixed-ratio specimen, [0/0], from the tractions, at the moment of the figures."""
     return rice_ratio(moment(evidence.run(problem, "0/0", element, stiffness)))
 
 
 def crack_length(evidence: Evidence, element: str, stiffness: str = "1e6", problem: str = "frmm") -> float:
-    """Length (mm) of the crack up to the first bonded point, [0/0], at the moment of the figures."""
+    """Return the length (mm) of the crack up to the first bonded point, [0/0], at the moment of the figures."""
     return float(bonded_part(moment(evidence.run(problem, "0/0", element, stiffness)))["X"][0])
 
 
 def theory_mode_ratio(evidence: Evidence, element: str, stiffness: str = "1e6", problem: str = "frmm") -> float:
-    """G_I/G_II of a fixed-ratio specimen by corrected beam theory, for a crack of `crack_length`."""
+    """Return G_I/G_II of a fixed-ratio specimen by corrected beam theory, for a crack of `crack_length`."""
     return frmm_mode_ratio(ARMS, crack_length(evidence, element, stiffness, problem))
 
 
 def mode_two_share(evidence: Evidence, problem: str, layup: str, element: str, stiffness: str = "1e6") -> float:
-    """Share of mode II in the energy that failed points have dissipated, at the end."""
+    """Return the share of mode II in the energy that failed points have dissipated, at the end."""
     profile = evidence.run(problem, layup, element, stiffness).profiles[-1]
     failed = profile["DAMAGE"] >= 1.0
     one, two = (float(profile[name][failed].sum()) for name in ("DISSI", "DISSII"))
@@ -265,7 +265,7 @@ def mode_two_share(evidence: Evidence, problem: str, layup: str, element: str, s
 
 
 def criteria_apart(evidence: Evidence, problem: str, layup: str, element: str) -> float:
-    """Toughness of Benzeggagh and Kenane with the exponent of the runs, over that of (11), less 1, at that share."""
+    """Return the toughness of Benzeggagh and Kenane at that share by the runs' exponent, over (11), less 1."""
     share = mode_two_share(evidence, problem, layup, element)
     one, two = TABLE_2.toughness_1, TABLE_2.toughness_2
     by_power = one + (two - one) * float(share**BK)
@@ -273,7 +273,7 @@ def criteria_apart(evidence: Evidence, problem: str, layup: str, element: str) -
 
 
 def toughness(evidence: Evidence, problem: str, element: str, stiffness: str = "1e6") -> float:
-    """Mean over failed points of the shares of both toughnesses that damage has dissipated, (11): 1."""
+    """Return the mean over failed points of the shares of both toughnesses that damage has dissipated, (11): 1."""
     profile = evidence.run(problem, "0/0", element, stiffness).profiles[-1]
     failed = profile["DAMAGE"] >= 1.0
     spent = profile["DISSI"] / TABLE_2.toughness_1 + profile["DISSII"] / TABLE_2.toughness_2

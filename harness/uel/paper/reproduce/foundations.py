@@ -37,24 +37,24 @@ QUAD = 0.1
 
 
 def law_area(_: Evidence, angle: float) -> float:
-    """Area under the law's curve over the toughness of (11) along a straight path, angle 0 opening, 90 sliding."""
+    """Return the area under the law's curve over the toughness (11) on a straight path, 0 opening, 90 sliding."""
     return float(_straight(angle)["WORK"][-1]) / _toughness(angle)
 
 
 def law_strength(_: Evidence, angle: float) -> float:
-    """Left side of the quadratic criterion (10) at the largest traction: 1."""
+    """Return the left side of the quadratic criterion (10) at the largest traction: 1."""
     curve = _straight(angle)
     normal, shear = curve["TN"] / TABLE_2.strength_normal, curve["TT"] / TABLE_2.strength_shear
     return float(np.sqrt(np.max(normal**2 + shear**2)))
 
 
 def law_closing(_: Evidence) -> float:
-    """Largest damage of an interface that is pressed together by as much as opens it to the end: 0."""
+    """Return the largest damage of an interface that is pressed together by as much as opens it to the end: 0."""
     return float(_drive(np.linspace([0.0, 0.0], [-2.0 * _end(0.0), 0.0], 50))["DAMAGE"].max())
 
 
 def law_contact(_: Evidence) -> float:
-    """Stiffness of a half damaged interface that is closed again, over its first stiffness: 1."""
+    """Return the stiffness of a half damaged interface that is closed again, over its first stiffness: 1."""
     half = 0.5 * _end(0.0)
     curve = _drive(law.along(np.array([[half, 0.0], [-half, 0.0]]), 50))
     stiffness = _values()["ALPHAN"]
@@ -70,7 +70,7 @@ def law_isotropy(_: Evidence) -> float:
 
 
 def law_slope(_: Evidence, angle: float) -> float:
-    """Diagonal term of the tangent (23) in the middle of the softening, over the stiffness of the secant (24) there."""
+    """Return the diagonal term of the tangent (23) in mid-softening, over the stiffness of the secant (24) there."""
     curve = _straight(angle)
     name = "N" if angle == 0.0 else "T"
     separation, traction = curve[f"SEP{name}"], curve[f"T{name}"]
@@ -103,19 +103,19 @@ def _own_elements() -> Library:
 
 
 def _toughness(angle: float) -> float:
-    """G_I + G_II at failure by (11), for stiffnesses that are equal: the direction fixes G_I/G_II."""
+    """Return G_I + G_II at failure by (11), for stiffnesses that are equal: the direction fixes G_I/G_II."""
     share = np.sin(np.radians(angle)) ** 2
     return float(1.0 / ((1.0 - share) / TABLE_2.toughness_1 + share / TABLE_2.toughness_2))
 
 
 def asymmetry(_: Evidence, element: str) -> float:
-    """Largest entry of the skew part of the stiffness over the largest entry; the interface is rigid."""
+    """Return the largest entry of the skew part of the stiffness over the largest entry; the interface is rigid."""
     matrix = _stiffness(_patch(element, RIGID))
     return float(np.abs(matrix - matrix.T).max() / (2.0 * np.abs(matrix).max()))
 
 
 def coercivity(_: Evidence, factor: float) -> float:
-    """Smallest eigenvalue of the symmetric part of the paper's stiffness over the standard one's.
+    """Return the smallest eigenvalue of the symmetric part of the paper's stiffness over the standard one's.
 
     Positive definite where it is above 0. The interface is rigid; beta is that of (21) times a factor.
     """
@@ -128,18 +128,18 @@ def coercivity(_: Evidence, factor: float) -> float:
 
 
 def condition_growth(_: Evidence, element: str) -> float:
-    """Condition number of the stiffness at 1e12 N/mm^3 over that at 1e6."""
+    """Return the condition number of the stiffness at 1e12 N/mm^3 over that at 1e6."""
     stiff, soft = (float(np.linalg.cond(_stiffness(_patch(element, value, 0.0)))) for value in (RIGID, 1.0e6))
     return stiff / soft
 
 
 def consistency(evidence: Evidence) -> float:
-    """Standard deviation of t_n over its mean where the exact stress is uniform, the largest of the stiffnesses."""
+    """Return the standard deviation of t_n over its mean under uniform exact stress, the largest of the stiffnesses."""
     return max(swing(evidence.runs.patch(case).traction) for case in uniform_cases())
 
 
 def weight_of_least_beta(_: Evidence) -> float:
-    """Weight at which (21) is least, less that of (22); [0/90], equal quads."""
+    """Return the weight at which (21) is least, less that of (22); [0/90], equal quads."""
     weights = np.linspace(0.001, 0.999, 999)
     first, second = _norms()
     least = weights[np.argmin(first * weights**2 + second * (1.0 - weights) ** 2)]
@@ -147,7 +147,7 @@ def weight_of_least_beta(_: Evidence) -> float:
 
 
 def equal_weights(_: Evidence) -> float:
-    """Beta that (21) asks for with equal weights over that with the weights (22); [0/90], equal quads."""
+    """Return beta that (21) asks for with equal weights over that with the weights (22); [0/90], equal quads."""
     first, second = _norms()
     return 0.25 * (first + second) * (1.0 / first + 1.0 / second)
 
@@ -162,7 +162,7 @@ def _patch(element: str, stiffness: float, beta: float | None = None) -> PatchCa
 
 @cache
 def _stiffness(case: PatchCase) -> FloatArray:
-    """Matrix (n, n) of the free displacements, at rest."""
+    """Return the matrix (n, n) of the free displacements, at rest."""
     with tempfile.TemporaryDirectory() as folder:
         for name, content in case.files().items():
             Path(folder, name).write_text(content, encoding="ascii")

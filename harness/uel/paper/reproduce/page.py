@@ -71,7 +71,7 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Content:
-    """What the page shows.
+    """Content of the page.
 
     how       lines about how it was made
     figures   pictures by the paper's numbers
@@ -157,7 +157,7 @@ def _verdict_table(verdicts: Iterable[JudgedStatement]) -> list[str]:
 
 
 def number(value: float) -> str:
-    """A number to four digits, or `none` for infinity: what was looked for did not occur."""
+    """Format a number to four digits, or `none` for infinity: what was looked for did not occur."""
     return "none" if isinf(value) else f"{value:.4g}"
 
 

@@ -19,7 +19,7 @@ from uel.paper.study.rows import STRENGTHS, bonded_part
 
 
 def strength_effect(evidence: Evidence, problem: str, strength: float) -> float:
-    """Relative change of the peak load when both strengths are multiplied by a factor; infinite stiffness, [0/0]."""
+    """Return the relative change of the peak load by a factor on both strengths; infinite stiffness, [0/0]."""
     peaks = [
         evidence.peak(PaperCase(problem, "0/0", "consistent", "inf", strength=factor)) for factor in (strength, 1.0)
     ]
@@ -27,13 +27,13 @@ def strength_effect(evidence: Evidence, problem: str, strength: float) -> float:
 
 
 def reach(evidence: Evidence, problems: Sequence[str], element: str, stiffnesses: Sequence[str]) -> float:
-    """Smallest share of the displacement that the runs reach, [0/0]."""
+    """Return the smallest share of the displacement that the runs reach, [0/0]."""
     runs = (evidence.run(problem, "0/0", element, stiffness) for problem in problems for stiffness in stiffnesses)
     return min(float(run.displacement[-1]) / run.case.displacement for run in runs)
 
 
 def slope_ratio(evidence: Evidence, pair: Sequence[str]) -> float:
-    """Slope of the load curve in the first increment at the first stiffness over that at the second, the smallest.
+    """Return the initial slope of the load curve at the first stiffness over that at the second, the smallest.
 
     Standard element, [0/0], all specimens.
     """
@@ -46,12 +46,12 @@ def slope_ratio(evidence: Evidence, pair: Sequence[str]) -> float:
 
 
 def worst_theory_distance(evidence: Evidence, element: str, stiffness: str) -> float:
-    """Largest distance of the load from corrected beam theory on the growth branches of all specimens, relative."""
+    """Return the largest relative distance from corrected beam theory on the growth branches of all specimens."""
     return max(theory_distance(evidence, problem, element, [stiffness]) for problem in PROBLEMS)
 
 
 def kink_distance(evidence: Evidence, problem: str, traction: str) -> float:
-    """Distance (mm) of the standard element's worst kink from the last point that is more than half damaged.
+    """Return the distance (mm) of the standard element's worst kink from the last point that is more than half damaged.
 
     At 1e8, [0/0], at the moment of the figures. The kink is the largest change between neighbouring points of the
     distance from the consistent element's profile, process zones apart: ahead of both.
@@ -65,14 +65,14 @@ def kink_distance(evidence: Evidence, problem: str, traction: str) -> float:
 
 
 def large_beta(evidence: Evidence, beta: float) -> float:
-    """Standard deviation of the normal traction on moved nodes over the standard element's, with a large beta."""
+    """Return the deviation of the normal traction on moved nodes over the standard element's, with a large beta."""
     paper = evidence.runs.patch(PatchCase("horizontal", "0/0", "paper", moved=True, beta=beta))
     standard = evidence.runs.patch(PatchCase("horizontal", "0/0", "standard", moved=True))
     return swing(paper.traction) / swing(standard.traction)
 
 
 def contrast(evidence: Evidence) -> float:
-    """As `large_beta`, of the standard element at 1e8 in both directions over that with the soft sliding."""
+    """Compare the standard element's deviation on moved nodes at 1e8 in both directions to that with soft sliding."""
     soft = PatchCase("horizontal", "0/0", "standard", moved=True)
     return swing(evidence.runs.patch(replace(soft, shear=soft.normal)).traction) / swing(
         evidence.runs.patch(soft).traction
@@ -80,7 +80,7 @@ def contrast(evidence: Evidence) -> float:
 
 
 def soft_difference(evidence: Evidence) -> float:
-    """Largest distance of the two elements' tractions at 1e4 over that at 1e8, [0/0], the largest of the specimens."""
+    """Return the largest distance of both elements' tractions at 1e4 over that at 1e8, [0/0], over all specimens."""
     found = []
     for problem, kind in PROBLEMS.items():
         for name in kind.modes:
@@ -95,7 +95,7 @@ def soft_difference(evidence: Evidence) -> float:
 
 
 def structured_share(evidence: Evidence, problems: Sequence[str] = tuple(PROBLEMS)) -> float:
-    """Variation of the standard element's traction on the structured mesh over that on the perturbed one, 1e8, [0/0].
+    """Return the variation of the standard element's traction, structured over perturbed mesh, 1e8, [0/0].
 
     The largest of the specimens and tractions, at the moment of the figures.
     """
@@ -108,7 +108,7 @@ def structured_share(evidence: Evidence, problems: Sequence[str] = tuple(PROBLEM
 
 
 def soft_variation(evidence: Evidence, problems: Sequence[str] = tuple(PROBLEMS)) -> float:
-    """Variation of the standard element's tractions at 1e4, [0/0], the largest of all specimens and moments."""
+    """Return the variation of the standard element's tractions at 1e4, [0/0], largest of specimens and moments."""
     return max(
         variation(evidence, problem, "0/0", "standard", PROBLEMS[problem].modes, ["1e4"], ever=True)
         for problem in problems
@@ -116,7 +116,7 @@ def soft_variation(evidence: Evidence, problems: Sequence[str] = tuple(PROBLEMS)
 
 
 def contact_share(evidence: Evidence) -> float:
-    """Variation of the standard element's t_n on the perturbed mesh where it is compressive over that where it is not.
+    """Return the variation of the standard element's t_n on the perturbed mesh, compressive part over the rest.
 
     Each over that of the consistent element on the structured mesh; DCB, 1e8, [0/0], at the moment of the figures.
     """
@@ -132,7 +132,7 @@ def contact_share(evidence: Evidence) -> float:
 
 
 def mixed_mode_error(evidence: Evidence) -> float:
-    """Distance of the standard element's profiles at 1e4 and 1e6 in the FRMM over the larger of DCB and ENF, [0/0]."""
+    """Return the distance of the standard element's profiles, 1e4 to 1e6, FRMM over the largest other, [0/0]."""
     apart = {
         problem: max(
             profile_distance(evidence, problem, "0/0", ["standard"], name, ["1e4", "1e6"]) for name in kind.modes
@@ -143,13 +143,13 @@ def mixed_mode_error(evidence: Evidence) -> float:
 
 
 def early_damage(evidence: Evidence) -> float:
-    """Largest traction over its strength in the FRMM at 1e4, standard element, [0/0], at the moment of the figures."""
+    """Return the largest traction over its strength in the FRMM at 1e4, standard element, [0/0], as in the figures."""
     profile = moment(evidence.run("frmm", "0/0", "standard", "1e4"))
     return max(float(np.abs(profile[name]).max()) / STRENGTHS[name] for name in ("TN", "TT"))
 
 
 def zone_share(evidence: Evidence, strength: float) -> float:
-    """Points in the process zone of the DCB with both strengths multiplied, over those without; infinite stiffness."""
+    """Count the points in the DCB's process zone with multiplied strengths, over those without; infinite stiffness."""
     counts = []
     for factor in (strength, 1.0):
         damage = moment(evidence.case(PaperCase("dcb", "0/0", "consistent", "inf", strength=factor)))["SPENT"]
@@ -158,7 +158,7 @@ def zone_share(evidence: Evidence, strength: float) -> float:
 
 
 def newton_cotes_gain(evidence: Evidence) -> float:
-    """Largest variation of the standard element's t_n at Gauss points over that at Newton-Cotes points, DCB, 1e8."""
+    """Return the largest variation of the standard element's t_n, Gauss over Newton-Cotes points, DCB, 1e8."""
     gauss = PaperCase("dcb", "0/0", "standard", "1e8")
     worst = []
     for case in (gauss, replace(gauss, newton_cotes=True)):
@@ -167,7 +167,7 @@ def newton_cotes_gain(evidence: Evidence) -> float:
 
 
 def stiff_load(evidence: Evidence, problems: Sequence[str]) -> float:
-    """Relative change of the paper's element's peak load from 1e8 to 1e12, the largest, [0/0]."""
+    """Return the relative change of the paper's element's peak load from 1e8 to 1e12, the largest, [0/0]."""
     peaks = [[evidence.peak(PaperCase(p, "0/0", "paper", s)) for s in ("1e8", "1e12")] for p in problems]
     return max(abs(high / low - 1.0) for low, high in peaks)
 

@@ -28,7 +28,7 @@ METHODS = {"standard": ("U2", False), "paper": ("U4", False), "consistent": ("U4
 
 @dataclass(frozen=True, slots=True)
 class PatchCase:
-    """One run of a patch test.
+    """Case of a patch test.
 
     shape    'horizontal' or 'inclined'
     layup    '0/0' or '0/90'
@@ -67,22 +67,22 @@ class PatchCase:
 
     @property
     def fallback(self) -> bool:
-        """Search downhill where Newton's method fails."""
+        """True to search downhill where Newton's method fails."""
         return True
 
     @property
     def work(self) -> float:
-        """What the run takes, little more than its start; as that of a `PaperCase`."""
+        """Cost of the run, little more than its start, as for a `PaperCase`."""
         return START
 
     def mesh(self) -> TwoArmMesh:
-        """The mesh."""
+        """Build the mesh."""
         if self.shape == "inclined":
             return inclined_mesh(MOVED * self.moved, self.decimals)
         return specimens.patch_mesh(specimens.PATCH_BUMP * self.moved)
 
     def files(self) -> dict[str, str]:
-        """Deck `NAME.inp` and the files that it includes."""
+        """Return the deck `NAME.inp` and the files that it includes."""
         mesh, mesh_name = self.mesh(), self._nodes
         kind, consistent = METHODS[self.element]
         paper = BETAS[self.layup] if self.shape == "inclined" else specimens.PATCH_BETA
@@ -104,18 +104,18 @@ STIFF = tuple(10.0**exponent for exponent in range(6, 19))
 
 
 def uniform_cases() -> list[PatchCase]:
-    """The flat patch under uniform stress, paper's element, from soft to nearly rigid."""
+    """List the cases of the flat patch under uniform stress, paper's element, from soft to nearly rigid."""
     return [
         PatchCase("horizontal", "0/0", "paper", False, normal=a, shear=a, slide=True) for a in (1e4, 1e6, 1e8, 1e10)
     ]
 
 
 NODES = ((False, COLLINEAR), (False, PRINTED), (True, COLLINEAR))
-"""How the nodes of the inclined interface lie: `moved` and `decimals`."""
+"""Variants of the nodes of the inclined interface: `moved` and `decimals`."""
 
 
 def inclined_cases() -> list[PatchCase]:
-    """Figure 6 with beta of the paper, on straight, rounded and moved nodes, and with beta by (21)."""
+    """List the cases of figure 6: beta of the paper on straight, rounded and moved nodes, and beta by (21)."""
     cases = [
         PatchCase("inclined", layup, element, moved, decimals)
         for layup in PLIES
@@ -126,7 +126,7 @@ def inclined_cases() -> list[PatchCase]:
 
 
 def patch_cases() -> list[PatchCase]:
-    """All patch tests of the paper."""
+    """List all patch tests of the paper."""
     horizontal = [PatchCase("horizontal", "0/0", element, moved) for element in METHODS for moved in (False, True)]
     horizontal += [PatchCase("horizontal", "0/0", "paper", True, beta=beta) for beta in (BY_EQUATION_21, 3.0e8, 3.0e12)]
     horizontal.append(PatchCase("horizontal", "0/0", "standard", True, shear=LAW.stiffness_normal))

@@ -30,7 +30,7 @@ Profile = dict[str, FloatArray]
 
 @dataclass(frozen=True, slots=True)
 class Entry(StoredRow):
-    """How a run ended.
+    """Ending of a run.
 
     stopped   why it stopped early; empty for a run that finished
     increments, iterations, cutbacks  including the iterations of abandoned attempts
@@ -50,7 +50,7 @@ class Entry(StoredRow):
 
 
 class Run:
-    """One run, read from its files.
+    """Run of a case, read from its files.
 
     Loads and displacements are positive in the direction of loading and start at 0, before the first increment.
     """
@@ -99,7 +99,7 @@ class Run:
 
     @property
     def around_peak(self) -> PaperCase | None:
-        """The case that passes the peak in small increments, from the increment before to that after; None at an end.
+        """Case that passes the peak in small increments, from the increment before to that after; None at an end.
 
         The increments of a run miss up to what the load rises in one of them, which differs from run to run.
         """
@@ -127,7 +127,7 @@ class Run:
         return profiles
 
     def at(self, displacement: float) -> Profile:
-        """The profile nearest to a displacement (mm)."""
+        """Return the profile nearest to a displacement (mm)."""
         times = np.array([profile["time"][0] for profile in self.profiles])
         return self.profiles[int(np.argmin(np.abs(times * self.case.displacement - displacement)))]
 
@@ -138,7 +138,7 @@ class Run:
 
 
 class PatchRun:
-    """One run of a patch test."""
+    """Run of a patch test."""
 
     def __init__(self, case: PatchCase, entry: Entry, folder: Path) -> None:
         self.case = case
@@ -156,7 +156,7 @@ class PatchRun:
         return self.profile["TN"]
 
     def displacements(self) -> tuple[FloatArray, FloatArray]:
-        """Places and displacements of all nodes (n, 2), in mm."""
+        """Return the places and displacements of all nodes (n, 2), in mm."""
         return self._result.mesh().points[:, :2], self._result.field("U")[:, :2]
 
 
@@ -183,11 +183,11 @@ class Runs:
         return case in self._entries
 
     def entries(self) -> dict[AnyCase, Entry]:
-        """How the runs ended."""
+        """Return the endings of the runs."""
         return dict(self._entries)
 
     def deck(self, case: AnyCase) -> Path:
-        """The deck that was run."""
+        """Return the path of the deck that was run."""
         return self._folder / case.name / f"{case.name}.inp"
 
     def __getitem__(self, case: PaperCase) -> Run:
@@ -199,7 +199,7 @@ class Runs:
         return run
 
     def peak(self, case: PaperCase) -> float:
-        """Peak load (N), found in small increments if that has been run."""
+        """Return the peak load (N), found in small increments if that has been run."""
         return self[self._around_peaks.get(case, case)].peak[0]
 
     def patch(self, case: PatchCase) -> PatchRun:

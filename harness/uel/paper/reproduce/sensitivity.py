@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the result depends on: mesh, increments, stiffness, strength, sampling, integration rule, stabilisation."""
+"""Sensitivity to mesh, increments, stiffness, strength, sampling, integration rule, stabilisation."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ HEAD = (
 
 @dataclass(frozen=True, slots=True)
 class Study:
-    """One parameter.
+    """Study of one parameter.
 
     title, parameter  heading, and the parameter with its unit
     variants  value as shown and case, by label of the curve
@@ -57,12 +57,12 @@ class Study:
     advise: Callable[[Curves], str]
 
     def cases(self) -> list[PaperCase]:
-        """All its cases."""
+        """Return all its cases."""
         return [case for pairs in self.variants.values() for _, case in pairs]
 
 
 def cases(*, coarse: bool) -> list[PaperCase]:
-    """The cases of all parameters, whose peak loads are compared."""
+    """List the cases of all parameters, whose peak loads are compared."""
     return list(dict.fromkeys(case for study in studies(coarse=coarse) for case in study.cases()))
 
 
@@ -74,7 +74,7 @@ def _bases(problem: str, methods: Sequence[tuple[str, str]], *, coarse: bool) ->
 
 
 def _possible(element: str, *, coarse: bool) -> set[str]:
-    """Stiffnesses of an element; at 1e12 the standard one takes thousands of iterations."""
+    """Return the stiffnesses of an element; at 1e12 the standard one takes thousands of iterations."""
     without = {"consistent": set[str](), "paper": {"inf"}, "standard": {"inf", "1e12"} if coarse else {"inf"}}
     return set(STIFFNESSES) - without[element]
 
@@ -84,7 +84,7 @@ def _divided(case: PaperCase, increments: int) -> PaperCase:
 
 
 def studies(*, coarse: bool) -> list[Study]:
-    """All parameters; with `coarse`, around the coarse meshes, with fewer values, most in one specimen."""
+    """List all parameters; with `coarse`, around the coarse meshes, with fewer values, most in one specimen."""
     dcb, enf = (_bases(problem, METHODS, coarse=coarse) for problem in ("dcb", "enf"))
     sizes = {"dcb": (0.5, 0.25, 0.125, 0.0625), "enf": (1.0, 0.5, 0.25, 0.125)}
     kept = sizes | ({"dcb": (sizes["dcb"][1], QUICK_SIZES["dcb"])} if coarse else {})
@@ -169,7 +169,7 @@ def studies(*, coarse: bool) -> list[Study]:
 
 
 def text(study: Study, runs: Runs) -> str:
-    """What the numbers say: advice, and how far the peak loads of a parameter's values lie apart, by curve."""
+    """Sum up the numbers: advice, and how far the peak loads of a parameter's values lie apart, by curve."""
     curves = {
         label: [
             Point(
@@ -196,7 +196,7 @@ def text(study: Study, runs: Runs) -> str:
 
 @cache
 def row(runs: Runs, case: PaperCase) -> dict[str, float]:
-    """Numbers of a run: those of HEAD but the last."""
+    """Return the numbers of a run: those of HEAD but the last."""
     run = runs[case]
     varies = max(total_variation(profile[name]) for profile in run.bonded for name in case.kind.modes)
     turns = max(damage_variation(profile["SPENT"]) for profile in run.profiles) - 1.0
@@ -205,7 +205,7 @@ def row(runs: Runs, case: PaperCase) -> dict[str, float]:
 
 
 def cells(runs: Runs, case: PaperCase) -> list[str]:
-    """A line of the table."""
+    """Format a line of the table."""
     run = runs[case]
     peak, last, varies, turns, iterations, cutbacks = row(runs, case).values()
     reached = run.displacement[-1] / run.case.displacement
@@ -215,7 +215,7 @@ def cells(runs: Runs, case: PaperCase) -> list[str]:
 
 
 def draw(study: Study, runs: Runs, path: Path) -> Path:
-    """Peak load and variation of the traction over the parameter: a row of panels for each specimen."""
+    """Draw peak load and variation of the traction over the parameter: a row of panels for each specimen."""
     rows = []
     for problem in dict.fromkeys(case.problem for case in study.cases()):
         panels = []
@@ -238,7 +238,7 @@ def draw(study: Study, runs: Runs, path: Path) -> Path:
 
 
 def _wide(values: Sequence[FloatArray]) -> tuple[float, float]:
-    """Range of the ordinate, wide enough that what counts as equal looks equal."""
+    """Return the range of the ordinate, wide enough that what counts as equal looks equal."""
     low, high = min(map(np.min, values)), max(map(np.max, values))
     half = max(0.55 * (high - low), 2.5 * SETTLED * high)
     return 0.5 * (low + high) - half, 0.5 * (low + high) + half

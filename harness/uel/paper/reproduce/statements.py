@@ -50,7 +50,7 @@ class Number:
     name: str = ""
 
     def of(self, evidence: Evidence) -> float:
-        """Its value."""
+        """Compute its value."""
         return float(MEASURES[self.measure](evidence, **self.arguments))
 
 
@@ -68,11 +68,11 @@ class Remark:
     reproduced: bool | None = None
 
     def names(self) -> set[str]:
-        """Names of the numbers that it needs."""
+        """Return the names of the numbers that it needs."""
         return {name for _, name, _, _ in Formatter().parse(self.text) if name} | set(self.limits)
 
     def holds(self, values: Mapping[str, float], *, reproduced: bool) -> bool:
-        """Whether it belongs to these numbers, which it needs, and this verdict."""
+        """Report whether it belongs to these numbers, which it needs, and this verdict."""
         if not self.names() <= set(values) or self.reproduced not in (None, reproduced):
             return False
         return all(low <= values[name] < high for name, (low, high) in self.limits.items())
@@ -95,13 +95,13 @@ class Statement:
 
     @property
     def limits(self) -> str:
-        """What the number has to be."""
+        """Limits of the number, in words."""
         low = "" if self.at_least is None else f"at least {self.at_least:g}"
         high = "" if self.at_most is None else f"at most {self.at_most:g}"
         return ", ".join(filter(None, (low, high)))
 
     def holds(self, value: float) -> bool:
-        """Whether a value is within the limits; NaN is not."""
+        """Report whether a value is within the limits; NaN is not."""
         low = self.at_least is None or value >= self.at_least
         high = self.at_most is None or value <= self.at_most
         return low and high
@@ -117,19 +117,19 @@ class JudgedStatement:
 
     @property
     def reproduced(self) -> bool:
-        """Whether our number is what the statement says."""
+        """True if our number is what the statement says."""
         return self.statement.holds(self.value)
 
     @property
     def why(self) -> str:
-        """The remarks that belong to the numbers."""
+        """Remarks that belong to the numbers."""
         values = {number.name: value for number, value in self.also if number.name} | {VALUE: self.value}
         chosen = (remark for remark in self.statement.remarks if remark.holds(values, reproduced=self.reproduced))
         return " ".join(remark.text.format(**values) for remark in chosen)
 
 
 def read_statements(file: Path = FILE) -> list[Statement]:
-    """All statements.
+    """Return all statements.
 
     Raises
     ------
@@ -191,7 +191,7 @@ def _number(entry: Mapping[str, object], place: str) -> Number:
 
 
 def judge(statement: Statement, evidence: Evidence) -> JudgedStatement:
-    """Our numbers for a statement."""
+    """Return our numbers for a statement."""
     also = [number for number in statement.also if not (number.full and evidence.coarse)]
     return JudgedStatement(
         statement, statement.number.of(evidence), tuple((number, number.of(evidence)) for number in also)

@@ -21,7 +21,7 @@ from uel.paper.reproduce.runs import Runs
 
 
 def all_tables(parts: Sequence[str], evidence: Evidence, folder: Path) -> list[Table]:
-    """Tables of the parts of the command that were run; `folder` gets the pictures of the sensitivities."""
+    """Return the tables of the parts of the command that were run; `folder` gets the pictures of the sensitivities."""
     tables = [_parameters()]
     problems = [part for part in parts if part in PROBLEMS]
     if problems:
@@ -153,7 +153,7 @@ def _mode_ratios(evidence: Evidence) -> Table:
 
 
 def nearer_to_beams(apart: Sequence[float]) -> str:
-    """Whether the distance from plain beams falls with the length of the crack, of distances in this order."""
+    """Say whether the distance from plain beams falls with the length of the crack, of distances in this order."""
     falls = all(long < short for short, long in itertools.pairwise(apart))
     return "the longer the crack, the less that counts." if falls else "it does not count for less with a longer crack."
 

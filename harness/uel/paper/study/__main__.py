@@ -61,7 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _rows(cases: Sequence[StudyCase], folder: Path, workers: int, console: Console) -> dict[StudyCase, StudyRow]:
-    """Rows of all cases, in their order; those not in the folder are computed, after their references."""
+    """Return the rows of all cases, in their order; those not in the folder are computed, after their references."""
     missing = [case for case in cases if row_store(folder).get(case) is None]
     complete(
         list(dict.fromkeys(map(reference_of, missing))),

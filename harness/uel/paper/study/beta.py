@@ -52,20 +52,20 @@ UNSTABLE = "2e3"
 """Below the bound of the elements: in the first table alone, as it takes fifty times as many iterations."""
 
 CONSISTENT = Interface("U4", TABLE_2.with_stiffness(0.0))
-"""With an infinite stiffness."""
+"""Interface of the consistent element with an infinite stiffness."""
 
 SPECIMENS = ("dcb025", "enf")
 FACTOR = 2
 """The finer meshes have every quad cut into this number squared."""
 
 MULTIPLES = {"-1": 0.0, "(21)": 1.0, "10 x (21)": 10.0, "100 x (21)": 100.0}
-"""In space: times the estimate of (21)."""
+"""Multiples of the estimate of (21) in space."""
 
 LAYERS, FINE_LAYERS = (1, 2, 4), 8
 """Bricks through an arm."""
 
 LENGTH, WIDTH, HEIGHT, CRACK, GROWTH = 60.0, 4.0, 2.0, 20.0, 32.0
-"""In space: length, width, height of an arm, length of the crack, and up to where the bricks are short (mm)."""
+"""Dimensions in space: length, width, height of an arm, length of the crack, end of the short bricks (mm)."""
 
 SIZE, ROWS = 0.5, 2
 """Length of the bricks there (mm), half of it on the finer mesh, and bricks across."""
@@ -100,16 +100,16 @@ class BetaCase:
 
     @property
     def title(self) -> str:
-        """Of its table."""
+        """Title of its table."""
         return f"{KINDS[self.specimen].title}, [{self.layup}], {self.mesh}"
 
     @property
     def reference(self) -> BetaCase:
-        """The finer mesh that it is compared with."""
+        """Finer mesh that it is compared with."""
         return replace(self, beta="-1", factor=FACTOR)
 
     def files(self) -> dict[str, str]:
-        """Deck `NAME.inp` and the files that it includes."""
+        """Return the deck `NAME.inp` and the files that it includes."""
         kind = KINDS[self.specimen]
         interface = replace(CONSISTENT, beta=BETAS[self.beta])
         mesh = mesh_of(kind, self.mesh, self.factor)
@@ -131,16 +131,16 @@ class SpaceCase:
 
     @property
     def title(self) -> str:
-        """Of its table."""
+        """Title of its table."""
         return f"double cantilever beam in space, [{self.layup}], {self.layers} through an arm"
 
     @property
     def reference(self) -> SpaceCase:
-        """The finer mesh that it is compared with."""
+        """Finer mesh that it is compared with."""
         return SpaceCase(self.layup, FINE_LAYERS, "-1")
 
     def files(self) -> dict[str, str]:
-        """Deck `NAME.inp`."""
+        """Return the deck `NAME.inp`."""
         lower, upper, opening = PLATES[self.layup]
         size = SIZE / 2 if self.layers == FINE_LAYERS else SIZE
         x = crack_columns(LENGTH, (CRACK, GROWTH), size, 1.2, (2.0, 2.0))
@@ -150,7 +150,7 @@ class SpaceCase:
         return {f"{self.name}.inp": opened(self.name, laminate, opening, every=10)}
 
     def _beta(self) -> float:
-        """BETAN = BETAT; by (21) and (22) of two bricks of like size and |D|, |D|/h."""
+        """Return BETAN = BETAT; by (21) and (22) of two bricks of like size and |D|, |D|/h."""
         if self.beta == "-1":
             return -1.0
         share = MULTIPLES[self.beta]
@@ -158,7 +158,7 @@ class SpaceCase:
 
 
 def spectral_norm(ply: SolidPly) -> float:
-    """|D| of a ply in space (MPa)."""
+    """Return |D| of a ply in space (MPa)."""
     compliance = np.diag([1.0 / modulus for modulus in (*ply.moduli, *ply.shear)])
     for (i, j), ratio in zip(((0, 1), (0, 2), (1, 2)), ply.ratios, strict=True):
         compliance[i, j] = compliance[j, i] = -ratio / ply.moduli[i]
@@ -199,7 +199,7 @@ def run_case(case: Case, folder: Path) -> BetaRow:
 
 
 def real_profiles(case: Case, folder: Path) -> list[Profile]:
-    """Profiles of the reference of a case at the points of its own mesh; none in space, and for a reference."""
+    """Read the profiles of a case's reference at the points of its own mesh; none in space, and for a reference."""
     reference = case.reference
     if isinstance(reference, SpaceCase) or case == reference:
         return []
@@ -208,7 +208,7 @@ def real_profiles(case: Case, folder: Path) -> list[Profile]:
 
 
 def measure(case: Case, result: Result, stopped: str, real: list[Profile]) -> BetaRow:
-    """Row of a case from the files of its run, and the profiles of its reference."""
+    """Read the row of a case from the files of its run, and the profiles of its reference."""
     curve, time = load(result), result.history["time"]
     second = np.linspace(0.5, 1.0, 501) * time[-1]
     index = float("nan")
@@ -228,19 +228,19 @@ def measure(case: Case, result: Result, stopped: str, real: list[Profile]) -> Be
 
 
 def _displacement(case: Case) -> float:
-    """Of the load at the end (mm)."""
+    """Return the displacement of the load at the end (mm)."""
     if isinstance(case, SpaceCase):
         return PLATES[case.layup][2]
     return KINDS[case.specimen].displacement[case.layup]
 
 
 def _period(case: Case) -> float:
-    """Step time."""
+    """Return the step time."""
     return _displacement(case) if isinstance(case, SpaceCase) else 1.0
 
 
 def all_cases() -> list[Case]:
-    """The rows of all tables, one table after the other."""
+    """List the rows of all tables, one table after the other."""
     plane = [
         BetaCase(specimen, layup, mesh, beta)
         for specimen in SPECIMENS
@@ -253,7 +253,7 @@ def all_cases() -> list[Case]:
 
 
 def markdown(rows: Mapping[Case, BetaRow]) -> list[str]:
-    """The tables of the page, each with its finer mesh in the last line; `rows` has the references too."""
+    """Write the tables of the page, each with its finer mesh in the last line; `rows` has the references too."""
     columns = ("beta", "stiffness (N/mm)", "peak (N)", "mean load (N)", "error", "index", "iterations", "cutbacks")
     tables: dict[str, list[Case]] = {}
     for case in rows:
@@ -308,7 +308,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def row_store(folder: Path) -> Store[BetaRow]:
-    """Rows by the name of their case, in rows.json."""
+    """Return the rows by the name of their case, in rows.json."""
     return Store(folder / "rows.json", BetaRow.from_json)
 
 

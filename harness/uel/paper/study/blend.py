@@ -45,13 +45,13 @@ class Beam:
         return f"blend_{self.stiffness}_{self.mesh}_{self.share:g}".replace(".", "")
 
     def files(self) -> dict[str, str]:
-        """Deck `NAME.inp` and the files that it includes."""
+        """Return the deck `NAME.inp` and the files that it includes."""
         interface = replace(interface_of("consistent", self.stiffness), blend=self.share)
         return deck_files(self.name, f"BLEND {self.share:g}", KIND, "0/0", mesh_of(KIND, self.mesh), interface)
 
 
 def described(outcome: RunOutcome) -> str:
-    """Increments / cutbacks / iterations, peak load (N), and where it stopped."""
+    """Return the increments / cutbacks / iterations, peak load (N), and where it stopped."""
     result = outcome.result
     increments, cutbacks = len(result.history["time"]), sum(line.cutback for line in result.status)
     counts = f"{increments} / {cutbacks} / {iterations(result)}, {peak_load(result):.2f}"

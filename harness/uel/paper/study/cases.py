@@ -86,7 +86,7 @@ MESHES = {"structured": 0.0, "perturbed": BUMP}
 VISCOSITIES = {f"viscous{text}": float(text) for text in ("1e-4", "3e-4", "1e-3")}
 """Viscosity in step time: what Abaqus alone can do where Newton's method stops."""
 SOLUTIONS = {"newton": (False, 0.0), "fallback": (True, 0.0)} | {n: (False, v) for n, v in VISCOSITIES.items()}
-"""Whether the fall-back helps, and the viscosity in step time."""
+"""Solutions by name: whether the fall-back helps, and the viscosity in step time."""
 LAWS = {"linear": (1, 0.0), "bk": (2, 1.45), "exponential": (3, 0.0), "ppr": (4, 0.0)}
 """LAW and the exponent of Benzeggagh and Kenane; the last has its default shapes."""
 OWN_LAW = "linear"
@@ -94,7 +94,7 @@ OWN_LAW = "linear"
 
 @dataclass(frozen=True, slots=True)
 class StudyCase:
-    """One row; every entry is a key of the table of its name."""
+    """Row of the study; every entry is a key of the table of its name."""
 
     specimen: str
     layup: str
@@ -112,7 +112,7 @@ class StudyCase:
 
     @property
     def kind(self) -> MeshedSpecimen:
-        """The specimen."""
+        """Specimen."""
         return KINDS[self.specimen]
 
     @property
@@ -121,7 +121,7 @@ class StudyCase:
         return self.kind.displacement[self.layup]
 
     def files(self) -> dict[str, str]:
-        """Deck `NAME.inp` and the files that it includes."""
+        """Return the deck `NAME.inp` and the files that it includes."""
         _, viscosity = SOLUTIONS[self.solution]
         law, eta = LAWS[self.law]
         interface = replace(interface_of(self.element, self.stiffness), viscosity=viscosity, law=law, eta=eta)
@@ -130,13 +130,13 @@ class StudyCase:
 
 
 def interface_of(element: str, stiffness: str) -> Interface:
-    """Interface elements with the law of the paper, by the names of the tables."""
+    """Return the interface elements with the law of the paper, by the names of the tables."""
     kind, consistent = ELEMENTS[element]
     return Interface(kind, TABLE_2.with_stiffness(STIFFNESSES[stiffness]), BY_EQUATION_21, consistent=consistent)
 
 
 def mesh_of(kind: MeshedSpecimen, mesh: str, factor: int = 1) -> TwoArmMesh:
-    """Mesh of a specimen with every quad cut into factor x factor; the bumps are those of the mesh with 1."""
+    """Mesh a specimen with every quad cut into factor x factor; the bumps are those of the mesh with 1."""
     return refined(kind.mesh(kind.size, MESHES[mesh] * kind.size), factor)
 
 
@@ -151,7 +151,7 @@ def deck_files(
     displacement: float | None = None,
     increments: Increments = INCREMENTS,
 ) -> dict[str, str]:
-    """Deck `NAME.inp` of a specimen and its mesh files; by default with the displacement (mm) of the study."""
+    """Write the deck `NAME.inp` of a specimen and its mesh files; the displacement (mm) defaults to the study's."""
     top, bottom = LAYUPS[layup]
     specimen = Specimen("mesh", mesh, interface, specimens.WIDTH, bottom, top)
     end = kind.displacement[layup] if displacement is None else displacement
@@ -171,7 +171,7 @@ TABLES: dict[str, Iterable[str]] = {
 
 
 def all_cases() -> list[StudyCase]:
-    """All rows: only the consistent law has an infinite stiffness, with the rows with viscosity and other laws.
+    """List all rows: only the consistent law has an infinite stiffness, with the rows with viscosity and other laws.
 
     The standard element at 1e12 does not use the fall-back: because of its oscillations that takes tens of thousands
     of iterations without end.
@@ -191,7 +191,7 @@ def _is_row(case: StudyCase) -> bool:
 
 
 def select(cases: Iterable[StudyCase], words: Sequence[str]) -> list[StudyCase]:
-    """Cases that match the words: words of one table are alternatives, those of different tables must all match.
+    """Select the cases that match the words: of one table any, of different tables all.
 
     Raises
     ------

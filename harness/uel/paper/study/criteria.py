@@ -34,7 +34,7 @@ Rows = Mapping[StudyCase, StudyRow]
 
 @dataclass(frozen=True, slots=True)
 class JudgedCriterion:
-    """One criterion: the number of rows judged, and those that fail it, each with the reason."""
+    """Judgement on a criterion: the number of rows judged, and those that fail it, each with the reason."""
 
     criterion: str
     judged: int
@@ -47,7 +47,7 @@ class JudgedCriterion:
 
 
 def check(rows: Rows) -> list[JudgedCriterion]:
-    """All criteria for which there are rows, for each kind of solution."""
+    """Return all criteria for which there are rows, for each kind of solution."""
     verdicts = []
     for solution in JUDGED:
         chosen = {case: row for case, row in rows.items() if (case.solution, case.law) == (solution, OWN_LAW)}
@@ -71,7 +71,7 @@ def check(rows: Rows) -> list[JudgedCriterion]:
 
 
 def _each(criterion: str, rows: Rows, failure: Callable[[StudyCase, StudyRow], str | None]) -> JudgedCriterion:
-    """Verdict from a function of one row: what is wrong, empty if nothing is, None if the row is not judged."""
+    """Judge by a function of one row: what is wrong, empty if nothing is, None if the row is not judged."""
     texts = {case: failure(case, row) for case, row in rows.items()}
     judged = {case: text for case, text in texts.items() if text is not None}
     return JudgedCriterion(
@@ -125,7 +125,7 @@ def _peak_loads(rows: Rows) -> JudgedCriterion:
 
 
 def index_ratios(case: StudyCase, rows: Rows, quantity: str = "index") -> dict[str, float] | None:
-    """`index` or `error` of a case over that of the structured mesh at 1e6, by traction of the loading mode.
+    """Return the `index` or `error` of a case over that of the structured mesh at 1e6, by traction of the loading mode.
 
     None if that row, or its index, is missing.
     """
@@ -139,7 +139,7 @@ def index_ratios(case: StudyCase, rows: Rows, quantity: str = "index") -> dict[s
 
 
 def is_stiff_on_bumps(case: StudyCase) -> bool:
-    """Whether the row is one of those whose index is compared with that of the structured mesh at 1e6."""
+    """Report whether the row's index is compared with that of the structured mesh at 1e6."""
     return case.mesh == "perturbed" and case.stiffness in STIFFEST and case.layup == "0/0"
 
 
@@ -158,7 +158,7 @@ def _oscillation(criterion: str, rows: Rows) -> JudgedCriterion:
 
 
 def _standard_fails(rows: Rows) -> JudgedCriterion:
-    """The criterion is not trivial: the standard element fails it."""
+    """Judge that the criterion is not trivial: the standard element fails it."""
     own = {case: row for case, row in rows.items() if case.element == "standard"}
 
     def failure(case: StudyCase, _: StudyRow) -> str | None:

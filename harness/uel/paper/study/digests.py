@@ -19,7 +19,7 @@ Rows = Mapping[StudyCase, StudyRow]
 
 
 def variations(rows: Rows) -> list[str]:
-    """Total variation of the tractions of the loading mode: the reference's, each element's, that of the difference."""
+    """Compare the total variations of the loading mode's tractions: reference, each element, and the difference."""
     lines = []
     for case in rows:
         # one line for the three elements
@@ -44,7 +44,7 @@ def _number(row: StudyRow | None, name: str) -> str:
 
 
 def ratios(rows: Rows) -> list[str]:
-    """Index and error index on the perturbed mesh at 1e8 and above over those on the structured one at 1e6."""
+    """Compare index and error index on the perturbed mesh at 1e8 and above to those on the structured one at 1e6."""
     found: dict[tuple[str, str], dict[tuple[str, str], list[float]]] = {}
     for case in rows:
         if case.solution != "fallback" or not is_stiff_on_bumps(case):
@@ -68,7 +68,7 @@ def _range(values: Sequence[float]) -> str:
 
 
 def viscosity(rows: Rows) -> list[str]:
-    """Infinite stiffness: plain Newton, the fall-back, and the viscosities, with the loads over the fall-back's."""
+    """Compare, at infinite stiffness, plain Newton, the fall-back and the viscosities, loads over the fall-back's."""
     lines = []
     for case in rows:
         exact = rows[case]

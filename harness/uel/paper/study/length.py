@@ -46,7 +46,7 @@ class LengthResult:
 def beam(
     size: float, rows: int, folder: Path, *, at_nodes: bool = False, displacement: float | None = None
 ) -> LengthResult:
-    """Double cantilever beam [0/0], 100 increments, the fall-back.
+    """Write the double cantilever beam [0/0], 100 increments, the fall-back.
 
     Parameters
     ----------
@@ -76,14 +76,14 @@ def beam(
 
 
 def zone_length(result: Result) -> float:
-    """Length of the interface that is damaged and not yet broken, at the end (mm)."""
+    """Return the length of the interface that is damaged and not yet broken, at the end (mm)."""
     profile = result.interface()
     between = profile["X"][(profile["DAMAGE"] > 0.0) & (profile["DAMAGE"] < 1.0)]
     return float(np.ptp(between)) if len(between) else 0.0
 
 
 def warned(result: Result) -> bool:
-    """Whether the job says that an element that failed is too long."""
+    """Report whether the job says that an element that failed is too long."""
     return any("the process zone" in text for text in result.warnings)
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 
 def study_parser(module: str, description: str, folder: str, *, resumes: bool = False) -> argparse.ArgumentParser:
-    """Options of `python -m MODULE`: the folder of its files and, if an interrupted study resumes, the processes."""
+    """Read the options of `python -m MODULE`: folder of its files and, if an interrupted study resumes, processes."""
     parser = argparse.ArgumentParser(
         prog=f"python -m {module}",
         description=description,

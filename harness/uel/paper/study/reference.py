@@ -25,7 +25,7 @@ from uel.paper.run_deck import run_deck
 from uel.paper.study.cases import KINDS, StudyCase, deck_files, interface_of, mesh_of
 
 FACTORS = {"dcb": 2, "dcb025": 2, "enf": 2, "frmm": 4}
-"""Every quad is cut into this number squared: more if bumps affect both tractions, by bending stress and slip."""
+"""Factors by which quads are cut each way: more if bumps affect both tractions, by bending stress and slip."""
 FOLDER = "references"
 """Folder of the runs, below that of the study."""
 
@@ -42,7 +42,7 @@ class StudyReference:
 
     @property
     def factor(self) -> int:
-        """Every quad is cut into factor x factor."""
+        """Factor by which every quad is cut, in both directions."""
         return FACTORS[self.specimen]
 
     @property
@@ -51,7 +51,7 @@ class StudyReference:
         return f"{self.specimen}_{self.layup.replace('/', '-')}_{self.mesh}"
 
     def files(self) -> dict[str, str]:
-        """Deck `NAME.inp` and the files that it includes."""
+        """Return the deck `NAME.inp` and the files that it includes."""
         kind = KINDS[self.specimen]
         mesh = mesh_of(kind, self.mesh, self.factor)
         title = f"{kind.title}, [{self.layup}], {self.mesh} mesh, quads cut into {self.factor} x {self.factor}"
@@ -60,14 +60,14 @@ class StudyReference:
 
 @dataclass(frozen=True, slots=True)
 class ReferenceRun(StoredRow):
-    """How a reference ended: `stopped` says why it stopped early, empty if it finished; wall-clock time."""
+    """Ending of a reference run: `stopped` says why it stopped early, empty if it finished; wall-clock time."""
 
     stopped: str
     seconds: float
 
 
 def reference_of(case: StudyCase) -> StudyReference:
-    """Reference that a row is compared with."""
+    """Return the reference that a row is compared with."""
     return StudyReference(case.specimen, case.layup, case.mesh)
 
 
@@ -79,13 +79,13 @@ def run_reference(reference: Deck, folder: Path) -> ReferenceRun:
 
 @lru_cache(maxsize=2)
 def real_profiles(reference: StudyReference, folder: Path) -> list[Profile]:
-    """Profiles of a reference that has run in `folder`, at the points of the mesh that is not refined."""
+    """Return the profiles of a reference that has run in `folder`, at the points of the mesh that is not refined."""
     profiles = Result(folder / reference.name / reference.name).interfaces()
     return [restricted(profile, reference.factor) for profile in profiles]
 
 
 def restricted(profile: Profile, factor: int) -> Profile:
-    """Every column (factor n,) of a profile, averaged over the share of each point of the mesh that is not refined.
+    """Average every column (factor n,) of a profile over the share of each point of the mesh that is not refined.
 
     Both meshes have two points of equal weight on every interface element, left to right: the first `factor` points of
     the finer one lie in the share of the first point of the coarser one.

@@ -70,11 +70,11 @@ class Bonded:
 
     @property
     def refined_mesh(self) -> TwoArmMesh:
-        """Every quad cut into factor x factor."""
+        """Mesh with every quad cut into factor x factor."""
         return mesh_of(KINDS[self.specimen], self.mesh, self.factor)
 
     def files(self) -> dict[str, str]:
-        """Deck `NAME.inp` and the files that it includes."""
+        """Return the deck `NAME.inp` and the files that it includes."""
         kind, interface = KINDS[self.specimen], replace(interface_of(self.element, "1e8"), cohesive=INTACT)
         mesh = self.refined_mesh
         return deck_files(self.name, "bumps", kind, self.layup, mesh, interface, displacement=1.0, increments=LINEAR)
@@ -95,20 +95,20 @@ class Failing:
         return f"failing_{self.specimen}_{self.stiffness}_{self.element}_{self.factor}"
 
     def files(self) -> dict[str, str]:
-        """Deck `NAME.inp` and the files that it includes."""
+        """Return the deck `NAME.inp` and the files that it includes."""
         kind, interface = KINDS[self.specimen], interface_of(self.element, self.stiffness)
         mesh = mesh_of(kind, "perturbed", self.factor)
         return deck_files(self.name, "bumps", kind, "0/0", mesh, interface)
 
 
 def bonded(problem: Bonded, folder: Path) -> dict[str, FloatArray]:
-    """TN and TT (MPa) of a bonded interface at the points of the coarsest mesh, on the specimen's stretch."""
+    """Return TN and TT (MPa) of a bonded interface at the points of the coarsest mesh, on the specimen's stretch."""
     result = run_deck(problem, folder, fallback=False).result
     return _stretch(problem.specimen, restricted(result.interface(), problem.factor))
 
 
 def turned(specimen: str, folder: Path) -> dict[str, FloatArray]:
-    """TN and TT (MPa) on the facets of the perturbed [0/0] mesh from the stress along a straight interface, bonded."""
+    """Return TN and TT (MPa) on facets of the perturbed [0/0] mesh from the stress along a straight bond."""
     problem = Bonded(specimen, "0/0", "consistent", "structured", 2)
     outcome = run_deck(problem, folder, fallback=False, fields=True)
     profile = restricted(outcome.result.interface(), problem.factor)
@@ -121,14 +121,14 @@ def turned(specimen: str, folder: Path) -> dict[str, FloatArray]:
 
 
 def on_facets(stress: tuple[FloatArray, FloatArray, FloatArray], angle: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """t_n, t_tau (n,) on facets inclined by `angle` (n,) of the stress sigma_xx, sigma_yy, sigma_xy, each (n,)."""
+    """Return t_n, t_tau (n,) on facets inclined by `angle` (n,) from sigma_xx, sigma_yy, sigma_xy, each (n,)."""
     xx, yy, xy = stress
     sin, cos = np.sin(angle), np.cos(angle)
     return xx * sin**2 + yy * cos**2 - 2.0 * xy * sin * cos, (yy - xx) * sin * cos + xy * (cos**2 - sin**2)
 
 
 def _strain_along(result: Result, mesh: TwoArmMesh) -> FloatArray:
-    """epsilon_xx of every interface element, the mean of its two sides."""
+    """Return epsilon_xx of every interface element, the mean of its two sides."""
     labels = mesh.nodes()[0]
     places = [np.searchsorted(labels, line[mesh.first :]) for line in mesh.interface_lines]
     displacement = result.field("U")[:, 0]
@@ -143,7 +143,7 @@ def _stretch(specimen: str, profile: Profile) -> dict[str, FloatArray]:
 
 
 def failing(problem: Failing, folder: Path) -> dict[str, FloatArray]:
-    """TN and TT (MPa) of a failing interface at the points of the coarsest mesh that hold, in the middle of the run."""
+    """Return TN and TT (MPa) of a failing interface at the coarsest mesh's points that hold, in mid-run."""
     profiles = at_tenths(run_deck(problem, folder, fallback=True).result.interfaces())
     moment = FAILING[problem.specimen]
     profile = min(profiles, key=lambda profile: abs(float(profile["time"][0]) - moment))
@@ -151,7 +151,7 @@ def failing(problem: Failing, folder: Path) -> dict[str, FloatArray]:
 
 
 def facet_means(values: FloatArray) -> FloatArray:
-    """Means over the facets (n,) of values at their two points, (2 n,), or (2 n + 1,) from the second of a facet on."""
+    """Average over facets (n,) values at their two points, (2 n,), or (2 n + 1,) from the second of a facet on."""
     return np.asarray(values[len(values) % 2 :].reshape(-1, 2).mean(axis=1))
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a run of a case gives: one row of the table."""
+"""Row of the table: the results of a run of a case."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ class StudyRow(StoredRow):
 
     @property
     def finished(self) -> bool:
-        """Whether the run reached the final displacement."""
+        """True if the run reached the final displacement."""
         return not self.stopped
 
     @property
@@ -89,7 +89,7 @@ class StudyRow(StoredRow):
 
 
 def measure(case: StudyCase, result: Result, stopped: str, seconds: float, real: list[Profile]) -> StudyRow:
-    """Row of a case from the files of its run, and the profiles of its reference."""
+    """Read the row of a case from the files of its run, and the profiles of its reference."""
     history = result.history
     kind = case.kind
     load, displacement = (kind.sign * history[f"{name}2[{kind.load}]"] for name in ("RF", "U"))
@@ -136,7 +136,7 @@ def _along_the_interface(profiles: list[Profile], real: list[Profile]) -> dict[s
 def oscillations(
     traction: str, ending: str, chosen: list[Profile], pairs: list[tuple[Profile, Profile]]
 ) -> dict[str, float]:
-    """What a row says about the oscillation of one traction; its entries end in `ending`."""
+    """Measure the oscillation of one traction for a row; the names of the measures end in `ending`."""
     scale = STRENGTHS[traction]
     indices, errors, variations = [], [], [(float("nan"),) * 3]
     for profile, real in pairs:
@@ -160,7 +160,7 @@ def oscillations(
 
 
 def same_moments(profiles: list[Profile], real: list[Profile]) -> list[tuple[Profile, Profile]]:
-    """Profiles with those of the reference at the same moment, less than half an increment apart.
+    """Return the profiles with those of the reference at the same moment, less than half an increment apart.
 
     If increments were cut back, a run writes at other moments; such a profile has no partner.
     """
@@ -173,30 +173,30 @@ def _time(profile: Profile) -> float:
 
 
 def at_tenths(profiles: list[Profile]) -> list[Profile]:
-    """The last profile in each tenth of the displacement: the same moments for all runs, however many increments."""
+    """Return the last profile in each tenth of the displacement: the same moments for all runs."""
     tenths = {int(np.ceil(10.0 * profile["time"][0] - 1e-9)): profile for profile in profiles}
     return list(tenths.values())
 
 
 def bonded_part(profile: Profile) -> Profile:
-    """The profile from the first point that has not failed: process zone and bonded part, failed islands included."""
+    """Cut the profile at the first point that has not failed: process zone and bonded part, failed islands included."""
     first = int(np.argmax(profile["DAMAGE"] < 1.0))
     return {name: column[first:] for name, column in profile.items()}
 
 
 def damage_variation(damage: FloatArray) -> float:
-    """Total variation of the damage (n,) along the interface, over its largest value; 1 without damage."""
+    """Return the total variation of the damage (n,) along the interface, over its largest value; 1 without damage."""
     largest = float(damage.max())
     return total_variation(damage) / largest if largest > 0.0 else 1.0
 
 
 def dissipation_error(profile: Profile) -> float:
-    """Mean over the failed points of DISSI/G_Ic + DISSII/G_IIc, minus 1; 0 if none has failed."""
+    """Return the mean over the failed points of DISSI/G_Ic + DISSII/G_IIc, minus 1; 0 if none has failed."""
     failed = profile["DAMAGE"] >= 1.0
     spent = profile["DISSI"] / TABLE_2.toughness_1 + profile["DISSII"] / TABLE_2.toughness_2
     return float(np.mean(spent[failed])) - 1.0 if failed.any() else 0.0
 
 
 def loading_mode(kind: MeshedSpecimen, row: StudyRow, quantity: str) -> dict[str, float]:
-    """`index`, `error` or `raw` of each traction of the loading mode."""
+    """Return `index`, `error` or `raw` of each traction of the loading mode."""
     return {name: float(getattr(row, f"{quantity}_{name[1].lower()}")) for name in kind.modes}

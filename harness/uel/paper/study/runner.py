@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the cases of the study and their references, and keeps their rows."""
+"""Runner of the cases of the study and their references, which keeps their rows."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from uel.paper.study.rows import StudyRow, measure
 
 
 def row_store(folder: Path) -> Store[StudyRow]:
-    """Rows by the name of their case, in rows.json."""
+    """Return the rows by the name of their case, in rows.json."""
     return Store(folder / "rows.json", StudyRow.from_json)
 
 
 def reference_store(folder: Path) -> Store[ReferenceRun]:
-    """References that have run, by name, in references.json."""
+    """Open the store of the references that have run, by name, in references.json."""
     return Store(folder / "references.json", ReferenceRun.from_json)
 
 

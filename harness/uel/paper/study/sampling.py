@@ -36,7 +36,7 @@ class SamplingResult:
 
 
 def flexure(sampling: int, displacement: float, folder: Path, size: float | None = None) -> SamplingResult:
-    """End-notched flexure [0/0], stiffness 1e8 N/mm^3, consistent element, 100 increments, Abaqus' default controls.
+    """Run the end-notched flexure [0/0]: stiffness 1e8 N/mm^3, consistent element, 100 increments, default controls.
 
     Parameters
     ----------

@@ -16,13 +16,13 @@ Field = dict[str, FloatArray]
 
 
 def opened(title: str, laminate: Laminate, opening: float, every: int) -> str:
-    """Deck of a specimen that is opened by `opening` (mm), which is the step time, in at least 20 increments."""
+    """Write the deck of a specimen opened by `opening` (mm), which is the step time, in at least 20 increments."""
     static = (0.005 * opening, opening, 1.0e-10, 0.05 * opening)
     return text(dcb_deck(title, laminate, opening / 2, static, every=every))
 
 
 def field(profile: Field, rows: int) -> Field:
-    """The columns of a profile at the points in rows and columns (2 rows, n/(2 rows)).
+    """Arrange the columns of a profile at the points in rows and columns (2 rows, n/(2 rows)).
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def field(profile: Field, rows: int) -> Field:
 
 
 def restricted(finer: Field, factor: int) -> Field:
-    """Means over the shares of the points of the mesh that is not cut."""
+    """Return the means over the shares of the points of the mesh that is not cut."""
     return {
         name: values.reshape(len(values) // factor, factor, -1, factor).mean(axis=(1, 3))
         for name, values in finer.items()

@@ -42,7 +42,7 @@ from uel.paper.study.runner import reference_store
 from uel.paper.study.spatial import Field, field, opened, restricted
 
 WIDTH = 6.0
-"""Of the specimen (mm); the rest is that of `bricks.py`."""
+"""Width of the specimen (mm); the rest is that of `bricks.py`."""
 
 OPENING = 1.6
 """Distance of the outer edges of the arms at the end (mm)."""
@@ -82,7 +82,7 @@ ROWS = "rows"
 
 @dataclass(frozen=True, slots=True)
 class SurfaceMesh:
-    """One of `MESHES`, its bricks cut into factor x factor x factor; by default that of the table.
+    """Mesh of `MESHES`, its bricks cut into factor x factor x factor; by default that of the table.
 
     size    length and width of the bricks where the crack grows (mm)
     layers  bricks through the height of an arm
@@ -99,7 +99,7 @@ class SurfaceMesh:
         return self.factor * round(WIDTH / self.size)
 
     def plates(self) -> TwoPlateMesh:
-        """The two arms."""
+        """Build the mesh of the two arms."""
         x = crack_columns(LENGTH, (CRACK, GROWTH), self.size, RATIO, (LARGEST, LARGEST))
         y = np.linspace(0.0, WIDTH, round(WIDTH / self.size) + 1)
         mesh = two_plates(x, y, np.linspace(0.0, HEIGHT, self.layers + 1), CRACK)
@@ -136,12 +136,12 @@ class SurfaceCase:
 
     @property
     def reference(self) -> SurfaceCase:
-        """What really acts: a rigid bond on bricks of half the size."""
+        """Case of the tractions that really act: a rigid bond on bricks of half the size."""
         mesh = SurfaceMesh(self.mesh.name, 2, self.mesh.size, self.mesh.layers)
         return SurfaceCase(mesh, "consistent", "inf", self.opening)
 
     def files(self) -> dict[str, str]:
-        """Deck `NAME.inp`."""
+        """Return the deck `NAME.inp`."""
         stiffness = STIFFNESSES[self.stiffness]
         interface = replace(ELEMENTS[self.element], cohesive=LAW.with_stiffness(stiffness))
         mesh = self.mesh.plates()
@@ -151,7 +151,7 @@ class SurfaceCase:
 
 
 def all_cases() -> list[SurfaceCase]:
-    """The rows: the aligned mesh at 1e6 N/mm^3 is what the others are compared with."""
+    """List the rows; the others are compared with the aligned mesh at 1e6 N/mm^3."""
     rows = {"standard": ("1e8",), "consistent": ("1e8", "inf")}
     return [
         SurfaceCase(SurfaceMesh(mesh), element, stiffness)
@@ -196,7 +196,7 @@ def run_case(case: SurfaceCase, folder: Path) -> SurfaceRow:
 
 
 def measure(case: SurfaceCase, result: Result, stopped: str, real: Fields) -> SurfaceRow:
-    """Row of a case from the files of its run, and what really acts."""
+    """Read the row of a case from the files of its run, and what really acts."""
     found = []
     for time, shown in fields_of(case, result):
         places = np.stack([shown["X"], shown["Y"]], axis=-1)
@@ -228,18 +228,18 @@ Fields = list[tuple[float, Field]]
 
 @lru_cache(maxsize=1)
 def real_fields(reference: SurfaceCase, folder: Path) -> Fields:
-    """What really acts, at the points of the mesh that is not cut."""
+    """Return the tractions that really act, at the points of the mesh that is not cut."""
     finer = fields_of(reference, Result(folder / reference.name / reference.name))
     return [(time, restricted(values, reference.mesh.factor)) for time, values in finer]
 
 
 def fields_of(case: SurfaceCase, result: Result) -> Fields:
-    """Fields of a run in all increments."""
+    """Return the fields of a run in all increments."""
     return [(float(profile["time"][0]), field(profile, case.mesh.rows)) for profile in result.interfaces()]
 
 
 def _at(fields: Fields, time: float) -> FloatArray:
-    """Normal traction at a time; in between where the run had been cut back, and has other increments."""
+    """Interpolate the normal traction at a time: where the run was cut back, it has other increments."""
     after = min(max(bisect_left(fields, time, key=itemgetter(0)), 1), len(fields) - 1)
     (start, before), (end, then) = fields[after - 1 : after + 1]
     share = (time - start) / (end - start)
@@ -247,7 +247,7 @@ def _at(fields: Fields, time: float) -> FloatArray:
 
 
 def markdown(rows: Mapping[SurfaceCase, SurfaceRow]) -> list[str]:
-    """The table of the page."""
+    """Write the table of the page."""
     lines = head(COLUMNS)
     for case, row in rows.items():
         least = rows[SurfaceCase(SurfaceMesh("aligned"), case.element, "1e6")]
@@ -261,7 +261,7 @@ def markdown(rows: Mapping[SurfaceCase, SurfaceRow]) -> list[str]:
 
 
 def draw(shown: Sequence[Mapping[str, Field]], path: Path) -> None:
-    """Normal tractions about the front: a line of panels for each entry, with their titles."""
+    """Draw the normal tractions about the front: a line of panels for each entry, with their titles."""
     with mpl.rc_context({"font.size": 8}):
         figure = Figure(figsize=(12.0, 1.8 * len(shown)), layout="constrained")
         FigureCanvasAgg(figure)
@@ -279,7 +279,7 @@ def draw(shown: Sequence[Mapping[str, Field]], path: Path) -> None:
 
 
 def last_fields(folder: Path) -> list[dict[str, Field]]:
-    """Fields at the end on each mesh: both elements at 1e8 N/mm^3, and what really acts; from the study's folder."""
+    """Read the fields at the end on each mesh: both elements at 1e8 N/mm^3, and what really acts."""
     shown = []
     for mesh in MESHES:
         panels = {}

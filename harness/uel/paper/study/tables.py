@@ -83,7 +83,7 @@ HEAD = (
 
 
 def csv_table(rows: Mapping[StudyCase, StudyRow]) -> str:
-    """All rows with all their entries."""
+    """Return all rows with all their entries."""
     out = io.StringIO()
     lines = [asdict(case) | asdict(row) for case, row in rows.items()]
     writer = csv.DictWriter(out, list(lines[0]) if lines else [], lineterminator="\n")
@@ -93,7 +93,7 @@ def csv_table(rows: Mapping[StudyCase, StudyRow]) -> str:
 
 
 def markdown_tables(rows: Mapping[StudyCase, StudyRow], verdicts: Sequence[JudgedCriterion]) -> str:
-    """A page: verdicts, the digests, then a table for each specimen and layup."""
+    """Write a page: verdicts, the digests, then a table for each specimen and layup."""
     parts = [INTRODUCTION, "## Criteria\n", *_markdown_verdicts(verdicts)]
     for text, digest in ((BUMPS, variations(rows)), (RATIOS, ratios(rows)), (VISCOSITY, viscosity(rows))):
         if digest:
@@ -144,7 +144,7 @@ def _named(verdict: JudgedCriterion) -> list[str]:
 
 
 def verdict_table(verdicts: Sequence[JudgedCriterion]) -> Table:
-    """Verdicts for a terminal."""
+    """Return the verdicts for a terminal."""
     table = Table("criterion", "rows", "holds")
     table.add_column("fails", overflow="fold")
     for verdict in verdicts:
