@@ -36,13 +36,13 @@ _LINES: Final = {
 
 _NO_LIBRARY: Final = "cannot open shared object file"
 _RUNTIME: Final = "apt install libgfortran5 libgomp1, dnf install libgfortran libgomp"
-"""What a wheel takes from the system: user routines share these libraries, and the units of files, with the host."""
+"""System packages of Fortran's libraries: user routines share these, and the units of files, with the host."""
 _BEFORE: Final = {"python-mumps": "apt install libmumps-seq-dev libopenblas0-serial, and then "}
-"""What to do before a package can be installed."""
+"""Commands to run before a package can be installed."""
 
 
 class State(Enum):
-    """How a part of the installation is."""
+    """State of a part of the installation."""
 
     WORKS = "ok"
     ABSENT = "absent"  # most uses do not need it
@@ -73,7 +73,7 @@ def report(tell: Callable[[str], None]) -> bool:
 
 
 def examine() -> Iterator[Finding]:
-    """All findings, in the order in which a user needs them to be right."""
+    """Yield all findings, in the order in which a user needs them to be right."""
     yield _program()
     yield from _packages()
     try:
@@ -94,7 +94,7 @@ def examine() -> Iterator[Finding]:
 
 
 def release() -> str:
-    """Version of this program; '' where it is not installed as a package."""
+    """Return the version of this program; '' where it is not installed as a package."""
     try:
         return metadata.version(DISTRIBUTION)
     except metadata.PackageNotFoundError:
@@ -110,7 +110,7 @@ def _program() -> Finding:
 
 
 def _required() -> list[tuple[str, str]]:
-    """Packages that the metadata name, each with its extra; '' for indispensable ones."""
+    """List the packages that the metadata name, each with its extra; '' for indispensable ones."""
     try:
         lines = metadata.requires(DISTRIBUTION) or []
     except metadata.PackageNotFoundError:
@@ -149,7 +149,7 @@ def _decks() -> Finding:
 
 
 def _entry_points(lines: list[tuple[str, str]]) -> tuple[str, ...]:
-    """User routines of a library that is compiled from files with these endings and texts, and loaded."""
+    """Compile files with these endings and texts, load the library and return its user routines."""
     from uel.usersub import load  # noqa: PLC0415
 
     with tempfile.TemporaryDirectory() as folder:
@@ -218,7 +218,7 @@ def _solvers() -> Iterator[Finding]:
 
 
 def _extras() -> Iterator[Finding]:
-    """Optional packages, but for linear solvers."""
+    """Look for optional packages, except linear solvers."""
     from uel.solver.linear.choice import SOLVERS  # noqa: PLC0415
 
     solvers = {solver.distribution for solver in SOLVERS.values()}

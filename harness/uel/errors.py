@@ -41,7 +41,7 @@ class SilentError(UelError):
 
 
 def in_words(error: BaseException) -> str:
-    """What went wrong, for a user: an error of ours, a system error, lack of memory, or an interrupt."""
+    """Describe an error for a user: an error of ours, a system error, lack of memory, or an interrupt."""
     if isinstance(error, UelError):
         return str(error)
     if isinstance(error, OSError):
@@ -55,7 +55,7 @@ def in_words(error: BaseException) -> str:
 
 
 SPEAKER: Final = "uel: "
-"""Begins each error of the command."""
+"""Beginning of each error of the command."""
 
 
 def tell_error(text: str, stream: IO[str] | None = None) -> None:
@@ -109,11 +109,11 @@ def tell_failure(error: BaseException) -> None:
 
 
 FAILURES: Final = (UelError, OSError, MemoryError, KeyboardInterrupt)
-"""What ends a command with a message instead of a traceback."""
+"""Exceptions that end a command with a message instead of a traceback."""
 
 
 class DeckError(UelError):
-    """The input deck is wrong or asks for something unsupported; begins with file:line, one line per place."""
+    """Error of an input deck that is wrong or asks for something unsupported; file:line first, a line per place."""
 
     def __init__(self, source: Source, message: str, others: Sequence[DeckError] = ()) -> None:
         super().__init__("\n".join([f"{source}: {_shown(message)}", *map(str, others)]))
@@ -124,7 +124,7 @@ _LONGEST: Final = 1000
 
 
 def _shown(message: str) -> str:
-    """A message that quotes a deck, with control characters spelt out and a long line shortened."""
+    """Return a message that quotes a deck, with control characters spelt out and a long line shortened."""
     # a whole file may be one line
     text = message if len(message) <= 2 * _LONGEST else message[:_LONGEST] + message[-_LONGEST:]
     if not text.isprintable():
@@ -133,13 +133,13 @@ def _shown(message: str) -> str:
 
 
 def all_of(errors: Sequence[DeckError]) -> DeckError:
-    """One error that names the places of all of them."""
+    """Join errors into one that names the places of all of them."""
     first = errors[0]
     return DeckError(first.source, str(first).removeprefix(f"{first.source}: "), errors[1:])
 
 
 class CompileError(UelError):
-    """The user's file does not compile or link; carries the compiler's line."""
+    """Error of a user's file that does not compile or link; carries the compiler's line."""
 
     def __init__(self, file: Path, message: str) -> None:
         super().__init__(f"{file}: {message}")
@@ -156,15 +156,15 @@ class ElementError(UelError):
 
 
 class KernelError(ElementError):
-    """It stopped the analysis, wrote outside its arrays, or returned NaN; a call at another state may succeed."""
+    """Error of an element that stopped the analysis, wrote outside its arrays, or returned NaN in some state."""
 
 
 class OutsideError(KernelError):
-    """It wrote outside its arrays."""
+    """Error of an element that wrote outside its arrays."""
 
 
 class NotFiniteError(KernelError):
-    """It returned NaN, or infinity."""
+    """Error of an element that returned NaN, or infinity."""
 
 
 class DistortionError(KernelError):
@@ -176,7 +176,7 @@ class CallLimitError(ElementError):
 
 
 class SingularMatrixError(UelError):
-    """The system matrix is singular at a node and dof, usually because a body is unconstrained."""
+    """Error of a system matrix that is singular at a node and dof, usually because a body is unconstrained."""
 
     def __init__(self, node: str, dof: int, message: str, source: Source | None = None) -> None:
         place = f"{source}: " if source else ""
@@ -186,12 +186,12 @@ class SingularMatrixError(UelError):
         self.message = message
 
     def in_step(self, source: Source) -> SingularMatrixError:
-        """The same error with the place of the step in which it occurred."""
+        """Return this error with the place of the step in which it occurred."""
         return SingularMatrixError(self.node, self.dof, self.message, source)
 
 
 class ConvergenceError(UelError):
-    """The step procedure gave up: the smallest increment, the number of increments or of attempts is exhausted."""
+    """Error of a step that gave up: the smallest increment, the number of increments or of attempts is exhausted."""
 
 
 class IncrementsUsedUpError(ConvergenceError):

@@ -21,7 +21,7 @@ def deck_named(path: Path) -> Path:
 
 
 def read_whole(path: Path) -> bytes:
-    """Content of a file.
+    """Read the content of a file.
 
     Raises OSError with a sentence in strerror if there is no such file, or if it is a folder, a pipe, a device or
     made by the kernel; ValueError if no file can have this name.

@@ -15,7 +15,7 @@ from typing import Any, Final
 from uel.errors import tell_error
 
 ENDS: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-"""From the keyboard, from a batch system, from a terminal that is closed."""
+"""Signals that end a run: from the keyboard, from a batch system, from a terminal that is closed."""
 
 _WORDS: Final = {
     signal.SIGINT: "interrupted (SIGINT)",
@@ -32,7 +32,7 @@ class Interrupted(KeyboardInterrupt):
 
 
 def describe_interrupt(signum: int) -> str:
-    """What a signal did to a run: the end of a sentence."""
+    """Describe the effect of a signal on a run, as the end of a sentence."""
     return _WORDS[signal.Signals(signum)]
 
 

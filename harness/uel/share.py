@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the decks and the pages of the manual are: in the repository, or where a wheel puts them."""
+"""Paths of the decks and of the manual's pages: in the repository, or where a wheel puts them."""
 
 from __future__ import annotations
 
@@ -12,4 +12,4 @@ _PACKAGE: Final = Path(__file__).parent
 _REPOSITORY: Final = _PACKAGE.parents[1]
 
 FOLDER: Final = _REPOSITORY if (_REPOSITORY / "abaqus_inputs").is_dir() else _PACKAGE / "manual"
-"""Has `README.md`, `docs` and `abaqus_inputs`."""
+"""Folder that has `README.md`, `docs` and `abaqus_inputs`."""

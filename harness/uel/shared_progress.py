@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a process that calls user code shows the one that watches it: where it is, and that it has finished.
+"""Progress of a process that calls user code, for the one that watches it: where it is, and that it has finished.
 
 Both share its memory, so that it can be read whatever state the process is in, and after it has gone.
 """
@@ -56,7 +56,7 @@ class Slate(ctypes.Structure):
     token: bytes
 
     def where(self) -> str:
-        """Place of the current call, or of the last one that was left, with the reason; '' without either."""
+        """Describe the place of the current call, or of the last one left, with the reason; '' without either."""
         if self.within != Within.CALL and not self.left:
             return ""
         element, step, increment, iteration = self.place
@@ -69,7 +69,7 @@ class Slate(ctypes.Structure):
 
 
 def new_slate() -> tuple[int, Slate]:
-    """Memory to share, by the descriptor of a file without a name."""
+    """Create memory to share; return the descriptor of its file, which has no name, and the slate."""
     if hasattr(os, "memfd_create"):
         descriptor = os.memfd_create("uel")
     else:
@@ -80,12 +80,12 @@ def new_slate() -> tuple[int, Slate]:
 
 
 def open_slate(descriptor: int) -> Slate:
-    """The memory that a descriptor stands for."""
+    """Map the memory that a descriptor stands for."""
     return Slate.from_buffer(mmap.mmap(descriptor, ctypes.sizeof(Slate)))
 
 
 def own_slate() -> Slate | None:
-    """That of this process, None if nobody watches it."""
+    """Return the slate of this process, or None if nobody watches it."""
     return _own[0] if _own else None
 
 
