@@ -178,7 +178,7 @@ class DeckLexer(RegexLexer):
 
 
 def escape(_app: Sphinx, _what: str, _name: str, _object: object, _options: object, lines: list[str]) -> None:
-    """A keyword in a docstring, such as *STEP, is not the begin of an emphasis."""
+    """Escape keywords in a docstring, such as *STEP, which begin no emphasis."""
     lines[:] = [re.sub(r"(?<![*\w])\*(?=[A-Z])", r"\\*", line) for line in lines]
 
 

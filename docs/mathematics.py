@@ -9,13 +9,13 @@ from sphinx.writers.html5 import HTML5Translator
 
 
 def inline(translator: HTML5Translator, node: nodes.math) -> None:
-    """A formula within a line."""
+    """Set a formula within a line."""
     translator.body.append(tex2mathml(node.astext()))
     raise nodes.SkipNode
 
 
 def display(translator: HTML5Translator, node: nodes.math_block) -> None:
-    """A formula of its own, with its number if it has a label."""
+    """Set a formula of its own, with its number if it has a label."""
     translator.body.append(translator.starttag(node, "div", CLASS="math"))
     translator.body.append(tex2mathml(node.astext(), as_block=True))
     if node.get("number"):

@@ -61,7 +61,7 @@ def types_of(texts: Sequence[str]) -> Iterator[str]:
 
 
 def in_order(texts: Sequence[str]) -> list[str]:
-    """The sources sorted so that every module precedes its users."""
+    """Sort the sources so that every module precedes its users."""
     modules = {match[1]: text for text in texts if (match := re.search(r"^module (\w+)$", text, re.MULTILINE))}
     ordered: list[str] = []
 
@@ -123,7 +123,7 @@ def commented(comment: str) -> Iterator[str]:
 
 
 def plain(statement: str) -> str:
-    """The statement without what older compilers of Abaqus installations do not know."""
+    """Return the statement without what older compilers of Abaqus installations do not know."""
     return "implicit none" if statement.startswith("implicit none") else statement
 
 
@@ -142,7 +142,7 @@ def broken(statement: str) -> Iterator[str]:
 
 
 def parts(piece: str) -> Iterator[str]:
-    """A piece without blanks, broken after commas and brackets, and its character constants into concatenations."""
+    """Break a piece after commas and brackets, without blanks, and its character constants into concatenations."""
     if len(piece) <= LONGEST_PIECE:
         yield piece
         return

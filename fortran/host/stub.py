@@ -68,7 +68,7 @@ def _signature(block: dict[str, Any]) -> str:
 
 
 def _broken(name: str, taken: list[str], result: str) -> Iterator[str]:
-    """A signature that is too long for a line, as the formatter breaks it."""
+    """Break a signature that is too long for a line as the formatter does."""
     yield f"def {name}("
     together = f"    {', '.join(taken)}"
     yield from [together] if len(together) <= 120 else [f"    {argument}," for argument in taken]
