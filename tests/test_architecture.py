@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 from collections import Counter
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -49,6 +50,57 @@ def test_import_order() -> None:
     words = [sys.executable, "-c", linter]
     result = subprocess.run(words, cwd=ROOT, env=tree, capture_output=True, text=True, check=False)
     assert "1 kept, 0 broken" in result.stdout, result.stdout + result.stderr
+
+
+def imported(code: str, modules: set[str]) -> set[str]:
+    """Modules that code imports anywhere: in functions, for types alone, and by name with import_module."""
+    words: list[str] = []
+    for node in ast.walk(ast.parse(code)):
+        match node:
+            case ast.Import(names=names):
+                words += [alias.name for alias in names]
+            case ast.ImportFrom(module=base, names=names, level=level):
+                assert level == 0, f"a relative import: {ast.unparse(node)}"
+                full = {alias.name: f"{base}.{alias.name}" for alias in names}
+                words += [word if word in modules else str(base) for word in full.values()]
+            case ast.Call(func=ast.Name(id="import_module"), args=[ast.Constant(value=str(word))]):
+                words.append(word)
+    return modules & set(words)
+
+
+def circle(files: dict[str, str]) -> list[str]:
+    """One circle of imports among modules, if there is any; files: code by module."""
+    try:
+        TopologicalSorter({name: imported(code, set(files)) for name, code in files.items()}).prepare()
+    except CycleError as error:
+        return list(error.args[1])
+    return []
+
+
+def test_modules_import_each_other_in_no_circle() -> None:
+    """The layers are between packages, and this holds within them too. The stub stands for the extension."""
+    paths = [path for path in TRACKED if path.parts[0] == "harness" and path.suffix in {".py", ".pyi"}]
+    names = [".".join(path.with_suffix("").parts[1:]).removesuffix(".__init__") for path in paths]
+    files = {name: (ROOT / path).read_text() for name, path in zip(names, paths, strict=True)}
+    assert len(files) > 400
+    assert circle(files) == []
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "import p.b",
+        "from p import b",
+        "from p.b import f",
+        "def g():\n  from p import b",
+        "if TYPE_CHECKING:\n  from p.b import F",
+        "import_module('p.b')",
+    ],
+)
+def test_circles_of_imports_are_found(code: str) -> None:
+    files = {"p": "", "p.a": code, "p.b": "import p.a", "p.c": "import p.a"}
+    assert set(circle(files)) == {"p.a", "p.b"}
+    assert circle(files | {"p.b": "from p import f"}) == []
 
 
 def test_a_folder_has_one_topic() -> None:

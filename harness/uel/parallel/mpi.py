@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The ranks of MPI; only a job that `mpiexec` has started imports this module."""
+"""The ranks of MPI, which is loaded only in a job that `mpiexec` has started."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ import numpy as np
 from uel.errors import UsageError
 from uel.model.arrays import FloatArray, IntArray
 from uel.parallel.launch import Launch
-from uel.parallel.ranks import FAILURES, Ranks
+from uel.parallel.ranks import ALONE, FAILURES, Ranks
 from uel.shared_progress import own_slate
 
 _T = TypeVar("_T")
@@ -34,6 +34,11 @@ _HELP: Final[tuple[bool, Any]] = (True, None)
 
 _TOGETHER: Final = 10.0
 """Seconds in which all ranks come to the end, unless only one of them has failed."""
+
+
+def begin(launch: Launch) -> Ranks:
+    """Return the ranks to which this process belongs. Raises UsageError without what several ranks need."""
+    return ALONE if launch.size == 1 else MpiRanks(launch)
 
 
 class MpiRanks(Ranks):

@@ -16,7 +16,6 @@ import numpy as np
 
 from uel.errors import UelError
 from uel.model.arrays import FloatArray, IntArray
-from uel.parallel.launch import Launch
 
 _T = TypeVar("_T")
 _A = TypeVar("_A", bound=np.generic)
@@ -125,12 +124,3 @@ class Ranks:
 
 ALONE: Final = Ranks()
 """A job in one process."""
-
-
-def begin(launch: Launch) -> Ranks:
-    """Return the ranks to which this process belongs. Raises UsageError without what several ranks need."""
-    if launch.size == 1:
-        return ALONE
-    from uel.parallel.mpi import MpiRanks  # noqa: PLC0415 (starts MPI)
-
-    return MpiRanks(launch)

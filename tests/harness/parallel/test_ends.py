@@ -18,8 +18,8 @@ from mpiexec import NEEDED, PETSC_NEEDED, run
 from uel.errors import UsageError
 from uel.output.files.sta_file import NOT_COMPLETED
 from uel.parallel import Launch, forget_word, launched, leave_word, read_word, without_launch
+from uel.parallel.mpi import begin
 from uel.parallel.partition import owners_of
-from uel.parallel.ranks import begin
 
 INPUTS = Path(__file__).parents[3] / "abaqus_inputs"
 HEAD = Path(__file__).parents[1] / "uel.inc"

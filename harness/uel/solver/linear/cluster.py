@@ -13,16 +13,14 @@ import os
 from functools import cache
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uel.model.arrays import FloatArray
 from uel.parallel.ranks import Ranks
-
-if TYPE_CHECKING:
-    from uel.solver.linear.ranks import Rows
+from uel.solver.linear.distributed_rows import DistributedRows
 
 NAME: Final = "cluster"
 """Name by which `--solver` requests it."""
@@ -109,7 +107,7 @@ class Cluster:
     largest_diagonal  of the last matrix, in magnitude
     """
 
-    def __init__(self, ranks: Ranks, rows: Rows) -> None:
+    def __init__(self, ranks: Ranks, rows: DistributedRows) -> None:
         """Start the solver; rows: those of this rank, with columns ascending."""
         self._ranks, self._rows = ranks, rows
         self._row = np.repeat(np.arange(len(rows.indptr) - 1, dtype=np.int64), np.diff(rows.indptr)) + rows.first
@@ -149,7 +147,7 @@ class Cluster:
 class _Matrix:
     """Matrices of one pattern and type, as the solver holds them."""
 
-    def __init__(self, ranks: Ranks, rows: Rows, row: NDArray[np.int64], kind: int) -> None:
+    def __init__(self, ranks: Ranks, rows: DistributedRows, row: NDArray[np.int64], kind: int) -> None:
         from mpi4py import MPI  # noqa: PLC0415 (only in a job on several ranks)
 
         self.kind = kind

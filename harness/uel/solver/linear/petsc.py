@@ -11,7 +11,7 @@ from __future__ import annotations
 from functools import cache
 from importlib.metadata import PackageNotFoundError
 from importlib.metadata import version as version_of
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -19,9 +19,7 @@ from uel.model.arrays import FloatArray, IntArray
 from uel.parallel.ranks import Ranks
 from uel.solver.linear.base import ACCURATE, Pattern
 from uel.solver.linear.cluster import ClusterError
-
-if TYPE_CHECKING:
-    from uel.solver.linear.ranks import Rows
+from uel.solver.linear.distributed_rows import DistributedRows
 
 NAME: Final = "petsc"
 """Name by which `--solver` requests it."""
@@ -78,7 +76,7 @@ class Petsc:
     largest_diagonal  of the last matrix, in magnitude
     """
 
-    def __init__(self, ranks: Ranks, rows: Rows, pattern: Pattern) -> None:
+    def __init__(self, ranks: Ranks, rows: DistributedRows, pattern: Pattern) -> None:
         """Start PETSc; rows: those of this rank; pattern: with coordinates and dofs of all unknowns, if known."""
         self._ranks, self._petsc = ranks, _loaded()
         ranks.before_end(self._petsc._finalize)

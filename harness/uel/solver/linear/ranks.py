@@ -15,7 +15,6 @@ from importlib.util import find_spec
 from typing import Final, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from uel.errors import SingularMatrixError, UsageError
 from uel.model.arrays import FloatArray, IntArray
@@ -24,6 +23,7 @@ from uel.solver.linear import cluster, petsc, substructures
 from uel.solver.linear.base import SUSPICIOUS, Effort, LinearSolver, Pattern, is_accurate
 from uel.solver.linear.choice import Availability, choose
 from uel.solver.linear.cluster import Cluster, ClusterError, obstacle, version
+from uel.solver.linear.distributed_rows import DistributedRows
 from uel.solver.linear.petsc import Petsc
 from uel.solver.linear.singular import refuse_singular
 from uel.solver.linear.substructures import MOST_SHARED, Substructures
@@ -56,49 +56,6 @@ class _Factoriser(Protocol):
     def factorise(self, data: FloatArray) -> None: ...
 
     def solve(self, rhs: FloatArray) -> FloatArray: ...
-
-
-class Rows:
-    """Sums the parts of the ranks into rows of the matrix, each on the rank that owns it.
-
-    order            (n,) unknowns by owner; rows and columns are numbered in this order
-    first            number of the first row of this rank
-    indptr, indices  CSR pattern of its rows, int32, columns ascending
-    """
-
-    def __init__(self, ranks: Ranks, pattern: Pattern, owners: IntArray) -> None:
-        """Do the symbolic work; owners (n,) has a rank for each unknown, the same array on all ranks."""
-        n = pattern.size
-        self._ranks = ranks
-        self.order = np.argsort(owners, kind="stable")
-        number = np.empty(n, dtype=np.int64)
-        number[self.order] = np.arange(n)
-        owned = np.bincount(owners, minlength=ranks.size)
-        self.first = int(owned[: ranks.rank].sum())
-        rows = pattern.rows
-        # an unknown without an element here has its diagonal entry only, as has one with a spring to the ground
-        used = (np.diff(pattern.indptr) > 1)[rows] | (rows == pattern.indices)
-        entries = np.flatnonzero(used)
-        target = owners[rows[entries]]
-        by_target = np.argsort(target, kind="stable")
-        self._sent, target = entries[by_target], target[by_target]
-        self._ends = np.searchsorted(target, np.arange(1, ranks.size))
-        keys = number[rows[self._sent]] * n + number[pattern.indices[self._sent]]
-        received = ranks.exchange(np.split(keys, self._ends))
-        found = np.unique(np.concatenate(received))
-        self._incoming = np.array([len(part) for part in received])
-        self._places = [np.searchsorted(found, part) for part in received]
-        row = found // max(n, 1) - self.first
-        self.indptr = np.searchsorted(row, np.arange(owned[ranks.rank] + 1)).astype(np.int32)
-        self.indices: NDArray[np.int32] = (found % max(n, 1)).astype(np.int32)
-
-    def assemble(self, data: FloatArray) -> FloatArray:
-        """Assemble the rows of this rank from the part (nnz,) of each rank, added in the order of the ranks."""
-        values = np.zeros(len(self.indices))
-        parts = self._ranks.exchange_known(np.split(data[self._sent], self._ends), self._incoming)
-        for places, part in zip(self._places, parts, strict=True):
-            values[places] += part
-        return values
 
 
 class RankSolver:
@@ -138,7 +95,7 @@ class RankSolver:
         self.wrap: Callable[[LinearSolver], _Factoriser] | None = None
         self.negligible: Callable[[], float] = float
         self.free: str | None = None
-        self._whole: Rows | None = None
+        self._whole: DistributedRows | None = None
         self._chosen: LinearSolver | None = None
         self._inner: _Factoriser | None = None
         self._singular: SingularMatrixError | None = None
@@ -223,7 +180,7 @@ class RankSolver:
                 return parts
         self.name = petsc.NAME if other else cluster.NAME
         self.reason = f"{pattern.size} unknowns on {ranks.size} ranks"
-        rows = Rows(ranks, pattern, owners)
+        rows = DistributedRows(ranks, pattern, owners)
         return Petsc(ranks, rows, pattern) if other else Cluster(ranks, rows)
 
     def _missing(self, name: str, mine: str) -> str:
@@ -256,7 +213,7 @@ class RankSolver:
         ratio = float(np.abs(rhs).max(initial=0.0)) / (largest * self._scale) if largest and self._scale else np.inf
         if ratio > self._passed:
             return True
-        rows = Rows(self._ranks, self._pattern, np.zeros(self._pattern.size, dtype=np.int64))
+        rows = DistributedRows(self._ranks, self._pattern, np.zeros(self._pattern.size, dtype=np.int64))
         assert self._data is not None
         whole = Pattern(rows.indptr, rows.indices)
         values = rows.assemble(self._data)
@@ -289,7 +246,7 @@ class RankSolver:
 
     def _gather(self) -> None:
         """Let rank 0 have the whole matrix. Raises UsageError."""
-        self._whole = rows = Rows(self._ranks, self._pattern, np.zeros(self._pattern.size, dtype=np.int64))
+        self._whole = rows = DistributedRows(self._ranks, self._pattern, np.zeros(self._pattern.size, dtype=np.int64))
 
         def begin() -> tuple[str, str]:
             given = self._wanted, rows.indptr, rows.indices
