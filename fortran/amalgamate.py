@@ -55,7 +55,7 @@ def amalgamate(sources: Sequence[Path]) -> str:
 def types_of(texts: Sequence[str]) -> Iterator[str]:
     """Comment lines with each element type and its meaning, from the rows of the layout."""
     for text in texts:
-        for number, family, meaning in re.findall(r"^ *element_item\((\d+), (\w+),.*!< (.*)$", text, re.MULTILINE):
+        for meaning, number, family in re.findall(r"^ *!> (.*)\n *element_item\((\d+), (\w+),", text, re.MULTILINE):
             name = f"U{number} (UELMAT)" if family.startswith("continuum") else f"U{number}"
             yield from textwrap.wrap(f"{name}: {meaning}", 70, initial_indent="!   ", subsequent_indent="!     ")
 

@@ -5,10 +5,11 @@ module abaqus_check
   use core_kinds, only: dp
   use core_status, only: status_type, sentence, too_brittle, zero_length, faces_apart, small_beta, &
     too_brittle_mixed, late_secant, no_root
-  use abaqus_layout, only: elements, faces, reals, integers, every_continuum, with_solids, &
-    unknowns_of, variables_of_points, reals_of, integers_of, real_position, unpack, recommend, &
+  use abaqus_layout, only: elements, faces, reals, integers, expectations, every_continuum, with_solids, &
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
-    p_betan, p_betat, p_shapen, p_shapet, p_friction, j_law, j_closure, by_eigenvalues, by_equation_21, consistent_closure
+    p_betan, p_betat, p_shapen, p_shapet, p_friction, j_law, j_closure
+  use abaqus_properties, only: unknowns_of, variables_of_points, reals_of, integers_of, real_position, unpack, recommend, &
+    by_eigenvalues, by_equation_21, consistent_closure
   use cohesive_parameters, only: ppr_law
   use abaqus_report, only: fatal
   implicit none(type, external)
@@ -103,7 +104,7 @@ contains
         good = abs(values(i)) <= huge(1.0_dp)
       end select
       if (good) cycle
-      call refuse_real(jtype, jelem, i, values(i), ': expected ' // trim(expectation(reals(i)%rule)))
+      call refuse_real(jtype, jelem, i, values(i), ': expected ' // trim(expectations(reals(i)%rule)))
       return
     end do
   end function reals_are_good
@@ -124,31 +125,6 @@ contains
 
     call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ' = %R' // text, [real_position(jtype, row)], [value])
   end subroutine refuse_real
-
-  !> What a rule asks for, in words.
-  pure function expectation(rule) result(text)
-    integer, intent(in) :: rule
-    character(len=64) :: text
-
-    select case (rule)
-    case (positive)
-      text = 'a positive value'
-    case (not_negative)
-      text = 'zero or a positive value'
-    case (up_to_one)
-      text = 'a value from 0 to 1'
-    case (estimated)
-      text = 'zero, a positive value, -2, or -1 in a self-contained element'
-    case (below_one)
-      text = 'zero or a value between 0 and 1'
-    case (exponent)
-      text = 'zero or at least 0.5'
-    case (above_one)
-      text = 'zero or more than 1'
-    case default
-      text = 'a finite value'
-    end select
-  end function expectation
 
   !> True if every integer property that the deck has is in its range.
   function integers_are_good(jtype, jelem, njprop, options) result(good)

@@ -24,9 +24,10 @@ module abaqus_continuum_element
   use abaqus_bulk_exchange, only: bulk_record, store_bulk
   use abaqus_check, only: report_status
   use abaqus_report, only: fatal, warn
-  use abaqus_layout, only: elements, continuum_variables, brick_variables, integer_position, p_thickness, p_angle, &
+  use abaqus_layout, only: elements, continuum_variables, brick_variables, p_thickness, p_angle, &
     j_plane, j_face, j_formulation, j_brick_face, v_e11, v_e22, v_e33, v_e12, v_s11, v_s22, v_s33, v_s12, &
     b_e11, b_e22, b_e33, b_e12, b_e13, b_e23, b_s11, b_s22, b_s33, b_s12, b_s13, b_s23
+  use abaqus_properties, only: integer_position
   implicit none(type, external)
   private
   public :: evaluate_continuum, continuum_forces_at
@@ -43,8 +44,8 @@ module abaqus_continuum_element
   end type point_positions
 
   type(point_positions), parameter :: positions(2:3) = [ &
-    point_positions(size(continuum_variables), [v_e11, v_e22, v_e12, 0, 0, 0], [v_s11, v_s22, v_s12, 0, 0, 0]), &
-    point_positions(size(brick_variables), [b_e11, b_e22, b_e33, b_e12, b_e13, b_e23], &
+    point_positions(continuum_variables, [v_e11, v_e22, v_e12, 0, 0, 0], [v_s11, v_s22, v_s12, 0, 0, 0]), &
+    point_positions(brick_variables, [b_e11, b_e22, b_e33, b_e12, b_e13, b_e23], &
       [b_s11, b_s22, b_s33, b_s12, b_s13, b_s23])]
 
   !> What is the same in all points and passes of a call.

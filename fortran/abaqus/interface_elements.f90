@@ -11,16 +11,16 @@ module abaqus_interface_elements
   use elements_interface_faces, only: central_frame
   use elements_interface_kernel, only: integrate_interface, interface_forces
   use elements_interface_point, only: interface_options, interface_point
-  use abaqus_layout, only: elements, faces, reals, real_position, own_variables, interface_variables, surface_variables, &
-    standard, standard_3d, variables_of_points, o_betan, o_betat, o_gamman, o_gammat, &
-    next_to_quads, next_to_bricks, face_nodes, nodes_of_face, &
+  use abaqus_layout, only: elements, faces, reals, own_variables, interface_variables, surface_variables, &
+    standard, standard_3d, next_to_quads, next_to_bricks, o_betan, o_betat, o_gamman, o_gammat, &
     p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
-    p_shapen, p_shapet, p_blend, p_betan, p_betat, p_gammabot, p_friction, p_bottom_e1, p_bottom_nu12, p_top_e1, p_top_nu12, &
-    p_bottom_g13, p_bottom_g23, p_top_g13, p_top_g23, &
-    j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, by_eigenvalues, consistent_closure, &
+    p_shapen, p_shapet, p_blend, p_betan, p_betat, p_gammabot, p_friction, p_e1_bottom, p_nu12_bottom, p_e1_top, p_nu12_top, &
+    p_g13_bottom, p_g23_bottom, p_g13_top, p_g23_top, &
+    j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, &
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
     v_maxn, v_maxt, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, w_dissi, w_dissii, w_sn, w_st, w_dmax, &
     w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt
+  use abaqus_properties, only: face_nodes, nodes_of_face, real_position, variables_of_points, by_eigenvalues, consistent_closure
   use abaqus_check, only: report_status
   use abaqus_long_elements, only: warn_if_long
   use abaqus_raised_beta, only: warn_if_raised
@@ -39,9 +39,9 @@ module abaqus_interface_elements
   end type point_positions
 
   type(point_positions), parameter :: positions(2:3) = [ &
-    point_positions(size(interface_variables), [v_x, v_y, 0], [v_sept, v_sepn, 0], [v_tt, v_tn, 0], [v_wt, v_wn, 0], &
+    point_positions(interface_variables, [v_x, v_y, 0], [v_sept, v_sepn, 0], [v_tt, v_tn, 0], [v_wt, v_wn, 0], &
       [v_st, v_sn], [v_dissii, v_dissi], [v_maxt, v_maxn], v_damage, v_dmax, v_dissv, v_dissf), &
-    point_positions(size(surface_variables), [w_x, w_y, w_z], [w_seps, w_sepn, w_sept], [w_ts, w_tn, w_tt], [w_ws, w_wn, w_wt], &
+    point_positions(surface_variables, [w_x, w_y, w_z], [w_seps, w_sepn, w_sept], [w_ts, w_tn, w_tt], [w_ws, w_wn, w_wt], &
       [w_st, w_sn], [w_dissii, w_dissi], [w_maxt, w_maxn], w_damage, w_dmax, w_dissv, w_dissf)]
 
 contains
@@ -104,7 +104,7 @@ contains
           stiffness, good)
         if (.not. good) return
         call warn_if_long(jtype, jelem, nodes, original, materials, law, old)
-        associate (own => svars(variables_of_points(jtype) + 1:variables_of_points(jtype) + size(own_variables)))
+        associate (own => svars(variables_of_points(jtype) + 1:variables_of_points(jtype) + own_variables))
           if (stabilisation%local) call recall(own, stabilisation)
           call integrate_interface(dim, n, nodes, solid, law, choice, thickness, original, u, dtime, with_tangent, old, new, &
             residual, tangent, energies, status, stabilisation, stiffness)
@@ -212,9 +212,9 @@ contains
   pure function materials_of_solids(values) result(materials)
     real(dp), intent(in) :: values(:)
     type(engineering_constants) :: materials(2)
-    integer, parameter :: first(2) = [p_bottom_e1, p_top_e1]
-    integer, parameter :: g13(2) = [p_bottom_g13, p_top_g13]
-    integer, parameter :: g23(2) = [p_bottom_g23, p_top_g23]
+    integer, parameter :: first(2) = [p_e1_bottom, p_e1_top]
+    integer, parameter :: g13(2) = [p_g13_bottom, p_g13_top]
+    integer, parameter :: g23(2) = [p_g23_bottom, p_g23_top]
     integer :: side
 
     do side = 1, 2
@@ -233,7 +233,7 @@ contains
     real(dp), intent(in) :: bottom(:, :), top(:, :)     !< original coordinates of the faces
     real(dp), intent(out) :: stiffness(:, :, :)
     logical, intent(out) :: good
-    integer, parameter :: ratio(2) = [p_bottom_nu12, p_top_nu12]
+    integer, parameter :: ratio(2) = [p_nu12_bottom, p_nu12_top]
     type(status_type) :: status
     integer :: side
 

@@ -10,14 +10,15 @@ module abaqus_neighbours
   use elements_interface_point, only: interface_options
   use elements_interface_bulk, only: stabilisation_type, nitsche_parameters, sample_face, sample_gauss
   use abaqus_check, only: report_status
-  use abaqus_layout, only: faces, integers, integer_position, j_offset_bottom, j_offset_top
+  use abaqus_layout, only: faces, integers, j_offsetbottom, j_offsettop
+  use abaqus_properties, only: integer_position
   use abaqus_bulk_exchange, only: bulk_record, records, slot_of_bulk
   use abaqus_report, only: fatal
   implicit none(type, external)
   private
   public :: stress_of_neighbours
 
-  integer, parameter :: offset_rows(2) = [j_offset_bottom, j_offset_top]
+  integer, parameter :: offset_rows(2) = [j_offsetbottom, j_offsettop]
 
 contains
 

@@ -5,7 +5,8 @@
 !> As in `abaqus_long_elements`, several threads may send it once each, and the flag is set after the message.
 module abaqus_raised_beta
   use core_kinds, only: dp
-  use abaqus_layout, only: reals, real_position, p_betan, p_betat
+  use abaqus_layout, only: reals, p_betan, p_betat
+  use abaqus_properties, only: real_position
   use abaqus_report, only: warn
   implicit none(type, external)
   private

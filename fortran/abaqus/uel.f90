@@ -12,8 +12,9 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   use core_kinds, only: dp
   use abaqus_check, only: call_is_good
   use abaqus_interface_elements, only: evaluate_interface, interface_forces_at
-  use abaqus_layout, only: elements, every_continuum, reals, integers, variables_of
+  use abaqus_layout, only: elements, every_continuum, reals, integers
   use abaqus_lflags, only: asks_for_nothing, asks_for_tangent, give_answer, large_displacements, weight_of_start
+  use abaqus_properties, only: variables_of
   use abaqus_report, only: fatal
   use abaqus_temperatures, only: warn_if_heated
   implicit none(type, external)

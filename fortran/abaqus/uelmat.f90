@@ -12,8 +12,9 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   use core_kinds, only: dp
   use abaqus_check, only: call_is_good
   use abaqus_continuum_element, only: evaluate_continuum, continuum_forces_at
-  use abaqus_layout, only: elements, every_continuum, reals, integers, variables_of
+  use abaqus_layout, only: elements, every_continuum, reals, integers
   use abaqus_lflags, only: asks_for_nothing, asks_for_tangent, give_answer, large_displacements, weight_of_start
+  use abaqus_properties, only: variables_of
   use abaqus_report, only: fatal
   implicit none(type, external)
   integer, intent(in) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, npredf, mlvarx

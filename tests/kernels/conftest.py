@@ -3,6 +3,7 @@
 """Single elements of the project's kernels, driven as a job would drive them."""
 
 import ctypes
+import importlib.util
 import subprocess
 from pathlib import Path
 from typing import ClassVar
@@ -219,6 +220,19 @@ def element(library):
 def element_of():
     """Make an element of any library: element_of(library, jtype, coordinates, NAME=value, ...)."""
     return Element
+
+
+@pytest.fixture(scope="session")
+def program():
+    """Module of a program of fortran/ that the build calls: program(name)."""
+
+    def program(name):
+        spec = importlib.util.spec_from_file_location(name, Path(__file__).parents[2] / "fortran" / f"{name}.py")
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        return module
+
+    return program
 
 
 @pytest.fixture(scope="session")

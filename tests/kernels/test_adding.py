@@ -6,7 +6,6 @@ The law is branch/plateau.f90, with a property of its own; the element is U2 wit
 right. Existing decks give what they gave.
 """
 
-import importlib.util
 import re
 import shutil
 from pathlib import Path
@@ -20,6 +19,16 @@ from uel.usersub.layout import element_layouts, read_layouts
 
 ROOT = Path(__file__).parents[2]
 BRANCH = Path(__file__).parent / "branch"
+
+PLATEAU = """
+[[reals]]
+name = "PLATEAU"
+elements = "interfaces"
+unit = "1"
+range = "below_one"
+meaning = "share of the plateau"
+laws = [5]
+"""
 
 LAW = {
     "cohesive/parameters.f90": [
@@ -58,18 +67,9 @@ LAW = {
             "      area = plateau_loss(law, direction, stiff, lost)\n",
         ),
     ],
-    "abaqus/layout.f90": [
-        ("'LAW', 0, 4)", "'LAW', 0, 5)"),
-        (
-            "public :: p_angle = 38\n",
-            "public :: p_angle = 38\n  integer, parameter, public :: p_plateau = 39\n",
-        ),
-        ("public :: reals(38)", "public :: reals(39)"),
-        (
-            "'ANGLE', 'degree', any_value)] !< of material axis 1, from s about n, which is axis 3\n",
-            "'ANGLE', 'degree', any_value), & !< of material axis 1, from s about n, which is axis 3\n"
-            "    real_item(p_plateau, interfaces, 'PLATEAU', '1', below_one)] !< share of the plateau (LAW 5)\n",
-        ),
+    "properties.toml": [
+        ('highest = 4\nmeaning = "1 bilinear', 'highest = 5\nmeaning = "1 bilinear'),
+        ("\n# JPROPS\n", PLATEAU + "\n# JPROPS\n"),
     ],
     "abaqus/interface_elements.f90": [
         ("    p_shapen, p_shapet,", "    p_plateau, p_shapen, p_shapet,"),
@@ -80,21 +80,12 @@ LAW = {
 """Edits of a file: what is there, what takes its place. The file of the law itself is new."""
 
 ELEMENT = {
-    "abaqus/layout.f90": [
-        ("public :: elements(12)", "public :: elements(13)"),
+    "properties.toml": [
         (
-            "36, 5)] !< stabilised cohesive interface of 20-node bricks",
-            "36, 5), & !< stabilised cohesive interface of 20-node bricks",
-        ),
-        (
-            "\n\n  type(faces_item), parameter, public :: faces(2:12)",
-            "\n    element_item(13, standard, 2, 4, 2, 13, 3)] !< U2, left to right\n\n"
-            "  type(faces_item), parameter, public :: faces(2:13)",
-        ),
-        (
-            "[29, 30, 31, 32])] !< as U8, with middles\n",
-            "[29, 30, 31, 32]), & !< as U8, with middles\n"
-            "    faces_item(13, 0, [1, 2, 0, 0], [3, 4, 0, 0])] !< left to right\n",
+            "top = [21, 22, 23, 24, 29, 30, 31, 32]\nleast_properties = [36, 5]\n",
+            "top = [21, 22, 23, 24, 29, 30, 31, 32]\nleast_properties = [36, 5]\n"
+            '\n[[elements]]\ntype = "U13"\nmeaning = "U2, left to right"\nfamily = "standard"\n'
+            "dimension = 2\nnodes = 4\npoints = 2\nbottom = [1, 2]\ntop = [3, 4]\nleast_properties = [13, 3]\n",
         ),
     ],
 }
@@ -112,7 +103,7 @@ def edited(text, edits):
 
 
 @pytest.fixture(scope="module")
-def branch(tmp_path_factory):
+def branch(program, tmp_path_factory):
     """A copy of the kernels with the law and the element: its library and its layouts."""
     folder = tmp_path_factory.mktemp("branch")
     shutil.copytree(ROOT / "fortran", folder / "fortran", ignore=shutil.ignore_patterns("host", "*.md", "*.csv"))
@@ -121,14 +112,14 @@ def branch(tmp_path_factory):
             file = folder / "fortran" / name
             file.write_text(edited(file.read_text(), changes))
     shutil.copy(BRANCH / "plateau.f90", folder / "fortran" / "cohesive")
-    spec = importlib.util.spec_from_file_location("amalgamate", ROOT / "fortran" / "amalgamate.py")
-    amalgamate = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(amalgamate)
+    properties = (folder / "fortran/properties.toml").read_text()
+    (folder / "layout.f90").write_text(program("generate_layout").layout(properties))
     build = (folder / "fortran" / "meson.build").read_text()
     names = re.findall(r"^  '(\w+/\w+\.f90)',$", build, re.MULTILINE)
-    (folder / "branch.for").write_text(amalgamate.amalgamate([folder / "fortran" / name for name in names]))
+    sources = [*(folder / "fortran" / name for name in names), folder / "layout.f90"]
+    (folder / "branch.for").write_text(program("amalgamate").amalgamate(sources))
     library = usersub.load(folder / "branch.for", job="branch", output_dir=folder / "job")
-    yield library, read_layouts((folder / "fortran/abaqus/layout.f90").read_text())
+    yield library, read_layouts(properties)
     library.close()
 
 

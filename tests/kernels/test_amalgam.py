@@ -2,27 +2,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The single file for Abaqus: its form, and that compilers take it at every width Abaqus may use."""
 
-import importlib.util
 import re
 import shutil
 import subprocess
-from pathlib import Path
 
 import pytest
 
 from uel.usersub.built import path_of_amalgam
 from uel.usersub.layout import element_layouts
 
-ROOT = Path(__file__).parents[2]
-
 
 @pytest.fixture(scope="module")
-def amalgamate():
+def amalgamate(program):
     """Module fortran/amalgamate.py."""
-    spec = importlib.util.spec_from_file_location("amalgamate", ROOT / "fortran/amalgamate.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return program("amalgamate")
 
 
 def test_header_has_every_type():

@@ -59,14 +59,42 @@ def test_library_names_svars_of_these_elements_only(library, tmp_path):
     stranger.close()
 
 
+ETA = 'name = "ETA"\nelements = "interfaces"\nunit = "1"\nrange = "exponent"\n'
+
+
 @pytest.mark.parametrize(
-    ("text", "message"),
+    ("old", "new", "message"),
     [
-        ("integer, parameter, public :: p_a = 2\n@real_item(p_a, 'A', '1', positive)] !< a", "position 2 in row 1"),
-        ("@", "not have the number of rows"),
+        (ETA, ETA.replace("unit", "unity"), "reals ETA: no unit"),
+        (ETA, f"{ETA}zero = 'none'\n", "reals ETA: 'zero', expected one of default, elements, laws, "),
+        (ETA, ETA.replace("interfaces", "bars"), "reals ETA: elements: 'bars', expected one of continuum, standard, "),
+        (ETA, ETA.replace('"exponent"', '"any"'), "reals ETA: range: 'any', expected one of positive, "),
+        (ETA, ETA.replace("ETA", "BLEND"), "p_blend: two entries have this name in Fortran; give"),
+        ("laws = [4]", "laws = [5]", "reals SHAPEN: laws: '5', expected one of 1, 2, 3, 4"),
+        ('"next_to_solids", "with_solids"]', '"interfaces"]', "sets.stabilised: 'interfaces', expected one of"),
+        ('variables = "brick"', 'variables = "bricks"', "families.continuum_3d: variables: 'bricks', expected one of"),
+        ('type = "U12"', 'type = "U13"', "elements U13: expected U12, the types in the order of their numbers"),
+        ('family = "continuum"', 'family = "quad"', "elements U1: family: 'quad', expected one of continuum, "),
+        ('{ name = "E11", unit = "1", ', '{ name = "E11", ', "variables.continuum E11: no unit"),
     ],
 )
-def test_inconsistent_layout_is_refused(text, message):
-    table = "type(real_item), parameter, public :: reals(1) = [ &\n"
+def test_wrong_entries_stop_the_build(program, old, new, message):
+    text = (ROOT / "fortran/properties.toml").read_text()
+    assert old in text
     with pytest.raises(ValueError, match=message):
-        layout._tables(text.replace("@", table))
+        program("generate_layout").layout(text.replace(old, new, 1))
+
+
+def test_generator_names_its_file(program, tmp_path, monkeypatch):
+    file = tmp_path / "properties.toml"
+    file.write_text("[ranges\n")
+    monkeypatch.setattr("sys.argv", ["generate_layout.py", "-o", str(tmp_path / "layout.f90"), str(file)])
+    with pytest.raises(SystemExit, match=r"properties.toml: .*line 1"):
+        program("generate_layout").main()
+    assert not (tmp_path / "layout.f90").exists()
+
+
+def test_generated_lines_are_within_those_of_the_standard(program):
+    """132 columns: a longer meaning is a comment that gfortran and fortitude would cut or refuse."""
+    text = program("generate_layout").layout((ROOT / "fortran/properties.toml").read_text())
+    assert max(map(len, text.splitlines())) <= 132

@@ -46,13 +46,22 @@ def names_of(kind: InterfaceType) -> tuple[str, ...]:
     return tuple(item.name for item in (*layout.reals, *layout.integers))
 
 
+def required_names(kind: InterfaceType) -> tuple[str, ...]:
+    """Names of the properties that have to be given: those without a default that sections of solids do not have."""
+    if not kind.jtype:
+        return ("ALPHAN", *_LAW)
+    names = tuple(item.name for item in element_layouts()[kind.jtype].reals if item.required)
+    law = tuple(name for name in names if name != "THICKNESS" and not name.endswith((" BOTTOM", " TOP")))
+    return law if kind.solid else ("ALPHAN", *law)
+
+
 def check_values(kind: InterfaceType, values: Mapping[str, float]) -> None:
     """Raise UsageError for a name that the type lacks, a law that is not complete, or a value out of its range."""
     known = names_of(kind)
     for name in values:
         if name not in known:
             raise UsageError(f"{kind.name} has no property {name} (it has: {', '.join(known)}){nearest(name, known)}")
-    needed = _LAW if kind.solid else ("ALPHAN", *_LAW)
+    needed = required_names(kind)
     missing = [name for name in needed if name not in values]
     if missing:
         owners = ", ".join(each.name for each in known_types().values() if each.solid)
@@ -90,9 +99,8 @@ def element_values(kind: InterfaceType, given: Mapping[str, float], below: Side,
     if kind.solid:
         for word, side in (("BOTTOM", below), ("TOP", above)):
             values = {f"{name} {word}": value for name, value in side.constants.items()} | values
-            missing = [name for name in known if name.endswith(f" {word}") and name not in values]
-            # those that may be left out are zero
-            missing = [name for name in missing if name.split()[0] in ("E1", "E2", "G12")]
+            required = (item.name for item in element_layouts()[kind.jtype].reals if item.required)
+            missing = [name for name in required if name.endswith(f" {word}") and name not in values]
             if missing:
                 words = ", ".join(f"{name.replace(' ', '_')}=VALUE" for name in missing)
                 raise UsageError(

@@ -18,9 +18,9 @@ def path_of_kernels() -> Path:
     return _packaged("kernels.so")
 
 
-def path_of_layout() -> Path:
-    """Return the path of the Fortran module that names every property and state variable of the kernels."""
-    return _packaged("layout.f90")
+def path_of_properties() -> Path:
+    """The file that defines every property, state variable and element type of the kernels."""
+    return _packaged("properties.toml")
 
 
 def _packaged(name: str) -> Path:

@@ -1,24 +1,23 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Meaning of the properties and state variables of the project's own elements, read from fortran/abaqus/layout.f90.
+"""Element types of the project with their properties and state variables, read from fortran/properties.toml.
 
-fortran/README.md holds what `markdown` returns.
+The build makes the Fortran module abaqus_layout of the same file, and checks it. fortran/README.md has the tables that
+`markdown` returns.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Mapping
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Final
-
-import numpy as np
+from typing import Any, Final
 
 from uel.errors import UsageError
 from uel.model.arrays import IntArray
 from uel.model.records import PointVariables
-from uel.usersub.built import path_of_layout
+from uel.usersub.built import path_of_properties
 
 MARKER: Final = "delamination_layout_version"
 """Symbol of a library that holds these elements."""
@@ -26,27 +25,26 @@ MARKER: Final = "delamination_layout_version"
 PLANE: Final = 2
 """Dimension of elements in the plane."""
 
-RULES: Final = {
-    "positive": "> 0",
-    "not_negative": ">= 0, default 0",
-    "below_one": ">= 0 and < 1, default 0",
-    "up_to_one": "0 to 1, default 0",
-    "estimated": ">= 0, -2 or, in a self-contained element, -1, default 0",
-    "exponent": "0 or >= 0.5, default 0",
-    "above_one": "0 or > 1, default 0",
-    "any_value": "any, default 0",
-}
-
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """A property or state variable: position from 1, name, unit ('' for an option), permitted range, meaning."""
+    """A property or state variable.
+
+    position  in PROPS, in JPROPS, or among the SVARS of a point or of the element; from 1
+    unit      '' for an option
+    permitted values of a property
+    meaning   in words, with what 0 stands for and with `laws`
+    required  whether it is a property without a default
+    laws      values of LAW that use it; () if all do
+    """
 
     position: int
     name: str
     unit: str
     permitted: str
     meaning: str
+    required: bool = False
+    laws: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +94,7 @@ class ElementLayout:
 @cache
 def element_layouts() -> dict[int, ElementLayout]:
     """Return every element type of the project by its JTYPE."""
-    return read_layouts(path_of_layout().read_text(encoding="utf-8"))
+    return read_layouts(path_of_properties().read_text(encoding="utf-8"))
 
 
 def without_user(name: str) -> str:
@@ -114,23 +112,27 @@ def without_user(name: str) -> str:
 
 
 def read_layouts(text: str) -> dict[int, ElementLayout]:
-    """Read the element types by their JTYPE from the text of a layout.f90."""
-    tables = _tables(text)
+    """Element types by their JTYPE from the text of a properties.toml."""
+    data = tomllib.loads(text)
     layouts = {}
-    for fields, meaning in tables["elements"]:
-        jtype, family, dimension, nodes, points, *_ = map(int, fields)
-        faces = next((_faces(row) for row, _ in tables["faces"] if int(row[0]) == jtype), ((), ()))
+    for row in data["elements"]:
+        jtype, family = int(row["type"][1:]), data["families"][row["family"]]
+        reals, integers = (
+            [each for each in data[table] if row["family"] in _families(each["elements"], data["sets"])]
+            for table in ("reals", "integers")
+        )
+        points, own = (data["variables"][family[key]]["items"] if key in family else [] for key in ("variables", "own"))
         layouts[jtype] = ElementLayout(
             jtype=jtype,
-            dimension=dimension,
-            nodes=nodes,
-            reals=_reals(_of_family(tables["reals"], family)),
-            integers=_integers(_of_family(tables["integers"], family)),
-            variables=_variables(tables[_variables_table(dimension, bool(any(faces)))]),
-            own=_variables(tables["own_variables"]) if 0 < sum(map(len, faces)) < nodes else (),
-            points=points,
-            faces=faces,
-            meaning=meaning,
+            dimension=row["dimension"],
+            nodes=row["nodes"],
+            reals=tuple(_real(n, each, data["ranges"]) for n, each in enumerate(reals, start=1)),
+            integers=tuple(_integer(n, each) for n, each in enumerate(integers, start=1)),
+            variables=_variables(points),
+            own=_variables(own),
+            points=row["points"],
+            faces=(_from_zero(row.get("bottom", ())), _from_zero(row.get("top", ()))),
+            meaning=row["meaning"],
         )
     return layouts
 
@@ -139,10 +141,10 @@ def check_law_uses(jtype: int, given: Mapping[str, float], law: int) -> None:
     """Raise UsageError for a property, given by name, that the law of a number ignores."""
     layout = element_layouts()[jtype]
     for item in layout.reals:
-        laws = re.search(r"\(LAW ([\d, ]+)\)", item.meaning)
         # 0 is the default, LAW 1
-        if laws and given.get(item.name) and str(law or 1) not in laws[1].split(", "):
-            raise UsageError(f"{item.name}: LAW {law or 1} ignores it; LAW {laws[1].replace(', ', ' or ')} has it")
+        if item.laws and given.get(item.name) and (law or 1) not in item.laws:
+            others = " or ".join(map(str, item.laws))
+            raise UsageError(f"{item.name}: LAW {law or 1} ignores it; LAW {others} has it")
     if given.get("ETA") and given.get("POWER"):
         raise UsageError("POWER: ignored where ETA is not 0; give one of the two")
 
@@ -212,77 +214,34 @@ def _table(title: str, unit: str, rows: list[tuple[Item, str]]) -> Iterator[str]
     yield ""
 
 
-Rows = list[tuple[list[str], str]]
-
-_NUMBER = re.compile(r"integer, parameter, public :: (\w+) = (\w+(?: \+ \w+)*)(?: *!.*)?$")
-_TABLE = re.compile(r"type\((\w+_item)\), parameter, public :: (\w+)\((?:(\d+):)?(\d+)\) = \[ &$")
-_ROW = re.compile(r"(\w+_item)\((.*)\)(?:, &|\])(?: !< (.*))?$")
-
-
-def _tables(text: str) -> dict[str, Rows]:
-    """Read the rows of each table, with numbers for names; ValueError if a table lacks rows that it announces."""
-    numbers: dict[str, int] = {}
-    tables: dict[str, Rows] = {}
-    announced: dict[str, int] = {}
-    rows: Rows = []
-    first = 1
-
-    def value(field: str) -> str:
-        if not all(part in numbers for part in field.split(" + ")) or field in RULES:
-            return field
-        return str(sum(numbers[part] for part in field.split(" + ")))
-
-    for line in map(str.strip, text.splitlines()):
-        if match := _TABLE.match(line):
-            rows = tables[match[2]] = []
-            first = int(match[3] or 1)
-            announced[match[2]] = int(match[4]) - first + 1
-        elif match := _ROW.match(line):
-            fields = [value(field) for field in re.sub(r"[][]", "", match[2]).split(", ")]
-            if int(fields[0]) != len(rows) + first:
-                raise ValueError(f"position {fields[0]} in row {len(rows) + first}: {line}")
-            rows.append((fields, match[3] or ""))
-        elif line.startswith("!< ") and rows and not rows[-1][1]:
-            rows[-1] = (rows[-1][0], line.removeprefix("!< "))
-        elif match := _NUMBER.match(line):
-            parts = match[2].split(" + ")
-            numbers[match[1]] = sum(numbers[part] if part in numbers else int(part) for part in parts)
-    if {name: len(rows) for name, rows in tables.items()} != announced:
-        raise ValueError("a table of the layout does not have the number of rows it announces")
-    return tables
+def _families(names: str | Iterable[str], sets: Mapping[str, list[str]]) -> set[str]:
+    """Families that a family or a set of families stands for, or a list of them."""
+    if isinstance(names, str):
+        return _families(sets[names], sets) if names in sets else {names}
+    return set().union(*(_families(name, sets) for name in names))
 
 
-def _of_family(rows: Rows, family: int) -> Rows:
-    """Return the properties that a family has, in the order and with the positions of its decks."""
-    members = [row for row in rows if int(row[0][1]) & family]
-    return [([str(n), *fields[2:]], text) for n, (fields, text) in enumerate(members, start=1)]
+def _from_zero(nodes: Iterable[int]) -> tuple[int, ...]:
+    return tuple(node - 1 for node in nodes)
 
 
-def _variables_table(dimension: int, interface: bool) -> str:
-    """Name the table of the variables of a point."""
-    if not interface:
-        return "continuum_variables" if dimension == 2 else "brick_variables"
-    return "interface_variables" if dimension == 2 else "surface_variables"
+def _real(position: int, row: Mapping[str, Any], ranges: Mapping[str, Mapping[str, str]]) -> Item:
+    permitted = ranges[row["range"]]["permitted"]
+    required = row["range"] == "positive"
+    return Item(position, row["name"], row["unit"], permitted, _meaning(row), required, tuple(row.get("laws", ())))
 
 
-def _faces(fields: list[str]) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Return the nodes of the bottom and the top face from a row of `faces`."""
-    nodes = np.array(fields[2:], dtype=int).reshape(-1, 2, 4)  # corners, in space midside nodes; bottom, top
-    bottom, top = (tuple((side[side > 0] - 1).tolist()) for side in (nodes[:, 0], nodes[:, 1]))
-    return bottom, top
+def _integer(position: int, row: Mapping[str, Any]) -> Item:
+    permitted = f"0 to {row['highest']}" if "highest" in row else "any"
+    return Item(position, row["name"], "", permitted, _meaning(row), laws=tuple(row.get("laws", ())))
 
 
-def _reals(rows: Rows) -> tuple[Item, ...]:
-    return tuple(Item(int(p), name[1:-1], unit[1:-1], RULES[rule], text) for (p, name, unit, rule), text in rows)
+def _meaning(row: Mapping[str, Any]) -> str:
+    """The meaning of a property, with the laws that use it and what 0 stands for."""
+    laws = f" (LAW {', '.join(map(str, row['laws']))})" if "laws" in row else ""
+    default = f"; 0: {row['default']}" if "default" in row else ""
+    return f"{row['meaning']}{laws}{default}"
 
 
-def _integers(rows: Rows) -> tuple[Item, ...]:
-    items = []
-    for (position, name, lowest, highest), text in rows:
-        permitted = "any" if highest == "any_integer" else lowest if lowest == highest else f"{lowest} to {highest}"
-        items.append(Item(int(position), name[1:-1], "", permitted, text))
-    return tuple(items)
-
-
-def _variables(rows: Rows) -> tuple[Item, ...]:
-    return tuple(Item(int(p), name[1:-1], unit[1:-1], "", text) for (p, name, unit), text in rows)
+def _variables(rows: Iterable[Mapping[str, str]]) -> tuple[Item, ...]:
+    return tuple(Item(n, row["name"], row["unit"], "", row["meaning"]) for n, row in enumerate(rows, start=1))

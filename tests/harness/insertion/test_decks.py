@@ -430,6 +430,11 @@ def test_an_element_that_owns_its_solids_needs_their_nodes_and_constants(tmp_pat
     )
     with pytest.raises(UsageError, match=r"U4 owns .*material M has \*ELASTIC, TYPE=ORTHOTROPIC .*E1_BOTTOM=VALUE"):
         insert_between(path)
+    path = deck(tmp_path, strip("C3D8", (2, 2, 2)))
+    path.write_text(path.read_text().replace("*ELASTIC\n1e4, 0.3", "*HYPERELASTIC, NEO HOOKE\n1., 0."))
+    given = [f"{name}_BOTTOM=1" for name in ("E1", "E2", "G12")]
+    with pytest.raises(UsageError, match=r"U8 owns .*; give G13_BOTTOM=VALUE, G23_BOTTOM=VALUE and"):
+        insert_between(path, *given)
 
 
 def test_a_user_element_that_nobody_knows_is_refused_at_a_doubled_node(tmp_path):

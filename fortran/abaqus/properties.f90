@@ -1,0 +1,164 @@
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> The properties and state variables of an element type, from the tables of abaqus_layout, which fortran/properties.toml defines:
+!> how many there are, where a property stands in PROPS or JPROPS, and what a zero stands for.
+module abaqus_properties
+  use, intrinsic :: iso_c_binding, only: c_int
+  use core_kinds, only: dp
+  use abaqus_layout, only: elements, faces, reals, integers, interfaces, stabilised, next_to_solids, &
+    p_betan, p_betat, j_law, j_closure
+  implicit none(type, external)
+  private
+  public :: unknowns_of, variables_of, variables_of_points, nodes_of_face, face_nodes, reals_of, integers_of
+  public :: real_position, integer_position, unpack, recommend, delamination_layout_version
+
+  ! values that choose among laws and estimates; 0 stands for what the element is made for, see `recommend`
+  real(dp), parameter, public :: by_eigenvalues = -1.0_dp   ! BETAN, BETAT: needs the elements on both sides
+  real(dp), parameter, public :: by_equation_21 = -2.0_dp
+  integer, parameter, public :: consistent_closure = 1      ! CLOSURE
+  integer, parameter, public :: paper_closure = 2
+
+contains
+
+  !> Number of unknowns of Un; 0 where there is no such type.
+  pure function unknowns_of(jtype) result(number)
+    integer, intent(in) :: jtype
+    integer :: number
+
+    number = 0
+    if (jtype >= 1 .and. jtype <= size(elements)) number = elements(jtype)%dimension*elements(jtype)%nodes
+  end function unknowns_of
+
+  !> Number of SVARS of Un, VARIABLES of *USER ELEMENT; 0 where there is no such type.
+  pure function variables_of(jtype) result(number)
+    integer, intent(in) :: jtype
+    integer :: number
+
+    number = 0
+    if (jtype >= 1 .and. jtype <= size(elements)) number = variables_of_points(jtype) + elements(jtype)%own
+  end function variables_of
+
+  !> Number of SVARS of the points of Un, which it needs at least.
+  pure function variables_of_points(jtype) result(number)
+    integer, intent(in) :: jtype
+    integer :: number
+
+    number = elements(jtype)%points*elements(jtype)%variables
+  end function variables_of_points
+
+  !> Number of nodes of each face of the interface element Un.
+  pure function nodes_of_face(jtype) result(number)
+    integer, intent(in) :: jtype
+    integer :: number
+
+    number = count(faces(jtype)%bottom > 0) + count(faces(jtype)%bottom_middles > 0)
+  end function nodes_of_face
+
+  !> Nodes of its bottom and its top face, a column each.
+  pure function face_nodes(jtype) result(nodes)
+    integer, intent(in) :: jtype
+    integer :: nodes(nodes_of_face(jtype), 2)
+
+    nodes(:, 1) = present_of(size(nodes, 1), [faces(jtype)%bottom, faces(jtype)%bottom_middles])
+    nodes(:, 2) = present_of(size(nodes, 1), [faces(jtype)%top, faces(jtype)%top_middles])
+  end function face_nodes
+
+  !> The entries that are not zero, as the intrinsic pack, which allocates memory in each call.
+  pure function present_of(n, entries) result(present_ones)
+    integer, intent(in) :: n
+    integer, intent(in) :: entries(:)
+    integer :: present_ones(n)
+    integer :: i, k
+
+    k = 0
+    do i = 1, size(entries)
+      if (entries(i) == 0) cycle
+      k = k + 1
+      present_ones(k) = entries(i)
+    end do
+  end function present_of
+
+  !> Number of real properties that Un may have, PROPERTIES of *USER ELEMENT.
+  pure function reals_of(jtype) result(number)
+    integer, intent(in) :: jtype
+    integer :: number
+
+    number = real_position(jtype, size(reals))
+  end function reals_of
+
+  !> Number of integer properties that Un may have, I PROPERTIES of *USER ELEMENT.
+  pure function integers_of(jtype) result(number)
+    integer, intent(in) :: jtype
+    integer :: number
+
+    number = integer_position(jtype, size(integers))
+  end function integers_of
+
+  !> Position in PROPS of the property in a row of `reals`.
+  pure function real_position(jtype, row) result(position)
+    integer, intent(in) :: jtype, row
+    integer :: position
+
+    position = count(iand(reals(1:row)%families, elements(jtype)%family) /= 0)
+  end function real_position
+
+  !> Position in JPROPS of the property in a row of `integers`.
+  pure function integer_position(jtype, row) result(position)
+    integer, intent(in) :: jtype, row
+    integer :: position
+
+    position = count(iand(integers(1:row)%families, elements(jtype)%family) /= 0)
+  end function integer_position
+
+  !> Properties by their rows in `reals` and `integers`; 0 where Un has no such property or the deck no value for it.
+  pure subroutine unpack(jtype, nprops, props, njprop, jprops, values, options)
+    integer, intent(in) :: jtype, nprops, njprop
+    real(dp), intent(in) :: props(nprops)
+    integer, intent(in) :: jprops(njprop)
+    real(dp), intent(out) :: values(size(reals))
+    integer, intent(out) :: options(size(integers))
+    integer :: row, position, family
+
+    family = elements(jtype)%family
+    values = 0.0_dp
+    position = 0
+    do row = 1, size(reals)
+      if (iand(reals(row)%families, family) == 0) cycle
+      if (position == nprops) exit
+      position = position + 1
+      values(row) = props(position)
+    end do
+    options = 0
+    position = 0
+    do row = 1, size(integers)
+      if (iand(integers(row)%families, family) == 0) cycle
+      if (position == njprop) exit
+      position = position + 1
+      options(row) = jprops(position)
+    end do
+  end subroutine unpack
+
+  !> Puts what a zero stands for in its place: the bilinear law and, in a self-contained element, the consistent closure and beta
+  !> from the local eigenvalues, in U3 and U10, which follow the paper, its closure and (21).
+  pure subroutine recommend(jtype, values, options)
+    integer, intent(in) :: jtype
+    real(dp), intent(inout) :: values(size(reals))
+    integer, intent(inout) :: options(size(integers))
+    integer, parameter :: betas(2) = [p_betan, p_betat]
+    logical :: follows_paper
+
+    if (iand(elements(jtype)%family, interfaces) /= 0 .and. options(j_law) == 0) options(j_law) = 1
+    if (iand(elements(jtype)%family, stabilised) == 0) return
+    follows_paper = iand(elements(jtype)%family, next_to_solids) /= 0
+    if (options(j_closure) == 0) options(j_closure) = merge(paper_closure, consistent_closure, follows_paper)
+    where (.not. abs(values(betas)) > 0.0_dp) values(betas) = merge(by_equation_21, by_eigenvalues, follows_paper)
+  end subroutine recommend
+
+  !> Marks a library as holding these elements, so that a host may name their SVARS.
+  function delamination_layout_version() result(version) bind(c, name='delamination_layout_version')
+    integer(c_int) :: version
+
+    version = 1_c_int
+  end function delamination_layout_version
+
+end module abaqus_properties

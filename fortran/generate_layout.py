@@ -1,0 +1,277 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Write the Fortran module abaqus_layout, the tables of properties, state variables and element types.
+
+The build calls it. It refuses entries of properties.toml that it does not understand, so that what else reads the file
+need not.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tomllib
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+Row = Mapping[str, Any]
+
+KEYS = {
+    "ranges": {"permitted", "expected"},
+    "families": {"variables"},
+    "reals": {"name", "elements", "unit", "range", "meaning"},
+    "integers": {"name", "elements", "meaning"},
+    "variables": {"prefix", "items"},
+    "items": {"name", "unit", "meaning"},
+    "elements": {"type", "meaning", "family", "dimension", "nodes", "points", "least_properties"},
+}
+"""What an entry of each table has to have."""
+
+MORE_KEYS = {
+    "families": {"own"},
+    "reals": {"symbol", "default", "laws"},
+    "integers": {"symbol", "highest", "default", "laws"},
+    "elements": {"bottom", "top"},
+}
+"""What it may have."""
+
+HEAD = """\
+! SPDX-FileCopyrightText: The uel-harness authors
+! SPDX-License-Identifier: BSD-3-Clause
+!> Every property of PROPS and JPROPS, every variable of SVARS and every element type. Written by generate_layout.py
+!> from properties.toml: edit that, not this file.
+!>
+!> A row of `reals` or `integers` tells the families of elements that have it; its position in the deck is the number of
+!> rows up to it that the family has.
+module abaqus_layout
+  implicit none(type, external)
+  private
+
+  !> A real property of the elements of these families.
+  type, public :: real_item
+    integer :: row
+    integer :: families
+    character(len={name}) :: name
+    integer :: rule                !< one of the ranges below
+  end type real_item
+
+  !> An integer property and its lowest and highest value.
+  type, public :: integer_item
+    integer :: row
+    integer :: families
+    character(len={name}) :: name
+    integer :: lowest, highest
+  end type integer_item
+
+  !> An element type Un: variables of each of its points and of the whole element, the fewest properties of each kind.
+  type, public :: element_item
+    integer :: jtype, family, dimension, nodes, points, variables, own, reals, integers
+  end type element_item
+
+  !> The nodes of an interface element on its bottom and top face; 0 where there is none. In the plane left to right,
+  !> the middle last, in space counter-clockwise seen from the top, first the corners, then the midside nodes of the
+  !> edges that begin there.
+  type, public :: faces_item
+    integer :: jtype
+    integer :: solid               !< nodes of each of its own quads or bricks, the bottom one first; 0 without
+    integer :: bottom(4), top(4)
+    integer :: bottom_middles(4), top_middles(4)
+  end type faces_item
+
+  integer, parameter, public :: any_integer = huge(1)
+"""
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("-o", "--output", type=Path, required=True)
+    parser.add_argument("properties", type=Path)
+    options = parser.parse_args()
+    try:
+        options.output.write_text(layout(options.properties.read_text(encoding="utf-8")), encoding="utf-8")
+    except ValueError as error:
+        sys.exit(f"{options.properties}: {error}")
+
+
+def layout(text: str) -> str:
+    """Text of the module, from that of properties.toml. Raises ValueError with the entry that is wrong."""
+    data = tomllib.loads(text)
+    check(data)
+    longest = max(len(row["name"]) for row in (*data["reals"], *data["integers"]))
+    return "\n".join([HEAD.format(name=longest), *body(data), "end module abaqus_layout"]) + "\n"
+
+
+def check(data: Row) -> None:
+    """Raise ValueError for a missing or unknown key, an unknown name, or a name that is there twice."""
+    for table in ("ranges", "families", "variables"):
+        for name, row in data[table].items():
+            check_keys(f"{table}.{name}", table, row)
+    for name, table in data["variables"].items():
+        for row in table["items"]:
+            check_keys(f"variables.{name} {row.get('name', '')}", "items", row)
+    for table in ("reals", "integers", "elements"):
+        for row in data[table]:
+            check_keys(f"{table} {row.get('name', row.get('type', ''))}", table, row)
+    check_sets(data)
+    check_properties(data)
+    check_elements(data)
+    symbols = Counter(symbol for symbol, _ in constants(data))
+    for symbol, count in symbols.items():
+        if count > 1:
+            raise ValueError(f"{symbol}: two entries have this name in Fortran; give one of them another symbol")
+
+
+def check_sets(data: Row) -> None:
+    """Raise ValueError for a set with a name that does not come before it, as Fortran demands."""
+    known = list(data["families"])
+    for name, parts in data["sets"].items():
+        for part in parts:
+            check_name(f"sets.{name}", part, known)
+        known.append(name)
+
+
+def check_properties(data: Row) -> None:
+    """Raise ValueError for a property with elements, a range or laws that do not exist."""
+    known = [*data["families"], *data["sets"]]
+    laws = next(row["highest"] for row in data["integers"] if row["name"] == "LAW")
+    for table in ("reals", "integers"):
+        for row in data[table]:
+            where = f"{table} {row['name']}"
+            for name in names_in(row["elements"]):
+                check_name(f"{where}: elements", name, known)
+            if table == "reals":
+                check_name(f"{where}: range", row["range"], data["ranges"])
+            for law in row.get("laws", ()):
+                check_name(f"{where}: laws", law, range(1, laws + 1))
+
+
+def check_elements(data: Row) -> None:
+    """Raise ValueError for a family without such variables, an element out of order, or one of an unknown family."""
+    for name, family in data["families"].items():
+        for key, table in family.items():
+            check_name(f"families.{name}: {key}", table, data["variables"])
+    for number, row in enumerate(data["elements"], start=1):
+        if row["type"] != f"U{number}":
+            raise ValueError(f"elements {row['type']}: expected U{number}, the types in the order of their numbers")
+        check_name(f"elements {row['type']}: family", row["family"], data["families"])
+
+
+def check_keys(where: str, table: str, row: Row) -> None:
+    """Raise ValueError if a row lacks a key or has an unknown one."""
+    needed, more = KEYS[table], MORE_KEYS.get(table, set())
+    if missing := needed - row.keys():
+        raise ValueError(f"{where}: no {', '.join(sorted(missing))}")
+    for key in row:
+        check_name(where, key, sorted(needed | more))
+
+
+def check_name(where: str, name: Any, known: Iterable[Any]) -> None:
+    """Raise ValueError for a name that is not among those that are known."""
+    if name not in known:
+        raise ValueError(f"{where}: '{name}', expected one of {', '.join(map(str, known))}")
+
+
+def names_in(entry: str | Sequence[str]) -> Sequence[str]:
+    """Families and sets of an entry that is one of them or a list."""
+    return [entry] if isinstance(entry, str) else entry
+
+
+def constants(data: Row) -> Iterator[tuple[str, int]]:
+    """Name and value of each constant that stands for a row of a table."""
+    for table, prefix in (("reals", "p"), ("integers", "j")):
+        for number, row in enumerate(data[table], start=1):
+            yield symbol_of(prefix, row), number
+    for table in data["variables"].values():
+        for number, row in enumerate(table["items"], start=1):
+            yield symbol_of(table["prefix"], row), number
+
+
+def symbol_of(prefix: str, row: Row) -> str:
+    """The Fortran constant for a row of a table."""
+    return f"{prefix}_{row.get('symbol', row['name'].lower().replace(' ', '_'))}"
+
+
+def body(data: Row) -> Iterator[str]:
+    """Lines of the constants and tables."""
+    yield from ("", "  ! permitted values of a real property")
+    yield from (parameter(name, number) for number, name in enumerate(data["ranges"], start=1))
+    yield from ("", "  !> What a range asks for, in words.")
+    expected = [row["expected"] for row in data["ranges"].values()]
+    kind = f"character(len={max(map(len, expected))})"
+    yield from table_of(kind, "expectations", [(padded(text, max(map(len, expected))), "") for text in expected])
+    yield from ("", "  ! families of elements, and sets of them, which are sums")
+    yield from (parameter(name, 2**power) for power, name in enumerate(data["families"]))
+    yield from (parameter(name, " + ".join(parts)) for name, parts in data["sets"].items())
+    yield from ("", "  ! rows of the tables below")
+    yield from (parameter(name, number) for name, number in constants(data))
+    yield ""
+    yield from table_of("type(real_item)", "reals", [real(row, data) for row in data["reals"]])
+    yield ""
+    yield from table_of("type(integer_item)", "integers", [integer(row, data) for row in data["integers"]])
+    yield from ("", "  ! numbers of variables")
+    yield from (parameter(f"{name}_variables", len(table["items"])) for name, table in data["variables"].items())
+    yield ""
+    yield from table_of("type(element_item)", "elements", [element(row, data) for row in data["elements"]])
+    yield ""
+    yield from table_of("type(faces_item)", "faces", [(faces(row, data), "") for row in data["elements"]])
+    yield ""
+
+
+def parameter(name: str, value: int | str) -> str:
+    """Line that declares an integer constant."""
+    return f"  integer, parameter, public :: {name} = {value}"
+
+
+def table_of(kind: str, name: str, rows: Sequence[tuple[str, str]]) -> Iterator[str]:
+    """Lines of an array constant: rows, each after its meaning."""
+    yield f"  {kind}, parameter, public :: {name}({len(rows)}) = [ &"
+    for number, (row, meaning) in enumerate(rows, start=1):
+        if meaning:
+            yield f"    !> {meaning}"
+        yield f"    {row}" + (", &" if number < len(rows) else "]")
+
+
+def real(row: Row, data: Row) -> tuple[str, str]:
+    """Constructor and meaning of a real property."""
+    families = " + ".join(names_in(row["elements"]))
+    return f"real_item({symbol_of('p', row)}, {families}, {name_of(row, data)}, {row['range']})", row["meaning"]
+
+
+def integer(row: Row, data: Row) -> tuple[str, str]:
+    """Constructor and meaning of an integer property."""
+    families = " + ".join(names_in(row["elements"]))
+    bounds = f"0, {row['highest']}" if "highest" in row else "-any_integer, any_integer"
+    return f"integer_item({symbol_of('j', row)}, {families}, {name_of(row, data)}, {bounds})", row["meaning"]
+
+
+def name_of(row: Row, data: Row) -> str:
+    """Name of a property as a character constant, all of one length."""
+    return padded(row["name"], max(len(each["name"]) for each in (*data["reals"], *data["integers"])))
+
+
+def padded(text: str, length: int) -> str:
+    """Text as a character constant of a length: those of an array constant have to be alike."""
+    return "'" + text.replace("'", "''").ljust(length + text.count("'")) + "'"
+
+
+def element(row: Row, data: Row) -> tuple[str, str]:
+    """Constructor and meaning of an element type."""
+    family = data["families"][row["family"]]
+    variables = [f"{family[key]}_variables" if key in family else 0 for key in ("variables", "own")]
+    counts = [row["dimension"], row["nodes"], row["points"], *variables]
+    fields = [row["type"][1:], row["family"], *counts, *row["least_properties"]]
+    return f"element_item({', '.join(map(str, fields))})", row["meaning"]
+
+
+def faces(row: Row, data: Row) -> str:
+    """Constructor of the nodes of the faces."""
+    solid = row["nodes"] // 2 if "own" in data["families"][row["family"]] else 0
+    nodes = [(row.get(side, []) + 8 * [0])[part : part + 4] for part in (0, 4) for side in ("bottom", "top")]
+    return f"faces_item({row['type'][1:]}, {solid}, {', '.join(map(str, nodes))})"
+
+
+if __name__ == "__main__":
+    main()
