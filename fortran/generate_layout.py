@@ -25,7 +25,7 @@ KEYS = {
     "integers": {"name", "elements", "meaning"},
     "variables": {"prefix", "items"},
     "items": {"name", "unit", "meaning"},
-    "elements": {"type", "meaning", "family", "dimension", "nodes", "points", "least_properties"},
+    "elements": {"type", "meaning", "family", "dimension", "nodes", "points"},
 }
 """What an entry of each table has to have."""
 
@@ -65,7 +65,7 @@ module abaqus_layout
     integer :: lowest, highest
   end type integer_item
 
-  !> An element type Un: variables of each of its points and of the whole element, the fewest properties of each kind.
+  !> An element type Un: variables of each of its points and of the whole element, properties of each kind.
   type, public :: element_item
     integer :: jtype, family, dimension, nodes, points, variables, own, reals, integers
   end type element_item
@@ -179,6 +179,13 @@ def names_in(entry: str | Sequence[str]) -> Sequence[str]:
     return [entry] if isinstance(entry, str) else entry
 
 
+def families_in(entry: str | Sequence[str], sets: Row) -> set[str]:
+    """Families of an entry that is a family, a set or a list of them."""
+    return {
+        family for name in names_in(entry) for family in (families_in(sets[name], sets) if name in sets else [name])
+    }
+
+
 def constants(data: Row) -> Iterator[tuple[str, int]]:
     """Name and value of each constant that stands for a row of a table."""
     for table, prefix in (("reals", "p"), ("integers", "j")):
@@ -262,7 +269,11 @@ def element(row: Row, data: Row) -> tuple[str, str]:
     family = data["families"][row["family"]]
     variables = [f"{family[key]}_variables" if key in family else 0 for key in ("variables", "own")]
     counts = [row["dimension"], row["nodes"], row["points"], *variables]
-    fields = [row["type"][1:], row["family"], *counts, *row["least_properties"]]
+    properties = [
+        sum(row["family"] in families_in(each["elements"], data["sets"]) for each in data[table])
+        for table in ("reals", "integers")
+    ]
+    fields = [row["type"][1:], row["family"], *counts, *properties]
     return f"element_item({', '.join(map(str, fields))})", row["meaning"]
 
 

@@ -8,7 +8,7 @@ module abaqus_check
   use abaqus_layout, only: elements, faces, reals, integers, expectations, every_continuum, with_solids, &
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
     p_betan, p_betat, p_shapen, p_shapet, p_friction, j_law, j_closure
-  use abaqus_properties, only: unknowns_of, variables_of_points, reals_of, integers_of, real_position, unpack, recommend, &
+  use abaqus_properties, only: unknowns_of, variables_of, real_position, integer_position, unpack, recommend, &
     by_eigenvalues, by_equation_21, consistent_closure
   use cohesive_parameters, only: ppr_law
   use abaqus_report, only: fatal
@@ -30,24 +30,20 @@ contains
 
     good = .false.
     associate (element => elements(jtype))
-      if (.not. count_fits('NODES = %I', nnode, element%nodes, element%nodes)) return
-      if (.not. count_fits('number of unknowns %I', ndofel, unknowns_of(jtype), unknowns_of(jtype))) return
-      if (nprops /= element%reals) then
-        if (.not. count_fits('PROPERTIES = %I', nprops, element%reals, reals_of(jtype))) return
-      end if
-      if (njprop /= element%integers) then
-        if (.not. count_fits('I PROPERTIES = %I', njprop, element%integers, integers_of(jtype))) return
-      end if
-      if (nsvars < variables_of_points(jtype)) then
-        call fatal(jtype, jelem, 'VARIABLES = %I: expected at least %I', [nsvars, variables_of_points(jtype)], [real(dp) ::])
+      if (.not. count_fits('NODES = %I', nnode, element%nodes)) return
+      if (.not. count_fits('number of unknowns %I', ndofel, unknowns_of(jtype))) return
+      if (.not. count_fits('PROPERTIES = %I', nprops, element%reals)) return
+      if (.not. count_fits('I PROPERTIES = %I', njprop, element%integers)) return
+      if (nsvars < variables_of(jtype)) then
+        call fatal(jtype, jelem, 'VARIABLES = %I: expected at least %I', [nsvars, variables_of(jtype)], [real(dp) ::])
       else if (mcrd < element%dimension .or. mcrd > 3) then
         call fatal(jtype, jelem, 'COORDINATES = %I: expected %I', [mcrd, element%dimension], [real(dp) ::])
       else if (ndload /= 0) then
         call fatal(jtype, jelem, 'does not take distributed loads: load its nodes', [integer ::], [real(dp) ::])
       else
-        call unpack(jtype, nprops, props, njprop, jprops, values, options)
-        good = reals_are_good(jtype, jelem, nprops, values)
-        if (good) good = integers_are_good(jtype, jelem, njprop, options)
+        call unpack(jtype, props, jprops, values, options)
+        good = reals_are_good(jtype, jelem, values)
+        if (good) good = integers_are_good(jtype, jelem, options)
         if (.not. good) return
         call recommend(jtype, values, options)
         if (iand(element%family, every_continuum) == 0) good = options_fit(jtype, jelem, values, options)
@@ -56,34 +52,28 @@ contains
 
   contains
 
-    logical function count_fits(what, found, least, most)
+    logical function count_fits(what, found, expected)
       character(len=*), intent(in) :: what
-      integer, intent(in) :: found, least, most
+      integer, intent(in) :: found, expected
 
-      count_fits = found >= least .and. found <= most
-      if (count_fits) return
-      if (least == most) then
-        call fatal(jtype, jelem, '*USER ELEMENT has ' // what // ': expected %I', [found, most], [real(dp) ::])
-      else
-        call fatal(jtype, jelem, '*USER ELEMENT has ' // what // ': expected %I to %I', [found, least, most], [real(dp) ::])
+      count_fits = found == expected
+      if (.not. count_fits) then
+        call fatal(jtype, jelem, '*USER ELEMENT has ' // what // ': expected %I', [found, expected], [real(dp) ::])
       end if
     end function count_fits
 
   end function call_is_good
 
-  !> True if every real property that the deck has is in its range.
-  function reals_are_good(jtype, jelem, nprops, values) result(good)
-    integer, intent(in) :: jtype, jelem, nprops
+  !> True if every real property is in its range.
+  function reals_are_good(jtype, jelem, values) result(good)
+    integer, intent(in) :: jtype, jelem
     real(dp), intent(in) :: values(:)
     logical :: good
-    integer :: i, position
+    integer :: i
 
     good = .true.
-    position = 0
     do i = 1, size(reals)
-      if (position == nprops) exit
       if (iand(reals(i)%families, elements(jtype)%family) == 0) cycle
-      position = position + 1
       select case (reals(i)%rule)
       case (positive)
         good = values(i) > 0.0_dp
@@ -126,24 +116,21 @@ contains
     call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ' = %R' // text, [real_position(jtype, row)], [value])
   end subroutine refuse_real
 
-  !> True if every integer property that the deck has is in its range.
-  function integers_are_good(jtype, jelem, njprop, options) result(good)
-    integer, intent(in) :: jtype, jelem, njprop
+  !> True if every integer property is in its range.
+  function integers_are_good(jtype, jelem, options) result(good)
+    integer, intent(in) :: jtype, jelem
     integer, intent(in) :: options(:)
     logical :: good
-    integer :: i, position
+    integer :: i
 
     good = .true.
-    position = 0
     do i = 1, size(integers)
-      if (position == njprop) exit
       if (iand(integers(i)%families, elements(jtype)%family) == 0) cycle
-      position = position + 1
       if (integers(i)%highest == any_integer) cycle
       good = options(i) >= integers(i)%lowest .and. options(i) <= integers(i)%highest
       if (good) cycle
       call fatal(jtype, jelem, 'JPROPS(%I) ' // trim(integers(i)%name) // ' = %I: expected %I to %I', &
-        [position, options(i), integers(i)%lowest, integers(i)%highest], [real(dp) ::])
+        [integer_position(jtype, i), options(i), integers(i)%lowest, integers(i)%highest], [real(dp) ::])
       return
     end do
   end function integers_are_good

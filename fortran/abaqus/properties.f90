@@ -9,7 +9,7 @@ module abaqus_properties
     p_betan, p_betat, j_law, j_closure
   implicit none(type, external)
   private
-  public :: unknowns_of, variables_of, variables_of_points, nodes_of_face, face_nodes, reals_of, integers_of
+  public :: unknowns_of, variables_of, variables_of_points, nodes_of_face, face_nodes
   public :: real_position, integer_position, unpack, recommend, delamination_layout_version
 
   ! values that choose among laws and estimates; 0 stands for what the element is made for, see `recommend`
@@ -38,7 +38,7 @@ contains
     if (jtype >= 1 .and. jtype <= size(elements)) number = variables_of_points(jtype) + elements(jtype)%own
   end function variables_of
 
-  !> Number of SVARS of the points of Un, which it needs at least.
+  !> Number of SVARS of the points of Un.
   pure function variables_of_points(jtype) result(number)
     integer, intent(in) :: jtype
     integer :: number
@@ -78,22 +78,6 @@ contains
     end do
   end function present_of
 
-  !> Number of real properties that Un may have, PROPERTIES of *USER ELEMENT.
-  pure function reals_of(jtype) result(number)
-    integer, intent(in) :: jtype
-    integer :: number
-
-    number = real_position(jtype, size(reals))
-  end function reals_of
-
-  !> Number of integer properties that Un may have, I PROPERTIES of *USER ELEMENT.
-  pure function integers_of(jtype) result(number)
-    integer, intent(in) :: jtype
-    integer :: number
-
-    number = integer_position(jtype, size(integers))
-  end function integers_of
-
   !> Position in PROPS of the property in a row of `reals`.
   pure function real_position(jtype, row) result(position)
     integer, intent(in) :: jtype, row
@@ -110,11 +94,11 @@ contains
     position = count(iand(integers(1:row)%families, elements(jtype)%family) /= 0)
   end function integer_position
 
-  !> Properties by their rows in `reals` and `integers`; 0 where Un has no such property or the deck no value for it.
-  pure subroutine unpack(jtype, nprops, props, njprop, jprops, values, options)
-    integer, intent(in) :: jtype, nprops, njprop
-    real(dp), intent(in) :: props(nprops)
-    integer, intent(in) :: jprops(njprop)
+  !> Properties by their rows in `reals` and `integers`; 0 where Un has no such property.
+  pure subroutine unpack(jtype, props, jprops, values, options)
+    integer, intent(in) :: jtype
+    real(dp), intent(in) :: props(elements(jtype)%reals)
+    integer, intent(in) :: jprops(elements(jtype)%integers)
     real(dp), intent(out) :: values(size(reals))
     integer, intent(out) :: options(size(integers))
     integer :: row, position, family
@@ -124,7 +108,6 @@ contains
     position = 0
     do row = 1, size(reals)
       if (iand(reals(row)%families, family) == 0) cycle
-      if (position == nprops) exit
       position = position + 1
       values(row) = props(position)
     end do
@@ -132,7 +115,6 @@ contains
     position = 0
     do row = 1, size(integers)
       if (iand(integers(row)%families, family) == 0) cycle
-      if (position == njprop) exit
       position = position + 1
       options(row) = jprops(position)
     end do

@@ -44,9 +44,8 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   if (asks_for_nothing(lflags)) return
   call warn_if_heated(jtype, jelem, npredf, predef)
 
-  n = min(nsvars, size(state))
-  state = 0.0_dp
-  state(1:n) = svars(1:n)
+  n = size(state)
+  state = svars(1:n)
   weight = weight_of_start(lflags, params)
   if (abs(weight) > 0.0_dp) then
     call interface_forces_at(jtype, jelem, values, options, coords, u - du(1:ndofel, 1), large_displacements(lflags), state, &
@@ -60,6 +59,5 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
     residual = (1.0_dp - weight)*residual + weight*before
     tangent = (1.0_dp - weight)*tangent
   end if
-  call give_answer(lflags, du(1:ndofel, 1), residual, tangent, state(1:n), energies, rhs(1:ndofel, 1), amatrx, &
-    svars(1:n), energy)
+  call give_answer(lflags, du(1:ndofel, 1), residual, tangent, state, energies, rhs(1:ndofel, 1), amatrx, svars(1:n), energy)
 end subroutine uel

@@ -146,6 +146,7 @@ def test_geometry(element, jtype, coordinates, message):
         (2, {"properties": 7}, r"PROPERTIES = 7: expected 13"),
         (4, {"integer_properties": 4}, r"I PROPERTIES = 4: expected 6"),
         (2, {"variables": 25}, r"VARIABLES = 25: expected at least 36"),
+        (4, {"variables": 39}, r"VARIABLES = 39: expected at least 40"),
         (1, {"variables": 31}, r"VARIABLES = 31: expected at least 32"),
         (2, {"dofs": tuple((node, dof) for node in range(4) for dof in (1, 2, 3))}, r"unknowns 12: expected 8"),
         (2, {"dofs": tuple((node, 1) for node in range(4)) * 2, "coordinates": 1}, r"COORDINATES = 1: expected 2"),

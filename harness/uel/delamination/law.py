@@ -127,7 +127,6 @@ def deck_properties(path: Path, elset: str | None = None) -> tuple[int, dict[str
             continue
         if elset is None or section.elset.upper() == elset.upper():
             layout = element_layouts()[definition.number]
-            # a deck may have fewer than the element has now: properties that were added later are 0
             values = dict(zip((item.name for item in layout.reals), section.values.tolist(), strict=False))
             values |= dict(zip((item.name for item in layout.integers), section.integers.tolist(), strict=False))
             values.setdefault("THICKNESS", 1.0)

@@ -14,7 +14,6 @@ from pathlib import Path
 from uel import usersub
 from uel.assembly import System, TolerantSystem
 from uel.deck import read_deck
-from uel.elements.interfaces.earlier_zeros import warn_of_earlier_zeros
 from uel.elements.interfaces.neighbour_data import judge_neighbours
 from uel.elements.interfaces.process_zone import LongElements
 from uel.elements.interfaces.unsymmetric_matrices import warn_of_missing_unsymm
@@ -240,7 +239,6 @@ def _analyse(
         ranks.lead(lambda: None if output is None else act(output), lambda: system and system.share_states())
 
     try:
-        warn_of_earlier_zeros(model, library)
         warn_of_missing_unsymm(model, library)
         ranks.agree(lambda: judge_neighbours(model, library))
         system = ranks.agree(assemble)
