@@ -197,7 +197,7 @@ def constants(data: Row) -> Iterator[tuple[str, int]]:
 
 
 def symbol_of(prefix: str, row: Row) -> str:
-    """The Fortran constant for a row of a table."""
+    """Return the Fortran constant for a row of a table."""
     return f"{prefix}_{row.get('symbol', row['name'].lower().replace(' ', '_'))}"
 
 
@@ -242,13 +242,13 @@ def table_of(kind: str, name: str, rows: Sequence[tuple[str, str]]) -> Iterator[
 
 
 def real(row: Row, data: Row) -> tuple[str, str]:
-    """Constructor and meaning of a real property."""
+    """Write constructor and meaning of a real property."""
     families = " + ".join(names_in(row["elements"]))
     return f"real_item({symbol_of('p', row)}, {families}, {name_of(row, data)}, {row['range']})", row["meaning"]
 
 
 def integer(row: Row, data: Row) -> tuple[str, str]:
-    """Constructor and meaning of an integer property."""
+    """Write constructor and meaning of an integer property."""
     families = " + ".join(names_in(row["elements"]))
     bounds = f"0, {row['highest']}" if "highest" in row else "-any_integer, any_integer"
     return f"integer_item({symbol_of('j', row)}, {families}, {name_of(row, data)}, {bounds})", row["meaning"]
@@ -265,7 +265,7 @@ def padded(text: str, length: int) -> str:
 
 
 def element(row: Row, data: Row) -> tuple[str, str]:
-    """Constructor and meaning of an element type."""
+    """Write constructor and meaning of an element type."""
     family = data["families"][row["family"]]
     variables = [f"{family[key]}_variables" if key in family else 0 for key in ("variables", "own")]
     counts = [row["dimension"], row["nodes"], row["points"], *variables]
@@ -278,7 +278,7 @@ def element(row: Row, data: Row) -> tuple[str, str]:
 
 
 def faces(row: Row, data: Row) -> str:
-    """Constructor of the nodes of the faces."""
+    """Write the constructor of the nodes of the faces."""
     solid = row["nodes"] // 2 if "own" in data["families"][row["family"]] else 0
     nodes = [(row.get(side, []) + 8 * [0])[part : part + 4] for part in (0, 4) for side in ("bottom", "top")]
     return f"faces_item({row['type'][1:]}, {solid}, {', '.join(map(str, nodes))})"

@@ -19,7 +19,7 @@ def path_of_kernels() -> Path:
 
 
 def path_of_properties() -> Path:
-    """The file that defines every property, state variable and element type of the kernels."""
+    """Return the file that defines every property, state variable and element type of the kernels."""
     return _packaged("properties.toml")
 
 

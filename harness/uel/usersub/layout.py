@@ -237,7 +237,7 @@ def _integer(position: int, row: Mapping[str, Any]) -> Item:
 
 
 def _meaning(row: Mapping[str, Any]) -> str:
-    """The meaning of a property, with the laws that use it and what 0 stands for."""
+    """Return the meaning of a property, with the laws that use it and what 0 stands for."""
     laws = f" (LAW {', '.join(map(str, row['laws']))})" if "laws" in row else ""
     default = f"; 0: {row['default']}" if "default" in row else ""
     return f"{row['meaning']}{laws}{default}"
