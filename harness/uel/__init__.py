@@ -6,14 +6,18 @@
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from uel.running.job import run
+    from uel.running.options import RoutineOptions
+    from uel.solver.options import SolverOptions
 
-__all__ = ["run"]
+__all__ = ["RoutineOptions", "SolverOptions", "run"]
+
+_MODULES = {"RoutineOptions": "uel.running.options", "SolverOptions": "uel.solver.options", "run": "uel.running.job"}
 
 
 def __getattr__(name: str) -> object:
     """Load numpy and scipy where something is run: the command takes an interrupt from its first moment on."""
-    if name != "run":
+    if name not in _MODULES:
         raise AttributeError(f"module 'uel' has no attribute '{name}'")
-    from uel.running.job import run  # noqa: PLC0415
+    from importlib import import_module  # noqa: PLC0415
 
-    return run
+    return getattr(import_module(_MODULES[name]), name)

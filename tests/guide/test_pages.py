@@ -92,7 +92,7 @@ def test_tutorial_of_the_fit(replayed, assert_same):
     made = deck.replace("20., 0., 0., 30., 60., 0.26,", f"20., 0., 0., {strength}, 60., {toughness},")
     assert made != deck
     Path("made.inp").write_text(made)
-    history = uel.run("made.inp", fallback=True).history
+    history = uel.run("made.inp", solver=uel.SolverOptions(fallback=True)).history
     x, y = np.loadtxt("measured.csv", delimiter=",", skiprows=1).T
     noise = y - np.interp(x, 2 * history["U2[LOAD]"], history["RF2[LOAD]"])
     assert np.std(noise) == pytest.approx(0.01 * history["RF2[LOAD]"].max(), rel=0.2)

@@ -231,11 +231,13 @@ def assert_goes_on(job, new, place):
 
 @pytest.mark.sample(3)
 @pytest.mark.parametrize(
-    ("name", "solver"), [*((name, "auto") for name in DECKS), pytest.param("umat", "superlu", marks=pytest.mark.long)]
+    ("name", "linear_solver"),
+    [*((name, "auto") for name in DECKS), pytest.param("umat", "superlu", marks=pytest.mark.long)],
 )
-def test_restart_is_the_run_that_was_not_interrupted(folder, name, solver):
+def test_restart_is_the_run_that_was_not_interrupted(folder, name, linear_solver):
     """From any of its states, with the deck of the job itself."""
     deck, user = written(name, DECKS[name]), USER if name == "umat" else None
+    solver = uel.SolverOptions(linear_solver=linear_solver)
     run(deck, user, job="whole", solver=solver)
     kept = states("whole")
     assert len(kept) > 4
@@ -509,7 +511,7 @@ def test_kill_while_a_state_is_written_leaves_the_one_before(folder, monkeypatch
 def test_steps_that_keep_no_states(folder, old, new, options, reason):
     """A warning says why: such a deck runs as it does without *RESTART."""
     text = BAR.replace("*CLOAD\nRIGHT, 1, 4.", "*BOUNDARY\nRIGHT, 1, 1, 0.1") if "energy_control" in options else BAR
-    result = run(written("bar", text.replace(old, new) if old else text), **options)
+    result = run(written("bar", text.replace(old, new) if old else text), solver=uel.SolverOptions(**options))
     assert any(
         re.search(rf"\*RESTART, WRITE HAS NO EFFECT IN STEP 1: {reason}", text.upper()) for text in result.warnings
     )
@@ -528,7 +530,11 @@ def test_options_that_a_restart_does_not_take(folder, options, end_step, message
     run(written("bar", BAR))
     more = f"*STEP\n*STATIC, DIRECT\n0.5, 1.\n*CLOAD\nRIGHT, 1, 8.\n{OUTPUT}*END STEP\n"
     with pytest.raises(UsageError, match=message):
-        run(written("more", f"*RESTART, READ, STEP=1, INC=2{end_step}\n{more}"), oldjob="bar", **options)
+        run(
+            written("more", f"*RESTART, READ, STEP=1, INC=2{end_step}\n{more}"),
+            oldjob="bar",
+            solver=uel.SolverOptions(**options),
+        )
 
 
 def test_advice_where_a_restart_does_not_converge(folder):

@@ -67,8 +67,8 @@ def chain(tmp_path):
             f"{SPRINGS + 1}, 1, 1, 70.\n*OUTPUT, HISTORY\n*ENERGY OUTPUT\nALLSE\n*END STEP\n"
         )
         (folder / "spring.f").write_text(SPRING.format(head=HEAD, mistake=statement.replace("\n", "\n      ")))
-        options = {"thread_safe": ["u1"], "output_dir": folder} | options
-        return uel.run(folder / "chain.inp", folder / "spring.f", cpus=cpus, **options)
+        routines = uel.RoutineOptions(cpus=cpus, **{"thread_safe": ["u1"]} | options)
+        return uel.run(folder / "chain.inp", folder / "spring.f", output_dir=folder, routines=routines)
 
     return run
 
@@ -99,7 +99,9 @@ def test_same_bits_of_user_elements(chain):
 def test_same_bits_in_space(tmp_path, deck):
     file = tmp_path / "dcb.inp"
     file.write_text(re.sub(r"(\*STATIC\n.*?), 2\.5,", r"\1, 0.4,", deck()))
-    results = [uel.run(file, job=f"on{cpus}", output_dir=tmp_path, cpus=cpus) for cpus in (1, 2)]
+    results = [
+        uel.run(file, job=f"on{cpus}", output_dir=tmp_path, routines=uel.RoutineOptions(cpus=cpus)) for cpus in (1, 2)
+    ]
     one, two = (
         [text.replace(f"on{k}", "job") for text in files_of(each)] for k, each in zip((1, 2), results, strict=True)
     )
@@ -172,7 +174,7 @@ def test_threads_give_up(chain):
 def test_stress_that_elements_share(tmp_path):
     deck = Path(__file__).parents[2] / "abaqus_inputs" / "dcb" / "dcb_u3_1e8.inp"
     with pytest.raises(UsageError, match=r"--cpus 2: elements of type U[13] .* in memory that all threads share; run"):
-        uel.run(deck, output_dir=tmp_path, cpus=2)
+        uel.run(deck, output_dir=tmp_path, routines=uel.RoutineOptions(cpus=2))
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from uel.delamination.steps import Increments
 from uel.paper import measures
 from uel.paper.study.cases import KINDS, deck_files, interface_of
 from uel.running.job import run
+from uel.solver.options import SolverOptions
 
 NOISE, POINTS, OPENING, INCREMENTS = 0.01, 80, 2.0, 60
 
@@ -40,7 +41,7 @@ def test_toughness_and_strength(
     )
     for name, text in files.items():
         Path(name).write_text(text)
-    result = run("dcb.inp", output_dir="true", fallback=True)
+    result = run("dcb.inp", output_dir="true", solver=SolverOptions(fallback=True))
     x = np.linspace(0.02 * OPENING, 0.999 * OPENING, POINTS)
     y = np.interp(x, measures.displacement(result), measures.load(result))
     y += np.random.default_rng(18).normal(0.0, NOISE * measures.peak_load(result), POINTS)

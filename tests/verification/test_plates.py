@@ -21,6 +21,7 @@ from uel.output import Result
 from uel.output.pictures.front import fronts
 from uel.paper import space_beams
 from uel.running.job import run
+from uel.solver.options import SolverOptions
 
 PLY = SolidPly("PLY_0", (1.2e5, 1.05e4, 1.05e4), (0.3, 0.3, 0.51), (5.52e3, 5.52e3, 3.48e3))
 CROSS = replace(PLY, name="PLY_90", angle=90.0)
@@ -198,7 +199,7 @@ def test_the_front_releases_the_fracture_energy(kind: str, tmp_path: Path) -> No
     deck = tmp_path / f"{kind}.inp"
     static = (0.05, 1.0, 1.0e-6, 0.05)
     deck.write_text(text(build.dcb_deck("Slanted mesh", laminate, 0.25, static, part=build.STRIP)))
-    result = run(deck, output_dir=tmp_path, fallback=True)
+    result = run(deck, output_dir=tmp_path, solver=SolverOptions(fallback=True))
     last = [front for front in fronts(result) if front.time == result.frames[-1].time]
     assert len(last) == 1
     # it has left the first, slanted edge
@@ -232,7 +233,7 @@ def test_a_sliding_front_releases_the_shear_toughness(kind: str, tmp_path: Path)
         "ENF", Laminate(mesh, interface, (PLY,), (PLY,)), 1.4, (0.05, 1.0, 1.0e-6, 0.05), part=build.STRIP, every=2
     )
     deck.write_text(text(lines))
-    last = fronts(run(deck, output_dir=tmp_path, fallback=True))[-1]
+    last = fronts(run(deck, output_dir=tmp_path, solver=SolverOptions(fallback=True)))[-1]
     assert last.places[:, 0].min() > 26.0
     # the process zone is 14 elements long
     assert last.releases[:, 1] == pytest.approx(np.full(len(last.places), toughness), rel=0.03)

@@ -14,6 +14,7 @@ from uel.delamination.kernels import uel_property, user_element
 from uel.delamination.keywords import element_block, node_block, node_set, text
 from uel.model.arrays import FloatArray, IntArray
 from uel.running.job import run
+from uel.solver.options import SolverOptions
 
 LENGTH, CRACK, HEIGHT = 30.0, 10.0, 2.0
 """Of the beam and of the crack, and height of an arm, mm."""
@@ -130,7 +131,7 @@ def curve(folder: Path, beam: Beam) -> tuple[FloatArray, FloatArray]:
     """Opening and load per width by increment."""
     file = folder / f"{beam.arm}_u{beam.interface}.inp"
     file.write_text(deck(beam, opening=2.0, increment=0.05), encoding="ascii")
-    history = run(file, output_dir=folder, fallback=True).history
+    history = run(file, output_dir=folder, solver=SolverOptions(fallback=True)).history
     opening, load = (
         [history[name] for name in history if name.startswith(variable) and "[TOP" in name] for variable in ("U", "RF")
     )

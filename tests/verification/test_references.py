@@ -19,6 +19,7 @@ from uel.output import Result
 from uel.paper import measures
 from uel.paper.decks import FOLDER
 from uel.running.job import run
+from uel.solver.options import SolverOptions
 
 FOLDERS = sorted(path.parent for path in FOLDER.glob("*/reference.toml"))
 
@@ -44,7 +45,7 @@ def runner():
         @cache
         def result(deck: Path) -> Result:
             try:
-                return run(deck, output_dir=folder, fallback=deck.parent in searching)
+                return run(deck, output_dir=folder, solver=SolverOptions(fallback=deck.parent in searching))
             except ConvergenceError:
                 if deck not in unsettled:
                     raise

@@ -16,6 +16,7 @@ from uel.delamination.materials import Cohesive, isotropic
 from uel.delamination.plates import Laminate, TwoPlateMesh, mesh_blocks, property_blocks
 from uel.output import Result
 from uel.running.job import run
+from uel.solver.options import SolverOptions
 
 LENGTH, WIDTH, HEIGHT, CRACK, SIZE = 10.0, 0.5, 1.0, 3.2, 0.4
 METAL = isotropic("METAL", 200.0, 0.3)
@@ -124,7 +125,7 @@ def deviation(specimen: Specimen, folder: Path, increments: int = INCREMENTS) ->
     for degrees in (0.0, DEGREES):
         path = folder / f"turned_{degrees:.0f}.inp"
         path.write_text(deck(*specimen, degrees, increments))
-        result = run(path, output_dir=folder, fallback=True)
+        result = run(path, output_dir=folder, solver=SolverOptions(fallback=True))
         assert result.completed
         found.append(loads(result, degrees, specimen[1].shape[1])[-1 :: -(increments // INCREMENTS)])
         spent.append(result.history["ALLPD"][-1] + result.history["ALLDMD"][-1])

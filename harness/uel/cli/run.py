@@ -97,6 +97,8 @@ def run_job(options: argparse.Namespace) -> int:
     from uel.output.ending import ending  # noqa: PLC0415
     from uel.parallel.mpi import begin  # noqa: PLC0415
     from uel.running.job import run  # noqa: PLC0415 (keeps the other commands quick)
+    from uel.running.options import RoutineOptions  # noqa: PLC0415
+    from uel.solver.options import SolverOptions  # noqa: PLC0415
 
     ranks = begin(launched())
 
@@ -107,14 +109,16 @@ def run_job(options: argparse.Namespace) -> int:
         oldjob=options.oldjob,
         output_dir=options.output_dir,
         parameters=dict(options.parameter),
-        solver=options.solver,
-        fallback=options.fallback,
-        energy_control=options.control == "energy",
-        linear=options.linear,
-        cpus=options.cpus,
-        thread_safe=options.thread_safe,
-        call_limit=options.call_limit,
-        debug=options.debug,
+        solver=SolverOptions(
+            linear_solver=options.solver, fallback=options.fallback, energy_control=options.control == "energy"
+        ),
+        routines=RoutineOptions(
+            linear=options.linear,
+            cpus=options.cpus,
+            thread_safe=options.thread_safe,
+            call_limit=options.call_limit,
+            debug=options.debug,
+        ),
         quiet=options.quiet,
         ranks=ranks,
     )

@@ -31,6 +31,7 @@ from uel.paper import measures
 from uel.paper.beam_table import SHARP_PEAK, summary
 from uel.paper.decks import FOLDER
 from uel.running.job import run
+from uel.solver.options import SolverOptions
 
 BEAMS = {
     "standard": "dcb_0_0_standard_1e8_perturbed.inp",
@@ -128,29 +129,21 @@ class Demonstration:
         self.ended_early: dict[str, str] = {}
         place = FOLDER / "paper_dcb"
         self.beams = {
-            name: self._run(name, place / deck, "double cantilever beam", job=Path(deck).stem, fallback=True)
+            name: self._run(name, place / deck, "double cantilever beam", Path(deck).stem, SolverOptions(fallback=True))
             for name, deck in BEAMS.items()
         }
         enf = FOLDER / "paper_enf" / SNAP
         self.snap = {
-            name: self._run(name, enf, "end-notched flexure", job=job, energy_control=name == ENERGY)
+            name: self._run(name, enf, "end-notched flexure", job, SolverOptions(energy_control=name == ENERGY))
             for name, job in ((NEWTON, "enf_newton"), (ENERGY, "enf_energy"))
         }
 
-    def _run(
-        self, name: str, deck: Path, what: str, *, job: str, fallback: bool = False, energy_control: bool = False
-    ) -> Result:
+    def _run(self, name: str, deck: Path, what: str, job: str, solver: SolverOptions) -> Result:
         console = self._console
         console.print(f"{deck.name}: {what}, {name}", highlight=False)
         try:
-            return run(
-                deck,
-                job=job,
-                output_dir=self._folder,
-                fallback=fallback,
-                energy_control=energy_control,
-                quiet=not console.is_terminal,
-            )
+            quiet = not console.is_terminal
+            return run(deck, job=job, output_dir=self._folder, solver=solver, quiet=quiet)
         except ConvergenceError as error:
             self.ended_early[name] = str(error)
             return Result(self._folder / job)

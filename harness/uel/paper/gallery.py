@@ -26,6 +26,7 @@ from uel.output.pictures.plots import Curve, load_displacement, stacked
 from uel.paper import elastica, literature, measures, space_beams
 from uel.paper.decks import FOLDER
 from uel.running.job import run
+from uel.solver.options import SolverOptions
 
 PICTURE: Final = "picture.png"
 """Name of the picture in the folder of a problem."""
@@ -212,10 +213,8 @@ def write(problem: str, target: Path) -> None:
     """
     example, folder = EXAMPLES[problem], FOLDER / problem
     with tempfile.TemporaryDirectory() as jobs:
-        fallback = fallback_of(folder)
-        results = [
-            run(folder / f"{deck}.inp", output_dir=jobs, fallback=fallback, quiet=True) for deck in example.decks
-        ]
+        solver = SolverOptions(fallback=fallback_of(folder))
+        results = [run(folder / f"{deck}.inp", output_dir=jobs, solver=solver, quiet=True) for deck in example.decks]
         draw_results(problem, results, target)
 
 

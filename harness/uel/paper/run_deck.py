@@ -13,6 +13,7 @@ from uel.batch.engine import Deck
 from uel.errors import ConvergenceError
 from uel.output import Result
 from uel.running.job import run
+from uel.solver.options import SolverOptions
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +45,7 @@ def run_deck(deck: Deck, folder: Path, *, fallback: bool, fields: bool = False) 
         (place / name).write_text(content, encoding="ascii")
     started, stopped = time.perf_counter(), ""
     try:
-        run(place / f"{deck.name}.inp", output_dir=place, fallback=fallback)
+        run(place / f"{deck.name}.inp", output_dir=place, solver=SolverOptions(fallback=fallback))
     except ConvergenceError as error:
         stopped = str(error)
     if not fields:

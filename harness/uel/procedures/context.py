@@ -82,7 +82,7 @@ class StepContext:
             given = self.system, self.unknowns, equations, state.boundaries.sources
             constraints = TurningConstraints(*given, arms, start) if arms else Constraints(*given)
             find = choose_solver if self.system.ranks.size == 1 else choose_rank_solver
-            choose = partial(find, setting.solver, constraints, state.effort)
+            choose = partial(find, setting.solver.linear_solver, constraints, state.effort)
             if isinstance(solver, RankSolver):
                 solver.release()
             chosen = choose()
@@ -178,6 +178,6 @@ def _renewing(setting: Setting, constraints: Constraints) -> Callable[[], Linear
         if pattern is constraints.reduced_indices:
             return None
         pattern = constraints.reduced_indices
-        return choose_solver(setting.solver, constraints, setting.state.effort)
+        return choose_solver(setting.solver.linear_solver, constraints, setting.state.effort)
 
     return renew

@@ -67,12 +67,12 @@ def _(procedure: Static | Visco | Geostatic, setting: Setting) -> StepRun:
     if procedure.riks is not None:
         context = StepContext(setting)
         return GeneralStep(context, RiksPath(context, procedure.riks))
-    if setting.energy_control:
+    if setting.solver.energy_control:
         context = StepContext(setting)
         return GeneralStep(context, EnergyPath(context))
-    context = StepContext(setting, fallback=setting.fallback)
+    context = StepContext(setting, fallback=setting.solver.fallback)
     parts = (ViscousStrain(context, procedure.tolerance),) if isinstance(procedure, Visco) else ()
-    return _in_time(context, *parts, fallback=setting.fallback)
+    return _in_time(context, *parts, fallback=setting.solver.fallback)
 
 
 @run_of.register
@@ -83,8 +83,8 @@ def _(procedure: Dynamic, setting: Setting) -> StepRun:
 
 @run_of.register
 def _(procedure: Diffusive, setting: Setting) -> StepRun:
-    context = StepContext(setting, fallback=setting.fallback)
-    return _in_time(context, LimitedChange(context, procedure), fallback=setting.fallback)
+    context = StepContext(setting, fallback=setting.solver.fallback)
+    return _in_time(context, LimitedChange(context, procedure), fallback=setting.solver.fallback)
 
 
 @run_of.register

@@ -18,12 +18,13 @@ from uel.procedures.general.increments import GeneralStep
 from uel.procedures.registry import run_of
 from uel.procedures.state import ARRAYS, BegunStep, ConvergedState
 from uel.procedures.step_setting import Setting, UserRoutines
+from uel.solver.options import SolverOptions
 
 ANOTHER_MODEL = "{0}: the state of the old job is of another model: {1} differ"
 
 
 def resume(
-    resumed: Resumption, system: System, model: Model, state: ConvergedState, user: UserRoutines, solver: str
+    resumed: Resumption, system: System, model: Model, state: ConvergedState, user: UserRoutines, solver: SolverOptions
 ) -> GeneralStep:
     """Take up the step of a kept state, after UEXTERNALDB with LOP=4.
 
@@ -65,7 +66,9 @@ def resume(
         state.total_time = begun[-1].total_time
         if not step.procedure.inertia:
             state.come_to_rest()
-        running = run_of(step.procedure, Setting(system, model, step, state, user, solver))
+        # a state is of a step in time without a search, and so the step goes on
+        in_time = SolverOptions(linear_solver=solver.linear_solver)
+        running = run_of(step.procedure, Setting(system, model, step, state, user, in_time))
         assert isinstance(running, GeneralStep)
         running.resume(saved)
     except ValueError as error:

@@ -22,16 +22,15 @@ from uel.procedures.registry import run_of
 from uel.procedures.resuming import resume
 from uel.procedures.state import ConvergedState
 from uel.procedures.step_setting import Setting, StepRun, UserRoutines
+from uel.solver.options import SolverOptions
 
 
 def run_steps(
     system: System,
     model: Model,
     user: UserRoutines,
-    solver: str = "auto",
+    solver: SolverOptions = SolverOptions(),
     *,
-    fallback: bool = False,
-    energy_control: bool = False,
     resumed: Resumption | None = None,
 ) -> Iterator[Record]:
     """Run all steps of a model, or those that follow a kept state.
@@ -46,11 +45,7 @@ def run_steps(
         The loaded library of user routines: UEXTERNALDB is called at the start and end of the analysis, of each step
         and of each increment.
     solver
-        Name of a linear solver.
-    fallback
-        Search downhill where Newton's method fails.
-    energy_control
-        Trace snap-backs: the load factor of each step is unknown too, see `uel.solver.energy_control`.
+        How the equations are solved.
     resumed
         The state to go on from, in place of the initial one.
 
@@ -96,7 +91,7 @@ def run_steps(
             yield from map(Noted, step.notes)
             if not (step.procedure.inertia or step.procedure.linear):
                 state.come_to_rest()
-            setting = Setting(system, model, step, state, user, solver, fallback, energy_control)
+            setting = Setting(system, model, step, state, user, solver)
             running = run_of(step.procedure, setting)
             yield from running.run()
             user.external_database(6, 0, *running.reached)

@@ -18,6 +18,7 @@ from uel.model.steps import Step
 from uel.model.user_values import GivesValues
 from uel.procedures.state import ConvergedState
 from uel.solver.linear import Effort, LinearSolver, Pattern, RankSolver, choose
+from uel.solver.options import SolverOptions
 
 
 class UserRoutines(GivesValues, Protocol):
@@ -40,10 +41,7 @@ class UserRoutines(GivesValues, Protocol):
 class Setting:
     """Setting with which a step is run.
 
-    state           at the end of the last step; the step continues it
-    solver          name of a linear solver
-    fallback        search downhill where Newton's method fails
-    energy_control  the load factor of a static step is unknown too
+    state  at the end of the last step; the step continues it
     """
 
     system: System
@@ -51,9 +49,7 @@ class Setting:
     step: Step
     state: ConvergedState
     user: UserRoutines
-    solver: str = "auto"
-    fallback: bool = False
-    energy_control: bool = False
+    solver: SolverOptions
 
 
 class StepRun(Protocol):

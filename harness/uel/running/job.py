@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from operator import methodcaller
@@ -17,7 +17,7 @@ from uel.deck import read_deck
 from uel.elements.interfaces.neighbour_data import judge_neighbours
 from uel.elements.interfaces.process_zone import LongElements
 from uel.elements.interfaces.unsymmetric_matrices import warn_of_missing_unsymm
-from uel.elements.threads import MOST_THREADS, known_routines, refuse_shared_stress, use_threads
+from uel.elements.threads import refuse_shared_stress, use_threads
 from uel.errors import ConvergenceError, ElementError, UelError, UsageError, in_words, note_warnings
 from uel.files import deck_named
 from uel.interrupts import held, settle
@@ -31,8 +31,10 @@ from uel.output.lock import job_stem
 from uel.parallel.ranks import ALONE, Ranks
 from uel.procedures import run_steps
 from uel.procedures.general.incrementation import FIXED_TOO_LARGE, TOO_MANY_ATTEMPTS, TOO_MANY_INCREMENTS
+from uel.running.options import RoutineOptions
 from uel.running.ranks import files_of_job, messages_of, refuse_unshared
 from uel.running.restart import decks_of, find_state, goes_on, refuse_nothing_left, refuse_on_ranks, refuse_options
+from uel.solver.options import SolverOptions
 from uel.solver.threads import one_blas_thread
 from uel.usersub import Library, Message, guard_values
 from uel.usersub.layout import without_user
@@ -46,14 +48,8 @@ def run(
     oldjob: str | Path | None = None,
     output_dir: str | Path | None = None,
     parameters: Mapping[str, float] | None = None,
-    solver: str = "auto",
-    fallback: bool = False,
-    energy_control: bool = False,
-    linear: Collection[str] = (),
-    cpus: int = 1,
-    thread_safe: Collection[str] = (),
-    call_limit: float = 0.0,
-    debug: bool = False,
+    solver: SolverOptions = SolverOptions(),
+    routines: RoutineOptions = RoutineOptions(),
     quiet: bool = True,
     ranks: Ranks = ALONE,
 ) -> Result:
@@ -76,29 +72,9 @@ def run(
     parameters
         Values of parameters in place of those in the deck's *PARAMETER.
     solver
-        Linear solver, see `uel solvers`.
-    fallback
-        Search downhill where Newton's method fails, before the increment is cut back; Abaqus has no such option.
-    energy_control
-        Trace snap-backs: an increment ends where it has dissipated a share of energy, and the load factor of a step
-        is part of the solution. Not with `fallback`, which keeps the load.
-    linear
-        Types of user elements, such as 'U5', that are linear: in static steps with small displacements their first
-        AMATRX stands for them, and they are called again only at the end of each increment, which verifies it. Elastic
-        continuum elements, built in and the project's own, are always treated so, and called again only where their
-        state is read.
-    cpus
-        Threads that call the elements, with the results of one to the bit. Built-in elements and the project's own
-        are called by all of them, but for U3 and U10, which share stress; other routines if `thread_safe` names them.
-    thread_safe
-        Types of user elements, such as 'U5', UMAT and USDFLD: routines that several threads may call at the same time,
-        as Abaqus does with cpus=2. They pass the checks 'shuffle' and 'threads' of `uel check`.
-    call_limit
-        Seconds that one call of a user routine may take; 0: no limit.
-    debug
-        Compile the user's files with run-time checks, and stop where a NaN or an infinity is made: errors have file and
-        line. Slower, and a local variable without a value is an error, not zero. With AddressSanitizer where its
-        runtime was loaded before all else, as the command `uel` does (harness/uel/running/sanitizer.py).
+        How the equations are solved: by which linear solver, and what helps where Newton's method fails.
+    routines
+        How user routines are compiled and called: in how many threads, with which limit and checks.
     quiet
         No progress display.
     ranks
@@ -113,18 +89,14 @@ def run(
     Raises
     ------
     UelError
-        UsageError for a wrong `job`, `parameters`, `solver`, `linear`, `cpus` or `thread_safe`, DeckError,
-        CompileError, KernelError, CallLimitError, SingularMatrixError or ConvergenceError; LockedError if another
-        process runs a job of this name; UelError itself if a user routine other than an element ends the analysis;
-        SilentError on all ranks but 0, whatever the error. What was written until then stays readable. The notes of
-        the error are the first warnings before it, how far the run got, and what may help.
+        UsageError for a wrong `job`, `parameters`, `solver` or `routines`, DeckError, CompileError, KernelError,
+        CallLimitError, SingularMatrixError or ConvergenceError; LockedError if another process runs a job of this
+        name; UelError itself if a user routine other than an element ends the analysis; SilentError on all ranks but
+        0, whatever the error. What was written until then stays readable. The notes of the error are the first
+        warnings before it, how far the run got, and what may help.
     OSError
         A file cannot be written.
     """
-    if not 1 <= cpus <= MOST_THREADS:
-        raise UsageError(f"--cpus {cpus}: expected a number from 1 to {MOST_THREADS}")
-    if cpus > 1 and debug:
-        raise UsageError(f"--cpus {cpus}: run-time checks (--debug) need one thread")
     deck = deck_named(Path(deck))
     stem = job_stem(deck.stem if job is None else job, output_dir)
     job, folder = stem.name, stem.parent
@@ -138,28 +110,27 @@ def run(
         earlier = EarlierJobs([Path(), folder, deck.parent])
         model = ranks.agree(lambda: read_deck(deck, parameters, parts, earlier))
         refuse_nothing_left(model, resumed, oldjob)
-        refuse_options(resumed, oldjob, fallback=fallback, energy_control=energy_control)
+        refuse_options(resumed, oldjob, solver)
         decks = ranks.agree(lambda: decks_of(model, parameters, parts))
         if ranks.size > 1:
             refuse_unshared(model, ranks)
-        _refuse_with_multipliers(model, {"--fallback": fallback, "--control energy": energy_control})
-        types = _linear_types(model, linear)
-        safe = _safe_routines(model, thread_safe)
-        usersub.limit_calls(call_limit)
+        _refuse_with_multipliers(model, solver)
+        routines = routines.for_model(model)
+        debug = routines.debug
+        usersub.limit_calls(routines.call_limit)
         sources = [Path(file) for file in files]
         load = partial(usersub.load, sources, job=job, output_dir=folder, deck=deck, zero_locals=not debug, debug=debug)
         # the others find in the cache what rank 0 has compiled
         library = ranks.in_turn(partial(load, rank=ranks.rank))
         usersub.set_rank(ranks.rank, ranks.size)
         trapping = usersub.trap(True) if debug else None
-        usersub.set_threads(cpus)
+        usersub.set_threads(routines.cpus)
         try:
             output = ranks.agree(
                 lambda: None if ranks.rank else JobOutput(model, job, folder, decks=decks, quiet=quiet)
             )
-            assemble = partial(_assemble, model, library, types, cpus, safe, ranks)
-            how = {"fallback": fallback, "energy_control": energy_control}
-            _analyse(assemble, model, library, output, solver, ranks, resumed, **how)
+            assemble = partial(_assemble, model, library, routines, ranks)
+            _analyse(assemble, model, library, output, solver, ranks, resumed)
         except ElementError as error:
             if not debug and _debug_helps(sources, str(error)):
                 error.add_note("run again with --debug to see file and line")
@@ -175,43 +146,21 @@ def run(
     return Result(stem, seconds=time.perf_counter() - started, warnings=[] if output is None else output.warnings)
 
 
-def _assemble(
-    model: Model, library: Library, linear: Collection[str], cpus: int, safe: Collection[str], ranks: Ranks
-) -> System:
+def _assemble(model: Model, library: Library, routines: RoutineOptions, ranks: Ranks) -> System:
     if ranks.size > 1:
         refuse_shared_stress(model, library, ranks.size)
-    system = TolerantSystem(model, library, linear, ranks)
-    if cpus > 1:
-        use_threads(system.blocks, library, cpus, safe)
+    system = TolerantSystem(model, library, routines.linear, ranks)
+    if routines.cpus > 1:
+        use_threads(system.blocks, library, routines.cpus, routines.thread_safe)
     return system
 
 
-def _refuse_with_multipliers(model: Model, options: Mapping[str, bool]) -> None:
+def _refuse_with_multipliers(model: Model, solver: SolverOptions) -> None:
     """Raise UsageError for options of the run that contact and distributing couplings with NLGEOM do not take."""
     for keyword, source in constraints_with_multipliers(model):
-        for name, given in options.items():
-            if given:
+        for name, asked in (("--fallback", solver.fallback), ("--control energy", solver.energy_control)):
+            if asked:
                 raise UsageError(f"{name}: not supported with {keyword} ({source})")
-
-
-def _safe_routines(model: Model, given: Collection[str]) -> frozenset[str]:
-    """Return the routines that the user says several threads may call, in capitals. Raises UsageError."""
-    known = known_routines(model)
-    names = frozenset(name.upper() for name in given)
-    for name in sorted(names.difference(known)):
-        has = f"it calls {', '.join(known)}" if known else "it calls no user elements or materials"
-        raise UsageError(f"--thread-safe {name}: the deck does not call it; {has}")
-    return names
-
-
-def _linear_types(model: Model, given: Collection[str]) -> frozenset[str]:
-    """Return the types of user elements that the user says are linear, in capitals. Raises UsageError."""
-    known = sorted({group.type for group in model.groups if group.definition is not None})
-    types = frozenset(name.upper() for name in given)
-    for name in sorted(types.difference(known)):
-        has = f"its user elements are {', '.join(known)}" if known else "it has no user elements"
-        raise UsageError(f"--linear {name}: the deck has no elements of this type; {has}")
-    return types
 
 
 def _analyse(
@@ -219,12 +168,9 @@ def _analyse(
     model: Model,
     library: Library,
     output: JobOutput | None,
-    solver: str,
+    solver: SolverOptions,
     ranks: Ranks,
     resumed: Resumption | None,
-    *,
-    fallback: bool,
-    energy_control: bool,
 ) -> None:
     """Run all steps and write their records to the files, which are closed however the run ends.
 
@@ -251,8 +197,7 @@ def _analyse(
                     output.user_text(".dat", "warning", warning)
 
         with one_blas_thread(), guard_values({}):
-            how = {"fallback": fallback, "energy_control": energy_control}
-            for record in run_steps(system, model, library, solver, resumed=resumed, **how):
+            for record in run_steps(system, model, library, solver, resumed=resumed):
                 with held():
                     if isinstance(record, AttemptEnded | StepDone | ModeShape):
                         write(partial(put, record))
@@ -284,8 +229,9 @@ def _analyse(
             # contact and distributing couplings take neither of the two, a restart at most the second
             neither = bool(constraints_with_multipliers(model))
             begun = neither or (resumed is not None and goes_on(resumed))
-            taken = {"fallback": fallback or neither or resumed is not None, "energy_control": energy_control or begun}
-            error.add_note(_advice(str(error), **taken))
+            fallback = solver.fallback or neither or resumed is not None
+            energy_control = solver.energy_control or begun
+            error.add_note(_advice(str(error), fallback=fallback, energy_control=energy_control))
         raise
 
 

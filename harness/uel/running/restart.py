@@ -13,6 +13,7 @@ from uel.model.model import Model
 from uel.model.restart import DeckPart, Resumption
 from uel.output.files.state_files import read_state
 from uel.parallel.ranks import Ranks
+from uel.solver.options import SolverOptions
 
 
 def find_state(
@@ -81,18 +82,16 @@ def refuse_nothing_left(model: Model, resumed: Resumption | None, oldjob: str | 
         raise UsageError(f"--oldjob {oldjob}: {message}: a deck with *RESTART, READ adds steps")
 
 
-def refuse_options(
-    resumed: Resumption | None, oldjob: str | Path | None, *, fallback: bool, energy_control: bool
-) -> None:
+def refuse_options(resumed: Resumption | None, oldjob: str | Path | None, solver: SolverOptions) -> None:
     """Raise UsageError for options that a restart, or the step that goes on, does not take."""
     if resumed is None:
         return
-    if fallback:
+    if solver.fallback:
         reason = "its search compares with the matrix of the start of the analysis, which no state has"
         raise UsageError(
             f"--fallback: {reason}; go on from --oldjob {oldjob} without it, or run the whole analysis with it"
         )
-    if energy_control and goes_on(resumed):
+    if solver.energy_control and goes_on(resumed):
         step = resumed.analysis["step"]
         message = f"step {step} of --oldjob {oldjob} goes on as it began, in time"
         raise UsageError(f"--control energy: {message}; expected *RESTART, READ with END STEP")

@@ -170,7 +170,7 @@ def linear_springs(folder: Path, cubic: float) -> Path:
 def test_elements_that_the_user_says_are_linear(tmp_path, monkeypatch, spring, calls):
     """They are called once, and at the end of each increment, with the state of its start."""
     deck = linear_springs(tmp_path, 0.0)
-    found = uel.run(deck, spring, output_dir=tmp_path / "spared", linear=["u1"])
+    found = uel.run(deck, spring, output_dir=tmp_path / "spared", routines=uel.RoutineOptions(linear=["u1"]))
     assert calls["U1"] == calls["CPS4"] - 1 == 2 + len(found.status)
     always_called(monkeypatch)
     assert_same(found, uel.run(deck, spring, output_dir=tmp_path / "called"))
@@ -183,7 +183,7 @@ def test_elements_that_are_not_linear_are_named(tmp_path, spring):
         r"\(step 1, increment 1, iteration \d\); run without --linear U1"
     )
     with pytest.raises(ElementError, match=message) as error:
-        uel.run(deck, spring, output_dir=tmp_path, linear=["U1"])
+        uel.run(deck, spring, output_dir=tmp_path, routines=uel.RoutineOptions(linear=["U1"]))
     # the softest of the springs is the least wrong: the one that moves most is named
     found = uel.run(deck, spring, output_dir=tmp_path / "called")
     moved = np.abs(found.mesh(1).point_data["U"][:, 0])
@@ -194,7 +194,7 @@ def test_a_type_that_the_deck_does_not_have(tmp_path, spring, capsys):
     deck = linear_springs(tmp_path, 0.0)
     message = "--linear U7: the deck has no elements of this type; its user elements are U1"
     with pytest.raises(UsageError, match=re.escape(message)):
-        uel.run(deck, spring, output_dir=tmp_path, linear=["U7"])
+        uel.run(deck, spring, output_dir=tmp_path, routines=uel.RoutineOptions(linear=["U7"]))
     arguments = ["run", str(deck), "--user", str(spring), "--output-dir", str(tmp_path), "--linear"]
     assert main([*arguments, "U1", "--quiet"]) == 0
     assert main([*arguments, "U7"]) == 2

@@ -22,6 +22,7 @@ from uel.model.mesh import ElementGroup, Mesh
 from uel.model.model import Model
 from uel.model.properties import UserProperty
 from uel.running.ranks import refuse_unshared
+from uel.solver.options import SolverOptions
 
 SOURCE = Source("test.inp", 1)
 THICKNESS = 1.5
@@ -333,7 +334,7 @@ def test_what_the_run_refuses(run, tmp_path):
     text = two_boxes(*plane(), [HELD, pressed(0.02)])
     for option, name in (("fallback", "--fallback"), ("energy_control", "--control energy")):
         with pytest.raises(UsageError, match=rf"{name}: not supported with \*CONTACT PAIR \(.*deck\.inp:\d+\)"):
-            run(text, **{option: True})
+            run(text, solver=SolverOptions(**{option: True}))
     with pytest.raises(DeckError, match=r"deck\.inp:\d+: \*CONTACT PAIR does not run on 2 ranks; run this deck in one"):
         refuse_unshared(read_deck(tmp_path / "deck.inp"), SimpleNamespace(size=2))
 

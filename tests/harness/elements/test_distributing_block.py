@@ -263,4 +263,4 @@ def test_free_nodes_are_refused(run):
 def test_options_of_the_run_that_are_refused(run):
     message = r"--fallback: not supported with \*DISTRIBUTING with NLGEOM \(.*turned\.inp:\d+\)"
     with pytest.raises(UsageError, match=message):
-        run([*beam(constraint=DISTRIBUTING), *step("*CLOAD", "900, 1, 1.")], fallback=True)
+        run([*beam(constraint=DISTRIBUTING), *step("*CLOAD", "900, 1, 1.")], solver=uel.SolverOptions(fallback=True))

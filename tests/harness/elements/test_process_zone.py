@@ -12,6 +12,8 @@ from uel.delamination.kernels import uel_property, user_element
 from uel.errors import UelError
 from uel.output import Result
 from uel.running.job import run
+from uel.running.options import RoutineOptions
+from uel.solver.options import SolverOptions
 
 E1, E3, STRENGTH, TOUGHNESS = 4000.0, 1000.0, 10.0, 0.05
 LAW = {"ALPHAN": 1e5, "ALPHAT": 1e5, "SIGMAMAX": STRENGTH, "TAUMAX": 3.0, "GIC": TOUGHNESS, "GIIC": 0.2, "LAW": 1}
@@ -125,7 +127,9 @@ def pulled(
     lines += [f"CROWN, {k}, {k}, {opening if k == moved else 0.0}" for k in range(1, dimension + 1)]
     lines.append("*END STEP")
     (folder / "deck.inp").write_text("\n".join(lines) + "\n")
-    return run(folder / "deck.inp", output_dir=folder, fallback=True, cpus=cpus)
+    return run(
+        folder / "deck.inp", output_dir=folder, solver=SolverOptions(fallback=True), routines=RoutineOptions(cpus=cpus)
+    )
 
 
 # half of E_n G/s^2 with E_n = 1000 across, and half of (E_t G/s^2)^(1/4) h^(3/4) with E_t = 4000 along, by hand

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs several decks on the ranks of one `mpiexec`, which saves the start of Python for each.
 
-python on_ranks.py JOBS.json: a list of arguments of `uel.run` by name. Rank 0 prints what each run ends with.
+python on_ranks.py JOBS.json: a list of arguments of `uel.run` by name, with those of SolverOptions in `solver`. Rank 0
+prints what each run ends with.
 """
 
 from __future__ import annotations
@@ -27,7 +28,8 @@ class SeveralJobs(MpiRanks):
 ranks = SeveralJobs(launched())
 for job in json.loads(Path(sys.argv[1]).read_text()):
     try:
-        uel.run(**job, ranks=ranks)
+        solver = uel.SolverOptions(**job.pop("solver", {}))
+        uel.run(**job, solver=solver, ranks=ranks)
         end = "completed"
     except SilentError:
         continue

@@ -111,7 +111,7 @@ MISTAKES = {
         {},
         r"linear_step.inp:\d+: step 1 is a linear perturbation step, which does not run on 2 ranks",
     ),
-    "solver": (with_properties(CHAIN), {"solver": "none"}, "unknown linear solver 'none'"),
+    "solver": (with_properties(CHAIN), {"solver": {"linear_solver": "none"}}, "unknown linear solver 'none'"),
     "free body": (with_properties(SINGULAR), {}, r"free_body.inp:\d+: singular system matrix at node \d+, dof 1"),
 }
 

@@ -147,7 +147,10 @@ CASES = {
         springs("1" * 5 + "7", "*STATIC, RIKS\n0.05, 1., 1e-5, 0.1, 0.8\n", "*CLOAD\n7, 1, 0.1\n"),
         {"user": SPRINGS},
     ),
-    "fall-back": (springs("1116111", "*STATIC\n0.1, 1.\n", "8, 1, 1, 3.15\n"), {"user": SPRINGS, "fallback": True}),
+    "fall-back": (
+        springs("1116111", "*STATIC\n0.1, 1.\n", "8, 1, 1, 3.15\n"),
+        {"user": SPRINGS, "solver": {"fallback": True}},
+    ),
     "more ranks than elements": (
         block("CPE4", ELASTIC, "*STEP\n*STATIC\n1., 1.\n*BOUNDARY\nRIGHT, 2, 2, 0.1\n", cells=(1, 1)),
         {},
@@ -156,11 +159,11 @@ CASES = {
     "U1 and U2": (INPUTS / "patch_horizontal" / "perturbed_u2.inp", {}),
     "substructures": (
         block("CPE4", ELASTIC, "*STEP\n*STATIC\n0.5, 1.\n*BOUNDARY\nRIGHT, 2, 2, 0.1\n", TIE),
-        {"solver": "substructures"},
+        {"solver": {"linear_solver": "substructures"}},
     ),
     "all ranks factorise": (
         block("CPE4", ELASTIC, "*STEP\n*STATIC\n0.5, 1.\n*BOUNDARY\nRIGHT, 2, 2, 0.1\n"),
-        {"solver": "cluster"},
+        {"solver": {"linear_solver": "cluster"}},
     ),
     "U8": (shortened(dcb_of_bricks("C3D8I", CONSISTENT, STABILISED_BRICKS), 0.05), {}),
     "COH3D8": (shortened(dcb_of_bricks("C3D8", replace(STANDARD, type="COH3D8"), BRICKS), 0.02), {}),
@@ -186,7 +189,8 @@ def pairs(tmp_path_factory):
     found = {}
     for name, job in zip(CASES, jobs, strict=True):
         # the one process has the solvers of any installation
-        one = uel.run(**{**job, "solver": "auto"}, output_dir=folder / "one")
+        solver = uel.SolverOptions(**{**job.pop("solver", {}), "linear_solver": "auto"})
+        one = uel.run(**job, solver=solver, output_dir=folder / "one")
         found[name] = one, Result(folder / "two" / job["job"])
     return found
 

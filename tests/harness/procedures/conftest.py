@@ -19,6 +19,7 @@ from uel.model.properties import UserElement, UserProperty
 from uel.model.records import AttemptAbandoned, IncrementDone, IterationDone
 from uel.model.steps import Boundary, InitialValue, Load, Step
 from uel.procedures import run_steps
+from uel.solver.options import SolverOptions
 
 HERE = Path(__file__).parent
 
@@ -98,7 +99,7 @@ class Bench:
         self.folder, self.user, self.variables, self.dof = folder, user, variables, dof
 
     def run(self, springs, steps, *, boundaries=(), equations=(), velocities=(), temperatures=(), log=False, **options):
-        """springs: (node, node, type, properties) each; the nodes are numbered from 0 here."""
+        """springs: (node, node, type, properties) each; the nodes are numbered from 0 here. options: of the solver."""
         nodes = 1 + max(max(spring[:2]) for spring in springs)
         mesh = Mesh(np.arange(1, nodes + 1), np.zeros((nodes, 3)), ("",) * nodes)
         groups = tuple(group(k + 1, *spring, log, self.variables, self.dof) for k, spring in enumerate(springs))
@@ -117,7 +118,7 @@ class Bench:
         records, error = [], None
         try:
             system = System(mesh, build_blocks(model, library), model.equations)
-            for record in run_steps(system, model, library, **options):
+            for record in run_steps(system, model, library, SolverOptions(**options)):
                 records.append(record)
         except Exception as caught:
             error = caught

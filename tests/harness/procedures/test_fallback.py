@@ -221,7 +221,7 @@ def test_a_snap_through_a_coupling_that_turns(tmp_path):
     deck.write_text(LEVER)
     with pytest.raises(ConvergenceError):
         uel.run(deck, user=springs, output_dir=tmp_path)
-    result = uel.run(deck, user=springs, output_dir=tmp_path, fallback=True)
+    result = uel.run(deck, user=springs, output_dir=tmp_path, solver=uel.SolverOptions(fallback=True))
     u, force = (result.history[f"{name}[END]"] for name in ("U1", "RF1"))
     whole = u / (1 / 0.1 + 16 / 10)
     np.testing.assert_allclose(force, np.where(u < 2.9, whole, 0), atol=1e-4)

@@ -280,7 +280,7 @@ def test_energy_control_refuses_loads_on_elements(run, load):
         "loads on user elements, those that follow the surface and those of DLOAD are not supported with --control"
     )
     with pytest.raises(DeckError, match=message):
-        run(deck("CPE4", [static(HELD + load)]), "F = F", energy_control=True)
+        run(deck("CPE4", [static(HELD + load)]), "F = F", solver=uel.SolverOptions(energy_control=True))
 
 
 @pytest.mark.parametrize(

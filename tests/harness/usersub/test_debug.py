@@ -10,6 +10,7 @@ import pytest
 from uel.cli import main
 from uel.errors import CallLimitError, KernelError
 from uel.running.job import run
+from uel.running.options import RoutineOptions
 from uel.usersub import trap
 from uel.usersub.compilation.units import with_open_bounds
 
@@ -148,7 +149,7 @@ def fail(tmp_path):
         source.write_text(SOURCES[name])
         deck.write_text(DECK.format(way=way))
         with pytest.raises((KernelError, CallLimitError)) as caught:
-            run(deck, source, output_dir=tmp_path, call_limit=1.0, **options)
+            run(deck, source, output_dir=tmp_path, routines=RoutineOptions(call_limit=1.0, **options))
         lines = [k for k, row in enumerate(SOURCES[name].splitlines(), 1) if row.endswith((f"! {word}", f"// {word}"))]
         return caught.value, lines
 

@@ -178,10 +178,12 @@ RUNS = """\
 import json, sys
 from uel.errors import UelError
 from uel.running.job import run
+from uel.running.options import RoutineOptions
 said = {}
 for name, way, debug in json.loads(sys.argv[1]):
     try:
-        said[f"{name} {way} {debug}"] = " ".join(run(f"{way}.inp", name, debug=debug).warnings)
+        result = run(f"{way}.inp", name, routines=RoutineOptions(debug=debug))
+        said[f"{name} {way} {debug}"] = " ".join(result.warnings)
     except UelError as error:
         said[f"{name} {way} {debug}"] = str(error)
 print(json.dumps(said))

@@ -26,6 +26,7 @@ from uel.errors import DeckError, UelError
 from uel.model.records import AttemptAbandoned, IncrementDone, Record
 from uel.procedures import run_steps
 from uel.running import job
+from uel.running.options import RoutineOptions
 
 MOST_UNKNOWNS = 2000
 """A model with more is read, checked and built, but not solved."""
@@ -63,7 +64,7 @@ def run(case: Case, folder: Path) -> tuple[str, str]:
         if not case.runs:
             read_deck(folder / DECK)
             return "reads", ""
-        job.run(folder / DECK, job="job", output_dir=folder / "output", call_limit=5.0)
+        job.run(folder / DECK, job="job", output_dir=folder / "output", routines=RoutineOptions(call_limit=5.0))
     except DeckError as error:
         lines = str(error).splitlines()
         vague = next((line for line in lines if not _PLACE.match(line)), None)

@@ -23,6 +23,7 @@ from uel.paper import measures
 from uel.paper.study.cases import KINDS, deck_files, interface_of
 from uel.paper.study.options import study_parser
 from uel.running.job import run
+from uel.solver.options import SolverOptions
 
 CASES = {
     **{f"{size:g} mm": (size, 4, False) for size in (0.125, 0.25, 0.5, 1.0, 2.0)},
@@ -71,7 +72,7 @@ def beam(
     files = deck_files(name, f"elements of {size:g} mm", kind, "0/0", mesh, interface, displacement=displacement)
     for file, content in files.items():
         (place / file).write_text(content, encoding="ascii")
-    result = run(place / f"{name}.inp", output_dir=place, fallback=True)
+    result = run(place / f"{name}.inp", output_dir=place, solver=SolverOptions(fallback=True))
     return LengthResult(measures.peak_load(result), zone_length(result), measures.iterations(result), warned(result))
 
 

@@ -53,7 +53,7 @@ class PerturbationStep:
         self._system, self._step, self._state, self._user = setting.system, setting.step, setting.state, setting.user
         self._constraints = self._constrain(setting)
         self._times = SolverTimes(self._state.effort)
-        self._solver_name = setting.solver
+        self._solver_name = setting.solver.linear_solver
         self._increment = 1
 
     @property

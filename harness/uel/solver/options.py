@@ -1,0 +1,27 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""How the equations of a job are solved, as its user chooses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SolverOptions:
+    """How the equations of a job are solved; by default as Abaqus does.
+
+    Parameters
+    ----------
+    linear_solver
+        Linear solver, see `uel solvers`.
+    fallback
+        Search downhill where Newton's method fails, before the increment is cut back; Abaqus has no such option.
+    energy_control
+        Trace snap-backs: an increment ends where it has dissipated a share of energy, and the load factor of a step
+        is part of the solution. Not with `fallback`, which keeps the load.
+    """
+
+    linear_solver: str = "auto"
+    fallback: bool = False
+    energy_control: bool = False
