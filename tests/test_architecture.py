@@ -177,6 +177,47 @@ def test_the_registry_alone_asks_which_procedure_a_step_has() -> None:
     assert {path: names for path, names in asking.items() if names} == {}
 
 
+def written_to_state(code: str) -> set[str]:
+    """Attributes that code writes of an object called `state`."""
+    targets: list[ast.expr] = []
+    for node in ast.walk(ast.parse(code)):
+        match node:
+            case ast.Assign(targets=several):
+                targets += several
+            case ast.AugAssign(target=one) | ast.AnnAssign(target=one):
+                targets.append(one)
+            case ast.Call(func=ast.Name(id="setattr"), args=[whose, *_]):
+                targets.append(ast.Attribute(whose, "setattr"))
+    single = [one for target in targets for one in (target.elts if isinstance(target, ast.Tuple) else [target])]
+    return {
+        one.attr
+        for one in single
+        if isinstance(one, ast.Attribute) and re.search(r"(^|\.)_?state$", ast.unparse(one.value))
+    }
+
+
+@pytest.mark.parametrize(
+    ("code", "names"),
+    [
+        ("state.flux = a", {"flux"}),
+        ("self._state.work += 1", {"work"}),
+        ("context.state.velocity, b = c", {"velocity"}),
+        ("state.unbalanced = state.external = c", {"unbalanced", "external"}),
+        ("setattr(state, name, c)", {"setattr"}),
+        ("a = state.flux; course.state = a; self.state = b", set()),
+    ],
+)
+def test_writing_to_a_state_is_found(code: str, names: set[str]) -> None:
+    assert written_to_state(code) == names
+
+
+def test_the_converged_state_is_written_in_one_file() -> None:
+    """Steps and their parts return what follows from them."""
+    files = [path for path in TRACKED if path.is_relative_to("harness/uel/procedures") and path.suffix == ".py"]
+    writing = {str(path): written_to_state((ROOT / path).read_text()) for path in files}
+    assert {path: names for path, names in writing.items() if names} == {}
+
+
 def test_lflags_are_put_together_in_one_place() -> None:
     """`Flags` has them by name; what hands them to Fortran takes them from there."""
     knowing = {

@@ -17,8 +17,6 @@ from uel.model.model import dof_in_deck
 from uel.model.user_values import UserValues
 from uel.procedures.general.convergence_checks import Checker, length_of_moments
 from uel.procedures.general.unconstrained import UnconstrainedSolver, tolerate
-from uel.procedures.loads.nodal import fading_forces
-from uel.procedures.state import BegunStep
 from uel.procedures.step_setting import Setting, SolverTimes, choose_rank_solver, choose_solver, places
 from uel.solver.linear import LinearSolver, RankSolver
 from uel.solver.newton import Acting, Factoriser
@@ -47,11 +45,9 @@ class StepContext:
         self.system, self.step, self.state, self.user = setting.system, setting.step, setting.state, setting.user
         system, step, state, user = self.system, self.step, self.state, self.user
         self.beginning = {name: getattr(state, name) for name in ("displacement", "reaction", "unbalanced")}
-        state.begun.append(BegunStep(step.number, state.total_time))
-        self.prescribed = state.boundaries.start_step(step, state.displacement, state.total_time)
-        self.load = state.loads.start_step(step, state.total_time, user)
-        self.conditions = state.conditions.start_step(step, state.total_time)
-        self.amplitudes = state.amplitudes.start_step(step, system.dofs, state, user)
+        begun = state.begin_step(step, system.dofs, user)
+        self.prescribed, self.load, self.released = begun.values, begun.loads, begun.released
+        self.conditions, self.amplitudes = begun.conditions, begun.amplitudes
         if len(state.boundaries.by_user) and user.disp is None:
             source = state.boundaries.sources[int(state.boundaries.by_user[0])]
             raise DeckError(source, "*BOUNDARY, USER needs DISP, which the job does not have")
@@ -60,8 +56,6 @@ class StepContext:
             if field.user and address is None:
                 keyword = "FIELD" if field.dof else "TEMPERATURE"
                 raise DeckError(field.source, f"*{keyword}, USER needs {routine}, which the job does not have")
-        self.released = fading_forces(state.reaction, self.unknowns, step, state.unbalanced)
-        state.unbalanced = np.zeros_like(state.unbalanced)
         self.choice = self.advice = ""
         self.times_of_solver = SolverTimes(state.effort)
         self._constrain(setting, fallback=fallback)
@@ -91,8 +85,8 @@ class StepContext:
             self.advice = "" if isinstance(chosen, RankSolver) else chosen.advice
             self.choice = f"LINEAR SOLVER {chosen.name.upper()}: {chosen.reason}"
             state.majoriser.use(self.system, constraints, choose)
-        state.constraints = self.constraints = constraints
-        state.solver = self.solver = solver
+        self.constraints, self.solver = constraints, solver
+        state.use(constraints, solver)
 
     @property
     def unknowns(self) -> IntArray:

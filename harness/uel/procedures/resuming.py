@@ -59,11 +59,7 @@ def resume(
         system.resume(saved["system"])
         for one in begun[:-1]:
             state.repeat(model.steps[one.number - 1], one, user)
-        for name, values in saved["beginning"].items():
-            if len(values) != len(system):
-                raise ValueError("degrees of freedom")
-            setattr(state, name, values)
-        state.total_time = begun[-1].total_time
+        state.return_to(saved["beginning"], begun[-1].total_time)
         if not step.procedure.inertia:
             state.come_to_rest()
         # a state is of a step in time without a search, and so the step goes on

@@ -67,10 +67,7 @@ def run_steps(
     running: StepRun | None = None
     following = model.steps
     if resumed is None:
-        user.external_database(0, 0, (0.0, 0.0), 0.0, 1, 0)
-        system.ranks.agree(lambda: set_initial_states(system.blocks, model, user))
-        yield from set_initial_stresses(system, model, state, user)
-        yield from _unused(system.dofs, "*BOUNDARY", model.boundaries)
+        yield from _begin(system, model, state, user)
     try:
         if resumed is not None:
             running = general = resume(resumed, system, model, state, user, solver)
@@ -93,7 +90,9 @@ def run_steps(
                 state.come_to_rest()
             setting = Setting(system, model, step, state, user, solver)
             running = run_of(step.procedure, setting)
-            yield from running.run()
+            modes = yield from running.run()
+            if modes is not None:
+                state.keep_modes(modes)
             user.external_database(6, 0, *running.reached)
     except ConvergenceError:
         if running is not None:
@@ -103,6 +102,16 @@ def run_steps(
         raise error.in_step(step.source) from None
     if running is not None:
         user.external_database(3, 0, *running.reached)
+
+
+def _begin(system: System, model: Model, state: ConvergedState, user: UserRoutines) -> Iterator[Record]:
+    """Begin the analysis in the initial state of the model."""
+    user.external_database(0, 0, (0.0, 0.0), 0.0, 1, 0)
+    system.ranks.agree(lambda: set_initial_states(system.blocks, model, user))
+    forces = yield from set_initial_stresses(system, model, state, user)
+    if forces is not None:
+        state.hold(forces)
+    yield from _unused(system.dofs, "*BOUNDARY", model.boundaries)
 
 
 def _mass_pass(system: System, step: Step) -> None:

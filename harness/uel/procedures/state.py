@@ -4,12 +4,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import astuple, dataclass, field
 from typing import Final, Self
 
 import numpy as np
 
-from uel.assembly import Constraints, System
+from uel.assembly import Constraints, DofMap, System
 from uel.elements import FIELD_NAMES, Predefined
 from uel.model.arrays import FloatArray
 from uel.model.element_types import POTENTIAL
@@ -19,11 +20,12 @@ from uel.model.restart import Saved
 from uel.model.steps import Step
 from uel.model.user_values import GivesValues
 from uel.procedures.general.convergence import FluxHistory
+from uel.procedures.general.step_parts import InitialMotion, PartEnd
 from uel.procedures.linear.modes import Modes
-from uel.procedures.loads.conditions import Conditions
-from uel.procedures.loads.element_loads import AllLoads
-from uel.procedures.loads.nodal import Boundaries, initial_values
-from uel.procedures.loads.user_amplitudes import UserAmplitudes
+from uel.procedures.loads.conditions import Conditions, StepConditions
+from uel.procedures.loads.element_loads import AllLoads, StepLoads
+from uel.procedures.loads.nodal import Boundaries, Variation, fading_forces, initial_values
+from uel.procedures.loads.user_amplitudes import StepAmplitudes, UserAmplitudes
 from uel.solver.descent import Majoriser
 from uel.solver.linear import Effort
 from uel.solver.newton import Factoriser, Iterate
@@ -41,9 +43,23 @@ class BegunStep:
     concluded: float | None = None
 
 
+@dataclass(frozen=True, slots=True)
+class BegunActions:
+    """Prescribed values, loads and conditions of a general step, as functions of time.
+
+    released  forces that fade in it
+    """
+
+    values: Variation
+    loads: StepLoads
+    conditions: StepConditions
+    amplitudes: StepAmplitudes
+    released: Variation
+
+
 @dataclass(slots=True)
 class ConvergedState:
-    """State at the end of the last converged increment.
+    """State at the end of the last converged increment, which alone writes its attributes.
 
     displacement, reaction, load  (n,) U, RF, CF
     velocity, acceleration  (n,) V, A
@@ -106,6 +122,30 @@ class ConvergedState:
         fields = conditions.initial()
         return cls(start, zero, zero, zero, *given, velocity, zero, zero, predefined=fields, signs=signs)
 
+    def hold(self, forces: FloatArray) -> None:
+        """Take forces (n,) that keep initial stresses in equilibrium until they fade in the first step."""
+        self.unbalanced = self.external = forces
+
+    def begin_step(self, step: Step, dofs: DofMap, user: GivesValues) -> BegunActions:
+        """Begin a general step: take over what it prescribes. Raises DeckError."""
+        self.begun.append(BegunStep(step.number, self.total_time))
+        values = self.boundaries.start_step(step, self.displacement, self.total_time)
+        loads = self.loads.start_step(step, self.total_time, user)
+        conditions = self.conditions.start_step(step, self.total_time)
+        amplitudes = self.amplitudes.start_step(step, dofs, self, user)
+        released = fading_forces(self.reaction, self.boundaries.unknowns, step, self.unbalanced)
+        self.unbalanced = np.zeros_like(self.unbalanced)
+        return BegunActions(values, loads, conditions, amplitudes, released)
+
+    def use(self, constraints: Constraints, solver: Factoriser) -> None:
+        """Take constraints and linear solver of the step that begins; the next one reuses them if its own are alike."""
+        self.constraints, self.solver = constraints, solver
+
+    def set_in_motion(self, begun: InitialMotion) -> None:
+        """Take the motion with which a dynamic step begins."""
+        self.velocity, self.acceleration, self.displacement = begun.velocity, begun.acceleration, begun.displacement
+        self.external, self.energy = begun.external, begun.energy
+
     def come_to_rest(self) -> None:
         """Set velocities and accelerations to zero: the step that begins has none."""
         self.velocity = self.acceleration = np.zeros_like(self.displacement)
@@ -131,6 +171,14 @@ class ConvergedState:
         self.begun = [BegunStep(*step) for step in saved["begun"]]
         self.conditions.resume(saved["conditions"])
 
+    def return_to(self, beginning: Mapping[str, FloatArray], total_time: float) -> None:
+        """Take the arrays and the total time of the start of a step that goes on. Raises ValueError as `resume`."""
+        for name, values in beginning.items():
+            if len(values) != len(self.displacement):
+                raise ValueError("degrees of freedom")
+            setattr(self, name, values)
+        self.total_time = total_time
+
     def repeat(self, step: Step, begun: BegunStep, user: GivesValues) -> None:
         """Take over prescribed values and loads of a step that is over. Raises DeckError."""
         # displacements at the start matter only in the step itself
@@ -138,17 +186,23 @@ class ConvergedState:
         self.loads.start_step(step, begun.total_time, user)
         self.conditions.start_step(step, begun.total_time)
         if begun.concluded is not None:
-            self.conclude(begun.concluded)
+            self._conclude(begun.concluded)
 
-    def conclude(self, step_time: float) -> None:
-        """End the step before its period."""
+    def end_step(self, flux: list[FluxHistory], concluded: float | None) -> None:
+        """Take the flux history of a step that is over; concluded: its step time if it ends before its period."""
+        if concluded is not None:
+            self._conclude(concluded)
+        self.flux = flux
+
+    def _conclude(self, step_time: float) -> None:
+        """The step ends before its period."""
         for given in (self.boundaries, self.loads, self.conditions):
             given.conclude(step_time)
         if self.begun:
             self.begun[-1].concluded = step_time
 
-    def accept(self, converged: Iterate, load: FloatArray, released: FloatArray) -> None:
-        """Take over a converged increment; load and released (fading forces) are those of its end."""
+    def accept(self, converged: Iterate, load: FloatArray, released: FloatArray, ends: Iterable[PartEnd]) -> None:
+        """Take over a converged increment; load and released (fading forces) are those of its end, ends its parts'."""
         assert self.constraints is not None
         reaction = self.constraints.reactions(converged.residual)
         external = load + released + reaction
@@ -159,6 +213,18 @@ class ConvergedState:
         self.displacement = self.displacement + converged.increment
         self.reaction, self.load, self.external, self.energy = reaction, load, external, energy
         self.damage = converged.evaluation.damage
+        for end in ends:
+            self.stabilization += end.stabilization
+            if end.motion is not None:
+                self.velocity, self.acceleration = end.motion.velocity, end.motion.acceleration
+
+    def reach(self, total_time: float, predefined: Predefined | None) -> None:
+        """Take the time that an increment reaches, and the predefined fields then."""
+        self.total_time, self.predefined = total_time, predefined
+
+    def keep_modes(self, modes: Modes) -> None:
+        """Take the modes of a *FREQUENCY, for the steps after it."""
+        self.modes = modes
 
     def solution(self, system: System) -> Solution:
         """Copy of the state for output; element states are the committed ones, and copied when they are read."""

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -16,6 +16,7 @@ from uel.model.model import Model
 from uel.model.records import Noted, Record
 from uel.model.steps import Step
 from uel.model.user_values import GivesValues
+from uel.procedures.linear.modes import Modes
 from uel.procedures.state import ConvergedState
 from uel.solver.linear import Effort, LinearSolver, Pattern, RankSolver, choose
 from uel.solver.options import SolverOptions
@@ -59,8 +60,11 @@ class StepRun(Protocol):
     def reached(self) -> tuple[tuple[float, float], float, int, int]:
         """Step and total time, no time increment, step and increment, as UEXTERNALDB gets them at the end."""
 
-    def run(self) -> Iterator[Record]:
-        """Run the step and yield its records. Raises ConvergenceError, KernelError, SingularMatrixError, DeckError."""
+    def run(self) -> Generator[Record, None, Modes | None]:
+        """Records of the step; returns the modes that it finds for later steps.
+
+        Raises ConvergenceError, KernelError, SingularMatrixError, DeckError.
+        """
 
 
 def choose_solver(name: str, constraints: Constraints, effort: Effort) -> LinearSolver:

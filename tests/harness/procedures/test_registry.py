@@ -22,7 +22,7 @@ from uel.model.records import Noted
 from uel.procedures.context import StepContext
 from uel.procedures.general.increments import GeneralStep
 from uel.procedures.general.path import TimePath
-from uel.procedures.general.step_parts import Part
+from uel.procedures.general.step_parts import Part, PartEnd
 from uel.procedures.registry import run_of
 from uel.procedures.step_setting import Setting, StepRun
 
@@ -80,7 +80,7 @@ class Dashpots(Part):
 
     def converged(self, last, size):
         self._rate = abs(last.increment).max() / size
-        return [Noted(f"RATE {self._rate:.6f}")]
+        return PartEnd([Noted(f"RATE {self._rate:.6f}")])
 
     @property
     def finished(self):

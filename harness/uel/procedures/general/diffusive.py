@@ -8,17 +8,15 @@ Elements integrate over time themselves; the step limits the change of temperatu
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 
 import numpy as np
 
 from uel.elements import FIELD_NAMES
 from uel.model.procedures import Diffusive
-from uel.model.records import Record
 from uel.model.restart import Saved
 from uel.procedures.context import StepContext
 from uel.procedures.general.incrementation import Accuracy
-from uel.procedures.general.step_parts import Part
+from uel.procedures.general.step_parts import Part, PartEnd
 from uel.solver.newton import Iterate
 
 
@@ -41,10 +39,10 @@ class LimitedChange(Part):
             return None
         return Accuracy(self._change(last) / self._procedure.largest_change, self._procedure.complaint)
 
-    def converged(self, last: Iterate, size: float) -> Iterable[Record]:
+    def converged(self, last: Iterate, size: float) -> PartEnd:
         """Update the rate that END=SS looks at."""
         self._rate = self._change(last) / size
-        return ()
+        return PartEnd()
 
     def kept(self) -> Saved:
         """Return the rate."""

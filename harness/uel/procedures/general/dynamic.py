@@ -9,7 +9,6 @@ on in the directions of (1 + alpha) u at the end - alpha u at the start: those o
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -21,11 +20,11 @@ from uel.assembly import Evaluation
 from uel.elements import Motion, Request
 from uel.model.arrays import FloatArray
 from uel.model.procedures import Dynamic, Integrator
-from uel.model.records import Record, Warned
+from uel.model.records import Warned
 from uel.model.restart import Saved
 from uel.procedures.context import StepContext
 from uel.procedures.general.incrementation import Accuracy
-from uel.procedures.general.step_parts import Part
+from uel.procedures.general.step_parts import InitialMotion, Part, PartEnd, PartStart
 from uel.solver.newton import Increment, Iterate
 
 HALF_INCREMENT = "THE HALF-INCREMENT RESIDUAL IS LARGER THAN ITS TOLERANCE."
@@ -75,7 +74,7 @@ class ImplicitIntegration(Part):
         self._previous = np.zeros(len(context.system))
         self._inertia: sparse.csr_array | None = None
 
-    def start(self) -> Iterable[Record]:
+    def start(self) -> PartStart:
         """Make initial velocities consistent, and compute the initial accelerations, unless they are zero."""
         state, constraints = self._context.state, self._context.constraints
         constraints.follow(state.displacement, np.zeros_like(state.displacement))
@@ -83,25 +82,25 @@ class ImplicitIntegration(Part):
         given = np.abs(state.velocity).max(initial=0.0)
         # as in Abaqus, constraints take precedence; in a later step both differ by the error of integration
         replaced = len(state.begun) == 1 and np.abs(following - state.velocity).max(initial=0.0) > CONSISTENT * given
-        if replaced:
-            state.velocity = following
+        velocity = following if replaced else state.velocity
+        begun = InitialMotion(velocity, state.acceleration, state.displacement, state.external, state.energy)
         if constraints.arms and self._procedure.integrator is Integrator.HHT:
-            mass = self._at_rest(Request.MASS).data
+            mass = self._at_rest(begun, Request.MASS).data
             assert mass is not None
             self._inertia = constraints.inertia(self._context.system.matrix(mass))
         if self._procedure.initial_acceleration:
-            self._accelerate()
-        return [Warned(REPLACED)] if replaced else []
+            begun = self._accelerated(begun)
+        return PartStart([Warned(REPLACED)] if replaced else [], begun)
 
-    def _accelerate(self) -> None:
+    def _accelerated(self, begun: InitialMotion) -> InitialMotion:
         """Solve M a = P - I for the initial accelerations; unknowns without mass have none."""
-        context, state, constraints = self._context, self._context.state, self._context.constraints
+        context, constraints = self._context, self._context.constraints
         of_nodes = context.system.dofs.of_nodes
-        incompressible = None if of_nodes.all() else self._incompressible()
-        evaluation = self._at_rest(Request.INITIAL_ACCELERATION)
+        incompressible = None if of_nodes.all() else self._incompressible(begun)
+        evaluation = self._at_rest(begun, Request.INITIAL_ACCELERATION)
         load = context.load_at(0.0)
         assert evaluation.data is not None
-        convective = constraints.convective(state.displacement, state.velocity)
+        convective = constraints.convective(begun.displacement, begun.velocity)
         data = evaluation.data
         missing = evaluation.residual + load - context.system.product(data, convective)
         if incompressible is not None:
@@ -115,28 +114,28 @@ class ImplicitIntegration(Part):
         reduced[weightless] = 0.0
         context.solver.factorise(mass)
         found = convective + constraints.expand(context.solver.solve(reduced), np.zeros(len(constraints.prescribed)))
-        state.acceleration = np.where(of_nodes, found, 0.0)
+        begun = replace(begun, acceleration=np.where(of_nodes, found, 0.0))
         if incompressible is not None:
-            state.displacement = state.displacement + np.where(of_nodes, 0.0, found)
-            evaluation = self._at_rest(Request.INITIAL_ACCELERATION)
+            begun = replace(begun, displacement=begun.displacement + np.where(of_nodes, 0.0, found))
+            evaluation = self._at_rest(begun, Request.INITIAL_ACCELERATION)
         context.system.commit()
-        state.energy, state.external = evaluation.energy, load + state.reaction
+        return replace(begun, external=load + context.state.reaction, energy=evaluation.energy)
 
-    def _at_rest(self, request: Request, moved: FloatArray | float = 0.0) -> Evaluation:
+    def _at_rest(self, begun: InitialMotion, request: Request, moved: FloatArray | float = 0.0) -> Evaluation:
         """Make a pass at the start of the step, without accelerations."""
-        context, state = self._context, self._context.state
-        call = context.call(0.0, 0.0, context.start).asking(request)
-        motion, still = Motion(state.velocity, np.zeros_like(state.velocity)), np.zeros_like(state.displacement)
-        return context.system.evaluate(call, state.displacement + moved, still, motion=motion)
+        context, still = self._context, np.zeros_like(begun.displacement)
+        call = context.call(0.0, 0.0, context.start, begun.displacement).asking(request)
+        motion = Motion(begun.velocity, np.zeros_like(begun.velocity))
+        return context.system.evaluate(call, begun.displacement + moved, still, motion=motion)
 
-    def _incompressible(self) -> KeptVolume | None:
+    def _incompressible(self, begun: InitialMotion) -> KeptVolume | None:
         """Build the constraint on the volume of incompressible hybrid elements, whose pressure has no rate; or None.
 
         The matrix B of their pressures keeps B v = 0, so that B a = - dB/dt v.
         """
-        context, state = self._context, self._context.state
-        system, velocity = context.system, state.velocity
-        data = self._stiffness()
+        context, velocity = self._context, begun.velocity
+        system = context.system
+        data = self._stiffness(begun)
         rows = ~system.dofs.of_nodes & (system.ranks.sum(system.matrix(data).diagonal()) == 0.0)
         if not rows.any():
             return None
@@ -146,13 +145,13 @@ class ImplicitIntegration(Part):
         if context.step.nlgeom and velocity.any():
             # exact for any distance: volumes are cubic in displacements
             distance = MOVED * np.ptp(system.dofs.coordinates, axis=0).max() / np.abs(velocity).max()
-            ahead, behind = (self._stiffness(sign * distance * velocity) for sign in (1.0, -1.0))
+            ahead, behind = (self._stiffness(begun, sign * distance * velocity) for sign in (1.0, -1.0))
             forces = -system.product((ahead - behind) / (2.0 * distance), velocity)
         return KeptVolume(rows, coupling, forces)
 
-    def _stiffness(self, moved: FloatArray | float = 0.0) -> FloatArray:
+    def _stiffness(self, begun: InitialMotion, moved: FloatArray | float = 0.0) -> FloatArray:
         """Return CSR values (nnz,) at the start of the step, of this rank."""
-        evaluation = self._at_rest(Request.STIFFNESS, moved)
+        evaluation = self._at_rest(begun, Request.STIFFNESS, moved)
         assert evaluation.data is not None
         return evaluation.data.copy()
 
@@ -230,8 +229,8 @@ class ImplicitIntegration(Part):
             values = tuple(saved["inertia"][name] for name in ("data", "indices", "indptr"))
             self._inertia = sparse.csr_array(values, shape=2 * (len(self._context.system),))
 
-    def converged(self, last: Iterate, size: float) -> Iterable[Record]:
-        """Take over velocities and accelerations at the end.
+    def converged(self, last: Iterate, size: float) -> PartEnd:
+        """Velocities and accelerations at the end.
 
         Velocities that the integration gives nodes on arms are off the directions in which they can move, by the square
         of the increment h. Left so, errors of a spin omega grow in each by (1 + omega h)(1 + alpha)/(1 - alpha).
@@ -242,5 +241,4 @@ class ImplicitIntegration(Part):
         velocity = motion.velocity
         if self._inertia is not None:
             velocity = context.constraints.tangential(velocity, self._inertia)
-        context.state.velocity, context.state.acceleration = velocity, motion.acceleration
-        return ()
+        return PartEnd(motion=Motion(velocity, motion.acceleration))

@@ -96,12 +96,11 @@ class GeneralStep:
         """Step and total time, no time increment, step and increment, as UEXTERNALDB gets them at the end."""
         return self._context.times, 0.0, self._step.number, self._context.increment
 
-    def run(self) -> Iterator[Record]:
+    def run(self) -> Generator[Record, None, None]:
         """Run the step and yield its records. Raises ConvergenceError, KernelError, SingularMatrixError."""
         context, cutbacks, iterations = self._context, 0, 0
-        beginning: tuple[Part | Path, ...] = (*self._parts, self._path)
-        for part in () if self._resumed else beginning:
-            yield from part.start()
+        if not self._resumed:
+            yield from self._start()
         if self._keeps and self._obstacle:
             yield Warned(f"*RESTART, WRITE HAS NO EFFECT IN STEP {self._step.number}: {self._obstacle}")
         if context.choice:
@@ -123,6 +122,15 @@ class GeneralStep:
         yield context.times_of_solver.note()
         yield StepDone(self._step.number, context.increment, cutbacks, iterations)
 
+    def _start(self) -> Iterator[Record]:
+        """Begin the step with its parts and its path."""
+        for part in self._parts:
+            begun = part.start()
+            if begun.motion is not None:
+                self._state.set_in_motion(begun.motion)
+            yield from begun.remarks
+        yield from self._path.start()
+
     @property
     def finished(self) -> bool:
         """True if no increment is left."""
@@ -130,9 +138,8 @@ class GeneralStep:
 
     def end(self, *, early: bool = False) -> None:
         """Let the state go on to the next step; early: before the period of this one."""
-        if early:
-            self._state.conclude(self._context.step_time)
-        self._state.flux = self._checker.histories(self._state.flux)
+        concluded = self._context.step_time if early else None
+        self._state.end_step(self._checker.histories(self._state.flux), concluded)
 
     @property
     def _keeps(self) -> bool:
@@ -180,7 +187,7 @@ class GeneralStep:
         state.resume(saved["state"])
         call = context.call(0.0, context.step_time, state.total_time)
         self._system.relearn(call, state.displacement, saved["system"])
-        state.predefined = call.predefined
+        state.reach(state.total_time, call.predefined)
         self._checker.resume(saved["checks"])
         self._path.resume(saved["path"])
         for part, own in zip(self._parts, saved["parts"], strict=True):
@@ -305,10 +312,10 @@ class GeneralStep:
         # the states of the increment before are gone now, and those of this one are not recorded
         hold()
         self._system.commit()
-        remarks = [remark for part in self._parts for remark in part.converged(last, size)]
+        ends = [part.converged(last, size) for part in self._parts]
         reached = self._path.reach(last, size, checks)
         self._limit.converged(self._state.external, -last.evaluation.residual, last.increment, size)
-        self._state.accept(last, reached.load, reached.released)
+        self._state.accept(last, reached.load, reached.released, ends)
         self._checker.converged()
         context.amplitudes.converged()
         self._control.converged(
@@ -318,9 +325,9 @@ class GeneralStep:
             accuracy=accuracy,
             disturbed=spent.severe > self._most_severe,
         )
-        self._state.total_time = reached.total_time
         times = reached.step_time, reached.total_time
-        self._state.predefined = context.conditions.at(times, times, context.increment, self._user, context.places)[1]
+        _, predefined = context.conditions.at(times, times, context.increment, self._user, context.places)
+        self._state.reach(reached.total_time, predefined)
         yield IncrementDone(
             number,
             context.increment,
@@ -333,7 +340,8 @@ class GeneralStep:
             reached.load_factor,
             severe=spent.severe,
         )
-        yield from remarks
+        for part_end in ends:
+            yield from part_end.remarks
         restart = self._step.restart if self._is_due(reached.size) else None
         lrestart = restart.lrestart if restart else 0
         # may end the analysis, whose last increment this is then

@@ -10,7 +10,6 @@ artificial mass.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -19,7 +18,7 @@ from uel.model.procedures import Stabilize
 from uel.model.records import Noted, Record, Warned
 from uel.model.restart import Saved
 from uel.procedures.context import StepContext
-from uel.procedures.general.step_parts import Part
+from uel.procedures.general.step_parts import Part, PartEnd, PartStart
 from uel.solver.newton import Increment, Iterate
 
 NOTHING_DAMPED = "STABILIZE HAS NO EFFECT: THE MODEL HAS NO BUILT-IN ELEMENTS WITH A MASS"
@@ -35,12 +34,11 @@ class ViscousForces(Part):
         self._mass = context.system.artificial_mass(context.call(0.0, 0.0, context.start))
         self._force = np.zeros(len(context.system))
 
-    def start(self) -> Iterator[Record]:
+    def start(self) -> PartStart:
         """Note the damping factor if the deck gives it, or warn if nothing is damped."""
         if not self._context.system.ranks.largest(np.array([self._mass.any()], dtype=np.float64))[0]:
-            yield Warned(NOTHING_DAMPED)
-        elif self._factor:
-            yield Noted(f"STABILIZE: THE DAMPING FACTOR IS {self._factor:.4g}")
+            return PartStart([Warned(NOTHING_DAMPED)])
+        return PartStart([Noted(f"STABILIZE: THE DAMPING FACTOR IS {self._factor:.4g}")] if self._factor else [])
 
     def given(self, given: Increment, size: float) -> Increment:
         """Add the viscous matrix."""
@@ -48,20 +46,23 @@ class ViscousForces(Part):
             return given
         return replace(given, damping=self._factor / size * self._mass)
 
-    def converged(self, last: Iterate, size: float) -> Iterator[Record]:
-        """Add up the dissipated energy; yields the factor if it is chosen or reduced."""
+    def converged(self, last: Iterate, size: float) -> PartEnd:
+        """The dissipated energy, and the factor if it is chosen or reduced."""
         state = self._context.state
         flow = self._context.system.product(self._mass, last.increment) / size
         force = self._factor * flow
         # the trapezoidal rule of the external work
-        state.stabilization += 0.5 * float((self._force + force) @ last.increment)
+        dissipated = 0.5 * float((self._force + force) @ last.increment)
+        total = state.stabilization + dissipated
         self._force = force
         elastic, change = last.evaluation.energy[1], last.evaluation.energy - state.energy
         limit = self._damping.limit
+        remarks: list[Record] = []
         if not self._factor:
-            yield from self._choose(float(abs(change[1:7].sum())), float(flow @ last.increment))
-        elif limit and state.stabilization > limit * elastic > 0.0:
-            yield self._change(self._factor * limit * float(elastic) / state.stabilization)
+            remarks = self._choose(float(abs(change[1:7].sum())), float(flow @ last.increment))
+        elif limit and total > limit * elastic > 0.0:
+            remarks = [self._change(self._factor * limit * float(elastic) / total)]
+        return PartEnd(remarks, stabilization=dissipated)
 
     def kept(self) -> Saved:
         """Return the factor, and the forces at the end of the increment."""
@@ -71,10 +72,11 @@ class ViscousForces(Part):
         """Go on from what `kept` returned."""
         self._factor, self._force = saved["factor"], saved["force"]
 
-    def _choose(self, energy: float, dissipated: float) -> Iterator[Record]:
+    def _choose(self, energy: float, dissipated: float) -> list[Record]:
         """Choose the factor in the first increment by its internal energy and the dissipation by a factor of one."""
         if energy > 0.0 and dissipated > 0.0:
-            yield self._change(self._damping.fraction * energy / dissipated)
+            return [self._change(self._damping.fraction * energy / dissipated)]
+        return []
 
     def _change(self, factor: float) -> Noted:
         self._factor = factor

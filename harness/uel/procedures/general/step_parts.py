@@ -4,20 +4,61 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
+from dataclasses import dataclass
 
+from uel.elements import Motion
+from uel.model.arrays import FloatArray
 from uel.model.records import Record
 from uel.model.restart import Saved
 from uel.procedures.general.incrementation import Accuracy
 from uel.solver.newton import Increment, Iterate
 
 
+@dataclass(frozen=True, slots=True)
+class InitialMotion:
+    """State at the start of a dynamic step, consistent with its constraints and in equilibrium with its accelerations.
+
+    velocity, acceleration  (n,) V, A
+    displacement            (n,) U, with the pressures of incompressible hybrid elements
+    external, energy        (n,) and (8,) as in `ConvergedState`
+    """
+
+    velocity: FloatArray
+    acceleration: FloatArray
+    displacement: FloatArray
+    external: FloatArray
+    energy: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class PartStart:
+    """Outcome of the start of a part: records, and the motion with which the state begins; None: as it is."""
+
+    remarks: Sequence[Record] = ()
+    motion: InitialMotion | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class PartEnd:
+    """Outcome of a part at the end of a converged increment.
+
+    remarks        records that are written after that of the increment
+    motion         V and A at its end; None: those of its start
+    stabilization  energy that artificial damping has dissipated in it
+    """
+
+    remarks: Sequence[Record] = ()
+    motion: Motion | None = None
+    stabilization: float = 0.0
+
+
 class Part:
     """A part of a general step. Each method by default changes nothing."""
 
-    def start(self) -> Iterable[Record]:
+    def start(self) -> PartStart:
         """Begin the step, before its first increment. Raises KernelError, SingularMatrixError."""
-        return ()
+        return PartStart()
 
     def given(self, given: Increment, size: float) -> Increment:
         """Return the increment with the part's additions to what its end prescribes.
@@ -48,7 +89,7 @@ class Part:
         """
         return None
 
-    def converged(self, last: Iterate, size: float) -> Iterable[Record]:
+    def converged(self, last: Iterate, size: float) -> PartEnd:
         """Take over a converged increment.
 
         The state and the step time of the context are still those of its start; the elements have committed theirs.
@@ -62,10 +103,10 @@ class Part:
 
         Returns
         -------
-        Iterable[Record]
-            Written after that of the increment.
+        PartEnd
+            What the state at the end of the increment takes over from the part.
         """
-        return ()
+        return PartEnd()
 
     def kept(self) -> Saved:
         """Return what an increment takes from those before it in the step."""

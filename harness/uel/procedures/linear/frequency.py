@@ -45,7 +45,7 @@ class FrequencyStep(PerturbationStep):
         inside = (frequency >= procedure.lowest) & (frequency <= procedure.highest)
         values, frequency, vectors = values[inside], frequency[inside], vectors[:, inside]
         shapes, masses = self._scaled(vectors)
-        self._state.modes = self._kept(values, masses, shapes)
+        self._for_later = self._kept(values, masses, shapes)
         records: list[Record] = [ModesFound(step.number, self._state.total_time, values, frequency, masses)]
         for mode, shape in enumerate(shapes):
             at, size = float(frequency[mode]), procedure.period

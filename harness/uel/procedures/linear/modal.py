@@ -9,7 +9,7 @@ the acceleration a, the displacement is relative to them, and -M r a acts ("Base
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -51,7 +51,7 @@ class ModalStep(PerturbationStep):
             raise DeckError(step.source, message)
         return found
 
-    def run(self) -> Iterator[Record]:
+    def run(self) -> Generator[Record, None, None]:
         """Run the step and yield its records. Raises KernelError, DeckError."""
         yield Noted(f"{len(self._numbers)} OF {len(self._found.values)} MODES OF STEP {self._found.step} RESPOND")
         yield from self._increments()

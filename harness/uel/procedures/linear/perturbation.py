@@ -12,7 +12,7 @@ changes of rotation vectors, by which elements give their stiffness (`harness/ue
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from dataclasses import replace
 from functools import cached_property, partial
 
@@ -28,6 +28,7 @@ from uel.model.records import AttemptStarted, ElementState, IncrementDone, Noted
 from uel.model.steps import Step
 from uel.model.user_values import UserValues
 from uel.procedures.general.overconstraints import warn_overconstrained
+from uel.procedures.linear.modes import Modes
 from uel.procedures.step_setting import Setting, SolverTimes, choose_solver, places
 from uel.solver.linear import LinearSolver
 
@@ -55,19 +56,21 @@ class PerturbationStep:
         self._times = SolverTimes(self._state.effort)
         self._solver_name = setting.solver.linear_solver
         self._increment = 1
+        self._for_later: Modes | None = None
 
     @property
     def reached(self) -> tuple[tuple[float, float], float, int, int]:
         """Step and total time, no time increment, step and increment, as for a general step."""
         return (0.0, self._state.total_time), 0.0, self._step.number, self._increment
 
-    def run(self) -> Iterator[Record]:
-        """Run the step and yield its records. Raises KernelError, SingularMatrixError, DeckError."""
+    def run(self) -> Generator[Record, None, Modes | None]:
+        """Records of the step; returns the modes that it finds. Raises KernelError, SingularMatrixError, DeckError."""
         yield Noted(f"LINEAR SOLVER {self._solver.name.upper()}: {self._solver.reason}")
         yield from warn_overconstrained(self._constraints)
         yield from self._increments()
         yield self._times.note()
         yield StepDone(self._step.number, self._increment, 0, self._increment)
+        return self._for_later
 
     def _constrain(self, setting: Setting) -> Constraints:
         """Return the constraints of the step."""

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable
 from functools import partial
 from typing import Protocol
 
@@ -13,6 +13,7 @@ import numpy as np
 from uel.assembly import System
 from uel.elements import Call, ElementBlock, Flags
 from uel.errors import DeckError
+from uel.model.arrays import FloatArray
 from uel.model.element_types import BUILT_IN, CohesiveType, ContinuumType, DiscreteKind, DiscreteType, SurfaceType
 from uel.model.mesh import ElementGroup
 from uel.model.model import Model
@@ -71,8 +72,8 @@ def set_initial_states(blocks: Iterable[ElementBlock], model: Model, user: Initi
 
 def set_initial_stresses(
     system: System, model: Model, state: ConvergedState, user: InitialRoutines
-) -> Iterator[Warned]:
-    """Set the initial stresses, and in the state the nodal forces that keep them in equilibrium.
+) -> Generator[Warned, None, FloatArray | None]:
+    """Set the initial stresses; returns nodal forces (n,) that keep them in equilibrium at first, None for none.
 
     Raises DeckError, and KernelError from elements inside out and where SIGINI ends the analysis.
     """
@@ -95,7 +96,7 @@ def set_initial_stresses(
                 raise DeckError(entry.source, f"*INITIAL CONDITIONS, TYPE=STRESS: {error}") from None
             stressed[block.first] = block
     if not model.initial_stresses:
-        return
+        return None
     call = Call(Flags(1), 1, 0, 0.0, 0.0, 0.0, 0.0, predefined=state.predefined)
     residual = np.zeros(len(system))
 
@@ -105,10 +106,9 @@ def set_initial_stresses(
 
     system.ranks.agree(begin)
     residual = system.ranks.sum(residual)
-    if model.initial_stresses[0].ramped:
-        # Analysis User's Guide, Initial conditions: stresses of opposite sign are added at first, and ramped off in the
-        # first step. Here they are nodal forces, whose work is external work, so that ETOTAL is constant
-        state.unbalanced = state.external = -residual
+    # Analysis User's Guide, Initial conditions: stresses of opposite sign are added at first, and ramped off in the
+    # first step. Here they are nodal forces, whose work is external work, so that ETOTAL is constant
+    return -residual if model.initial_stresses[0].ramped else None
 
 
 def _stresses_by_user(system: System, entry: InitialStress, user: InitialRoutines) -> dict[int, ElementBlock]:
