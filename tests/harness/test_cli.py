@@ -340,11 +340,15 @@ def test_command_loads_little_before_it_can_be_interrupted() -> None:
 
 
 def test_package_loads_nothing_before_interrupts_are_taken() -> None:
-    """`uel.__main__` lets them end the process, but `harness` comes first."""
+    """`uel.__main__` lets them end the process, but `uel` comes first."""
     program = "import sys; before = set(sys.modules); import uel; print(sorted(set(sys.modules) - before))"
     # an editable installation has a finder that loads more
     result = subprocess.run(
-        [sys.executable, "-S", "-c", program], capture_output=True, text=True, check=True, cwd=Path(__file__).parents[2]
+        [sys.executable, "-S", "-c", program],
+        capture_output=True,
+        text=True,
+        check=True,
+        cwd=Path(__file__).parents[2] / "harness",
     )
     assert result.stdout == "['uel']\n"
 

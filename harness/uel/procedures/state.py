@@ -195,7 +195,7 @@ class ConvergedState:
         self.flux = flux
 
     def _conclude(self, step_time: float) -> None:
-        """The step ends before its period."""
+        """End the step before its period."""
         for given in (self.boundaries, self.loads, self.conditions):
             given.conclude(step_time)
         if self.begun:

@@ -61,7 +61,7 @@ class StepRun(Protocol):
         """Step and total time, no time increment, step and increment, as UEXTERNALDB gets them at the end."""
 
     def run(self) -> Generator[Record, None, Modes | None]:
-        """Records of the step; returns the modes that it finds for later steps.
+        """Yield records of the step; return the modes that it finds for later steps.
 
         Raises ConvergenceError, KernelError, SingularMatrixError, DeckError.
         """

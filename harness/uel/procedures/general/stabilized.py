@@ -47,7 +47,7 @@ class ViscousForces(Part):
         return replace(given, damping=self._factor / size * self._mass)
 
     def converged(self, last: Iterate, size: float) -> PartEnd:
-        """The dissipated energy, and the factor if it is chosen or reduced."""
+        """Return the dissipated energy, and the factor if it is chosen or reduced."""
         state = self._context.state
         flow = self._context.system.product(self._mass, last.increment) / size
         force = self._factor * flow
