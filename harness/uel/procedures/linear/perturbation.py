@@ -64,7 +64,7 @@ class PerturbationStep:
         return (0.0, self._state.total_time), 0.0, self._step.number, self._increment
 
     def run(self) -> Generator[Record, None, Modes | None]:
-        """Yield records of the step; return the modes that it finds. Raises KernelError, SingularMatrixError, DeckError."""
+        """Yield records of the step; return the modes found. Raises KernelError, SingularMatrixError, DeckError."""
         yield Noted(f"LINEAR SOLVER {self._solver.name.upper()}: {self._solver.reason}")
         yield from warn_overconstrained(self._constraints)
         yield from self._increments()
