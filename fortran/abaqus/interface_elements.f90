@@ -14,8 +14,10 @@ module abaqus_interface_elements
   use abaqus_layout, only: elements, faces, reals, own_variables, interface_variables, surface_variables, &
     standard, standard_3d, next_to_quads, next_to_bricks, o_betan, o_betat, o_gamman, o_gammat, &
     p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
-    p_shapen, p_shapet, p_blend, p_betan, p_betat, p_gammabot, p_friction, p_e1_bottom, p_nu12_bottom, p_e1_top, p_nu12_top, &
-    p_g13_bottom, p_g23_bottom, p_g13_top, p_g23_top, &
+    p_shapen, p_shapet, p_blend, p_betan, p_betat, p_gammabot, p_friction, &
+    p_e1_bottom, p_e2_bottom, p_e3_bottom, p_nu12_bottom, p_nu13_bottom, p_nu23_bottom, p_g12_bottom, p_g13_bottom, &
+    p_g23_bottom, p_angle_bottom, p_e1_top, p_e2_top, p_e3_top, p_nu12_top, p_nu13_top, p_nu23_top, p_g12_top, p_g13_top, &
+    p_g23_top, p_angle_top, &
     j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, &
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
     v_maxn, v_maxt, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, w_dissi, w_dissii, w_sn, w_st, w_dmax, &
@@ -212,17 +214,14 @@ contains
   pure function materials_of_solids(values) result(materials)
     real(dp), intent(in) :: values(:)
     type(engineering_constants) :: materials(2)
-    integer, parameter :: first(2) = [p_e1_bottom, p_e1_top]
-    integer, parameter :: g13(2) = [p_g13_bottom, p_g13_top]
-    integer, parameter :: g23(2) = [p_g23_bottom, p_g23_top]
-    integer :: side
 
-    do side = 1, 2
-      associate (c => values(first(side):first(side) + 7))
-        materials(side) = engineering_constants(c(1), c(2), c(3), c(4), c(5), c(6), c(7), c(8), values(g13(side)), &
-          values(g23(side)))
-      end associate
-    end do
+    materials = [ &
+      engineering_constants(e1=values(p_e1_bottom), e2=values(p_e2_bottom), e3=values(p_e3_bottom), nu12=values(p_nu12_bottom), &
+        nu13=values(p_nu13_bottom), nu23=values(p_nu23_bottom), g12=values(p_g12_bottom), angle=values(p_angle_bottom), &
+        g13=values(p_g13_bottom), g23=values(p_g23_bottom)), &
+      engineering_constants(e1=values(p_e1_top), e2=values(p_e2_top), e3=values(p_e3_top), nu12=values(p_nu12_top), &
+        nu13=values(p_nu13_top), nu23=values(p_nu23_top), g12=values(p_g12_top), angle=values(p_angle_top), &
+        g13=values(p_g13_top), g23=values(p_g23_top))]
   end function materials_of_solids
 
   !> Their stiffness; `good` is false after a message.

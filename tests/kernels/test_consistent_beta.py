@@ -34,7 +34,7 @@ def test_beta_must_exceed_the_softening_slope(element, interface, reference, law
     # with different betas the smaller one must exceed the slope by 2 - b_min/b_max
     other = {"N": "T", "T": "N"}[mode]
     given = {f"BETA{mode}": 1.4999 * steepest, f"BETA{other}": 3.0 * steepest}
-    position = {"N": 14, "T": 15}[mode]
+    position = {"N": 13, "T": 14}[mode]
     below = element(4, interface.eight, label=42, **rigid(alpha), **given)
     message = (
         rf"U4 element 42: PROPS\({position}\) BETA{mode}: beta = {str(1.4999 * steepest)[:3]}.*, too small for the "
@@ -69,7 +69,7 @@ def test_an_estimate_of_beta_is_raised_to_twice_the_softening_slope(
     found = [item.advance(u) for item in items]
     (message,) = library.messages()
     assert re.search(
-        r"U4 element 42: PROPS\(14\) BETAN: the estimate of beta is .*, too small for the softening slope of the law; "
+        r"U4 element 42: PROPS\(13\) BETAN: the estimate of beta is .*, too small for the softening slope of the law; "
         rf"raised to {expected[1] / 1e6:.3f}.*E\+06.*Told once in a job",
         message.text,
     )

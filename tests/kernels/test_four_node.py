@@ -104,7 +104,7 @@ def test_large_and_many_element_numbers(element, interface):
 def test_offset_to_nothing(element, interface):
     sandwich = Sandwich(element, interface, OFFSETTOP=5)
     with pytest.raises(
-        KernelError, match=r"U3 element 400: JPROPS\(6\) OFFSETTOP = 5: bulk element 405 has not been evaluated before"
+        KernelError, match=r"U3 element 400: JPROPS\(7\) OFFSETTOP = 5: bulk element 405 has not been evaluated before"
     ):
         sandwich.evaluate(np.zeros((8, 2)))
 
@@ -118,8 +118,8 @@ def test_quad_that_does_not_share(element, interface):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"faces": (1, 1)}, r"JPROPS\(5\) OFFSETBOTTOM = -389: bulk element 11 is not a neighbour: its face 1 "),
-        ({"faces": (3, 4)}, r"JPROPS\(6\) OFFSETTOP = -388: bulk element 12 is not a neighbour: its face 4 does not"),
+        ({"faces": (1, 1)}, r"JPROPS\(6\) OFFSETBOTTOM = -389: bulk element 11 is not a neighbour: its face 1 "),
+        ({"faces": (3, 4)}, r"JPROPS\(7\) OFFSETTOP = -388: bulk element 12 is not a neighbour: its face 4 does not"),
         ({"OFFSETBOTTOM": -388, "OFFSETTOP": -389}, r"U3 element 400: .*bulk element 12 is not a neighbour"),
     ],
 )
@@ -150,7 +150,7 @@ def test_quad_not_yet_evaluated_in_this_iteration(element, interface):
     sandwich.quads[0].evaluate(1.001 * u[:4])
     with pytest.raises(
         KernelError,
-        match=r"U3 element 400: JPROPS\(6\) OFFSETTOP = -388: bulk element 12 has not been evaluated before the "
+        match=r"U3 element 400: JPROPS\(7\) OFFSETTOP = -388: bulk element 12 has not been evaluated before the "
         r"interface element in this iteration: give bulk elements lower numbers and run on one thread",
     ):
         sandwich.four.evaluate(1.001 * u[list(interface.owned)])
@@ -216,6 +216,6 @@ def test_friction_is_that_of_eight_nodes(element, interface):
 def test_small_beta_of_the_consistent_closure_is_refused(element, interface):
     sandwich = Sandwich(element, interface, CLOSURE=1, BETAN=1.0e3)
     with pytest.raises(
-        KernelError, match=r"U3 element 400: PROPS\(14\) BETAN: beta = 1000.*, too small for the consist"
+        KernelError, match=r"U3 element 400: PROPS\(13\) BETAN: beta = 1000.*, too small for the consist"
     ):
         sandwich.evaluate(np.zeros((8, 2)))

@@ -130,8 +130,8 @@ def test_stiff_exponential_law_is_that_of_wells_and_sluys(element, law):
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"LAW": 2, "ETA": 0.4}, r"U2 element 42: PROPS\(9\) ETA = 0.4.*: expected zero or at least 0.5"),
-        ({"LAW": 3, "POWER": -1.0}, r"PROPS\(10\) POWER = -1.*: expected zero or at least 0.5"),
+        ({"LAW": 2, "ETA": 0.4}, r"U2 element 42: PROPS\(8\) ETA = 0.4.*: expected zero or at least 0.5"),
+        ({"LAW": 3, "POWER": -1.0}, r"PROPS\(9\) POWER = -1.*: expected zero or at least 0.5"),
         ({"LAW": 2, "GIC": 0.02}, r"PROPS\(6\) GIC = 2.0.*E-02.*too brittle.*more than 2.25.*E-02"),
         ({"LAW": 3, "GIIC": 0.05}, r"PROPS\(7\) GIIC = 5.0.*E-02.*too brittle.*more than 6.0.*E-02"),
         (

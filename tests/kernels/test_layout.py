@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from uel import usersub
+from uel.delamination.kernels import state_labels
 from uel.usersub import layout
 
 ROOT = Path(__file__).parents[2]
@@ -47,6 +48,17 @@ def test_names_of_svars():
     assert layout.variables(12).bottom == (4, 5, 6, 7, 12, 13, 14, 15)
     assert layout.variables(12).top == (20, 21, 22, 23, 28, 29, 30, 31)
     assert layout.variables(13) is None
+
+
+@pytest.mark.parametrize("jtype", [2, 3, 4, 5, 6])
+def test_labels_of_the_variables_that_decks_print(jtype):
+    """The decks of specimens take those of U2 for every interface element in the plane."""
+    labels = state_labels(2, "SEPN", "TN", "DAMAGE")
+    assert [layout.variables(jtype).names[int(label.removeprefix("SDV")) - 1] for label in labels] == [
+        "SEPN",
+        "TN",
+        "DAMAGE",
+    ]
 
 
 def test_library_names_svars_of_these_elements_only(library, tmp_path):

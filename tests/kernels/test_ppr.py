@@ -349,11 +349,11 @@ def test_beta_must_exceed_slope_and_coupling(element):
         element(4, interface_of(element), **values, **{name: 1.0001 * least, other: 9e4}).evaluate(np.zeros(16))
         item = element(4, interface_of(element), label=42, **values, **{name: 0.9999 * least, other: 9e4})
         # either of the two is too small beside the other
-        with pytest.raises(KernelError, match=r"U4 element 42: PROPS\(14\) BETAN: beta = .*, too small for the c"):
+        with pytest.raises(KernelError, match=r"U4 element 42: PROPS\(13\) BETAN: beta = .*, too small for the c"):
             item.evaluate(np.zeros(16))
     # the last bound, of beta_tau
     item = element(4, interface_of(element), **values, BETAN=9e4, BETAT=1e3)
-    with pytest.raises(KernelError, match=rf"PROPS\(15\) BETAT: beta = 1000.*expected more than {str(least)[:4]}"):
+    with pytest.raises(KernelError, match=rf"PROPS\(14\) BETAT: beta = 1000.*expected more than {str(least)[:4]}"):
         item.evaluate(np.zeros(16))
 
 
@@ -375,11 +375,11 @@ def test_steepest_slope_at_the_end_is_not_rounding(element, reference, alpha):
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"SHAPEN": 1.0}, r"U4 element 42: PROPS\(11\) SHAPEN = 1.*: expected zero or more than 1"),
-        ({"SHAPET": -2.0}, r"PROPS\(12\) SHAPET = -2.*: expected zero or more than 1"),
+        ({"SHAPEN": 1.0}, r"U4 element 42: PROPS\(10\) SHAPEN = 1.*: expected zero or more than 1"),
+        ({"SHAPET": -2.0}, r"PROPS\(11\) SHAPET = -2.*: expected zero or more than 1"),
         (
             {"SHAPET": 1.9, "CLOSURE": 1},
-            r"PROPS\(12\) SHAPET = 1.9.*with the consistent law, expected zero or at least 2; below 2, the law falls",
+            r"PROPS\(11\) SHAPET = 1.9.*with the consistent law, expected zero or at least 2; below 2, the law falls",
         ),
         # with SHAPE 2 the secant falls from the origin on if G alpha/strength^2 > 2 a/q^2 = 1.689, q at m = a
         ({"ALPHAN": 5800.0}, r"PROPS\(6\) GIC = 0.26.*, too small for its stiffness.*expected more than 0.26185"),

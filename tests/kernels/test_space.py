@@ -343,9 +343,9 @@ def test_bad_geometry_and_properties(element):
         (7, seven + np.repeat([0.0, 0.01], 4)[:, None], {}, "U7 element 42: .* nodes 5 to 8 must lie on 1 to 4"),
         (7, np.zeros((8, 3)), {}, "U7 element 42: the interface has no length"),
         (7, concave, {}, "U7 element 42: .*folds back on itself"),
-        (8, flat, {"NU12 TOP": 4.0}, r"PROPS\(28\) NU12 TOP = 4.*not positive definite"),
+        (8, flat, {"NU12 TOP": 4.0}, r"PROPS\(30\) NU12 TOP = 4.*not positive definite"),
         (8, flat, {"E3 BOTTOM": 0.0}, r"NU12 BOTTOM .*not positive definite; 0\.0.*must be positive"),
-        (8, flat, {"G13 TOP": 0.0}, r"PROPS\(35\) G13 TOP = 0.*: expected a positive value"),
+        (8, flat, {"G13 TOP": 0.0}, r"PROPS\(34\) G13 TOP = 0.*: expected a positive value"),
         (8, flat, {"BETAN": -3.0}, "or -1 in a self-contained element"),
         (7, seven, {"ALPHAN": 0.0}, r"PROPS\(1\) ALPHAN = 0"),
     ):

@@ -56,7 +56,7 @@ def test_bricks_in_space_have_beta_of_21_times_a_factor() -> None:
     decks = [SpaceCase("0/90", 2, beta).files() for beta in MULTIPLES]
     lines = [next(iter(deck.values())).splitlines() for deck in decks]
     start = lines[0].index("*UEL PROPERTY, ELSET=INTERFACE")
-    found = [float(deck[start + 2].split(",")[4]) for deck in lines]
+    found = [float(deck[start + 2].split(",")[3]) for deck in lines]
     # |D|/h with bricks of 1 mm
     assert found == pytest.approx([-1.0, -2.0, 10.0 * spectral_norm(PLY_0), 100.0 * spectral_norm(PLY_0)])
 

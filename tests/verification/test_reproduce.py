@@ -79,7 +79,7 @@ def test_rows_and_weight_of_a_deck() -> None:
     assert mesh.upper[::2] == pytest.approx(usual.upper)
     text = case.files()[f"{case.name}.inp"].split("*UEL PROPERTY, ELSET=INTERFACE\n")[1]
     values = text.split("*")[0].replace("\n", ",").split(",")
-    assert float(values[15]) == 0.5  # GAMMABOT, the 16th property
+    assert float(values[14]) == 0.5  # GAMMABOT, the 15th property
 
 
 def test_energies_explain_a_difference_of_loads() -> None:

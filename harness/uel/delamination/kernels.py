@@ -29,3 +29,8 @@ def uel_property(jtype: int, elset: str, values: Mapping[str, float], **options:
     reals = [float(values.get(item.name, 0.0)) for item in layout.reals]
     integers = [int(values.get(item.name, 0)) for item in layout.integers]
     return [*captions(names), keyword("UEL PROPERTY", ELSET=elset, **options), *wrapped([*reals, *integers])]
+
+
+def state_labels(jtype: int, *names: str) -> list[str]:
+    """SDV labels of variables of the first integration point of an element type, by name."""
+    return [f"SDV{item.position}" for item in element_layouts()[jtype].variables if item.name in names]

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
+from uel.delamination.kernels import state_labels
 from uel.delamination.keywords import keyword, number, table
 
 
@@ -76,8 +77,9 @@ def step_block(
     lines = [*head, *_controls(increments), "*BOUNDARY", *moved, *output.lines()]
     for name in names:
         lines += [keyword("NODE PRINT", NSET=name, FREQUENCY=field_every), "U2, RF2"]
-    # the state of the first interface element; Abaqus prints the SVARS of user elements as SDV
-    lines += [keyword("EL PRINT", ELSET="TIP", FREQUENCY=field_every), "S, E, SDEG" if built_in else "SDV3, SDV5, SDV7"]
+    # the state of the first interface element, as all types of the plane have it; Abaqus prints SVARS as SDV
+    variables = "S, E, SDEG" if built_in else ", ".join(state_labels(2, "SEPN", "TN", "DAMAGE"))
+    lines += [keyword("EL PRINT", ELSET="TIP", FREQUENCY=field_every), variables]
     return [*lines, "*END STEP"]
 
 
