@@ -42,6 +42,7 @@ from rewriting import (
 from uel.deck import read_deck
 from uel.output import Result
 from uel.running import job
+from uel.usersub.layout import element_layouts
 
 ROOT = Path(__file__).parents[3]
 UNITS = (Units("m, kg, s (Pa)", 1e-3, 1e3, 1.0), Units("mm, kg, ms (GPa)", 1.0, 1e3, 1e3))
@@ -49,10 +50,13 @@ UNITS = (Units("m, kg, s (Pa)", 1e-3, 1e3, 1.0), Units("mm, kg, ms (GPa)", 1.0, 
 UNIT_LIMIT, LABEL_LIMIT = 1e-9, 1e-11
 THREADS = (1, 2, 4)
 
-_INTERFACE = (
-    *(LENGTH, STIFFNESS, STIFFNESS, STRESS, STRESS, TOUGHNESS, TOUGHNESS, TIME),
-    *(ONE,) * 8,
-)
+_DIMENSIONS: Mapping[str, Dimension] = {
+    **{"length": LENGTH, "stress/length": STIFFNESS, "stress": STRESS, "energy/area": TOUGHNESS, "time": TIME},
+    **{"1": ONE, "": ONE},
+}
+"""By the unit that a property has in fortran/properties.toml."""
+_U2 = element_layouts()[2]
+_INTERFACE = tuple(_DIMENSIONS[item.unit] for item in (*_U2.reals, *_U2.integers))
 """Properties of U2."""
 _CONDUCTANCE: Dimension = POWER
 _MESH = """\
