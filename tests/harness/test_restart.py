@@ -254,7 +254,7 @@ def test_restart_is_the_run_that_was_not_interrupted(folder, name, linear_solver
 
 
 def test_restart_eliminates_what_the_run_did(folder, monkeypatch):
-    """Of a reference node that the first step has turned: else results differ by rounding."""
+    """Rotations of a node that an earlier step has turned are eliminated anew, or results differ by rounding."""
     built = []
     choose = Arms._choose
 

@@ -74,7 +74,7 @@ def run(
     solver
         How the equations are solved: by which linear solver, and what helps where Newton's method fails.
     routines
-        How user routines are compiled and called: in how many threads, with which limit and checks.
+        Compiling and calling user routines: number of threads, limit of a call, and checks.
     quiet
         No progress display.
     ranks

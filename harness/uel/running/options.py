@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How a job compiles and calls user routines, as its user chooses."""
+"""Options of a job for compiling and calling user routines."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from uel.model.model import Model
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RoutineOptions:
-    """How user routines are compiled and called.
+    """Options for compiling and calling user routines.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the equations of a job are solved, as its user chooses."""
+"""Options of a job for solving its equations."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SolverOptions:
-    """How the equations of a job are solved; by default as Abaqus does.
+    """Options for solving the equations of a job; the defaults are those of Abaqus.
 
     Parameters
     ----------

@@ -257,7 +257,7 @@ def test_spin_without_damping_keeps_its_energy(spin):
 
 
 def test_long_spin_is_stable(spin):
-    """Of ten turns with the default integrator."""
+    """Ten turns with the default integrator."""
     energy = 0.5 * inertia([1.0, 1.0, 1.0])[2] * SPIN**2
     history = spin([0.0, 0.0, SPIN], 0.05, 20.0)
     np.testing.assert_allclose(history["ALLKE"], energy, rtol=0.02)
