@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 from small_decks import pulled, snapping
 
+import uel
 from uel.cli import main
+from uel.errors import UsageError
 from uel.output import Result
 
 DECKS = Path(__file__).parents[2] / "abaqus_inputs"
@@ -54,6 +56,8 @@ def test_fallback_and_energy_control_exclude_each_other(capsys: pytest.CaptureFi
     with pytest.raises(SystemExit):
         main(["run", str(FLAT), "--fallback", "--control", "energy"])
     assert "not allowed with argument --fallback" in capsys.readouterr().err
+    with pytest.raises(UsageError, match="fallback keeps the load, which energy_control looks for: expected one of"):
+        uel.SolverOptions(fallback=True, energy_control=True)
 
 
 def test_riks_in_all_files(tmp_path: Path) -> None:

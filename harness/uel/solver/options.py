@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from uel.errors import UsageError
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SolverOptions:
@@ -20,8 +22,17 @@ class SolverOptions:
     energy_control
         Trace snap-backs: an increment ends where it has dissipated a share of energy, and the load factor of a step
         is part of the solution. Not with `fallback`, which keeps the load.
+
+    Raises
+    ------
+    UsageError
+        Both `fallback` and `energy_control` are given.
     """
 
     linear_solver: str = "auto"
     fallback: bool = False
     energy_control: bool = False
+
+    def __post_init__(self) -> None:
+        if self.fallback and self.energy_control:
+            raise UsageError("fallback keeps the load, which energy_control looks for: expected one of them")
