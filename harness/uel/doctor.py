@@ -19,7 +19,7 @@ from importlib import import_module, metadata
 from pathlib import Path
 from typing import Final
 
-from uel import share
+from uel import data_files
 from uel.errors import UelError
 from uel.running import sanitizer
 
@@ -143,9 +143,9 @@ def _own_elements() -> Finding:
 
 def _decks() -> Finding:
     part = "decks and manual"
-    if (share.FOLDER / "abaqus_inputs").is_dir():
-        return Finding(part, State.WORKS, str(share.FOLDER))
-    return Finding(part, State.ABSENT, f"not in {share.FOLDER}", AGAIN)
+    if (data_files.FOLDER / "abaqus_inputs").is_dir():
+        return Finding(part, State.WORKS, str(data_files.FOLDER))
+    return Finding(part, State.ABSENT, f"not in {data_files.FOLDER}", AGAIN)
 
 
 def _entry_points(lines: list[tuple[str, str]]) -> tuple[str, ...]:

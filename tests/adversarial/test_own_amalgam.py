@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from uel.check.apart import examine_apart
 from uel.check.finding import Verdict
-from uel.usersub.built import path_of_amalgam
+from uel.check.isolated import examine_isolated
+from uel.usersub.own_kernels import path_of_amalgam
 
 DECKS = sorted(
     deck
@@ -23,7 +23,7 @@ INTENDED = {("U3", "order"), ("U10", "order"), *((kind, "energy") for kind in ("
 @pytest.mark.long
 @pytest.mark.parametrize("deck", DECKS, ids=lambda deck: f"{deck.parent.name}-{deck.stem}")
 def test_no_false_alarm(deck):
-    outcome = examine_apart(deck, [path_of_amalgam()], increments=1)
+    outcome = examine_isolated(deck, [path_of_amalgam()], increments=1)
     failed = {
         (report.type, name): finding.message
         for report in outcome.types

@@ -16,7 +16,7 @@ from readable import complaints
 
 from uel.output import Result
 from uel.output.files.sta_file import NOT_COMPLETED
-from uel.usersub.built import path_of_kernels
+from uel.usersub.own_kernels import path_of_kernels
 
 UEL = f"{shlex.quote(sys.executable)} -m uel.cli"
 BEAM = Path(__file__).parents[2] / "abaqus_inputs" / "dcb" / "dcb_u4_1e8.inp"

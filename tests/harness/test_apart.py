@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from uel.interrupts import ENDS, Interrupted, collected, held, raise_interrupts
-from uel.running.isolation import _GLANCE, HANGS, End, _state, _Watch, run_apart
+from uel.running.isolation import _GLANCE, HANGS, End, _state, _Watch, run_isolated
 from uel.shared_progress import Within, new_slate
 
 
@@ -25,7 +25,7 @@ def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
         (tmp_path / "apart_module.py").write_text(text)
         monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
         with (tmp_path / "said").open("w") as errors:
-            end = run_apart("apart_module", [str(tmp_path)], call_limit, errors=errors)
+            end = run_isolated("apart_module", [str(tmp_path)], call_limit, errors=errors)
         return end, (tmp_path / "said").read_text()
 
     return run
@@ -178,7 +178,7 @@ def test_process_that_another_thread_watches(tmp_path: Path, monkeypatch: pytest
     signals: list[int] = []
     said = tmp_path / "said"
     with said.open("w") as log, ThreadPoolExecutor(1) as thread:
-        future = thread.submit(run_apart, "apart_module", [], 0.0, output=log, errors=log, signals=signals)
+        future = thread.submit(run_isolated, "apart_module", [], 0.0, output=log, errors=log, signals=signals)
         while "begun" not in said.read_text():
             assert not future.done()
             time.sleep(0.01)

@@ -336,7 +336,7 @@ def test_path_that_is_none(path: str, capsys: pytest.CaptureFixture[str], tmp_pa
 def test_command_loads_little_before_it_can_be_interrupted() -> None:
     """An interrupt in the imports would show a traceback."""
     program = (
-        "import sys, uel.cli, uel.running.apart; uel.cli.build_parser();"
+        "import sys, uel.cli, uel.running.worker; uel.cli.build_parser();"
         "print([m for m in ('numpy', 'scipy', 'rich', 'shtab', 'uel.doctor') if m in sys.modules])"
     )
     result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)

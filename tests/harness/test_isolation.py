@@ -218,7 +218,7 @@ def wait_for(file: Path, text: str, process: subprocess.Popen[str]) -> None:
 def test_process_that_is_killed_takes_the_other_along(tmp_path: Path) -> None:
     inner = "import time; print('begun', flush=True); time.sleep(60)"
     (tmp_path / "sleeper.py").write_text(f"def main(words):\n    {inner}\n")
-    outer = "from uel.running.isolation import run_apart; run_apart('sleeper', [], 0.0)"
+    outer = "from uel.running.isolation import run_isolated; run_isolated('sleeper', [], 0.0)"
     with subprocess.Popen([sys.executable, "-c", outer], stdout=subprocess.PIPE, text=True, cwd=tmp_path) as process:
         assert process.stdout is not None
         assert process.stdout.readline() == "begun\n"

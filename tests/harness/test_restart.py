@@ -19,7 +19,7 @@ from contact_decks import step as contact_step
 from small_decks import snapping
 
 import uel
-from uel.assembly.arms import Arms
+from uel.assembly.kinematic_couplings import Arms
 from uel.cli import main
 from uel.errors import ConvergenceError, DeckError, UelError, UsageError
 from uel.model.records import StateKept

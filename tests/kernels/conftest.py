@@ -21,8 +21,8 @@ from uel.model.model import Model
 from uel.model.procedures import Static
 from uel.model.properties import Elastic, ElasticType, Material, Orientation, SolidSection, UserElement, UserProperty
 from uel.model.steps import Step
-from uel.usersub.built import path_of_amalgam
 from uel.usersub.layout import element_layouts
+from uel.usersub.own_kernels import path_of_amalgam
 
 SOURCE = Source("test.inp", 1)
 

@@ -8,8 +8,8 @@ import subprocess
 
 import pytest
 
-from uel.usersub.built import path_of_amalgam
 from uel.usersub.layout import element_layouts
+from uel.usersub.own_kernels import path_of_amalgam
 
 
 @pytest.fixture(scope="module")

@@ -4,8 +4,8 @@
 
 from uel.assembly.constraints import Constraints
 from uel.assembly.dofs import DofMap
+from uel.assembly.rotating_constraints import TurningConstraints
 from uel.assembly.system import Evaluation, System
-from uel.assembly.tolerant import TolerantSystem
-from uel.assembly.turning import TurningConstraints
+from uel.assembly.tolerant_system import TolerantSystem
 
 __all__ = ["Constraints", "DofMap", "Evaluation", "System", "TolerantSystem", "TurningConstraints"]

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from uel.assembly.dofs import DofMap
-from uel.assembly.linear import LinearElements
-from uel.assembly.states import States
+from uel.assembly.element_states import States
+from uel.assembly.linear_elements import LinearElements
 from uel.contact import ContactBlock
 from uel.elements import (
     FIELD_NAMES,

@@ -27,7 +27,7 @@ import uel.procedures
 import uel.solver
 import uel.usersub
 from uel.batch.progress import BatchProgress
-from uel.usersub.built import path_of_amalgam
+from uel.usersub.own_kernels import path_of_amalgam
 
 
 class Deck(Protocol):

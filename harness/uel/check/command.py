@@ -16,9 +16,9 @@ from typing import Final
 
 from rich.console import Console, Group
 
-from uel.check.apart import Tell, call_apart, examine_apart
 from uel.check.examine import examine
 from uel.check.finding import Conclusion
+from uel.check.isolated import Tell, call_isolated, examine_isolated
 from uel.check.progress import Progress, Running, untold
 from uel.check.report import as_json, error_as_json, table
 from uel.check.shuffle import report, shuffle
@@ -51,11 +51,11 @@ def check(options: argparse.Namespace, console: Console, *, apart: bool) -> int:
         limit_calls(limit)
         with display(shown=apart and not options.quiet) as tell:
             if options.shuffle:
-                look_at_order = partial(call_apart, tell_order, call_limit=limit, tell=tell) if apart else tell_order
+                look_at_order = partial(call_isolated, tell_order, call_limit=limit, tell=tell) if apart else tell_order
                 passed, told = look_at_order(deck, user, **how)
                 conclusion = Conclusion.PASSED if passed else Conclusion.FAILED
             else:
-                look = partial(examine_apart, call_limit=limit, tell=tell) if apart else examine
+                look = partial(examine_isolated, call_limit=limit, tell=tell) if apart else examine
                 outcome = look(deck, user, **how, skip=options.skip)
                 conclusion, told = outcome.conclusion, table(outcome)
     except UelError as error:

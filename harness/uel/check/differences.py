@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from uel.check.state import ElementState
+from uel.check.element_calls import ElementState
 from uel.errors import KernelError
 from uel.model.arrays import FloatArray
 

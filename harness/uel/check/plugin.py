@@ -57,14 +57,16 @@ class UelDeck(pytest.File):
 
     def collect(self) -> Iterator[pytest.Item]:
         """Run the checks: only the deck tells which element types there are."""
-        from uel.check.apart import CALL_LIMIT, examine_apart  # noqa: PLC0415 (takes a second)
+        from uel.check.isolated import CALL_LIMIT, examine_isolated  # noqa: PLC0415 (takes a second)
 
         config = self.config
         try:
             users = [Path(user) for user in config.getoption("--uel")]
             given = config.getoption("--uel-call-limit")
             limit = CALL_LIMIT if given is None else given
-            outcome = examine_apart(self.path, users, increments=config.getoption("--uel-increments"), call_limit=limit)
+            outcome = examine_isolated(
+                self.path, users, increments=config.getoption("--uel-increments"), call_limit=limit
+            )
         except UelError as error:
             raise self.CollectError(str(error)) from None
         for report in outcome.types:

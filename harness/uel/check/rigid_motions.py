@@ -10,8 +10,8 @@ from typing import Final
 
 import numpy as np
 
+from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, not_applicable
-from uel.check.state import ElementState
 from uel.check.subject import Subject, diagonal
 from uel.model.arrays import FloatArray
 

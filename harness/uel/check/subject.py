@@ -12,13 +12,13 @@ from typing import Final
 import numpy as np
 
 from uel.check.differences import Differences, differences
+from uel.check.element_calls import ElementState, state_of
 from uel.check.patch import patches_of
 from uel.check.recording import Pass, Recording
 from uel.check.replay import Elements, Results, abaqus_order, replay
 from uel.check.shuffle import TypeVerdict
 from uel.check.single import Returned, first_difference
-from uel.check.state import ElementState, state_of
-from uel.check.ties import first_largest
+from uel.check.tie_breaking import first_largest
 from uel.errors import KernelError
 from uel.model.arrays import FloatArray
 from uel.model.mesh import ElementGroup

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The separate process, which user code may end (`uel.running.apart`), calls a function by its words TASK SNAPSHOT."""
+"""The separate process, which user code may end (`uel.running.worker`), calls a function by its words TASK SNAPSHOT."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ def add_amalgamate(amalgamate: argparse.ArgumentParser) -> None:
 
 def write_amalgam(options: argparse.Namespace) -> int:
     """Run `uel amalgamate`."""
-    from uel.usersub.built import path_of_amalgam  # noqa: PLC0415
+    from uel.usersub.own_kernels import path_of_amalgam  # noqa: PLC0415
 
     shutil.copyfile(path_of_amalgam(), options.output)
     print(f"{options.output}: UEL, UELMAT and UEXTERNALDB for abaqus job=... user={options.output.name}")

@@ -94,7 +94,7 @@ def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
 
 def run_job(options: argparse.Namespace) -> int:
     """Run `uel run`."""
-    from uel.output.ending import ending  # noqa: PLC0415
+    from uel.output.outcome import ending  # noqa: PLC0415
     from uel.parallel.mpi import begin  # noqa: PLC0415
     from uel.running.job import run  # noqa: PLC0415 (keeps the other commands quick)
     from uel.running.options import RoutineOptions  # noqa: PLC0415

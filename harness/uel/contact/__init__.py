@@ -3,10 +3,10 @@
 """Contact: blocks of contact points, their motion over the surfaces, bonds and friction."""
 
 from uel.contact.block import ContactBlock, contact_blocks
+from uel.contact.finite_sliding import FiniteSliding, normals_of
+from uel.contact.main_surface import FaceSurface, monomials
 from uel.contact.rigid_surface import RigidSurface
-from uel.contact.sliding import FiniteSliding, normals_of
-from uel.contact.surface import FaceSurface, monomials
-from uel.contact.surface_sliding import FACING, SurfaceSliding
+from uel.contact.surface_finite_sliding import FACING, SurfaceSliding
 
 __all__ = [
     "FACING",

@@ -18,9 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uel.contact.cohesion import Bonding, Bonds
+from uel.contact.finite_sliding import FiniteSliding
 from uel.contact.kinematics import Clearances, Find, Motion, Slips, SmallSliding
-from uel.contact.sliding import FiniteSliding
-from uel.contact.surface_sliding import SurfaceSliding
+from uel.contact.surface_finite_sliding import SurfaceSliding
 from uel.elements.block import ElementBlock
 from uel.elements.call import Call
 from uel.elements.fields import MULTIPLIER

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from uel.contact.surface import EQUAL, Place
+from uel.contact.main_surface import EQUAL, Place
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.contact import RigidProfile
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from uel.deck import ignored
 from uel.deck.constraints import equations as constraints
 from uel.deck.constraints import ties
-from uel.deck.contact import general_contact, interactions, smoothing
+from uel.deck.contact import general_contact, geometric_corrections, interactions
 from uel.deck.contact import pairs as contact
 from uel.deck.language import lexer, structure
 from uel.deck.language.repetition import RULES
@@ -46,7 +46,7 @@ from uel.deck.steps import step as steps
 
 _FILES = (
     *(structure, lexer, placement, orientations, local_mesh, generation, user_elements, surfaces, constraints, ties),
-    *(contact, general_contact, interactions, smoothing),
+    *(contact, general_contact, geometric_corrections, interactions),
     *(
         materials,
         expansion,

@@ -10,13 +10,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from uel.elements.array_mistakes import ERRORS, at_point, distortion, material_point, write_outside, wrong_entry
 from uel.elements.call import BlockReport, Call, Distributed, Motion, Predefined
-from uel.elements.faults import ERRORS, at_point, distortion, material_point, write_outside, wrong_entry
 from uel.elements.fields import FIELD_NAMES, field_of
+from uel.elements.finite_values import Watch
 from uel.elements.initial_state import InitialState
 from uel.elements.lflags import Flags, Request
 from uel.elements.routine import Linearity, PointAxes, Routine
-from uel.elements.watch import Watch
 from uel.errors import ElementError, KernelError
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.mesh import ElementGroup

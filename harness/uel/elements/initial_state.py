@@ -6,8 +6,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from uel.elements.array_mistakes import at_point
 from uel.elements.directions import is_user, undefined
-from uel.elements.faults import at_point
 from uel.elements.routine import Routine
 from uel.errors import KernelError
 from uel.model.arrays import FloatArray, IntArray

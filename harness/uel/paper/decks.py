@@ -11,7 +11,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from uel import share
+from uel import data_files
 from uel.delamination import specimens as build
 from uel.delamination.blocks import BY_EQUATION_21, Interface
 from uel.delamination.materials import TABLE_2
@@ -27,7 +27,7 @@ from uel.paper.reproduce.cases import PROBLEMS, comparator_cases, longer_cases, 
 from uel.paper.reproduce.patch_cases import inclined_cases
 from uel.paper.space_beams import space_beam_files
 
-FOLDER = share.FOLDER / "abaqus_inputs"
+FOLDER = data_files.FOLDER / "abaqus_inputs"
 KINDS = {"U2": "standard", "U3": "paper's, four nodes", "U4": "paper's, eight nodes"}
 SAMPLINGS = ("face", "gauss")
 STIFFNESSES = {"1e6": 1.0e6, "1e8": 1.0e8}

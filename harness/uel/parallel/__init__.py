@@ -5,7 +5,7 @@
 Here is what those that watch the ranks need, which load neither numpy nor MPI; `ranks` is what the ranks themselves do.
 """
 
+from uel.parallel.end_reason import await_end, forget_word, leave_word, read_word
 from uel.parallel.launch import Launch, launched, without_launch
-from uel.parallel.word import await_end, forget_word, leave_word, read_word
 
 __all__ = ["Launch", "await_end", "forget_word", "launched", "leave_word", "read_word", "without_launch"]

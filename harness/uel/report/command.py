@@ -12,10 +12,10 @@ from typing import Final
 from uel.deck import read_deck
 from uel.errors import UelError
 from uel.model.model import Model
-from uel.output.ending import duration, largest_load
 from uel.output.files.dat_file import echo, read_deck_place, read_given
 from uel.output.files.msg_file import read_times
 from uel.output.formats import read_remarks
+from uel.output.outcome import duration, largest_load
 from uel.output.results import Result
 from uel.report.model_tables import Table, element_table, property_tables, step_table
 from uel.report.page import Content, write_page

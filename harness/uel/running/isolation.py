@@ -79,11 +79,11 @@ def supervise(
 ) -> int:
     """Run `uel` with these words, a subcommand first, in a separate process; returns the exit code.
 
-    stem is the folder and name of the job; sanitized, signals, launch: see `run_apart`. log: gets all that the run
+    stem is the folder and name of the job; sanitized, signals, launch: see `run_isolated`. log: gets all that the run
     prints. A run that ends without closing its files gets them closed here; of several ranks, rank 0 does so.
     """
     words = [words[0], SAME_PROCESS, *words[1:]]
-    end = run_apart(
+    end = run_isolated(
         "uel.cli",
         words,
         call_limit,
@@ -113,7 +113,7 @@ def supervise(
     return 1
 
 
-def run_apart(
+def run_isolated(
     module: str,
     words: Sequence[str],
     call_limit: float,
@@ -148,7 +148,7 @@ def run_apart(
         before = signal.pthread_sigmask(signal.SIG_BLOCK, ENDS)
         try:
             process = subprocess.Popen(
-                [sys.executable, "-m", "uel.running.apart", str(os.getpid()), str(descriptor), module, *words],
+                [sys.executable, "-m", "uel.running.worker", str(os.getpid()), str(descriptor), module, *words],
                 env={**_ONE_BLAS_THREAD, **variables},
                 stdout=output,
                 stderr=errors,

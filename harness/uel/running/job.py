@@ -26,8 +26,8 @@ from uel.model.records import AttemptEnded, IncrementDone, ModeShape, Record, St
 from uel.model.restart import Resumption
 from uel.output import JobOutput, Result
 from uel.output.earlier_jobs import EarlierJobs
-from uel.output.ending import progress
 from uel.output.lock import job_stem
+from uel.output.outcome import progress
 from uel.parallel.ranks import ALONE, Ranks
 from uel.procedures import run_steps
 from uel.procedures.general.incrementation import FIXED_TOO_LARGE, TOO_MANY_ATTEMPTS, TOO_MANY_INCREMENTS

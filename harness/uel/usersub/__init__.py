@@ -13,7 +13,7 @@ from uel.usersub.compilation.languages import is_source
 from uel.usersub.compilation.source_lines import names_line
 from uel.usersub.compilation.suspicions import Suspicion, suspicions
 from uel.usersub.guards import ARRAYS, AS_GOOD_AS_ZERO, UNSET, guard_values, room, set_guard_values
-from uel.usersub.inputs import Change, around, local_variables, watched_inputs, writes_outside
+from uel.usersub.input_watch import Change, around, local_variables, watched_inputs, writes_outside
 from uel.usersub.library import Library, compile_ahead, load
 from uel.usersub.messages import Message
 

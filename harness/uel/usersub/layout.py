@@ -17,7 +17,7 @@ from typing import Any, Final
 from uel.errors import UsageError
 from uel.model.arrays import IntArray
 from uel.model.records import PointVariables
-from uel.usersub.built import path_of_properties
+from uel.usersub.own_kernels import path_of_properties
 
 MARKER: Final = "delamination_layout_version"
 """Symbol of a library that holds these elements."""

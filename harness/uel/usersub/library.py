@@ -19,13 +19,13 @@ from uel.model.arrays import FloatArray, IntArray
 from uel.model.records import PointVariables
 from uel.model.user_values import AskedAmplitude, GivenAmplitude, UserValues
 from uel.usersub import _binding, _points, layout
-from uel.usersub.built import path_of_kernels
 from uel.usersub.compilation.cache import Built
 from uel.usersub.compilation.compiler import build, digest_of_sources
 from uel.usersub.compilation.languages import CPP, SUFFIXES, C
 from uel.usersub.compilation.linker import undefined_routine
 from uel.usersub.compilation.source_lines import innermost
 from uel.usersub.messages import Inbox, Message
+from uel.usersub.own_kernels import path_of_kernels
 
 ENTRY_POINTS: Final = (
     *("UEL", "UELMAT", "UEXTERNALDB", "UMAT", "UVARM", "SDVINI", "DLOAD", "DISP", "UAMP", "USDFLD", "UTRACLOAD"),

@@ -15,7 +15,7 @@ from small_decks import bars
 import uel
 from uel import usersub
 from uel.assembly import System, TurningConstraints
-from uel.assembly.arms import Arms
+from uel.assembly.kinematic_couplings import Arms
 from uel.deck import read_deck
 from uel.elements import Call, Flags, build_blocks, rotation_matrices, spin_matrices
 from uel.errors import DeckError, Source

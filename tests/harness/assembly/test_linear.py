@@ -14,7 +14,7 @@ from reference_cells import patch_of
 import uel
 from uel import usersub
 from uel.assembly import System
-from uel.assembly.linear import LinearElements
+from uel.assembly.linear_elements import LinearElements
 from uel.cli import main
 from uel.deck import read_deck
 from uel.delamination.blocks import BY_EQUATION_21, Interface

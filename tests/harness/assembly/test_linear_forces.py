@@ -12,7 +12,7 @@ from small_decks import body_lines
 import uel
 from uel import usersub
 from uel.assembly import System
-from uel.assembly.linear import LinearElements
+from uel.assembly.linear_elements import LinearElements
 from uel.deck import read_deck
 from uel.elements import Call, ElementBlock, Flags, build_blocks
 from uel.model.element_types import BEAM, CONTINUUM, CONTINUUM_SHELL, GENERALISED, HYBRID, MEMBRANE, SHELL

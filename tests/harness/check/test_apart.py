@@ -14,11 +14,11 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from uel.check.apart import EndedError, call_apart, examine_apart
 from uel.check.checks import CHECKS
 from uel.check.command import display
 from uel.check.examine import examine
 from uel.check.finding import Verdict
+from uel.check.isolated import EndedError, call_isolated, examine_isolated
 from uel.check.progress import Running, Snapshot
 from uel.errors import UelError
 from uel.usersub import limit_calls
@@ -38,7 +38,7 @@ def uel_check(deck, *words):
 
 
 def test_outcome_is_that_of_the_same_process(patch):
-    assert examine_apart(patch(5), [QUAD]) == examine(patch(5), [QUAD])
+    assert examine_isolated(patch(5), [QUAD]) == examine(patch(5), [QUAD])
 
 
 @pytest.mark.sample(2)
@@ -135,7 +135,7 @@ def quit_quietly(*, progress):
 def test_other_ends(function, message, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", PATHS)
     with pytest.raises(UelError, match=message):
-        call_apart(function)
+        call_isolated(function)
 
 
 def slow(*, progress):
@@ -146,7 +146,7 @@ def slow(*, progress):
 def test_tells_what_is_done(monkeypatch):
     monkeypatch.setenv("PYTHONPATH", PATHS)
     told = []
-    call_apart(slow, tell=told.append)
+    call_isolated(slow, tell=told.append)
     assert told[-1] == "a long check"
 
 
@@ -182,7 +182,7 @@ def unreadable(*, progress):
 def test_errors_of_the_system(function, message, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", PATHS)
     with pytest.raises(UelError, match=message):
-        call_apart(function)
+        call_isolated(function)
 
 
 def test_interruption_keeps_findings(patch, monkeypatch):
@@ -194,8 +194,8 @@ def test_interruption_keeps_findings(patch, monkeypatch):
     def interrupt(*_, **__):
         raise EndedError("interrupted", Snapshot(Running("a check", "filled"), examination), interrupted=True)
 
-    monkeypatch.setattr("uel.check.apart.call_apart", interrupt)
-    found = examine_apart(patch(), [QUAD])
+    monkeypatch.setattr("uel.check.isolated.call_isolated", interrupt)
+    found = examine_isolated(patch(), [QUAD])
     assert found.types[0].findings["run"].verdict is Verdict.PASSED
     assert found.types[0].findings["filled"].advice == "The checks after this one did not run."
     assert not found.passed
@@ -203,7 +203,7 @@ def test_interruption_keeps_findings(patch, monkeypatch):
 
 def test_error_without_a_place(tmp_path):
     with pytest.raises(UelError, match=r"none\.inp"):
-        examine_apart(tmp_path / "none.inp", [])
+        examine_isolated(tmp_path / "none.inp", [])
 
 
 def test_endless_call_in_the_same_process(patch):

@@ -7,14 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from uel.check.apart import examine_apart
 from uel.check.checks import CHECKS
 from uel.check.examine import examine
 from uel.check.finding import Verdict
+from uel.check.isolated import examine_isolated
 from uel.cli import main
 from uel.errors import KernelError, UelError
 from uel.usersub import suspicions
-from uel.usersub.built import path_of_amalgam
+from uel.usersub.own_kernels import path_of_amalgam
 
 TESTS = Path(__file__).parents[1]
 TEMPLATE = Path(__file__).parents[3] / "harness" / "uel" / "project" / "template" / "my_uel.for"
@@ -268,7 +268,7 @@ def test_first_call_that_fails_has_the_warnings_before_it(tmp_path, capsys):
     warning = r"earlier warning: spring.f, line 3: a constant is passed for the argument 'y', which is an array"
     assert re.search(warning, said)
     with pytest.raises(UelError) as error:
-        examine_apart(deck, [user])
+        examine_isolated(deck, [user])
     assert re.match(warning, error.value.__notes__[0])
 
 

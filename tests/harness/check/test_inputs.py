@@ -8,7 +8,7 @@ import pytest
 
 from uel.check.checks import CHECKS
 from uel.check.examine import examine
-from uel.usersub.inputs import NAMES
+from uel.usersub.input_watch import NAMES
 
 USER = Path(__file__).parent / "all_inputs.f"
 OUTPUTS = {"RHS", "AMATRX", "SVARS", "ENERGY", "PNEWDT"}

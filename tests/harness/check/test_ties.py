@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from uel.check.examine import examine
-from uel.check.ties import exceeds, first_largest, ranked
+from uel.check.tie_breaking import exceeds, first_largest, ranked
 
 VALUES = np.array([1.0, 3.0, 2.0, 3.0, 2.0])
 

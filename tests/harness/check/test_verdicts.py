@@ -201,7 +201,7 @@ def test_findings_of_an_earlier_run_do_not_stay(springs, tmp_path, capsys):
 
 
 def test_folder_of_the_json_file_is_looked_for_first(springs, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("uel.check.command.examine_apart", lambda *_, **__: pytest.fail("the checks were made"))
+    monkeypatch.setattr("uel.check.command.examine_isolated", lambda *_, **__: pytest.fail("the checks were made"))
     monkeypatch.setattr("uel.check.command.examine", lambda *_, **__: pytest.fail("the checks were made"))
     words = ["check", *map(str, springs()), "--json"]
     assert main([*words, str(tmp_path / "missing" / "found.json")]) == 2
@@ -247,11 +247,11 @@ def test_plugin_tells_where_nothing_was_looked_at(springs, tmp_path):
     deck, user = springs()
     user.write_text(NEEDS_A_NEIGHBOUR)
     (tmp_path / "conftest.py").write_text(
-        "from uel.check import apart, examine\n"
+        "from uel.check import isolated, examine\n"
         "def look(deck, user, **options):\n"
         "    options.pop('call_limit', None)\n"
         "    return examine.examine(deck, user, skip=['order'], **options)\n"
-        "apart.examine_apart = look\n"
+        "isolated.examine_isolated = look\n"
     )
     command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "--rootdir", str(tmp_path)]
     command += ["--deck", str(deck), "--uel", str(user)]

@@ -5,8 +5,8 @@
 import numpy as np
 import pytest
 
-from uel.deck.contact.anchors import find_anchors
-from uel.deck.contact.pieces import make_pieces
+from uel.deck.contact.anchor_points import find_anchors
+from uel.deck.contact.sliding_surfaces import make_pieces
 from uel.errors import DeckError
 from uel.model.contact import SlidingPair
 

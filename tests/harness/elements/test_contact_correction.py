@@ -7,9 +7,9 @@ import pytest
 from contact_decks import YOUNG, Box, step, two_boxes
 
 from uel.contact import SurfaceSliding
-from uel.contact.correction import corrections
+from uel.contact.geometric_corrections import corrections
 from uel.deck import read_deck
-from uel.deck.contact.pieces import make_pieces
+from uel.deck.contact.sliding_surfaces import make_pieces
 from uel.model.contact import Rounded
 
 INNER, MIDDLE, OUTER = 1.0, 2.0, 3.0

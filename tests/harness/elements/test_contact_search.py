@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from uel.contact import FaceSurface
-from uel.deck.contact.pieces import make_pieces, whole_pieces
+from uel.deck.contact.sliding_surfaces import make_pieces, whole_pieces
 from uel.model.element_types import QUAD8
 
 FACING = -0.5

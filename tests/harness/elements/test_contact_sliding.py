@@ -8,7 +8,7 @@ from contact_decks import Box, step, total, two_boxes
 from contact_points import SOURCE, Points
 
 from uel.contact.block import SLIPPING, STICKING
-from uel.deck.contact.pieces import make_pieces
+from uel.deck.contact.sliding_surfaces import make_pieces
 from uel.model.contact import ContactProperty, SlidingPair
 
 

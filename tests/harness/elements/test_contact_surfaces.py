@@ -7,7 +7,7 @@ import pytest
 from contact_decks import YOUNG, Box, step, total, two_boxes
 from contact_points import SOURCE, Points
 
-from uel.deck.contact.pieces import filled, make_pieces
+from uel.deck.contact.sliding_surfaces import filled, make_pieces
 from uel.deck.mesh.smooth_parts import smooth_parts
 from uel.model.contact import ContactProperty, SurfacePair
 

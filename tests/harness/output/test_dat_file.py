@@ -12,7 +12,7 @@ import pytest
 from uel.errors import Source
 from uel.model.mesh import Mesh
 from uel.model.model import Equation, Model
-from uel.model.nodal import NodalIndex
+from uel.model.nodal_variables import NodalIndex
 from uel.model.properties import UserElement
 from uel.model.records import IncrementDone, PointVariables, Record, Solution, StepStarted
 from uel.model.steps import ElementRequest, NodeRequest

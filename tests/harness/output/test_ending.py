@@ -10,7 +10,7 @@ from small_decks import pulled, snapping
 
 from uel.cli import main
 from uel.output import Result
-from uel.output.ending import duration, ending
+from uel.output.outcome import duration, ending
 
 FOLDER = Path(__file__).parents[1]
 SPRINGS = FOLDER / "procedures" / "springs.f"

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import uel
-from uel.elements.faults import distortion
+from uel.elements.array_mistakes import distortion
 from uel.errors import ConvergenceError, KernelError
 
 YOUNG, PRESSURE = 1000.0, 1500.0

@@ -14,7 +14,7 @@ from uel.model.amplitude import Amplitude, AmplitudeType
 from uel.model.procedures import Static
 from uel.model.records import SearchHelped
 from uel.procedures.general.incrementation import DIVERGING, TOO_SLOW
-from uel.procedures.general.limit import PASSED
+from uel.procedures.general.largest_load import PASSED
 from uel.solver import descent
 from uel.solver.descent import GROWING, SINGULAR, UPHILL
 

@@ -16,8 +16,8 @@ from scipy.sparse.linalg import splu
 import uel
 from uel.errors import SingularMatrixError, UelError
 from uel.solver.linear import LinearSolver, available, choose, singular, superlu
-from uel.solver.linear.base import Pattern
 from uel.solver.linear.choice import SOLVERS
+from uel.solver.linear.linear_solver import Pattern
 from uel.solver.linear.mumps import MumpsSolver
 from uel.solver.linear.ordering import narrowest
 from uel.solver.linear.pardiso import FACTORISE, SYMMETRIC, PardisoError, call
@@ -325,7 +325,7 @@ def test_auto_takes_a_sparse_solver_where_the_band_would_fill_the_memory(monkeyp
 @pytest.mark.parametrize(("only", "slow", "advised"), [("superlu", 1, True), ("superlu", 10**9, False)])
 def test_slow_solver_advises_a_faster_one(tmp_path, monkeypatch, only, slow, advised) -> None:
     """A warning of the run, which the terminal shows too."""
-    from uel.output.ending import ending  # noqa: PLC0415
+    from uel.output.outcome import ending  # noqa: PLC0415
     from uel.solver.linear import choice  # noqa: PLC0415
 
     monkeypatch.setattr(choice, "SLOW", slow)

@@ -150,7 +150,7 @@ def test_damaged_entry(load, cache, suffix, damage):
     assert said(load(database(note()))) == ["here"]
 
 
-def run_apart(folder, **environment):
+def run_isolated(folder, **environment):
     """Whether a process of its own loads the file in the folder, with this environment; returns it running."""
     there = {key: value for key, value in os.environ.items() if key not in ("HOME", "XDG_CACHE_HOME")} | environment
     command = [sys.executable, "-c", SCRIPT, str(folder)]
@@ -169,7 +169,7 @@ def good(process):
 def test_no_cache_leaves_nothing_behind(tmp_path, home, cache):
     (tmp_path / "user.f").write_text(database(note()))
     (tmp_path / "scratch").mkdir()
-    good(run_apart(tmp_path, TMPDIR=str(tmp_path / "scratch"), HOME=home, **cache))
+    good(run_isolated(tmp_path, TMPDIR=str(tmp_path / "scratch"), HOME=home, **cache))
     assert list((tmp_path / "scratch").iterdir()) == []
     assert {file.name for file in tmp_path.iterdir()} == {"user.f", "scratch"}
 
@@ -185,7 +185,7 @@ def test_nobody_without_a_home(load, monkeypatch):
 
 def test_ten_processes_at_once(tmp_path):
     (tmp_path / "user.f").write_text(database(note()))
-    processes = [run_apart(tmp_path, XDG_CACHE_HOME=str(tmp_path / "cache")) for _ in range(10)]
+    processes = [run_isolated(tmp_path, XDG_CACHE_HOME=str(tmp_path / "cache")) for _ in range(10)]
     for process in processes:
         good(process)
     left = sorted(file.suffix for file in (tmp_path / "cache" / "uel" / "compiled").iterdir())

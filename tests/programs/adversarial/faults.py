@@ -25,8 +25,8 @@ from pathlib import Path
 from typing import Final
 
 import uel.project
-from uel.check.apart import examine_apart
 from uel.check.finding import Verdict
+from uel.check.isolated import examine_isolated
 from uel.errors import UelError
 
 HERE: Final = Path(__file__).parent
@@ -128,7 +128,7 @@ def check(element: str, fault: Fault | None = None) -> Outcome:
     with tempfile.TemporaryDirectory() as folder:
         source, deck = written(element, Path(folder), fault)
         try:
-            outcome = examine_apart(deck, [source], call_limit=CALL_LIMIT)
+            outcome = examine_isolated(deck, [source], call_limit=CALL_LIMIT)
         except UelError as error:
             return Outcome({}, str(error).replace(folder, ""))
     failed: dict[str, str] = {}

@@ -102,7 +102,7 @@ def _child(parent: int) -> int | None:
     """The process of a run, by its module: importing an editable installation briefly starts another child."""
     with suppress(OSError):
         for word in Path(f"/proc/{parent}/task/{parent}/children").read_text().split():
-            if b"uel.running.apart" in Path(f"/proc/{word}/cmdline").read_bytes():
+            if b"uel.running.worker" in Path(f"/proc/{word}/cmdline").read_bytes():
                 return int(word)
     return None
 

@@ -31,7 +31,7 @@ from uel.model.arrays import FloatArray
 from uel.model.model import Model
 from uel.model.records import IncrementDone, IterationDone
 from uel.procedures import run_steps
-from uel.solver.linear.base import Pattern
+from uel.solver.linear.linear_solver import Pattern
 from uel.solver.linear.ordering import narrowest
 from uel.solver.threads import one_blas_thread
 

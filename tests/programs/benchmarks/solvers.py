@@ -39,8 +39,8 @@ from uel.model.arrays import FloatArray
 from uel.paper import literature
 from uel.paper.decks import DCB_REF_INCREMENTS
 from uel.solver.linear import LinearSolver, available, choose
-from uel.solver.linear.base import Pattern
 from uel.solver.linear.choice import LARGEST_BAND
+from uel.solver.linear.linear_solver import Pattern
 from uel.solver.linear.measured import Measured, machine, read, write
 from uel.solver.linear.ordering import narrowest
 from uel.solver.threads import one_blas_thread

@@ -9,9 +9,9 @@ from typing import Final
 
 import numpy as np
 
+from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed, passed
 from uel.check.rigid_motions import ROTATIONS
-from uel.check.state import ElementState
 from uel.check.subject import Subject
 from uel.elements import Request
 from uel.model.arrays import FloatArray

@@ -9,10 +9,10 @@ from typing import Final
 
 import numpy as np
 
+from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed, passed
-from uel.check.state import ElementState
 from uel.check.subject import Subject
-from uel.check.ties import first_largest
+from uel.check.tie_breaking import first_largest
 from uel.elements import Damping, Flags, Motion, Request
 from uel.model.arrays import FloatArray
 from uel.usersub import UNSET, guard_values

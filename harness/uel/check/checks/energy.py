@@ -10,10 +10,10 @@ from typing import Final
 import numpy as np
 
 from uel.check.checks.rest import MECHANICAL
+from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed, not_applicable, passed
-from uel.check.state import ElementState
 from uel.check.subject import NOT_MOVING, Subject
-from uel.check.ties import exceeds
+from uel.check.tie_breaking import exceeds
 
 SHARES: Final = 1.0, 0.1, 0.01, 0.001
 """Fractions of the increment: the work is from the trapezoidal rule, which is accurate for small increments."""

@@ -11,8 +11,8 @@ from typing import Final
 
 import numpy as np
 
+from uel.check.element_calls import CHANGES, ElementState
 from uel.check.finding import Finding, Verdict, failed, not_applicable, passed
-from uel.check.state import CHANGES, ElementState
 from uel.check.subject import Subject, diagonal
 from uel.errors import KernelError
 from uel.model.arrays import FloatArray

@@ -8,9 +8,9 @@ from typing import Final
 
 import numpy as np
 
+from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed, not_applicable, passed
-from uel.check.pieces import in_pieces
-from uel.check.state import ElementState
+from uel.check.split_increment import in_pieces
 from uel.check.subject import NOT_MOVING, Subject
 from uel.model.arrays import FloatArray
 

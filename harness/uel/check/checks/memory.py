@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from contextlib import AbstractContextManager
 from typing import Final
 
+from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed, not_applicable, passed
 from uel.check.single import first_difference
-from uel.check.state import ElementState
 from uel.check.subject import Subject
 from uel.elements import Request
 from uel.errors import KernelError, OutsideError

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed, passed
-from uel.check.state import ElementState
 from uel.check.subject import Subject
 from uel.elements import Request
 from uel.errors import KernelError, OutsideError

@@ -15,11 +15,11 @@ from typing import Final
 import numpy as np
 
 from uel.check.cells import gradient_integrals
+from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, Verdict, failed, not_applicable, passed
 from uel.check.rigid_motions import INERTIA, ROTATIONS, Body, body_of, makes_inertia
-from uel.check.state import ElementState
 from uel.check.subject import Patch, Subject, diagonal
-from uel.check.ties import exceeds
+from uel.check.tie_breaking import exceeds
 from uel.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-8

@@ -14,11 +14,11 @@ from uel.check.checks.capacity import TRANSIENT, check_capacity
 from uel.check.checks.damping import check_damping
 from uel.check.checks.perturbation import check_perturbation
 from uel.check.checks.turned import check_turned
+from uel.check.element_calls import DYNAMIC, ElementState
 from uel.check.finding import Finding, Verdict, failed, not_applicable, passed
 from uel.check.recording import Pass
-from uel.check.state import DYNAMIC, ElementState
 from uel.check.subject import Subject
-from uel.check.ties import first_largest
+from uel.check.tie_breaking import first_largest
 from uel.elements import Damping, Flags, Motion, Request
 from uel.model.arrays import FloatArray
 from uel.model.perturbations import Frequency, SteadyState

@@ -8,8 +8,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
+from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed, not_applicable, passed
-from uel.check.state import ElementState
 from uel.check.subject import Subject
 from uel.usersub import allocated
 

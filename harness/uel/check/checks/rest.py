@@ -11,7 +11,7 @@ import numpy as np
 from uel.check.finding import Finding, failed, not_applicable, passed
 from uel.check.rigid_motions import AT_REST
 from uel.check.subject import Subject
-from uel.check.ties import exceeds, first_largest
+from uel.check.tie_breaking import exceeds, first_largest
 from uel.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-9

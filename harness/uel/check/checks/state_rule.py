@@ -10,11 +10,11 @@ from typing import Final
 import numpy as np
 
 from uel.check.checks.tangent import kinds
+from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed, not_applicable, passed
-from uel.check.pieces import in_pieces
-from uel.check.state import ElementState
+from uel.check.split_increment import in_pieces
 from uel.check.subject import NOT_MOVING, Subject
-from uel.check.ties import first_largest
+from uel.check.tie_breaking import first_largest
 from uel.errors import KernelError
 from uel.model.arrays import FloatArray
 

@@ -11,7 +11,7 @@ import numpy as np
 from uel.check.checks.tangent import block_scales
 from uel.check.finding import Finding, failed, passed
 from uel.check.subject import Subject
-from uel.check.ties import exceeds, first_largest
+from uel.check.tie_breaking import exceeds, first_largest
 
 TOLERANCE: Final = 1e-6
 """Tolerance relative to the largest entry for the same kinds of dof."""

@@ -10,10 +10,10 @@ from typing import Final
 import numpy as np
 
 from uel.check.differences import Differences
+from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed, not_applicable, passed
-from uel.check.state import ElementState
 from uel.check.subject import Subject
-from uel.check.ties import exceeds, ranked
+from uel.check.tie_breaking import exceeds, ranked
 from uel.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-5

@@ -10,8 +10,8 @@ from typing import Final
 
 import numpy as np
 
+from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed, not_applicable, passed
-from uel.check.state import ElementState
 from uel.check.static_memory import Variable, variables_of
 from uel.check.subject import Subject
 from uel.errors import KernelError

@@ -9,11 +9,11 @@ from typing import Final
 
 import numpy as np
 
+from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed, not_applicable, passed
 from uel.check.rigid_motions import NO_BODY, body_of
-from uel.check.state import ElementState
 from uel.check.subject import Subject
-from uel.check.ties import exceeds, first_largest
+from uel.check.tie_breaking import exceeds, first_largest
 from uel.model.arrays import FloatArray
 
 TOLERANCE: Final = 1e-8

@@ -9,11 +9,11 @@ from typing import Final
 
 import numpy as np
 
+from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed
 from uel.check.rigid_motions import PLANES, ROTATIONS, Body, body_of
-from uel.check.state import ElementState
 from uel.check.subject import Subject
-from uel.check.ties import first_largest
+from uel.check.tie_breaking import first_largest
 from uel.model.arrays import FloatArray
 
 ANGLE: Final = 0.5

@@ -11,9 +11,9 @@ from typing import Final
 import numpy as np
 
 from uel.check.differences import differences
+from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, Verdict, failed, not_applicable, passed
 from uel.check.rigid_motions import Body, body_at_rest, uniform_strains
-from uel.check.state import ElementState
 from uel.check.subject import Subject
 from uel.model.arrays import FloatArray
 

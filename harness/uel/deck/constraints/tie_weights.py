@@ -25,7 +25,7 @@ import numpy as np
 from scipy import sparse
 
 from uel.contact import FaceSurface, monomials
-from uel.deck.contact.pieces import whole_pieces
+from uel.deck.contact.sliding_surfaces import whole_pieces
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.element_types import Family
 

@@ -23,7 +23,7 @@ from scipy import sparse
 from uel.contact import FaceSurface
 from uel.deck.constraints.tie_faces import TiedFaces, read_faces
 from uel.deck.constraints.tie_weights import surface_weights
-from uel.deck.contact.pieces import whole_pieces
+from uel.deck.contact.sliding_surfaces import whole_pieces
 from uel.deck.error_report import Problems
 from uel.deck.language.blocks import Block, Row
 from uel.deck.language.table import NAME, Keyword, Kind, Option, Where, ignored, one_of

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from scipy import sparse
 
-from uel.deck.contact.sides import Facets
+from uel.deck.contact.contact_sides import Facets
 from uel.deck.mesh.flatten import FlatMesh
 from uel.deck.mesh.surfaces import Surfaces
 from uel.errors import DeckError, Source

@@ -15,10 +15,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from uel.contact import SurfaceSliding
+from uel.deck.contact.contact_sides import Sides, check_corners, surface_pair
 from uel.deck.contact.faces import ContactFaces
+from uel.deck.contact.geometric_corrections import ASSIGNMENT, Region, read_corrections
 from uel.deck.contact.interactions import Interactions
-from uel.deck.contact.sides import Sides, check_corners, surface_pair
-from uel.deck.contact.smoothing import ASSIGNMENT, Region, read_corrections
 from uel.deck.error_report import Problems, look_up
 from uel.deck.language.blocks import Block, Row
 from uel.deck.language.table import INPUT, NAME, Keyword, Kind, Option, Where, ignored, one_of, refused

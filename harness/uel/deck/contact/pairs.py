@@ -10,13 +10,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from uel.contact import FiniteSliding, SurfaceSliding
-from uel.deck.contact.anchors import EQUAL, Anchors, find_anchors
-from uel.deck.contact.averages import average
+from uel.deck.contact.anchor_points import EQUAL, Anchors, find_anchors
+from uel.deck.contact.contact_sides import Side, Sides, check_corners, surface_pair
+from uel.deck.contact.geometric_corrections import Region, read_smoothings
 from uel.deck.contact.interactions import Interactions
-from uel.deck.contact.pieces import make_pieces, wound
 from uel.deck.contact.profiles import find_profile
-from uel.deck.contact.sides import Side, Sides, check_corners, surface_pair
-from uel.deck.contact.smoothing import Region, read_smoothings
+from uel.deck.contact.sliding_surfaces import make_pieces, wound
+from uel.deck.contact.surface_to_surface import average
 from uel.deck.error_report import Problems, look_up
 from uel.deck.language.blocks import Block, Row
 from uel.deck.language.numbers import read_real

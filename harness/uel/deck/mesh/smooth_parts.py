@@ -11,7 +11,7 @@ import numpy as np
 from scipy import sparse
 
 from uel.contact import FACING
-from uel.deck.contact.pieces import face_normals
+from uel.deck.contact.sliding_surfaces import face_normals
 from uel.model.arrays import FloatArray, IntArray
 
 

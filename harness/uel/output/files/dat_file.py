@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 from uel.model.model import Model
-from uel.model.nodal import NodalIndex
+from uel.model.nodal_variables import NodalIndex
 from uel.model.properties import UserElement
 from uel.model.records import BucklingFactors, IncrementDone, ModesFound, StepStarted
 from uel.model.steps import ElementRequest, NodeRequest

@@ -26,7 +26,7 @@ from meshio._mesh import topological_dimension
 from uel.errors import UelError
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.model import Model
-from uel.model.nodal import NodalIndex
+from uel.model.nodal_variables import NodalIndex
 from uel.model.records import IncrementDone, Solution
 from uel.output.cells import Cells, cell_values, cells_of, is_solid
 from uel.output.schedule import Schedule, find_written

@@ -19,7 +19,7 @@ import numpy as np
 
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.model import Model
-from uel.model.nodal import PHASE, Component, NodalIndex
+from uel.model.nodal_variables import PHASE, Component, NodalIndex
 from uel.model.records import ELEMENT_ENERGIES, ENERGIES, MODAL, PLASTIC, IncrementDone, Solution, energies_of_elements
 from uel.model.steps import EnergyRequest, NodeRequest
 from uel.output.files.tables import chosen_elements

@@ -19,7 +19,7 @@ from uel.elements.extrapolation import at_centroid, at_nodes
 from uel.model.arrays import FloatArray, IntArray, first_largest
 from uel.model.mesh import ElementGroup, Mesh
 from uel.model.model import Model
-from uel.model.nodal import NodalIndex
+from uel.model.nodal_variables import NodalIndex
 from uel.model.records import ElementState, Solution
 from uel.model.steps import ElementRequest, NodeRequest, Position
 from uel.output.cells import is_solid

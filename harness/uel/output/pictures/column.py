@@ -13,7 +13,7 @@ import numpy as np
 
 from uel.errors import UsageError
 from uel.model.arrays import FloatArray
-from uel.model.nodal import COMPONENTS
+from uel.model.nodal_variables import COMPONENTS
 from uel.output.pictures.load_curve import COLUMN, FORCES, move_as_one
 
 _TERM = re.compile(r"\s*(?:([-+]?\d*\.?\d*(?:[eE][-+]?\d+)?)\s*\*\s*|([-+]))?([A-Za-z].*?)\s*")

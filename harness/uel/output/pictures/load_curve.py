@@ -17,7 +17,7 @@ from typing import Final
 import numpy as np
 
 from uel.model.arrays import FloatArray
-from uel.model.nodal import COMPONENTS
+from uel.model.nodal_variables import COMPONENTS
 
 COLUMN: Final = re.compile(r"(?P<component>\w+)\[(?P<set>[^\]]*?)(?::(?P<node>[^:\]]*))?\]")
 """Name of a column of a nodal variable."""

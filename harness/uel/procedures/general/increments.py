@@ -35,7 +35,7 @@ from uel.procedures.general.incrementation import (
     refused,
     too_discontinuous,
 )
-from uel.procedures.general.limit import PASSED, LimitLoad
+from uel.procedures.general.largest_load import PASSED, LimitLoad
 from uel.procedures.general.overconstraints import warn_overconstrained
 from uel.procedures.general.path import Path
 from uel.procedures.general.step_parts import Part

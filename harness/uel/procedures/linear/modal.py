@@ -20,7 +20,7 @@ from uel.errors import DeckError
 from uel.model.arrays import FloatArray
 from uel.model.perturbations import ModalDynamic
 from uel.model.records import AttemptStarted, IncrementDone, Noted, Record, Solution, StepDone
-from uel.procedures.linear.given import given_at
+from uel.procedures.linear.linear_loads import given_at
 from uel.procedures.linear.perturbation import PerturbationStep
 from uel.procedures.step_setting import Setting
 

@@ -28,7 +28,7 @@ from uel.model.modal import Motion
 from uel.model.perturbations import ModalSteadyState, SteadyState, SubspaceSteadyState
 from uel.model.records import HarmonicResponse, Record, Solution
 from uel.model.steps import Step
-from uel.procedures.linear.given import given_at
+from uel.procedures.linear.linear_loads import given_at
 from uel.procedures.linear.modal import ModalStep
 from uel.procedures.linear.perturbation import PerturbationStep
 from uel.procedures.step_setting import Setting

@@ -19,7 +19,7 @@ from uel.errors import DeckError
 from uel.model.amplitude import UserAmplitude
 from uel.model.arrays import FloatArray
 from uel.model.model import Model
-from uel.model.nodal import COMPONENTS
+from uel.model.nodal_variables import COMPONENTS
 from uel.model.steps import Step
 from uel.model.user_values import AskedAmplitude, GivesValues
 

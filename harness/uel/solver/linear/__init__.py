@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Linear solvers: LAPACK's band solver, PARDISO, MUMPS, SuperLU; several ranks together."""
 
-from uel.solver.linear.base import Effort, LinearSolver, Pattern
 from uel.solver.linear.choice import Availability, available, choose
+from uel.solver.linear.linear_solver import Effort, LinearSolver, Pattern
 from uel.solver.linear.ranks import RankSolver, with_ranks
 
 __all__ = ["Availability", "Effort", "LinearSolver", "Pattern", "RankSolver", "available", "choose", "with_ranks"]

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scipy.linalg import blas, lapack
 
 from uel.model.arrays import FloatArray, IntArray
-from uel.solver.linear.base import LinearSolver, Pattern, in_chunks
+from uel.solver.linear.linear_solver import LinearSolver, Pattern, in_chunks
 from uel.solver.linear.ordering import BandOrdering, narrowest
 
 LARGEST_MIDDLE: Final = 0.4

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from uel.errors import UsageError
 from uel.model.arrays import FloatArray
 from uel.solver.linear.band import BandSolver
-from uel.solver.linear.base import LinearSolver, Pattern
+from uel.solver.linear.linear_solver import LinearSolver, Pattern
 from uel.solver.linear.mumps import MumpsSolver
 from uel.solver.linear.ordering import BandOrdering, narrowest
 from uel.solver.linear.pardiso import PardisoSolver

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from uel.model.arrays import FloatArray, IntArray
 from uel.parallel.ranks import Ranks
-from uel.solver.linear.base import Pattern
+from uel.solver.linear.linear_solver import Pattern
 
 
 class DistributedRows:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uel.model.arrays import FloatArray
-from uel.solver.linear.base import LinearSolver, Pattern
+from uel.solver.linear.linear_solver import LinearSolver, Pattern
 
 NO_MEMORY: Final = (-5, -7, -13)
 """MUMPS' errors in INFOG(1): memory that the analysis or the factorisation asks for is not to be had."""

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from uel.model.arrays import FloatArray, IntArray
-from uel.solver.linear.base import Pattern
+from uel.solver.linear.linear_solver import Pattern
 
 
 @dataclass(frozen=True, slots=True)

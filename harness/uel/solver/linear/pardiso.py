@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uel.model.arrays import FloatArray, IntArray
-from uel.solver.linear.base import LinearSolver, Pattern
+from uel.solver.linear.linear_solver import LinearSolver, Pattern
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,9 +17,9 @@ import numpy as np
 
 from uel.model.arrays import FloatArray, IntArray
 from uel.parallel.ranks import Ranks
-from uel.solver.linear.base import ACCURATE, Pattern
 from uel.solver.linear.cluster import ClusterError
 from uel.solver.linear.distributed_rows import DistributedRows
+from uel.solver.linear.linear_solver import ACCURATE, Pattern
 
 NAME: Final = "petsc"
 """Name by which `--solver` requests it."""

@@ -20,10 +20,10 @@ from uel.errors import SingularMatrixError, UsageError
 from uel.model.arrays import FloatArray, IntArray
 from uel.parallel.ranks import Ranks
 from uel.solver.linear import cluster, petsc, substructures
-from uel.solver.linear.base import SUSPICIOUS, Effort, LinearSolver, Pattern, is_accurate
 from uel.solver.linear.choice import Availability, choose
 from uel.solver.linear.cluster import Cluster, ClusterError, obstacle, version
 from uel.solver.linear.distributed_rows import DistributedRows
+from uel.solver.linear.linear_solver import SUSPICIOUS, Effort, LinearSolver, Pattern, is_accurate
 from uel.solver.linear.petsc import Petsc
 from uel.solver.linear.singular import refuse_singular
 from uel.solver.linear.substructures import MOST_SHARED, Substructures

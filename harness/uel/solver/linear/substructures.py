@@ -20,8 +20,8 @@ from scipy.linalg import lapack
 
 from uel.model.arrays import FloatArray, IntArray
 from uel.parallel.ranks import Ranks
-from uel.solver.linear.base import Pattern
 from uel.solver.linear.cluster import ClusterError, loaded
+from uel.solver.linear.linear_solver import Pattern
 from uel.solver.linear.pardiso import (
     ANALYSE,
     FACTORISE,

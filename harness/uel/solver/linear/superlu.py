@@ -13,7 +13,7 @@ from scipy import sparse
 from scipy.sparse.linalg import LinearOperator, SuperLU, gmres, splu
 
 from uel.model.arrays import FloatArray, IntArray
-from uel.solver.linear.base import LinearSolver, Pattern
+from uel.solver.linear.linear_solver import LinearSolver, Pattern
 
 SMALL_PIVOT: Final = 1e-6
 """Limit relative to the largest entry of the row: a smaller diagonal entry is not a pivot."""

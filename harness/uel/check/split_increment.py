@@ -7,8 +7,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+from uel.check.element_calls import ElementState
 from uel.check.single import Returned
-from uel.check.state import ElementState
 from uel.elements import Call
 
 

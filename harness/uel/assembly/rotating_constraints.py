@@ -12,9 +12,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from scipy import sparse
 
-from uel.assembly.arms import Arms
 from uel.assembly.constraints import Constraints, products, reduced_pattern
-from uel.assembly.held_followers import COLUMNS
+from uel.assembly.kinematic_couplings import Arms
+from uel.assembly.prescribed_followers import COLUMNS
 from uel.assembly.system import System
 from uel.errors import DeckError, Source
 from uel.model.arrays import FloatArray, IntArray

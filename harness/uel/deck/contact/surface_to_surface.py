@@ -17,7 +17,7 @@ from typing import Final
 import numpy as np
 from scipy import sparse
 
-from uel.deck.contact.anchors import EDGE, EQUAL, find_anchors, natural_gradients, nodal_normals, shape_functions
+from uel.deck.contact.anchor_points import EDGE, EQUAL, find_anchors, natural_gradients, nodal_normals, shape_functions
 from uel.model.arrays import FloatArray, IntArray
 
 ALONG: Final = 6

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from uel.contact.surface import FaceSurface, weights_of
+from uel.contact.main_surface import FaceSurface, weights_of
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.contact import Pieces, Rounded
 

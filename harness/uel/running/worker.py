@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The process that isolation.py starts, to call MODULE.main(words).
 
-    python -m uel.running.apart PARENT DESCRIPTOR MODULE WORD ...
+    python -m uel.running.worker PARENT DESCRIPTOR MODULE WORD ...
 
 It notes on the slate that it has finished: user code may end a process with the exit code of success.
 """

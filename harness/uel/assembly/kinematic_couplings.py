@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uel.assembly.dofs import DofMap
-from uel.assembly.held_followers import COLUMNS, SMALLEST, HeldFollowers, choose
+from uel.assembly.prescribed_followers import COLUMNS, SMALLEST, HeldFollowers, choose
 from uel.elements import PERMUTATION, rotation_matrices, spin_matrices
 from uel.errors import DeckError, SingularMatrixError, Source
 from uel.model.arrays import FloatArray, IntArray

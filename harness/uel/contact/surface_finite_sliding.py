@@ -18,10 +18,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uel.contact.correction import corrections
+from uel.contact.finite_sliding import FiniteSliding, Opposites, normals_of, rounding_of, unit
+from uel.contact.geometric_corrections import corrections
 from uel.contact.kinematics import Clearances, Find, Slips, displacements
-from uel.contact.sliding import FiniteSliding, Opposites, normals_of, rounding_of, unit
-from uel.contact.surface import EQUAL, FaceSurface, weights_of
+from uel.contact.main_surface import EQUAL, FaceSurface, weights_of
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.contact import Pieces, SurfacePair
 from uel.model.restart import Saved

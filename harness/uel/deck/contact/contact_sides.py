@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from uel.deck.contact.anchors import EQUAL, nodal_normals
-from uel.deck.contact.pieces import face_normals, filled, make_pieces, wound
-from uel.deck.contact.smoothing import Region, rounded_pieces
+from uel.deck.contact.anchor_points import EQUAL, nodal_normals
+from uel.deck.contact.geometric_corrections import Region, rounded_pieces
+from uel.deck.contact.sliding_surfaces import face_normals, filled, make_pieces, wound
 from uel.deck.language.blocks import Row
 from uel.deck.mesh.flatten import FlatMesh, Owner
 from uel.deck.mesh.smooth_parts import smooth_parts

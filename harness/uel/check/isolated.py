@@ -21,7 +21,7 @@ from uel.check.progress import Running, Snapshot
 from uel.check.worker import INTERRUPTED
 from uel.errors import UelError
 from uel.running import sanitizer
-from uel.running.isolation import run_apart
+from uel.running.isolation import run_isolated
 
 CALL_LIMIT: Final = 60.0
 """Seconds that a call of a user routine may take."""
@@ -50,7 +50,7 @@ Tell = Callable[[str], None]
 """Function that is told now and then what is being done."""
 
 
-def examine_apart(
+def examine_isolated(
     deck: Path, user: list[Path], *, call_limit: float = CALL_LIMIT, tell: Tell | None = None, **options: Any
 ) -> Examination:
     """Run `examine` in a separate process; if user code ends it, keep what was found and fail the check that ran.
@@ -59,7 +59,7 @@ def examine_apart(
     """
     sanitized = sanitizer.applies_to(user)
     try:
-        return call_apart(examine, deck, user, call_limit=call_limit, tell=tell, sanitized=sanitized, **options)
+        return call_isolated(examine, deck, user, call_limit=call_limit, tell=tell, sanitized=sanitized, **options)
     except EndedError as end:
         running, outcome = end.snapshot.running, end.snapshot.outcome
         if running is None or not running.check:
@@ -70,7 +70,7 @@ def examine_apart(
         return examination
 
 
-def call_apart(
+def call_isolated(
     function: Callable[..., T],
     *arguments: Any,
     call_limit: float = CALL_LIMIT,
@@ -95,7 +95,9 @@ def call_apart(
         with messages.open("w", encoding="utf-8") as stream:
             words = [str(task), str(file)]
             look = meanwhile if tell else None
-            end = run_apart("uel.check.worker", words, call_limit, sanitized=sanitized, errors=stream, meanwhile=look)
+            end = run_isolated(
+                "uel.check.worker", words, call_limit, sanitized=sanitized, errors=stream, meanwhile=look
+            )
         sys.stderr.write(messages.read_text("utf-8", errors="replace"))
         snapshot = _snapshot(file)
     if snapshot.running is None:
