@@ -68,6 +68,35 @@ def test_a_fixed_increment_ends_with_the_element(run):
         run(text)
 
 
+def thrown(dynamic):
+    """The same element, free of forces, whose right side moves with a speed of -4: a mass of 10 on a spring of 1000.
+
+    An increment of 1 ends at -0.14, for it damps a period of 0.6; the middle of the cubic between its ends is at -1.5.
+    """
+    velocity = "*INITIAL CONDITIONS, TYPE=VELOCITY\n2, 1, -4.\n3, 1, -4.\n*STEP"
+    text = deck("CPE4", PLANE).replace("*STEP", velocity).replace("*STATIC\n1., 1.", f"*DYNAMIC, {dynamic}")
+    return text.replace("*ELASTIC", "*DENSITY\n20.\n*ELASTIC").replace(f"*CLOAD\n2, 1, {-PRESSURE}\n", "")
+
+
+def test_an_element_that_turns_inside_out_in_the_middle_of_an_increment_cuts_it_back(run, tmp_path):
+    """The pass for the half-increment residual fails; the smaller increment goes on as if it were the first."""
+    result = run(thrown("HAFTOL=1E9\n1., 2., , 1."))
+    first, second = result.status[:2]
+    assert (first.attempt, first.cutback, second.attempt, second.time_increment) == (1, True, 2, 0.25)
+    message = " ".join((tmp_path / "pushed.msg").read_text().split())
+    assert "***WARNING: EXCESSIVE DISTORTION IN SOLID (CONTINUUM) ELEMENTS: element 101 (type CPE4): turns" in message
+    assert first.iterations == message.split("ATTEMPT NUMBER 2")[0].count("CONVERGENCE CHECKS FOR")
+    alike = run(thrown("HAFTOL=1E9\n0.25, 2., , 1."))
+    np.testing.assert_array_equal(result.history["U1[ALL:2]"], alike.history["U1[ALL:2]"])
+
+
+def test_fixed_increments_do_not_depend_on_the_state_in_their_middle(run):
+    """Their half-increment residual decides nothing, so it need not exist."""
+    fixed = run(thrown("DIRECT, HAFTOL=1E9\n1., 2."))
+    unmeasured = run(thrown("DIRECT, NOHAF\n1., 2."))
+    np.testing.assert_array_equal(fixed.history["U1[ALL:2]"], unmeasured.history["U1[ALL:2]"])
+
+
 @pytest.mark.parametrize("options", ["", ", NLGEOM"])
 def test_a_mesh_that_is_inside_out_stays_an_error_of_the_mesh(run, options):
     with pytest.raises(KernelError, match=r"element 101 .* nodes must run counter-clockwise"):

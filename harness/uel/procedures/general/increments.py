@@ -56,12 +56,13 @@ SMALL_FLUX = (
 @dataclass(slots=True)
 class Spent:
     """Iterations of an attempt: severe discontinuity iterations, equilibrium iterations, and those of the latter since
-    the last one of the former.
+    the last one of the former; `passes` have begun.
     """
 
     severe: int = 0
     equilibrium: int = 0
     calm: int = 0
+    passes: int = 0
 
     @property
     def total(self) -> int:
@@ -75,6 +76,24 @@ class Spent:
             return self.severe
         self.equilibrium, self.calm = self.equilibrium + 1, self.calm + 1
         return self.calm
+
+    def count_unchecked(self) -> None:
+        """Count the solve before a pass that ended the attempt; there is none before the first pass."""
+        self.equilibrium += self.passes - 1 > self.total
+
+
+@dataclass(frozen=True, slots=True)
+class Equilibrium:
+    """End of an attempt that converged.
+
+    last      state after the last iteration
+    accuracy  of the integration over time; None: not measured
+    checks    of the last iteration, all of which accept it
+    """
+
+    last: Iterate
+    accuracy: Accuracy | None
+    checks: Sequence[FieldCheck]
 
 
 class GeneralStep:
@@ -203,29 +222,43 @@ class GeneralStep:
         end = self._path.end(size)
         context.amplitudes.attempt(increment, (end, context.start + end), size, self._control.attempts - 1)
         iterates, extrapolated = self._path.begin(size)
-        spent, passes, cutback = Spent(), 0, None
+        spent = Spent()
+        ended: Equilibrium | Cutback
+        try:
+            ended = yield from self._iterate(iterates, size, spent, extrapolated=extrapolated)
+        except DistortionError as error:
+            spent.count_unchecked()
+            yield Warned(f"EXCESSIVE DISTORTION IN SOLID (CONTINUUM) ELEMENTS: {error}")
+            ended = Cutback(self._step.controls.time.d_h, DISTORTED, str(error))
+        except SingularMatrixError as error:
+            # of an extrapolation or in later iterations it is the guess that has no stiffness, not the model
+            astray = (extrapolated or spent.total) and not self._step.procedure.direct
+            if not (self._control.in_parts or astray):
+                raise
+            ended = Cutback(self._step.controls.time.d_f, SINGULAR, str(error))
+        if isinstance(ended, Cutback):
+            yield from self._cut_back(ended, increment, spent, size)
+            return False, spent
+        yield from self._small_flux(ended.checks)
+        yield from self._help(increment, spent.total)
+        yield from self._converge(ended, size, spent)
+        return True, spent
+
+    def _iterate(
+        self, iterates: Iterator[Iterate], size: float, spent: Spent, *, extrapolated: bool
+    ) -> Generator[Record, None, Equilibrium | Cutback]:
+        """Iterate to an equilibrium that is accurate enough, or until the attempt is to be abandoned.
+
+        All passes of an attempt are made here. Raises DistortionError and SingularMatrixError, which may end it too.
+        """
+        cutback: Cutback | None = None
         while cutback is None:
-            try:
-                state = next(iterates)
-            except DistortionError as error:
-                # the solve before the failed pass counts too
-                spent.equilibrium += passes > spent.total
-                yield Warned(f"EXCESSIVE DISTORTION IN SOLID (CONTINUUM) ELEMENTS: {error}")
-                cutback = Cutback(self._step.controls.time.d_h, DISTORTED, str(error))
-                break
-            except SingularMatrixError as error:
-                # of an extrapolation or in later iterations it is the guess that has no stiffness, not the model
-                astray = (extrapolated or spent.total) and not self._step.procedure.direct
-                if not (self._control.in_parts or astray):
-                    raise
-                cutback = Cutback(self._step.controls.time.d_f, SINGULAR, str(error))
-                break
-            passes += 1
+            spent.passes += 1
+            state = next(iterates)
             yield from self._warn_unconstrained()
             cutback = refused(state.evaluation.pnewdt)
             if cutback is not None:
-                # the solve before counts too
-                spent.equilibrium += state.iteration > spent.total
+                spent.count_unchecked()
             elif state.iteration == 0:
                 self._checker.start(state, extrapolated=extrapolated)
             else:
@@ -237,14 +270,10 @@ class GeneralStep:
                     inaccurate = self._control.too_inaccurate(accuracy, linear=was_linear(checks))
                     cutback = inaccurate or self._passed_limit(state, size)
                     if cutback is None:
-                        yield from self._small_flux(checks)
-                        yield from self._help(increment, spent.total)
-                        yield from self._converge(state, size, accuracy, checks, spent)
-                        return True, spent
+                        return Equilibrium(state, accuracy, checks)
                 else:
                     cutback = self._give_up(spent, checks)
-        yield from self._cut_back(cutback, increment, spent, size)
-        return False, spent
+        return cutback
 
     def _warn_unconstrained(self) -> Iterator[Warned]:
         """Warn once in the step that a part of the model moves freely."""
@@ -262,7 +291,13 @@ class GeneralStep:
 
     def _accuracy(self, last: Iterate, size: float) -> Accuracy | None:
         """Return the accuracy of the integration over time, by the strictest part; None if nothing measures it."""
-        found = [accuracy for part in self._parts if (accuracy := part.accuracy(last, size)) is not None]
+        try:
+            found = [accuracy for part in self._parts if (accuracy := part.accuracy(last, size)) is not None]
+        except (DistortionError, SingularMatrixError):
+            if not self._step.procedure.direct:
+                raise
+            # fixed increments are as large as they are, whatever their accuracy
+            return None
         return max(found, key=lambda accuracy: accuracy.measure, default=None)
 
     @property
@@ -301,10 +336,9 @@ class GeneralStep:
         if search is not None and search.reason:
             yield SearchHelped(self._step.number, increment, search.since, iterations, search.reason)
 
-    def _converge(
-        self, last: Iterate, size: float, accuracy: Accuracy | None, checks: Sequence[FieldCheck], spent: Spent
-    ) -> Iterator[Record]:
+    def _converge(self, ended: Equilibrium, size: float, spent: Spent) -> Iterator[Record]:
         """Commit the state of the last pass, and choose the next increment."""
+        last = ended.last
         context, number, attempt = self._context, self._step.number, self._control.attempts
         moment = f"step {number}, increment {context.increment}"
         context.constraints.refuse_contradictions(self._state.displacement + last.increment, moment)
@@ -313,7 +347,7 @@ class GeneralStep:
         hold()
         self._system.commit()
         ends = [part.converged(last, size) for part in self._parts]
-        reached = self._path.reach(last, size, checks)
+        reached = self._path.reach(last, size, ended.checks)
         self._limit.converged(self._state.external, -last.evaluation.residual, last.increment, size)
         self._state.accept(last, reached.load, reached.released, ends)
         self._checker.converged()
@@ -322,7 +356,7 @@ class GeneralStep:
             spent.equilibrium,
             last.evaluation.pnewdt,
             searched=self._helped,
-            accuracy=accuracy,
+            accuracy=ended.accuracy,
             disturbed=spent.severe > self._most_severe,
         )
         times = reached.step_time, reached.total_time

@@ -86,6 +86,8 @@ class Part:
         -------
         Accuracy | None
             The increment is cut back if that of any part is above 1, unless increments are fixed; None: not measured.
+
+        Raises DistortionError and SingularMatrixError if it takes a pass that fails: the increment is cut back too.
         """
         return None
 
