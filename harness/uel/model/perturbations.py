@@ -151,7 +151,7 @@ class SteadyState(LinearPerturbation):
     keyword: ClassVar = "STEADY STATE DYNAMICS"
     title: ClassVar = "DIRECT SOLUTION STEADY STATE DYNAMIC ANALYSIS"
     harmonic: ClassVar = True
-    energies: ClassVar = ()
+    energies: ClassVar = ("ALLSE", "ALLKE")
 
     ranges: tuple[FrequencyRange, ...] = ()
     natural: bool = False
@@ -223,7 +223,7 @@ class ModalDynamic(LinearPerturbation):
     modal: ClassVar = True
     damping: ClassVar = (DampingKind.CRITICAL, DampingKind.RAYLEIGH)
     base_motions: ClassVar = (Motion.ACCELERATION,)
-    energies: ClassVar = ()
+    energies: ClassVar = ("ALLSE", "ALLKE")
 
     @property
     def lflag(self) -> int:

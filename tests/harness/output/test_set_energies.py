@@ -125,6 +125,7 @@ def test_energies_of_each_set_are_told(run):
 
 
 HARMONIC = "*STEP, PERTURBATION\n*STEADY STATE DYNAMICS, DIRECT\n0.1, 0.2, 2\n*CLOAD\nRIGHT, 1, 1.\n{}*END STEP\n"
+MODES = "*STEP, PERTURBATION\n*FREQUENCY\n1\n{}*END STEP\n"
 LINEAR = "*STEP, PERTURBATION\n*STATIC\n*CLOAD\nRIGHT, 1, 1.\n{}*END STEP\n"
 
 
@@ -133,15 +134,20 @@ LINEAR = "*STEP, PERTURBATION\n*STATIC\n*CLOAD\nRIGHT, 1, 1.\n{}*END STEP\n"
     [
         (
             HARMONIC,
-            OUTPUT.format("\nALLSE, ALLKE"),
-            r"\*ENERGY OUTPUT: ALLSE, ALLKE not available in \*STEADY STATE DYNAMICS \(step at .*\), which has no",
+            OUTPUT.format("\nALLSE, ALLIE, ALLVD"),
+            r"\*ENERGY OUTPUT: ALLIE, ALLVD not available in \*STEADY STATE DYNAMICS \(step at .*\), which has ALLSE,",
         ),
         (
             HARMONIC,
             OUTPUT.format(", VARIABLE=PRESELECT"),
             r"\*ENERGY OUTPUT: ALLAE, .*ETOTAL not available in \*STEADY",
         ),
-        (HARMONIC, "*ENERGY PRINT\n", r"\*ENERGY PRINT: nothing is printed in \*STEADY STATE DYNAMICS"),
+        (HARMONIC, OUTPUT.format("\nALLSE, ALLKE") + "*ENERGY PRINT\n", ""),
+        (
+            MODES,
+            "*ENERGY PRINT\n",
+            r"\*ENERGY PRINT: nothing is printed in \*FREQUENCY \(step at .*\), which has EIGVAL",
+        ),
         (
             LINEAR,
             OUTPUT.format("\nALLSE, ALLKE"),

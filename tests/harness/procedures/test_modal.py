@@ -100,6 +100,8 @@ def test_an_oscillator_over_frequency(run, damping, c, s):
     np.testing.assert_allclose(harmonic(history, "CF1[ALL:2]"), 3 + 4j)
     # of the spring; there is no damper that could pull
     np.testing.assert_allclose(harmonic(history, "RF1[ALL:1]"), -K * x)
+    np.testing.assert_allclose(history["ALLSE"], K / 4 * np.abs(x) ** 2)
+    np.testing.assert_allclose(history["ALLKE"], M / 4 * np.abs(rate * x) ** 2)
 
 
 @pytest.mark.parametrize("normalization", ["", ", NORMALIZATION=MASS"])
@@ -117,6 +119,8 @@ def test_all_modes_of_a_bar_are_the_direct_solution(run, tmp_path, normalization
     direct = last_step(run(model, "*STEADY STATE DYNAMICS, DIRECT, REAL ONLY\n0.2, 1.9, 6", load, number="1").history)
     for name in ("U1[ALL:5]", f"U1[ALL:{n + 1}]", "A1[ALL:9]", "RF1[ALL:1]"):
         np.testing.assert_allclose(harmonic(by_modes, name), harmonic(direct, name), rtol=1e-7)
+    for name in ("ALLSE", "ALLKE"):
+        np.testing.assert_allclose(by_modes[name], direct[name], rtol=1e-7)
 
 
 def test_projected_matrices_have_the_damping_of_user_elements(run):
@@ -237,6 +241,8 @@ def test_an_oscillator_over_time(run, damping, c, s):
     np.testing.assert_allclose(history["V1[ALL:2]"], v, rtol=1e-9, atol=1e-12)
     np.testing.assert_allclose(history["A1[ALL:2]"], (3 - c * v - K * x) / M, rtol=1e-9, atol=1e-12)
     np.testing.assert_allclose(history["RF1[ALL:1]"], -K * x, rtol=1e-9)
+    np.testing.assert_allclose(history["ALLSE"], K / 2 * x**2, rtol=1e-9)
+    np.testing.assert_allclose(history["ALLKE"], M / 2 * v**2, rtol=1e-9, atol=1e-12)
 
 
 @pytest.mark.parametrize("ramp", ["*AMPLITUDE", ", AMPLITUDE=RAMP"])
@@ -259,7 +265,10 @@ def test_supports_move_over_time(run):
 
 
 def test_initial_velocities_and_a_mode_without_stiffness(run):
-    """Two masses on one spring, free: the middle goes on at 1.5/2, they vibrate about it with w^2 = 2 k/m."""
+    """Two masses on one spring, free: the middle goes on at 1.5/2, they vibrate about it with w^2 = 2 k/m.
+
+    Their energy stays that at the start.
+    """
     free = PAIR.replace("1, 1, 2\n2, 2, 3\n", "2, 2, 3\n").replace(
         "*BOUNDARY\nALL, 2, 3\n1, 1\n", "*BOUNDARY\nALL, 2, 3\n"
     )
@@ -268,6 +277,7 @@ def test_initial_velocities_and_a_mode_without_stiffness(run):
     t, omega = history["time"], np.sqrt(8.0)
     np.testing.assert_allclose(history["U1[ALL:3]"], 0.75 * (t + np.sin(omega * t) / omega), rtol=1e-6)
     np.testing.assert_allclose(history["U1[ALL:2]"], 0.75 * (t - np.sin(omega * t) / omega), rtol=1e-5)
+    np.testing.assert_allclose(history["ALLSE"] + history["ALLKE"], 1.5**2, rtol=1e-6)
 
 
 def test_what_is_written(run):

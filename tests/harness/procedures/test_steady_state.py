@@ -73,6 +73,35 @@ def test_an_oscillator(run, how):
     np.testing.assert_allclose(harmonic(history, "RF1[ALL:1]"), -(K + (rate * C + 1j * S) * (not how)) * x)
 
 
+def test_energies_are_means_over_a_period(run):
+    """Half of 1/2 k |x|^2 and 1/2 m |v|^2, which the means of 1/2 k x(t)^2 and 1/2 m v(t)^2 are."""
+    history = run(OSCILLATOR + HELD).history
+    rate = 2j * np.pi * history["time"]
+    x = (3 + 4j) / stiffness(history)
+    np.testing.assert_allclose(history["ALLSE"], K / 4 * np.abs(x) ** 2)
+    np.testing.assert_allclose(history["ALLKE"], M / 4 * np.abs(rate * x) ** 2)
+    turn = np.exp(2j * np.pi * np.arange(12) / 12)
+    np.testing.assert_allclose(history["ALLSE"], (K / 2 * np.outer(turn, x).real ** 2).mean(axis=0))
+    np.testing.assert_allclose(history["ALLKE"], (M / 2 * np.outer(turn, rate * x).real ** 2).mean(axis=0))
+
+
+def test_energies_are_printed(run):
+    result = run(OSCILLATOR + HELD, "0.2", more=PUSHED + "\n*ENERGY PRINT")
+    text = " ".join(result.file(".dat").read_text().split())
+    head = "FOR THE WHOLE MODEL AT FREQUENCY = 0.200000 MEAN ENERGIES OVER A PERIOD - RECOVERABLE STRAIN ENERGY"
+    found = text.split(head)[1].replace("KINETIC ENERGY", "").split()[:2]
+    expected = [result.history[name][0] for name in ("ALLSE", "ALLKE")]
+    np.testing.assert_allclose([float(value) for value in found], expected, rtol=1e-5)
+
+
+def test_energies_of_a_moved_support(run):
+    """The spring stretches by the difference of the displacements; only the second node has a mass."""
+    history = run(OSCILLATOR + HELD, more="*BOUNDARY, IMAGINARY\n1, 1, 1, 0.2").history
+    first, second = (harmonic(history, f"U1[ALL:{node}]") for node in (1, 2))
+    np.testing.assert_allclose(history["ALLSE"], K / 4 * np.abs(second - first) ** 2)
+    np.testing.assert_allclose(history["ALLKE"], M * (np.pi * history["time"] * np.abs(second)) ** 2)
+
+
 def test_a_moved_support(run):
     """Transmissibility of displacements; the harmonic motion of node 1 has an imaginary part alone."""
     moved = "*BOUNDARY, IMAGINARY\n1, 1, 1, 0.2"
@@ -139,6 +168,13 @@ def test_a_bar_that_is_pulled_at_its_end(run, more):
             harmonic(history, f"U1[ALL:{node}]"), scale * np.sin((node - 1) * angle), rtol=1e-9, atol=1e-12
         )
     np.testing.assert_allclose(harmonic(history, "RF1[ALL:1]"), -scale * 4 / h * np.sin(angle), rtol=1e-9, atol=1e-9)
+    # of springs EA/h and masses h, half a mass at the end
+    u = scale * np.sin(np.arange(n + 1)[:, np.newaxis] * angle)
+    mass = np.array([h] * n + [h / 2])
+    np.testing.assert_allclose(history["ALLSE"], 4 / h / 4 * (np.diff(u, axis=0) ** 2).sum(axis=0), rtol=1e-9)
+    np.testing.assert_allclose(history["ALLKE"], (np.pi * history["time"]) ** 2 * (mass @ u**2), rtol=1e-9)
+    # without damping they differ by the virial of the load
+    np.testing.assert_allclose(history["ALLSE"] - history["ALLKE"], 3 * u[-1] / 4, rtol=1e-7)
 
 
 STRING = PAIR.replace("4, 3\n", "")

@@ -239,7 +239,8 @@ KEYWORDS = (
     Keyword(
         "ENERGY OUTPUT",
         "Energies of the whole model, or of an element set, of the *OUTPUT, HISTORY before. In linear steps sets have "
-        "none, and the model those of the procedure: ALLSE and ALLWK of *STATIC.",
+        "none, and the model those of the procedure: ALLSE and ALLWK of *STATIC, ALLSE and ALLKE of *STEADY STATE "
+        "DYNAMICS, means over a period, and of *MODAL DYNAMIC.",
         Where.STEP,
         (
             Option("ELSET", Kind.NAME, f"element set, which has {', '.join(ELEMENT_ENERGIES)}"),

@@ -22,6 +22,7 @@ from uel.deck.steps.requests import RequestReader
 from uel.errors import Source
 from uel.model.amplitude import AmplitudeType, UserAmplitude
 from uel.model.procedures import Procedure
+from uel.model.records import ENERGIES
 from uel.model.steps import ON_EDGES, DistributedLoad, ElementLoad, LoadKind, Step
 
 MOST_INCREMENTS = 100
@@ -124,8 +125,7 @@ def read_steps(
 def _check_energies(scope: Scope, procedure: Procedure, requests: RequestReader, problems: Problems) -> None:
     """Report the energies that a step requests but its procedure does not have."""
     known = procedure.energies or ()
-    has = f"which has {', '.join(known)}" if known else "which has no energies"
-    where = f"*{procedure.keyword} (step at {scope.head.source}), {has}"
+    where = f"*{procedure.keyword} (step at {scope.head.source}), which has {', '.join(known)}"
     by_place: dict[Source, list[str]] = {}
     for source, name in requests.energies:
         if name not in known:
@@ -133,7 +133,7 @@ def _check_energies(scope: Scope, procedure: Procedure, requests: RequestReader,
     for source, names in by_place.items():
         problems.warn(source, f"*ENERGY OUTPUT: {', '.join(names)} not available in {where}; left out")
     for block in scope.blocks:
-        if block.name == "ENERGY PRINT" and not known:
+        if block.name == "ENERGY PRINT" and not any(name in ENERGIES for name in known):
             problems.warn(block.source, f"*ENERGY PRINT: nothing is printed in {where}")
 
 

@@ -86,7 +86,7 @@ class DataFile:
         )
         energies = ""
         if self._energies.due(step.output.energy_print, record, last=last):
-            energies = energy_table(record.solution, record.total_time)
+            energies = energy_table(record.solution, record.total_time, harmonic=step.procedure.harmonic)
         if not nodes and not elements and not energies:
             return
         text = (

@@ -164,16 +164,20 @@ ENERGIES = {
 """Energies of *ENERGY PRINT, in Abaqus' words and order."""
 
 
-def energy_table(solution: Solution, total_time: float) -> str:
-    """Return the energies of the whole model, '' if the procedure has none."""
+def energy_table(solution: Solution, moment: float, *, harmonic: bool = False) -> str:
+    """Return the energies of the whole model, '' if the procedure has none.
+
+    moment: total time, or if `harmonic` the frequency, over a period of which they are means.
+    """
     names = [name for name in ENERGIES if name in solution.energies]
     if not names:
         return ""
     lines = [f"            {ENERGIES[name]:<43}{general(solution.energies[name], 13, 6)}" for name in names]
-    time = general(total_time, 15, 6)
+    at = f"{'FREQUENCY' if harmonic else 'T'} ={general(moment, 15, 6)}"
+    totals = "MEAN ENERGIES OVER A PERIOD" if harmonic else "APPROXIMATE ENERGY TOTALS"
     return (
-        f"\n\n            THE FOLLOWING TABLE IS PRINTED FOR THE WHOLE MODEL AT T ={time}\n\n\n"
-        "            APPROXIMATE ENERGY TOTALS -\n\n" + "\n".join(lines) + "\n"
+        f"\n\n            THE FOLLOWING TABLE IS PRINTED FOR THE WHOLE MODEL AT {at}\n\n\n"
+        f"            {totals} -\n\n" + "\n".join(lines) + "\n"
     )
 
 

@@ -110,15 +110,17 @@ class ModalDynamicStep(ModalStep):
 
     def _superposed(self, forces: FloatArray, load: FloatArray) -> Solution:
         """Superpose the modes to the state of all unknowns."""
-        position, velocity, force = self._state_of_modes[:, :3].T
-        acceleration = force - self._modes.values * position - self._viscous * velocity
-        shapes, turned = self._modes.shapes, self._system.dofs.in_global
-        internal = position @ self._modes.stiffness + acceleration @ self._modes.inertia
-        change = position @ shapes
+        modes, turned = self._modes, self._system.dofs.in_global
+        position, rate, force = self._state_of_modes[:, :3].T
+        acceleration = force - modes.values * position - self._viscous * rate
+        change, velocity, elastic = position @ modes.shapes, rate @ modes.shapes, position @ modes.stiffness
+        strain = 0.5 * float(change @ (self._state.signs * elastic))
+        kinetic = 0.5 * float(velocity @ (rate @ modes.inertia))
+        internal = elastic + acceleration @ modes.inertia
         return replace(
-            self._solution(change, {}),
-            velocity=velocity @ shapes,
-            acceleration=acceleration @ shapes,
+            self._solution(change, {"ALLSE": strain, "ALLKE": kinetic}),
+            velocity=velocity,
+            acceleration=acceleration @ modes.shapes,
             reaction=turned(self._constraints.reactions(forces - internal)),
             load=turned(load),
             elements=self._elements(change),

@@ -9,7 +9,8 @@ steady-state dynamic analysis"). SUBSPACE PROJECTION solves it for u = sum of ph
 *FREQUENCY. By modes alone each has an equation of its own (Theory Guide, "Steady-state linear dynamic analysis"),
 m_i (w_i^2 (1 + i s_i) - w^2 + 2 i xi_i w_i w) q_i = phi_i^T p.
 
-Loads and prescribed values have a real and an imaginary part; their amplitudes are functions of frequency.
+Loads and prescribed values have a real and an imaginary part; their amplitudes are functions of frequency. Energies are
+means over a period, half of 1/2 u^H K u and 1/2 w^2 u^H M u (`harness/uel/procedures/fidelity.md`).
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -34,6 +35,34 @@ from uel.procedures.linear.perturbation import PerturbationStep
 from uel.procedures.step_setting import Setting
 from uel.solver.harmonic import ComplexSolver
 from uel.solver.linear import LinearSolver
+
+
+@dataclass(frozen=True, slots=True)
+class Response:
+    """Amplitudes (n,) of the response at a frequency.
+
+    displacement, reaction  u and the forces at prescribed unknowns
+    elastic                 K u
+    inertial                M times the acceleration, -w^2 M u
+    """
+
+    displacement: ComplexArray
+    reaction: ComplexArray
+    elastic: ComplexArray
+    inertial: ComplexArray
+
+
+@dataclass(frozen=True, slots=True)
+class Matrices:
+    """CSR values (nnz,) of matrices of all unknowns at a frequency.
+
+    dynamic          K + i w C - w^2 M + i S
+    stiffness, mass  K and M
+    """
+
+    dynamic: ComplexArray
+    stiffness: FloatArray
+    mass: FloatArray
 
 
 class HarmonicStep(PerturbationStep, ABC):
@@ -58,26 +87,45 @@ class HarmonicStep(PerturbationStep, ABC):
         frequency = self._frequency
         rate = 2j * math.pi * frequency
         load = self._given(self._loads)
-        found, reaction = self._response_to(load, rate)
-        response = found, rate * found, rate**2 * found, reaction, load
-        real = self._part(*(np.ascontiguousarray(values.real) for values in response))
-        imaginary = self._part(*(np.ascontiguousarray(values.imag) for values in response))
+        response = self._response_to(load, rate)
+        u = response.displacement
+        amplitudes = u, rate * u, rate**2 * u, response.reaction, load
+        real = self._part(*(np.ascontiguousarray(values.real) for values in amplitudes))
+        imaginary = self._part(*(np.ascontiguousarray(values.imag) for values in amplitudes))
+        real = replace(real, energies=self._energies(response))
         size, place = self._procedure.period, (self._step.number, self._increment, 1, 1)
         return [HarmonicResponse(*place, frequency, frequency, size, replace(real, imaginary=imaginary))]
 
     @abstractmethod
-    def _response_to(self, load: ComplexArray, rate: complex) -> tuple[ComplexArray, ComplexArray]:
-        """Return the displacements and reactions (n,) under loads (n,); rate: i w."""
+    def _response_to(self, load: ComplexArray, rate: complex) -> Response:
+        """Return the response to loads (n,); rate: i w."""
 
-    def _dynamic_stiffness(self, rate: complex) -> ComplexArray:
-        """Return CSR values (nnz,) of K + rate C + rate^2 M + i S over all unknowns."""
-        data = self._matrix(Request.STIFFNESS) + rate**2 * self._matrix(Request.MASS)
+    def _energies(self, response: Response) -> dict[str, float]:
+        """Return the means over a period of the strain energy and of the kinetic energy."""
+
+        def mean(forces: ComplexArray) -> float:
+            # that of a product of two harmonics is half the product of their amplitudes
+            return 0.25 * float(np.vdot(response.displacement, self._state.signs * forces).real)
+
+        return {"ALLSE": mean(response.elastic), "ALLKE": -mean(response.inertial)}
+
+    def _matrices(self, rate: complex) -> Matrices:
+        """Return the matrices at a frequency; rate: i w."""
+        stiffness, mass = self._matrix(Request.STIFFNESS), self._matrix(Request.MASS)
+        dynamic = stiffness + rate**2 * mass
         if not self._procedure.undamped:
             viscous, structural = (
                 self._matrix(Request.DAMPING, kind) for kind in (Damping.VISCOUS, Damping.STRUCTURAL)
             )
-            data += rate * viscous + 1j * structural
-        return data
+            dynamic += rate * viscous + 1j * structural
+        return Matrices(dynamic, stiffness, mass)
+
+    def _with_forces(self, u: ComplexArray, forces: ComplexArray, matrices: Matrices, rate: complex) -> Response:
+        """Return the response with displacements (n,) that forces (n,) cause; rate: i w."""
+        dynamic, elastic, momentum = (
+            self._system.matrix(data) @ u for data in (matrices.dynamic, matrices.stiffness, matrices.mass)
+        )
+        return Response(u, _by_parts(self._constraints.reactions, forces - dynamic), elastic, rate**2 * momentum)
 
     def _matrix(self, request: Request, damping: Damping = Damping.NONE) -> FloatArray:
         """Return CSR values (nnz,) of a matrix of the elements in the base state."""
@@ -136,15 +184,16 @@ class SteadyStateStep(HarmonicStep):
         self._complex.real.effort = self._state.effort
         return self._complex.real
 
-    def _response_to(self, load: ComplexArray, rate: complex) -> tuple[ComplexArray, ComplexArray]:
-        constraints, data = self._constraints, self._dynamic_stiffness(rate)
+    def _response_to(self, load: ComplexArray, rate: complex) -> Response:
+        constraints, matrices = self._constraints, self._matrices(rate)
+        data = matrices.dynamic
         prescribed = self._given(self._state.boundaries.perturbations)[constraints.prescribed]
         held = _by_parts(constraints.expand, np.zeros(len(constraints.free), dtype=np.complex128), prescribed)
         missing = _by_parts(constraints.reduce_vector, load - self._system.matrix(data) @ held)
         found = held + _by_parts(constraints.expand, self._solution_of(data, missing), np.zeros_like(prescribed))
         for part in (found.real, found.imag):
             constraints.refuse_contradictions(part, f"step {self._step.number}")
-        return found, _by_parts(constraints.reactions, load - self._system.matrix(data) @ found)
+        return self._with_forces(found, load, matrices, rate)
 
     def _solution_of(self, data: ComplexArray, missing: ComplexArray) -> ComplexArray:
         """Solve for the free unknowns (n_q,)."""
@@ -188,29 +237,30 @@ class ModalHarmonicStep(ModalStep, HarmonicStep):
 class SubspaceSteadyStateStep(ModalHarmonicStep):
     """Step of harmonic responses by the matrices of the model, projected on modes."""
 
-    def _response_to(self, load: ComplexArray, rate: complex) -> tuple[ComplexArray, ComplexArray]:
-        matrix, shapes = self._system.matrix(self._dynamic_stiffness(rate)), self._modes.shapes
+    def _response_to(self, load: ComplexArray, rate: complex) -> Response:
+        matrices, shapes = self._matrices(rate), self._modes.shapes
+        matrix = self._system.matrix(matrices.dynamic)
         forces = self._with_base(load, rate)
         projected = shapes @ (matrix @ shapes.T)
         # to unit diagonals, but near a natural frequency
         scale = np.sqrt(self._modes.masses * self._largest_terms(rate))
         self._check_distance(np.linalg.svd(projected / np.outer(scale, scale), compute_uv=False))
-        found = np.linalg.solve(projected, shapes @ forces) @ shapes
-        return found, _by_parts(self._constraints.reactions, forces - matrix @ found)
+        return self._with_forces(np.linalg.solve(projected, shapes @ forces) @ shapes, forces, matrices, rate)
 
 
 class ModalSteadyStateStep(ModalHarmonicStep):
     """Step of harmonic responses by modes, each for itself."""
 
-    def _response_to(self, load: ComplexArray, rate: complex) -> tuple[ComplexArray, ComplexArray]:
+    def _response_to(self, load: ComplexArray, rate: complex) -> Response:
         modes, forces = self._modes, self._with_base(load, rate)
         stiffness = modes.values * (1 + 1j * self._superposition.structural(self._numbers, modes.omega))
         viscous = self._superposition.viscous(self._numbers, modes.omega)
         dynamic = stiffness + rate * viscous + rate**2
         self._check_distance(np.abs(dynamic) / self._largest_terms(rate))
         amplitude = modes.shapes @ forces / (modes.masses * dynamic)
-        internal = amplitude @ modes.stiffness + rate**2 * (amplitude @ modes.inertia)
-        return amplitude @ modes.shapes, _by_parts(self._constraints.reactions, forces - internal)
+        elastic, inertial = amplitude @ modes.stiffness, rate**2 * (amplitude @ modes.inertia)
+        reaction = _by_parts(self._constraints.reactions, forces - (elastic + inertial))
+        return Response(amplitude @ modes.shapes, reaction, elastic, inertial)
 
 
 _DERIVATIVES = {Motion.DISPLACEMENT: 2, Motion.VELOCITY: 1, Motion.ACCELERATION: 0}
