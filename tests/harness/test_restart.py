@@ -21,7 +21,7 @@ from small_decks import snapping
 import uel
 from uel.assembly.kinematic_couplings import Arms
 from uel.cli import main
-from uel.errors import ConvergenceError, DeckError, UelError, UsageError
+from uel.errors import ConvergenceError, DeckError, SingularMatrixError, UelError, UsageError
 from uel.model.records import StateKept
 from uel.output.files.state_files import FORMAT, StateFiles, array_digest, folder_of, read_state
 
@@ -326,6 +326,22 @@ BAR = beam(
     model=SOLID,
 )
 """A bar of stiffness 1000/4 and two nodes with the same force at its end: u = 2 F / 250."""
+
+
+def test_a_step_that_goes_on_says_where_its_matrix_is_singular(folder):
+    """A spring that gives way at a force of 1, in increments that are fixed: the third has no stiffness."""
+    step = "*STATIC, DIRECT\n0.25, 1.\n*CLOAD\n2, 1, 2.\n*RESTART, WRITE, FREQUENCY=1\n*END STEP\n"
+    deck = written(
+        "yields",
+        "*NODE\n1, 0.\n2, 1.\n*ELEMENT, TYPE=SPRINGA, ELSET=S\n1, 1, 2\n*SPRING, ELSET=S, NONLINEAR\n\n"
+        f"-1., -1.\n1., 1.\n1., 2.\n*BOUNDARY\n1, 1, 2\n2, 2, 2\n*RESTART, WRITE\n*STEP\n{step}",
+    )
+    message = r"yields\.inp:15: singular system matrix at node 2, dof 1"
+    with pytest.raises(SingularMatrixError, match=message):
+        run(deck)
+    read = written("again", "*RESTART, READ, STEP=1, INC=2\n")
+    with pytest.raises(SingularMatrixError, match=message):
+        run(read, oldjob="yields")
 
 
 @pytest.mark.parametrize(

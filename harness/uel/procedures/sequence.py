@@ -70,12 +70,13 @@ def run_steps(
         yield from _begin(system, model, state, user)
     try:
         if resumed is not None:
+            step = model.steps[resumed.analysis["step"] - 1]
             running = general = resume(resumed, system, model, state, user, solver)
-            following = model.steps[general.reached[2] :]
+            following = model.steps[step.number :]
             if resumed.end_step or general.finished:
                 general.end(early=not general.finished)
             else:
-                yield StepStarted(general.reached[2])
+                yield StepStarted(step.number)
                 yield from general.run()
                 user.external_database(6, 0, *general.reached)
         for step in following:
