@@ -48,11 +48,11 @@ def uel(environment, tmp_path):
     """Run the command of the wheel; no other program is on the path."""
     variables = {"PATH": str(environment), "HOME": str(tmp_path), "MPLBACKEND": "Agg"}
 
-    def run(*words: str) -> subprocess.CompletedProcess[str]:
+    def run_command(*words: str) -> subprocess.CompletedProcess[str]:
         command = [str(environment / "uel"), *words]
         return subprocess.run(command, cwd=tmp_path, env=variables, capture_output=True, text=True, check=False)
 
-    return run
+    return run_command
 
 
 def test_it_is_the_wheel(environment, tmp_path):

@@ -21,14 +21,14 @@ from uel.shared_progress import Within, new_slate
 def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """Run a module of this text apart; returns how it ended, and what it said."""
 
-    def run(text: str, call_limit: float = 0.0) -> tuple[End, str]:
+    def run_module(text: str, call_limit: float = 0.0) -> tuple[End, str]:
         (tmp_path / "apart_module.py").write_text(text)
         monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
         with (tmp_path / "said").open("w") as errors:
             end = run_isolated("apart_module", [str(tmp_path)], call_limit, errors=errors)
         return end, (tmp_path / "said").read_text()
 
-    return run
+    return run_module
 
 
 def test_exit_code_of_a_process_that_comes_to_its_end(module) -> None:

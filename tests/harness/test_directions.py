@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 from small_decks import body_lines
 
-import uel
 from uel.errors import DeckError, KernelError
 
 HERE = Path(__file__).parent
@@ -65,17 +64,6 @@ def deck(orientation, *, step="", material=ELASTIC, type="CPE8R"):
     return "\n".join(lines)
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text, user=None):
-        (tmp_path / "ring.inp").write_text(text)
-        if user is not None:
-            (tmp_path / "user.f").write_text(user)
-        return uel.run(tmp_path / "ring.inp", tmp_path / "user.f" if user else None, output_dir=tmp_path)
-
-    return run
-
-
 def exact(r):
     """Radial displacement at a radius."""
     k = np.sqrt(C22 / C11)
@@ -94,9 +82,9 @@ RADIAL = f"""      T(1,1) = 7*(COORDS(1) - {CENTRE[0]})
       T(2,2) = T(1,1) + T(2,1)"""
 
 
-def test_a_wound_ring(run):
+def test_a_wound_ring(run_deck):
     """By its theory: quadratic elements, h/r = 1/16, and reduced integration."""
-    result = run(deck(CYLINDRICAL))
+    result = run_deck(deck(CYLINDRICAL))
     u, r = result.field("U")[:, :2], np.linalg.norm(NODES, axis=1)
     np.testing.assert_allclose((u * NODES).sum(axis=1) / r, exact(r), rtol=1e-3)
     stress = result.field("S11")
@@ -105,15 +93,15 @@ def test_a_wound_ring(run):
 
 
 @pytest.mark.parametrize("step", ["", ", NLGEOM"])
-def test_orient_gives_the_same_directions(run, step):
+def test_orient_gives_the_same_directions(run_deck, step):
     """T need not be normalised, nor the second direction normal to the first."""
-    expected = run(deck(CYLINDRICAL, step=step))
-    found = run(deck(BY_USER, step=step), ORIENT.format(RADIAL))
+    expected = run_deck(deck(CYLINDRICAL, step=step))
+    found = run_deck(deck(BY_USER, step=step), ORIENT.format(RADIAL))
     for name in ("U", "S11", "S22", "S12"):
         np.testing.assert_allclose(found.field(name), expected.field(name), rtol=1e-10, atol=1e-12, err_msg=name)
 
 
-def test_distributions_by_element(run):
+def test_distributions_by_element(run_deck):
     """Points by element as angles by element; at the points of elements they are a little off."""
     middle = NODES[ELEMENTS[:, :4]].mean(axis=1)
     angles = np.degrees(np.arctan2(middle[:, 1], middle[:, 0]))
@@ -124,7 +112,7 @@ def test_distributions_by_element(run):
     turns = ["*DISTRIBUTION TABLE, NAME=T", "ANGLE", "*DISTRIBUTION, NAME=D, LOCATION=ELEMENT, TABLE=T"]
     turns += [f", {angles[0]}", *(f"{k}, {angle}" for k, angle in enumerate(angles, 1) if k > 1)]
     turns += ["*ORIENTATION, NAME=O", "1., 0., 0., 0., 1., 0.", "3, D"]
-    by_points, by_turns = run(deck("\n".join(points))), run(deck("\n".join(turns)))
+    by_points, by_turns = run_deck(deck("\n".join(points))), run_deck(deck("\n".join(turns)))
     for name in ("U", "S11", "S22", "S12"):
         np.testing.assert_allclose(by_points.field(name), by_turns.field(name), rtol=1e-9, atol=1e-12, err_msg=name)
     u, r = by_points.field("U")[:, :2], np.linalg.norm(NODES, axis=1)
@@ -145,24 +133,24 @@ ALL, 30.
 3, D"""
 
 
-def test_a_distribution_of_equal_values_is_none(run):
-    found = run(deck(SETS.format(last=len(ELEMENTS))))
-    expected = run(deck("*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n3, 30."))
+def test_a_distribution_of_equal_values_is_none(run_deck):
+    found = run_deck(deck(SETS.format(last=len(ELEMENTS))))
+    expected = run_deck(deck("*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n3, 30."))
     for name in ("U", "S11", "S22", "S12"):
         np.testing.assert_allclose(found.field(name), expected.field(name), rtol=1e-9, atol=1e-12, err_msg=name)
 
 
 @pytest.mark.parametrize("step", ["", ", NLGEOM"])
-def test_directions_by_element_in_incompatible_modes(run, step):
+def test_directions_by_element_in_incompatible_modes(run_deck, step):
     """The same everywhere: what one orientation gives, of which the constants are turned beforehand."""
-    found = run(deck(SETS.format(last=len(ELEMENTS)), step=step, type="CPE4I"))
-    expected = run(deck("*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n3, 30.", step=step, type="CPE4I"))
+    found = run_deck(deck(SETS.format(last=len(ELEMENTS)), step=step, type="CPE4I"))
+    expected = run_deck(deck("*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n3, 30.", step=step, type="CPE4I"))
     for name in ("U", "S11", "S22", "S12"):
         np.testing.assert_allclose(found.field(name), expected.field(name), rtol=1e-9, atol=1e-12, err_msg=name)
 
 
 @pytest.mark.parametrize("step", ["", ", NLGEOM"])
-def test_umat_in_the_directions_of_each_point(run, step):
+def test_umat_in_the_directions_of_each_point(run_deck, step):
     """With the stiffness of the ring, in radial directions: the same as the built-in material."""
     matrix = np.zeros((4, 4))
     matrix[:2, :2] = [[C11, C12], [C12, C22]]
@@ -170,13 +158,13 @@ def test_umat_in_the_directions_of_each_point(run, step):
     values = [f"{value}" for value in matrix.ravel()]
     lines = [", ".join(values[:8]), ", ".join(values[8:])]
     material = "\n".join(["*USER MATERIAL, CONSTANTS=16", *lines, "*DEPVAR", "39"])
-    found = run(deck(CYLINDRICAL, step=step, material=material), CARRIED.read_text().replace("../", f"{HERE}/"))
-    expected = run(deck(CYLINDRICAL, step=step))
+    found = run_deck(deck(CYLINDRICAL, step=step, material=material), CARRIED.read_text().replace("../", f"{HERE}/"))
+    expected = run_deck(deck(CYLINDRICAL, step=step))
     for name in ("U", "S11", "S22", "S12"):
         np.testing.assert_allclose(found.field(name), expected.field(name), rtol=1e-8, atol=1e-10, err_msg=name)
 
 
-def test_arguments_of_orient(run, tmp_path):
+def test_arguments_of_orient(run_deck, tmp_path):
     """Of the calls at the start of the analysis, after UEXTERNALDB; one for each point."""
     body = """      WRITE(6,'(A,6I4,1X,A)') 'ORIENT', NOEL, NPT, LAYER, KSPT, NNODES, JNNUM(NNODES), TRIM(ORNAME)
       WRITE(6,'(A,12F10.5)') 'ORIENT', COORDS, CNODES(:,NNODES), BASIS(1,:), BASIS(2,2), BASIS(3,3), T(1,1)
@@ -188,8 +176,8 @@ def test_arguments_of_orient(run, tmp_path):
       WRITE(6,'(A,I2)') 'ORIENT after', LOP
       END
 """
-    run(deck(BY_USER), ORIENT.format(body) + database)
-    dat = (tmp_path / "ring.dat").read_text().splitlines()
+    run_deck(deck(BY_USER), ORIENT.format(body) + database)
+    dat = (tmp_path / "deck.dat").read_text().splitlines()
     printed = [line.split()[1:] for line in dat if line.lstrip().startswith("ORIENT ")]
     count = 4 * len(ELEMENTS)
     assert printed[0] == ["after", "0"]
@@ -225,22 +213,22 @@ def test_arguments_of_orient(run, tmp_path):
     ],
     ids=["one direction", "out of the plane", "xit", "no numbers"],
 )
-def test_orient_without_directions(run, body, error, message):
+def test_orient_without_directions(run_deck, body, error, message):
     lines = "\n".join("      " + line for line in body.split("\n"))
     with pytest.raises(error, match=message):
-        run(deck(BY_USER), ORIENT.format(lines))
+        run_deck(deck(BY_USER), ORIENT.format(lines))
 
 
-def test_orient_writes_outside_t(run):
-    result = run(deck(BY_USER), ORIENT.format(RADIAL + "\n      T(1,4) = 1"))
+def test_orient_writes_outside_t(run_deck):
+    result = run_deck(deck(BY_USER), ORIENT.format(RADIAL + "\n      T(1,4) = 1"))
     message = "element 1: ORIENT writes outside T: entry 10 of 9 (3 x 3) at integration point 1; the run goes on"
     assert sum(message in text for text in result.warnings) == 1
 
 
-def test_a_job_without_orient(run):
+def test_a_job_without_orient(run_deck):
     message = r"\*ORIENTATION, NAME=O: SYSTEM=USER needs ORIENT; the project's kernels has UEL"
     with pytest.raises(DeckError, match=message):
-        run(deck(BY_USER))
+        run_deck(deck(BY_USER))
 
 
 @pytest.mark.parametrize(
@@ -262,7 +250,7 @@ def test_a_job_without_orient(run):
     ],
     ids=["no such node", "collinear", "out of the plane", "on the axis"],
 )
-def test_elements_without_directions(run, lines, message):
+def test_elements_without_directions(run_deck, lines, message):
     """The last axis goes through a point of reduced integration, at 1/sqrt(3) of the quadratic shape."""
     x = (NODES[ELEMENTS[7]] + CENTRE)[:, 0], (NODES[ELEMENTS[7]] + CENTRE)[:, 1]
     a = b = 1 / np.sqrt(3)
@@ -272,7 +260,7 @@ def test_elements_without_directions(run, lines, message):
     shape = np.concatenate([corners, middles])
     place = [repr(float(shape @ values)) for values in x]
     with pytest.raises(DeckError, match=rf"\*ORIENTATION, NAME=O: {message}"):
-        run(deck("*ORIENTATION, NAME=O" + lines.format(*place)))
+        run_deck(deck("*ORIENTATION, NAME=O" + lines.format(*place)))
 
 
 UVARM = """      SUBROUTINE UVARM(UVAR,DIRECT,T,TIME,DTIME,CMNAME,ORNAME,NUVARM,
@@ -327,10 +315,10 @@ SDV, UVARM
 """
 
 
-def test_directions_in_uvarm_and_usdfld_turn(run):
+def test_directions_in_uvarm_and_usdfld_turn(run_deck):
     """A square turned by a right angle: halfway it is turned by half of it and smaller. UVARM has the end of the
     increment, USDFLD its start."""
-    result = run(SQUARE, UVARM)
+    result = run_deck(SQUARE, UVARM)
     now, then = np.radians(20 + 90), np.radians(20 + 45)
     found = [result.field(f"UVARM{k}")[0] for k in range(1, 7)]
     expected = [np.cos(now), -np.sin(now), 0, np.sin(now), np.cos(now), 0]

@@ -177,10 +177,6 @@ def written(name, text):
     return path
 
 
-def run(deck, user=None, **options):
-    return uel.run(deck, user, **options)
-
-
 def states(job):
     """Step and increment of the states of a job, in order."""
     found = (re.findall(r"\d+", path.name) for path in folder_of(Path(job)).glob("*.npz"))
@@ -238,7 +234,7 @@ def test_restart_is_the_run_that_was_not_interrupted(folder, name, linear_solver
     """From any of its states, with the deck of the job itself."""
     deck, user = written(name, DECKS[name]), USER if name == "umat" else None
     solver = uel.SolverOptions(linear_solver=linear_solver)
-    run(deck, user, job="whole", solver=solver)
+    uel.run(deck, user, job="whole", solver=solver)
     kept = states("whole")
     assert len(kept) > 4
     for number, place in enumerate([kept[0], kept[-2]] if name == "delamination" else kept[: -1 : 1 + len(kept) // 4]):
@@ -249,7 +245,7 @@ def test_restart_is_the_run_that_was_not_interrupted(folder, name, linear_solver
         step, increment = place
         file = f"step{step}_increment{increment:04d}.npz"
         (source / file).write_bytes((folder_of(Path("whole")) / file).read_bytes())
-        run(deck, user, job=new, oldjob=f"part{number}", solver=solver)
+        uel.run(deck, user, job=new, oldjob=f"part{number}", solver=solver)
         assert_goes_on("whole", new, place)
 
 
@@ -265,21 +261,21 @@ def test_restart_eliminates_what_the_run_did(folder, monkeypatch):
 
     monkeypatch.setattr(Arms, "_choose", noted)
     deck = written("held", HELD)
-    run(deck, job="whole")
+    uel.run(deck, job="whole")
     first, second = built[0], built[-1]
     assert first != second
     built.clear()
     state = Path("whole_restart") / "step2_increment0002.npz"
     Path("part_restart").mkdir()
     (Path("part_restart") / state.name).write_bytes(state.read_bytes())
-    run(deck, job="again", oldjob="part")
+    uel.run(deck, job="again", oldjob="part")
     assert built == [second]
 
 
 def test_run_that_is_killed_goes_on_with_one_command(folder):
     """kill -9 before an increment of the second step: the deck itself, with other user routines, ends the analysis."""
     deck = written("steps", STEPS)
-    run(deck, USER, job="whole")
+    uel.run(deck, USER, job="whole")
     words = [sys.executable, "-m", "uel", "run", str(deck), "--user", str(USER), "--quiet"]
     killed = subprocess.run(
         words, env={**os.environ, "KILL_BEFORE": "2 3"}, capture_output=True, text=True, check=False
@@ -305,12 +301,12 @@ def test_calls_of_uexternaldb(folder):
     steps = STEPS.replace("*RESTART, WRITE\n", "*RESTART, WRITE, FREQUENCY=3\n")
     steps = steps.replace("*STEP\n*STATIC\n0.3,", "*STEP\n*RESTART, WRITE, OVERLAY\n*STATIC\n0.3,")
     deck = written("steps", steps)
-    run(deck, USER)
+    uel.run(deck, USER)
     ends = [(step, increment, lrestart) for lop, lrestart, step, increment, *_ in calls("steps") if lop == 2]
     assert ends == [(1, 1, 0), (1, 2, 0), (1, 3, 1), (1, 4, 1), *((2, k, 2) for k in range(1, 5)), (3, 1, 2), (3, 2, 2)]
     assert states("steps") == [(1, 3), (1, 4), (2, 4), (3, 2)]
     read = written("again", "*RESTART, READ, STEP=1, INC=3\n")
-    run(read, USER, oldjob="steps")
+    uel.run(read, USER, oldjob="steps")
     first, second, *_, before_last, last = calls("again")
     assert first == (4, 0, 1, 3, 0.75, 0.75)
     assert second[:4] == (1, 0, 1, 4)
@@ -338,10 +334,10 @@ def test_a_step_that_goes_on_says_where_its_matrix_is_singular(folder):
     )
     message = r"yields\.inp:15: singular system matrix at node 2, dof 1"
     with pytest.raises(SingularMatrixError, match=message):
-        run(deck)
+        uel.run(deck)
     read = written("again", "*RESTART, READ, STEP=1, INC=2\n")
     with pytest.raises(SingularMatrixError, match=message):
-        run(read, oldjob="yields")
+        uel.run(read, oldjob="yields")
 
 
 @pytest.mark.parametrize(
@@ -354,9 +350,9 @@ def test_a_step_that_goes_on_says_where_its_matrix_is_singular(folder):
     ],
 )
 def test_restart_deck_adds_steps_sets_and_amplitudes(folder, options, times, forces):
-    run(written("bar", BAR))
+    uel.run(written("bar", BAR))
     new = "*STEP\n*STATIC, DIRECT\n0.5, 1.\n*CLOAD\nOTHERS, 1, 8.\n" + OUTPUT + "*END STEP\n"
-    run(
+    uel.run(
         written("new", f"*HEADING\nmore load\n*RESTART, READ, STEP=1{options}\n*NSET, NSET=OTHERS\n5, 10\n{new}"),
         oldjob="bar",
     )
@@ -383,12 +379,14 @@ def test_restart_deck_adds_steps_sets_and_amplitudes(folder, options, times, for
     ],
 )
 def test_which_increments_are_kept(folder, request_, kept):
-    run(written("bar", BAR.replace("*RESTART, WRITE", request_)))
+    uel.run(written("bar", BAR.replace("*RESTART, WRITE", request_)))
     assert states("bar") == [(1, increment) for increment in kept]
 
 
 def test_increments_do_not_end_at_time_marks(folder):
-    result = run(written("bar", BAR.replace("*RESTART, WRITE", "*RESTART, WRITE, NUMBER INTERVAL=3, TIME MARKS=YES")))
+    result = uel.run(
+        written("bar", BAR.replace("*RESTART, WRITE", "*RESTART, WRITE, NUMBER INTERVAL=3, TIME MARKS=YES"))
+    )
     assert any(re.search("increments do not end at the times", warning) for warning in result.warnings)
 
 
@@ -404,7 +402,7 @@ def test_increments_do_not_end_at_time_marks(folder):
 )
 def test_wrong_options(folder, line, message):
     with pytest.raises(DeckError, match=rf"bar\.inp:\d+: .*{message}"):
-        run(written("bar", BAR.replace("*RESTART, WRITE", line)))
+        uel.run(written("bar", BAR.replace("*RESTART, WRITE", line)))
 
 
 @pytest.mark.parametrize(
@@ -429,9 +427,9 @@ def test_wrong_options(folder, line, message):
     ],
 )
 def test_decks_that_cannot_go_on(folder, text, error, message):
-    run(written("bar", BAR))
+    uel.run(written("bar", BAR))
     with pytest.raises(error, match=message):
-        run(written("new", text), oldjob="bar")
+        uel.run(written("new", text), oldjob="bar")
 
 
 def test_old_jobs_that_cannot_be_taken_up(folder):
@@ -440,24 +438,24 @@ def test_old_jobs_that_cannot_be_taken_up(folder):
     )
     again = {"oldjob": "bar", "job": "again"}
     with pytest.raises(UelError, match=r"bar: the job has kept no state; .* in bar_restart; a warning in bar\.dat"):
-        run(deck, **again)
-    run(deck, parameters={"force": 2.0})
+        uel.run(deck, **again)
+    uel.run(deck, parameters={"force": 2.0})
     with pytest.raises(
         UsageError, match="--oldjob bar: the new job has the same name; give it another one, --job bar-2"
     ):
-        run(deck, oldjob="bar")
+        uel.run(deck, oldjob="bar")
     with pytest.raises(UsageError, match="the deck goes on with the parameters of that job; give none"):
-        run(deck, parameters={"force": 3.0}, **again)
+        uel.run(deck, parameters={"force": 3.0}, **again)
     text = deck.read_text()
     deck.write_text(text.replace("1000.", "999."))
     with pytest.raises(UelError, match=r"comes from .*bar\.inp, which, or a file that it includes, has changed since"):
-        run(deck, **again)
+        uel.run(deck, **again)
     read = written("new", "*RESTART, READ, STEP=1, INC=1\n")
     deck.unlink()
     with pytest.raises(UelError, match=r"comes from .*bar\.inp, which cannot be read: .*No such file"):
-        run(read, oldjob="bar")
+        uel.run(read, oldjob="bar")
     deck.write_text(text)
-    run(read, oldjob="bar")
+    uel.run(read, oldjob="bar")
     assert uel.output.Result("new").history["U1[RIGHT:5]"][-1] == pytest.approx(2 * 2.0 / 250)
 
 
@@ -477,7 +475,7 @@ def tampered(job, change):
 
 def test_states_of_another_version_or_model_and_damaged_ones(folder):
     deck = written("bar", BAR)
-    run(deck)
+    uel.run(deck)
 
     def cut(tree, arrays):
         name = f"array{tree['analysis']['system']['blocks'][0]['svars']['array']}"
@@ -488,16 +486,16 @@ def test_states_of_another_version_or_model_and_damaged_ones(folder):
         UelError,
         match=r"increment0004\.npz: the state of the old job is of another model: elements of type CPS4 differ",
     ):
-        run(written("new", f"*RESTART, READ\n*STEP\n*STATIC\n1., 1.\n{OUTPUT}*END STEP\n"), oldjob="bar")
-    run(deck)
+        uel.run(written("new", f"*RESTART, READ\n*STEP\n*STATIC\n1., 1.\n{OUTPUT}*END STEP\n"), oldjob="bar")
+    uel.run(deck)
     path = tampered("bar", lambda tree, _: tree.update(format=FORMAT + 1))
     with pytest.raises(
         UelError, match=f"has format {FORMAT + 1}; this version of uel reads format {FORMAT}: run the old"
     ):
-        run(deck, oldjob="bar", job="again")
+        uel.run(deck, oldjob="bar", job="again")
     path.write_bytes(path.read_bytes()[:-100])
     with pytest.raises(UelError, match=r"increment0004\.npz is damaged, or is not a state of a job"):
-        run(deck, oldjob="bar", job="again")
+        uel.run(deck, oldjob="bar", job="again")
 
 
 def test_kill_while_a_state_is_written_leaves_the_one_before(folder, monkeypatch):
@@ -527,7 +525,7 @@ def test_kill_while_a_state_is_written_leaves_the_one_before(folder, monkeypatch
 def test_steps_that_keep_no_states(folder, old, new, options, reason):
     """A warning says why: such a deck runs as it does without *RESTART."""
     text = BAR.replace("*CLOAD\nRIGHT, 1, 4.", "*BOUNDARY\nRIGHT, 1, 1, 0.1") if "energy_control" in options else BAR
-    result = run(written("bar", text.replace(old, new) if old else text), solver=uel.SolverOptions(**options))
+    result = uel.run(written("bar", text.replace(old, new) if old else text), solver=uel.SolverOptions(**options))
     assert any(
         re.search(rf"\*RESTART, WRITE HAS NO EFFECT IN STEP 1: {reason}", text.upper()) for text in result.warnings
     )
@@ -543,10 +541,10 @@ def test_steps_that_keep_no_states(folder, old, new, options, reason):
     ],
 )
 def test_options_that_a_restart_does_not_take(folder, options, end_step, message):
-    run(written("bar", BAR))
+    uel.run(written("bar", BAR))
     more = f"*STEP\n*STATIC, DIRECT\n0.5, 1.\n*CLOAD\nRIGHT, 1, 8.\n{OUTPUT}*END STEP\n"
     with pytest.raises(UsageError, match=message):
-        run(
+        uel.run(
             written("more", f"*RESTART, READ, STEP=1, INC=2{end_step}\n{more}"),
             oldjob="bar",
             solver=uel.SolverOptions(**options),
@@ -558,10 +556,10 @@ def test_advice_where_a_restart_does_not_converge(folder):
     deck = snapping(folder, "*RESTART, WRITE\n*STATIC, DIRECT\n0.1, 1.\n")
     springs = Path(__file__).parent / "procedures" / "springs.f"
     with pytest.raises(ConvergenceError) as first:
-        run(deck, springs)
+        uel.run(deck, springs)
     assert "what may help: --fallback, " in first.value.__notes__[-1]
     with pytest.raises(ConvergenceError) as second:
-        run(deck, springs, oldjob="snap", job="again")
+        uel.run(deck, springs, oldjob="snap", job="again")
     assert re.match(r"what may help: \*STATIC without DIRECT.*; VISCOSITY", second.value.__notes__[-1])
 
 
@@ -570,4 +568,4 @@ def test_restart_on_several_ranks_is_refused(folder):
         size, rank = 2, 0
 
     with pytest.raises(UsageError, match="--oldjob bar: a restart does not run on 2 ranks; run it in one process"):
-        run(Path("bar.inp"), oldjob="bar", ranks=Two())
+        uel.run(Path("bar.inp"), oldjob="bar", ranks=Two())

@@ -55,7 +55,7 @@ WHERE = "if (jelem == 600 .and. kinc == 2 .and. lflags(3) == 1) "
 def chain(tmp_path):
     """Runs a chain of springs with a statement in the spring on a number of threads; .sta without its head."""
 
-    def run(statement: str, cpus: int, **options):
+    def run_chain(statement: str, cpus: int, **options):
         folder = tmp_path / f"{cpus}"
         folder.mkdir()
         nodes = "".join(f"{k}, {k}.\n" for k in range(1, SPRINGS + 2))
@@ -70,7 +70,7 @@ def chain(tmp_path):
         routines = uel.RoutineOptions(cpus=cpus, **{"thread_safe": ["u1"]} | options)
         return uel.run(folder / "chain.inp", folder / "spring.f", output_dir=folder, routines=routines)
 
-    return run
+    return run_chain
 
 
 def files_of(result) -> list[str]:

@@ -23,11 +23,11 @@ PAPER = ("CLOSURE=2", "BETAN=-2", "BETAT=-2")
 def curves(tmp_path):
     """Explore with options; the curves by label."""
 
-    def run(**options):
+    def curves(**options):
         found, _ = explore(Exploration(output_dir=tmp_path, **options))
         return {curve.label: curve.columns for curve in found}
 
-    return run
+    return curves
 
 
 def test_figure_2_of_the_paper(curves):

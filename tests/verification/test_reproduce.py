@@ -104,12 +104,12 @@ def test_kink_ahead_of_the_front() -> None:
     # a kink within the failed part does not count
     rough["TT"][3] += 5.0
 
-    def run(problem: str, layup: str, element: str, stiffness: str) -> SimpleNamespace:
+    def smooth_or_rough(problem: str, layup: str, element: str, stiffness: str) -> SimpleNamespace:
         assert (layup, stiffness) == ("0/0", "1e8")
         profile = rough if element == "standard" else smooth
         return SimpleNamespace(case=SimpleNamespace(problem=problem, layup=layup), at=lambda _: profile)
 
-    evidence = cast("Evidence", SimpleNamespace(run=run))
+    evidence = cast("Evidence", SimpleNamespace(run=smooth_or_rough))
     assert parameters.kink_distance(evidence, "enf", "TT") == pytest.approx(42.0 - 39.5)
 
 

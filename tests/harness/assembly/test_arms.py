@@ -12,7 +12,6 @@ from scipy import sparse
 from scipy.spatial.transform import Rotation
 from small_decks import bars
 
-import uel
 from uel import usersub
 from uel.assembly import System, TurningConstraints
 from uel.assembly.kinematic_couplings import Arms
@@ -80,15 +79,6 @@ def test_derivatives(angle):
         np.testing.assert_allclose(found[:, k], -(moments(one) - moments(-one)) / (2 * step), atol=1e-8)
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(lines, name="arms", **options):
-        (tmp_path / f"{name}.inp").write_text("\n".join(lines) + "\n")
-        return uel.run(tmp_path / f"{name}.inp", output_dir=tmp_path, **options)
-
-    return run
-
-
 COUPLINGS = pytest.mark.parametrize("coupling", [COUPLING, DISTRIBUTING], ids=["kinematic", "distributing"])
 
 
@@ -99,14 +89,14 @@ COUPLINGS = pytest.mark.parametrize("coupling", [COUPLING, DISTRIBUTING], ids=["
         *((kind, DISTRIBUTING) for kind in ("CPS8R", "CPE8H")),
     ],
 )
-def test_rigid_rotation(run, element_type, coupling):
+def test_rigid_rotation(run_deck, element_type, coupling):
     """By 90 degrees about a node far away: no stress, and every node where the rotation puts it."""
     coupled = coupling.replace("END\n*COUPLING", "START\n*COUPLING")
     lines = beam("CPS8R", reference=(-3.0, 4.0), constraint=coupled, held="")
     if element_type == "CPE4":
         lines = beam_of_quads(lines)
     lines = [line.replace("TYPE=CPS8R", f"TYPE={element_type}") for line in lines]
-    result = run([*lines, *step("*BOUNDARY", "900, 1, 2", f"900, 6, 6, {np.pi / 2!r}", increments=9)])
+    result = run_deck([*lines, *step("*BOUNDARY", "900, 1, 2", f"900, 6, 6, {np.pi / 2!r}", increments=9)])
     x = result.mesh().points - np.array([-3.0, 4.0, 0.0])
     turned = np.stack([-x[:, 1], x[:, 0], 0 * x[:, 2]], axis=1)
     used = np.abs(result.field("U")).max(axis=1) > 0
@@ -116,13 +106,13 @@ def test_rigid_rotation(run, element_type, coupling):
 
 
 @pytest.mark.parametrize("reference", [(LENGTH, HIGH / 2), (LENGTH + 2.0, HIGH / 2 + 1.0)])
-def test_cantilever_bent_to_an_arc(run, reference):
+def test_cantilever_bent_to_an_arc(run_deck, reference):
     """By a rotation p of its end alone: an arc of radius L/p, and the moment E I p/L (elastica).
 
     A reference node off the axis moves with the end, and has the same moment, for there is no force.
     """
     angle = np.pi / 2
-    result = run([*beam(reference=reference), *step("*BOUNDARY", f"900, 6, 6, {angle!r}", increments=20)])
+    result = run_deck([*beam(reference=reference), *step("*BOUNDARY", f"900, 6, 6, {angle!r}", increments=20)])
     radius = LENGTH / angle
     off = np.array(reference) - [LENGTH, HIGH / 2]
     turned = np.array([-off[1], off[0]])
@@ -134,7 +124,7 @@ def test_cantilever_bent_to_an_arc(run, reference):
     assert last(result, "RM3") == pytest.approx(YOUNG * HIGH**3 / 12 * angle / LENGTH, rel=1e-2)
 
 
-def test_moment_and_force_on_the_reference_node(run):
+def test_moment_and_force_on_the_reference_node(run_deck):
     """The rotation is free: the moment E I/R bends it to an arc, a dead force P to the elastica of a cantilever.
 
     (K.E. Bisshopp, D.C. Drucker, Quarterly of Applied Mathematics 3 (1945) 272: at P L^2/(E I) = 2 the end deflects by
@@ -142,10 +132,10 @@ def test_moment_and_force_on_the_reference_node(run):
     """
     inertia = HIGH**3 / 12
     moment = YOUNG * inertia * (np.pi / 2) / LENGTH
-    result = run([*beam(), *step("*CLOAD", f"900, 6, {moment!r}", increments=20)])
+    result = run_deck([*beam(), *step("*CLOAD", f"900, 6, {moment!r}", increments=20)])
     assert last(result, "UR3") == pytest.approx(np.pi / 2, rel=1e-2)
     force = 2 * YOUNG * inertia / LENGTH**2
-    result = run([*beam(), *step("*CLOAD", f"900, 2, {force!r}")])
+    result = run_deck([*beam(), *step("*CLOAD", f"900, 2, {force!r}")])
     found = [last(result, f"U{k}") for k in (1, 2)]
     np.testing.assert_allclose(found, [-0.1606 * LENGTH, 0.4935 * LENGTH], rtol=1e-2)
 
@@ -253,7 +243,7 @@ STATIC = ("*STATIC", "*STATIC, RIKS", "*VISCO, CETOL=1.", "*STATIC, STABILIZE=1e
     ("how", "coupling"),
     [(how, coupling) for coupling in (COUPLING, DISTRIBUTING) for how in STATIC] + [(QUASI, COUPLING)],
 )
-def test_procedures(run, how, coupling):
+def test_procedures(run_deck, how, coupling):
     """The same deflection in each."""
     inertia = HIGH**3 / 12
     lines = step(
@@ -264,7 +254,7 @@ def test_procedures(run, how, coupling):
     body = beam(constraint=coupling)
     # a period of the beam that is short beside that of the load
     body[body.index(f"*ELASTIC\n{YOUNG}, 0.")] += "\n*DENSITY\n1e-6"
-    result = run([*body, *lines])
+    result = run_deck([*body, *lines])
     factor = result.history["LPF"][-1] if "RIKS" in how else 1.0
     assert last(result, "U2") == pytest.approx(0.4935 * LENGTH, rel=1e-2 if factor == 1.0 else 0.1)
 
@@ -279,22 +269,22 @@ CONSTRAINTS = {
 
 
 @pytest.mark.parametrize("name", CONSTRAINTS)
-def test_keywords(run, name):
+def test_keywords(run_deck, name):
     """All that make nodes follow a reference node."""
     inertia = HIGH**3 / 12
     load = "*CLOAD", f"900, 6, {YOUNG * inertia * (np.pi / 2) / LENGTH!r}"
-    result = run([*beam(constraint=CONSTRAINTS[name]), *step(*load, increments=20)])
+    result = run_deck([*beam(constraint=CONSTRAINTS[name]), *step(*load, increments=20)])
     assert last(result, "UR3") == pytest.approx(np.pi / 2, rel=1e-2)
 
 
 @COUPLINGS
-def test_rotation_in_space(run, coupling):
+def test_rotation_in_space(run_deck, coupling):
     """About a skew axis, of a body all of whose one end follows: every node is where the rotation vector puts it."""
     vector, reference = np.array([0.4, -1.1, 0.7]), np.array([1.0, 2.0, -3.0])
     coupled = coupling.replace("END\n*COUPLING", "START\n*COUPLING")
     lines = beam("C3D8", reference=reference.tolist(), constraint=coupled, held="")
     given = [f"900, {k}, {k}, {one!r}" for k, one in enumerate(vector.tolist(), start=4)]
-    result = run([*lines, *step("*BOUNDARY", "900, 1, 3", *given)])
+    result = run_deck([*lines, *step("*BOUNDARY", "900, 1, 3", *given)])
     x = result.mesh().points - reference
     moved = x @ Rotation.from_rotvec(vector).as_matrix().T - x
     used = np.abs(result.field("U")).max(axis=1) > 0
@@ -304,12 +294,12 @@ def test_rotation_in_space(run, coupling):
 
 
 @COUPLINGS
-def test_free_rotation_in_space(run, coupling):
+def test_free_rotation_in_space(run_deck, coupling):
     """A force on an arm across the end turns it about two axes; its moments are in equilibrium with the support's."""
     lines = beam("C3D8I", reference=[LENGTH, 2.0, 1.0], held="START, 1, 3", constraint=coupling)
     force = np.array([0.0, 0.2, -0.3])
     loads = [f"900, {k + 1}, {force[k]:.1f}" for k in (1, 2)]
-    result = run([*lines, *step("*CLOAD", *loads, increments=5)])
+    result = run_deck([*lines, *step("*CLOAD", *loads, increments=5)])
     reaction, x = result.field("RF"), result.mesh().points + result.field("U")
     np.testing.assert_allclose(reaction.sum(axis=0), -force, atol=1e-3 * abs(force).max())
     moment = np.cross(x, reaction).sum(axis=0) + np.cross(x[-1], force)
@@ -334,42 +324,42 @@ def test_free_rotation_in_space(run, coupling):
         ),
     ],
 )
-def test_what_is_not_supported(run, constraint, loads, how, message):
+def test_what_is_not_supported(run_deck, constraint, loads, how, message):
     lines = beam(constraint=constraint)
     lines[lines.index(f"*ELASTIC\n{YOUNG}, 0.")] += "\n*DENSITY\n1."
-    with pytest.raises(DeckError, match=rf"arms\.inp:\d+: .*{message}"):
-        run([*lines, *step(*loads, how=how)])
+    with pytest.raises(DeckError, match=rf"deck\.inp:\d+: .*{message}"):
+        run_deck([*lines, *step(*loads, how=how)])
 
 
-def test_node_of_two_constraints(run):
+def test_node_of_two_constraints(run_deck):
     lines = beam(constraint=COUPLING)
     end = lines[lines.index("*NSET, NSET=END") + 1]
     lines += ["*EQUATION", "2", f"20, 2, 1., {end}, 2, -1."]
     lines = [*lines[: lines.index("*BOUNDARY")], *lines[-3:], *lines[lines.index("*BOUNDARY") : -3]]
     with pytest.raises(
-        DeckError, match=r"arms\.inp:\d+: node .* follows a reference node, .* beside another constraint"
+        DeckError, match=r"deck\.inp:\d+: node .* follows a reference node, .* beside another constraint"
     ):
-        run([*lines, *step("*CLOAD", "900, 1, 1.")])
+        run_deck([*lines, *step("*CLOAD", "900, 1, 1.")])
 
 
-def test_perturbation(run):
+def test_perturbation(run_deck):
     linear = ["*STEP, PERTURBATION", "*STATIC", "*CLOAD", "900, 1, 1.", "*END STEP"]
-    with pytest.raises(DeckError, match=r"arms\.inp:\d+: .*rotations is not supported with NLGEOM in \*STATIC"):
-        run([*beam(), *step("*CLOAD", "900, 1, 1."), *linear])
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: .*rotations is not supported with NLGEOM in \*STATIC"):
+        run_deck([*beam(), *step("*CLOAD", "900, 1, 1."), *linear])
 
 
-def test_small_rotations_before_large_ones(run):
+def test_small_rotations_before_large_ones(run_deck):
     """A step without NLGEOM has equations, and the next one arms."""
     loads = "*CLOAD", "900, 6, 0.1"
-    result = run([*beam(), *step(*loads, name="*STEP", increments=1), *step(*loads, increments=1)])
+    result = run_deck([*beam(), *step(*loads, name="*STEP", increments=1), *step(*loads, increments=1)])
     assert result.completed
     assert last(result, "UR3") == pytest.approx(0.1 * LENGTH / (YOUNG * HIGH**3 / 12), rel=1e-2)
 
 
-def test_some_displacements_of_a_node_that_does_not_turn(run):
+def test_some_displacements_of_a_node_that_does_not_turn(run_deck):
     """The end is pulled along 1 and free to get thinner: S22 = 0."""
     lines = beam(constraint=f"{COUPLING}\n1, 1")
     lines = [line.replace(f"{YOUNG}, 0.", f"{YOUNG}, 0.3") for line in lines]
-    result = run([*lines, *step("*BOUNDARY", "900, 2, 2", "900, 6, 6", "900, 1, 1, 1.")])
+    result = run_deck([*lines, *step("*BOUNDARY", "900, 2, 2", "900, 6, 6", "900, 1, 1, 1.")])
     np.testing.assert_allclose(result.field("S22"), 0, atol=1e-6 * YOUNG)
     assert result.field("S11").min() > 0.09 * YOUNG

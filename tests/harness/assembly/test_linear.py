@@ -150,14 +150,12 @@ EXCEPTIONS = {
 
 
 @pytest.mark.parametrize("reason", EXCEPTIONS)
-def test_elements_are_called_in_each_pass(tmp_path, spring, calls, reason):
+def test_elements_are_called_in_each_pass(run_deck, spring, calls, reason):
     """Where their forces may be more than AMATRX times U."""
     text = deck_of("CPS4").replace(*EXCEPTIONS[reason]).replace("20., 0.3\n*BOUND", "20., 0.3\n*DENSITY\n1.\n*BOUND")
     if reason == "fields":
         text = text.replace("*STEP", "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\n*STEP")
-    deck = tmp_path / "patch.inp"
-    deck.write_text(text)
-    uel.run(deck, spring, output_dir=tmp_path)
+    run_deck(text, spring)
     assert calls["CPS4"] == calls["U1"] > 5
 
 

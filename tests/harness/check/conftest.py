@@ -2,7 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A patch of four quads, pulled, whose element has the mistake that is asked for."""
 
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
 import pytest
+
+from uel.check.examine import examine
+from uel.check.finding import Finding
+
+QUAD = Path(__file__).parent / "quad.f"
 
 PATCH = """\
 *NODE
@@ -53,3 +61,14 @@ def patch(tmp_path):
         return deck
 
     return patch
+
+
+@pytest.fixture
+def findings() -> Callable[..., Mapping[str, Finding]]:
+    """Findings about the only element type of a deck, by check; options as those of `examine`."""
+
+    def findings(deck: Path, user: Path = QUAD, **options: object) -> Mapping[str, Finding]:
+        (report,) = examine(deck, user, **options).types
+        return report.findings
+
+    return findings

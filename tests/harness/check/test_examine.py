@@ -82,12 +82,7 @@ ALONE = [
 """Mistakes that only one check is for."""
 
 
-def findings(deck, user=QUAD, **options):
-    (report,) = examine(deck, user, **options).types
-    return report.findings
-
-
-def test_element_without_mistakes_passes_all_checks(patch):
+def test_element_without_mistakes_passes_all_checks(findings, patch):
     found = findings(patch())
     assert [name for name, finding in found.items() if finding.verdict != Verdict.PASSED] == ["requests", "loads"]
     assert list(found) == [check.name for check in CHECKS]
@@ -98,7 +93,7 @@ def test_element_without_mistakes_passes_all_checks(patch):
     "mistake, check, message, advice",
     [pytest.param(*row, marks=pytest.mark.nan if row[0] in NAN else ()) for row in MISTAKES],
 )
-def test_mistake_is_found(patch, mistake, check, message, advice):
+def test_mistake_is_found(findings, patch, mistake, check, message, advice):
     finding = findings(patch(mistake))[check]
     assert finding.verdict is Verdict.FAILED
     assert re.search(message, finding.message), finding.message
@@ -109,11 +104,11 @@ def test_mistake_is_found(patch, mistake, check, message, advice):
 @pytest.mark.parametrize(
     "mistake, expected", [(1, {"filled"}), (5, {"tangent"}), (9, {"outside"}), (10, {"undeclared"})]
 )
-def test_one_mistake_does_not_fail_other_checks(patch, mistake, expected):
+def test_one_mistake_does_not_fail_other_checks(findings, patch, mistake, expected):
     assert {name for name, finding in findings(patch(mistake)).items() if finding.verdict is Verdict.FAILED} == expected
 
 
-def test_wrong_entries_are_listed(patch):
+def test_wrong_entries_are_listed(findings, patch):
     finding = findings(patch(6))["tangent"]
     assert finding.entries == ("AMATRX(3,3)",)
     assert finding.figure > finding.limit
@@ -168,7 +163,7 @@ void look_at_(double *weight) { weight[0] = 1; }
 
 
 @pytest.mark.nan
-def test_local_variable_without_a_value_that_ends_the_run(tmp_path):
+def test_local_variable_without_a_value_that_ends_the_run(findings, tmp_path):
     """With zero in it all other checks are made. Files of their own keep the frames of the routines apart."""
     deck, user = tmp_path / "coupled.inp", [tmp_path / "uel.f", tmp_path / "weigh.f", tmp_path / "leave.c"]
     deck.write_text(COUPLED.replace(", UNSYMM\n1, 11", "\n1"))
@@ -184,7 +179,7 @@ def test_local_variable_without_a_value_that_ends_the_run(tmp_path):
     assert "-Wall -O2 names most" in found["locals"].advice
 
 
-def test_dofs_of_wrong_entries(tmp_path):
+def test_dofs_of_wrong_entries(findings, tmp_path):
     deck, user = tmp_path / "coupled.inp", tmp_path / "coupled.f"
     deck.write_text(COUPLED)
     user.write_text(HALF.format(folder=QUAD.parents[1]))
@@ -193,20 +188,20 @@ def test_dofs_of_wrong_entries(tmp_path):
     assert tangent.advice.startswith("All are derivatives of RHS: of displacements by dof 11. Differentiate RHS again")
 
 
-def test_unsymm_that_is_declared(patch):
+def test_unsymm_that_is_declared(findings, patch):
     symmetry = findings(patch(7, ("VARIABLES=12", "VARIABLES=12, UNSYMM")))["symmetry"]
     assert re.search("unsymmetric, as UNSYMM says: 34.3 %", symmetry.message)
     symmetry = findings(patch(0, ("VARIABLES=12", "VARIABLES=12, UNSYMM")))["symmetry"]
     assert re.search("UNSYMM is not needed at these states", symmetry.message)
 
 
-def test_failure_that_another_one_explains(patch):
+def test_failure_that_another_one_explains(findings, patch):
     found = findings(patch(8))
     for name in ("rotation", "zero-modes"):
         assert found[name].message == "it tells nothing while 'translation' fails"
 
 
-def test_patch_under_elements_for_plotting(patch):
+def test_patch_under_elements_for_plotting(findings, patch):
     overlay = (
         "*ELEMENT, TYPE=CPS4, ELSET=SHOWN\n11, 1, 2, 5, 4\n12, 2, 3, 6, 5\n"
         "*SOLID SECTION, ELSET=SHOWN, MATERIAL=SOFT\n1.\n*MATERIAL, NAME=SOFT\n*ELASTIC\n1e-9, 0.\n*STEP"
@@ -214,7 +209,7 @@ def test_patch_under_elements_for_plotting(patch):
     assert findings(patch(0, ("*STEP", overlay)))["patch"].message.startswith("forces balance at 1 nodes")
 
 
-def test_element_that_never_returns_by_itself(patch):
+def test_element_that_never_returns_by_itself(findings, patch):
     tangent = findings(patch(28))["tangent"]
     assert tangent.verdict is Verdict.NOT_APPLICABLE
     assert re.search(r"no element returns from a call by itself: element \d .*: stopped the analysis", tangent.message)
@@ -262,7 +257,7 @@ def test_command_writes_json(patch, tmp_path, capsys):
     assert report["findings"]["tangent"]["limit"] == 1e-5
 
 
-def test_check_that_is_left_out(patch):
+def test_check_that_is_left_out(findings, patch):
     assert "tangent" not in findings(patch(5), skip=["tangent"])
     with pytest.raises(
         UelError, match=r"unknown check 'tangents'; expected one of run, values, compiler, .*, tangent, symm"
@@ -288,7 +283,7 @@ def test_nothing_can_be_checked(words, message, capsys):
     assert re.search(message, capsys.readouterr().err)
 
 
-def test_unsymmetric_matrix_in_a_coupled_step(tmp_path):
+def test_unsymmetric_matrix_in_a_coupled_step(findings, tmp_path):
     """There Abaqus takes AMATRX as it is."""
     deck, user = tmp_path / "coupled.inp", tmp_path / "coupled.f"
     user.write_text(HALF.format(folder=QUAD.parents[1]).replace("-1.5d0", "-3d0"))

@@ -12,7 +12,7 @@ import pytest
 QUAD = Path(__file__).parent / "quad.f"
 
 
-def run(folder, *words):
+def run_pytest(folder, *words):
     """Exit code and output of pytest in a folder."""
     command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "--rootdir", str(folder), *map(str, words)]
     result = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
@@ -21,7 +21,7 @@ def run(folder, *words):
 
 def test_checks_are_tests(patch):
     deck = patch()
-    code, printed = run(deck.parent, "-v", "--uel", QUAD, "--deck", deck.name)
+    code, printed = run_pytest(deck.parent, "-v", "--uel", QUAD, "--deck", deck.name)
     assert code == 0
     assert "patch.inp::U1-tangent PASSED" in printed
     assert re.search(r"patch.inp::U1-requests SKIPPED \(the procedures of the deck", printed)
@@ -31,7 +31,7 @@ def test_checks_are_tests(patch):
 def test_finding_is_shown_without_a_traceback(patch):
     deck = patch(5)
     (deck.parent / "test_mine.py").write_text("def test_mine():\n    pass\n")
-    code, printed = run(deck.parent, "test_mine.py", "--uel", QUAD, "--deck", deck.name, "-k", "tangent or mine")
+    code, printed = run_pytest(deck.parent, "test_mine.py", "--uel", QUAD, "--deck", deck.name, "-k", "tangent or mine")
     assert code == 1
     assert "1 failed, 1 passed" in printed
     assert re.search("patch.inp: U1-tangent, elements: 4 _", printed)
@@ -47,7 +47,7 @@ def test_finding_is_shown_without_a_traceback(patch):
     ],
 )
 def test_nothing_can_be_checked(patch, words, code, message):
-    found, printed = run(patch().parent, *words)
+    found, printed = run_pytest(patch().parent, *words)
     assert found == code
     assert message in printed
     assert "Traceback" not in printed

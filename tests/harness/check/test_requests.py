@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from uel.check.examine import examine
 from uel.check.finding import Verdict
 from uel.check.recording import Pass, record
 from uel.elements import Flags, Request
@@ -17,12 +16,7 @@ QUAD = Path(__file__).parent / "quad.f"
 OSCILLATORS = Path(__file__).parents[1] / "procedures" / "oscillators.f"
 
 
-def findings(deck, user=QUAD, **options):
-    (report,) = examine(deck, user, **options).types
-    return report.findings
-
-
-def test_residual_alone(patch):
+def test_residual_alone(findings, patch):
     """Corrections that are too large need the line search, which asks for the residual alone."""
     search = "*CONTROLS, PARAMETERS=LINE SEARCH\n4\n*END STEP"
     requests = findings(patch(25, ("*END STEP", search)))["requests"]
@@ -82,7 +76,7 @@ OSCILLATOR = """\
         ),
     ],
 )
-def test_mass_matrix(tmp_path, requests, wrong, message, advice):
+def test_mass_matrix(findings, tmp_path, requests, wrong, message, advice):
     """The oscillators of the dynamic tests, with another mass matrix in some requests."""
     source = OSCILLATORS.read_text().replace("'../uel.inc'", f"'{OSCILLATORS.parents[1] / 'uel.inc'}'")
     lines = "".join(f"      if (lflags(3) .eq. {number}) {wrong}\n" for number in requests.split())
@@ -115,7 +109,7 @@ FREQUENCIES = """\
         ("", r"AMATRX\(\d,\d\) is 0 with LFLAGS\(3\) = 2, \S+ with 1"),
     ],
 )
-def test_frequencies(tmp_path, line, message):
+def test_frequencies(findings, tmp_path, line, message):
     """A static step and natural frequencies; without a stiffness these end the run, not the checks."""
     source = OSCILLATORS.read_text().replace("'../uel.inc'", f"'{OSCILLATORS.parents[1] / 'uel.inc'}'")
     head, end, _ = source.rpartition("      end\n")
@@ -127,7 +121,7 @@ def test_frequencies(tmp_path, line, message):
     assert requests.verdict is (Verdict.PASSED if line else Verdict.FAILED)
 
 
-def test_deck_of_linear_steps_alone(patch):
+def test_deck_of_linear_steps_alone(findings, patch):
     """Its elements are called as in a static step too."""
     found = findings(patch(0, ("*STEP", "*STEP, PERTURBATION"), ("*STATIC, DIRECT\n0.5, 1.", "*STATIC")))
     assert not [name for name, finding in found.items() if finding.verdict is Verdict.FAILED]
@@ -144,7 +138,7 @@ def test_deck_of_linear_steps_alone(patch):
         (44, r"RHS\(\d\) is 0 with LFLAGS\(3\) = 100 and LFLAGS\(4\) = 1, not \S+$"),
     ],
 )
-def test_forces_of_a_linear_step(patch, mistake, message):
+def test_forces_of_a_linear_step(findings, patch, mistake, message):
     """Those of the base state, as in a general step; and none where the change is known."""
     linear = "*END STEP\n*STEP, PERTURBATION\n*STATIC\n*CLOAD\n9, 1, 1.\n*END STEP"
     requests = findings(patch(mistake, ("*END STEP", linear)))["requests"]
@@ -153,7 +147,7 @@ def test_forces_of_a_linear_step(patch, mistake, message):
     assert re.search("Abaqus would take them for loads", requests.advice)
 
 
-def test_element_without_mass(tmp_path):
+def test_element_without_mass(findings, tmp_path):
     deck = tmp_path / "oscillators.inp"
     deck.write_text(OSCILLATOR.replace("4., 0.25, 1.", "4., 0., 1."))
     assert findings(deck, OSCILLATORS)["requests"].message.startswith(
@@ -169,7 +163,7 @@ def test_element_without_mass(tmp_path):
         (37, r"AMATRX with LFLAGS\(3\) = 4 is the stiffness, as with 1", r"Test LFLAGS\(3\) at the beginning"),
     ],
 )
-def test_requests_for_eigenfrequencies(patch, monkeypatch, mistake, message, advice):
+def test_requests_for_eigenfrequencies(findings, patch, monkeypatch, mistake, message, advice):
     """The calls that *FREQUENCY makes, behind those of a static step."""
 
     def recorded(*arguments, **options):
@@ -232,7 +226,7 @@ DAMPER = """\
         ),
     ],
 )
-def test_damping_of_harmonic_responses(tmp_path, wrong, message, advice):
+def test_damping_of_harmonic_responses(findings, tmp_path, wrong, message, advice):
     user, deck = tmp_path / "oscillators.f", tmp_path / "oscillators.inp"
     user.write_text(_damped(wrong))
     deck.write_text(OSCILLATOR.replace("*DYNAMIC\n0.1, 0.3", "*STATIC, DIRECT\n1., 1.") + HARMONIC)
@@ -255,7 +249,7 @@ def test_damping_of_harmonic_responses(tmp_path, wrong, message, advice):
         ),
     ],
 )
-def test_damping_against_dynamics(tmp_path, factor, message):
+def test_damping_against_dynamics(findings, tmp_path, factor, message):
     """Viscous forces in *DYNAMIC, 0.5 times the velocity by which the spring of 4 grows, and their matrix."""
     lines = _damped("").replace("      force = (/", f"      f = f + {factor}*(v(2) - v(1))\n      force = (/")
     rate = f"1 + {factor}*params(3)/(4*params(2)*dtime)"

@@ -5,25 +5,19 @@
 import re
 from pathlib import Path
 
-from uel.check.examine import examine
 from uel.check.finding import Verdict
 
 QUAD = Path(__file__).parent / "quad.f"
 
 
-def findings(deck, user=QUAD, **options):
-    (report,) = examine(deck, user, **options).types
-    return report.findings
-
-
-def test_linear_kinematics_with_nlgeom(patch):
+def test_linear_kinematics_with_nlgeom(findings, patch):
     rotation = findings(patch(0, ("*STEP", "*STEP, NLGEOM=YES")))["rotation"]
     assert rotation.verdict is Verdict.FAILED
     assert re.search("the step has NLGEOM, but a rotation by 30 degrees causes forces", rotation.message)
     assert re.search("run it without NLGEOM, or have it respond to LFLAGS", rotation.advice)
 
 
-def test_rotation_that_the_material_does_not_bear(patch):
+def test_rotation_that_the_material_does_not_bear(findings, patch):
     """30 degrees are a compression of 13 % to linear kinematics."""
     assert findings(patch(27))["rotation"].message.startswith("linear kinematics, forces unchanged to ")
     rotation = findings(patch(27, ("*STEP", "*STEP, NLGEOM=YES")))["rotation"]
@@ -31,7 +25,7 @@ def test_rotation_that_the_material_does_not_bear(patch):
     assert rotation.figure is None
 
 
-def test_rotation_that_is_right_to_the_first_order(patch):
+def test_rotation_that_is_right_to_the_first_order(findings, patch):
     for nlgeom in ("YES", "NO"):
         rotation = findings(patch(35, ("*STEP", f"*STEP, NLGEOM={nlgeom}")))["rotation"]
         assert re.search("by 30 degrees in one increment causes .* an infinitesimal one causes none", rotation.message)
@@ -78,7 +72,7 @@ BAR = """\
 """
 
 
-def test_bar_in_space(tmp_path):
+def test_bar_in_space(findings, tmp_path):
     deck, user = tmp_path / "bar.inp", Path(__file__).parent / "bar.f"
     deck.write_text(BAR.format(mistake=0))
     found = findings(deck, user)
@@ -90,7 +84,7 @@ def test_bar_in_space(tmp_path):
     assert {name for name, finding in found.items() if finding.verdict is Verdict.FAILED} == {"rotation", "zero-modes"}
 
 
-def test_rotation_as_a_dof_of_the_authors_choice(tmp_path):
+def test_rotation_as_a_dof_of_the_authors_choice(findings, tmp_path):
     deck, user = tmp_path / "beam.inp", Path(__file__).parent / "turning_beam.f"
     deck.write_text(BEAM.format(factor=1))
     found = findings(deck, user)

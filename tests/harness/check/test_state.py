@@ -113,9 +113,9 @@ WRONG = [
 def look(tmp_path):
     """Findings on a bar with a material law."""
 
-    def look(law, dof=1, procedure="*STATIC, DIRECT\n0.25, 1."):
+    def look(law, dof=1, procedure="*STATIC, DIRECT\n0.25, 1.", *, text=DECK):
         deck, user = tmp_path / "bar.inp", tmp_path / "bar.f"
-        deck.write_text(DECK.format(dof=dof, procedure=procedure))
+        deck.write_text(text.format(dof=dof, procedure=procedure))
         user.write_text(BAR.format(folder=FOLDER, law=law))
         (report,) = examine(deck, user).types
         return report.findings
@@ -153,16 +153,15 @@ def test_wrong_laws(look, law, check, message):
     assert re.search(advice[check], finding.advice), finding.advice
 
 
-def test_initial_values_may_stay(look, tmp_path, monkeypatch):
+def test_initial_values_may_stay(look):
     """*INITIAL CONDITIONS, TYPE=SOLUTION gives what no call has to write."""
     given = "*INITIAL CONDITIONS, TYPE=SOLUTION\nALL, 0.5\n*STEP"
-    monkeypatch.setitem(globals(), "DECK", DECK.replace("*STEP", given))
-    history = look("s = 100*(eps - svars(1)*1d-3)\n      t = 100")["history"]
+    history = look("s = 100*(eps - svars(1)*1d-3)\n      t = 100", text=DECK.replace("*STEP", given))["history"]
     assert history.verdict is Verdict.NOT_APPLICABLE
     assert re.search("SVARS have initial values.*take a deck without", history.message)
 
 
-def test_state_where_nothing_moves(look, monkeypatch):
-    monkeypatch.setitem(globals(), "DECK", DECK.replace("0.02", "0."))
+def test_state_where_nothing_moves(look):
+    findings = look(RIGHT["elastic"], text=DECK.replace("0.02", "0."))
     for name in ("state", "increments"):
-        assert re.search("nothing moves within an increment: take a deck whose", look(RIGHT["elastic"])[name].message)
+        assert re.search("nothing moves within an increment: take a deck whose", findings[name].message)

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from uel.check.examine import examine
 from uel.check.finding import Verdict
 from uel.cli import main
 
@@ -59,27 +58,22 @@ def model(tmp_path):
     return model
 
 
-def findings(model, **options):
-    (report,) = examine(*model, **options).types
-    return report.findings
-
-
 @pytest.mark.sample(2)
 @pytest.mark.nan
 @pytest.mark.parametrize("entry", ["ENERGY(2)", "SVARS(3)", "PNEWDT"])
 @pytest.mark.parametrize("value", ["nan", "inf"])
-def test_values_that_are_no_numbers(model, entry, value):
+def test_values_that_are_no_numbers(findings, model, entry, value):
     """In an element of which no states are taken, in one iteration."""
     number = ROOT if value == "nan" else "1/(0*abs(u(1)))"
-    finding = findings(model(f"if (jelem == 2 .and. kinc == 2) {entry.lower()} = {number}"))["values"]
+    finding = findings(*model(f"if (jelem == 2 .and. kinc == 2) {entry.lower()} = {number}"))["values"]
     assert finding.verdict is Verdict.FAILED
     message = rf"^element 2, step 1, increment 2, iteration 0: {re.escape(entry)} is {value}$"
     assert re.search(message, finding.message), finding.message
     assert re.search("Look for 0/0 without deformation", finding.advice)
 
 
-def test_values_that_are_numbers(model):
-    finding = findings(model("svars(1) = 1"))["values"]
+def test_values_that_are_numbers(findings, model):
+    finding = findings(*model("svars(1) = 1"))["values"]
     assert finding.message == "SVARS, ENERGY and PNEWDT are finite in all iterations of the run"
 
 
@@ -109,22 +103,22 @@ def test_run_warns_once(model, tmp_path, capsys, entry, message):
 LOAD = "*DLOAD\n2, U3, 4.\n"
 
 
-def test_loads_that_are_not_read(model):
-    finding = findings(model("continue", LOAD))["loads"]
+def test_loads_that_are_not_read(findings, model):
+    finding = findings(*model("continue", LOAD))["loads"]
     assert finding.verdict is Verdict.FAILED
     message = r"^element 2, .*: RHS does not change when the magnitude of U3 is doubled$"
     assert re.search(message, finding.message), finding.message
     assert re.search(r"arrives as JDLTYP\(k,1\) = n with the magnitude ADLMAG\(k,1\)", finding.advice)
 
 
-def test_loads_that_are_read(model):
+def test_loads_that_are_read(findings, model):
     line = "if (ndload > 0) rhs(1:2,1) = rhs(1:2,1) + adlmag(1,1)/2"
-    assert findings(model(line, LOAD))["loads"].message == "RHS changes with the magnitude of U3"
+    assert findings(*model(line, LOAD))["loads"].message == "RHS changes with the magnitude of U3"
 
 
-def test_deck_without_loads(model):
+def test_deck_without_loads(findings, model):
     assert re.search(
-        "no loads on the elements: .* take a deck with .DLOAD", findings(model("continue"))["loads"].message
+        "no loads on the elements: .* take a deck with .DLOAD", findings(*model("continue"))["loads"].message
     )
 
 
@@ -135,7 +129,7 @@ COUNTED = """\
 """
 
 
-def test_residual_alone_leaves_no_trace(model):
+def test_residual_alone_leaves_no_trace(findings, model):
     """A call with LFLAGS(3) = 5 that calls with 1 remember."""
     deck, user = model("call remember(lflags(3), rhs)")
     user.write_text(
@@ -145,7 +139,7 @@ def test_residual_alone_leaves_no_trace(model):
         "      rhs = rhs*(1 + 0.1d0*calls)\n      end\n"
     )
     # other checks make such calls too, and their trace shows as soon as a call is made again
-    finding = findings((deck, user), skip=["outside", "resources"])["repeat"]
+    finding = findings(deck, user, skip=["outside", "resources"])["repeat"]
     assert finding.verdict is Verdict.FAILED
     message = r"the same call returns different values after calls with LFLAGS\(3\) = 5: RHS\(1\) is"
     assert re.search(message, finding.message), finding.message

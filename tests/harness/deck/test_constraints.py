@@ -7,7 +7,6 @@ import itertools
 import numpy as np
 import pytest
 
-import uel
 from uel.errors import DeckError
 from uel.model.properties import SectionControls
 
@@ -56,13 +55,12 @@ U
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(text):
-        (tmp_path / "deck.inp").write_text(text)
-        history = uel.run(tmp_path / "deck.inp", output_dir=tmp_path).history
+def last_displacements(run_deck):
+    def last_displacements(text):
+        history = run_deck(text).history
         return {name: float(history[name][-1]) for name in history if name.startswith("U")}
 
-    return run
+    return last_displacements
 
 
 def at(found, component, node):
@@ -79,15 +77,15 @@ def at(found, component, node):
         "*EQUATION\n2\nA, 1, 1., B, 1, -1.\n2\nA, 2, 1., B, 2, -1.",
     ],
 )
-def test_two_squares_become_one(run, constraint):
+def test_two_squares_become_one(last_displacements, constraint):
     """Uniaxial stress: u1 = 0.01 x, u2 = -0.003 y."""
-    found = run(SQUARES % constraint)
+    found = last_displacements(SQUARES % constraint)
     for node, (x, y) in zip(range(1, 9), [(0, 0), (1, 0), (1, 1), (0, 1), (1, 0), (2, 0), (2, 1), (1, 1)], strict=True):
         assert at(found, "U1", node) == pytest.approx(0.01 * x, abs=1e-9)
         assert at(found, "U2", node) == pytest.approx(-0.003 * y, abs=1e-9)
 
 
-def test_a_node_in_the_middle_of_an_edge(run):
+def test_a_node_in_the_middle_of_an_edge(last_displacements):
     """Two small squares against a large one: with LINEAR the node between them keeps to its edge; uniform stress."""
     deck = """*NODE, NSET=ALL
 1, 0., 0.
@@ -123,7 +121,7 @@ LINEAR, 5, 2, 3
 U
 *END STEP
 """
-    found = run(deck)
+    found = last_displacements(deck)
     assert at(found, "U1", 5) == pytest.approx(0.02)
     assert at(found, "U2", 5) == pytest.approx(-0.003 * 0.5)
 
@@ -177,11 +175,11 @@ U
         "*MPC\nBEAM, END, 9",
     ],
 )
-def test_moment_on_an_end_that_stays_plane(run, constraint):
+def test_moment_on_an_end_that_stays_plane(last_displacements, constraint):
     """Pure bending: theta = M L/(E I), u1 = -theta (y - 1/2), u2 = theta L/2 at the axis, I = 1/12; the reference node
     turns with the end: u1 = -theta (0.7 - 0.5), u2 = theta (L/2 + 1).
     """
-    found = run(BEAM % (constraint, ""))
+    found = last_displacements(BEAM % (constraint, ""))
     theta = 2.0 / (1000.0 / 12)
     assert at(found, "UR3", 9) == pytest.approx(theta)
     assert at(found, "U1", 3) == pytest.approx(-theta / 2)
@@ -190,13 +188,13 @@ def test_moment_on_an_end_that_stays_plane(run, constraint):
     assert at(found, "U2", 9) == pytest.approx(2 * theta)
 
 
-def test_a_rigid_cube_turns_about_its_reference_node(run):
+def test_a_rigid_cube_turns_about_its_reference_node(last_displacements):
     """u = theta x r in space, for a cube that is rigid as a whole."""
     corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1.0]])
     reference, theta = np.array([2.0, -1.0, 0.5]), np.array([1e-3, -2e-3, 3e-3])
     nodes = "".join(f"{k + 1}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(corners.tolist()))
     prescribed = "".join(f"9, {dof}, {dof}, {value}\n" for dof, value in zip((4, 5, 6), theta.tolist(), strict=True))
-    found = run(
+    found = last_displacements(
         f"*NODE, NSET=ALL\n{nodes}9, 2., -1., 0.5\n*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
         "*SOLID SECTION, ELSET=E, MATERIAL=M\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n"
         "*RIGID BODY, REF NODE=9, ELSET=E\n*BOUNDARY\n9, 1, 3\n*STEP\n*STATIC\n1., 1.\n"
@@ -244,9 +242,9 @@ def test_a_rigid_cube_turns_about_its_reference_node(run):
         ),
     ],
 )
-def test_what_is_wrong_is_named(run, constraint, message):
+def test_what_is_wrong_is_named(last_displacements, constraint, message):
     with pytest.raises(DeckError, match=message):
-        run(SQUARES % constraint)
+        last_displacements(SQUARES % constraint)
 
 
 MOVED = "*CLOAD\n9, 6, 1.\n"
@@ -259,11 +257,11 @@ FOLLOW = [
 
 
 @pytest.mark.parametrize("constraint", FOLLOW)
-def test_a_reference_node_that_does_not_turn_has_large_displacements(run, constraint):
+def test_a_reference_node_that_does_not_turn_has_large_displacements(last_displacements, constraint):
     """The end of the bar moves as it would if its nodes were prescribed themselves."""
     given = "*BOUNDARY\n%s, 1, 1, 0.9\n%s, 2, 2, 0.4\n"
-    found = run((BEAM % (constraint, ", NLGEOM")).replace(MOVED, given % (9, 9) + "9, 6\n"))
-    expected = run((BEAM % ("", ", NLGEOM")).replace(MOVED, given % ("END", "END")))
+    found = last_displacements((BEAM % (constraint, ", NLGEOM")).replace(MOVED, given % (9, 9) + "9, 6\n"))
+    expected = last_displacements((BEAM % ("", ", NLGEOM")).replace(MOVED, given % ("END", "END")))
     for node, dof in itertools.product(range(1, 9), (1, 2)):
         assert at(found, f"U{dof}", node) == pytest.approx(at(expected, f"U{dof}", node), abs=1e-9)
 
@@ -281,18 +279,18 @@ SECOND = "*STEP, NLGEOM\n*STATIC\n1., 1.\n%s*END STEP\n"
         ("9, 6, 6, 0.1\n", ""),
     ],
 )
-def test_a_rotation_is_held_at_zero_in_each_step(run, first, second):
+def test_a_rotation_is_held_at_zero_in_each_step(last_displacements, first, second):
     """Where only some displacements follow, whose directions would turn."""
     text = (BEAM % (FOLLOW[0].replace("1, 2", "1, 1"), ", NLGEOM")).replace(
         MOVED, "*BOUNDARY\n" + first
     ) + SECOND % second
     message = r"expected \*BOUNDARY to hold dofs 6 of the reference node 9 at zero in each step"
     with pytest.raises(DeckError, match=r"a constraint with rotations is not supported with NLGEOM .*; " + message):
-        run(text)
+        last_displacements(text)
 
 
 @pytest.mark.parametrize(("dofs", "wanted"), [("1, 2", "4, 5, 6"), ("2, 2", "4, 6"), ("3, 3", "4, 5"), ("4, 6", "")])
-def test_rotations_that_matter_in_space(run, dofs, wanted):
+def test_rotations_that_matter_in_space(last_displacements, dofs, wanted):
     """A rotation about an axis leaves displacements along it as they are."""
     corners = (
         "1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.\n5, 0., 0., 1.\n6, 1., 0., 1.\n7, 1., 1., 1.\n"
@@ -304,12 +302,12 @@ def test_rotations_that_matter_in_space(run, dofs, wanted):
     text += "*NODE OUTPUT, NSET=ALL\nU\n*END STEP\n"
     if wanted:
         with pytest.raises(DeckError, match=rf"expected \*BOUNDARY to hold dofs {wanted} of the reference node 9"):
-            run(text % "")
+            last_displacements(text % "")
         held = "".join(f"9, {dof}\n" for dof in wanted.split(", "))
-        found = run(text % f"*BOUNDARY\n{held}9, {dofs[0]}, {dofs[0]}, 0.2\n")
+        found = last_displacements(text % f"*BOUNDARY\n{held}9, {dofs[0]}, {dofs[0]}, 0.2\n")
         assert at(found, f"U{dofs[0]}", 6) == pytest.approx(0.2)
     else:
-        run(text % "")
+        last_displacements(text % "")
 
 
 def test_hourglass_stiffness_of_a_section(read):

@@ -5,7 +5,6 @@
 import numpy as np
 import pytest
 
-import uel
 from uel.deck.constraints.distributing import METHODS, average_motion
 from uel.deck.mesh.surfaces import tributary_areas
 from uel.errors import DeckError
@@ -124,24 +123,28 @@ U, RF
 """
 
 
-def run(tmp_path, load, rotations="", changes=()):
+@pytest.fixture
+def values_at_end(run_deck):
     """Values at the end: a function of the variable and the node, None where there is none."""
-    deck = CUBE.format(load=load, rotations=rotations)
-    for old, new in changes:
-        assert old in deck
-        deck = deck.replace(old, new)
-    (tmp_path / "cube.inp").write_text(deck)
-    history = uel.run(tmp_path / "cube.inp", output_dir=tmp_path).history
-    last = {(name.split("[")[0], int(name[-2])): float(history[name][-1]) for name in history if name.endswith("]")}
-    return lambda name, node: last.get((name, node))
+
+    def values_at_end(load, rotations="", changes=()):
+        deck = CUBE.format(load=load, rotations=rotations)
+        for old, new in changes:
+            assert old in deck
+            deck = deck.replace(old, new)
+        history = run_deck(deck).history
+        last = {(name.split("[")[0], int(name[-2])): float(history[name][-1]) for name in history if name.endswith("]")}
+        return lambda name, node: last.get((name, node))
+
+    return values_at_end
 
 
 @pytest.mark.parametrize(
     "load", ["*CLOAD\n9, 3, 10.", "*BOUNDARY\n9, 3, 3, 0.01"], ids=["force", "prescribed displacement"]
 )
-def test_reference_node_pulls_a_cube(tmp_path, load):
+def test_reference_node_pulls_a_cube(values_at_end, load):
     """Without Poisson's ratio a bar: u = F L/(E A); the reference node, whose dofs come first, may be prescribed."""
-    value = run(tmp_path, load)
+    value = values_at_end(load)
     for node in (5, 6, 7, 8, 9):
         assert value("U3", node) == pytest.approx(0.01)
     assert sum(value("RF3", node) for node in (1, 2, 3, 4)) == pytest.approx(-10.0)
@@ -149,10 +152,10 @@ def test_reference_node_pulls_a_cube(tmp_path, load):
         assert value("RF3", 9) == pytest.approx(10.0)
 
 
-def test_all_dofs_of_the_reference_node_prescribed(tmp_path):
+def test_all_dofs_of_the_reference_node_prescribed(values_at_end):
     """The top moves as it says on average, and its reactions are those of the bottom about the reference node."""
     given = dict(zip((1, 2, 3, 4, 5, 6), (1e-3, -2e-3, 3e-3, 1e-3, 2e-3, -1e-3), strict=True))
-    value = run(tmp_path, "*BOUNDARY\n" + "\n".join(f"9, {dof}, {dof}, {given[dof]}" for dof in given))
+    value = values_at_end("*BOUNDARY\n" + "\n".join(f"9, {dof}, {dof}, {given[dof]}" for dof in given))
     top = np.array([[0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1.0]])
     u = np.array([[value(f"U{k}", node) for k in (1, 2, 3)] for node in (5, 6, 7, 8)])
     reference = np.array([0.5, 0.5, 1.5])
@@ -166,34 +169,33 @@ def test_all_dofs_of_the_reference_node_prescribed(tmp_path):
     assert moment == pytest.approx(np.zeros(3), abs=1e-9)
 
 
-def test_released_rotation_leaves_the_displacements_coupled(tmp_path):
+def test_released_rotation_leaves_the_displacements_coupled(values_at_end):
     """Dof 4 alone: the others of the reference node's rotations do not exist, and its displacements are averages."""
-    value = run(tmp_path, "*CLOAD\n9, 3, 10.", rotations="4")
+    value = values_at_end("*CLOAD\n9, 3, 10.", rotations="4")
     assert value("U3", 9) == pytest.approx(0.01)
     assert value("UR1", 9) is not None
     assert value("UR2", 9) is None
 
 
-def test_nodes_on_a_line_are_warned_of(tmp_path):
-    run(tmp_path, "*CLOAD\n9, 3, 10.", changes=[("*SURFACE, NAME=TOP\nE, S2", "*SURFACE, NAME=TOP, TYPE=NODE\n5\n6")])
+def test_nodes_on_a_line_are_warned_of(values_at_end, tmp_path):
+    values_at_end("*CLOAD\n9, 3, 10.", changes=[("*SURFACE, NAME=TOP\nE, S2", "*SURFACE, NAME=TOP, TYPE=NODE\n5\n6")])
     message = "*DISTRIBUTING: its nodes lie on a line, about which no moment is passed on"
-    assert message in " ".join((tmp_path / "cube.dat").read_text().split())
+    assert message in " ".join((tmp_path / "deck.dat").read_text().split())
 
 
-def test_radius_of_influence(tmp_path):
+def test_radius_of_influence(values_at_end, tmp_path):
     """The reference node stands above a corner, and the next ones are too far away: the corner carries all."""
     changes = [("9, 0.5, 0.5, 1.5", "9, 0., 0., 1.5"), ("SURFACE=TOP\n", "SURFACE=TOP, INFLUENCE RADIUS=0.6\n")]
-    value = run(tmp_path, "*CLOAD\n9, 1, 10.", changes=changes)
+    value = values_at_end("*CLOAD\n9, 1, 10.", changes=changes)
     assert value("U1", 9) == pytest.approx(value("U1", 5))
     assert value("U1", 9) > value("U1", 7) > 0.0
     message = "*DISTRIBUTING: all its nodes are in one place, about which no moment is passed on"
-    assert message in " ".join((tmp_path / "cube.dat").read_text().split())
+    assert message in " ".join((tmp_path / "deck.dat").read_text().split())
 
 
-def test_axisymmetric_elements_are_refused(tmp_path):
+def test_axisymmetric_elements_are_refused(run_deck):
     deck = "*NODE\n1, 1., 0.\n2, 2., 0.\n3, 2., 1.\n4, 1., 1.\n9, 1., 2.\n*ELEMENT, TYPE=CAX4, ELSET=E\n1, 1, 2, 3, 4\n"
     deck += "*SOLID SECTION, ELSET=E, MATERIAL=M\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n*SURFACE, NAME=TOP\nE, S3\n"
     deck += "*COUPLING, CONSTRAINT NAME=C, REF NODE=9, SURFACE=TOP\n*DISTRIBUTING\n*STEP\n*STATIC\n1., 1.\n*END STEP\n"
-    (tmp_path / "ring.inp").write_text(deck)
-    with pytest.raises(DeckError, match=r"ring.inp:16: \*DISTRIBUTING: is not supported for axisymmetric elements"):
-        uel.run(tmp_path / "ring.inp", output_dir=tmp_path)
+    with pytest.raises(DeckError, match=r"deck.inp:16: \*DISTRIBUTING: is not supported for axisymmetric elements"):
+        run_deck(deck)

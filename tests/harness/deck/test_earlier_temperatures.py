@@ -5,7 +5,6 @@
 import numpy as np
 import pytest
 
-import uel
 from uel.deck import read_deck
 from uel.errors import DeckError
 from uel.output.earlier_jobs import EarlierJobs
@@ -39,28 +38,19 @@ U
 """
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text, name):
-        (tmp_path / f"{name}.inp").write_text(text)
-        return uel.run(tmp_path / f"{name}.inp", output_dir=tmp_path)
-
-    return run
-
-
 @pytest.mark.parametrize(
     ("which", "mean"), [("heat", 20.0), ("heat.odb", 20.0), ("heat, STEP=1", 20.0), ("heat, STEP=1, INC=1", 10.0)]
 )
-def test_a_body_that_cools_from_the_temperatures_of_a_job(run, which, mean):
+def test_a_body_that_cools_from_the_temperatures_of_a_job(run_deck, which, mean):
     """The strain is the coefficient times what the temperature has fallen: half of it in the first increment."""
-    run(HEAT.replace("10.\n", "20.\n").replace("30.\n", "20.\n"), "heat")
+    run_deck(HEAT.replace("10.\n", "20.\n").replace("30.\n", "20.\n"), name="heat")
     initial = f"*INITIAL CONDITIONS, TYPE=TEMPERATURE, FILE={which}\n"
-    result = run(BODY + initial + HELD + COOLED, "body")
+    result = run_deck(BODY + initial + HELD + COOLED, name="body")
     assert result.history["U1[ALL:2]"][-1] == pytest.approx(-1e-3 * mean)
 
 
-def test_temperatures_are_also_a_field(run, tmp_path):
-    run(HEAT, "heat")
+def test_temperatures_are_also_a_field(run_deck, tmp_path):
+    run_deck(HEAT, name="heat")
     path = tmp_path / "body.inp"
     path.write_text(BODY + "*INITIAL CONDITIONS, TYPE=FIELD, VARIABLE=2, FILE=heat\n" + HELD + COOLED)
     model = read_deck(path, earlier=EarlierJobs([tmp_path]))
@@ -85,8 +75,8 @@ def test_temperatures_are_also_a_field(run, tmp_path):
         ("TYPE=TEMPERATURE, FILE=heat, INTERPOLATE", "option INTERPOLATE is not supported"),
     ],
 )
-def test_what_is_wrong_is_named(run, line, message):
-    run(HEAT, "heat")
-    run(BODY + HELD + COOLED.replace("*TEMPERATURE\nALL, 0.\n", ""), "still")
+def test_what_is_wrong_is_named(run_deck, line, message):
+    run_deck(HEAT, name="heat")
+    run_deck(BODY + HELD + COOLED.replace("*TEMPERATURE\nALL, 0.\n", ""), name="still")
     with pytest.raises(DeckError, match=message):
-        run(BODY + f"*INITIAL CONDITIONS, {line}\n" + HELD + COOLED, "body")
+        run_deck(BODY + f"*INITIAL CONDITIONS, {line}\n" + HELD + COOLED, name="body")

@@ -42,29 +42,20 @@ TRUSS = """*NODE, NSET=ALL
 """
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text, name):
-        (tmp_path / f"{name}.inp").write_text(text)
-        return uel.run(tmp_path / f"{name}.inp", output_dir=tmp_path)
-
-    return run
-
-
 def imperfect(step, data, options=""):
     return COLUMN.replace("*BOUNDARY", f"*IMPERFECTION, FILE=modes, STEP=1{options}\n{data}\n*BOUNDARY", 1) + step
 
 
 @pytest.mark.parametrize("how", ["*STATIC, RIKS\n0.1, 1., 1e-5, 0.2, 0.8\n", "*STATIC\n0.2, 0.8\n"])
-def test_column_with_its_first_mode(run, how):
+def test_column_with_its_first_mode(run_deck, how):
     """A deflection a of the first mode grows to a/(1 - P/Pcr), for small ones.
 
     (S.P. Timoshenko, Theory of Elastic Stability, columns with initial curvature.)
     """
-    critical = run(COLUMN + BUCKLE, "modes").history["EIGVAL"][0]
+    critical = run_deck(COLUMN + BUCKLE, name="modes").history["EIGVAL"][0]
     load = LOAD.replace("TRVEC, 1.", f"TRVEC, {critical if 'RIKS' in how else 0.8 * critical}")
     step = f"*STEP, NLGEOM, INC=30\n{how}{load}\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nU2\n*END STEP\n"
-    result = run(imperfect(step, f"1, {SMALL}"), "column")
+    result = run_deck(imperfect(step, f"1, {SMALL}"), name="column")
     tip = max((name for name in result.history if name.startswith("U2[")), key=lambda n: abs(result.history[n][-1]))
     share = result.history["LPF"] if "RIKS" in how else result.history["time"]
     found = result.history[tip]
@@ -72,34 +63,32 @@ def test_column_with_its_first_mode(run, how):
     np.testing.assert_allclose(np.abs(found[1:]), SMALL * (1 / (1 - share[1:]) - 1), rtol=3e-2)
 
 
-def test_sum_of_shapes(run, tmp_path):
+def test_sum_of_shapes(run_deck, tmp_path):
     """Modes with their factors; a general step has the displacements of its last increment, or of INC."""
-    result = run(COLUMN + BUCKLE, "modes")
+    result = run_deck(COLUMN + BUCKLE, name="modes")
     modes = [result.field("U", increment=k) for k in (1, 2)]
     straight = read_deck(tmp_path / "modes.inp").mesh.coordinates
-    path = tmp_path / "sum.inp"
 
     def moved(data, options=""):
-        path.write_text(imperfect(BUCKLE, data, options))
-        uel.run(path, output_dir=tmp_path)
-        return uel.output.Result(tmp_path / "sum").mesh().points - straight
+        run_deck(imperfect(BUCKLE, data, options))
+        return uel.output.Result(tmp_path / "deck").mesh().points - straight
 
     np.testing.assert_allclose(moved("1, 0.1\n2, -0.02"), 0.1 * modes[0] - 0.02 * modes[1], atol=1e-14)
     chosen = np.zeros((len(straight), 1))
     chosen[straight[:, 0] == 0] = 1
     np.testing.assert_allclose(moved("2, 0.5", ", NSET=FOOT"), 0.5 * chosen * modes[1], atol=1e-14)
     static = f"*STEP\n*STATIC\n0.5, 1., 1e-5, 0.5\n{LOAD}\n*OUTPUT, FIELD, FREQUENCY=1\n*END STEP\n"
-    last = run(COLUMN + static, "modes").field("U")
+    last = run_deck(COLUMN + static, name="modes").field("U")
     np.testing.assert_allclose(moved("1, 2."), 2 * last, atol=1e-14)
     np.testing.assert_allclose(moved("1, 2.", ", INC=1"), last, atol=1e-14)
 
 
-def test_nodes_by_their_numbers(run, tmp_path):
+def test_nodes_by_their_numbers(run_deck):
     """Nodes that the other job does not have stay."""
-    run(TRUSS.format(imperfection=""), "bars")
+    run_deck(TRUSS.format(imperfection=""), name="bars")
     more = TRUSS.format(imperfection="*IMPERFECTION, FILE=bars.fil, STEP=1\n1, 10.\n")
     more = more.replace("3, 0., 3., 1.\n", "3, 0., 3., 1.\n7, 5., 5., 5.\n").replace("2, 2, 3\n", "2, 2, 3\n3, 3, 7\n")
-    result = run(more.replace("3, 1, 3\n", "3, 1, 3\n7, 1, 3\n"), "more")
+    result = run_deck(more.replace("3, 1, 3\n", "3, 1, 3\n7, 1, 3\n"), name="more")
     found = result.mesh().points
     assert found[1, 0] > 2.01
     np.testing.assert_allclose(found[[0, 2, 3]], [[0, 0, 0], [0, 3, 1], [5, 5, 5]])
@@ -137,15 +126,15 @@ def test_data_lines(tmp_path, lines, found):
         ("*IMPERFECTION, SYSTEM=S\n2, 1.", r"SYSTEM=S"),
     ],
 )
-def test_what_is_wrong_is_named(run, lines, message):
-    run(TRUSS.format(imperfection=""), "bars")
+def test_what_is_wrong_is_named(run_deck, lines, message):
+    run_deck(TRUSS.format(imperfection=""), name="bars")
     with pytest.raises(DeckError, match=rf"wrong\.inp:\d+: .*{message}"):
-        run(TRUSS.format(imperfection=f"{lines}\n"), "wrong")
+        run_deck(TRUSS.format(imperfection=f"{lines}\n"), name="wrong")
 
 
-def test_nodes_of_instances(run):
+def test_nodes_of_instances(run_deck):
     """They have to be the same, for numbers alone do not tell them apart."""
-    run(TRUSS.format(imperfection=""), "bars")
+    run_deck(TRUSS.format(imperfection=""), name="bars")
     part, steps = TRUSS.format(imperfection="").split("*BOUNDARY", 1)
     part, material = part.split("*MATERIAL")
     steps = "*BOUNDARY" + steps.replace("\n1, 1", "\nA.1, 1").replace("\n2, ", "\nA.2, ").replace("\n3, 1", "\nA.3, 1")
@@ -155,7 +144,7 @@ def test_nodes_of_instances(run):
         text = f"*PART, NAME=P\n{own}*END PART\n{instance}*MATERIAL{material}"
         text += f"*IMPERFECTION, FILE=bars, STEP=1\n1, 1.\n{steps}"
         if message is None:
-            run(text, "parts")
+            run_deck(text, name="parts")
             continue
         with pytest.raises(DeckError, match=message):
-            run(text, "parts")
+            run_deck(text, name="parts")

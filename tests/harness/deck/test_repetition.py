@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-import uel
 from uel.deck.error_report import Problems
 from uel.deck.keywords import KEYWORDS
 from uel.deck.language.lexer import read_blocks
@@ -40,15 +39,6 @@ ELASTIC = "*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.\n*EXPANSION\n1e-5\n"
 HELD = "*BOUNDARY\nLEFT, 1\n1, 2\n"
 STEP = "*STEP\n*STATIC\n1., 1.\n"
 END = "*OUTPUT, FIELD\n*NODE OUTPUT\nU, RF, NT\n*END STEP\n"
-
-
-@pytest.fixture
-def run(tmp_path):
-    def run(text):
-        (tmp_path / "deck.inp").write_text(text)
-        return uel.run(tmp_path / "deck.inp", output_dir=tmp_path)
-
-    return run
 
 
 def elastic(lines, *, model="", held=HELD):
@@ -255,18 +245,18 @@ def test_transverse_shear_stiffness_twice(read):
         ("ALL, 100.\n*TEMPERATURE\nHOT, 150.", 2.25e-3, True),
     ],
 )
-def test_temperature_twice(run, lines, expected, warned):
+def test_temperature_twice(run_deck, lines, expected, warned):
     sets = "*NSET, NSET=LEFTSIDE\n1, 2, 4, 5\n*NSET, NSET=RIGHTSIDE\n2, 3, 5, 6\n*NSET, NSET=HOT\n3, 6\n"
-    result = run(elastic(f"*TEMPERATURE\n{lines}", model=sets))
+    result = run_deck(elastic(f"*TEMPERATURE\n{lines}", model=sets))
     # Poisson's ratio is zero and the gradient along x alone: theory is met to rounding
     assert result.field("U")[2, 0] == pytest.approx(expected, rel=1e-9)
     assert bool(result.warnings) == warned
 
 
-def test_a_temperature_with_an_amplitude_replaces_one_without(run):
+def test_a_temperature_with_an_amplitude_replaces_one_without(run_deck):
     curve = "*AMPLITUDE, NAME=HALF\n0., 0.5, 1., 0.5\n"
     text = elastic("*TEMPERATURE\nALL, 100.\n*TEMPERATURE, AMPLITUDE=HALF\nALL, 100.", model=curve)
-    result = run(text)
+    result = run_deck(text)
     assert result.field("U")[2, 0] == pytest.approx(1e-3, rel=1e-9)
     assert any("node 1 is given 100 with amplitude HALF here and 100 at" in warning for warning in result.warnings)
 
@@ -317,10 +307,10 @@ def test_initial_conditions(read, lines, message):
         assert_match(warning, message)
 
 
-def test_the_last_initial_stress_counts(run):
+def test_the_last_initial_stress_counts(run_deck):
     """It keeps its value, since the sides are held."""
     stress = "*INITIAL CONDITIONS, TYPE=STRESS\nBODY, 5.\nBODY, 7.\n"
-    result = run(elastic("", model=stress, held="*BOUNDARY\nALL, 1, 2\n"))
+    result = run_deck(elastic("", model=stress, held="*BOUNDARY\nALL, 1, 2\n"))
     assert np.allclose(result.field("S11"), 7.0, rtol=1e-12)
 
 
@@ -337,8 +327,8 @@ def test_the_last_initial_stress_counts(run):
         "*DSLOAD\nRIGHT, P, -1.\nRIGHT, P, -2.",
     ],
 )
-def test_loads_add_up(run, lines):
-    result = run(elastic(lines, model="*SURFACE, NAME=RIGHT\n2, S3\n"))
+def test_loads_add_up(run_deck, lines):
+    result = run_deck(elastic(lines, model="*SURFACE, NAME=RIGHT\n2, S3\n"))
     assert result.field("RF")[:, 1].sum() == pytest.approx(-3.0, rel=1e-9)
 
 
@@ -403,11 +393,11 @@ def equilibrium(keyword, *upper):
 
 
 @pytest.mark.parametrize("keyword", PLACES)
-def test_each_film_and_radiation_acts(run, keyword):
+def test_each_film_and_radiation_acts(run_deck, keyword):
     """Each exchanges heat with its own surroundings; the temperature is one between all of them."""
     place, *surroundings = PLACES[keyword]
     lines = [f"{place}, {temperature}, {value}" for temperature, value in surroundings]
-    result = run(heat(f"*{keyword}\n" + "\n".join(lines)))
+    result = run_deck(heat(f"*{keyword}\n" + "\n".join(lines)))
     # conduction leaves a difference of a few hundred over the conductivity
     assert np.allclose(result.field("NT11"), equilibrium(keyword, *surroundings), rtol=0, atol=1e-4)
     assert equilibrium("FILM", FIRST, SECOND) == pytest.approx(20.0)
@@ -415,25 +405,25 @@ def test_each_film_and_radiation_acts(run, keyword):
 
 @pytest.mark.parametrize("keyword", PLACES)
 @pytest.mark.parametrize("option", ["", ", OP=NEW"])
-def test_a_later_step_replaces_all_of_them(run, keyword, option):
+def test_a_later_step_replaces_all_of_them(run_deck, keyword, option):
     place, *surroundings = PLACES[keyword]
     lines = [f"{place}, {temperature}, {value}" for temperature, value in surroundings]
     again = f"*{keyword}{option}\n{place}, 50., 0.7"
     if keyword == "SFILM" and option:
         again += "\nLOWER, F, {}, {}".format(*BELOW)
-    result = run(heat(f"*{keyword}\n" + "\n".join(lines), again))
+    result = run_deck(heat(f"*{keyword}\n" + "\n".join(lines), again))
     assert np.allclose(result.field("NT11"), equilibrium(keyword, (50.0, 0.7)), rtol=0, atol=1e-4)
 
 
-def test_two_films_come_back_in_a_third_step(run):
+def test_two_films_come_back_in_a_third_step(run_deck):
     place, *surroundings = PLACES["SFILM"]
     both = "*SFILM\n" + "\n".join(f"{place}, {temperature}, {value}" for temperature, value in surroundings)
-    result = run(heat(both, f"*SFILM\n{place}, 50., 0.7", both))
+    result = run_deck(heat(both, f"*SFILM\n{place}, 50., 0.7", both))
     assert np.allclose(result.field("NT11"), equilibrium("FILM", *surroundings), rtol=0, atol=1e-4)
 
 
-def test_fluxes_add_up(run):
-    result = run(heat("*DFLUX\nBODY, S3, 3.\nBODY, S3, 5.\n*DSFLUX\nUPPER, S, 1.\nUPPER, S, 3."))
+def test_fluxes_add_up(run_deck):
+    result = run_deck(heat("*DFLUX\nBODY, S3, 3.\nBODY, S3, 5.\n*DSFLUX\nUPPER, S, 1.\nUPPER, S, 3."))
     # 12 in through the top, out through the film below
     assert np.allclose(result.field("NT11"), 12.0 / BELOW[1], rtol=0, atol=1e-4)
 
@@ -455,18 +445,18 @@ def test_fluxes_add_up(run):
         ("*SURFACE, NAME=S, COMBINE=DIFFERENCE\nUPPER, LOWER", {1, 2}),
     ],
 )
-def test_a_surface_has_each_face_once(run, lines, faces):
+def test_a_surface_has_each_face_once(run_deck, lines, faces):
     """The reaction is the pressure on the faces."""
     model = f"*SURFACE, NAME=RIGHT\n2, S3\n{lines}\n"
-    result = run(elastic("*DSLOAD\nS, P, 1.", model=model))
+    result = run_deck(elastic("*DSLOAD\nS, P, 1.", model=model))
     assert result.field("RF")[:, 1].sum() == pytest.approx(len(faces), rel=1e-9)
 
 
-def test_shared_face_has_its_weight_once(run):
+def test_shared_face_has_its_weight_once(run_deck):
     """Nodes of two faces have the weights 1/2, 1, 1/2: 1.5, 3 and 1.5 of a force of 6, whatever names them twice."""
     model = "*SURFACE, NAME=S\nBODY, S3\nSECOND, S3\n*NODE\n99, 1., 2.\n"
     model += "*COUPLING, CONSTRAINT NAME=C, REF NODE=99, SURFACE=S\n*DISTRIBUTING\n"
-    result = run(elastic("*CLOAD\n99, 2, 6.", model=model, held="*BOUNDARY\n1, 1, 2\n2, 1, 2\n3, 1, 2\n"))
+    result = run_deck(elastic("*CLOAD\n99, 2, 6.", model=model, held="*BOUNDARY\n1, 1, 2\n2, 1, 2\n3, 1, 2\n"))
     assert np.allclose(result.field("RF")[:3, 1], [-1.5, -3.0, -1.5], rtol=1e-9)
 
 

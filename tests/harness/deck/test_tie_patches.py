@@ -11,7 +11,6 @@ import itertools
 import numpy as np
 import pytest
 
-import uel
 from uel.deck import read_deck
 from uel.model.element_types import BUILT_IN
 
@@ -111,15 +110,6 @@ def columns(second, main, cells, counts, **shape):
     return upper, lower, [*lower.lines(section=section), *upper.lines(section=section)]
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text):
-        (tmp_path / "deck.inp").write_text(text)
-        return uel.run(tmp_path / "deck.inp", output_dir=tmp_path)
-
-    return run
-
-
 def pulled(second, main, cells, counts, tie="", options="", **shape):
     """UPPER, whose nodes are tied, on LOWER, pulled at its upper end, with nu = 0.3."""
     _, lower, lines = columns(second, main, cells, counts, **shape)
@@ -148,34 +138,34 @@ def check(result, d, rtol=1e-10):
 @pytest.mark.sample(5)
 @pytest.mark.parametrize("main", SPACE)
 @pytest.mark.parametrize("second", SPACE)
-def test_constant_stress_in_space(run, second, main):
+def test_constant_stress_in_space(run_deck, second, main):
     """Two by two faces on three by one."""
-    check(run(pulled(second, main, SPACE, ((2, 2, 1), (3, 1, 1)))), 3)
+    check(run_deck(pulled(second, main, SPACE, ((2, 2, 1), (3, 1, 1)))), 3)
 
 
 @pytest.mark.parametrize(("second", "main"), [("C3D8", "C3D20"), ("C3D10", "C3D8"), ("C3D20", "C3D4")])
-def test_constant_stress_across_faces_that_are_no_parallelograms(run, second, main):
+def test_constant_stress_across_faces_that_are_no_parallelograms(run_deck, second, main):
     """Edges are inclined to each other. Shape functions are no polynomials there: the integrals are good to 1e-5."""
-    check(run(pulled(second, main, SPACE, ((2, 2, 1), (3, 1, 1)), skew=0.2)), 3, rtol=1e-5)
+    check(run_deck(pulled(second, main, SPACE, ((2, 2, 1), (3, 1, 1)), skew=0.2)), 3, rtol=1e-5)
 
 
 @pytest.mark.parametrize("main", PLANE)
 @pytest.mark.parametrize("second", PLANE)
-def test_constant_stress_in_the_plane(run, second, main):
+def test_constant_stress_in_the_plane(run_deck, second, main):
     for counts in (((3, 1), (2, 1)), ((2, 1), (5, 1))):
-        check(run(pulled(second, main, PLANE, counts)), 2)
+        check(run_deck(pulled(second, main, PLANE, counts)), 2)
 
 
 @pytest.mark.parametrize("main", ROUND)
 @pytest.mark.parametrize("second", ROUND)
-def test_constant_stress_about_an_axis(run, second, main):
+def test_constant_stress_about_an_axis(run_deck, second, main):
     """A hollow cylinder, whose tractions count with the radius."""
-    check(run(pulled(second, main, ROUND, ((3, 1), (2, 1)))), 2)
+    check(run_deck(pulled(second, main, ROUND, ((3, 1), (2, 1)))), 2)
 
 
 @pytest.mark.parametrize("tolerance", [0.01, 0.3, 10.0])
 @pytest.mark.parametrize("tie", ["", ", TYPE=NODE TO SURFACE"])
-def test_faces_are_followed_whatever_the_tolerance(run, tie, tolerance):
+def test_faces_are_followed_whatever_the_tolerance(run_deck, tie, tolerance):
     """Three elements on two, stretched along the tie: u1 = 0.01 x, S11 = 10."""
     upper, lower, lines = columns("CPS4", "CPS4", PLANE, ((3, 1), (2, 1)))
     lines += [f"*MATERIAL, NAME=M\n*ELASTIC\n{YOUNG}, 0.", f"*TIE, NAME=T, POSITION TOLERANCE={tolerance}{tie}"]
@@ -186,15 +176,15 @@ def test_faces_are_followed_whatever_the_tolerance(run, tie, tolerance):
         ends = [k for k in ends if body is lower or body.nodes[k - body.first][1] > 1.5]
         given += [f"{k}, 1, 1, {0.01 * body.nodes[k - body.first][0]!r}" for k in ends]
     lines += ["*STEP\n*STATIC\n1., 1.\n*BOUNDARY", *given, "*OUTPUT, FIELD\n*END STEP"]
-    result = run("\n".join(lines).replace("np.float64(", "").replace(")", "") + "\n")
+    result = run_deck("\n".join(lines).replace("np.float64(", "").replace(")", "") + "\n")
     np.testing.assert_allclose(result.field("S11"), 10.0, atol=1e-9)
 
 
 @pytest.mark.parametrize(("second", "main"), [("C3D8", "C3D20"), ("C3D10", "C3D8"), ("C3D8", "C3D6")])
-def test_constant_stress_with_nlgeom(run, second, main):
+def test_constant_stress_with_nlgeom(run_deck, second, main):
     """Both columns have the same stress and stretch, whatever the mesh."""
     text = pulled(second, main, SPACE, ((2, 2, 1), (3, 1, 1)), options=", NLGEOM").replace(f"P, {-PULL}", "P, -100.")
-    result = run(text)
+    result = run_deck(text)
     stress = result.field("S33")
     np.testing.assert_allclose(stress, stress[0], rtol=1e-6)
     x, u = result.mesh().points, result.field("U")[:, 2]
@@ -209,7 +199,7 @@ HEAT = {"DC2D4": "quad", "DC2D8": "quad", "DC2D6": "triangle", "CPS4T": "quad", 
     ("second", "main"),
     [*itertools.product(["DC2D4", "DC2D8", "DC2D6"], repeat=2), *itertools.product(["CPS4T", "CPS8T"], repeat=2)],
 )
-def test_constant_flux(run, second, main):
+def test_constant_flux(run_deck, second, main):
     """Temperatures 0 and 200 at the ends: linear between them. Of CPS8T only the corners have temperatures."""
     upper, lower, lines = columns(second, main, HEAT, ((3, 1), (2, 1)))
     material = "*MATERIAL, NAME=M\n*CONDUCTIVITY\n1.5"
@@ -223,7 +213,7 @@ def test_constant_flux(run, second, main):
     hot = [f"{k}, 11, 11, 200." for k in upper.chosen(lambda x: x[:, 1] > 2 - 1e-9)]
     cold = [f"{k}, 11, 11, 0." for k in lower.chosen(lambda x: x[:, 1] < 1e-9)]
     lines += [f"*STEP\n{procedure}\n1., 1.\n*BOUNDARY", *hot, *cold, "*OUTPUT, FIELD\n*NODE OUTPUT\nNT, U\n*END STEP"]
-    result = run("\n".join(lines) + "\n")
+    result = run_deck(lines)
     found, y = result.field("NT11"), result.mesh().points[:, 1]
     corners = np.isin(np.arange(len(y)), _corners(upper, lower)) if coupled else np.ones(len(y), dtype=bool)
     np.testing.assert_allclose(found[corners], 100.0 * y[corners], atol=1e-8)
@@ -254,7 +244,7 @@ def test_linear_fields(tmp_path, second, main, tie):
 
 
 @pytest.mark.parametrize(("adjust", "height"), [("YES", 2.2), ("NO", 2.0)])
-def test_adjust(run, adjust, height):
+def test_adjust(run_deck, adjust, height):
     """Nodes at a distance of 0.2 are moved onto the main surface, without strain: the upper column becomes longer."""
     text = pulled("CPS4", "CPS4", PLANE, ((3, 1), (2, 1)), tie=f", POSITION TOLERANCE=0.3, ADJUST={adjust}")
     second = text.index("*NODE, NSET=UPPER")
@@ -263,7 +253,7 @@ def test_adjust(run, adjust, height):
         ", ".join([*line.split(", ")[:2], repr(float(line.split(", ")[2]) + 0.2)]) if line[0] == "5" else line
         for line in nodes.splitlines()
     )
-    result = run(text.replace(nodes, lifted + "\n"))
+    result = run_deck(text.replace(nodes, lifted + "\n"))
     np.testing.assert_allclose(result.field("S22"), PULL, atol=1e-9)
     top = result.field("U")[:, 1].max()
     assert top == pytest.approx(height * PULL / YOUNG, rel=1e-9)
@@ -307,7 +297,7 @@ class Grid:
 
 @pytest.mark.parametrize("order", ["OUT_ON, IN_ON", "IN_ON, OUT_ON"])
 @pytest.mark.parametrize(("inner", "outer"), list(itertools.product(["CPE4", "CPE8"], repeat=2)))
-def test_inclusion_with_corners(run, inner, outer, order):
+def test_inclusion_with_corners(run_deck, inner, outer, order):
     """A square of 2 by 2 elements in a frame of 3 for each of its sides: any constant strain passes.
 
     A node at a corner has forces of both sides.
@@ -327,12 +317,12 @@ def test_inclusion_with_corners(run, inner, outer, order):
     for k, x in enumerate(grids[1].nodes):
         if np.isclose(np.abs(x - 1.5).max(), 1.5):
             lines += [f"{5001 + k}, {d + 1}, {d + 1}, {u!r}" for d, u in enumerate((strain @ x).tolist())]
-    result = run("\n".join([*lines, "*OUTPUT, FIELD\n*END STEP"]) + "\n")
+    result = run_deck([*lines, "*OUTPUT, FIELD\n*END STEP"])
     np.testing.assert_allclose(result.field("U")[:, :2], result.mesh().points[:, :2] @ strain.T, atol=1e-14)
 
 
 @pytest.mark.parametrize("order", ["OUT_ON, IN_ON", "IN_ON, OUT_ON"])
-def test_tube_of_two_layers(run, order):
+def test_tube_of_two_layers(run_deck, order):
     """Radial displacements of a tube under internal pressure, by Lame's solution in plane strain.
 
     Eight quadratic faces of a quarter on eleven: 2e-5 is what a few elements of second order leave.
@@ -350,7 +340,7 @@ def test_tube_of_two_layers(run, order):
     for grid in grids:
         for level, dof in ((0.0, 2), (1.0, 1)):
             lines += [f"{grid.first + k}, {dof}" for k in np.flatnonzero(np.isclose(grid.mesh[:, 1], level)).tolist()]
-    result = run("\n".join([*lines, "*STEP\n*STATIC\n1., 1.\n*DSLOAD\nBORE, P, 10.\n*OUTPUT, FIELD\n*END STEP"]) + "\n")
+    result = run_deck([*lines, "*STEP\n*STATIC\n1., 1.\n*DSLOAD\nBORE, P, 10.\n*OUTPUT, FIELD\n*END STEP"])
     x, u = result.mesh().points[:, :2], result.field("U")[:, :2]
     r = np.hypot(*x.T)
     # S11 = A - B/r^2, A = p a^2/(b^2 - a^2), B = A b^2, with a = 1, b = 2

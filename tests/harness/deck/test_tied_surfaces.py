@@ -9,19 +9,9 @@ from reference_cells import nodes_of
 from scipy.spatial.transform import Rotation
 from small_decks import body_lines
 
-import uel
 from uel.deck import read_deck
 from uel.errors import DeckError
 from uel.model.element_types import BUILT_IN
-
-
-@pytest.fixture
-def run(tmp_path):
-    def run(text, name="deck"):
-        (tmp_path / f"{name}.inp").write_text(text)
-        return uel.run(tmp_path / f"{name}.inp", output_dir=tmp_path)
-
-    return run
 
 
 def read(tmp_path, text):
@@ -57,7 +47,7 @@ GRADIENT = 1e-3 * np.array([[1.0, 0.4, -0.2], [0.3, -0.7, 0.5], [-0.6, 0.2, 0.8]
 @pytest.mark.parametrize(
     ("kind", "lower", "upper"), [("CPE4", (2,), (6,)), ("C3D8", (2, 1), (4, 3)), ("CPS4", (1,), (1,))]
 )
-def test_patch(run, kind, lower, upper):
+def test_patch(run_deck, kind, lower, upper):
     """Where each face of the second surface is cut by the first one, displacements are continuous: any state of
     constant strain passes.
     """
@@ -72,7 +62,7 @@ def test_patch(run, kind, lower, upper):
             u = GRADIENT[:d, :d] @ body.nodes[node]
             given += [f"{body.first + node}, {k + 1}, {k + 1}, {u[k]!r}" for k in range(d)]
     step = "\n".join(["*STEP\n*STATIC\n1., 1.", "*BOUNDARY", *given, "*OUTPUT, FIELD\n*END STEP"])
-    result = run(tied(*bodies, [step.replace("np.float64(", "").replace(")", "")]))
+    result = run_deck(tied(*bodies, [step.replace("np.float64(", "").replace(")", "")]))
     x = result.mesh().points
     expected = x[:, :d] @ GRADIENT[:d, :d].T
     np.testing.assert_allclose(result.field("U")[:, :d], expected, atol=1e-12)
@@ -159,21 +149,21 @@ def test_faces_with_middle_nodes(tmp_path, kind, cell, face, functions):
 PULL = "*STEP\n*STATIC\n1., 1.\n*BOUNDARY\nUPPER_TOP, 2, 2, 0.01\n*OUTPUT, FIELD\n*END STEP"
 
 
-def test_both_sides_held(run, tmp_path):
+def test_both_sides_held(run_deck, tmp_path):
     """A line of symmetry through both bodies: its nodes are held on both surfaces, and the ties say nothing more."""
     held = "*BOUNDARY\nLOWER_BOTTOM, 2\nLOWER_LEFT, 1\nUPPER_LEFT, 1"
-    result = run(tied(*boxes("CPS4", (2,), (6,)), [PULL], tie="TYPE=SURFACE TO SURFACE", model=held))
+    result = run_deck(tied(*boxes("CPS4", (2,), (6,)), [PULL], tie="TYPE=SURFACE TO SURFACE", model=held))
     np.testing.assert_allclose(result.field("S22"), YOUNG * 0.005, rtol=1e-9)
     text = " ".join((tmp_path / "deck.dat").read_text().split())
     assert "*TIE: nodes follow means of the main surface over their faces, which pass constant stress" in text
 
 
 @pytest.mark.parametrize("adjust", ["YES", "NO"])
-def test_gap_within_the_tolerance(run, adjust):
+def test_gap_within_the_tolerance(run_deck, adjust):
     """ADJUST=YES, the default, closes a gap without strain; else the bodies move as if there was none."""
     held = "*BOUNDARY\nLOWER_BOTTOM, 2\nLOWER_LEFT, 1"
     tie = "TYPE=NODE TO SURFACE" + ("" if adjust == "YES" else ", ADJUST=NO")
-    result = run(tied(*boxes("CPS4", (2,), (6,), gap=1e-3), [PULL], tie=tie, model=held))
+    result = run_deck(tied(*boxes("CPS4", (2,), (6,), gap=1e-3), [PULL], tie=tie, model=held))
     height = 2.001 if adjust == "YES" else 2.0
     np.testing.assert_allclose(result.field("S22"), YOUNG * 0.01 / height, rtol=1e-9)
 
@@ -246,7 +236,7 @@ IN_PLANE = np.eye(3), np.array([3.0, -2.0, 0.0])
 
 @pytest.mark.parametrize("nlgeom", [False, True])
 @pytest.mark.parametrize("shape", ["in space", "in the plane", "with a centre"])
-def test_sector_is_that_of_the_whole(run, shape, nlgeom):
+def test_sector_is_that_of_the_whole(run_deck, shape, nlgeom):
     """One sector moves as each of the nine of the whole under loads that repeat themselves, radial and round the axis.
 
     Held is the inner side, or, with a centre, the first node of the outer side of each sector.
@@ -276,14 +266,14 @@ def test_sector_is_that_of_the_whole(run, shape, nlgeom):
             nlgeom=nlgeom,
             cyclic=sectors == 1,
         )
-        result = run(text, name=f"sectors{sectors}")
+        result = run_deck(text, name=f"sectors{sectors}")
         own = numbers[:, :CUTS].ravel()
         found.append(result.field("U")[own])
     assert np.abs(found[1]).max() > 1e-3
     np.testing.assert_allclose(found[0], found[1], atol=1e-9 * np.abs(found[1]).max())
 
 
-def test_modes_of_a_sector_are_refused(run):
+def test_modes_of_a_sector_are_refused(run_deck):
     """They differ from sector to sector."""
     nodes, elements, numbers, triangles = annulus(1, layers=0)
     given = {"kind": "CPS4", "place": IN_PLANE, "loads": [], "held": [], "nlgeom": False, "cyclic": True}
@@ -291,7 +281,7 @@ def test_modes_of_a_sector_are_refused(run):
     text = text[: text.index("*STEP")].replace("*ELASTIC", "*DENSITY\n1.\n*ELASTIC")
     message = r"deck\.inp:\d+: \*TIE: CYCLIC SYMMETRY is not supported with \*FREQUENCY \(.*deck\.inp:\d+\)"
     with pytest.raises(DeckError, match=message):
-        run(text + "*STEP\n*FREQUENCY\n2,\n*END STEP\n")
+        run_deck(text + "*STEP\n*FREQUENCY\n2,\n*END STEP\n")
 
 
 MODEL = "*CYCLIC SYMMETRY MODEL, N=9\n3.0, -2.0"
@@ -313,29 +303,29 @@ MODEL = "*CYCLIC SYMMETRY MODEL, N=9\n3.0, -2.0"
         ("*NSET, NSET=LAST\n", "*NSET, NSET=LAST\n1,\n", r"node 1 is on both surfaces, but not on the axis"),
     ],
 )
-def test_wrong_sectors(run, old, new, message):
+def test_wrong_sectors(run_deck, old, new, message):
     nodes, elements, numbers, triangles = annulus(1, layers=0)
     given = {"kind": "CPS4", "place": IN_PLANE, "loads": [], "held": [], "nlgeom": False, "cyclic": True}
     text = sector_deck(nodes, elements, numbers, triangles, **given)
     assert old in text
     with pytest.raises(DeckError, match=rf"deck\.inp:\d+: .*{message}"):
-        run(text.replace(old, new))
+        run_deck(text.replace(old, new))
 
 
-def test_axis_of_one_point(run):
+def test_axis_of_one_point(run_deck):
     nodes, elements, numbers, triangles = annulus(1)
     given = {"kind": "C3D8", "place": SKEW, "loads": [], "held": [], "nlgeom": False, "cyclic": True}
     text = sector_deck(nodes, elements, numbers, triangles, **given)
     line = next(line for line in text.splitlines() if line.startswith("3.0, -2.0, 1.0, "))
     with pytest.raises(DeckError, match=r"deck\.inp:\d+: .*points a and b of the axis are the same"):
-        run(text.replace(line, "3.0, -2.0, 1.0, 3.0, -2.0, 1.0"))
+        run_deck(text.replace(line, "3.0, -2.0, 1.0, 3.0, -2.0, 1.0"))
 
 
 APART = ("CPS4", (2,), (6,), 0.5)
 
 
 @pytest.mark.parametrize("kind", ["ELEMENT", "NODE"])
-def test_surfaces_apart(run, kind):
+def test_surfaces_apart(run_deck, kind):
     """No node is within 5 % of the edge of a main face, or of the distance of its nodes, which are 1."""
     text = tied(*boxes(*APART), [PULL])
     if kind == "NODE":
@@ -344,7 +334,7 @@ def test_surfaces_apart(run, kind):
         r"no node of the first surface is within 0\.05 of the second one; expected surfaces that touch, or a larger"
     )
     with pytest.raises(DeckError, match=rf"deck\.inp:\d+: \*TIE: {message} POSITION TOLERANCE"):
-        run(text)
+        run_deck(text)
 
 
 @pytest.mark.parametrize(
@@ -355,19 +345,19 @@ def test_surfaces_apart(run, kind):
         ("TIED NSET=UPPER_TOP", r"\*TIE: no node of the first surface is in TIED NSET"),
     ],
 )
-def test_wrong_options(run, option, message):
+def test_wrong_options(run_deck, option, message):
     with pytest.raises(DeckError, match=message):
-        run(tied(*boxes(*APART), [PULL], tie=option))
+        run_deck(tied(*boxes(*APART), [PULL], tie=option))
 
 
 @pytest.mark.parametrize("tie", ["TYPE=NODE TO SURFACE", "TYPE=SURFACE TO SURFACE"])
-def test_nodes_far_away_stay_untied(run, tmp_path, tie):
+def test_nodes_far_away_stay_untied(run_deck, tmp_path, tie):
     """The lower surface reaches beyond the upper one: its node 6 is free, as without the tie (nu = 0)."""
     lower = Box("LOWER", "CPS4", (0, 0), (2, 1), (2, 1))
     upper = Box("UPPER", "CPS4", (0, 1), (1, 2), (1, 1), first=1001)
     held = "*BOUNDARY\nLOWER_BOTTOM, 1, 2\nUPPER_TOP, 1"
     text = tied(lower, upper, [PULL], tie=tie, model=held).replace("UPPER_LOW, LOWER_HIGH", "LOWER_HIGH, UPPER_LOW")
-    found = run(text)
+    found = run_deck(text)
     untied = next(k for k, x in enumerate(lower.nodes) if x.tolist() == [2.0, 1.0]) + 1
     message = f"*TIE: nodes of the first surface farther than 0.05 from the second one stay untied: {untied}"
     assert any(warning.endswith(message) for warning in found.warnings)
@@ -376,14 +366,14 @@ def test_nodes_far_away_stay_untied(run, tmp_path, tie):
     # the other two nodes are tied: one mesh with common nodes gives the same
     joined = text.replace(f"*TIE, NAME=T, {tie}\nLOWER_HIGH, UPPER_LOW", "*MPC\nTIE, 1001, 2\nTIE, 1003, 4")
     assert joined != text
-    np.testing.assert_allclose(moved, run(joined).field("U"), atol=1e-12)
+    np.testing.assert_allclose(moved, run_deck(joined).field("U"), atol=1e-12)
 
 
 @pytest.mark.parametrize("gap", [0.5, 500.0])
-def test_tied_nset(run, gap):
+def test_tied_nset(run_deck, gap):
     """Its nodes are tied whatever their distance, and no others."""
     held = "*BOUNDARY\nLOWER_BOTTOM, 2\nLOWER_LEFT, 1"
-    result = run(tied(*boxes(*APART[:3], gap), [PULL], tie="TIED NSET=UPPER_BOTTOM, ADJUST=NO", model=held))
+    result = run_deck(tied(*boxes(*APART[:3], gap), [PULL], tie="TIED NSET=UPPER_BOTTOM, ADJUST=NO", model=held))
     np.testing.assert_allclose(result.field("S22"), YOUNG * 0.005, rtol=1e-9)
 
 
@@ -577,13 +567,13 @@ def glued(kind, lower, layer, upper, *, secondary=True):
         ("C3D8", (2, 1), (4, 2), (1, 1)),
     ],
 )
-def test_cohesive_layer_tied_to_solids(run, kind, lower, layer, upper, secondary):
+def test_cohesive_layer_tied_to_solids(run_deck, kind, lower, layer, upper, secondary):
     """A layer between two bars of length 1: u = s (2/E + 1/K), without Poisson's ratio."""
     if not secondary:
         # the finer side follows
         lower, layer, upper = layer, lower, layer
     text, axis = glued(kind, lower, layer, upper, secondary=secondary)
-    result = run(text)
+    result = run_deck(text)
     stress = 0.01 / (2 / YOUNG + 1 / K)
     solids = result.field(f"S{axis}{axis}")
     np.testing.assert_allclose(solids[np.isfinite(solids)], stress, rtol=1e-9)

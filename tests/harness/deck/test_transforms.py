@@ -7,7 +7,6 @@ from itertools import product
 import numpy as np
 import pytest
 
-import uel
 from uel.errors import DeckError
 
 SQUARE = np.array([[0, 0, 0], [2, 0, 0], [2.2, 1, 0], [0, 1, 0]], dtype=float)
@@ -47,15 +46,6 @@ def deck(element_type, step, turned):
     return "\n".join(lines)
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text):
-        (tmp_path / "turned.inp").write_text(text)
-        return uel.run(tmp_path / "turned.inp", output_dir=tmp_path)
-
-    return run
-
-
 def vectors(history, name, nodes):
     """(nodes, increments, 3) of a nodal quantity, zero where a node has no such component."""
     some = len(history["time"])
@@ -68,11 +58,11 @@ def vectors(history, name, nodes):
 @pytest.mark.parametrize(
     ("element_type", "step"), [pair for pair in product(BODIES, STEPS) if pair not in {("S4", "large")}]
 )
-def test_a_turned_body_does_what_it_did_before(run, element_type, step):
+def test_a_turned_body_does_what_it_did_before(run_deck, element_type, step):
     """Displacements, rotations, reactions and loads turn with it; output has them in global directions."""
     nodes, axes, _ = BODIES[element_type]
-    before = run(deck(element_type, step, turned=False)).history
-    turned = run(deck(element_type, step, turned=True)).history
+    before = run_deck(deck(element_type, step, turned=False)).history
+    turned = run_deck(deck(element_type, step, turned=True)).history
     moved = 0
     for name in ("U", "UR", "RF", "RM", "CF", "CM"):
         expected = vectors(before, name, len(nodes))
@@ -119,9 +109,9 @@ U, CF
 
 
 @pytest.mark.parametrize("kind", ["C", "S"])
-def test_directions_about_an_axis(run, kind):
+def test_directions_about_an_axis(run_deck, kind):
     """1 is radial; 2 is circumferential: the direction 3 of the sphere is -z in the plane of its centre."""
-    history = run(CYLINDER.format(kind)).history
+    history = run_deck(CYLINDER.format(kind)).history
     found = {node: [history[f"U{k}[ALL:{node}]"][-1] for k in (1, 2)] for node in range(1, 5)}
     assert found[1] == pytest.approx([0.1, 0.1])
     assert found[2] == pytest.approx([0.0, 0.0])
@@ -130,7 +120,7 @@ def test_directions_about_an_axis(run, kind):
     assert load == pytest.approx([10 / 2**0.5, 10 / 2**0.5])
 
 
-def test_a_transform_of_a_part_turns_with_its_instance(run):
+def test_a_transform_of_a_part_turns_with_its_instance(run_deck):
     """The part is turned by 90 degrees about z: its x axis, along which the support is free, is y."""
     text = (
         "*PART, NAME=P\n"
@@ -141,7 +131,7 @@ def test_a_transform_of_a_part_turns_with_its_instance(run):
     text += "0., 0., 0., 0., 0., 1., 90.\n*END INSTANCE\n*NSET, NSET=ALL, INSTANCE=I\n1, 2, 3, 4\n*END ASSEMBLY\n"
     text += "*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*STEP\n*STATIC\n1., 1.\n*BOUNDARY\nI.1, 1, 1, 0.1\nI.1, 2\n"
     text += "I.2, 1, 2\nI.4, 1, 2\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nU\n*END STEP\n"
-    history = run(text).history
+    history = run_deck(text).history
     (first,) = [name for name in history if name.startswith("U1[") and name.endswith("I.1]")]
     assert history[first][-1] == pytest.approx(0.0, abs=1e-12)
     assert history[first.replace("U1", "U2")][-1] == pytest.approx(0.1)
@@ -167,29 +157,29 @@ def test_a_transform_of_a_part_turns_with_its_instance(run):
         ([("*STEP", "*MPC\nPIN, 3, 2\n*STEP")], r"node 3 has a \*TRANSFORM \(.*:14\), which is not supported here"),
     ],
 )
-def test_what_is_wrong_is_named(run, changes, message):
+def test_what_is_wrong_is_named(run_deck, changes, message):
     text = CYLINDER.format("C")
     for old, new in changes:
         assert old in text
         text = text.replace(old, new)
     with pytest.raises(DeckError, match=message):
-        run(text)
+        run_deck(text)
 
 
-def test_two_values_of_a_local_dof_are_told(run):
-    result = run(CYLINDER.format("C").replace("2, 1, 2\n", "2, 1, 2\n1, 2, 2, 0.4\n"))
+def test_two_values_of_a_local_dof_are_told(run_deck):
+    result = run_deck(CYLINDER.format("C").replace("2, 1, 2\n", "2, 1, 2\n1, 2, 2, 0.4\n"))
     assert any("node 1, dof 2 is given the value 0.4 here and the value 0.1" in text for text in result.warnings)
 
 
-def test_printed_components_are_told(run, tmp_path):
-    run(CYLINDER.format("C").replace("*OUTPUT, HISTORY", "*NODE PRINT\nU\n*OUTPUT, HISTORY"))
-    text = " ".join((tmp_path / "turned.dat").read_text().split())
+def test_printed_components_are_told(run_deck, tmp_path):
+    run_deck(CYLINDER.format("C").replace("*OUTPUT, HISTORY", "*NODE PRINT\nU\n*OUTPUT, HISTORY"))
+    text = " ".join((tmp_path / "deck.dat").read_text().split())
     assert "*NODE PRINT: components are global here; in Abaqus they are those of *TRANSFORM without GLOBAL=YES" in text
 
 
-def test_a_node_on_the_axis_is_told(run):
+def test_a_node_on_the_axis_is_told(run_deck):
     """Direction 1 is x there, 2 is y; the directions of others are radial as ever."""
-    result = run(CYLINDER.format("C").replace("1., 1., 0., 1., 1., 5.", "3., 1., 0., 3., 1., 5."))
+    result = run_deck(CYLINDER.format("C").replace("1., 1., 0., 1., 1., 5.", "3., 1., 0., 3., 1., 5."))
     assert [result.history[f"U{k}[ALL:1]"][-1] for k in (1, 2)] == pytest.approx([0.1, 0.1])
     outward = np.array([-2.0, 2.0]) / 8**0.5
     moved = [result.history[f"U{k}[ALL:4]"][-1] for k in (1, 2)]

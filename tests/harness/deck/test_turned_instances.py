@@ -181,14 +181,12 @@ def test_flat_beam_stands_upright(tmp_path):
     assert deflection == pytest.approx(expected, rel=1e-4)
 
 
-def test_springs_along_global_axes_are_told(tmp_path):
+def test_springs_along_global_axes_are_told(run_deck):
     def body(points, directions):
         text = beam([0.0, 1.0, 0.0])(points, directions)
         return text + "*ELEMENT, TYPE=SPRING1, ELSET=S\n2, 2\n*SPRING, ELSET=S\n1\n5.\n"
 
-    path = tmp_path / "spring.inp"
-    path.write_text(deck(body, turned=True, outside=MATERIAL))
-    warnings = uel.run(path, output_dir=tmp_path).warnings
+    warnings = run_deck(deck(body, turned=True, outside=MATERIAL)).warnings
     assert any("dofs 1 are those of the global axes, which do not turn with instance I" in text for text in warnings)
 
 

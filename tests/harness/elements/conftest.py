@@ -10,7 +10,6 @@ import pytest
 import scipy.sparse as sp
 from material_point import COMPONENTS, MaterialPoint
 
-import uel
 from uel import usersub
 from uel.elements import Call, Flags, Request, build_blocks
 from uel.errors import Source
@@ -29,17 +28,6 @@ from uel.model.properties import (
 
 HERE = Path(__file__).parent
 SOURCE = Source("test.inp", 7)
-
-
-@pytest.fixture
-def run(tmp_path):
-    """Run the text of a deck; options as those of `uel.run`."""
-
-    def run(text, **options):
-        (tmp_path / "deck.inp").write_text(text)
-        return uel.run(tmp_path / "deck.inp", output_dir=tmp_path, **options)
-
-    return run
 
 
 @pytest.fixture

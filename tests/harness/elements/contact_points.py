@@ -75,3 +75,12 @@ class Points:
         wanted = np.stack(wanted, axis=1)
         np.testing.assert_allclose(found, wanted, atol=1e-6 * max(1.0, np.abs(wanted).max()))
         return found
+
+
+def rotation_of(angle, dimension):
+    """About the axis of the plane, or (1, 2, 2) / 3, by the formula of Rodrigues."""
+    if dimension == 2:
+        return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    axis = np.array([1.0, 2.0, 2.0]) / 3.0
+    skew = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
+    return np.eye(3) + np.sin(angle) * skew + (1 - np.cos(angle)) * skew @ skew

@@ -10,7 +10,6 @@ from differences import check_energy
 from moving_element import CUBE, NODES, SQUARE, MovingElement, turn
 from small_decks import body_lines
 
-import uel
 from uel.errors import DeckError, KernelError, Source
 from uel.model.mesh import ElementGroup
 from uel.model.procedures import Static
@@ -165,18 +164,9 @@ USER = "*ANISOTROPIC HYPERELASTIC, USER, FORMULATION=INVARIANT, LOCAL DIRECTIONS
 TISSUE = "*ANISOTROPIC HYPERELASTIC, HOLZAPFEL, LOCAL DIRECTIONS=2\n0.5, 0.4, 0.8, 0.6, 0.1"
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text, user=None):
-        (tmp_path / "tissue.inp").write_text(text)
-        return uel.run(tmp_path / "tissue.inp", user and HERE / user, output_dir=tmp_path)
-
-    return run
-
-
-def test_a_pulled_cube(run):
+def test_a_pulled_cube(run_deck):
     """Stress along the pull where the other sides are free: that of the energy in Python."""
-    result = run(deck(TISSUE))
+    result = run_deck(deck(TISSUE))
     stress = np.array([result.field(f"S{k}")[0] for k in ("11", "22", "33", "12", "13", "23")])
     np.testing.assert_allclose(stress[1:], 0, atol=1e-3 * stress[0])
     _, side, height = 1 + result.field("U")[6]
@@ -186,23 +176,23 @@ def test_a_pulled_cube(run):
     assert stress[0] > 0.3
 
 
-def test_nearly_incompressible_and_incompressible_in_hybrid_elements(run):
+def test_nearly_incompressible_and_incompressible_in_hybrid_elements(run_deck):
     """C3D8H with D = 0 is the limit of small D, whose volume stays in the mean."""
     found = []
     for d in ("0.", "1e-5"):
-        result = run(deck(TISSUE.replace("0.4,", f"{d},"), element_type="C3D8H"))
+        result = run_deck(deck(TISSUE.replace("0.4,", f"{d},"), element_type="C3D8H"))
         found.append(result.field("S11")[0])
         _, side, height = 1 + result.field("U")[6]
         assert 1.2 * side * height == pytest.approx(1, abs=1e-4)
     assert found[0] == pytest.approx(found[1], rel=1e-4)
 
 
-def test_arguments(run):
+def test_arguments(run_deck):
     """STATEV of the last increment begins with that of the one before; TEMP and FIELDV at the end, FIELDVINC."""
     initial = "*INITIAL CONDITIONS, TYPE="
     more = f"*DEPVAR\n12\n{initial}TEMPERATURE\nALL, 20.\n{initial}FIELD, VARIABLE=1\nALL, 1."
     loads = "*TEMPERATURE\nALL, 60.\n*FIELD, VARIABLE=1\nALL, 3."
-    result = run(deck(USER + "0.5, 0.4, 0., 0.7", more=more, loads=loads), "fibres.f90")
+    result = run_deck(deck(USER + "0.5, 0.4, 0., 0.7", more=more, loads=loads), HERE / "fibres.f90")
     assert len(result.status) == 4
     found = np.array([result.field(f"SDV{k}")[0] for k in range(1, 13)])
     # one call of each converged increment is kept; two families of fibers have nine invariants
@@ -244,24 +234,24 @@ def test_arguments(run):
         ),
     ],
 )
-def test_errors_of_decks(run, keyword, options, message):
-    with pytest.raises(DeckError, match=r"tissue\.inp:\d+: .*" + message):
-        run(deck(keyword, **options), "fibres.f90")
+def test_errors_of_decks(run_deck, keyword, options, message):
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: .*" + message):
+        run_deck(deck(keyword, **options), HERE / "fibres.f90")
 
 
-def test_a_file_without_it(run):
+def test_a_file_without_it(run_deck):
     with pytest.raises(DeckError, match=r"USER: material TISSUE needs UANISOHYPER_INV; .* has UHYPER"):
-        run(deck(USER + "1., 1."), "potential.f90")
+        run_deck(deck(USER + "1., 1."), HERE / "potential.f90")
 
 
 def wrong(way):
     return USER.replace("=4", "=5") + f"0.5, 0.4, 0., 0.7, {way}"
 
 
-def test_it_ends_the_analysis(run):
+def test_it_ends_the_analysis(run_deck):
     message = r"element 1 \(type C3D8\): UANISOHYPER_INV at integration point 1 stopped the analysis"
     with pytest.raises(KernelError, match=message):
-        run(deck(wrong(1)), "fibres.f90")
+        run_deck(deck(wrong(1)), HERE / "fibres.f90")
 
 
 @pytest.mark.parametrize(
@@ -273,12 +263,12 @@ def test_it_ends_the_analysis(run):
         ),
     ],
 )
-def test_its_mistakes_are_told(run, way, text):
-    result = run(deck(wrong(way)), "fibres.f90")
+def test_its_mistakes_are_told(run_deck, way, text):
+    result = run_deck(deck(wrong(way)), HERE / "fibres.f90")
     assert any(text in " ".join(warning.split()) for warning in result.warnings), result.warnings
 
 
-def test_too_large_for_numbers(run):
+def test_too_large_for_numbers(run_deck):
     """Stiff fibers in one increment: a smaller one is taken."""
-    result = run(deck(TISSUE.replace("0.6, 0.1", "1e6, 0.")).replace("*STATIC, DIRECT\n0.25", "*STATIC\n1."))
+    result = run_deck(deck(TISSUE.replace("0.6, 0.1", "1e6, 0.")).replace("*STATIC, DIRECT\n0.25", "*STATIC\n1."))
     assert "THE STRETCHES ARE TOO LARGE" in result.file(".msg").read_text().upper()

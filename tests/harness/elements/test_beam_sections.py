@@ -11,7 +11,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import uel
 from uel.elements import Flags, Request
 from uel.elements.families.beam_points import rectangle_shear, section_points
 from uel.elements.families.beam_profiles import profile_of
@@ -384,10 +383,10 @@ PLASTIC = "*ELASTIC\n1000., 0.25\n*PLASTIC\n2., 0."
 
 
 @pytest.fixture
-def run(tmp_path):
+def run_beams(run_deck):
     """Run beams along x."""
 
-    def run(element_type="B31", count=1, length=2.0, *, user=None, **more):
+    def run_beams(element_type="B31", count=1, length=2.0, *, user=None, **more):
         text = {
             "material": PLASTIC,
             "section": "RECT\n0.4, 0.7",
@@ -401,25 +400,19 @@ def run(tmp_path):
         last = per * count + 1
         nodes = "\n".join(f"{k + 1}, {length * k / (last - 1)!r}, 0., 0." for k in range(last))
         elements = "\n".join(", ".join(map(str, (k + 1, *range(per * k + 1, per * (k + 1) + 2)))) for k in range(count))
-        deck = COLUMN.format(nodes=nodes, elements=elements, last=last, type=element_type, **text)
-        (tmp_path / "job.inp").write_text(deck)
-        file = None
-        if user:
-            file = tmp_path / "user.f"
-            file.write_text(user)
-        return uel.run(tmp_path / "job.inp", file, output_dir=tmp_path)
+        return run_deck(COLUMN.format(nodes=nodes, elements=elements, last=last, type=element_type, **text), user)
 
-    return run
+    return run_beams
 
 
 @pytest.mark.parametrize("element_type", ["B21", "B31"])
-def test_collapse_of_a_clamped_beam(run, element_type):
+def test_collapse_of_a_clamped_beam(run_beams, element_type):
     """Hinges at both ends and in the middle, where linear elements have their points: P (L/2 - h) = 4 M."""
     count, length = 8, 8.0
     middle = count // 2 + 1
     # by symmetry the middle does not turn: with a hinge on both sides nothing else would hold it
     held = f"ROOT, ENCASTRE\nEND, ENCASTRE\n{middle}, 2, 2, -0.5\n{middle}, 6"
-    found = run(element_type, count, length, held=held).history
+    found = run_beams(element_type, count, length, held=held).history
     hinge, h = YIELD * 0.4 * 0.7**2 / 4, length / count
     # first-order convergence towards 8 M/L; the hinges harden by nothing
     assert -found[f"RF2[ALL:{middle}]"][-1] == pytest.approx(4 * hinge / (length / 2 - h), rel=1e-6)
@@ -427,8 +420,8 @@ def test_collapse_of_a_clamped_beam(run, element_type):
 
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("element_type", TYPES)
-def test_output_at_section_points(run, element_type):
-    found = run(element_type, held="ROOT, ENCASTRE\nEND, 1, 1, 0.01")
+def test_output_at_section_points(run_beams, element_type):
+    found = run_beams(element_type, held="ROOT, ENCASTRE\nEND, 1, 1, 0.01")
     numbers = (1, 5) if BEAM[element_type].dimension == 2 else (1, 5, 21, 25)
     for number in numbers:
         assert float(found.field(f"S11_SP{number}")[0]) == pytest.approx(2.0, rel=1e-6)
@@ -439,35 +432,35 @@ def test_output_at_section_points(run, element_type):
 
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("element_type", TYPES)
-def test_thermal_expansion(run, element_type):
+def test_thermal_expansion(run_beams, element_type):
     """Free: the thermal strain and no stress; held: the stress -E alpha dT until it yields."""
     material = "*ELASTIC\n1000., 0.25\n*EXPANSION\n1e-4"
     heat = "*TEMPERATURE\nALL, 15."
-    free = run(element_type, material=material, step=heat)
+    free = run_beams(element_type, material=material, step=heat)
     last = BEAM[element_type].nodes
     assert free.history[f"U1[ALL:{last}]"][-1] == pytest.approx(2 * 1e-4 * 15, rel=1e-9)
     assert float(free.field("S11_SP1")[0]) == pytest.approx(0, abs=1e-9)
-    held = run(element_type, material=material, step=heat, held="ROOT, ENCASTRE\nEND, ENCASTRE")
+    held = run_beams(element_type, material=material, step=heat, held="ROOT, ENCASTRE\nEND, ENCASTRE")
     assert held.history["RF1[ALL:1]"][-1] == pytest.approx(1000 * 1e-4 * 15 * 0.28, rel=1e-9)
-    beyond = run(
+    beyond = run_beams(
         element_type, material=f"{material}\n*PLASTIC\n1., 0.", step=heat, held="ROOT, ENCASTRE\nEND, ENCASTRE"
     )
     assert float(beyond.field("S11_SP5")[0]) == pytest.approx(-1.0, rel=1e-6)
     assert float(beyond.field("PE11_SP5")[0]) == pytest.approx(-(1e-4 * 15 - 1e-3), rel=1e-5)
 
 
-def test_temperature_that_varies_along_the_axis(run):
+def test_temperature_that_varies_along_the_axis(run_beams):
     """Of three nodes the strain of each point is that between them: the mean is (1 + 4 + 1)/6 of theirs."""
     heat = "*TEMPERATURE\n1, 0.\n2, 30.\n3, 15."
-    found = run("B32", material="*ELASTIC\n1000., 0.25\n*EXPANSION\n1e-4", step=heat).history
+    found = run_beams("B32", material="*ELASTIC\n1000., 0.25\n*EXPANSION\n1e-4", step=heat).history
     assert found["U1[ALL:3]"][-1] == pytest.approx(2 * 1e-4 * (4 * 30 + 15) / 6, rel=1e-9)
 
 
-def test_moduli_by_a_field(run):
+def test_moduli_by_a_field(run_beams):
     """*ELASTIC, DEPENDENCIES: the field is given at the nodes."""
     material = "*ELASTIC, DEPENDENCIES=1\n1000., 0.25, , 0.\n500., 0.25, , 1."
     field = "*INITIAL CONDITIONS, TYPE=FIELD, VARIABLE=1\nALL, 0.5"
-    found = run("B31", material=material, before=field, step="*CLOAD\nEND, 1, 2.\nEND, 4, 0.3").history
+    found = run_beams("B31", material=material, before=field, step="*CLOAD\nEND, 1, 2.\nEND, 4, 0.3").history
     assert found["U1[ALL:2]"][-1] == pytest.approx(2 * 2.0 / (750 * 0.28), rel=1e-9)
     twist = 2 * 0.3 / (750 / 2.5 * profile_of(section("RECT"), 3).torsion)
     assert found["UR1[ALL:2]"][-1] == pytest.approx(twist, rel=1e-9)
@@ -484,11 +477,11 @@ USDFLD = f"""      INCLUDE '{HERE / "usdfld.inc"}'
 """
 
 
-def test_damage_by_the_largest_strain(run):
+def test_damage_by_the_largest_strain(run_beams):
     """USDFLD at the section points: the field is the strain at the start of the increment."""
     material = "*ELASTIC, DEPENDENCIES=1\n1000., 0.25, , 0.\n500., 0.25, , 0.01\n*USER DEFINED FIELD\n*DEPVAR\n3"
     step = "*CLOAD\nEND, 1, 1.4"
-    found = run("B31", material=material, step=step, user=USDFLD)
+    found = run_beams("B31", material=material, step=step, user=USDFLD)
     largest = 0.0
     for k in range(1, 11):
         strain, stress = (float(found.field(f"{name}_SP25", increment=k)[0]) for name in ("E11", "S11"))
@@ -531,14 +524,14 @@ SHEAR = "*TRANSVERSE SHEAR STIFFNESS\n95.2, 95.2"
         ("B22", "I\n0.3, 0.7, 0.4, 0.3, 0.02, 0.02, 0.01", 1 + 100 + 1500),
     ],
 )
-def test_user_material(run, element_type, profile, code):
+def test_user_material(run_beams, element_type, profile, code):
     """An elastic UMAT makes an elastic beam; NDI, NSHR and the points are those of Abaqus."""
     loads = "*CLOAD\nEND, 2, 0.05\nEND, 6, 0.02\nEND, 1, 0.3"
     if BEAM[element_type].dimension == 3:
         loads += "\nEND, 4, 0.03\nEND, 3, 0.04"
     given = {"section": profile, "shear": SHEAR, "step": loads}
-    elastic = run(element_type, material="*ELASTIC\n1000., 0.25", **given).history
-    user = run(element_type, material=USER, user=UMAT, **given)
+    elastic = run_beams(element_type, material="*ELASTIC\n1000., 0.25", **given).history
+    user = run_beams(element_type, material=USER, user=UMAT, **given)
     for name, values in elastic.items():
         np.testing.assert_allclose(user.history[name], values, rtol=1e-8, atol=1e-11, err_msg=name)
     # the mean over the integration points
@@ -567,6 +560,6 @@ def test_user_material(run, element_type, profile, code):
         ("B31", {"material": "*ELASTIC\n1., 0.\n*PLASTIC\n-1., 0."}, r"\*PLASTIC"),
     ],
 )
-def test_what_is_refused(run, element_type, more, message):
-    with pytest.raises(DeckError, match=r"job\.inp:\d+: .*" + message):
-        run(element_type, user=UMAT if "USER" in more.get("material", "") else None, **more)
+def test_what_is_refused(run_beams, element_type, more, message):
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: .*" + message):
+        run_beams(element_type, user=UMAT if "USER" in more.get("material", "") else None, **more)

@@ -377,17 +377,17 @@ def plies(layers, options=", ORIENTATION=O", *, type="C3D8", nlgeom="", more="",
     return f"{lines}\n{section}{before}{STEP.format(nlgeom=nlgeom, more=more)}"
 
 
-def test_stack_direction_without_layers(run):
+def test_stack_direction_without_layers(run_deck):
     """As Abaqus/CAE writes it for a section whose orientation has a direction of the stack."""
     found = []
     for option in ("", ", STACK DIRECTION=2"):
         text = plies("1.", f", MATERIAL=P, ORIENTATION=T{option}").replace(", COMPOSITE", "")
-        found.append(run(text).field("U").copy())
+        found.append(run_deck(text).field("U").copy())
     np.testing.assert_array_equal(*found)
 
 
 @pytest.mark.parametrize("element_type", ["C3D8", "C3D8R", "C3D8I"])
-def test_large_displacements_of_equal_layers(run, element_type):
+def test_large_displacements_of_equal_layers(run_deck, element_type):
     """Uniform stretches and rotations: the same as without layers, whose directions turn in the same way."""
     gradient = np.array([[0.2, 0.3, 0.0], [-0.2, 0.1, 0.1], [0.05, 0.0, -0.1]])
     motion = "\n".join(
@@ -400,7 +400,7 @@ def test_large_displacements_of_equal_layers(run, element_type):
         text = plies(layers, f", ORIENTATION=T{options}", type=element_type, nlgeom=", NLGEOM")
         text = text.replace(", COMPOSITE", "" if options else ", COMPOSITE")
         start, end = text.index("1, 1, 3\n"), text.index("\n*OUTPUT")
-        found.append(run(text[:start] + motion + text[end:]).field("RF").copy())
+        found.append(run_deck(text[:start] + motion + text[end:]).field("RF").copy())
     np.testing.assert_allclose(*found, rtol=1e-6, atol=1e-6 * abs(found[0]).max())
 
 
@@ -414,28 +414,30 @@ def test_large_displacements_of_equal_layers(run, element_type):
         ("1., 3, P", "1., 3, P, 0."),
     ],
 )
-def test_lines_that_say_the_same(run, given, same):
-    found = [run(plies(layers)).field("U").copy() for layers in (given, same)]
+def test_lines_that_say_the_same(run_deck, given, same):
+    found = [run_deck(plies(layers)).field("U").copy() for layers in (given, same)]
     np.testing.assert_allclose(*found, rtol=1e-6, atol=1e-9)
 
 
-def test_symmetric(run):
-    found = run(plies("1., 1, P, 35.\n2., 3, Q", ", ORIENTATION=O, SYMMETRIC")).field("U").copy()
-    expected = run(plies("1., 1, P, 35.\n2., 3, Q\n2., 3, Q\n1., 1, P, 35."))
+def test_symmetric(run_deck):
+    found = run_deck(plies("1., 1, P, 35.\n2., 3, Q", ", ORIENTATION=O, SYMMETRIC")).field("U").copy()
+    expected = run_deck(plies("1., 1, P, 35.\n2., 3, Q\n2., 3, Q\n1., 1, P, 35."))
     np.testing.assert_array_equal(found, expected.field("U"))
 
 
-def test_angles_are_about_the_normal_of_the_layer(run):
+def test_angles_are_about_the_normal_of_the_layer(run_deck):
     """An orientation that is tilted against the layers is projected on them if the layer has an angle, only then."""
     tilted = "*ORIENTATION, NAME=L\n0.8, 0., 0.6, 0., 1., 0.\n3, 0.\n"
-    flat = run(plies("1., 3, P, 35.")).field("U").copy()
-    projected = run(plies("1., 3, P, 35.", ", ORIENTATION=L").replace("*SOLID", tilted + "*SOLID", 1)).field("U").copy()
+    flat = run_deck(plies("1., 3, P, 35.")).field("U").copy()
+    projected = (
+        run_deck(plies("1., 3, P, 35.", ", ORIENTATION=L").replace("*SOLID", tilted + "*SOLID", 1)).field("U").copy()
+    )
     np.testing.assert_allclose(projected, flat, rtol=1e-6, atol=1e-9)
-    kept = run(plies("1., 3, P", ", ORIENTATION=L").replace("*SOLID", tilted + "*SOLID", 1)).field("U").copy()
+    kept = run_deck(plies("1., 3, P", ", ORIENTATION=L").replace("*SOLID", tilted + "*SOLID", 1)).field("U").copy()
     alone = (
         plies("1.", ", MATERIAL=P, ORIENTATION=L").replace(", COMPOSITE", "").replace("*SOLID", tilted + "*SOLID", 1)
     )
-    np.testing.assert_allclose(kept, run(alone).field("U"), rtol=1e-6, atol=1e-9)
+    np.testing.assert_allclose(kept, run_deck(alone).field("U"), rtol=1e-6, atol=1e-9)
 
 
 UMAT = f"""      INCLUDE '{HERE / "umat.inc"}'
@@ -461,7 +463,7 @@ USDFLD = f"""      INCLUDE '{HERE / "usdfld.inc"}'
 
 
 @pytest.mark.parametrize("direction", [1, 2, 3])
-def test_arguments_of_user_routines(run, tmp_path, direction):
+def test_arguments_of_user_routines(run_deck, tmp_path, direction):
     """At the first and the last section point; the mean of the four points along the layers is their middle."""
     user = "*MATERIAL, NAME=U\n*USER MATERIAL, CONSTANTS=1\n100.\n*DEPVAR\n10\n*USER DEFINED FIELD\n"
     other = "*MATERIAL, NAME=V\n*USER MATERIAL, CONSTANTS=1\n100.\n*DEPVAR\n12\n*USER DEFINED FIELD\n"
@@ -470,7 +472,7 @@ def test_arguments_of_user_routines(run, tmp_path, direction):
     text = plies(layers, f", ORIENTATION=O, STACK DIRECTION={direction}", before=user + other)
     text = text.replace("3, 0.", turned, 1)
     (tmp_path / "user.f").write_text(UMAT + USDFLD)
-    found = run(text, user=tmp_path / "user.f")
+    found = run_deck(text, user=tmp_path / "user.f")
     size = BOX.max(axis=0)
     for side, layer, kspt, place in (("SNEG", 1, 1, 1 / 8), ("SPOS", 2, 3, 1.0)):
         middle = size / 2
@@ -485,20 +487,20 @@ def test_arguments_of_user_routines(run, tmp_path, direction):
     np.testing.assert_allclose(found.field("SDV10_SPOS"), np.sin(np.radians(35)), rtol=1e-6)
 
 
-def test_layers_of_a_field_are_layers_of_a_material(run, tmp_path):
+def test_layers_of_a_field_are_layers_of_a_material(run_deck, tmp_path):
     table = "*MATERIAL, NAME=F\n*ELASTIC, DEPENDENCIES=1\n500., 0.2, , 1.\n900., 0.4, , 3.\n*USER DEFINED FIELD\n"
     (tmp_path / "user.f").write_text(
         USDFLD.replace("LAYER + 10*KSPT + 100*ICHAR(ORNAME(1:1))", "LAYER").replace(
             "      STATEV(10) = DIRECT(2,1)\n", ""
         )
     )
-    one = run(plies("1., 3, F\n1., 3, F\n2., 3, F", before=table), user=tmp_path / "user.f").field("U").copy()
+    one = run_deck(plies("1., 3, F\n1., 3, F\n2., 3, F", before=table), user=tmp_path / "user.f").field("U").copy()
     constants = "".join(f"*MATERIAL, NAME=F{k}\n*ELASTIC\n{300 + 200 * k}., {0.1 + 0.1 * k}\n" for k in (1, 2, 3))
-    other = run(plies("1., 3, F1\n1., 3, F2\n2., 3, F3", before=constants))
+    other = run_deck(plies("1., 3, F1\n1., 3, F2\n2., 3, F3", before=constants))
     np.testing.assert_allclose(one, other.field("U"), rtol=1e-6, atol=1e-9)
 
 
-def test_expansion_of_a_layer(run):
+def test_expansion_of_a_layer(run_deck):
     """Both layers are as stiff and stretch alike: their forces balance, and the strain is the weighted mean."""
     before = "*MATERIAL, NAME=H\n*ELASTIC\n1000., 0.\n*EXPANSION\n1e-3\n"
     text = plies("1., 3, H\n3., 3, Q", before=before, more="*TEMPERATURE\nALL, 10.")
@@ -506,18 +508,18 @@ def test_expansion_of_a_layer(run):
     # the sides stay plane and parallel
     text = text.replace("*STEP", "*EQUATION\n2\n2, 1, 1., 6, 1, -1.\n2\n3, 1, 1., 7, 1, -1.\n*STEP", 1)
     text = text.replace("1, 1, 3\n", "ALL, 2, 3\n1, 1\n", 1).replace("4, 1\n5, 1, 2\n8, 1\n", "4, 1\n5, 1\n8, 1\n")
-    found = run(text)
+    found = run_deck(text)
     np.testing.assert_allclose(found.field("E11_SPOS"), 0.01 / 4, rtol=1e-5)
     np.testing.assert_allclose(found.field("S11_SNEG"), 1000 * (0.01 / 4 - 0.01), rtol=1e-5)
 
 
-def test_gravity_and_print(run):
+def test_gravity_and_print(run_deck):
     """A force of density times volume; *EL PRINT has the points at which the stresses are, as with shells."""
     text = plies(
         "1., 3, Q\n3., 1, Q", more="*DLOAD\nBODY, GRAV, 10., 0., 0., -1.\n*EL PRINT, POSITION=AVERAGED AT NODES\nS"
     )
     text = text.replace("1000., 0.\n", "1000., 0.\n*DENSITY\n2.\n")
-    found = run(text)
+    found = run_deck(text)
     assert found.field("RF")[:, 2].sum() == pytest.approx(2 * 10 * 1.0, rel=1e-6)
     lines = [line.split() for line in found.file(".dat").read_text().splitlines()]
     assert {line[2] for line in lines if line[:1] == ["1"] and len(line) == 9} == {"1", "4"}
@@ -530,13 +532,13 @@ CLAMPED = "*BOUNDARY\n1, 1, 3\n4, 1, 3\n5, 1, 3\n8, 1, 3\n"
     "step",
     [f"*STEP\n*FREQUENCY\n3,\n{CLAMPED}*END STEP\n", f"*STEP\n*BUCKLE\n2,\n{CLAMPED}*CLOAD\n2, 1, -1.\n*END STEP\n"],
 )
-def test_modes_of_equal_layers(run, step):
+def test_modes_of_equal_layers(run_deck, step):
     """Those of the element without layers."""
     found = []
     for layers, options in (("1., 3, Q\n2., 3, Q", ""), ("1.", ", MATERIAL=Q")):
         text = plies(layers, options).replace("1000., 0.\n", "1000., 0.\n*DENSITY\n2.\n")
         text = text.replace(", COMPOSITE", "" if options else ", COMPOSITE")
-        found.append(run(text[: text.index("*STEP")] + step).history["EIGVAL"].copy())
+        found.append(run_deck(text[: text.index("*STEP")] + step).history["EIGVAL"].copy())
     np.testing.assert_allclose(*found, rtol=1e-8)
 
 
@@ -604,32 +606,32 @@ def test_modes_of_equal_layers(run, step):
         ),
     ],
 )
-def test_what_is_wrong_is_named(run, layers, options, more, message):
+def test_what_is_wrong_is_named(run_deck, layers, options, more, message):
     with pytest.raises(DeckError, match=message):
-        run(plies(layers, options, **more))
+        run_deck(plies(layers, options, **more))
 
 
-def test_umat_in_elements_of_one_point_needs_hourglass_stiffness(run):
+def test_umat_in_elements_of_one_point_needs_hourglass_stiffness(run_deck):
     text = plies("1., 1, U", type="C3D8R", before="*MATERIAL, NAME=U\n*USER MATERIAL, CONSTANTS=1\n1.\n")
     message = r"elements of type C3D8R with \*USER MATERIAL need \*HOURGLASS STIFFNESS after \*SOLID SECTION"
     with pytest.raises(DeckError, match=message):
-        run(text)
+        run_deck(text)
 
 
-def test_two_hourglass_controls(run):
+def test_two_hourglass_controls(run_deck):
     text = plies("1., 1, P\n*HOURGLASS STIFFNESS\n1.", ", CONTROLS=C", type="C3D8R")
     text = text.replace("*MATERIAL", "*SECTION CONTROLS, NAME=C, HOURGLASS=ENHANCED\n*MATERIAL", 1)
     with pytest.raises(DeckError, match=r"\*HOURGLASS STIFFNESS and \*SECTION CONTROLS with HOURGLASS=ENHANCED"):
-        run(text)
+        run_deck(text)
 
 
-def test_an_angle_of_zero_needs_no_normal(run):
+def test_an_angle_of_zero_needs_no_normal(run_deck):
     """The direction about which angles are lies in the layer, as in the public deck 1Element-UMAT."""
-    found = run(plies("1., 3, P, 0.", ", ORIENTATION=O, STACK DIRECTION=1")).field("U").copy()
-    np.testing.assert_array_equal(found, run(plies("1., 3, P, O", ", STACK DIRECTION=1")).field("U"))
+    found = run_deck(plies("1., 3, P, 0.", ", ORIENTATION=O, STACK DIRECTION=1")).field("U").copy()
+    np.testing.assert_array_equal(found, run_deck(plies("1., 3, P, O", ", STACK DIRECTION=1")).field("U"))
 
 
-def test_dynamic_needs_density(run):
+def test_dynamic_needs_density(run_deck):
     text = plies("1., 1, P").replace("*STATIC, DIRECT\n0.5, 1.", "*DYNAMIC, DIRECT, NOHAF\n0.5, 1.")
     with pytest.raises(DeckError, match=r"\*DYNAMIC with elements of type C3D8 with layers needs \*DENSITY, which"):
-        run(text)
+        run_deck(text)

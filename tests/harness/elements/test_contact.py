@@ -48,11 +48,11 @@ def pressed(by, options=""):
     ("pair", "lower"),
     [("SMALL SLIDING", 3), (SLIDING, 3), (SURFACES, 3), (SURFACES, 2), (SLIDING_SURFACES, 3), (SLIDING_SURFACES, 2)],
 )
-def test_patch_test(run, element_type, pair, lower):
+def test_patch_test(run_deck, element_type, pair, lower):
     """Uniaxial stress: E strain, E / (1 - nu^2) strain in plane strain; between surfaces on any meshes."""
     boxes = plane(lower=lower, upper=3, element_type=element_type)
     held = HELD.replace("\nLOWER_LEFT, 1\nUPPER_LEFT, 1", "") if element_type == "CAX4" else HELD
-    result = run(two_boxes(*boxes, [held, pressed(0.02)], pair=pair))
+    result = run_deck(two_boxes(*boxes, [held, pressed(0.02)], pair=pair))
     stress = -YOUNG * 0.01 / (1 - 0.3**2 if element_type == "CPE4" else 1.0)
     area = np.pi * 2**2 if element_type == "CAX4" else 2 * THICKNESS
     for end, sign in (("LOWER_BOTTOM", -1), ("UPPER_TOP", 1)):
@@ -64,7 +64,7 @@ def test_patch_test(run, element_type, pair, lower):
 
 @PAIRS
 @pytest.mark.parametrize("element_type", ["CPE4T", "CPE4RT", "C3D8T"])
-def test_warm_bodies_close_a_gap(run, pair, element_type):
+def test_warm_bodies_close_a_gap(run_deck, pair, element_type):
     """No heat crosses. Between walls strains are (stress (1 + nu) (1 - 2 nu) / E + (1 + nu) alpha T) / (1 - nu)."""
     gap, alpha, warm, cold, nu = 0.01, 1e-3, 20.0, 10.0, 0.3
     lower, upper = plane(gap, element_type=element_type)
@@ -82,7 +82,7 @@ def test_warm_bodies_close_a_gap(run, pair, element_type):
     ends = f"*BOUNDARY\nUPPER_TOP, {top}\nUPPER_TOP, 11, 11, {warm}\nLOWER_BOTTOM, 11, 11, {cold}"
     warming = step("1., 1.", ends).replace("*STATIC", "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE")
     warming = warming.replace("*OUTPUT, FIELD", "*OUTPUT, FIELD\n*NODE OUTPUT\nU, NT")
-    result = run(two_boxes(lower, upper, [held, warming], pair=pair, model=side.rstrip(), law=law))
+    result = run_deck(two_boxes(lower, upper, [held, warming], pair=pair, model=side.rstrip(), law=law))
     stress = (gap * (1 - nu) - (1 + nu) * alpha * (warm + cold)) * YOUNG / (2 * (1 + nu) * (1 - 2 * nu))
     assert total(result, f"RF{top}", "UPPER_TOP")[-1] == pytest.approx(2 * THICKNESS * stress, rel=1e-9)
     temperatures = result.field("NT11")
@@ -101,30 +101,30 @@ def test_warm_bodies_close_a_gap(run, pair, element_type):
         (SLIDING_SURFACES, 3, 0.01),
     ],
 )
-def test_patch_of_bricks(run, pair, along, error):
+def test_patch_of_bricks(run_deck, pair, along, error):
     """Between surfaces on matching meshes, and on others as well as the points of a face integrate."""
     lower = Box("LOWER", "C3D8", (0, 0, 0), (2, 3, 1), (along, 3, 1))
     upper = Box("UPPER", "C3D8", (0, 0, 1), (2, 3, 3), (2, 3, 2), first=1001)
     held = "*BOUNDARY\nLOWER_BOTTOM, 3\nLOWER_LEFT, 1\nUPPER_LEFT, 1\nLOWER_FRONT, 2\nUPPER_FRONT, 2"
-    result = run(two_boxes(lower, upper, [held, step("1., 1.", "*BOUNDARY\nUPPER_TOP, 3, 3, -0.03")], pair=pair))
+    result = run_deck(two_boxes(lower, upper, [held, step("1., 1.", "*BOUNDARY\nUPPER_TOP, 3, 3, -0.03")], pair=pair))
     np.testing.assert_allclose(result.field("S33"), -YOUNG * 0.01, rtol=error)
     assert total(result, "RF3", "UPPER_TOP")[-1] == pytest.approx(-YOUNG * 0.01 * 6, rel=error)
 
 
-def test_meshes_that_do_not_match(run):
+def test_meshes_that_do_not_match(run_deck):
     """Node to surface fails the patch test, but forces balance; on one face of the main surface it passes.
 
     Constant pressure on nodes at 0, 2/3, 4/3 and 2 gives the nodes at 0, 1 and 2 5/9, 8/9 and 5/9 of it in place of
     1/2, 1, 1/2: such forces do not belong to a constant stress.
     """
     boxes = plane(lower=2, upper=3)
-    result = run(two_boxes(*boxes, [HELD, pressed(0.02)]))
+    result = run_deck(two_boxes(*boxes, [HELD, pressed(0.02)]))
     forces = [total(result, "RF2", end)[-1] for end in ("LOWER_BOTTOM", "UPPER_TOP")]
     assert forces[0] == pytest.approx(-forces[1], rel=1e-10)
     stress = -YOUNG * 0.01 / (1 - 0.3**2)
     error = np.abs(result.field("S22") / stress - 1).max()
     assert 0.01 < error < 0.2
-    single = run(two_boxes(*plane(lower=1, upper=3), [HELD, pressed(0.02)]))
+    single = run_deck(two_boxes(*plane(lower=1, upper=3), [HELD, pressed(0.02)]))
     np.testing.assert_allclose(single.field("S22"), stress, rtol=1e-10)
 
 
@@ -138,17 +138,17 @@ def test_meshes_that_do_not_match(run):
         ("*SURFACE BEHAVIOR, DIRECT", np.inf, 0.0),
     ],
 )
-def test_stiffness_in_series_with_the_bodies(run, behavior, stiffness, clearance):
+def test_stiffness_in_series_with_the_bodies(run_deck, behavior, stiffness, clearance):
     """Two columns of height 1 with nu = 0: p (1/E + 1/E + 1/k) = displacement - (gap - clearance)."""
     boxes = plane(gap=0.01)
-    result = run(two_boxes(*boxes, [HELD, pressed(0.02)], nu=0.0, behavior=behavior))
+    result = run_deck(two_boxes(*boxes, [HELD, pressed(0.02)], nu=0.0, behavior=behavior))
     pressure = (0.02 - 0.01 + clearance) / (2 / YOUNG + 1 / stiffness)
     assert total(result, "RF2", "UPPER_TOP")[-1] == pytest.approx(-pressure * 2 * THICKNESS, rel=1e-9)
     assert [(row.severe_discontinuity_iterations, row.iterations) for row in result.status] == [(1, 1)]
 
 
 @pytest.mark.parametrize("deep", [0.005, 0.02, 0.05])
-def test_stiffness_that_grows(run, deep):
+def test_stiffness_that_grows(run_deck, deep):
     """PENALTY=NONLINEAR, default ratios: K/100 up to 1 % of the length of a face, 1 here, K from 3 % on; between them
     the stiffness is linear and the pressure its integral. The columns of height 1 are E/2 in series.
     """
@@ -159,21 +159,21 @@ def test_stiffness_that_grows(run, deep):
     behavior = f"*SURFACE BEHAVIOR, PENALTY=NONLINEAR\n{final}"
     moved = f"*BOUNDARY\nUPPER_TOP, 2, 2, {-(deep + 2 * pressure / YOUNG)}"
     moved = step("1., 1.", moved, "*CONTROLS, PARAMETERS=FIELD\n1e-9, 1e-6")
-    result = run(two_boxes(*plane(), [HELD, moved], nu=0.0, behavior=behavior))
+    result = run_deck(two_boxes(*plane(), [HELD, moved], nu=0.0, behavior=behavior))
     assert total(result, "RF2", "UPPER_TOP")[-1] == pytest.approx(-pressure * 2 * THICKNESS, rel=1e-8)
 
 
 @PAIRS
-def test_interference_is_resolved_at_once_unless_nodes_are_adjusted(run, pair):
+def test_interference_is_resolved_at_once_unless_nodes_are_adjusted(run_deck, pair):
     """Overlap h of two columns of height 1: p = E h / 2, in the first increment; ADJUST leaves no stress."""
     boxes = plane(gap=-0.01)
     steps = [HELD, step("0.25, 1.", "*BOUNDARY\nUPPER_TOP, 2")]
-    result = run(two_boxes(*boxes, steps, nu=0.0, pair=pair))
+    result = run_deck(two_boxes(*boxes, steps, nu=0.0, pair=pair))
     found = total(result, "RF2", "UPPER_TOP")
     np.testing.assert_allclose(found[1:], -YOUNG * 0.01 / 2 * 2 * THICKNESS, rtol=1e-9)
     for adjust in ("ADJUST=0.", "ADJUST", "ADJUST=SEC"):
         model = "*NSET, NSET=SEC, GENERATE\n1001, 1100"
-        result = run(two_boxes(*boxes, steps, nu=0.0, pair=f"{pair}, {adjust}", model=model))
+        result = run_deck(two_boxes(*boxes, steps, nu=0.0, pair=f"{pair}, {adjust}", model=model))
         assert np.abs(total(result, "RF2", "UPPER_TOP")).max() < 1e-12
 
 
@@ -188,11 +188,11 @@ def test_adjust_moves_nodes_that_are_near(tmp_path):
         np.testing.assert_allclose(model.contacts[0].clearances, 0.0 if moved else 0.01, atol=1e-15)
 
 
-def test_contact_variables(run):
+def test_contact_variables(run_deck):
     """Pressure and clearance of the secondary nodes, in the order of the mesh; not of others."""
     boxes = plane(gap=0.01)
     squeeze = step("0.25, 1., 1e-5, 0.25", "*BOUNDARY\nUPPER_TOP, 2, 2, -0.02")
-    result = run(two_boxes(*boxes, [HELD, squeeze], nu=0.0, behavior="*FRICTION\n0.3,"))
+    result = run_deck(two_boxes(*boxes, [HELD, squeeze], nu=0.0, behavior="*FRICTION\n0.3,"))
     on_it = np.isin(result.mesh().point_data["NODE"], boxes[1].numbers[:, 0])
     for increment, clearance, pressure in ((1, 0.005, 0.0), (-1, 0.0, YOUNG * 0.005)):
         for name, value in (("COPEN", clearance), ("CPRESS", pressure), ("CSHEAR1", 0.0), ("CSHEAR2", 0.0)):
@@ -201,7 +201,7 @@ def test_contact_variables(run):
             assert np.isnan(found[~on_it]).all()
 
 
-def test_friction_stress(run):
+def test_friction_stress(run_deck):
     """Full slip: mu p everywhere, against the motion of the upper body along the tangent -1 of the normal 2."""
     boxes = plane(lower=1, upper=1)
     steps = [
@@ -209,7 +209,7 @@ def test_friction_stress(run):
         step("1., 1.", "*BOUNDARY\nUPPER_TOP, 1\nUPPER_TOP, 2, 2, -0.02\nUPPER_BOTTOM, 1"),
         step("0.25, 1.", "*BOUNDARY\nUPPER_TOP, 1, 1, 0.5\nUPPER_BOTTOM, 1, 1, 0.5"),
     ]
-    result = run(two_boxes(*boxes, steps, nu=0.0, behavior="*FRICTION\n0.3,"))
+    result = run_deck(two_boxes(*boxes, steps, nu=0.0, behavior="*FRICTION\n0.3,"))
     on_it = np.isin(result.mesh().point_data["NODE"], boxes[1].numbers[:, 0])
     np.testing.assert_allclose(result.field("CPRESS")[on_it], YOUNG * 0.02, rtol=1e-9)
     np.testing.assert_allclose(np.abs(result.field("CSHEAR1")[on_it]), 0.3 * YOUNG * 0.02, rtol=1e-9)
@@ -220,7 +220,7 @@ def test_friction_stress(run):
 
 @PAIRS
 @pytest.mark.parametrize("behavior", ["", "*SURFACE BEHAVIOR, PENALTY\n1e5"])
-def test_bodies_that_turn(run, behavior, pair):
+def test_bodies_that_turn(run_deck, behavior, pair):
     """Two bodies are pressed together, then turned by 70 degrees: the forces turn with them, in space too.
 
     Rubber does not remember that its ends went straight to where they are.
@@ -251,7 +251,7 @@ def test_bodies_that_turn(run, behavior, pair):
             step("0.1, 1.", "*BOUNDARY, OP=NEW", *second),
         ]
         law = "*HYPERELASTIC, NEO HOOKE\n200., 0.005"
-        result = run(two_boxes(lower, upper, steps, behavior=behavior, pair=pair, law=law))
+        result = run_deck(two_boxes(lower, upper, steps, behavior=behavior, pair=pair, law=law))
         of_step = result.history["step"]
         before, after = (
             np.array([total(result, name, "UPPER_TOP")[of_step == k][-1] for name in ("RF1", f"RF{up}")])
@@ -261,37 +261,37 @@ def test_bodies_that_turn(run, behavior, pair):
         np.testing.assert_allclose(after, rotation @ before, atol=1e-6 * abs(before[1]))
 
 
-def test_same_as_one_body_in_large_displacements(run):
+def test_same_as_one_body_in_large_displacements(run_deck):
     """Matching meshes without friction, squeezed by a quarter: those of one body with nu = 0."""
     boxes = plane()
     whole = Box("UPPER", "CPE4", (0, 0), (2, 2), (2, 2))
     squeeze = step("0.25, 1.", "*BOUNDARY\nUPPER_TOP, 2, 2, -0.5", options=", NLGEOM")
-    apart = run(two_boxes(*boxes, [HELD, squeeze], nu=0.0))
+    apart = run_deck(two_boxes(*boxes, [HELD, squeeze], nu=0.0))
     lines = [*whole.lines(), f"*MATERIAL, NAME=M\n*ELASTIC\n{YOUNG}, 0.", "*BOUNDARY\nUPPER_BOTTOM, 2\nUPPER_LEFT, 1"]
     found = total(apart, "RF2", "UPPER_TOP")[-1]
-    alone = run("\n".join([*lines, squeeze.replace("LOWER", "UPPER")]) + "\n")
+    alone = run_deck([*lines, squeeze.replace("LOWER", "UPPER")])
     assert found == pytest.approx(total(alone, "RF2", "UPPER_TOP")[-1], rel=1e-6)
 
 
 # ------------------------------------------------------------ opening and closing
 
 
-def test_convert_sdi(run):
+def test_convert_sdi(run_deck):
     """NO: an increment ends with an iteration without changes; after I_S of them it is cut back."""
     boxes = plane(gap=0.01)
     steps = [HELD, step("1., 1.", "*BOUNDARY\nUPPER_TOP, 2, 2, -0.02", options=", CONVERT SDI=NO")]
-    result = run(two_boxes(*boxes, steps))
+    result = run_deck(two_boxes(*boxes, steps))
     assert [(row.severe_discontinuity_iterations, row.iterations) for row in result.status] == [(1, 1)]
     assert "EQUILIBRIUM WILL BE CHECKED" not in result.file(".msg").read_text()
     assert re.search(r"MAXIMUM ITERATIONS FOR SEVERE DISCONTINUITIES +12\n", result.file(".msg").read_text())
     few = "*CONTROLS, PARAMETERS=TIME INCREMENTATION\n, , , , , , 1\n"
     steps[1] = steps[1].replace("*BOUNDARY", few + "*BOUNDARY")
     with pytest.raises(ConvergenceError, match="TOO MANY ATTEMPTS"):
-        run(two_boxes(*boxes, steps))
+        run_deck(two_boxes(*boxes, steps))
     assert "SUBDIVISION AFTER 1 ITERATIONS FOR SEVERE DISCONTINUITIES" in result.file(".msg").read_text()
 
 
-def test_separation_and_contact_again(run):
+def test_separation_and_contact_again(run_deck):
     """The upper body is lifted by 0.01 and pressed by it, twice: no force while it is up, -E 0.005 while it is down."""
     boxes = plane()
     wave = "*AMPLITUDE, NAME=WAVE\n0., 0., 1., 1., 2., -1., 3., 1., 4., -1."
@@ -301,7 +301,7 @@ def test_separation_and_contact_again(run):
         nu=0.0,
         model=wave,
     )
-    result = run(text)
+    result = run_deck(text)
     time = result.history["time"]
     wanted = -YOUNG * 0.005 * 2 * THICKNESS * np.maximum(np.interp(time, range(5), (0, 1, -1, 1, -1)), 0)
     np.testing.assert_allclose(total(result, "RF2", "UPPER_TOP"), wanted, atol=1e-9)
@@ -310,9 +310,9 @@ def test_separation_and_contact_again(run):
     assert all(row.iterations <= 2 for row in result.status)
 
 
-def test_severe_discontinuity_iterations_in_the_files(run):
+def test_severe_discontinuity_iterations_in_the_files(run_deck):
     boxes = plane(gap=0.01)
-    result = run(two_boxes(*boxes, [HELD, step("0.4, 1.", "*BOUNDARY\nUPPER_TOP, 2, 2, -0.02")]))
+    result = run_deck(two_boxes(*boxes, [HELD, step("0.4, 1.", "*BOUNDARY\nUPPER_TOP, 2, 2, -0.02")]))
     assert [(row.severe_discontinuity_iterations, row.iterations) for row in result.status][:2] == [(0, 1), (1, 1)]
     text = result.file(".msg").read_text()
     for words in (
@@ -330,16 +330,16 @@ def test_severe_discontinuity_iterations_in_the_files(run):
         assert words in text
 
 
-def test_what_the_run_refuses(run, tmp_path):
+def test_what_the_run_refuses(run_deck, tmp_path):
     text = two_boxes(*plane(), [HELD, pressed(0.02)])
     for option, name in (("fallback", "--fallback"), ("energy_control", "--control energy")):
         with pytest.raises(UsageError, match=rf"{name}: not supported with \*CONTACT PAIR \(.*deck\.inp:\d+\)"):
-            run(text, solver=SolverOptions(**{option: True}))
+            run_deck(text, solver=SolverOptions(**{option: True}))
     with pytest.raises(DeckError, match=r"deck\.inp:\d+: \*CONTACT PAIR does not run on 2 ranks; run this deck in one"):
         refuse_unshared(read_deck(tmp_path / "deck.inp"), SimpleNamespace(size=2))
 
 
-def test_error_says_where_contact_has_not_converged(run):
+def test_error_says_where_contact_has_not_converged(run_deck):
     """One severe discontinuity iteration is allowed, and that of the first increment is not enough."""
     few = "*CONTROLS, PARAMETERS=TIME INCREMENTATION\n, , , , , , , , , , 1"
     steps = [HELD, step("1., 1., 1., 1.", few, "*BOUNDARY\nUPPER_TOP, 2, 2, -0.02")]
@@ -348,7 +348,7 @@ def test_error_says_where_contact_has_not_converged(run):
         ("*SURFACE BEHAVIOR, PENALTY\n1e5", r"contact force error 1500 at node 1003 of contact pair"),
     ):
         with pytest.raises(ConvergenceError) as caught:
-            run(two_boxes(*plane(gap=0.01), steps, behavior=behavior))
+            run_deck(two_boxes(*plane(gap=0.01), steps, behavior=behavior))
         notes = "\n".join(caught.value.__notes__)
         assert re.search(f"last iteration: largest {message}", notes)
         assert "--fallback" not in notes
@@ -358,7 +358,7 @@ def test_error_says_where_contact_has_not_converged(run):
 
 
 @PAIRS
-def test_block_sticks_and_slips(run, pair):
+def test_block_sticks_and_slips(run_deck, pair):
     """A stiff block under a constant force N is pushed: it sticks until the force is mu N, and turns back likewise.
 
     Sticking, the friction force is mu N / gamma_crit times the slip, gamma_crit = 0.005 of a face.
@@ -384,7 +384,7 @@ def test_block_sticks_and_slips(run, pair):
         behavior=f"*FRICTION\n{friction},",
         model="*AMPLITUDE, NAME=WAVE\n0., 0., 1., 1., 3., -1., 4., 1.",
     )
-    result = run(text)
+    result = run_deck(text)
     found = total(result, "RF1", "UPPER_LEFT", "UPPER_RIGHT")
     time = result.history["time"]
     slip, elastic, wanted = 0.0, 0.0, []
@@ -402,7 +402,7 @@ def test_block_sticks_and_slips(run, pair):
 
 
 @pytest.mark.parametrize(("pair", "faces"), [("SMALL SLIDING", 1), (SLIDING, 1), (SURFACES, 2), (SLIDING_SURFACES, 2)])
-def test_hertz_line_contact(run, pair, faces):
+def test_hertz_line_contact(run_deck, pair, faces):
     """A cylinder on a rigid plane: half-width b = sqrt(4 P R / (pi E*)), largest pressure 2 P / (pi b).
 
     K. L. Johnson, Contact Mechanics (1985), section 4.2. A block of 20 b by 20 b replaces a half of the half-space, its
@@ -420,7 +420,7 @@ def test_hertz_line_contact(run, pair, faces):
     plate.nodes = np.stack(np.meshgrid(across, (-1.0, 0.0), indexing="ij"), axis=-1).reshape(-1, 2)
     load = step("1., 1.", "*BOUNDARY\nUPPER_TOP, 2, 2, -0.05", output="*NODE OUTPUT, NSET=LOWER_TOP\nRF2")
     held = "*BOUNDARY\nLOWER_BOTTOM, 1, 2\nLOWER_TOP, 1, 2\nUPPER_LEFT, 1"
-    result = run(two_boxes(plate, body, [held, load], pair=pair))
+    result = run_deck(two_boxes(plate, body, [held, load], pair=pair))
     found = np.array([result.history[f"RF2[LOWER_TOP:{number}]"][-1] for number in plate.numbers[:, 1]])
     force = 2 * found.sum() / THICKNESS
     assert -total(result, "RF2", "UPPER_TOP")[-1] * 2 / THICKNESS == pytest.approx(force, rel=1e-9)

@@ -35,10 +35,10 @@ def pulled(by, times="0.05, 1., 1e-6, 0.05", extra=""):
 
 
 @PAIRS
-def test_bond_in_series_with_the_bodies(run, pair):
+def test_bond_in_series_with_the_bodies(run_deck, pair):
     """Two columns of height 1 with nu = 0: p (2/E + 1/K) = displacement in tension, K infinite in compression."""
     for by, compliance in ((0.02, 2 / YOUNG + 1 / 2000), (-0.02, 2 / YOUNG)):
-        result = run(two_boxes(*plane(), [HELD, pulled(by, "1., 1.")], nu=0.0, behavior=BOND, pair=pair))
+        result = run_deck(two_boxes(*plane(), [HELD, pulled(by, "1., 1.")], nu=0.0, behavior=BOND, pair=pair))
         assert total(result, "RF2", "UPPER_TOP")[-1] == pytest.approx(by / compliance * 2 * THICKNESS, rel=1e-9)
         np.testing.assert_allclose(result.field("S22"), by / compliance, rtol=1e-9)
 
@@ -77,7 +77,7 @@ def bricks():
     ],
     ids=["plane", "plane-surfaces", "plane-sliding", "space"],
 )
-def test_peeled_as_cohesive_elements_are(run, boxes, element_type, pair):
+def test_peeled_as_cohesive_elements_are(run_deck, boxes, element_type, pair):
     """One end is pulled and drawn: mixed mode, partly failed. Under pressure both have the stiffness of the law.
 
     The points of cohesive elements are the nodes, as those of node to surface. Surface to surface has means over the
@@ -90,11 +90,11 @@ def test_peeled_as_cohesive_elements_are(run, boxes, element_type, pair):
     energies = "*OUTPUT, HISTORY\n*ENERGY OUTPUT\nALLSE, ALLDMD"
     peel = step("0.1, 1., 1e-6, 0.1", way, "*CONTROLS, PARAMETERS=FIELD\n1e-7, 1e-4", energies)
     stiff = "*SURFACE BEHAVIOR, PENALTY\n2000.\n"
-    found = run(two_boxes(lower, upper, [held, peel], behavior=f"{stiff}{BOND}\n{LAW}", pair=pair))
+    found = run_deck(two_boxes(lower, upper, [held, peel], behavior=f"{stiff}{BOND}\n{LAW}", pair=pair))
     damage = found.field("CSDMG")
     damage = damage[np.isfinite(damage)]
     text = two_boxes(lower, upper, [held, peel], model=f"{elements_between(lower, upper, element_type)}\n{LAW}")
-    wanted = run(text.replace(text[text.index("*SURFACE INTERACTION") : text.index("*ELEMENT, TYPE=COH")], ""))
+    wanted = run_deck(text.replace(text[text.index("*SURFACE INTERACTION") : text.index("*ELEMENT, TYPE=COH")], ""))
     assert damage.max() > 0.99
     assert damage.min() < 0.6
     exact = "SURFACE" not in pair
@@ -107,16 +107,16 @@ def test_peeled_as_cohesive_elements_are(run, boxes, element_type, pair):
 
 
 @PAIRS
-def test_torn_in_one_increment(run, pair):
+def test_torn_in_one_increment(run_deck, pair):
     """Bonds that an increment takes from intact to failed have dissipated the fracture energy of mode I, 0.06."""
     tear = pulled(0.2, "1., 1.", "*OUTPUT, HISTORY\n*ENERGY OUTPUT\nALLDMD")
     law = LAW[: LAW.index("\n*DAMAGE STABILIZATION")]
-    result = run(two_boxes(*plane(), [HELD, tear], nu=0.0, behavior=f"{BOND}\n{law}", pair=pair))
+    result = run_deck(two_boxes(*plane(), [HELD, tear], nu=0.0, behavior=f"{BOND}\n{law}", pair=pair))
     assert len(result.history["ALLDMD"]) == 1
     assert result.history["ALLDMD"][-1] == pytest.approx(0.06 * 2 * THICKNESS, rel=1e-9)
 
 
-def test_friction_takes_over(run):
+def test_friction_takes_over(run_deck):
     """Pressed and drawn: the bond alone at first, K_s s on both nodes; friction mu N alone when it has failed."""
     stiff = f"*ELASTIC\n{1e7}, 0."
     behavior = f"{BOND}\n*DAMAGE INITIATION, CRITERION=MAXS\n4., 6., 6.\n*DAMAGE EVOLUTION, TYPE=DISPLACEMENT\n0.02"
@@ -124,7 +124,7 @@ def test_friction_takes_over(run):
     draw = [step("1., 1.", f"*BOUNDARY\nUPPER_TOP, 1, 1, {by}") for by in (0.001, 0.03, 0.031)]
     held = "*BOUNDARY\nLOWER_BOTTOM, 1, 2\nUPPER_TOP, 1"
     text = two_boxes(*plane(lower=1, upper=1), [held, press, *draw], law=stiff, behavior=f"*FRICTION\n0.3,\n{BOND}")
-    result = run(text.replace(BOND, behavior))
+    result = run_deck(text.replace(BOND, behavior))
     area = 2 * THICKNESS
     along, pressure = total(result, "RF1", "LOWER_BOTTOM"), total(result, "RF2", "LOWER_BOTTOM")
     assert pressure[-1] == pytest.approx(1e-5 / 2 * 1e7 * area, rel=1e-3)
@@ -133,8 +133,8 @@ def test_friction_takes_over(run):
     np.testing.assert_array_equal(result.field("CSDMG")[np.isfinite(result.field("CSDMG"))], 1.0)
 
 
-def test_points_that_do_not_touch_at_the_start_are_not_bonded(run):
-    result = run(
+def test_points_that_do_not_touch_at_the_start_are_not_bonded(run_deck):
+    result = run_deck(
         two_boxes(*plane(gap=0.01), [f"{HELD}\nUPPER_TOP, 2", pulled(0.0, "1., 1.")], behavior=f"{BOND}\n{LAW}")
     )
     assert np.isnan(result.field("CSDMG")).all()
@@ -219,7 +219,7 @@ def test_bonds_are_kept(call):
         ("SMALL SLIDING", LAW.replace("0.06, 0.15", "0.001, 0.15"), "energy 0.001 of the normal mode must exceed"),
     ],
 )
-def test_laws_that_are_refused(run, pair, law, message):
+def test_laws_that_are_refused(run_deck, pair, law, message):
     text = two_boxes(*bricks(), [step("1., 1.", "*BOUNDARY\nLOWER_BOTTOM, 1, 3")], behavior=f"{BOND}\n{law}", pair=pair)
     with pytest.raises(DeckError, match=message):
-        run(text)
+        run_deck(text)

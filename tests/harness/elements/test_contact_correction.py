@@ -34,7 +34,7 @@ CORRECTED = "TYPE=SURFACE TO SURFACE, GEOMETRIC CORRECTION=ROUND"
 HELD = "*BOUNDARY\nLOWER_LEFT, 1\nUPPER_LEFT, 1\nLOWER_RIGHT, 2\nUPPER_RIGHT, 2"
 
 
-def test_shrink_fit(run):
+def test_shrink_fit(run_deck):
     """The pressure of two rings is uniform, by Lame's formula (Shigley's Mechanical Engineering Design, press fits).
 
     Facets stand off the circle by up to 0.0096, many times the overlap: without corrections they hardly touch.
@@ -44,7 +44,7 @@ def test_shrink_fit(run):
     wanted /= 2 * MIDDLE**2 * (OUTER**2 - INNER**2)
     pressures = []
     for pair in (CORRECTED, "TYPE=SURFACE TO SURFACE"):
-        result = run(two_boxes(*rings(8, 11, overlap), [HELD, step("1., 1.")], pair=pair, model=SMOOTHING))
+        result = run_deck(two_boxes(*rings(8, 11, overlap), [HELD, step("1., 1.")], pair=pair, model=SMOOTHING))
         pressure = result.field("CPRESS")
         pressures.append(pressure[np.isfinite(pressure)])
     np.testing.assert_allclose(pressures[0], wanted, rtol=0.05)

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 from contact_decks import Box, step, total, two_boxes
-from contact_points import SOURCE, Points
+from contact_points import SOURCE, Points, rotation_of
 
 from uel.contact.block import SLIPPING, STICKING
 from uel.deck.contact.sliding_surfaces import make_pieces
@@ -86,15 +86,6 @@ def test_points_that_do_not_move_on_stick_after_an_increment_with_slip(call, dim
     assert slipped > 50
 
 
-def rotation_of(angle, dimension):
-    """About the axis of the plane, or (1, 2, 2) / 3, by the formula of Rodrigues."""
-    if dimension == 2:
-        return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-    axis = np.array([1.0, 2.0, 2.0]) / 3.0
-    skew = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
-    return np.eye(3) + np.sin(angle) * skew + (1 - np.cos(angle)) * skew @ skew
-
-
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 @pytest.mark.parametrize(("dimension", "smooth"), [(2, 0.2), (2, 0.0), (3, 0.0)])
 def test_bodies_that_turn(call, dimension, smooth, friction):
@@ -146,7 +137,7 @@ def of_step(result, number, values):
 @pytest.mark.parametrize("nlgeom", ["", ", NLGEOM"])
 @pytest.mark.parametrize("behavior", ["*FRICTION\n0.3,", "", f"{PENALTY}\n*FRICTION\n0.3,"])
 @pytest.mark.parametrize("pair", [PAIR, "TYPE=SURFACE TO SURFACE"])
-def test_block_slides_over_many_faces(run, pair, behavior, nlgeom):
+def test_block_slides_over_many_faces(run_deck, pair, behavior, nlgeom):
     """Under a load N over 16 faces of a body whose nodes are all held: mu N where it slips, and back."""
     lower, upper = (
         Box("LOWER", "CPE4", (0, 0), (10, 1), (20, 1)),
@@ -160,7 +151,7 @@ def test_block_slides_over_many_faces(run, pair, behavior, nlgeom):
         for to in (8.0, 0.0)
     ]
     held = "*BOUNDARY\nLOWER_BOTTOM, 1, 2\nLOWER_TOP, 1, 2"
-    result = run(two_boxes(lower, upper, [held, press, *slide], pair=pair, behavior=behavior))
+    result = run_deck(two_boxes(lower, upper, [held, press, *slide], pair=pair, behavior=behavior))
     friction = 0.3 * 30.0 if "FRICTION" in behavior else 0.0
     found = total(result, "RF1", "UPPER_LEFT")
     np.testing.assert_allclose(of_step(result, 2, found), friction, atol=2e-3 * 9)
@@ -215,7 +206,7 @@ HELD, 1, 2
 
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("friction", [0.25, 0.0])
-def test_point_slides_round_an_arc(run, friction):
+def test_point_slides_round_an_arc(run_deck, friction):
     """A stretched bar pulls its end onto an arc of radius 10; the end is moved by 8 in x, to 53 degrees.
 
     With phi from the vertical and the tension N of the bar, equilibrium with a normal force L along the bar and
@@ -234,7 +225,7 @@ def test_point_slides_round_an_arc(run, friction):
     output = "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=TIP\nU, RF\n*NODE OUTPUT, NSET=CENTRE\nRF\n*OUTPUT, FIELD"
     stretch = "*STEP, NLGEOM\n*STATIC\n1., 1.\n*BOUNDARY\nCENTRE, 2, 2, -1.\nCENTRE, 1\nTIP, 1\n"
     slide = "*STEP, NLGEOM, INC=1000\n*STATIC\n0.01, 1., 1e-7, 0.01\n*BOUNDARY\nTIP, 1, 1, 8.\n"
-    result = run(model + "".join(f"{text}{output}\n*END STEP\n" for text in (stretch, slide)))
+    result = run_deck(model + "".join(f"{text}{output}\n*END STEP\n" for text in (stretch, slide)))
     x, y = (of_step(result, 2, total(result, name, "TIP")) for name in ("U1", "U2"))
     force = of_step(result, 2, total(result, "RF1", "TIP"))
     tension = np.hypot(*(of_step(result, 2, total(result, name, "CENTRE")) for name in ("RF1", "RF2")))
@@ -250,7 +241,7 @@ def test_point_slides_round_an_arc(run, friction):
     assert abs(work) < 1e-3 * tension.max() * x[-1]
 
 
-def test_block_slides_in_space(run):
+def test_block_slides_in_space(run_deck):
     """Diagonally over the edges of square faces of a body whose nodes are all held: mu N against the motion."""
     lower = Box("LOWER", "C3D8", (0, 0, 0), (4, 4, 1), (6, 6, 1))
     upper = Box("UPPER", "C3D8", (0.2, 0.3, 1), (1.2, 1.3, 2), (1, 1, 1), 1001)
@@ -264,13 +255,13 @@ def test_block_slides_in_space(run):
     )
     model = "*NSET, NSET=BELOW, GENERATE\n1, 98\n*NSET, NSET=ABOVE, GENERATE\n1001, 1008"
     held = "*BOUNDARY\nBELOW, 1, 3"
-    result = run(two_boxes(lower, upper, [held, press, slide], pair=PAIR, behavior="*FRICTION\n0.3,", model=model))
+    result = run_deck(two_boxes(lower, upper, [held, press, slide], pair=PAIR, behavior="*FRICTION\n0.3,", model=model))
     for name, share in (("RF1", 0.8), ("RF2", 0.6)):
         found = of_step(result, 2, total(result, name, "ABOVE"))
         np.testing.assert_allclose(found, 0.3 * 20.0 * share, rtol=2e-3)
 
 
-def test_ring_slides_along_a_shaft(run):
+def test_ring_slides_along_a_shaft(run_deck):
     """A ring with an interference of 0.01 slides over 8 faces of a held shaft: mu times what it presses."""
     shaft, ring = (
         Box("LOWER", "CAX4", (1, 0), (2, 8), (1, 16)),
@@ -294,7 +285,7 @@ def test_ring_slides_along_a_shaft(run):
         model="*SURFACE, NAME=OUTSIDE\nLOWER, S2\n*SURFACE, NAME=INSIDE\nUPPER_INNER, S4\n*ELSET, ELSET=UPPER_INNER\n"
         "1001, 1003",
     ).replace("UPPER_LOW, LOWER_HIGH", "INSIDE, OUTSIDE")
-    result = run(text)
+    result = run_deck(text)
     pull, pressed = (
         of_step(result, 2, total(result, *what)) for what in (("RF2", "UPPER_TOP"), ("RF1", "LOWER_RIGHT"))
     )

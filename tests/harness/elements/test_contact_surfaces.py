@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 from contact_decks import YOUNG, Box, step, total, two_boxes
-from contact_points import SOURCE, Points
+from contact_points import SOURCE, Points, rotation_of
 
 from uel.deck.contact.sliding_surfaces import filled, make_pieces
 from uel.deck.mesh.smooth_parts import smooth_parts
@@ -76,15 +76,6 @@ def test_matrix_by_differences(call, dimension, stiffness, friction, moved):
         np.testing.assert_allclose(found, found.T, atol=1e-12 * np.abs(found).max())
 
 
-def rotation_of(angle, dimension):
-    """About the axis of the plane, or (1, 2, 2) / 3, by the formula of Rodrigues."""
-    if dimension == 2:
-        return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-    axis = np.array([1.0, 2.0, 2.0]) / 3.0
-    skew = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
-    return np.eye(3) + np.sin(angle) * skew + (1 - np.cos(angle)) * skew @ skew
-
-
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_bodies_that_turn(call, dimension, friction):
@@ -125,7 +116,7 @@ def test_bodies_that_turn(call, dimension, friction):
 # ------------------------------------------------------------ bodies that slide
 
 
-def test_stress_stays_constant_while_a_body_slides(run):
+def test_stress_stays_constant_while_a_body_slides(run_deck):
     """A block, pressed by 0.01 without friction, slides over faces of another size: always -E 0.01 with nu = 0.
 
     The lower body is as stiff as rigid: all of its nodes are held.
@@ -137,13 +128,13 @@ def test_stress_stays_constant_while_a_body_slides(run):
     held = "*BOUNDARY\nLOWER_BOTTOM, 1, 2\nLOWER_TOP, 1, 2"
     press = step("1., 1.", "*BOUNDARY\nUPPER_LEFT, 1\nUPPER_TOP, 2, 2, -0.01")
     slide = step("0.1, 1., 1e-6, 0.1", "*BOUNDARY\nUPPER_LEFT, 1, 1, 3.3", options=", INC=50")
-    result = run(two_boxes(lower, upper, [held, press, slide], pair=SURFACES, nu=0.0))
+    result = run_deck(two_boxes(lower, upper, [held, press, slide], pair=SURFACES, nu=0.0))
     on_top = np.isin(result.mesh().point_data["NODE"], upper.numbers[:, 0])
     for increment in range(1, 11):
         np.testing.assert_allclose(result.field("CPRESS", increment)[on_top], YOUNG * 0.01, rtol=1e-9)
 
 
-def test_block_slides_over_an_edge(run):
+def test_block_slides_over_an_edge(run_deck):
     """Half of a block that is pressed on a body slides off it: the force is that of the part above, and balances.
 
     All nodes are held, so that a stiffness k gives the pressure k 0.01 over the whole part, 2 - x of the width of 2,
@@ -168,7 +159,7 @@ def test_block_slides_over_an_edge(run):
         nu=0.0,
         behavior="*SURFACE BEHAVIOR, PENALTY\n1e3",
     )
-    result = run(text)
+    result = run_deck(text)
     time = result.history["time"][1:]
     wanted = 1e3 * 0.01 * time * 1.5 * (2.0 - 1.3 * time)
     above, below = total(result, "RF2", "UPPER_BOTTOM"), total(result, "RF2", "LOWER_TOP")
@@ -176,7 +167,7 @@ def test_block_slides_over_an_edge(run):
     np.testing.assert_allclose(above, -below, rtol=1e-9, atol=1e-12)
 
 
-def test_corner_of_a_body_in_a_corner_of_another(run):
+def test_corner_of_a_body_in_a_corner_of_another(run_deck):
     """A square in an angle of two walls touches both: each presses as alone, with nu = 0."""
     walls = Box("LOWER", "CPE4", (0, 0), (3, 3), (3, 3))
     block = Box("UPPER", "CPE4", (1, 1), (2, 2), (2, 2), 1001)
@@ -200,6 +191,6 @@ def test_corner_of_a_body_in_a_corner_of_another(run):
     lines = lines.replace(
         "*SURFACE, NAME=UPPER_LOW\nUPPER_LOW, S1", "*SURFACE, NAME=UPPER_LOW\nUPPER_LOW, S1\n1001, S4\n1002, S4"
     )
-    (result) = run(lines)
+    (result) = run_deck(lines)
     np.testing.assert_allclose(result.field("S22")[-4:], -YOUNG * 0.01, rtol=1e-9)
     np.testing.assert_allclose(result.field("S11")[-4:], -YOUNG * 0.02, rtol=1e-9)

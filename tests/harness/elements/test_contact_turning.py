@@ -93,11 +93,11 @@ FINITE = ["TYPE=NODE TO SURFACE", "TYPE=SURFACE TO SURFACE"]
 @pytest.mark.parametrize("pair", [*PAIRS, *FINITE])
 @pytest.mark.parametrize("dimension", [2, 3])
 @pytest.mark.parametrize("case", CASES)
-def test_tractions_turn_with_the_bodies(run, case, dimension, pair):
+def test_tractions_turn_with_the_bodies(run_deck, case, dimension, pair):
     behavior, lift = CASES[case]
     shift = [0.01, 0.02, lift][-dimension:]
     found, twin = (
-        forces(run(deck(dimension, behavior, pair, shift, turned=turned)), dimension) for turned in (True, False)
+        forces(run_deck(deck(dimension, behavior, pair, shift, turned=turned)), dimension) for turned in (True, False)
     )
     for angle, turned, still in zip(ANGLES, found, twin, strict=True):
         np.testing.assert_allclose(turned, still @ turn_of(dimension, angle).T, atol=1e-9)
@@ -105,10 +105,10 @@ def test_tractions_turn_with_the_bodies(run, case, dimension, pair):
 
 @pytest.mark.parametrize("pair", [*PAIRS, FINITE[0]])
 @pytest.mark.parametrize("dimension", [2, 3])
-def test_bond_pulled_and_sheared(run, dimension, pair):
+def test_bond_pulled_and_sheared(run_deck, dimension, pair):
     """The stiffnesses times separations of (0.001, 0.002), in axes that turn with the bodies."""
     shift = [0.0, 0.002, 0.001][-dimension:]
-    result = run(deck(dimension, f"{STIFF}\n{BOND}", pair, shift, turned=True, last=30))
+    result = run_deck(deck(dimension, f"{STIFF}\n{BOND}", pair, shift, turned=True, last=30))
     area = THICKNESS if dimension == 2 else 1.0
     local = area * np.array([0.0, 1500 * 0.002, 2000 * 0.001][-dimension:])
     total = result.field("RF")[secondary(dimension), :dimension].sum(axis=0)
@@ -116,10 +116,10 @@ def test_bond_pulled_and_sheared(run, dimension, pair):
 
 
 @pytest.mark.parametrize("dimension", [2, 3])
-def test_bond_turns_as_cohesive_elements_do(run, dimension):
+def test_bond_turns_as_cohesive_elements_do(run_deck, dimension):
     """COH2D4 and COH3D8 of the same law; the forces on the nodes, opened and damaged."""
     shift, law = [0.001, 0.002, 0.01][-dimension:], f"{LAW}\n*DAMAGE STABILIZATION\n0.05"
-    found = forces(run(deck(dimension, f"{STIFF}\n{BOND}\n{law}", PAIRS[0], shift, turned=True)), dimension)
+    found = forces(run_deck(deck(dimension, f"{STIFF}\n{BOND}\n{law}", PAIRS[0], shift, turned=True)), dimension)
     lower, upper = boxes(dimension)
     low, high = (n.ravel().tolist() for n in (lower.numbers[..., -1], upper.numbers[..., 0]))
     order = [[0, 1], [1, 0]] if dimension == 2 else [[0, 2, 3, 1], [0, 2, 3, 1]]
@@ -130,16 +130,16 @@ def test_bond_turns_as_cohesive_elements_do(run, dimension):
     lines += ["*MATERIAL, NAME=G\n*ELASTIC, TYPE=TRACTION\n2000., 1500., 1500.", LAW]
     glued = "\n".join(lines) + "\n*SECTION CONTROLS, NAME=C, VISCOSITY=0.05"
     glued = glued.replace("THICKNESS=SPECIFIED", "THICKNESS=SPECIFIED, CONTROLS=C")
-    wanted = forces(run(deck(dimension, "", PAIRS[0], shift, turned=True, between=glued)), dimension)
+    wanted = forces(run_deck(deck(dimension, "", PAIRS[0], shift, turned=True, between=glued)), dimension)
     np.testing.assert_allclose(found, wanted, atol=1e-9)
 
 
 @pytest.mark.parametrize("pair", PAIRS)
 @pytest.mark.parametrize("dimension", [2, 3])
-def test_moments_balance(run, dimension, pair):
+def test_moments_balance(run_deck, dimension, pair):
     """The forces of a bond with a clearance on both bodies have no resultant and no moment."""
     shift = [0.1, 0.2, 0.3][-dimension:]
-    result = run(deck(dimension, f"{STIFF}\n{BOND}", pair, shift, turned=True, last=30))
+    result = run_deck(deck(dimension, f"{STIFF}\n{BOND}", pair, shift, turned=True, last=30))
     force = result.field("RF")[:, :dimension]
     places = np.concatenate([body.nodes for body in boxes(dimension)]) + result.field("U")[:, :dimension]
     assert np.abs(force).max() > 10.0

@@ -17,7 +17,6 @@ from scipy.spatial.transform import Rotation
 from shell_decks import ThickDeck
 from test_shell_jobs import PATCH, UMAT
 
-import uel
 from uel.delamination import theory
 from uel.model.element_types import CONTINUUM_SHELL
 
@@ -34,23 +33,21 @@ def section(thickness, more=""):
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(deck, data, sets, *, user=None, step=STEP):
-        file = tmp_path / "shell.inp"
-        file.write_text(deck.text(step.format(data), sets))
-        result = uel.run(file, user, output_dir=tmp_path)
+def run_shell(run_deck):
+    def run_shell(deck, data, sets, *, user=None, step=STEP):
+        result = run_deck(deck.text(step.format(data), sets), user)
         assert result.completed
         return result
 
-    return run
+    return run_shell
 
 
 @pytest.fixture
-def deflection(run):
+def deflection(run_shell):
     """Magnitude of the mean displacement of set P, which has nodes of both faces, at the end of a job."""
 
     def deflection(deck, data, sets, dof, **options):
-        history = run(deck, data, sets, **options).history
+        history = run_shell(deck, data, sets, **options).history
         return abs(np.mean([values[-1] for name, values in history.items() if name.startswith(f"U{dof}[P")]))
 
     return deflection
@@ -58,7 +55,7 @@ def deflection(run):
 
 @pytest.mark.parametrize("element_type", TYPES)
 @pytest.mark.parametrize("bending", [False, True])
-def test_patch(run, element_type, bending):
+def test_patch(run_shell, element_type, bending):
     """The patch of MacNeal and Harder: their displacements at the edges give theirs inside, and their stresses.
 
     Directors of the edges are those of a thin plate.
@@ -83,7 +80,7 @@ def test_patch(run, element_type, bending):
     edge = sorted({node - 1 for end in (0, 3) for node in deck.line(i=end) + deck.line(j=end)})
     inner = [k for k in range(len(x)) if k not in edge]
     data = "*BOUNDARY\n" + "\n".join(f"{k + 1}, {i + 1}, {i + 1}, {u[k, i]:.17g}" for k in edge for i in range(3))
-    result = run(deck, data, {"P": [k + 1 for k in inner]})
+    result = run_shell(deck, data, {"P": [k + 1 for k in inner]})
     found = np.array([[result.history[f"U{i}[P:{k + 1}]"][-1] for i in (1, 2, 3)] for k in inner])
     np.testing.assert_allclose(found, u[inner], rtol=1e-7, atol=1e-7 * abs(u).max())
     top = 1000 * thickness * np.array([2 / 3, 2 / 3, 0.2]) if bending else np.array([4000 / 3, 4000 / 3, 400.0])
@@ -93,7 +90,7 @@ def test_patch(run, element_type, bending):
 
 
 @pytest.mark.parametrize("element_type", TYPES)
-def test_turned(run, element_type):
+def test_turned(run_shell, element_type):
     """A warped plate of an isotropic material deflects by the same vectors wherever it points."""
     load = np.array([2.0, 1.0, 0.2])
 
@@ -108,7 +105,7 @@ def test_turned(run, element_type):
         )
         forces = "".join(f"\nP, {i + 1}, {value:.17g}" for i, value in enumerate(turn.apply(load)))
         sets = {"P": deck.line(i=2), "FIX": deck.line(i=0)}
-        history = run(deck, f"*BOUNDARY\nFIX, 1, 3\n*CLOAD{forces}", sets).history
+        history = run_shell(deck, f"*BOUNDARY\nFIX, 1, 3\n*CLOAD{forces}", sets).history
         return turn.inv().apply([[history[f"U{i}[P:{node}]"][-1] for i in (1, 2, 3)] for node in sets["P"]])
 
     first = found(Rotation.identity())
@@ -231,25 +228,25 @@ def test_page(deflection, name, exact, n, ratios):
 
 
 @pytest.mark.parametrize("element_type", TYPES)
-def test_large_deflection_of_a_cantilever(run, element_type):
+def test_large_deflection_of_a_cantilever(run_shell, element_type):
     """Sze and others: 10 x 1 x 0.1 with an end force of 4 moves by 6.698 down and by 3.286 back."""
     n = 10
     deck = ThickDeck(element_type, n, 1, lambda a, b, c: (10 * a, b, 0.1 * c), section(0.1), "*ELASTIC\n1.2e6, 0.")
     end = deck.line(i=n)
     sets = {"P": end, "FIX": deck.line(i=0)}
-    history = run(deck, "*BOUNDARY\nFIX, 1, 3\n*CLOAD\nP, 3, 1.", sets, step=LARGE).history
+    history = run_shell(deck, "*BOUNDARY\nFIX, 1, 3\n*CLOAD\nP, 3, 1.", sets, step=LARGE).history
     back, down = (np.mean([history[f"U{i}[P:{node}]"][-1] for node in end]) for i in (1, 3))
     assert down == pytest.approx(6.698, rel=0.01)
     assert back == pytest.approx(-3.286, rel=0.01)
 
 
 @pytest.mark.long
-def test_large_deflection_of_a_hemisphere(run):
+def test_large_deflection_of_a_hemisphere(run_shell):
     """Sze and others: forces of 400 move their places by 4.067 outward and by 8.178 inward; the shares of
     this mesh are regression."""
     deck, data, sets, _ = hemisphere("SC8R", 16, force=200.0)
     sets |= {"R": sets["P"], "P": sets["P"] + sets["Q"]}
-    history = run(deck, data.replace("P, 1,", "R, 1,"), sets, step=LARGE).history
+    history = run_shell(deck, data.replace("P, 1,", "R, 1,"), sets, step=LARGE).history
     first, second = deck.node(0, 0, 0), deck.node(16, 0, 0)
     assert history[f"U1[P:{first}]"][-1] == pytest.approx(0.976 * 4.067, rel=2e-3)
     assert history[f"U2[P:{second}]"][-1] == pytest.approx(-0.949 * 8.178, rel=2e-3)
@@ -257,7 +254,7 @@ def test_large_deflection_of_a_hemisphere(run):
 
 @pytest.mark.parametrize("element_type", TYPES)
 @pytest.mark.parametrize("nlgeom", [False, True])
-def test_loads(run, element_type, nlgeom):
+def test_loads(run_shell, element_type, nlgeom):
     """Reactions of a tilted block that is held everywhere: pressures on its faces, body force and gravity."""
     normal = np.cross([2, 0, 1], [0, 3, 0])
     area, unit = np.linalg.norm(normal), normal / np.linalg.norm(normal)
@@ -281,20 +278,20 @@ def test_loads(run, element_type, nlgeom):
         cases["*DLOAD\nSHELL, P3, 7."] = 7 * 0.4 * np.sqrt(5) * np.array([0, 1, 0])
     step = STEP.replace("*STEP", "*STEP, NLGEOM", 1) if nlgeom else STEP
     for data, force in cases.items():
-        history = run(deck, f"*BOUNDARY\nP, 1, 3\n{data}", {"P": range(1, 9)}, step=step).history
+        history = run_shell(deck, f"*BOUNDARY\nP, 1, 3\n{data}", {"P": range(1, 9)}, step=step).history
         found = [sum(v[-1] for k, v in history.items() if k.startswith(f"RF{i}[P")) for i in (1, 2, 3)]
         np.testing.assert_allclose(found, -force, atol=1e-9)
 
 
 @pytest.mark.parametrize("element_type", TYPES)
-def test_vibration_of_a_supported_plate(run, element_type):
+def test_vibration_of_a_supported_plate(run_shell, element_type):
     """omega = 2 pi^2/a^2 sqrt(D/(rho t)) (S. Timoshenko, Vibration Problems in Engineering, 1937, section 70)."""
     n = 12
     material = "*ELASTIC\n1000., 0.3\n*DENSITY\n4."
     deck = ThickDeck(element_type, n, n, lambda a, b, c: (10 * a, 10 * b, 0.1 * c), section(0.1), material)
     sets = {"X": deck.line(i=0) + deck.line(i=n), "Y": deck.line(j=0) + deck.line(j=n)}
     step = "*STEP\n*FREQUENCY\n1\n*BOUNDARY\nX, 2, 3\nY, 1\nY, 3\n*END STEP"
-    found = run(deck, "", sets, step=step).history["EIGFREQ"][-1]
+    found = run_shell(deck, "", sets, step=step).history["EIGFREQ"][-1]
     stiffness = 1000 * 0.1**3 / 12 / (1 - 0.3**2)
     exact = np.pi / 100 * np.sqrt(stiffness / 0.4)
     # triangles of a regular mesh are stiffer than squares
@@ -302,41 +299,35 @@ def test_vibration_of_a_supported_plate(run, element_type):
 
 
 @pytest.mark.parametrize("element_type", TYPES)
-def test_free_fall(run, element_type):
+def test_free_fall(run_shell, element_type):
     """g t^2/2 of a free plate, which the trapezoidal rule has exactly."""
     deck = ThickDeck(
         element_type, 1, 1, lambda a, b, c: (a, b, 0.1 * c), section(0.1), "*ELASTIC\n1000., 0.3\n*DENSITY\n4."
     )
     step = "*STEP, NLGEOM\n*DYNAMIC, DIRECT, ALPHA=0.\n0.25, 1.\n*DLOAD\nSHELL, GRAV, 10., 0., 0., -1.\n"
     step += "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=P\nU\n*END STEP"
-    history = run(deck, "", {"P": range(1, 9)}, step=step).history
+    history = run_shell(deck, "", {"P": range(1, 9)}, step=step).history
     for node in range(1, 9):
         np.testing.assert_allclose(history[f"U3[P:{node}]"][-1], -5, rtol=1e-9)
 
 
 @pytest.mark.parametrize("element_type", TYPES)
-def test_buckling_of_a_column(run, element_type):
+def test_buckling_of_a_column(run_shell, element_type):
     """Euler: pi^2 E I/(4 l^2) of a strip that is held at one end."""
     n = 10
     deck = ThickDeck(element_type, n, 1, lambda a, b, c: (10 * a, b, 0.2 * c), section(0.2), "*ELASTIC\n1000., 0.")
     end = deck.line(i=n)
     sets = {"P": end, "FIX": deck.line(i=0), "ALL": range(1, len(deck.coordinates) + 1)}
     step = "*STEP\n*BUCKLE\n1\n*BOUNDARY\nFIX, 1, 3\nALL, 2\n*CLOAD\nP, 1, -0.25\n*END STEP"
-    found = run(deck, "", sets, step=step).history["EIGVAL"][-1]
+    found = run_shell(deck, "", sets, step=step).history["EIGVAL"][-1]
     assert found == pytest.approx(np.pi**2 * 1000 * 0.2**3 / 12 / 400, rel=0.01 if element_type == "SC8R" else 0.03)
 
 
-@pytest.fixture
-def user(tmp_path):
-    file = tmp_path / "material.f"
-    file.write_text(UMAT.format(here=Path(__file__).parents[1]))
-    return file
-
-
 @pytest.mark.parametrize("element_type", TYPES)
-def test_umat(run, user, element_type):
+def test_umat(run_shell, element_type):
     """Its arguments at each section point; a laminate of it does what elastic layers do."""
     layers = "*SHELL SECTION, ELSET=SHELL, COMPOSITE{}\n0.2, 3, M, 30.\n0.4, 5, M, -10."
+    user = UMAT.format(here=Path(__file__).parents[1])
     given = {
         "elastic": ("*ELASTIC\n1000., 0.3", layers.format("")),
         "user": (
@@ -351,7 +342,7 @@ def test_umat(run, user, element_type):
         deck = ThickDeck(element_type, 1, 1, lambda a, b, c: (2 * a, b, 0.6 * c), text, material)
         data = "*BOUNDARY\nFIX, 1, 3\n*CLOAD\nP, 3, 0.005\nP, 1, 0.05"
         sets = {"P": deck.line(i=1), "FIX": deck.line(i=0)}
-        found[name] = run(deck, data, sets, user=user if name == "user" else None)
+        found[name] = run_shell(deck, data, sets, user=user if name == "user" else None)
     # the hourglass modes of UMAT are those of a Poisson's ratio of zero
     for dof in (1, 3):
         one, other = (found[name].history[f"U{dof}[P:2]"][-1] for name in ("user", "elastic"))
@@ -383,7 +374,7 @@ INTERFACE = """\
 """
 
 
-def test_double_cantilever_beam(tmp_path):
+def test_double_cantilever_beam(run_deck):
     """Two arms of SC8R with COH3D8 between them: the load of corrected beam theory while the crack grows.
 
     J.G. Williams, Composites Science and Technology 35 (1989) 367.
@@ -420,8 +411,7 @@ def test_double_cantilever_beam(tmp_path):
     lines += ["*BOUNDARY", "CLAMP, 1, 3", "*STEP, INC=500", "*STATIC", "0.05, 1., 1e-6, 0.05"]
     lines += ["*BOUNDARY", f"HIGH, 3, 3, {opening / 2}", f"LOW, 3, 3, {-opening / 2}"]
     lines += ["*OUTPUT, HISTORY", "*NODE OUTPUT, NSET=HIGH", "U", "RF", "*END STEP", ""]
-    (tmp_path / "dcb.inp").write_text("\n".join(lines))
-    result = uel.run(tmp_path / "dcb.inp", output_dir=tmp_path)
+    result = run_deck(lines)
     assert result.completed
     history = result.history
     force = sum(values for name, values in history.items() if name.startswith("RF3"))

@@ -4,9 +4,9 @@
 
 import numpy as np
 import pytest
+from bars import column, held
 from small_decks import body_lines
 
-import uel
 from uel.errors import DeckError
 from uel.model.element_types import COUPLED
 
@@ -79,26 +79,7 @@ def deck(element_type, nodes, elements, step, *, material=MATERIAL, procedure=""
     return "\n".join(lines)
 
 
-def prescribe(nodes, dof, values):
-    """*BOUNDARY lines."""
-    return "*BOUNDARY\n" + "".join(f"{k + 1}, {dof}, {dof}, {float(v)!r}\n" for k, v in zip(nodes, values, strict=True))
-
-
 HELD = "*BOUNDARY\nALL, 1, 3\n"
-
-
-@pytest.fixture
-def run(tmp_path):
-    def run(text):
-        (tmp_path / "heat.inp").write_text(text)
-        return uel.run(tmp_path / "heat.inp", output_dir=tmp_path).history
-
-    return run
-
-
-def column(history, name, count):
-    """(rows, nodes) of a nodal variable."""
-    return np.array([history[f"{name}[ALL:{k}]"] for k in range(1, count + 1)]).T
 
 
 def body_volume(element_type):
@@ -109,15 +90,15 @@ def body_volume(element_type):
 
 
 @pytest.mark.parametrize("element_type", COUPLED)
-def test_patch_of_a_linear_temperature(run, element_type):
+def test_patch_of_a_linear_temperature(run_deck, element_type):
     """Any temperature that varies linearly is steady, about an axis one that varies along it; the first moment of the
     heat at the nodes is conductivity x gradient x volume."""
     nodes, elements, corners = mesh(element_type)
     dimension = nodes.shape[1]
     gradient = np.array([0.0 if COUPLED[element_type].axisymmetric else 2.0, -1.0, 0.5])[:dimension]
     outside = np.flatnonzero(((nodes[:corners] == 0) | (nodes[:corners] == 2)).any(axis=1))
-    step = HELD + prescribe(outside, 11, 5.0 + nodes[outside] @ gradient)
-    history = run(deck(element_type, nodes, elements, step))
+    step = HELD + held(outside, 5.0 + nodes[outside] @ gradient)
+    history = run_deck(deck(element_type, nodes, elements, step)).history
     temperature = column(history, "NT11", corners)[-1]
     np.testing.assert_allclose(temperature, 5.0 + nodes[:corners] @ gradient, rtol=1e-12)
     heat = column(history, "RFL11", corners)[-1]
@@ -127,12 +108,12 @@ def test_patch_of_a_linear_temperature(run, element_type):
 
 
 @pytest.mark.parametrize("element_type", [name for name in COUPLED if not name.startswith("CPS")])
-def test_heat_that_a_warm_body_stores(run, element_type):
+def test_heat_that_a_warm_body_stores(run_deck, element_type):
     """All of it warms by 1 in the increment h: the heat is density x specific heat x volume / h."""
     nodes, elements, corners = mesh(element_type)
-    step = HELD + prescribe(range(corners), 11, np.ones(corners))
+    step = HELD + held(range(corners), np.ones(corners))
     procedure = "*COUPLED TEMPERATURE-DISPLACEMENT\n0.25, 0.25"
-    history = run(deck(element_type, nodes, elements, step, procedure=procedure))
+    history = run_deck(deck(element_type, nodes, elements, step, procedure=procedure)).history
     heat = column(history, "RFL11", corners)[-1]
     assert heat.sum() == pytest.approx(DENSITY * HEAT * body_volume(element_type) / 0.25)
     # a temperature to which each corner adds its part
@@ -140,39 +121,39 @@ def test_heat_that_a_warm_body_stores(run, element_type):
 
 
 @pytest.mark.parametrize("element_type", ["CPE4T", "CPS4RT", "C3D8T"])
-def test_warming_is_backward_euler_with_heat_at_the_corners(run, element_type):
+def test_warming_is_backward_euler_with_heat_at_the_corners(run_deck, element_type):
     """A rod, one end at 1 from 0 on: C dT/dt = G (1 - T), G = k A/L, C = rho c A L/2 with heat at corners."""
     plane = np.array([[0, 0], [2, 0], [2, 1], [0, 1.0]])
     cube = np.array([[*x, z] for z in (0.0, 1.0) for x in plane])
     nodes = cube if element_type == "C3D8T" else plane
     h, left = 0.1, np.flatnonzero(nodes[:, 0] == 0)
     procedure = f"*COUPLED TEMPERATURE-DISPLACEMENT\n{h}, {10 * h}"
-    step = HELD + prescribe(left, 11, np.ones(len(left)))
-    history = run(deck(element_type, nodes, np.array([range(len(nodes))]), step, procedure=procedure))
+    step = HELD + held(left, np.ones(len(left)))
+    history = run_deck(deck(element_type, nodes, np.array([range(len(nodes))]), step, procedure=procedure)).history
     rate = 2 * CONDUCTIVITY / (DENSITY * HEAT * 2.0**2)
     expected = 1 - (1 + rate * h) ** -np.arange(1, 11)
     for node in np.flatnonzero(nodes[:, 0] == 2):
         np.testing.assert_allclose(history[f"NT11[ALL:{node + 1}]"][-10:], expected, rtol=1e-12)
 
 
-def test_heat_flows_through_the_present_shape(run):
+def test_heat_flows_through_the_present_shape(run_deck):
     """A strip stretched from 1 to 1.5 and as wide as before conducts 1/1.5 of the heat, and stores as much."""
     nodes = np.array([[0, 0], [1, 0], [1, 1], [0, 1.0]])
     stretch = "*BOUNDARY\nALL, 2\n1, 1\n4, 1\n2, 1, 1, 0.5\n3, 1, 1, 0.5\n"
-    step = stretch + prescribe([0, 3], 11, [0, 0]) + prescribe([1, 2], 11, [1, 1])
+    step = stretch + held([0, 3], [0, 0]) + held([1, 2], [1, 1])
     text = deck("CPE4T", nodes, np.array([[0, 1, 2, 3]]), step)
-    small = run(text)
-    large = run(text.replace("INC=1000", "INC=1000, NLGEOM"))
+    small = run_deck(text).history
+    large = run_deck(text.replace("INC=1000", "INC=1000, NLGEOM")).history
     flow = CONDUCTIVITY * THICKNESS
     assert small["RFL11[ALL:2]"][-1] == pytest.approx(flow / 2)
     assert large["RFL11[ALL:2]"][-1] == pytest.approx(flow / 2 / 1.5)
 
 
-def test_stresses_are_those_of_the_element_without_temperatures(run):
+def test_stresses_are_those_of_the_element_without_temperatures(run_deck):
     nodes, elements, corners = mesh("CPE4T")
     pull = "*BOUNDARY\n1, 1, 2\n4, 1\n7, 1\n3, 1, 1, 0.02\n6, 1, 1, 0.02\n9, 1, 1, 0.02\n"
-    warm = run(deck("CPE4T", nodes, elements, pull + prescribe(range(corners), 11, nodes[:, 0])))
-    plain = run(deck("CPE4", nodes, elements, pull, procedure="*STATIC\n1., 1."))
+    warm = run_deck(deck("CPE4T", nodes, elements, pull + held(range(corners), nodes[:, 0]))).history
+    plain = run_deck(deck("CPE4", nodes, elements, pull, procedure="*STATIC\n1., 1.")).history
     # the forces of the elastic ones are those of their matrices, which rounds otherwise
     for name in ("U1", "U2", "RF1", "RF2"):
         np.testing.assert_allclose(column(warm, name, 9), column(plain, name, 9), rtol=1e-12, atol=1e-12)
@@ -184,7 +165,7 @@ def test_stresses_are_those_of_the_element_without_temperatures(run):
         (
             "*CONDUCTIVITY\n3.0",
             "",
-            r"heat.inp:\d+: material M has no \*CONDUCTIVITY, which elements of type CPE4T need",
+            r"deck.inp:\d+: material M has no \*CONDUCTIVITY, which elements of type CPE4T need",
         ),
         ("*SPECIFIC HEAT\n0.7", "*COUPLED TEMPERATURE-DISPLACEMENT\n1., 1.", r"material M has no \*SPECIFIC HEAT"),
         ("*DENSITY\n2.0", "*COUPLED TEMPERATURE-DISPLACEMENT\n1., 1.", r"material M has no \*DENSITY"),
@@ -196,9 +177,9 @@ def test_stresses_are_those_of_the_element_without_temperatures(run):
         ),
     ],
 )
-def test_what_is_missing_is_named(run, material, procedure, message):
+def test_what_is_missing_is_named(run_deck, material, procedure, message):
     nodes = np.array([[0, 0], [1, 0], [1, 1], [0, 1.0]])
     given = MATERIAL.replace(material + "\n", "") if material else MATERIAL
     text = deck("CPE4T", nodes, np.array([[0, 1, 2, 3]]), HELD, material=given, procedure=procedure)
     with pytest.raises(DeckError, match=message):
-        run(text)
+        run_deck(text)

@@ -24,11 +24,11 @@ def deck(model, step, *, place="1., 0."):
 
 
 @pytest.mark.parametrize("name", DASHPOTS)
-def test_beside_a_spring_in_a_static_step(run, name):
+def test_beside_a_spring_in_a_static_step(run_deck, name):
     """c (u - u_0)/h + k u = F in each increment (Kelvin and Voigt)."""
     h, count = 0.1, 6
     step = f", AMPLITUDE=STEP\n*STATIC, DIRECT\n{h}, {count * h}\n*CLOAD\n2, 1, {FORCE}\n"
-    history = run(deck(SPRING + DASHPOTS[name], step)).history
+    history = run_deck(deck(SPRING + DASHPOTS[name], step)).history
     expected = FORCE / K * (1 - (1 + K * h / C) ** -np.arange(count + 1))
     found = np.array(history["U1[END]"])[-count:]
     np.testing.assert_allclose(found, expected[1:], rtol=1e-9)
@@ -39,13 +39,13 @@ def test_beside_a_spring_in_a_static_step(run, name):
 
 
 @pytest.mark.parametrize("name", DASHPOTS)
-def test_a_mass_that_is_slowed_down(run, name):
+def test_a_mass_that_is_slowed_down(run_deck, name):
     """m dv/dt + c v = 0 by the trapezoidal rule (alpha 0): v falls by (1 - c h/(2 m))/(1 + c h/(2 m)) each time,
     and what it loses is dissipated."""
     h, count, speed = 0.1, 8, 4.0
     model = MASS + DASHPOTS[name] + f"*INITIAL CONDITIONS, TYPE=VELOCITY\n2, 1, {speed}\n"
     step = f"\n*DYNAMIC, DIRECT, ALPHA=0., NOHAF\n{h}, {count * h}\n"
-    history = run(deck(model, step)).history
+    history = run_deck(deck(model, step)).history
     ratio = (1 - C * h / (2 * M)) / (1 + C * h / (2 * M))
     expected = speed * ratio ** np.arange(1, count + 1)
     np.testing.assert_allclose(np.array(history["V1[END]"])[-count:], expected, rtol=1e-9)
@@ -54,7 +54,7 @@ def test_a_mass_that_is_slowed_down(run, name):
 
 
 @pytest.mark.parametrize("name", DASHPOTS)
-def test_a_harmonic_response(run, name):
+def test_a_harmonic_response(run_deck, name):
     """u = F/(k - w^2 m + i w c)."""
     frequency = 0.3
     step = f"\n*STEADY STATE DYNAMICS, DIRECT\n{frequency}\n*CLOAD\n2, 1, {FORCE}\n"
@@ -63,28 +63,28 @@ def test_a_harmonic_response(run, name):
         .replace("U, RF, V", "U")
         .replace("*ENERGY OUTPUT\nALLVD, ALLKE, ALLSE\n", "")
     )
-    history = run(text).history
+    history = run_deck(text).history
     w = 2 * np.pi * frequency
     expected = FORCE / (K - w**2 * M + 1j * w * C)
     assert history["U1[END]"][-1] == pytest.approx(abs(expected), rel=1e-9)
     assert history["PU1[END]"][-1] == pytest.approx(np.degrees(np.angle(expected)), rel=1e-9)
 
 
-def test_force_over_velocity_by_a_table(run):
+def test_force_over_velocity_by_a_table(run_deck):
     """Of 4 at a velocity of 1 and 6 at 3; constant beyond."""
     table = "*DASHPOT, ELSET=D, NONLINEAR\n1\n-6., -3.\n-4., -1.\n4., 1.\n6., 3.\n"
     model = SPRING + DASHPOTS["DASHPOT1"].split("*DASHPOT", maxsplit=1)[0] + table
     for velocity, force in ((0.5, 2.0), (2.0, 5.0), (10.0, 6.0), (-2.0, -5.0)):
         step = f"\n*STATIC, DIRECT\n0.5, 1.\n*BOUNDARY\n2, 1, 1, {velocity}\n"
-        history = run(deck(model, step)).history
+        history = run_deck(deck(model, step)).history
         assert history["RF1[END]"][-1] == pytest.approx(force + K * velocity, rel=1e-9)
 
 
-def test_along_a_line_that_turns(run):
+def test_along_a_line_that_turns(run_deck):
     """From (3, 0) to (3, 4) in two increments: c times the increment along the line of the end over that of
     the time."""
     step = ", NLGEOM\n*STATIC, DIRECT\n0.5, 1.\n*BOUNDARY\n2, 1\n2, 2, 2, 4.\n"
-    history = run(deck(DASHPOTS["DASHPOTA"], step, place="3., 0.").replace("1, 1, 2\n2, 2\n", "1, 1, 2\n")).history
+    history = run_deck(deck(DASHPOTS["DASHPOTA"], step, place="3., 0.").replace("1, 1, 2\n2, 2\n", "1, 1, 2\n")).history
     pull = C * (2.0 * 0.8) / 0.5
     assert history["RF1[END]"][-1] == pytest.approx(0.6 * pull, rel=1e-9)
     assert history["RF2[END]"][-1] == pytest.approx(0.8 * pull, rel=1e-9)
@@ -119,6 +119,6 @@ STATIC = f"\n*STATIC\n1., 1.\n*CLOAD\n2, 1, {FORCE}\n"
         ),
     ],
 )
-def test_what_does_not_fit_is_refused(run, text, message):
+def test_what_does_not_fit_is_refused(run_deck, text, message):
     with pytest.raises(DeckError, match=message):
-        run(text)
+        run_deck(text)

@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import uel
 from uel.elements import Flags, Request
 from uel.errors import DeckError, KernelError, Source
 from uel.model.mesh import ElementGroup
@@ -169,10 +168,9 @@ ETOTAL
 """
 
 
-def test_mass_on_a_spring(tmp_path):
+def test_mass_on_a_spring(run_deck):
     """omega = 4: the average acceleration method turns (u, v/omega) by 2 atan(omega h/2) in each increment."""
-    (tmp_path / "mass.inp").write_text(DECK)
-    history = uel.run(tmp_path / "mass.inp", output_dir=tmp_path).history
+    history = run_deck(DECK).history
     angle = 2 * np.arctan(4 * 0.1 / 2) * np.arange(1, 41)
     assert history["U1[N]"] == pytest.approx(3 / 4 * np.sin(angle), abs=1e-9)
     assert history["V1[N]"] == pytest.approx(3 * np.cos(angle), abs=1e-8)
@@ -190,8 +188,7 @@ def test_mass_on_a_spring(tmp_path):
         ("*MASS, ELSET=M\n0.25\n", "", r":6: element 1 has no section: no \*MASS refers to it"),
     ],
 )
-def test_what_is_wrong_with_springs_and_masses(tmp_path, old, new, message):
+def test_what_is_wrong_with_springs_and_masses(run_deck, old, new, message):
     assert old in DECK
-    (tmp_path / "mass.inp").write_text(DECK.replace(old, new))
     with pytest.raises(DeckError, match=message):
-        uel.run(tmp_path / "mass.inp", output_dir=tmp_path)
+        run_deck(DECK.replace(old, new))

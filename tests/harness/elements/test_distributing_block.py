@@ -135,23 +135,14 @@ def test_forces(coupled):
     np.testing.assert_allclose(given, expected, atol=1e-12)
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(lines, name="turned", **options):
-        (tmp_path / f"{name}.inp").write_text("\n".join(lines) + "\n")
-        return uel.run(tmp_path / f"{name}.inp", output_dir=tmp_path, **options)
-
-    return run
-
-
 @pytest.mark.parametrize("loaded", ["moment", "rotation"])
-def test_cantilever_rolled_to_a_circle(run, loaded):
+def test_cantilever_rolled_to_a_circle(run_deck, loaded):
     """By the moment 2 pi E I/L at its end, or by a rotation of 2 pi: it comes back to the clamped one (elastica)."""
     high = 0.2
     moment = 2 * np.pi * YOUNG * high**3 / 12 / LENGTH
     load = ["*CLOAD", f"900, 6, {moment!r}"] if loaded == "moment" else ["*BOUNDARY", f"900, 6, 6, {2 * np.pi!r}"]
     lines = beam(high=high, reference=(LENGTH, high / 2), constraint=DISTRIBUTING)
-    result = run([*lines, *step(*load, increments=40)])
+    result = run_deck([*lines, *step(*load, increments=40)])
     # strains of 6 % at the faces, where theory has small ones
     assert last(result, "UR3") == pytest.approx(2 * np.pi, rel=1e-2)
     np.testing.assert_allclose([last(result, "U1"), last(result, "U2")], [-LENGTH, 0.0], atol=1e-2 * LENGTH)
@@ -159,7 +150,7 @@ def test_cantilever_rolled_to_a_circle(run, loaded):
         assert last(result, "RM3") == pytest.approx(moment, rel=1e-2)
 
 
-def test_couplings_at_both_ends(run):
+def test_couplings_at_both_ends(run_deck):
     """Turned against each other, they bend the beam to an arc of the angle between them; one has two nodes.
 
     The stress resultant is a moment alone, thus all sections are alike (elastica).
@@ -167,7 +158,7 @@ def test_couplings_at_both_ends(run):
     both = DISTRIBUTING + "\n*NODE, NSET=FAR\n901, -1., 0.4\n*SURFACE, NAME=ROOT, TYPE=NODE\n1\n3\n"
     both += "*COUPLING, CONSTRAINT NAME=D, REF NODE=901, SURFACE=ROOT\n*DISTRIBUTING"
     turn = ["901, 1, 2", f"901, 6, 6, {-np.pi / 4!r}", f"900, 6, 6, {np.pi / 4!r}"]
-    result = run([*beam(constraint=both, held=""), *step("*BOUNDARY", *turn, increments=20)])
+    result = run_deck([*beam(constraint=both, held=""), *step("*BOUNDARY", *turn, increments=20)])
     assert last(result, "RM3") == pytest.approx(YOUNG * HIGH**3 / 12 * (np.pi / 2) / LENGTH, rel=2e-2)
     u, x = result.field("U"), result.mesh().points
     ends = [
@@ -178,47 +169,47 @@ def test_couplings_at_both_ends(run):
     assert chord == pytest.approx(2 * radius * np.sin(np.pi / 4), rel=1e-2)
 
 
-def test_force_on_a_reference_node_beyond_the_end(run):
+def test_force_on_a_reference_node_beyond_the_end(run_deck):
     """A dead force at the end of a rigid arm bends the beam as the force and its moment about the end do."""
     loads = [f"900, {k}, {value}" for k, value in ((1, -0.3), (2, 1.0))]
-    far = run([*beam(reference=(LENGTH + 2.0, HIGH / 2 + 1.0), constraint=DISTRIBUTING), *step("*CLOAD", *loads)])
+    far = run_deck([*beam(reference=(LENGTH + 2.0, HIGH / 2 + 1.0), constraint=DISTRIBUTING), *step("*CLOAD", *loads)])
     angle = last(far, "UR3")
     arm = Rotation.from_rotvec([0.0, 0.0, angle]).apply([2.0, 1.0, 0.0])
     moment = np.cross(arm, [-0.3, 1.0, 0.0])[2]
-    near = run([*beam(constraint=DISTRIBUTING), *step("*CLOAD", *loads, f"900, 6, {moment}")], name="near")
+    near = run_deck([*beam(constraint=DISTRIBUTING), *step("*CLOAD", *loads, f"900, 6, {moment}")], name="near")
     assert angle > 0.3
     assert last(near, "UR3") == pytest.approx(angle, rel=1e-3)
     moved = [last(far, f"U{k + 1}") - (arm - [2.0, 1.0, 0.0])[k] for k in (0, 1)]
     assert [last(near, f"U{k}") for k in (1, 2)] == pytest.approx(moved, rel=1e-3)
 
 
-def test_small_rotations(run):
+def test_small_rotations(run_deck):
     """As equations without NLGEOM give them, to the order of the rotation."""
     loads = "*CLOAD", "900, 1, 1e-5", "900, 2, 2e-5", "900, 6, 3e-5"
     lines = beam(reference=(LENGTH + 1.0, HIGH), constraint=DISTRIBUTING)
     found = [
-        [last(run([*lines, *step(*loads, name=name, increments=1)], name=job), u) for u in ("U1", "U2", "UR3")]
+        [last(run_deck([*lines, *step(*loads, name=name, increments=1)], name=job), u) for u in ("U1", "U2", "UR3")]
         for name, job in (("*STEP, NLGEOM", "large"), ("*STEP", "small"))
     ]
     assert found[0] == pytest.approx(found[1], rel=1e-3)
     assert found[1][2] > 1e-7
 
 
-def test_linear_step_before(run):
+def test_linear_step_before(run_deck):
     """A step without NLGEOM gives what equations give, and the next one goes on from there."""
     linear = step("*CLOAD", "900, 6, 0.1", name="*STEP", increments=1)
     lines = beam(reference=(LENGTH + 1.0, HIGH), constraint=DISTRIBUTING)
-    alone = run([*lines, *linear], name="alone")
-    both = run([*lines, *linear, *step("*CLOAD", "900, 6, 0.1", increments=1)])
+    alone = run_deck([*lines, *linear], name="alone")
+    both = run_deck([*lines, *linear, *step("*CLOAD", "900, 6, 0.1", increments=1)])
     for name in ("U1", "U2", "UR3"):
         column = next(column for column in both.history if column.startswith(f"{name}["))
         assert both.history[column][-2] == pytest.approx(last(alone, name), rel=1e-9)
         assert both.history[column][-1] == pytest.approx(last(alone, name), rel=2e-2)
 
 
-def test_tolerances(run, tmp_path):
+def test_tolerances(run_deck, tmp_path):
     """Errors of the constraints are in .msg; one that nothing can meet ends the run, and says so."""
-    run([*beam(constraint=DISTRIBUTING), *step("*CLOAD", "900, 6, 1.", increments=1)], name="met")
+    run_deck([*beam(constraint=DISTRIBUTING), *step("*CLOAD", "900, 6, 1.", increments=1)], name="met")
     text = (tmp_path / "met.msg").read_text()
     assert re.search(r"ROTATION COMPATIBILITY TOLERANCE FOR DCOUP ELEMENTS +1.000E-05", text)
     assert re.search(r"LARGEST ROTATION ERROR +\S+   AT REFERENCE NODE 900", text)
@@ -226,7 +217,7 @@ def test_tolerances(run, tmp_path):
     lines = step("*CLOAD", "900, 6, 1.", increments=1)
     lines.insert(2, "*CONTROLS, PARAMETERS=CONSTRAINTS\n,,,,, 1e-30")
     with pytest.raises(ConvergenceError) as error:
-        run([*beam(constraint=DISTRIBUTING), *lines], name="missed")
+        run_deck([*beam(constraint=DISTRIBUTING), *lines], name="missed")
     assert any(
         "displacement error" in note and "node 900, of its distributing" in note for note in error.value.__notes__
     )
@@ -237,30 +228,32 @@ def test_tolerances(run, tmp_path):
     ("constraint", "how", "message"),
     [
         (f"{DISTRIBUTING}\n1, 2", "*STATIC", r"released rotations are not supported with NLGEOM; expected all dofs"),
-        (DISTRIBUTING, "*DYNAMIC", r"is not supported with \*DYNAMIC \(.*turned.inp:\d+\) where a step has NLGEOM"),
+        (DISTRIBUTING, "*DYNAMIC", r"is not supported with \*DYNAMIC \(.*deck.inp:\d+\) where a step has NLGEOM"),
     ],
 )
-def test_what_is_not_supported(run, constraint, how, message):
+def test_what_is_not_supported(run_deck, constraint, how, message):
     lines = beam(constraint=constraint)
     lines[lines.index(f"*ELASTIC\n{YOUNG}, 0.")] += "\n*DENSITY\n1."
-    with pytest.raises(DeckError, match=rf"turned\.inp:\d+: \*DISTRIBUTING: {message}"):
-        run([*lines, *step("*CLOAD", "900, 1, 1.", how=how)])
+    with pytest.raises(DeckError, match=rf"deck\.inp:\d+: \*DISTRIBUTING: {message}"):
+        run_deck([*lines, *step("*CLOAD", "900, 1, 1.", how=how)])
 
 
-def test_nodes_on_a_line_are_refused(run):
+def test_nodes_on_a_line_are_refused(run_deck):
     coupling = DISTRIBUTING.replace("\nEND\n", "\n20\n17\n")
-    with pytest.raises(DeckError, match=r"turned\.inp:\d+: \*DISTRIBUTING: its nodes lie on a line, about which"):
-        run([*beam("C3D8", reference=[0.0, 0.0, 3.0], constraint=coupling), *step("*CLOAD", "900, 1, 1.")])
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: \*DISTRIBUTING: its nodes lie on a line, about which"):
+        run_deck([*beam("C3D8", reference=[0.0, 0.0, 3.0], constraint=coupling), *step("*CLOAD", "900, 1, 1.")])
 
 
-def test_free_nodes_are_refused(run):
+def test_free_nodes_are_refused(run_deck):
     """Those in the middle of the sides of quadratic elements, that linear ones do not have."""
     lines = beam_of_quads([line.replace("TYPE=CPS8R", "TYPE=CPS4") for line in beam(constraint=DISTRIBUTING)])
-    with pytest.raises(DeckError, match=r"turned\.inp:\d+: \*DISTRIBUTING: node 102 is free, for no element has it"):
-        run([*lines, *step("*CLOAD", "900, 1, 1.")])
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: \*DISTRIBUTING: node 102 is free, for no element has it"):
+        run_deck([*lines, *step("*CLOAD", "900, 1, 1.")])
 
 
-def test_options_of_the_run_that_are_refused(run):
-    message = r"--fallback: not supported with \*DISTRIBUTING with NLGEOM \(.*turned\.inp:\d+\)"
+def test_options_of_the_run_that_are_refused(run_deck):
+    message = r"--fallback: not supported with \*DISTRIBUTING with NLGEOM \(.*deck\.inp:\d+\)"
     with pytest.raises(UsageError, match=message):
-        run([*beam(constraint=DISTRIBUTING), *step("*CLOAD", "900, 1, 1.")], solver=uel.SolverOptions(fallback=True))
+        run_deck(
+            [*beam(constraint=DISTRIBUTING), *step("*CLOAD", "900, 1, 1.")], solver=uel.SolverOptions(fallback=True)
+        )

@@ -58,7 +58,7 @@ def test_far_from_the_axis_the_control_is_that_of_plane_strain(control_of):
     np.testing.assert_allclose(round_ / (2 * np.pi * radius), plane, rtol=1e-5, atol=1e-6 * abs(plane).max())
 
 
-def test_wall_of_a_cylinder_bends_in_one_element(tmp_path):
+def test_wall_of_a_cylinder_bends_in_one_element(run_deck):
     """A force Q per length around the end of a long cylinder moves it by Q/(2 beta^3 D), beta^4 = 3 (1 - nu^2)/(R t)^2
     (S. Timoshenko, S. Woinowsky-Krieger, Theory of Plates and Shells, 1959, 115). CAX4R has one point across the wall,
     so that all of its bending stiffness is that of the hourglass control."""
@@ -73,8 +73,7 @@ def test_wall_of_a_cylinder_bends_in_one_element(tmp_path):
     lines += ["*STEP\n*STATIC\n1., 1.", f"*BOUNDARY\n{2 * count + 1}, 1, 2\n{2 * count + 2}, 1, 2"]
     half = np.pi * radius  # half of a force of one per length
     lines += [f"*CLOAD\n1, 1, {half}\n2, 1, {half}", "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nU\n*END STEP"]
-    (tmp_path / "wall.inp").write_text("\n".join([*lines, ""]))
-    history = uel.run(tmp_path / "wall.inp", output_dir=tmp_path).history
+    history = run_deck([*lines, ""]).history
     found = (history["U1[ALL:1]"][-1] + history["U1[ALL:2]"][-1]) / 2
     # thin: of the order of the thickness over the radius
     assert found == pytest.approx(1 / (2 * beta**3 * rigidity), rel=0.02)
@@ -249,7 +248,7 @@ Job-5-1.dat)."""
 
 
 @pytest.mark.long
-def test_deformation_gradients_of_a_rubber_block(tmp_path):
+def test_deformation_gradients_of_a_rubber_block(run_deck, tmp_path):
     """A cube of 0.4 in 512 C3D8R of a neo-Hookean material, clamped at one face; the other one moves by 0.2, 0.3, 0.2.
 
     The largest difference of the entries is 0.028 here, beside the edges of the clamped face, and was 0.13 with the
@@ -265,9 +264,8 @@ def test_deformation_gradients_of_a_rubber_block(tmp_path):
     lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", "*MATERIAL, NAME=M", "*HYPERELASTIC, NEO HOOKE", "100., 0.0008"]
     lines += ["*STEP, NLGEOM", "*STATIC", "1., 1., 1e-05, 1.", "*BOUNDARY", "LOW, 1, 3", "HIGH, 1, 1, 0.2"]
     lines += ["HIGH, 2, 2, 0.3", "HIGH, 3, 3, 0.2", "*OUTPUT, FIELD", "*NODE OUTPUT", "U", "*END STEP", ""]
-    (tmp_path / "block.inp").write_text("\n".join(lines))
-    result = uel.run(tmp_path / "block.inp", output_dir=tmp_path)
-    message = " ".join((tmp_path / "block.msg").read_text().split())
+    result = run_deck(lines)
+    message = " ".join((tmp_path / "deck.msg").read_text().split())
     assert "the rule was chosen by one public job of Abaqus, whose deformation gradients it meets to 0.03" in message
     u = result.mesh(-1).point_data["U"]
     signs = np.sign(nodes[elements[0]] - nodes[elements[0]].mean(axis=0))

@@ -77,7 +77,7 @@ def turn_about(axis, angle):
 
 @pytest.mark.sample(4)
 @pytest.mark.parametrize("element_type", [name for name, kind in SOLIDS.items() if not kind.electrical])
-def test_patch_is_stretched_and_turned(run, element_type):
+def test_patch_is_stretched_and_turned(run_deck, element_type):
     """NLGEOM: the boundary follows a stretch, then rotations of 50 degrees, in an increment each. What is inside
     follows, and the stress is uniform: that of the strain in the middle of the increment, turned with the body."""
     kind = SOLIDS[element_type]
@@ -100,7 +100,7 @@ def test_patch_is_stretched_and_turned(run, element_type):
             "U",
             "*END STEP",
         ]
-    result = run("\n".join(lines) + "\n")
+    result = run_deck(lines)
     found = [[result.history[f"U{d + 1}[ALL:{k + 1}]"][-1] for d in range(dim)] for k in range(len(nodes))]
     np.testing.assert_allclose(found, moved, atol=1e-9)
     stretch = gradients[0]

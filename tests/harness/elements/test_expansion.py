@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from small_decks import body_lines
 
-import uel
 from uel.errors import DeckError
 
 YOUNG, NU, ALPHA, WARMER = 1000.0, 0.25, 2e-5, 50.0
@@ -35,15 +34,6 @@ def deck(element_type, held, *, material=ELASTIC, options="", more="", temperatu
     return "\n".join(line for line in lines if line) + "\n"
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text, user=None):
-        (tmp_path / "warm.inp").write_text(text)
-        return uel.run(tmp_path / "warm.inp", user, output_dir=tmp_path)
-
-    return run
-
-
 def nodal(history, name, nodes):
     return np.array([history[f"{name}[ALL:{k}]"][-1] for k in range(1, nodes + 1)])
 
@@ -63,9 +53,9 @@ FREE = {
 
 @pytest.mark.parametrize("options", ["", ", NLGEOM"])
 @pytest.mark.parametrize("element_type", FREE)
-def test_a_free_body_expands_without_stress(run, element_type, options):
+def test_a_free_body_expands_without_stress(run_deck, element_type, options):
     """By alpha dT in every direction; in plane strain by (1 + nu) alpha dT in the plane."""
-    history = run(deck(element_type, FREE[element_type], options=options)).history
+    history = run_deck(deck(element_type, FREE[element_type], options=options)).history
     plane_strain = element_type.startswith("CPE4")
     strain = ALPHA * WARMER * (1 + NU if plane_strain else 1)
     nodes = CUBE if element_type.startswith("C3D8") else CUBE[:4, :2]
@@ -89,9 +79,9 @@ def test_a_free_body_expands_without_stress(run, element_type, options):
         *[(name, 1 / (1 - NU)) for name in ("CPS4", "CPS4I")],
     ],
 )
-def test_a_held_body_has_the_stress_of_theory(run, element_type, factor):
+def test_a_held_body_has_the_stress_of_theory(run_deck, element_type, factor):
     """-E alpha dT/(1 - 2 nu), and /(1 - nu) in plane stress, on the side x = 0 of area 1."""
-    history = run(deck(element_type, "ALL, 1, 3")).history
+    history = run_deck(deck(element_type, "ALL, 1, 3")).history
     stress = YOUNG * ALPHA * WARMER * factor
     left = [1, 4] if not element_type.startswith("C3D8") else [1, 4, 5, 8]
     assert sum(history[f"RF1[ALL:{k}]"][-1] for k in left) == pytest.approx(stress)
@@ -100,12 +90,12 @@ def test_a_held_body_has_the_stress_of_theory(run, element_type, factor):
     assert history["ALLSE"][-1] == pytest.approx(0.5 * stress * directions * ALPHA * WARMER * volume)
 
 
-def test_umat_gets_temperature_field_and_mechanical_strain(run):
+def test_umat_gets_temperature_field_and_mechanical_strain(run_deck):
     """TEMP and PREDEF at the start of the second increment, their increments, and the mechanical strain."""
     material = "*USER MATERIAL, CONSTANTS=0\n*DEPVAR\n5"
     more = "*INITIAL CONDITIONS, TYPE=FIELD\nALL, 4."
     fields = "*TEMPERATURE\nALL, 70.\n*FIELD\nALL, 8."
-    result = run(deck("CPE4", "ALL, 1, 2", material=material, more=more, temperature=fields), UMAT)
+    result = run_deck(deck("CPE4", "ALL, 1, 2", material=material, more=more, temperature=fields), UMAT)
     *_, statev = [result.field(f"SDV{k}") for k in range(1, 6)]
     found = [float(np.ravel(result.field(f"SDV{k}"))[0]) for k in range(1, 6)]
     assert found == pytest.approx([45.0, 25.0, 6.0, 2.0, -ALPHA * WARMER])
@@ -121,11 +111,11 @@ def coupled(element_type, held, more="", **options):
 
 @pytest.mark.parametrize("options", ["", ", NLGEOM"])
 @pytest.mark.parametrize("element_type", ["C3D8", "CPS4", "CPE4", "CAX4", "CPS4R"])
-def test_elements_with_temperatures_expand_alike(run, element_type, options):
+def test_elements_with_temperatures_expand_alike(run_deck, element_type, options):
     """Displacements and stresses of elements without them, which are given the same temperatures."""
     held = FREE[element_type]
-    plain = run(deck(element_type, held, options=options)).history
-    warm = run(coupled(element_type + "T", held, options=options)).history
+    plain = run_deck(deck(element_type, held, options=options)).history
+    warm = run_deck(coupled(element_type + "T", held, options=options)).history
     for name, values in plain.items():
         if name.startswith(("U", "RF")) and "11[" not in name:
             np.testing.assert_allclose(warm[name], values, rtol=1e-9, atol=1e-8, err_msg=name)
@@ -144,14 +134,14 @@ STRAINS = {"ORTHO": (1e-5, 4e-5, 7e-5), "ANISO": (1e-5, 4e-5, 7e-5, 3e-5, 0.0, 0
     ("element_type", "warm", "options"),
     [("CPS4", deck, ""), ("CPS4", deck, ", NLGEOM"), ("CPS4T", coupled, ""), ("CPS4T", coupled, ", NLGEOM")],
 )
-def test_a_free_ply_expands_along_its_directions(run, kind, element_type, warm, options):
+def test_a_free_ply_expands_along_its_directions(run_deck, kind, element_type, warm, options):
     """Strains are those of the table, turned by 30 degrees; there is no stress."""
     text = warm(element_type, FREE["CPS4"], material=LAMINA, options=options)
     text = text.replace(f"*EXPANSION\n{ALPHA}", f"*EXPANSION, TYPE={kind}\n{', '.join(map(str, STRAINS[kind]))}")
     text = text.replace("MATERIAL=M", "MATERIAL=M, ORIENTATION=O").replace(
         "*SOLID SECTION", f"{ORIENTED}\n*SOLID SECTION"
     )
-    history = run(text).history
+    history = run_deck(text).history
     a1, a2, _, a12 = (*STRAINS[kind], 0.0)[:4]
     c, s = np.cos(np.radians(ANGLE)), np.sin(np.radians(ANGLE))
     axes = np.array([[c, s], [-s, c]])
@@ -165,17 +155,17 @@ def test_a_free_ply_expands_along_its_directions(run, kind, element_type, warm, 
     np.testing.assert_allclose(nodal(history, "RF1", 4), 0.0, atol=1e-9)
 
 
-def test_coefficients_by_temperature(run):
+def test_coefficients_by_temperature(run_deck):
     """a(T) (T - zero) - a(T0) (T0 - zero) of the Analysis User's Guide; a is linear between 0 and 100."""
     table = "*EXPANSION, ZERO=-10.\n1e-5, 0.\n3e-5, 100."
     for text in (deck("CPS4", FREE["CPS4"]), coupled("CPS4T", FREE["CPS4"])):
-        moved = nodal(run(text.replace(f"*EXPANSION\n{ALPHA}", table)).history, "U1", 4)
+        moved = nodal(run_deck(text.replace(f"*EXPANSION\n{ALPHA}", table)).history, "U1", 4)
         strain = 2.4e-5 * 80.0 - 1.4e-5 * 30.0
         np.testing.assert_allclose(moved, strain * CUBE[:4, 0], rtol=1e-9, atol=1e-15)
 
 
 @pytest.mark.parametrize(("element_type", "even"), [("CPS4", True), ("CPS4T", True), ("CPS4I", False)])
-def test_thermal_strain_of_the_mean_in_elements_with_straight_edges(run, element_type, even):
+def test_thermal_strain_of_the_mean_in_elements_with_straight_edges(run_deck, element_type, even):
     """A held square that is warmer at x = 1: the stress of the mean of its nodes pushes alike at x = 0 and 1."""
     lines = body_lines(element_type, np.array([[0, 0], [1, 0], [1, 1], [0, 1]]), [range(4)])
     lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", "1.", "*MATERIAL, NAME=M", ELASTIC, "*CONDUCTIVITY", "3."]
@@ -186,7 +176,7 @@ def test_thermal_strain_of_the_mean_in_elements_with_straight_edges(run, element
     else:
         lines += ["*STATIC", "1., 1.", "*TEMPERATURE", "2, 100.", "3, 100."]
     lines += ["*BOUNDARY", "ALL, 1, 2", "*OUTPUT, HISTORY", "*NODE OUTPUT, NSET=ALL", "RF", "*END STEP"]
-    history = run("\n".join(lines) + "\n").history
+    history = run_deck(lines).history
     along, across = (nodal(history, f"RF{dof}", 4) for dof in (1, 2))
     stress = YOUNG * ALPHA * 50.0 / (1 - NU)
     np.testing.assert_allclose(along, 0.5 * stress * np.array([1, -1, -1, 1]), rtol=1e-9)
@@ -202,7 +192,7 @@ def test_thermal_strain_of_the_mean_in_elements_with_straight_edges(run, element
     [
         (
             "*EXPANSION\n1e-5, 20.\n2e-5, 20.",
-            r"warm.inp:\d+: \*EXPANSION: temperature 20 is not above that of the line before, 20",
+            r"deck.inp:\d+: \*EXPANSION: temperature 20 is not above that of the line before, 20",
         ),
         ("*EXPANSION", "needs a data line with the expansion coefficients"),
         ("*EXPANSION, TYPE=ORTHO\n1e-5, 2e-5", "expansion coefficient"),
@@ -210,6 +200,6 @@ def test_thermal_strain_of_the_mean_in_elements_with_straight_edges(run, element
         ("*EXPANSION, USER", "option USER is not supported"),
     ],
 )
-def test_what_is_wrong_is_named(run, given, message):
+def test_what_is_wrong_is_named(run_deck, given, message):
     with pytest.raises(DeckError, match=message):
-        run(deck("CPE4", "ALL, 1, 2").replace(f"*EXPANSION\n{ALPHA}", given))
+        run_deck(deck("CPE4", "ALL, 1, 2").replace(f"*EXPANSION\n{ALPHA}", given))

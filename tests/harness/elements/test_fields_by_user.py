@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import uel
 from uel.errors import DeckError, UelError
 
 HERE = Path(__file__).parent
@@ -46,23 +45,20 @@ PROCEDURES = ["*STATIC", "*VISCO", "*DYNAMIC, NOHAF"]
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(given=BOTH, then="", *, procedure="*STATIC", routines=ROUTINES):
+def run_square(run_deck):
+    def run_square(given=BOTH, then="", *, procedure="*STATIC", routines=ROUTINES):
         text = DECK.format(given=given, then=then or "**", procedure=procedure)
         if "DYNAMIC" in procedure:
             text = text.replace("*USER MATERIAL", "*DENSITY\n1.\n*USER MATERIAL")
-        (tmp_path / "square.inp").write_text(text)
-        user = tmp_path / "user.f"
-        user.write_text(routines.replace("'../umat.inc'", f"'{HERE.parent / 'umat.inc'}'"))
-        return uel.run(tmp_path / "square.inp", user, output_dir=tmp_path)
+        return run_deck(text, routines.replace("'../umat.inc'", f"'{HERE.parent / 'umat.inc'}'"))
 
-    return run
+    return run_square
 
 
 @pytest.mark.parametrize("procedure", ["*STATIC", "*DYNAMIC"])
-def test_umat_gets_the_fields_of_the_increment(run, procedure):
+def test_umat_gets_the_fields_of_the_increment(run_square, procedure):
     """At the start of the fourth increment, and their change; the mean of x is 1."""
-    result = run(procedure=procedure)
+    result = run_square(procedure=procedure)
     temperature = 5 + 1 + 10 * np.array([0.75, 1.0])
     field = 6 + 1 + 10 * np.array([0.75, 1.0]) + 100 * temperature
     expected = [temperature[0], np.diff(temperature)[0], field[0], np.diff(field)[0]]
@@ -70,8 +66,8 @@ def test_umat_gets_the_fields_of_the_increment(run, procedure):
     np.testing.assert_allclose(found, expected)
 
 
-def test_the_first_increment_starts_from_the_initial_temperature(run):
-    result = run(then="*TEMPERATURE, OP=NEW\nALL, 3.")
+def test_the_first_increment_starts_from_the_initial_temperature(run_square):
+    result = run_square(then="*TEMPERATURE, OP=NEW\nALL, 3.")
     start = [result.field(f"SDV{k}", increment=1, step=1)[0] for k in (1, 2)]
     np.testing.assert_allclose(start, [3.0, 5 + 1 + 2.5 - 3])
     # the second step no longer has UTEMP, nor UFIELD
@@ -80,10 +76,10 @@ def test_the_first_increment_starts_from_the_initial_temperature(run):
 
 
 @pytest.mark.parametrize("procedure", PROCEDURES)
-def test_what_utemp_and_ufield_are_given(run, tmp_path, procedure):
+def test_what_utemp_and_ufield_are_given(run_square, tmp_path, procedure):
     """At the last node, for the second increment of the second step."""
-    run(procedure=procedure)
-    lines = [line.split() for line in (tmp_path / "square.dat").read_text().splitlines()]
+    run_square(procedure=procedure)
+    lines = [line.split() for line in (tmp_path / "deck.dat").read_text().splitlines()]
     utemp, ufield = (
         [float(x) for x in [n for n in lines if n and n[0] == name][-1][1:]] for name in ("UTEMP", "UFIELD")
     )
@@ -100,17 +96,17 @@ def test_what_utemp_and_ufield_are_given(run, tmp_path, procedure):
     [
         (
             "*TEMPERATURE, USER\nALL, 5.",
-            r"square.inp:\d+: \*TEMPERATURE, USER needs UTEMP, which the job does not have",
+            r"deck.inp:\d+: \*TEMPERATURE, USER needs UTEMP, which the job does not have",
         ),
-        ("*FIELD, USER\nALL, 5.", r"square.inp:\d+: \*FIELD, USER needs UFIELD, which the job does not have"),
+        ("*FIELD, USER\nALL, 5.", r"deck.inp:\d+: \*FIELD, USER needs UFIELD, which the job does not have"),
     ],
 )
-def test_a_job_without_the_routine_is_refused(run, given, message):
+def test_a_job_without_the_routine_is_refused(run_square, given, message):
     with pytest.raises(DeckError, match=message):
-        run(given, routines=(HERE / "thermal.f").read_text())
+        run_square(given, routines=(HERE / "thermal.f").read_text())
 
 
 @pytest.mark.parametrize(("keyword", "routine"), [("TEMPERATURE", "UTEMP"), ("FIELD", "UFIELD")])
-def test_xit(run, keyword, routine):
+def test_xit(run_square, keyword, routine):
     with pytest.raises(UelError, match=rf"{routine} stopped the analysis .* \(node 1, step 1\)"):
-        run(f"*{keyword}, USER\nALL, 666.")
+        run_square(f"*{keyword}, USER\nALL, 666.")

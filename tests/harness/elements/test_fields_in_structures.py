@@ -6,31 +6,20 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from point_routines import getvrm, usdfld
 from shell_decks import ShellDeck
 
-import uel
 from uel.model.element_types import SHELL
 
 HERE = Path(__file__).parents[1]
-USDFLD = f"""      INCLUDE '{HERE / "usdfld.inc"}'
-%s
-      END
-"""
-
-
-def getvrm(name):
-    return f"CALL GETVRM('{name}',ARRAY,JARRAY,FLGRAY,JRCD,JMAC,JMATYP,MATLAYO,LACCFLA)"
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(text, body="", more=""):
-        (tmp_path / "job.inp").write_text(text)
-        source = USDFLD.replace("%s", "\n".join(f"      {line}" for line in body.split("\n")))
-        (tmp_path / "user.f").write_text(source + more)
-        return uel.run(tmp_path / "job.inp", tmp_path / "user.f", output_dir=tmp_path)
+def run_with_usdfld(run_deck):
+    def run_with_usdfld(text, body="", more=""):
+        return run_deck(text, usdfld(body) + more)
 
-    return run
+    return run_with_usdfld
 
 
 TRUSS = """*NODE, NSET=ALL
@@ -74,14 +63,14 @@ def along(result, name, count=4):
 
 
 @pytest.mark.parametrize("type", ["T2D2", "T3D2"])
-def test_damage_by_the_largest_strain(run, type):
+def test_damage_by_the_largest_strain(run_with_usdfld, type):
     """The example of USDFLD in the User Subroutines Guide: the field is the largest strain so far, at the start of the
     increment. A force F along the bar: strain = F/(A E(field))."""
     rows = "2000., 0.3, 0., 0.\n1500., 0.3, 0., 0.01\n1200., 0.3, 0., 0.02\n1000., 0.3, 0., 0.04"
     material = f"*ELASTIC, DEPENDENCIES=1\n{rows}\n*USER DEFINED FIELD\n*DEPVAR\n1"
     body = f"{getvrm('E')}\nFIELD(1) = MAX(ABS(ARRAY(1)), STATEV(1))\nSTATEV(1) = FIELD(1)"
     # the roller lets the node move along x, which is 3/5 of the direction of the bar
-    found = run(truss(material, type=type, step="*CLOAD\n2, 1, 48."), body)
+    found = run_with_usdfld(truss(material, type=type, step="*CLOAD\n2, 1, 48."), body)
     strains, largest = [0.0], 0.0
     for k in range(1, 5):
         largest = max(largest, abs(strains[-1]))
@@ -94,7 +83,7 @@ def test_damage_by_the_largest_strain(run, type):
 
 @pytest.mark.parametrize("type", ["T2D2", "T3D2"])
 @pytest.mark.parametrize("options", ["", ", NLGEOM"])
-def test_arguments_in_trusses(run, type, options):
+def test_arguments_in_trusses(run_with_usdfld, type, options):
     """In the third increment; there are no directions in trusses (User Subroutines Guide, USDFLD)."""
     shift = 0.45 if options else 0.0
     expressions = {
@@ -107,7 +96,7 @@ def test_arguments_in_trusses(run, type, options):
         "ICHAR(CMNAME(1:1)) + 1000*ICHAR(ORNAME(1:1))": 32083,
     }
     for expression, expected in expressions.items():
-        found = run(truss(type=type, options=options), f"IF (KINC .EQ. 3) STATEV(1) = {expression}")
+        found = run_with_usdfld(truss(type=type, options=options), f"IF (KINC .EQ. 3) STATEV(1) = {expression}")
         assert along(found, "SDV1")[2] == pytest.approx(expected, rel=SINGLE), expression
 
 
@@ -116,12 +105,12 @@ def test_arguments_in_trusses(run, type, options):
     ("name", "components", "flags"),
     [("E", [1], ["YES", "N/A"]), ("S", [1], ["YES", "N/A"]), ("SINV", [1, 1, -1 / 3, 1], []), ("SDV", [1], [])],
 )
-def test_getvrm_in_trusses(run, type, name, components, flags):
+def test_getvrm_in_trusses(run_with_usdfld, type, name, components, flags):
     """What the point has at the start of the last increment: strain 0.054, stress 54; SDV1 counts the increments."""
     body = f"{getvrm(name)}\nSTATEV(2) = 0\nDO K = 1, 7\nSTATEV(2) = STATEV(2) + K*ARRAY(K)\nEND DO"
     tests = "".join(f"\nIF (FLGRAY({k}) .NE. '{flag}') CALL XIT" for k, flag in enumerate(flags, 1))
     body += f"{tests}\nSTATEV(1) = STATEV(1) + 1\nIF (KINC .EQ. 4 .AND. JRCD .NE. 0) CALL XIT"
-    found = run(truss(type=type), body)
+    found = run_with_usdfld(truss(type=type), body)
     strain = 0.75 * 0.6 * (3 / 5) / LENGTH
     scale = {"E": strain, "S": 1000 * strain, "SINV": 1000 * strain, "SDV": 3.0}[name]
     expected = scale * np.dot(components, np.arange(1, len(components) + 1))
@@ -130,10 +119,10 @@ def test_getvrm_in_trusses(run, type, name, components, flags):
     assert along(found, "SDV2")[3] == pytest.approx(expected, rel=SINGLE)
 
 
-def test_plastic_strain_in_trusses(run):
+def test_plastic_strain_in_trusses(run_with_usdfld):
     """Yield stress 30, constant: beyond the strain 0.03 the rest is plastic."""
     body = f"{getvrm('PE')}\nSTATEV(1) = ARRAY(1) + 10*ARRAY(7)\nSTATEV(2) = JRCD"
-    found = run(truss(FIELD + "\n*PLASTIC\n30., 0."), body)
+    found = run_with_usdfld(truss(FIELD + "\n*PLASTIC\n30., 0."), body)
     strains = 0.6 * (3 / 5) / LENGTH * np.array([0.25, 0.5, 0.75, 1])
     np.testing.assert_allclose(along(found, "S11"), np.minimum(1000 * strains, 30), rtol=SINGLE)
     plastic = np.maximum(strains - 0.03, 0)
@@ -141,21 +130,23 @@ def test_plastic_strain_in_trusses(run):
     np.testing.assert_allclose(along(found, "SDV1")[1:], 11 * plastic[:3], atol=SINGLE)
 
 
-def test_no_plastic_strain_in_elastic_trusses(run):
-    found = run(truss(), f"{getvrm('SINV')}\n{getvrm('PE')}\nSTATEV(1) = ARRAY(1) + ARRAY(7)\nSTATEV(2) = JRCD")
+def test_no_plastic_strain_in_elastic_trusses(run_with_usdfld):
+    found = run_with_usdfld(
+        truss(), f"{getvrm('SINV')}\n{getvrm('PE')}\nSTATEV(1) = ARRAY(1) + ARRAY(7)\nSTATEV(2) = JRCD"
+    )
     np.testing.assert_array_equal(along(found, "SDV1"), 0)
     np.testing.assert_array_equal(along(found, "SDV2"), 1)
 
 
-def test_modulus_of_temperature_in_trusses(run):
+def test_modulus_of_temperature_in_trusses(run_with_usdfld):
     """The mean of the temperatures of the nodes, 40 at the end."""
     table = "*ELASTIC\n1000., 0.3, 0.\n600., 0.3, 80."
-    found = run(truss(table, step=PULL + "\n*TEMPERATURE\n1, 20.\n2, 60."))
+    found = run_with_usdfld(truss(table, step=PULL + "\n*TEMPERATURE\n1, 20.\n2, 60."))
     part = np.array([0.25, 0.5, 0.75, 1])
     np.testing.assert_allclose(along(found, "S11"), (1000 - 5 * 40 * part) * part * 0.6 * (3 / 5) / LENGTH)
 
 
-def test_sdvini_in_trusses(run):
+def test_sdvini_in_trusses(run_with_usdfld):
     sdvini = """      SUBROUTINE SDVINI(STATEV,COORDS,NSTATV,NCRDS,NOEL,NPT,LAYER,KSPT)
       INCLUDE 'ABA_PARAM.INC'
       DIMENSION STATEV(NSTATV),COORDS(NCRDS)
@@ -163,7 +154,7 @@ def test_sdvini_in_trusses(run):
       END
 """
     text = truss().replace("*STEP", "*INITIAL CONDITIONS, TYPE=SOLUTION, USER\n*STEP")
-    found = run(text, "STATEV(2) = STATEV(1)", sdvini)
+    found = run_with_usdfld(text, "STATEV(2) = STATEV(1)", sdvini)
     np.testing.assert_allclose(along(found, "SDV2"), 2.5 + 20 + 100)
 
 
@@ -210,11 +201,13 @@ def stretched_and_bent(strain, curvature):
 
 @pytest.mark.parametrize("element_type", TYPES)
 @pytest.mark.parametrize("strain, curvature", [(0.01, 0.0), (0.0, 0.02), (0.01, 0.02)])
-def test_modulus_that_is_graded_through_the_thickness(run, element_type, strain, curvature):
+def test_modulus_that_is_graded_through_the_thickness(run_with_usdfld, element_type, strain, curvature):
     """E = 1000 + 400 z/(t/2): forces are integrals of E/(1 - nu^2) (e + z k), exact by Simpson's rule."""
     section = f"*SHELL SECTION, ELSET=SHELL, MATERIAL=M\n{THICKNESS}, 3"
     data = motion(element_type, stretched_and_bent(strain, curvature))
-    found = run(plate(element_type, section, GRADED.format(600, 1400), data), f"FIELD(1) = COORD(3)/{THICKNESS / 2}")
+    found = run_with_usdfld(
+        plate(element_type, section, GRADED.format(600, 1400), data), f"FIELD(1) = COORD(3)/{THICKNESS / 2}"
+    )
     t, mean, slope = THICKNESS, 1000 / (1 - 0.25**2), 400 / (THICKNESS / 2) / (1 - 0.25**2)
     force = mean * t * strain + slope * t**3 / 12 * curvature
     moment = slope * t**3 / 12 * strain + mean * t**3 / 12 * curvature
@@ -226,7 +219,7 @@ def test_modulus_that_is_graded_through_the_thickness(run, element_type, strain,
 
 
 @pytest.mark.parametrize("element_type", ["S4", "S4R", "S3", "S8R"])
-def test_layers_of_a_field_are_layers_of_a_material(run, element_type):
+def test_layers_of_a_field_are_layers_of_a_material(run_with_usdfld, element_type):
     """USDFLD gives each layer its field; the same laminate of materials with these constants."""
     lamina = "*ELASTIC, TYPE=LAMINA{}\n{}"
     rows = {
@@ -238,7 +231,7 @@ def test_layers_of_a_field_are_layers_of_a_material(run, element_type):
     layers = "*SHELL SECTION, ELSET=SHELL, COMPOSITE\n0.1, 3, {}, 30.\n0.2, 3, {}, -45.\n0.1, 3, {}, 90."
     shear = "\n*TRANSVERSE SHEAR STIFFNESS\n30., 30."
     data = motion(element_type, lambda x, y, _z: (0.01 * x * y, 0.02 * y**2, 0.05 * x * y, 0.03 * y, 0.01 * x * y, 0))
-    one = run(
+    one = run_with_usdfld(
         plate(element_type, layers.format("M", "M", "M") + shear, f"{table}\n*USER DEFINED FIELD", data),
         "FIELD(1) = LAYER",
     )
@@ -247,7 +240,7 @@ def test_layers_of_a_field_are_layers_of_a_material(run, element_type):
     values = [one.field(name) for name in names]
     constants = "".join(f"*MATERIAL, NAME=M{k}\n{lamina.format('', row)}\n" for k, row in rows.items())
     layers = layers.format("M1", "M2", "M3")
-    other = run(plate(element_type, layers + shear, lamina.format("", rows[1]), data, before=constants))
+    other = run_with_usdfld(plate(element_type, layers + shear, lamina.format("", rows[1]), data, before=constants))
     for name, value in zip(names, values, strict=True):
         np.testing.assert_allclose(value, other.field(name), rtol=SINGLE, atol=SINGLE, err_msg=name)
 
@@ -267,7 +260,7 @@ def rolled(angle):
 
 @pytest.mark.parametrize("element_type", TYPES)
 @pytest.mark.parametrize("options", ["", ", NLGEOM"])
-def test_arguments_in_shells(run, element_type, options):
+def test_arguments_in_shells(run_with_usdfld, element_type, options):
     """In the second increment, of two by which the plate turns by 60 degrees, with NLGEOM: the directions are those at
     the start of the increment, as GETVRM has the state there; COORD is that of the point as it is now."""
     large = bool(options)
@@ -295,7 +288,9 @@ def test_arguments_in_shells(run, element_type, options):
         lines = [f"STATEV({k}) = {expression}" for k, expression in enumerate(expressions, 1)]
         material = GRADED.format(600, 1400).replace("*DEPVAR\n2", f"*DEPVAR\n{len(lines)}")
         body = "IF (KINC .EQ. 2) THEN\n" + "\n".join(lines) + "\nEND IF"
-        found = run(plate(element_type, OBLIQUE, material, data, options=options, times="0.5, 1.", before=TURN), body)
+        found = run_with_usdfld(
+            plate(element_type, OBLIQUE, material, data, options=options, times="0.5, 1.", before=TURN), body
+        )
         for k, (expression, value) in enumerate(expressions.items(), 1):
             values = found.field(f"SDV{k}_{side}")
             np.testing.assert_allclose(values, value, rtol=SINGLE, atol=SINGLE, err_msg=expression)
@@ -303,7 +298,7 @@ def test_arguments_in_shells(run, element_type, options):
 
 @pytest.mark.parametrize("element_type", TYPES)
 @pytest.mark.parametrize("name", ["E", "S", "SINV", "PE"])
-def test_getvrm_in_shells(run, element_type, name):
+def test_getvrm_in_shells(run_with_usdfld, element_type, name):
     """At the start of the second increment, in the directions of the section points: 11, 22, 33, 12 in these places.
     Yield stress 10, constant: the plate is stretched beyond it, with a Poisson's ratio of 0."""
     material = "*ELASTIC\n1000., 0.\n*PLASTIC\n10., 0.\n*USER DEFINED FIELD\n*DEPVAR\n7"
@@ -312,7 +307,7 @@ def test_getvrm_in_shells(run, element_type, name):
     body = f"IF (KINC .NE. 2) RETURN\n{getvrm(name)}\nSTATEV(1:7) = ARRAY(1:7)\nIF (JRCD .NE. 0) CALL XIT"
     if name in ("E", "S"):
         body += "".join(f"\nIF (FLGRAY({k}) .NE. '{f}') CALL XIT" for k, f in ((1, "YES"), (3, "N/A"), (4, "YES")))
-    found = run(plate(element_type, section, material, data, times="0.5, 1."), body)
+    found = run_with_usdfld(plate(element_type, section, material, data, times="0.5, 1."), body)
     for side, along_x, across in (("SNEG", 0, 1), ("SPOS", 1, 0)):
         values = np.array([found.field(f"SDV{k}_{side}") for k in range(1, 8)])
         expected = np.zeros((7, 1))
@@ -341,7 +336,7 @@ UMAT = f"""      INCLUDE '{HERE / "umat.inc"}'
 
 
 @pytest.mark.parametrize("element_type", ["S4", "S4R", "S3", "S8R"])
-def test_layers_with_other_numbers_of_state_variables(run, element_type):
+def test_layers_with_other_numbers_of_state_variables(run_with_usdfld, element_type):
     """Of UMAT with USDFLD, 2; and of a plastic layer with USDFLD, 9. Each sees its own."""
     user = "*USER MATERIAL, CONSTANTS=1\n1.\n*DEPVAR\n2\n*USER DEFINED FIELD"
     plastic = "*MATERIAL, NAME=P\n*ELASTIC\n1000., 0.\n*PLASTIC\n5., 0.\n*DEPVAR\n9\n*USER DEFINED FIELD\n"
@@ -357,7 +352,7 @@ STATEV(8) = ARRAY(7)
 STATEV(9) = ARRAY(1)
 END IF"""
     section += "\n*HOURGLASS STIFFNESS\n1."
-    found = run(plate(element_type, section, user, data, times="0.5, 1.", before=plastic), body, UMAT)
+    found = run_with_usdfld(plate(element_type, section, user, data, times="0.5, 1.", before=plastic), body, UMAT)
     for name, value in (("SDV1_SNEG", 2), ("SDV2_SNEG", 221), ("SDV1_SPOS", 2), ("SDV9_SPOS", 1), ("S11_SNEG", 0.02)):
         np.testing.assert_allclose(found.field(name), value, rtol=SINGLE, err_msg=name)
     np.testing.assert_allclose(found.field("SDV3_SNEG"), 0)
@@ -365,8 +360,8 @@ END IF"""
     np.testing.assert_allclose(found.field("SDV8_SPOS"), 0.005, rtol=1e-2)
 
 
-def test_a_perturbation_sees_the_fields_of_the_base_state(run):
+def test_a_perturbation_sees_the_fields_of_the_base_state(run_with_usdfld):
     """A truss of modulus 500 by the field 1 of the base state: its displacement under a force of 3 along x."""
     text = truss(step="*CLOAD\n2, 1, 6.") + "*STEP, PERTURBATION\n*STATIC\n*CLOAD\n2, 1, 3.\n*OUTPUT, HISTORY\n"
-    found = run(text + "*NODE OUTPUT, NSET=ALL\nU\n*END STEP\n", "FIELD(1) = 1")
+    found = run_with_usdfld(text + "*NODE OUTPUT, NSET=ALL\nU\n*END STEP\n", "FIELD(1) = 1")
     assert found.history["U1[ALL:2]"][-1] == pytest.approx(3 / (500 * AREA / LENGTH * (3 / 5) ** 2), rel=1e-9)

@@ -129,29 +129,31 @@ def test_tangent_of_large_displacements(element, element_type):
 
 @pytest.mark.parametrize("element_type", ALL)
 @pytest.mark.parametrize("nlgeom", ["", ", NLGEOM"])
-def test_held_planes_are_plane_strain(run, element_type, nlgeom):
+def test_held_planes_are_plane_strain(run_deck, element_type, nlgeom):
     kind = GENERALISED[element_type]
     nodes, elements = patch_of(kind.family.cell)
     u = 0.02 * np.random.default_rng(3).standard_normal(nodes.shape)
     boundary = moved(range(1, len(nodes) + 1), u)
     static = "*STATIC\n0.25, 1., 0.25, 0.25"
-    held = run(deck(element_type, (nodes, elements), f"{boundary}\nREF, 3, 5", nlgeom=nlgeom, static=static))
+    held = run_deck(deck(element_type, (nodes, elements), f"{boundary}\nREF, 3, 5", nlgeom=nlgeom, static=static))
     found = last(held, "RF", len(nodes))
     # what holds the planes: the stress out of the plane
     assert abs(held.history["RF3[REF]"][-1]) > 1.0
-    plane = run(deck(element_type.replace("CPEG", "CPE"), (nodes, elements), boundary, nlgeom=nlgeom, static=static))
+    plane = run_deck(
+        deck(element_type.replace("CPEG", "CPE"), (nodes, elements), boundary, nlgeom=nlgeom, static=static)
+    )
     expected = last(plane, "RF", len(nodes))
     np.testing.assert_allclose(found, expected, atol=1e-10 * abs(expected).max())
 
 
 @pytest.mark.parametrize("element_type", ALL)
-def test_free_planes_are_plane_stress(run, element_type):
+def test_free_planes_are_plane_stress(run_deck, element_type):
     """Patch test: the fibres of a uniform strain are free, and move the planes in parallel."""
     kind = GENERALISED[element_type]
     nodes, elements = patch_of(kind.family.cell)
     gradient = np.array([[1e-3, 4e-4], [-2e-4, 5e-4]])
     outside = np.flatnonzero(((abs(nodes) < 1e-9) | (abs(nodes - 1) < 1e-9)).any(axis=1))
-    result = run(deck(element_type, (nodes, elements), moved(outside + 1, nodes[outside] @ gradient.T)))
+    result = run_deck(deck(element_type, (nodes, elements), moved(outside + 1, nodes[outside] @ gradient.T)))
     e1, e2, shear = gradient[0, 0], gradient[1, 1], gradient[0, 1] + gradient[1, 0]
     modulus = YOUNG / (1 - NU**2)
     expected = modulus * (e1 + NU * e2), modulus * (e2 + NU * e1), 0.0, YOUNG / (2 * (1 + NU)) * shear
@@ -162,13 +164,13 @@ def test_free_planes_are_plane_stress(run, element_type):
     np.testing.assert_allclose(of_reference(result, "U"), [longer, 0, 0], atol=1e-12)
 
 
-def test_turned_planes_bend(run):
+def test_turned_planes_bend(run_deck):
     """Uniaxial stress along fibres, E (w1 + w2 (y - Y0) - w3 (x - X0))/t: its resultants hold the reference node. The
     section has the quadratic displacements of a bent beam, which CPEG8 has too."""
     elements = np.arange(8)[None]
     nodes = np.array([[0, 0], [2, 0], [2, 1], [0, 1], [1, 0], [2, 0.5], [1, 1], [0, 0.5]], dtype=float)
     origin, w = np.array([0.3, -0.2]), np.array([0.01, 0.02, -0.03])
-    result = run(deck("CPEG8", (nodes, elements), f"{moved(['REF'], [w], 3)}\n1, 1, 2\n2, 2, 2"))
+    result = run_deck(deck("CPEG8", (nodes, elements), f"{moved(['REF'], [w], 3)}\n1, 1, 2\n2, 2, 2"))
     # first and second moments of the area about the reference node
     area, middle = 2.0, np.array([1.0, 0.5]) - origin
     xx, yy, xy = area * (4 / 12 + middle[0] ** 2), area * (1 / 12 + middle[1] ** 2), area * middle.prod()
@@ -180,39 +182,39 @@ def test_turned_planes_bend(run):
 
 
 @pytest.mark.parametrize(("element_type", "stress"), [("CPEG4", 1.131e5), ("CPEG4R", 1.125e5)])
-def test_verification_guide(run, element_type, stress):
+def test_verification_guide(run_deck, element_type, stress):
     """Generalized plane strain elements with relative motion of bounding planes (Abaqus Verification Guide 1.3.2): a
     rotation of 0.01 about y of a square of side 1, whose mesh is inferred from the strain; figures as they are printed.
     It shows that the fibres of an element have one strain."""
     nodes, elements = grid(4, 4, 1.0, 1.0, (-0.5, -0.5))
     boundary = "REF, 3, 4\nREF, 5, 5, 0.01\n13, 1, 2\n14, 1, 1"
     text = deck(element_type, (nodes, elements), boundary, reference=(0.0, 0.0), material="*ELASTIC\n3e7, 0.3")
-    result = run(text.replace(f"REF NODE=REF\n{LENGTH}", "REF NODE=REF\n1."))
+    result = run_deck(text.replace(f"REF NODE=REF\n{LENGTH}", "REF NODE=REF\n1."))
     assert result.field("E33").max() == pytest.approx(3.750e-3, abs=0.5e-6)
     assert result.field("S33").max() == pytest.approx(stress, abs=0.5e2)
 
 
-def test_slice_of_wedges(run):
+def test_slice_of_wedges(run_deck):
     """CPEG3 as C3D6 between its planes, in large displacements: the same strains."""
     nodes, elements = patch_of("triangle")
     count, random = len(nodes), np.random.default_rng(4)
     u, longer = 0.1 * random.standard_normal(nodes.shape), 0.3
     static = "*STATIC\n0.25, 1., 0.25, 0.25"
     boundary = f"{moved(range(1, count + 1), u)}\nREF, 3, 3, {longer}\nREF, 4, 5"
-    plane = run(deck("CPEG3", (nodes, elements), boundary, nlgeom=", NLGEOM", static=static))
+    plane = run_deck(deck("CPEG3", (nodes, elements), boundary, nlgeom=", NLGEOM", static=static))
     found, (along, *_) = last(plane, "RF", count), of_reference(plane, "RF")
     solid = np.vstack([np.column_stack([nodes, np.full(count, z)]) for z in (0.0, LENGTH)])
     moves = np.vstack([np.column_stack([u, np.full(count, w)]) for w in (0.0, longer)])
     wedges = np.hstack([elements, elements + count])
     boundary = moved(range(1, 2 * count + 1), moves)
-    space = run(deck("C3D6", (solid, wedges), boundary, nlgeom=", NLGEOM", static=static))
+    space = run_deck(deck("C3D6", (solid, wedges), boundary, nlgeom=", NLGEOM", static=static))
     forces = last(space, "RF", 2 * count, (1, 2, 3))
     np.testing.assert_allclose(found, forces[:count, :2] + forces[count:, :2], atol=1e-9 * abs(found).max())
     assert along == pytest.approx(forces[count:, 2].sum(), rel=1e-9)
 
 
 @pytest.mark.parametrize("element_type", ["CPEG3", "CPEG4", "CPEG4H", "CPEG6", "CPEG8", "CPEG8RH"])
-def test_another_reference_node(run, element_type):
+def test_another_reference_node(run_deck, element_type):
     """The same planes by a node elsewhere, in large displacements: same forces in the plane, moments about the other
     node."""
     nodes, elements = patch_of(GENERALISED[element_type].family.cell)
@@ -224,7 +226,7 @@ def test_another_reference_node(run, element_type):
         boundary = f"{moved(range(1, len(nodes) + 1), u)}\n{moved(['REF'], [planes], 3)}"
         static = "*STATIC\n0.25, 1., 0.25, 0.25"
         text = deck(element_type, (nodes, elements), boundary, reference=origin, nlgeom=", NLGEOM", static=static)
-        result = run(text)
+        result = run_deck(text)
         results.append((last(result, "RF", len(nodes)), of_reference(result, "RF")))
     (forces, (force, *moments)), (others, (same, *turned)) = results
     np.testing.assert_allclose(others, forces, atol=1e-10 * abs(forces).max())
@@ -234,13 +236,13 @@ def test_another_reference_node(run, element_type):
 
 
 @pytest.mark.parametrize("element_type", ["CPEG4", "CPEG8R"])
-def test_stretched_fibres(run, element_type):
+def test_stretched_fibres(run_deck, element_type):
     """E ln(t/t0) on the section that has become thinner by ln(t/t0) nu in both directions; equilibrium is found in few
     iterations."""
     nodes, elements = patch_of(GENERALISED[element_type].family.cell)
     boundary = f"1, 1, 2\n2, 2, 2\nREF, 3, 3, {0.5 * LENGTH}\nREF, 4, 5"
     text = deck(element_type, (nodes, elements), boundary, nlgeom=", NLGEOM", static="*STATIC\n0.01, 1., 0.01, 0.01")
-    result = run(text)
+    result = run_deck(text)
     stretch = np.log(1.5)
     expected = YOUNG * stretch * np.exp(-2 * NU * stretch)
     # strains of 100 increments, each at the middle of its own
@@ -279,6 +281,6 @@ def body(element_type="CPEG4", section=", REF NODE=5", length="1.", material=ELA
         ),
     ],
 )
-def test_what_is_refused(run, text, message):
+def test_what_is_refused(run_deck, text, message):
     with pytest.raises(DeckError, match=message):
-        run(text)
+        run_deck(text)

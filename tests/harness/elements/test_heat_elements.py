@@ -40,18 +40,9 @@ def deck(element_type, mesh, material, step, *, procedure=STEADY, before=""):
     return "\n".join(lines)
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text, user=None):
-        (tmp_path / "heat.inp").write_text(text)
-        return uel.run(tmp_path / "heat.inp", user and HERE / user, output_dir=tmp_path)
-
-    return run
-
-
 @pytest.mark.parametrize("element_type", PATCHES)
 @pytest.mark.parametrize("user", [None, "flows.f"])
-def test_patch_of_a_linear_temperature(run, element_type, user):
+def test_patch_of_a_linear_temperature(run_deck, element_type, user):
     """Any temperature that varies linearly is steady, about an axis one that varies along it; the first moment of the
     heat at the nodes is conductivity x gradient x volume."""
     kind = HEAT[element_type]
@@ -60,7 +51,10 @@ def test_patch_of_a_linear_temperature(run, element_type, user):
     gradient = np.array([0.0 if kind.axisymmetric else 2.0, -1.0, 0.5])[: kind.dimension]
     outside = np.flatnonzero(((abs(nodes) < 1e-9) | (abs(nodes - 1) < 1e-9)).any(axis=1))
     material = f"{FLOWS}{K}, 0., {CAPACITY}, 0." if user else CONDUCTIVITY
-    result = run(deck(element_type, (nodes, elements), material, held(outside, 5.0 + nodes[outside] @ gradient)), user)
+    result = run_deck(
+        deck(element_type, (nodes, elements), material, held(outside, 5.0 + nodes[outside] @ gradient)),
+        user and HERE / user,
+    )
     count = len(nodes)
     np.testing.assert_allclose(column(result.history, "NT11", count)[-1], 5.0 + nodes @ gradient, rtol=1e-10)
     volume = np.pi if kind.axisymmetric else THICKNESS if kind.dimension == 2 else 1.0
@@ -82,7 +76,7 @@ def procedure_of(element_type, given):
 
 @pytest.mark.parametrize("element_type", TYPES)
 @pytest.mark.parametrize("user", [None, "flows.f"])
-def test_conductivity_that_grows_with_the_temperature(run, element_type, user):
+def test_conductivity_that_grows_with_the_temperature(run_deck, element_type, user):
     """k (1 + b T): T + b T^2/2 is linear along a bar (Kirchhoff), at the nodes of linear elements exactly."""
     b, hot = 0.8, 2.0
     nodes, elements, along = bar(element_type, 4)
@@ -92,7 +86,7 @@ def test_conductivity_that_grows_with_the_temperature(run, element_type, user):
         *(element_type, (nodes, elements), material, held(ends, hot * along[ends])),
         procedure=procedure_of(element_type, STEADY),
     )
-    result = run(text, user)
+    result = run_deck(text, user and HERE / user)
     found = column(result.history, "NT11", len(nodes))[-1]
     np.testing.assert_allclose(found + 0.5 * b * found**2, (hot + 0.5 * b * hot**2) * along, rtol=1e-6, atol=1e-9)
     if user:
@@ -102,7 +96,7 @@ def test_conductivity_that_grows_with_the_temperature(run, element_type, user):
 
 @pytest.mark.parametrize("element_type", TYPES)
 @pytest.mark.parametrize("user", [None, "flows.f"])
-def test_a_wave_of_heat_decays(run, element_type, user):
+def test_a_wave_of_heat_decays(run_deck, element_type, user):
     """sin(pi x) decays in increments h by 1/(1 + rate h); the rate is that of nodes at distances of d, with the heat
     stored at the nodes."""
     count, h = 8, 0.1
@@ -116,26 +110,26 @@ def test_a_wave_of_heat_decays(run, element_type, user):
         procedure=procedure_of(element_type, TRANSIENT),
         before=start,
     )
-    found = column(run(text, user).history, "NT11", len(nodes))[-1]
+    found = column(run_deck(text, user and HERE / user).history, "NT11", len(nodes))[-1]
     cosine = np.cos(np.pi / count)
     rate = 2 * K / (DENSITY * CAPACITY) * count**2 * (1 - cosine)
     np.testing.assert_allclose(found, np.sin(np.pi * along) / (1 + rate * h) ** 10, rtol=1e-7, atol=1e-9)
 
 
 @pytest.mark.parametrize("element_type", ["DC2D4", "DC2D8", "CPE4T", "DC3D20"])
-def test_specific_heat_is_that_of_the_end_of_the_increment(run, element_type):
+def test_specific_heat_is_that_of_the_end_of_the_increment(run_deck, element_type):
     """c = 1 + T/1000 and 100 per volume in one increment: (1 + T/1000) T = 100; the integral of c would give 95.4."""
     bars = element_type.endswith(("4", "4T"))
     mesh = bar(element_type, 1)[:2] if bars else patch_of(BUILT_IN[element_type].family.cell)
     material = "*CONDUCTIVITY\n1.\n*DENSITY\n1.\n*SPECIFIC HEAT\n1., 0.\n1.2, 200.\n"
     loads = "*DFLUX\nBODY, BF, 100."
     text = deck(element_type, mesh, material, loads, procedure=procedure_of(element_type, "*HEAT TRANSFER\n1., 1."))
-    found = column(run(text).history, "NT11", len(mesh[0]))[-1]
+    found = column(run_deck(text).history, "NT11", len(mesh[0]))[-1]
     np.testing.assert_allclose(found, 500 * (np.sqrt(1.4) - 1), rtol=1e-6)
 
 
 @pytest.mark.parametrize("element_type", ["DC2D4", "DC2D8", "DCAX4", "CPE4T"])
-def test_heat_that_melts(run, element_type):
+def test_heat_that_melts(run_deck, element_type):
     """All of it warms alike: the heat of each increment is density x (specific heat at its end x change + change of the
     molten part x latent heat), as residuals of a public job of Abaqus have it (harness/uel/procedures/fidelity.md)."""
     mesh = patch_of("quad8") if element_type == "DC2D8" else bar(element_type, 1)[:2]
@@ -146,7 +140,7 @@ def test_heat_that_melts(run, element_type):
         procedure=procedure_of(element_type, "*HEAT TRANSFER, DELTMX=100.\n0.1, 1., 1e-4, 0.1"),
         before="*AMPLITUDE, NAME=FULL\n0., 1., 1., 1.",
     )
-    history = run(text, "generates.f").history
+    history = run_deck(text, HERE / "generates.f").history
     found = column(history, "NT11", len(mesh[0]))
     # 0.5 below 1, 1.5 above 3, linear in between
     capacity = 0.5 * np.clip(found, 1.0, 3.0)
@@ -158,7 +152,7 @@ def test_heat_that_melts(run, element_type):
 
 
 @pytest.mark.parametrize("element_type", TYPES)
-def test_a_source_that_falls_with_temperature_makes_a_hyperbolic_cosine(run, element_type):
+def test_a_source_that_falls_with_temperature_makes_a_hyperbolic_cosine(run_deck, element_type):
     """a - b T by HETVAL, one end at 0, insulated at the other: a/b (1 - cosh(m (1 - s))/cosh(m)), m^2 = b/k; four times
     as exact with half the element length."""
     errors = []
@@ -176,7 +170,7 @@ def test_a_source_that_falls_with_temperature_makes_a_hyperbolic_cosine(run, ele
             ),
             procedure=procedure_of(element_type, STEADY),
         )
-        result = run(text, "generates.f")
+        result = run_deck(text, HERE / "generates.f")
         # linear, and FLUX(2) is in the matrix
         assert [line.total_iterations for line in result.status] == [1]
         m = np.sqrt(b / K)
@@ -197,7 +191,7 @@ REDUCED = ("CPE4RT", "*COUPLED TEMPERATURE-DISPLACEMENT")
 FIELDS = "*AMPLITUDE, NAME=RISES\n0., 1., 1., 5."
 
 
-def given_to(run, element_type, procedure, material, user):
+def given_to(run_deck, element_type, procedure, material, user):
     """A run of four increments of a square whose temperature is 2 + 3 x + t (1 + 5 x), its field 3 + 12 t."""
     nodes, elements, along = bar(element_type, 1)
     start = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\n"
@@ -214,14 +208,14 @@ def given_to(run, element_type, procedure, material, user):
         procedure=f"{procedure}\n0.25, 1., 0.25, 0.25",
         before=ramp + FIELDS + "\n" + start,
     )
-    return run(text, user)
+    return run_deck(text, HERE / user)
 
 
 @pytest.mark.parametrize(("element_type", "procedure"), PROCEDURES)
-def test_what_umatht_is_given(run, element_type, procedure):
+def test_what_umatht_is_given(run_deck, element_type, procedure):
     """In the last of four increments; means over the points of what is linear."""
     material = f"*DENSITY\n1.\n*DEPVAR\n20\n{FLOWS}{K}, 0., {CAPACITY}, 0."
-    result = given_to(run, element_type, procedure, material, "flows.f")
+    result = given_to(run_deck, element_type, procedure, material, "flows.f")
     expected = {
         **{"SDV1": 2 + 1.5 + 0.75 * 3.5, "SDV2": 0.25 * 3.5},  # TEMP of the start, DTEMP
         **{"SDV3": 8.0, "SDV4": 0.0},  # DTEMDX of the end
@@ -237,11 +231,11 @@ def test_what_umatht_is_given(run, element_type, procedure):
         np.testing.assert_allclose(result.field(name), value, rtol=1e-9, atol=1e-9, err_msg=name)
 
 
-def test_umatht_has_the_state_of_the_only_stress_point(run):
+def test_umatht_has_the_state_of_the_only_stress_point(run_deck):
     """Where heat has four points and stress one, each call has its own temperature, and what the call before left in
     STATEV: those that stay are of point 4."""
     material = f"*DENSITY\n1.\n*DEPVAR\n20\n{FLOWS}{K}, 0., {CAPACITY}, 0."
-    result = given_to(run, *REDUCED, material, "flows.f")
+    result = given_to(run_deck, *REDUCED, material, "flows.f")
     x, y = 0.5 + np.sqrt(1 / 12), 0.4 * (0.5 + np.sqrt(1 / 12))
     expected = {
         **{"SDV1": 2 + 3 * x + 0.75 * (1 + 5 * x), "SDV2": 0.25 * (1 + 5 * x)},  # TEMP of the start, DTEMP
@@ -254,16 +248,16 @@ def test_umatht_has_the_state_of_the_only_stress_point(run):
         np.testing.assert_allclose(result.field(name), value, rtol=1e-9, atol=1e-9, err_msg=name)
 
 
-def test_umatht_with_reduced_integration_warns_once(run):
+def test_umatht_with_reduced_integration_warns_once(run_deck):
     """Abaqus 2023 says so in a .dat file: SpringNuance/Hydrogen-Embrittlement-Subroutine-Aachen, "3. Professor
     Aravas's code"."""
     text = one("CPE4RT", f"{FLOWS}1., 0., 0., 0.", procedure=procedure_of("CPE4T", STEADY))
-    messages = " ".join(run(text, "flows.f").file(".msg").read_text().split())
+    messages = " ".join(run_deck(text, HERE / "flows.f").file(".msg").read_text().split())
     warning = "elements of type CPE4RT have more points for heat than for stresses; UMATHT should not be used there"
     assert messages.count(warning) == 1
 
 
-def test_increments_of_a_public_message_file(run):
+def test_increments_of_a_public_message_file(run_deck):
     """Abaqus 2023, CAX4RT with UMAT and UMATHT (SpringNuance/Hydrogen-Embrittlement-Subroutine-Aachen, "3. Professor
     Aravas's code"): hydrogen in traps and in the lattice of a cylinder, whose surface has 1e-5, 2e-5, ... from 1e-3
     before. Printed are the largest other changes, those of the next node, then of the one behind it. The job's change
@@ -287,7 +281,7 @@ def test_increments_of_a_public_message_file(run):
         lines += ["*STEP", f"*COUPLED TEMPERATURE-DISPLACEMENT\n{size}, {size}", "*BOUNDARY\nALL, 1, 2"]
         lines += ["*BOUNDARY, AMPLITUDE=RISES\nSURFACE, 11, 11, 1.", controls]
         lines += ["*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nNT", "*END STEP"]
-    found = column(run("\n".join([*lines, ""]), "traps.f").history, "NT11", 122)
+    found = column(run_deck([*lines, ""], HERE / "traps.f").history, "NT11", 122)
     found = np.vstack([np.full(122, 1e-3), found[-len(sizes) :]])
     changes = np.diff(found[:, :60], axis=0)
     places = abs(changes).argmax(axis=1)
@@ -297,9 +291,9 @@ def test_increments_of_a_public_message_file(run):
 
 
 @pytest.mark.parametrize(("element_type", "procedure"), PROCEDURES)
-def test_what_hetval_is_given(run, element_type, procedure):
+def test_what_hetval_is_given(run_deck, element_type, procedure):
     material = f"{CONDUCTIVITY}{STORES}*DEPVAR\n8\n*HEAT GENERATION"
-    result = given_to(run, element_type, procedure, material, "generates.f")
+    result = given_to(run_deck, element_type, procedure, material, "generates.f")
     expected = {
         **{"SDV1": 3.5 + 3.5, "SDV2": 0.25 * 3.5},  # TEMP of the end, its increment
         **{"SDV3": 1.0, "SDV4": 1.0, "SDV5": 0.25},  # TIME of the end, DTIME
@@ -390,17 +384,17 @@ def one(element_type="DC2D4", material=CONDUCTIVITY, **options):
         (
             one(material=f"{FLOWS}1., 0., 0., 0."),
             None,
-            r"heat.inp:\d+: \*USER MATERIAL, TYPE=THERMAL: material M needs UMATHT; .* has UEL",
+            r"deck.inp:\d+: \*USER MATERIAL, TYPE=THERMAL: material M needs UMATHT; .* has UEL",
         ),
         (
             one(material=f"{CONDUCTIVITY}*HEAT GENERATION"),
             "flows.f",
-            r"heat.inp:\d+: \*HEAT GENERATION: material M needs HETVAL; .* has UMATHT",
+            r"deck.inp:\d+: \*HEAT GENERATION: material M needs HETVAL; .* has UMATHT",
         ),
         (
             one(material=f"{FLOWS}1., 0., 0., 0.\n*HEAT GENERATION"),
             "flows.f",
-            r"\*HEAT GENERATION cannot be used with \*USER MATERIAL, TYPE=THERMAL \(.*heat.inp:\d+\)",
+            r"\*HEAT GENERATION cannot be used with \*USER MATERIAL, TYPE=THERMAL \(.*deck.inp:\d+\)",
         ),
         (one(material="*DENSITY\n1."), None, r"material M has no \*CONDUCTIVITY, which elements of type DC2D4 need"),
         (one(procedure=TRANSIENT), None, r"material M has no \*DENSITY, which elements of type DC2D4 need"),
@@ -411,15 +405,15 @@ def one(element_type="DC2D4", material=CONDUCTIVITY, **options):
         ),
     ],
 )
-def test_what_is_missing_is_named(run, text, user, message):
+def test_what_is_missing_is_named(run_deck, text, user, message):
     with pytest.raises(DeckError, match=message):
-        run(text, user)
+        run_deck(text, user and HERE / user)
 
 
-def test_nodes_across_the_axis(run):
+def test_nodes_across_the_axis(run_deck):
     text = one("DCAX4").replace("\n1, 0.4, 0.0\n", "\n1, -0.4, 0.0\n")
     with pytest.raises(DeckError, match=r"element 1 \(type DCAX4\): node 1 is at the radius -0.4"):
-        run(text)
+        run_deck(text)
 
 
 @pytest.mark.parametrize(
@@ -433,22 +427,22 @@ def test_nodes_across_the_axis(run):
         ),
     ],
 )
-def test_xit(run, material, user, message):
+def test_xit(run_deck, material, user, message):
     text = one(material=material)
     if user == "generates.f":
         text = text.replace("=M\n", "=STOPS\n")
     with pytest.raises(KernelError, match=message):
-        run(text, user)
+        run_deck(text, HERE / user)
 
 
-def test_a_write_outside_flux_is_reported(run):
+def test_a_write_outside_flux_is_reported(run_deck):
     text = one(material=f"{CONDUCTIVITY}*HEAT GENERATION").replace("=M\n", "=BEYOND\n")
-    messages = " ".join(run(text, "generates.f").file(".msg").read_text().split())
+    messages = " ".join(run_deck(text, HERE / "generates.f").file(".msg").read_text().split())
     assert "element 1: HETVAL writes outside FLUX: entry 3 of 2 (2) at integration point 1" in messages
 
 
-def test_umatht_cuts_the_increment_back(run):
+def test_umatht_cuts_the_increment_back(run_deck):
     """PNEWDT = 0.5 in every call, until the increment would be smaller than the step allows."""
     text = one(material=f"{FLOWS}1., 0., 0., 2000.", procedure="*HEAT TRANSFER, STEADY STATE\n1., 1., 0.25, 1.")
     with pytest.raises(ConvergenceError, match="TIME INCREMENT REQUIRED IS LESS THAN THE MINIMUM"):
-        run(text, "flows.f")
+        run_deck(text, HERE / "flows.f")

@@ -10,7 +10,6 @@ from reference_cells import patch_of
 from scipy.optimize import brentq, newton
 from small_decks import body_lines
 
-import uel
 from uel.errors import DeckError, KernelError
 from uel.model.element_types import BUILT_IN, COUPLED, HEAT
 
@@ -72,15 +71,6 @@ class Body:
         return "\n".join(lines)
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text, user=None):
-        (tmp_path / "heat.inp").write_text(text)
-        return uel.run(tmp_path / "heat.inp", user and HERE / user, output_dir=tmp_path)
-
-    return run
-
-
 def last(body, result, name="NT11"):
     """Values at the nodes with temperatures."""
     return np.array([result.history[f"{name}[ALL:{k + 1}]"][-1] for k in body.corners])
@@ -88,31 +78,31 @@ def last(body, result, name="NT11"):
 
 @pytest.mark.parametrize("element_type", TYPES)
 @pytest.mark.parametrize("on_surface", [False, True])
-def test_a_flux_makes_the_temperature_linear(run, element_type, on_surface):
+def test_a_flux_makes_the_temperature_linear(run_deck, element_type, on_surface):
     """q x/k exactly, whatever the mesh; all heat leaves at the other end."""
     body = Body(element_type)
     text = "*DSFLUX\nEND, S, 6." if on_surface else "*DFLUX\n" + body.by_element("S", 6.0)
-    result = run(body.deck(text))
+    result = run_deck(body.deck(text))
     np.testing.assert_allclose(last(body, result), 6.0 / K * body.along[body.corners], rtol=1e-9, atol=1e-9)
     assert last(body, result, "RFL11").sum() == pytest.approx(-6.0 * body.area, rel=1e-9)
 
 
 @pytest.mark.parametrize("element_type", TYPES)
 @pytest.mark.parametrize("on_surface", [False, True])
-def test_a_film_makes_the_temperature_linear(run, element_type, on_surface):
+def test_a_film_makes_the_temperature_linear(run_deck, element_type, on_surface):
     """k T(1) = h (sink - T(1))."""
     body = Body(element_type)
     text = "*SFILM\nEND, F, 8., 5." if on_surface else "*FILM\n" + body.by_element("F", "8., 5.")
-    result = run(body.deck(text))
+    result = run_deck(body.deck(text))
     expected = 5.0 * 8.0 / (K + 5.0) * body.along[body.corners]
     np.testing.assert_allclose(last(body, result), expected, rtol=1e-9, atol=1e-9)
     assert [line.total_iterations for line in result.status] == [1]
 
 
 @pytest.mark.parametrize("element_type", TYPES)
-def test_heat_into_the_volume(run, element_type):
+def test_heat_into_the_volume(run_deck, element_type):
     body = Body(element_type)
-    result = run(body.deck("*DFLUX\nBODY, BF, 4."))
+    result = run_deck(body.deck("*DFLUX\nBODY, BF, 4."))
     assert last(body, result, "RFL11").sum() == pytest.approx(-4.0 * body.area, rel=1e-9)
 
 
@@ -133,13 +123,13 @@ def slope_of_radiation(temperature):
 
 @pytest.mark.parametrize("element_type", TYPES)
 @pytest.mark.parametrize("form", ["element", "surface"])
-def test_radiation_makes_the_temperature_linear(run, element_type, form):
+def test_radiation_makes_the_temperature_linear(run_deck, element_type, form):
     """k T(1) is what the end gets; all of it leaves at the other one. Newton's method needs as many iterations as for
     this equation alone."""
     body = Body(element_type)
     values = f"{AMBIENT}, {EMISSIVITY}"
     text = f"*SRADIATE\nEND, R, {values}" if form == "surface" else "*RADIATE\n" + body.by_element("R", values)
-    result = run(body.deck(text + TIGHT).replace("*STEP", CONSTANTS, 1))
+    result = run_deck(body.deck(text + TIGHT).replace("*STEP", CONSTANTS, 1))
     hot = brentq(lambda t: radiated(t) - K * t, 0.0, AMBIENT, xtol=1e-12)
     np.testing.assert_allclose(last(body, result), hot * body.along[body.corners], rtol=1e-8, atol=1e-8)
     assert last(body, result, "RFL11").sum() == pytest.approx(-K * hot * body.area, rel=1e-8)
@@ -147,14 +137,14 @@ def test_radiation_makes_the_temperature_linear(run, element_type, form):
     assert sum(line.total_iterations for line in result.status) <= alone.iterations
 
 
-def test_a_body_that_nodes_warm_by_radiation(run):
+def test_a_body_that_nodes_warm_by_radiation(run_deck):
     """All nodes alike: density x specific heat x volume x the change is the heat of the end of each increment."""
     lines = [*body_lines("DC2D4", np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), [range(4)])]
     lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", f"{THICKNESS}", "*MATERIAL, NAME=M", f"*CONDUCTIVITY\n{K}"]
     lines += ["*DENSITY\n2.", "*SPECIFIC HEAT\n7.", "*AMPLITUDE, NAME=ON\n0., 1., 1., 1."]
     lines += [CONSTANTS, "*HEAT TRANSFER\n0.25, 0.75, 0.25, 0.25", f"*CRADIATE, AMPLITUDE=ON\nALL, 0.3, {AMBIENT}"]
     lines[-1] += f", {EMISSIVITY}{TIGHT}\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nNT\n*END STEP\n"
-    history = run("\n".join(lines)).history
+    history = run_deck(lines).history
     stored, temperature = 2.0 * 7.0 * THICKNESS, 0.0
     for k in range(3):
         before = temperature
@@ -163,25 +153,25 @@ def test_a_body_that_nodes_warm_by_radiation(run):
             assert history[f"NT11[ALL:{node}]"][k] == pytest.approx(temperature, rel=1e-8)
 
 
-def test_radiation_without_its_constant(run):
+def test_radiation_without_its_constant(run_deck):
     body = Body("DC2D4")
     text = body.deck("*SRADIATE\nEND, R, 500., 0.8")
-    with pytest.raises(DeckError, match=r"heat.inp:\d+: \*SRADIATE needs \*PHYSICAL CONSTANTS, STEFAN BOLTZMANN="):
-        run(text)
+    with pytest.raises(DeckError, match=r"deck.inp:\d+: \*SRADIATE needs \*PHYSICAL CONSTANTS, STEFAN BOLTZMANN="):
+        run_deck(text)
     with pytest.raises(DeckError, match=r"\*PHYSICAL CONSTANTS: STEFAN BOLTZMANN=-1 must not be negative"):
-        run(text.replace("*STEP", "*PHYSICAL CONSTANTS, STEFAN BOLTZMANN=-1\n*STEP", 1))
+        run_deck(text.replace("*STEP", "*PHYSICAL CONSTANTS, STEFAN BOLTZMANN=-1\n*STEP", 1))
 
 
-def test_films_at_nodes(run):
+def test_films_at_nodes(run_deck):
     """As a film on the face whose area they share."""
     body = Body("DC2D4")
     ends = body.corners[abs(body.along[body.corners] - 1) < 1e-9]
     text = "*CFILM\n" + "".join(f"{k + 1}, {THICKNESS / 2}, 8., 5.\n" for k in ends)
-    result = run(body.deck(text))
+    result = run_deck(body.deck(text))
     np.testing.assert_allclose(last(body, result), 5.0 * 8.0 / (K + 5.0) * body.along, rtol=1e-9, atol=1e-9)
 
 
-def test_magnitudes_follow_amplitudes_and_steps(run):
+def test_magnitudes_follow_amplitudes_and_steps(run_deck):
     """A sink that follows its amplitude, a coefficient that does not ramp; then OP=NEW leaves nothing of it."""
     body = Body("DC2D4")
     text = body.deck("*SFILM\nEND, F, 8., 5.", procedure="*HEAT TRANSFER, STEADY STATE\n0.5, 1., 0.5, 0.5")
@@ -189,21 +179,21 @@ def test_magnitudes_follow_amplitudes_and_steps(run):
     scaled = text.replace("*SFILM", "*SFILM, AMPLITUDE=HALF, FILM AMPLITUDE=HALF")
     again = "*STEP\n*HEAT TRANSFER, STEADY STATE\n1., 1.\n*SFILM, OP=NEW\n*DSFLUX\nEND, S, 6.\n*END STEP\n"
     # the steady state of the ramped step: half the sink temperature, all of the coefficient
-    ramped = run(text + again)
+    ramped = run_deck(text + again)
     end = int(np.flatnonzero(body.along == 1)[0]) + 1
     values = list(ramped.history[f"NT11[ALL:{end}]"])[-3:]
     assert values == pytest.approx([0.5 * 40 / (K + 5), 40 / (K + 5), 6 / K])
-    values = run(scaled).history[f"NT11[ALL:{end}]"][-2:]
+    values = run_deck(scaled).history[f"NT11[ALL:{end}]"][-2:]
     assert list(values) == pytest.approx([2.5 * 4 / (K + 2.5)] * 2)
 
 
 @pytest.mark.parametrize("element_type", ["DC2D4", "DC2D8", "DC3D8", "CPE8T"])
 @pytest.mark.parametrize("on_surface", [False, True])
-def test_fluxes_of_dflux(run, element_type, on_surface):
+def test_fluxes_of_dflux(run_deck, element_type, on_surface):
     """k T(1) = 2 (2 + 1 - 3 T(1)); FLUX(2) is in the matrix."""
     body = Body(element_type)
     text = "*DSFLUX\nEND, SNU, 2." if on_surface else "*DFLUX\n" + body.by_element("SNU", 2.0)
-    result = run(body.deck(text), "enters.f")
+    result = run_deck(body.deck(text), HERE / "enters.f")
     np.testing.assert_allclose(last(body, result), 6.0 / (K + 6.0) * body.along[body.corners], rtol=1e-9, atol=1e-9)
     assert [line.total_iterations for line in result.status] == [1]
 
@@ -215,7 +205,7 @@ def test_fluxes_of_dflux(run, element_type, on_surface):
         *((element_type, "node") for element_type in ("DC2D4", "DC3D8", "CPE4T")),
     ],
 )
-def test_films_of_film(run, element_type, form):
+def test_films_of_film(run_deck, element_type, form):
     """k T(1) = 5 (1 + T(1)/10) (8 + 1 - T(1)); H(2) is in the matrix."""
     body = Body(element_type)
     ends = body.corners[abs(body.along[body.corners] - 1) < 1e-9]
@@ -224,7 +214,7 @@ def test_films_of_film(run, element_type, form):
         "surface": "*SFILM\nEND, FNU, 8., 5.",
         "node": "*CFILM, USER\n" + "".join(f"{k + 1}, {body.area / len(ends)}, 8., 5.\n" for k in ends),
     }[form]
-    result = run(body.deck(text + "\n*CONTROLS, PARAMETERS=FIELD, FIELD=GLOBAL\n1e-9"), "enters.f")
+    result = run_deck(body.deck(text + "\n*CONTROLS, PARAMETERS=FIELD, FIELD=GLOBAL\n1e-9"), HERE / "enters.f")
     hot = max(np.roots([-0.5, -0.5 - K, 45.0]))
     np.testing.assert_allclose(last(body, result), hot * body.along[body.corners], rtol=1e-7, atol=1e-9)
     assert sum(line.total_iterations for line in result.status) <= 5
@@ -239,7 +229,7 @@ PROCEDURES = [
 
 def printed(tmp_path, routine):
     """What the routine printed in its last call, in numbers, and the text behind them."""
-    lines = [line.split() for line in (tmp_path / "heat.dat").read_text().splitlines() if line.startswith(routine)]
+    lines = [line.split() for line in (tmp_path / "deck.dat").read_text().splitlines() if line.startswith(routine)]
     return np.array([float(word) for word in lines[-1][1:] if word != "END"]), lines[-1][-1]
 
 
@@ -255,7 +245,7 @@ def given_to_routine(body, loads, procedure):
 
 @pytest.mark.parametrize(("element_type", "procedure"), PROCEDURES)
 @pytest.mark.parametrize("form", ["face", "volume", "surface"])
-def test_what_dflux_is_given(run, tmp_path, element_type, procedure, form):
+def test_what_dflux_is_given(run_deck, tmp_path, element_type, procedure, form):
     """In its last call: increment 2 of step 2 ends at the time 0.5 of the step, 1.0 in total."""
     body = Body(element_type)
     ((row, number),) = body.faces
@@ -264,7 +254,7 @@ def test_what_dflux_is_given(run, tmp_path, element_type, procedure, form):
         "volume": (f"*DFLUX\n{row}, BFNU, 2.", 4, 1),
         "surface": ("*DSFLUX\nEND, SNU, 2.", 2, 0),
     }[form]
-    run(given_to_routine(body, loads, procedure), "enters.f")
+    run_deck(given_to_routine(body, loads, procedure), HERE / "enters.f")
     found, surface = printed(tmp_path, "DFLUX")
     np.testing.assert_allclose(found[:5], [2.0, 0.0, 1.0, 0.5, 1.0])  # FLUX on entry, SOL, TIME of the end
     nodes = body.nodes[body.elements[row - 1]]
@@ -280,7 +270,7 @@ def test_what_dflux_is_given(run, tmp_path, element_type, procedure, form):
 
 @pytest.mark.parametrize(("element_type", "procedure"), PROCEDURES)
 @pytest.mark.parametrize("form", ["face", "node", "surface"])
-def test_what_film_is_given(run, tmp_path, element_type, procedure, form):
+def test_what_film_is_given(run_deck, tmp_path, element_type, procedure, form):
     body = Body(element_type)
     ((row, number),) = body.faces
     corner = body.elements[row - 1][body.kind.family.faces[number - 1][1]]
@@ -289,7 +279,7 @@ def test_what_film_is_given(run, tmp_path, element_type, procedure, form):
         "node": (f"*CFILM, USER\n{corner + 1}, 0.3, 8., 5.", [0, 0, 0, 1, corner + 1], 0.3),
         "surface": ("*SFILM\nEND, FNU, 8., 5.", [row, 2, 0, 1, 0], THICKNESS / 2),
     }[form]
-    run(given_to_routine(body, loads, procedure), "enters.f")
+    run_deck(given_to_routine(body, loads, procedure), HERE / "enters.f")
     found, surface = printed(tmp_path, "FILM")
     # H, SINK, TEMP, TIME of the end, COORDS, FIELD(1), AREA
     np.testing.assert_allclose(found[:6], [5.0, 0.0, 8.0, 1.0, 0.5, 1.0])
@@ -301,8 +291,8 @@ def test_what_film_is_given(run, tmp_path, element_type, procedure, form):
 @pytest.mark.parametrize(
     ("element_type", "loads", "message"),
     [
-        ("DC2D4", "*DSFLUX\nEND, SNU, 2.", r"heat.inp:\d+: \*DSFLUX: nonuniform loads need DFLUX; .* has UEL"),
-        ("DC2D4", "*CFILM, USER\n1, 1., 2., 3.", r"heat.inp:\d+: \*CFILM: nonuniform loads need FILM; .* has UEL"),
+        ("DC2D4", "*DSFLUX\nEND, SNU, 2.", r"deck.inp:\d+: \*DSFLUX: nonuniform loads need DFLUX; .* has UEL"),
+        ("DC2D4", "*CFILM, USER\n1, 1., 2., 3.", r"deck.inp:\d+: \*CFILM: nonuniform loads need FILM; .* has UEL"),
         ("DC2D4", "*DFLUX\nBODY, S9, 2.", r"\*DFLUX: elements of type DC2D4 have no face S9 \(faces: S1, S2, S3, S4\)"),
         ("DC2D4", "*DFLUX\nBODY, F2, 2.", r"load type F2 is not supported \(supported: BF, Sn; with NU, as in SNU\)"),
         ("DC2D4", "*FILM\nBODY, S2, 2., 1.", r"load type S2 is not supported \(supported: Fn; with NU, as in FNU\)"),
@@ -313,26 +303,26 @@ def test_what_film_is_given(run, tmp_path, element_type, procedure, form):
         ("DC2D4", "*SRADIATE\nEND, RNU, 500., 0.8", r"load type RNU is not supported \(supported: R\)"),
         ("DC2D4", "*RADIATE\nBODY, F2, 500., 0.8", r"load type F2 is not supported \(supported: Rn\)"),
         ("DC2D4", "*SRADIATE\nEND, R, 500., -0.8", r"emissivity -0.8 must not be negative"),
-        ("CPE8T", "*CFILM\nALL, 1., 2., 3.", r"heat.inp:\d+: \*CFILM: node \d+ has no temperature"),
+        ("CPE8T", "*CFILM\nALL, 1., 2., 3.", r"deck.inp:\d+: \*CFILM: node \d+ has no temperature"),
     ],
 )
-def test_what_does_not_fit_is_refused(run, element_type, loads, message):
+def test_what_does_not_fit_is_refused(run_deck, element_type, loads, message):
     with pytest.raises(DeckError, match=message):
-        run(Body(element_type).deck(loads))
+        run_deck(Body(element_type).deck(loads))
 
 
-def test_heat_into_elements_without_temperatures(run):
+def test_heat_into_elements_without_temperatures(run_deck):
     text = Body("DC2D4").deck("*DFLUX\nBODY, BF, 2.").replace("=DC2D4", "=CPE4")
     with pytest.raises(
         DeckError, match="load type BF on elements of type CPE4, which are not built-in elements with heat"
     ):
-        run(text)
+        run_deck(text)
 
 
 @pytest.mark.parametrize(
     ("loads", "routine"), [("*DSFLUX\nEND, SNU, 2.", "DFLUX"), ("*SFILM\nEND, FNU, 8., 5.", "FILM")]
 )
-def test_xit(run, loads, routine):
+def test_xit(run_deck, loads, routine):
     text = Body("DC2D4", shift=100.0).deck(loads)
     with pytest.raises(KernelError, match=rf"\(type DC2D4\): {routine} at integration point 1 stopped the analysis"):
-        run(text, "enters.f")
+        run_deck(text, HERE / "enters.f")

@@ -12,7 +12,6 @@ from moving_element import turn
 from reference_cells import unit_cell
 from small_decks import body_lines
 
-import uel
 from uel.elements import Flags
 from uel.errors import Source
 from uel.model.element_types import CONTINUUM, COUPLED
@@ -71,15 +70,6 @@ def generating(*, a=0.0, b=0.0, c=0.0, d=0.0, nu=0.3, couplings=(1, 1, 1)):
     return f"{HEAT}*USER MATERIAL, CONSTANTS=9\n{values}\n{couplings[2]}\n*DEPVAR\n2"
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text, user="heat.f"):
-        (tmp_path / "heat.inp").write_text(text)
-        return uel.run(tmp_path / "heat.inp", HERE / user, output_dir=tmp_path)
-
-    return run
-
-
 def last(history, name, count):
     """(nodes,) of a nodal variable, NaN at nodes without it."""
     return np.array([history.get(f"{name}[ALL:{k}]", [np.nan])[-1] for k in range(1, count + 1)])
@@ -97,14 +87,14 @@ BARS = [name for name, kind in COUPLED.items() if kind.corners == 2**kind.dimens
 @pytest.mark.sample(3)
 @pytest.mark.parametrize("element_type", BARS)
 @pytest.mark.parametrize("procedure", [STEADY, "*COUPLED TEMPERATURE-DISPLACEMENT\n1e6, 1e7"])
-def test_a_constant_source_makes_a_parabola(run, element_type, procedure):
+def test_a_constant_source_makes_a_parabola(run_deck, element_type, procedure):
     """Both ends at 0: T = a s (1 - s)/(2 k) at the nodes, and all heat leaves through the ends."""
     nodes, elements = bar(element_type, 5)
     along = nodes[:, int(COUPLED[element_type].axisymmetric)]
     corners = np.unique(elements[:, : COUPLED[element_type].corners])
     ends = [k for k in corners if along[k] in (0.0, 1.0)]
     text = deck(element_type, (nodes, elements), generating(a=7.0), held(nodes, ends), procedure=procedure)
-    history = run(text).history
+    history = run_deck(text, HERE / "heat.f").history
     s = along[corners]
     found = last(history, "NT11", len(nodes))[corners]
     np.testing.assert_allclose(found, 7.0 * s * (1 - s) / (2 * CONDUCTIVITY), rtol=1e-5, atol=1e-12)
@@ -116,7 +106,7 @@ def test_a_constant_source_makes_a_parabola(run, element_type, procedure):
 
 
 @pytest.mark.parametrize("element_type", ["CPE4T", "CPE4RT", "C3D8T", "CPE8T", "CAX4T"])
-def test_a_source_that_falls_with_temperature_makes_a_hyperbolic_cosine(run, element_type):
+def test_a_source_that_falls_with_temperature_makes_a_hyperbolic_cosine(run_deck, element_type):
     """One end at 1: T = cosh(m (1 - s))/cosh(m), m^2 = b/k; four times as exact with half the element length."""
     errors = []
     for count in (8, 16):
@@ -125,7 +115,7 @@ def test_a_source_that_falls_with_temperature_makes_a_hyperbolic_cosine(run, ele
         corners = np.unique(elements[:, : COUPLED[element_type].corners])
         ends = [k for k in corners if along[k] == 0.0]
         text = deck(element_type, (nodes, elements), generating(b=12.0), held(nodes, ends, value=1.0), procedure=STEADY)
-        result = run(text)
+        result = run_deck(text, HERE / "heat.f")
         found, m = last(result.history, "NT11", len(nodes))[corners], np.sqrt(12.0 / CONDUCTIVITY)
         errors.append(abs(found - np.cosh(m * (1 - along[corners])) / np.cosh(m)).max())
         # linear, and DRPLDT is in the matrix
@@ -134,17 +124,17 @@ def test_a_source_that_falls_with_temperature_makes_a_hyperbolic_cosine(run, ele
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.05)
 
 
-def test_the_heat_capacity_and_the_source_by_backward_euler(run):
+def test_the_heat_capacity_and_the_source_by_backward_euler(run_deck):
     """Without conduction all of it warms alike: rho c dT/dt = a - b T, in increments of h."""
     nodes, elements = bar("CPE4T", 1)
     procedure = "*COUPLED TEMPERATURE-DISPLACEMENT\n0.1, 1."
     text = deck("CPE4T", (nodes, elements), generating(a=7.0, b=2.0), held(nodes, []), procedure=procedure)
-    history = run(text).history
+    history = run_deck(text, HERE / "heat.f").history
     expected = 3.5 * (1 - (1 + 2.0 * 0.1 / 1.4) ** -np.arange(1.0, 11.0))
     np.testing.assert_allclose(history["NT11[ALL:1]"][-10:], expected, rtol=1e-9)
 
 
-def test_umat_gets_the_temperatures_of_the_nodes(run):
+def test_umat_gets_the_temperatures_of_the_nodes(run_deck):
     """At the start of the second increment, and their change: means over the points of what is linear."""
     nodes, elements = bar("CPE4T", 1)
     warm = "".join(f"{k + 1}, 11, 11, {6.0 * x[0] + 2.0}\n" for k, x in enumerate(nodes))
@@ -155,17 +145,17 @@ def test_umat_gets_the_temperatures_of_the_nodes(run):
         "*BOUNDARY\nALL, 1, 2\n" + warm,
         procedure=STEADY.replace("1., 1.", "0.5, 1., 0.5, 0.5"),
     )
-    result = run(text)
+    result = run_deck(text, HERE / "heat.f")
     assert result.field("SDV1") == pytest.approx([2.5])
     assert result.field("SDV2") == pytest.approx([2.5])
 
 
-def test_temperatures_without_a_coupled_element_do_nothing(run):
+def test_temperatures_without_a_coupled_element_do_nothing(run_deck):
     """In *STATIC with CPE4 RPL, DRPLDT, DRPLDE and DDSDDT are ignored."""
     mesh = bar("CPE4", 1)
     step = "*BOUNDARY\n1, 1, 2\n4, 1\n2, 1, 1, 0.1\n3, 1, 1, 0.1"
     plain, heated = (
-        run(deck("CPE4", mesh, generating(**more), step, procedure="*STATIC\n1., 1.")).history
+        run_deck(deck("CPE4", mesh, generating(**more), step, procedure="*STATIC\n1., 1."), HERE / "heat.f").history
         for more in ({}, {"a": 5.0, "b": 7.0, "c": 9.0})
     )
     np.testing.assert_array_equal(last(plain, "U2", 4), last(heated, "U2", 4))
@@ -245,14 +235,14 @@ def pulled(element_type, *, couplings=1, options=""):
 
 @pytest.mark.parametrize("element_type", ["CPE4T", "CPE8T", "CPS4T", "CPS8RT", "CAX4T", "C3D8T", "C3D20RT"])
 @pytest.mark.parametrize("user", ["phase.f", "phase_hetval.f"])
-def test_phase_field_of_a_uniform_bar(run, element_type, user):
+def test_phase_field_of_a_uniform_bar(run_deck, element_type, user):
     """phi = 2 H l/(Gc + 2 H l), H = E e^2/2 at the largest strain so far, and the stress (1 - phi)^2 E e."""
     nodes, along, text = pulled(element_type)
     if user == "phase_hetval.f":
         text = text.replace("*DEPVAR\n1", "*HEAT GENERATION\n*DEPVAR\n3")
         # without DRPLDE and DDSDDT Newton's method comes to its end slowly
         text = text.replace("*OUTPUT, HISTORY", f"{EXACT}\n*OUTPUT, HISTORY")
-    history = run(text, user).history
+    history = run_deck(text, HERE / user).history
     strain = 0.1 * np.concatenate([np.linspace(0.2, 1.0, 5), np.linspace(0.8, 0.0, 5)])
     energy = np.maximum.accumulate(0.5 * YOUNG * strain**2)
     phase = 2 * energy * LENGTH / (TOUGHNESS + 2 * energy * LENGTH)
@@ -268,7 +258,7 @@ def test_phase_field_of_a_uniform_bar(run, element_type, user):
 
 
 @pytest.mark.parametrize("element_type", ["CPE4T", "CPS8RT", "C3D8T"])
-def test_couplings_in_the_tangent_make_newton_quadratic(run, element_type):
+def test_couplings_in_the_tangent_make_newton_quadratic(run_deck, element_type):
     """A force of 0.8 of the largest in one increment: with DRPLDE and DDSDDT in a few iterations, without in many."""
     # the stress E e/(1 + s)^2, s = E e^2 l/Gc, is largest where s = 1/3
     strain = np.sqrt(0.1 * TOUGHNESS / (YOUNG * LENGTH))
@@ -288,7 +278,7 @@ def test_couplings_in_the_tangent_make_newton_quadratic(run, element_type):
             .replace("*AMPLI", f"{tied}*AMPLI", 1)
         )
         text = text.replace(", AMPLITUDE=UPDOWN", "").replace("0.1, 1., 0.1, 0.1", "1., 1.")
-        result = run(text, "phase.f")
+        result = run_deck(text, HERE / "phase.f")
         assert result.history[f"U1[ALL:{ends[0] + 1}]"][-1] == pytest.approx(strain, rel=2e-3)
         iterations.append(sum(line.total_iterations for line in result.status))
     assert iterations[0] <= 6

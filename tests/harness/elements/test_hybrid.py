@@ -16,7 +16,6 @@ from reference_cells import affine, patch_of
 from scipy.integrate import quad
 from small_decks import body_lines
 
-import uel
 from uel.assembly import DofMap
 from uel.elements import PRESSURE, Flags, build_blocks
 from uel.errors import DeckError, SingularMatrixError, Source
@@ -211,34 +210,25 @@ def test_pressure_alone(element, element_type):
     assert (matrix @ expansion)[solid.of_nodes] == pytest.approx(directions, rel=1e-12)
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(lines, user=None, name="hybrid"):
-        (tmp_path / f"{name}.inp").write_text("\n".join(lines) + "\n")
-        return uel.run(tmp_path / f"{name}.inp", user, output_dir=tmp_path)
-
-    return run
-
-
 @pytest.mark.parametrize("nu", [0.3, 0.4999, 0.5])
 @pytest.mark.parametrize(
     ("element_type", "error"), [("CAX4H", 3e-3), ("CAX4RH", 3e-3), ("CAX8H", 3e-5), ("CAX8RH", 3e-5)]
 )
-def test_thick_cylinder(run, element_type, error, nu):
+def test_thick_cylinder(run_deck, element_type, error, nu):
     """Lame: u = (1 + nu) p a^2/(E (b^2 - a^2)) ((1 - 2 nu) r + b^2/r); incompressible as well as compressible.
 
     (S.P. Timoshenko, J.N. Goodier, Theory of Elasticity, section 28, in plane strain.) The error is that of eight
     elements: a quarter of it with twice as many in first order.
     """
     lines, nodes = cylinder(element_type, f"*ELASTIC\n{YOUNG}, {nu}", load=["*DLOAD", "FIRST, P4, 0.1"])
-    result = run(lines)
+    result = run_deck(lines)
     r = nodes[:, 0]
     expected = (1 + nu) * 0.1 * INNER**2 / (YOUNG * (OUTER**2 - INNER**2)) * ((1 - 2 * nu) * r + OUTER**2 / r)
     np.testing.assert_allclose(radial(result.history, nodes, "U"), expected, rtol=error)
     assert [row.iterations for row in result.status] == [1]
 
 
-def test_inflated_cylinder(run):
+def test_inflated_cylinder(run_deck):
     """neo-Hooke of any large strain: p = mu integral of (l^2 - l^-2)/r dr, l = r/R, r^2 = R^2 + c.
 
     (R.W. Ogden, Non-linear Elastic Deformations, 1984, section 5.3.) The inside moves to twice its radius.
@@ -247,7 +237,7 @@ def test_inflated_cylinder(run):
     load = ["*BOUNDARY", f"INSIDE, 1, 1, {(stretch - 1) * INNER}"]
     material = f"*HYPERELASTIC, NEO HOOKE\n{mu / 2}, 0."
     lines, nodes = cylinder("CAX8H", material, step="*STEP, NLGEOM", static="*STATIC\n0.25, 1., 1e-4, 0.25", load=load)
-    result = run(lines)
+    result = run_deck(lines)
     r = nodes[:, 0]
     change = (stretch**2 - 1) * INNER**2
     now = np.sqrt(r**2 + change)
@@ -273,13 +263,13 @@ LAWS = {
 @pytest.mark.parametrize("element_type", ["C3D8H", "C3D8RH"])
 @pytest.mark.parametrize("name", LAWS)
 @pytest.mark.parametrize("stretches", [(0.5,), (2.0,), (1.5, 1.5), (1.6, 0.8)])
-def test_incompressible_cube(run, element_type, name, stretches):
+def test_incompressible_cube(run_deck, element_type, name, stretches):
     """S11 = 2 (l1^2 - l3^2) (W1 + l2^2 W2), and so for S22, with S33 = 0.
 
     (R.S. Rivlin, Philosophical Transactions A 241 (1948) 379.)
     """
     values, slopes = LAWS[name]
-    result = run(cube(element_type, f"*HYPERELASTIC, {name}\n{values}", stretches))
+    result = run_deck(cube(element_type, f"*HYPERELASTIC, {name}\n{values}", stretches))
     a = stretches[0]
     b = stretches[1] if len(stretches) > 1 else a**-0.5
     c = 1 / (a * b)
@@ -290,28 +280,28 @@ def test_incompressible_cube(run, element_type, name, stretches):
     assert result.history["U3[ALL:7]"][-1] == pytest.approx(c - 1, abs=1e-7)
 
 
-def test_compressible_cube_is_that_of_the_ordinary_element(run):
+def test_compressible_cube_is_that_of_the_ordinary_element(run_deck):
     """Homogeneous: two elements with the same energy."""
     keyword = "*HYPERELASTIC, MOONEY-RIVLIN\n0.5, 0.2, 0.3"
-    hybrid, ordinary = (run(cube(name, keyword, (1.7,))) for name in ("C3D8H", "C3D8"))
+    hybrid, ordinary = (run_deck(cube(name, keyword, (1.7,))) for name in ("C3D8H", "C3D8"))
     for component in ("S11", "S22"):
         np.testing.assert_allclose(hybrid.field(component), ordinary.field(component), atol=1e-7)
 
 
-def test_uhyper_of_an_incompressible_material(run):
+def test_uhyper_of_an_incompressible_material(run_deck):
     """INCMPFLAG is 1, and the result that of the built-in potential; terms of J do not count."""
     user = "*HYPERELASTIC, USER, PROPERTIES=5\n0.5, 0.2, 0.4, 0., 0."
     more = ["*DEPVAR\n9"]
     lines = cube("C3D8H", user, (1.7,), more=more)
     lines[lines.index("S")] = "S, SDV"
-    by_user = run(lines, HERE / "potential.f90")
+    by_user = run_deck(lines, HERE / "potential.f90")
     assert by_user.field("SDV4")[0] == 1
-    built_in = run(cube("C3D8H", "*HYPERELASTIC, MOONEY-RIVLIN\n0.5, 0.2, 0.", (1.7,)))
+    built_in = run_deck(cube("C3D8H", "*HYPERELASTIC, MOONEY-RIVLIN\n0.5, 0.2, 0.", (1.7,)))
     np.testing.assert_allclose(by_user.field("S11"), built_in.field("S11"), rtol=1e-7)
 
 
 @pytest.mark.parametrize("element_type", ["C3D8H", "C3D20RH", "C3D10H", "CPE4H", "CPE8RH"])
-def test_patch_of_an_incompressible_material(run, element_type):
+def test_patch_of_an_incompressible_material(run_deck, element_type):
     """Distorted elements under an isochoric linear displacement of their outer nodes.
 
     One side carries no load, so that S22 = 0 there and everywhere: that is what sets the pressure.
@@ -331,7 +321,7 @@ def test_patch_of_an_incompressible_material(run, element_type):
             if on_side:
                 lines.append(f"{number}, {k + 1}, {k + 1}, {strain[k, k] * x[k]}")
     lines += ["*OUTPUT, FIELD", "*ELEMENT OUTPUT", "S, E", "*END STEP"]
-    result = run(lines)
+    result = run_deck(lines)
     shear = YOUNG / 3
     full = np.zeros(3)
     full[:d] = np.diag(strain)
@@ -419,7 +409,7 @@ def test_whole_tangent_of_umat(element, element_type, skew, unsymm):
         assert abs(matrix - matrix.T).max() > 0.02 * abs(matrix).max()
 
 
-def test_perturbation_of_umat(run):
+def test_perturbation_of_umat(run_deck):
     """A linear job: one iteration, and the same displacements in a perturbation step, without UNSYMM."""
     rows = coupled_moduli(0.0).T.ravel()
     law = [", ".join(f"{value:.17g}" for value in rows[k : k + 8]) for k in range(0, 36, 8)]
@@ -432,29 +422,29 @@ def test_perturbation_of_umat(run):
     load = ["*CLOAD", "12, 1, 0.3", "12, 3, 0.5", "*OUTPUT, FIELD", "*NODE OUTPUT", "U", "*END STEP"]
     found = []
     for begin in (["*STEP", "*STATIC", "1., 1."], ["*STEP, PERTURBATION", "*STATIC"]):
-        result = run([*lines, *begin, *load], HERE / "linear_umat.f")
+        result = run_deck([*lines, *begin, *load], HERE / "linear_umat.f")
         assert [row.iterations for row in result.status] == [1]
         found.append(result.field("U")[-1])
     np.testing.assert_allclose(found[1], found[0], rtol=1e-9, atol=1e-12)
 
 
 @pytest.mark.parametrize("formulation", HybridFormulation)
-def test_cube_of_umat(run, formulation):
+def test_cube_of_umat(run_deck, formulation):
     """As the built-in potential in all formulations, which STRESS(NTENS+1) and DDSDDE follow."""
     compliance = 0.0 if formulation is HybridFormulation.INCOMPRESSIBLE else 0.05
     constants = f"0.7, {compliance}, {formulation.value}"
     keyword = f"*USER MATERIAL, CONSTANTS=3, HYBRID FORMULATION={formulation.name}\n{constants}"
-    user = run(cube("C3D8H", keyword, (1.7,)), HERE / "hybrid.f")
-    built_in = run(cube("C3D8H", f"*HYPERELASTIC, NEO HOOKE\n0.7, {compliance}", (1.7,)))
+    user = run_deck(cube("C3D8H", keyword, (1.7,)), HERE / "hybrid.f")
+    built_in = run_deck(cube("C3D8H", f"*HYPERELASTIC, NEO HOOKE\n0.7, {compliance}", (1.7,)))
     np.testing.assert_allclose(user.field("S11"), built_in.field("S11"), rtol=1e-7)
     np.testing.assert_allclose(user.field("S22"), built_in.field("S22"), atol=1e-7)
 
 
-def test_ordinary_elements_have_no_formulation(run):
+def test_ordinary_elements_have_no_formulation(run_deck):
     """STRESS is not extended there."""
     keyword = "*USER MATERIAL, CONSTANTS=3, HYBRID FORMULATION=TOTAL\n0.7, 0.05, 0"
-    user = run(cube("C3D8", keyword, (1.7,)), HERE / "hybrid.f")
-    built_in = run(cube("C3D8", "*HYPERELASTIC, NEO HOOKE\n0.7, 0.05", (1.7,)))
+    user = run_deck(cube("C3D8", keyword, (1.7,)), HERE / "hybrid.f")
+    built_in = run_deck(cube("C3D8", "*HYPERELASTIC, NEO HOOKE\n0.7, 0.05", (1.7,)))
     np.testing.assert_allclose(user.field("S11"), built_in.field("S11"), rtol=1e-7)
 
 
@@ -476,21 +466,21 @@ def test_eliminated_pressure_of_a_plastic_material(element, element_type):
     assert report.energy[3] == pytest.approx(0, abs=1e-9 * report.energy[1])
 
 
-def test_a_pressure_without_an_equation_is_named(run):
+def test_a_pressure_without_an_equation_is_named(run_deck):
     """All sides of an incompressible body are held: its pressure is anything."""
     lines = cube("C3D8H", "*HYPERELASTIC, NEO HOOKE\n0.7, 0.", ())
     lines[lines.index("*OUTPUT, FIELD")] = "*BOUNDARY\nALL, 1, 3\n*OUTPUT, FIELD"
     with pytest.raises(SingularMatrixError, match="singular system matrix at node of element 1, pressure, dof 1"):
-        run(lines)
+        run_deck(lines)
 
 
-def test_tetrahedron_says_what_it_is(run):
+def test_tetrahedron_says_what_it_is(run_deck):
     """Abaqus' element library: hybrid with linear pressure."""
     corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     lines = body_lines("C3D4H", corners, [range(4)])
     lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M", "", "*MATERIAL, NAME=M", "*HYPERELASTIC, NEO HOOKE\n0.7, 0.1"]
     lines += ["*STEP, NLGEOM", "*STATIC", "*BOUNDARY", "1, 1, 3", "2, 2, 3", "3, 3", "4, 3, 3, 0.1", "*END STEP"]
-    result = run(lines)
+    result = run_deck(lines)
     (warning,) = [text for text in result.warnings if "C3D4H" in text]
     assert "elements of type C3D4H have a constant pressure here, so that a mesh of them alone is too stiff" in warning
 
@@ -520,19 +510,19 @@ def test_tetrahedron_says_what_it_is(run):
         ("C3D8IH", "*ELASTIC\n3., 0.5", {}, r"incompressible materials \(material M\) are not supported for .*C3D8IH"),
     ],
 )
-def test_refusals(run, element_type, keyword, options, message):
-    with pytest.raises(DeckError, match=rf"hybrid\.inp:\d+: .*{message}"):
-        run(cube(element_type, keyword, (1.1,), **options))
+def test_refusals(run_deck, element_type, keyword, options, message):
+    with pytest.raises(DeckError, match=rf"deck\.inp:\d+: .*{message}"):
+        run_deck(cube(element_type, keyword, (1.1,), **options))
 
 
-def test_tolerance_of_the_volumes(run, tmp_path):
+def test_tolerance_of_the_volumes(run_deck, tmp_path):
     """*CONTROLS, PARAMETERS=CONSTRAINTS: with a loose one the first correction passes where 1e-5 needs another."""
     texts = []
     for tolerance in ("", "*CONTROLS, PARAMETERS=CONSTRAINTS\n0.9"):
         lines = cube("C3D8H", "*HYPERELASTIC, NEO HOOKE\n0.7, 0.", (1.3,), static="*STATIC\n1., 1.")
         lines[lines.index("1e-9, 1e-9")] = f"1., 1.\n{tolerance}".rstrip()
-        run(lines)
-        texts.append((tmp_path / "hybrid.msg").read_text())
+        run_deck(lines)
+        texts.append((tmp_path / "deck.msg").read_text())
     assert "VOLUMETRIC STRAIN COMPATIBILITY TOLERANCE FOR HYBRID SOLIDS       1.000E-05" in texts[0]
     assert "VOLUMETRIC STRAIN COMPATIBILITY TOLERANCE FOR HYBRID SOLIDS       0.900" in texts[1]
     assert texts[0].count("EQUATIONS HAVE NOT CONVERGED") > 0

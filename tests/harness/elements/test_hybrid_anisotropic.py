@@ -63,7 +63,7 @@ def body(element_type, material, orientation=None):
 
 
 @pytest.mark.parametrize("element_type", [name for name in STATIC if not HYBRID[name].axisymmetric])
-def test_patch_of_an_orthotropic_material(run, element_type):
+def test_patch_of_an_orthotropic_material(run_deck, element_type):
     """The boundary has the displacements of a uniform strain; what is inside follows in one iteration, and the stress
     is that of Hooke's law."""
     kind = HYBRID[element_type]
@@ -77,7 +77,7 @@ def test_patch_of_an_orthotropic_material(run, element_type):
     for k in np.flatnonzero(outside):
         lines += [f"{k + 1}, {d + 1}, {d + 1}, {float(value)!r}" for d, value in enumerate(moved[k])]
     lines += ["*OUTPUT, FIELD\n*ELEMENT OUTPUT\nS\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nU\n*END STEP\n"]
-    result = run("\n".join(lines))
+    result = run_deck(lines)
     assert result.status[-1].total_iterations == 1
     found = [[result.history[f"U{d + 1}[ALL:{k + 1}]"][-1] for d in range(kind.dimension)] for k in range(len(nodes))]
     # history output has nine digits

@@ -12,7 +12,6 @@ from moving_element import CUBE, EIGHT, NODES, SQUARE, MovingElement, turn
 from scipy.optimize import brentq
 from small_decks import body_lines
 
-import uel
 from uel.deck import read_deck
 from uel.elements import build_blocks
 from uel.elements.materials.hyperelastic import initial_moduli
@@ -292,17 +291,8 @@ def deck(keyword, *, element_type="C3D8", step="*STEP, NLGEOM", more="", section
     return "\n".join(line for line in lines if line) + "\n"
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text):
-        (tmp_path / "rubber.inp").write_text(text)
-        return uel.run(tmp_path / "rubber.inp", None, output_dir=tmp_path)
-
-    return run
-
-
 @pytest.mark.parametrize("element_type", ["C3D8", "C3D8R", "oriented"])
-def test_a_pulled_cube(run, element_type):
+def test_a_pulled_cube(run_deck, element_type):
     """neo-Hooke with free sides: the side stretch t makes S22 = 0; the force is S11 t^2 and ALLSE is W."""
     more, section = "", ""
     if element_type == "C3D8R":
@@ -310,7 +300,7 @@ def test_a_pulled_cube(run, element_type):
     elif element_type == "oriented":
         element_type, section = "C3D8", ", ORIENTATION=O"
         more = "*ORIENTATION, NAME=O\n0.6, 0.8, 0., -0.8, 0.6, 0."
-    history = run(deck(RUBBER, element_type=element_type, more=more, section=section)).history
+    history = run_deck(deck(RUBBER, element_type=element_type, more=more, section=section)).history
     c, d, stretch = 0.7, 0.05, 2.0
 
     def stresses(side):
@@ -328,9 +318,9 @@ def test_a_pulled_cube(run, element_type):
     assert history["ALLPD"][-1] == 0
 
 
-def test_page_of_the_job_has_the_coefficients(run, tmp_path):
-    run(deck("*HYPERELASTIC, MOONEY-RIVLIN\n0.5, 0.25, 0.125"))
-    page = report(tmp_path / "rubber").read_text("utf-8")
+def test_page_of_the_job_has_the_coefficients(run_deck, tmp_path):
+    run_deck(deck("*HYPERELASTIC, MOONEY-RIVLIN\n0.5, 0.25, 0.125"))
+    page = report(tmp_path / "deck").read_text("utf-8")
     cells = re.findall(r"<td[^>]*>([^<]*)</td>", page)
     rows = [cells[k : k + 3] for k, cell in enumerate(cells) if cell in ("coefficient 1", "coefficient 2", "D1")]
     kind = "*HYPERELASTIC, MOONEY-RIVLIN, N=1"
@@ -363,7 +353,7 @@ def constants(path, keyword):
 )
 def test_data_lines(tmp_path, keyword, potential, coefficients, compliances):
     """Abaqus Keywords Guide, *HYPERELASTIC; a temperature after the only set is none of the constants."""
-    found = constants(tmp_path / "rubber.inp", keyword)
+    found = constants(tmp_path / "deck.inp", keyword)
     assert (found.potential, found.coefficients, found.compliances) == (potential, coefficients, compliances)
 
 
@@ -407,9 +397,9 @@ ERRORS = [
 
 
 @pytest.mark.parametrize(("keyword", "options", "message"), ERRORS)
-def test_errors_of_decks(run, keyword, options, message):
-    with pytest.raises(DeckError, match=r"rubber\.inp:\d+: .*" + message):
-        run(deck(keyword, **options))
+def test_errors_of_decks(run_deck, keyword, options, message):
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: .*" + message):
+        run_deck(deck(keyword, **options))
 
 
 def test_user_elements_do_not_have_it(user_group, bound, load):

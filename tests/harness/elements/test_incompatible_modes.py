@@ -5,7 +5,6 @@
 import numpy as np
 import pytest
 
-import uel
 from uel.model.element_types import CONTINUUM
 from uel.usersub import _binding
 
@@ -205,14 +204,12 @@ RF1
 
 
 @pytest.mark.parametrize("element_type", ["CPS4I", "CPE4I"])
-def test_plastic_bending(tmp_path, element_type):
+def test_plastic_bending(run_deck, element_type):
     """A beam bent by its ends far beyond yield: Newton's method converges fast, as the modes are in equilibrium in each
     pass, and the moment lies between the elastic limit and the largest plastic moment."""
-    deck = tmp_path / "bent.inp"
-    deck.write_text(
+    result = run_deck(
         PLATE.format(type=element_type, nlgeom="").replace("*ELEMENT,", "*NSET, NSET=END\n13\n*ELEMENT,", 1)
     )
-    result = uel.run(deck, output_dir=tmp_path)
     assert result.completed
     assert max(line.total_iterations for line in result.status) <= 5
     moment = abs(result.history["RF1[END]"][-1])
@@ -259,7 +256,7 @@ RF1
 @pytest.mark.parametrize("turned", [0.1, 1.0])
 @pytest.mark.parametrize("hardening", ["5., 0.\n25., 1.", "5., 0.\n5.02, 1.", "5., 0.\n8., 0.002\n9., 1."])
 @pytest.mark.parametrize("element_type", ["CPS4I", "CPE4I", "C3D8I"])
-def test_bending_far_beyond_yield_at_once(tmp_path, element_type, hardening, turned):
+def test_bending_far_beyond_yield_at_once(run_deck, element_type, hardening, turned):
     """The modes are found where Newton's method alone would oscillate: strains of 5 and 50 times the one at yield.
 
     No fibre unloads, so that one increment gives the force of fifty, in plane strain to 0.3 %.
@@ -278,10 +275,8 @@ def test_bending_far_beyond_yield_at_once(tmp_path, element_type, hardening, tur
     edge = np.flatnonzero(sets["held"] & (nodes[:, 1] == 0))[-1] + 1
     forces = []
     for increment in (1.0, 0.02):
-        deck = tmp_path / "bent.inp"
         values = {"type": element_type, "hardening": hardening, "turned": turned, "increment": increment, "edge": edge}
-        deck.write_text(BENT.format(**values, **lines))
-        result = uel.run(deck, output_dir=tmp_path)
+        result = run_deck(BENT.format(**values, **lines))
         assert result.completed
         forces.append(sum(values[-1] for name, values in result.history.items() if name.startswith("RF1")))
     assert forces[0] == pytest.approx(forces[1], rel=5e-3)
@@ -318,7 +313,7 @@ U1, U2
 
 @pytest.mark.parametrize(("load", "deflection", "shortening"), [(1.0, 0.30172, 0.05643), (5.0, 0.71379, 0.38763)])
 @pytest.mark.parametrize("element_type", ["CPS4I", "CPE4I", "C3D8I"])
-def test_elastica(tmp_path, element_type, load, deflection, shortening):
+def test_elastica(run_deck, element_type, load, deflection, shortening):
     """A slender cantilever under a load P at its end, P L^2/(E I) = 1 and 5: deflection and shortening over its length.
 
     K. Mattiasson, Int. J. for Numerical Methods in Engineering 17 (1981) 145, by elliptic integrals. Twenty elements;
@@ -329,15 +324,13 @@ def test_elastica(tmp_path, element_type, load, deflection, shortening):
     nodes, elements = grid(*axes[: CONTINUUM[element_type].dimension])
     tip, fixed = (np.flatnonzero(nodes[:, 0] == x) + 1 for x in (length, 0))
     force = load * 1e6 * height**3 / 12 / length**2 / len(tip)
-    deck = tmp_path / "elastica.inp"
     lines = {
         "nodes": "\n".join(f"{k + 1}, {x}, {y}, {z}" for k, (x, y, z) in enumerate(nodes.tolist())),
         "elements": "\n".join(f"{k + 1}, " + ", ".join(map(str, row + 1)) for k, row in enumerate(elements)),
         "fixed": ", ".join(map(str, fixed)),
         "tip": ", ".join(map(str, tip)),
     }
-    deck.write_text(ELASTICA.format(type=element_type, load=force, **lines))
-    result = uel.run(deck, output_dir=tmp_path)
+    result = run_deck(ELASTICA.format(type=element_type, load=force, **lines))
     assert result.completed
     found = {u: np.mean([v[-1] for name, v in result.history.items() if name.startswith(u)]) for u in ("U1", "U2")}
     assert found["U2"] / length == pytest.approx(deflection, rel=2e-3)

@@ -49,22 +49,22 @@ def force_of(result):
 
 
 @pytest.mark.parametrize("element_type", PULLED)
-def test_elements_that_hardly_move(run, element_type):
+def test_elements_that_hardly_move(run_deck, element_type):
     """Beside an element of size 1 a strain of 1e-9 is rounded to 1e-7 of itself: no force on modes is left of it."""
     text = pulled(element_type, f"*ELASTIC\n{YOUNG}, {POISSON}", 1 + 1e-9).replace("1e-9, 1.", "5e-3, 1e-2")
     modulus = YOUNG / (1 - POISSON**2) if element_type.startswith("CPE") else YOUNG
-    assert force_of(run(text)) == pytest.approx(1e-9 * modulus, rel=1e-5)
+    assert force_of(run_deck(text)) == pytest.approx(1e-9 * modulus, rel=1e-5)
 
 
 @pytest.mark.parametrize("stretch", [1.3, 0.8])
 @pytest.mark.parametrize("element_type", PULLED)
-def test_force_of_a_large_stretch(run, element_type, stretch):
+def test_force_of_a_large_stretch(run_deck, element_type, stretch):
     """Uniaxial stress E ln l, in plane strain with E/(1 - nu^2) and nu/(1 - nu), on the area l^(-2 nu).
 
     Strains add up by the lengths in the middle of the increments: 25 of them differ from the logarithm by a twelfth of
     the square of the largest, 2e-5. Plane stress has the thickness by its strain, as in Abaqus.
     """
-    result = run(pulled(element_type, f"*ELASTIC\n{YOUNG}, {POISSON}", stretch))
+    result = run_deck(pulled(element_type, f"*ELASTIC\n{YOUNG}, {POISSON}", stretch))
     area, modulus, ratio = 2, YOUNG, POISSON
     if element_type == "CPE4I":
         area, modulus, ratio = 1, YOUNG / (1 - POISSON**2), POISSON / (1 - POISSON)
@@ -77,7 +77,7 @@ def test_force_of_a_large_stretch(run, element_type, stretch):
     ("element_type", "plain"), [("CPS4I", "CPS4"), ("CPE4I", "CPE4"), ("C3D8I", "C3D8"), ("C3D8IH", "C3D8H")]
 )
 @pytest.mark.parametrize("material", ["plastic", "orthotropic"])
-def test_uniform_states_need_no_mode(run, element_type, plain, material):
+def test_uniform_states_need_no_mode(run_deck, element_type, plain, material):
     """The same force as elements without modes, whose tests have theories."""
     laws = {
         "plastic": f"*ELASTIC\n{YOUNG}, {POISSON}\n*PLASTIC\n20., 0.\n60., 1.",
@@ -86,7 +86,7 @@ def test_uniform_states_need_no_mode(run, element_type, plain, material):
     turned = "*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0." if material == "orthotropic" else ""
     section = "MATERIAL=M, ORIENTATION=O" if turned else "MATERIAL=M"
     forces = [
-        force_of(run(pulled(name, laws[material], 1.2, more=turned).replace("MATERIAL=M\n", f"{section}\n", 1)))
+        force_of(run_deck(pulled(name, laws[material], 1.2, more=turned).replace("MATERIAL=M\n", f"{section}\n", 1)))
         for name in (element_type, plain)
     ]
     assert forces[0] == pytest.approx(forces[1], rel=1e-8)
@@ -140,13 +140,13 @@ NEO_HOOKE = """      include '{include}'
 
 
 @pytest.mark.parametrize("element_type", ["CPE4I", "C3D8I"])
-def test_umat_gets_the_deformation_gradient(run, tmp_path, element_type):
+def test_umat_gets_the_deformation_gradient(run_deck, tmp_path, element_type):
     """mu (B - 1) + lame ln J, in uniaxial stress: the stretch across is the root of mu (b^2 - 1) + lame ln(l b^k)."""
     user = tmp_path / "neo.f"
     user.write_text(NEO_HOOKE.format(include=Path(__file__).parents[1] / "umat.inc"))
     mu, lame, stretch = 300.0, 500.0, 1.25
     text = pulled(element_type, f"*USER MATERIAL, CONSTANTS=2\n{mu}, {lame}", stretch)
-    result = run(text, user=user)
+    result = run_deck(text, user=user)
     across = 1 if element_type == "CPE4I" else 2
     b = 1.0
     for _ in range(50):
@@ -174,10 +174,10 @@ def bent(element_type, count):
     return "\n".join([*lines, "*OUTPUT, HISTORY", "*NODE OUTPUT, NSET=RIGHT", "RF2", "*END STEP", ""])
 
 
-def test_bending_with_large_strains(run):
+def test_bending_with_large_strains(run_deck):
     """Both ends keep their directions, strains reach 0.3: the force is that of quadratic elements to 1 %."""
     forces = {}
     for element_type in ("CPE8", "CPE4I"):
-        result = run(bent(element_type, (16, 2)))
+        result = run_deck(bent(element_type, (16, 2)))
         forces[element_type] = sum(values[-1] for values in result.history.values())
     assert forces["CPE4I"] == pytest.approx(forces["CPE8"], rel=1e-2)

@@ -14,7 +14,6 @@ from differences import differences
 from reference_cells import patch_of
 from small_decks import body_lines
 
-import uel
 from uel.elements import Flags, Predefined
 from uel.errors import DeckError, KernelError, Source
 from uel.model.element_types import BUILT_IN, HEAT
@@ -43,15 +42,6 @@ def deck(element_type, mesh, step, *, material=PLAIN, procedure=STEADY, before="
     return "\n".join(lines)
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text, user=None):
-        (tmp_path / "mass.inp").write_text(text)
-        return uel.run(tmp_path / "mass.inp", user and HERE / user, output_dir=tmp_path)
-
-    return run
-
-
 def given(keyword, values):
     return f"*{keyword}\n" + "".join(f"{k}, {float(v)!r}\n" for k, v in enumerate(values, start=1))
 
@@ -61,7 +51,7 @@ def outside(nodes):
 
 
 @pytest.mark.parametrize("element_type", PATCHES)
-def test_patch_of_a_linear_concentration(run, element_type):
+def test_patch_of_a_linear_concentration(run_deck, element_type):
     """Any normalized concentration that varies linearly is steady, about an axis one that varies along it; the first
     moment of the solute that enters the nodes is s D x gradient x volume."""
     kind = HEAT[element_type]
@@ -69,7 +59,7 @@ def test_patch_of_a_linear_concentration(run, element_type):
     nodes = nodes[:, : kind.dimension]
     gradient = np.array([0.0 if kind.axisymmetric else 2.0, -1.0, 0.5])[: kind.dimension]
     phi = 5.0 + nodes @ gradient
-    result = run(deck(element_type, (nodes, elements), held(outside(nodes), phi[outside(nodes)])))
+    result = run_deck(deck(element_type, (nodes, elements), held(outside(nodes), phi[outside(nodes)])))
     np.testing.assert_allclose(column(result.history, "NNC11", len(nodes))[-1], phi, rtol=1e-10)
     volume = np.pi if kind.axisymmetric else THICKNESS if kind.dimension == 2 else 1.0
     entering = column(result.history, "RFL11", len(nodes))[-1]
@@ -86,7 +76,7 @@ TENSOR = np.array([[3.0, 0.5, 0.4], [0.5, 2.0, -0.3], [0.4, -0.3, 1.0]])
     "element_type", ["DC2D4", "DC3D8", *(pytest.param(n, marks=LONG) for n in ("DC2D6", "DC3D10"))]
 )
 @pytest.mark.parametrize("orthotropic", [False, True])
-def test_diffusivity_with_directions(run, element_type, orthotropic):
+def test_diffusivity_with_directions(run_deck, element_type, orthotropic):
     """Of a material whose direction 1 is along (0.6, 0.8, 0): the flux is along these directions in the output."""
     kind = HEAT[element_type]
     nodes, elements = patch_of(kind.family.cell)
@@ -100,7 +90,7 @@ def test_diffusivity_with_directions(run, element_type, orthotropic):
         section=", ORIENTATION=TURNED",
         before="*ORIENTATION, NAME=TURNED\n0.6, 0.8, 0., -0.8, 0.6, 0.",
     )
-    result = run(text)
+    result = run_deck(text)
     axes = np.array([[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0]])[: kind.dimension, : kind.dimension]
     flux = -S * tensor[: kind.dimension, : kind.dimension] @ axes @ gradient
     np.testing.assert_allclose(column(result.history, "NNC11", len(nodes))[-1], nodes @ gradient, atol=1e-10)
@@ -112,7 +102,7 @@ def test_diffusivity_with_directions(run, element_type, orthotropic):
 
 
 @pytest.mark.parametrize("element_type", LINEAR)
-def test_a_wave_decays(run, element_type):
+def test_a_wave_decays(run_deck, element_type):
     """sin(pi x) decays in increments h by 1/(1 + rate h); the rate is that of nodes at distances of d, with the solute
     stored at the nodes. The solubility cancels out."""
     count, h = 8, 0.01
@@ -120,14 +110,14 @@ def test_a_wave_decays(run, element_type):
     ends = np.flatnonzero((along == 0) | (along == 1))
     start = given("INITIAL CONDITIONS, TYPE=CONCENTRATION", np.sin(np.pi * along))
     procedure = f"*MASS DIFFUSION\n{h}, {10 * h}"
-    result = run(deck(element_type, (nodes, elements), held(ends, 0 * ends), procedure=procedure, before=start))
+    result = run_deck(deck(element_type, (nodes, elements), held(ends, 0 * ends), procedure=procedure, before=start))
     rate = 2 * D * count**2 * (1 - np.cos(np.pi / count))
     expected = np.sin(np.pi * along) / (1 + rate * h) ** 10
     np.testing.assert_allclose(column(result.history, "NNC11", len(nodes))[-1], expected, rtol=1e-7, atol=1e-9)
 
 
 @pytest.mark.parametrize("element_type", ["DC2D4", pytest.param("DC2D8", marks=LONG)])
-def test_the_front_behind_a_surface(run, element_type):
+def test_the_front_behind_a_surface(run_deck, element_type):
     """erfc(x/(2 sqrt(D t))) behind a surface at 1, as long as the other end does not matter (Crank, The Mathematics of
     Diffusion, 2.14); half the error with half the increments, which are the larger part of it."""
     errors = []
@@ -140,7 +130,7 @@ def test_the_front_behind_a_surface(run, element_type):
         surface = np.flatnonzero(along == 0)
         time = 0.01 / D
         procedure = f"*MASS DIFFUSION\n{time / increments!r}, {time!r}"
-        result = run(deck(element_type, (nodes, elements), held(surface, 1.0 + 0 * surface), procedure=procedure))
+        result = run_deck(deck(element_type, (nodes, elements), held(surface, 1.0 + 0 * surface), procedure=procedure))
         expected = np.array([erfc(x / (2 * np.sqrt(D * time))) for x in along])
         errors.append(abs(column(result.history, "NNC11", len(nodes))[-1] - expected).max())
     assert errors[0] < 0.03
@@ -155,7 +145,7 @@ def with_middles(nodes, elements):
     return np.vstack([nodes, nodes[edges].mean(axis=1)]), np.hstack([elements, middles])
 
 
-def test_two_layers(run):
+def test_two_layers(run_deck):
     """Steady permeation: the normalized concentration is continuous, the concentration jumps with the solubility; the
     flux is its difference over the sum of length/(s D)."""
     nodes, elements, along = bar("DC2D4", 5)
@@ -164,7 +154,7 @@ def test_two_layers(run):
     other = "*ELSET, ELSET=FIRST\n1, 2\n*ELSET, ELSET=OTHER\n3, 4, 5\n*SOLID SECTION, ELSET=OTHER, MATERIAL=N\n0.5\n"
     text = text.replace("*SOLID SECTION, ELSET=BODY", other + "*SOLID SECTION, ELSET=FIRST")
     text = text.replace("*STEP", "*MATERIAL, NAME=N\n*DIFFUSIVITY\n0.5\n*SOLUBILITY\n2.\n*STEP", 1)
-    result = run(text)
+    result = run_deck(text)
     resistance = 0.4 / (S * D), 0.6 / (2.0 * 0.5)
     flux = 1 / sum(resistance)
     expected = np.interp(along, [0, 0.4, 1], [0, flux * resistance[0], 1])
@@ -183,7 +173,7 @@ CONSERVED = {"DC2D4": 1.08, "DCAX4": 1.34375, "DC2D8": 1 + 0.16 / 3}
 
 
 @pytest.mark.parametrize("element_type", ["DCAX4", *(pytest.param(name, marks=LONG) for name in ("DC2D4", "DC2D8"))])
-def test_solute_is_conserved(run, element_type):
+def test_solute_is_conserved(run_deck, element_type):
     """With a diffusivity of the concentration, while the solubility changes with the temperature: what is inside is
     what was there and what has entered."""
     if element_type == "DC2D8":
@@ -197,7 +187,7 @@ def test_solute_is_conserved(run, element_type):
         procedure="*MASS DIFFUSION, DCMAX=0.2\n0.01, 1., 1e-5, 0.2",
         before=f"*AMPLITUDE, NAME=WARM\n0., 0., 1., 1.\n{start}",
     )
-    result = run(text)
+    result = run_deck(text)
     kind = BUILT_IN[element_type]
     points = HEAT[element_type].points
     # field output has the means of the points
@@ -209,7 +199,7 @@ def test_solute_is_conserved(run, element_type):
     assert abs(changes).max() <= 0.2 + 1e-12
 
 
-def equilibrium(run, count, material, phi, before, step, first=2.0):
+def equilibrium(run_deck, count, material, phi, before, step, first=2.0):
     """Largest error of a bar that is closed but for one end, where it has the right normalized concentration."""
     nodes, elements, along = bar("DC2D4", count)
     ends = np.flatnonzero(along == 0)
@@ -219,7 +209,7 @@ def equilibrium(run, count, material, phi, before, step, first=2.0):
         material=material,
         before=before + given("INITIAL CONDITIONS, TYPE=CONCENTRATION", first + 0 * along),
     )
-    result = run(text)
+    result = run_deck(text)
     np.testing.assert_allclose(column(result.history, "RFL11", len(nodes))[-1], 0.0, atol=1e-9)
     return abs(column(result.history, "NNC11", len(nodes))[-1] - phi(along)).max()
 
@@ -258,51 +248,51 @@ CLOSED = {
 
 
 @pytest.mark.parametrize("name", CLOSED)
-def test_equilibrium_of_what_drives_the_diffusion(run, name):
+def test_equilibrium_of_what_drives_the_diffusion(run_deck, name):
     """Nothing flows; the error falls by the factor of the order with half the element length."""
     material, phi, factor = CLOSED[name]
     driving = {"TEMPERATURE": warm, "PRESSURE STRESS": pressed}
     if "pressure" not in name:
         driving.pop("PRESSURE STRESS")
-    errors = [equilibrium(run, count, material, phi, ZERO, driving) for count in (4, 8)]
+    errors = [equilibrium(run_deck, count, material, phi, ZERO, driving) for count in (4, 8)]
     assert errors[0] < 5e-3
     assert errors[0] / errors[1] == pytest.approx(factor, rel=0.06)
 
 
-def test_equilibrium_of_fick(run):
+def test_equilibrium_of_fick(run_deck):
     """The concentration is constant, whatever the solubility: here at the nodes exactly, as s phi is quadratic."""
     material = f"*DIFFUSIVITY, LAW=FICK\n{D}\n{SOLUBLE}"
     error = equilibrium(
-        run, 3, material, lambda x: 2 * (0.4 + 0.08 * 2) / (0.4 + 0.08 * warm(x)), "", {"TEMPERATURE": warm}
+        run_deck, 3, material, lambda x: 2 * (0.4 + 0.08 * 2) / (0.4 + 0.08 * warm(x)), "", {"TEMPERATURE": warm}
     )
     assert error < 1e-12
 
 
-def test_equilibrium_in_a_linear_pressure(run):
+def test_equilibrium_in_a_linear_pressure(run_deck):
     """A constant kappa_p: phi + kappa_p p is constant, at the nodes exactly; the pressure is the initial one."""
     material = f"*DIFFUSIVITY\n{D}\n*KAPPA, TYPE=PRESS\n0.7\n*SOLUBILITY\n{S}"
     along = bar("DC2D4", 3)[2]
     start = given("INITIAL CONDITIONS, TYPE=PRESSURE STRESS", pressed(along))
-    assert equilibrium(run, 3, material, lambda x: 2 - 0.7 * (pressed(x) - 0.5), start, {}) < 1e-12
+    assert equilibrium(run_deck, 3, material, lambda x: 2 - 0.7 * (pressed(x) - 0.5), start, {}) < 1e-12
 
 
-def test_the_pressure_factor_of_fick(run):
+def test_the_pressure_factor_of_fick(run_deck):
     """-D (grad c + s kappa_p grad p): c exp(s kappa p) with kappa_p = kappa c is constant, as by the general law."""
     errors = []
     for law in ("FICK", "GENERAL"):
         material = f"*DIFFUSIVITY, LAW={law}\n{D}\n*KAPPA, TYPE=PRESS\n0., 0.\n5., 10.\n*SOLUBILITY\n{S}"
         phi = CLOSED["pressure of concentration"][1]
-        errors.append(equilibrium(run, 4, material, phi, "", {"TEMPERATURE": warm, "PRESSURE STRESS": pressed}))
+        errors.append(equilibrium(run_deck, 4, material, phi, "", {"TEMPERATURE": warm, "PRESSURE STRESS": pressed}))
     assert errors[0] == pytest.approx(errors[1], rel=1e-6)
 
 
-def test_diffusivity_that_grows_with_the_concentration(run):
+def test_diffusivity_that_grows_with_the_concentration(run_deck):
     """D (1 + b c): phi + b s phi^2/2 is linear along a bar (Kirchhoff), at the nodes exactly."""
     b, most = 0.8, 2.0
     nodes, elements, along = bar("DC2D4", 4)
     ends = np.flatnonzero((along == 0) | (along == 1))
     material = f"*DIFFUSIVITY\n{D}, 0.\n{D * (1 + b * S * most)}, {S * most}\n*SOLUBILITY\n{S}"
-    result = run(deck("DC2D4", (nodes, elements), held(ends, most * along[ends]), material=material))
+    result = run_deck(deck("DC2D4", (nodes, elements), held(ends, most * along[ends]), material=material))
     found = column(result.history, "NNC11", len(nodes))[-1]
     expected = (most + 0.5 * b * S * most**2) * along
     np.testing.assert_allclose(found + 0.5 * b * S * found**2, expected, rtol=1e-6, atol=1e-9)
@@ -310,7 +300,7 @@ def test_diffusivity_that_grows_with_the_concentration(run):
     assert sum(line.total_iterations for line in result.status) <= 6
 
 
-def test_a_table_of_concentration_and_temperature(run):
+def test_a_table_of_concentration_and_temperature(run_deck):
     """Linear between its values: with c = 1 and a temperature of 5, and constant beyond them: of 30."""
     rows = "1., 0., 0.\n3., 2., 0.\n2., 0., 10.\n6., 4., 10.\n"
     nodes, elements, along = bar("DC2D4", 1)
@@ -320,37 +310,37 @@ def test_a_table_of_concentration_and_temperature(run):
             *("DC2D4", (nodes, elements), f"{step}*TEMPERATURE\nALL, {temperature}"),
             material=f"*DIFFUSIVITY\n{rows}*SOLUBILITY\n{S}",
         )
-        np.testing.assert_allclose(run(text).field("MFL1"), -S * diffusivity * 1e-6, rtol=1e-6)
+        np.testing.assert_allclose(run_deck(text).field("MFL1"), -S * diffusivity * 1e-6, rtol=1e-6)
 
 
 @pytest.mark.parametrize("on_surface", [False, True])
-def test_fluxes_of_dflux(run, on_surface):
+def test_fluxes_of_dflux(run_deck, on_surface):
     """s D phi(1) = 2 (TEMP + 2 PRESS - 3 phi(1)); FLUX(2) is in the matrix."""
     nodes, elements, along = bar("DC2D4", 3)
     load = "*DSFLUX\nEND, SNU, 2." if on_surface else "*DFLUX\n3, S2NU, 2."
     step = f"{held(np.flatnonzero(along == 0), [0, 0])}*TEMPERATURE\nALL, 1.\n*PRESSURE STRESS\nALL, 0.25\n{load}"
-    result = run(deck("DC2D4", (nodes, elements), step, before="*SURFACE, NAME=END\n3, S2"), "solute.f")
+    result = run_deck(deck("DC2D4", (nodes, elements), step, before="*SURFACE, NAME=END\n3, S2"), HERE / "solute.f")
     expected = 3.0 / (S * D + 6.0) * along
     np.testing.assert_allclose(column(result.history, "NNC11", len(nodes))[-1], expected, rtol=1e-9, atol=1e-12)
     assert [line.total_iterations for line in result.status] == [1]
 
 
-def test_disp_is_told_the_dof_of_the_deck(run):
+def test_disp_is_told_the_dof_of_the_deck(run_deck):
     nodes, elements, _ = bar("DC2D4", 1)
-    result = run(deck("DC2D4", (nodes, elements), "*BOUNDARY, USER\nALL, 11"), "solute.f")
+    result = run_deck(deck("DC2D4", (nodes, elements), "*BOUNDARY, USER\nALL, 11"), HERE / "solute.f")
     np.testing.assert_allclose(column(result.history, "NNC11", 4)[-1], 11.0)
 
 
-def test_equations_between_concentrations(run):
+def test_equations_between_concentrations(run_deck):
     """Nodes 3 and 4, in the middle of a bar, are tied to its end, so that its second half has no gradient."""
     nodes, elements, _ = bar("DC2D4", 2)
     before = "*EQUATION\n2\n3, 11, 1., 5, 11, -1.\n2\n4, 11, 1., 6, 11, -1."
-    result = run(deck("DC2D4", (nodes, elements), held([0, 1, 4, 5], [0, 0, 2, 2]), before=before))
+    result = run_deck(deck("DC2D4", (nodes, elements), held([0, 1, 4, 5], [0, 0, 2, 2]), before=before))
     expected = [0, 0, 2, 2, 2, 2]
     np.testing.assert_allclose(column(result.history, "NNC11", 6)[-1], expected, atol=1e-12)
 
 
-def test_output(run):
+def test_output(run_deck):
     """Fields, and what .dat and .msg say."""
     nodes, elements, along = bar("DC2D4", 1)
     text = deck(
@@ -361,7 +351,7 @@ def test_output(run):
         ),
         procedure="*MASS DIFFUSION, DCMAX=5.\n0.5, 1., 0.1, 1.",
     )
-    result = run(text.replace("FIELD=CONCENTRATION\n1e-9", "FIELD=CONCENTRATION\n0.125"))
+    result = run_deck(text.replace("FIELD=CONCENTRATION\n1e-9", "FIELD=CONCENTRATION\n0.125"))
     np.testing.assert_allclose(result.field("NNC11").ravel(), along)
     printed, messages = result.file(".dat").read_text(), " ".join(result.file(".msg").read_text().split())
     assert "NNC11          RFL11" in printed
@@ -375,12 +365,12 @@ def test_output(run):
         assert words in messages
 
 
-def test_a_step_may_end_at_the_steady_state(run):
+def test_a_step_may_end_at_the_steady_state(run_deck):
     """END=SS: where no normalized concentration changes faster than 0.01; the next step starts there."""
     nodes, elements, along = bar("DC2D4", 4)
     procedure = "*MASS DIFFUSION, END=SS\n0.05, 100., , , 0.01"
     text = deck("DC2D4", (nodes, elements), held(np.flatnonzero(along == 0), [1, 1]), procedure=procedure)
-    result = run(f"{text}*STEP, INC=1000\n{procedure}\n*END STEP\n")
+    result = run_deck(f"{text}*STEP, INC=1000\n{procedure}\n*END STEP\n")
     assert [line.step for line in result.status if line.step == 2] == [2]
     history = column(result.history, "NNC11", len(nodes))
     rates = abs(np.diff(history[np.array(result.history["step"]) == 1], axis=0)).max(axis=1) / 0.05
@@ -510,20 +500,20 @@ def one(**options):
         (one(step="*DFLUX\n1, S2NU, 1."), r"inp:\d+: \*DFLUX: nonuniform loads need DFLUX; .* has UEL"),
     ],
 )
-def test_what_does_not_fit_is_refused(run, text, message):
+def test_what_does_not_fit_is_refused(run_deck, text, message):
     with pytest.raises(DeckError, match=message):
-        run(text)
+        run_deck(text)
 
 
-def test_user_elements(run):
+def test_user_elements(run_deck):
     text = one().replace("*STEP", "*USER ELEMENT, TYPE=U1, NODES=1\n11\n*ELEMENT, TYPE=U1, ELSET=U\n9, 1\n*STEP", 1)
     text = text.replace("*STEP", "*UEL PROPERTY, ELSET=U\n*STEP", 1)
     with pytest.raises(DeckError, match=r"inp:\d+: user elements are not supported in \*MASS DIFFUSION"):
-        run(text)
+        run_deck(text)
 
 
-def test_temperatures_below_absolute_zero(run):
+def test_temperatures_below_absolute_zero(run_deck):
     text = one(material=f"*DIFFUSIVITY\n1.\n*KAPPA\n1.\n*SOLUBILITY\n1.\n{ZERO}", step="*TEMPERATURE\nALL, -3.")
     message = r"the temperature -3.000E\+00 at integration point 1 is not above absolute zero, -3.000E\+00"
     with pytest.raises(KernelError, match=message):
-        run(text)
+        run_deck(text)

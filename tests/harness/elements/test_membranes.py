@@ -137,7 +137,7 @@ def test_matrix_of_a_stress(element, element_type):
 
 
 @pytest.mark.parametrize("element_type", MEMBRANE)
-def test_patch(run, element_type):
+def test_patch(run_deck, element_type):
     """Distorted elements in a uniform strain, by the displacements of their outer nodes."""
     nodes, elements = patch_of(MEMBRANE[element_type].family.cell)
     gradient = np.array([[1e-3, 4e-4], [-2e-4, 5e-4]])
@@ -147,7 +147,7 @@ def test_patch(run, element_type):
     lines += ["*STEP\n*STATIC\n*BOUNDARY\nALL, 3"]
     for k in outside:
         lines += [f"{k + 1}, {dof + 1}, {dof + 1}, {float(u)!r}" for dof, u in enumerate(gradient @ nodes[k])]
-    result = run("\n".join([*lines, "*OUTPUT, FIELD\n*ELEMENT OUTPUT\nS, E\n*NODE OUTPUT\nU\n*END STEP\n"]))
+    result = run_deck([*lines, "*OUTPUT, FIELD\n*ELEMENT OUTPUT\nS, E\n*NODE OUTPUT\nU\n*END STEP\n"])
     e1, e2, shear = gradient[0, 0], gradient[1, 1], gradient[0, 1] + gradient[1, 0]
     modulus = YOUNG / (1 - NU**2)
     expected = modulus * (e1 + NU * e2), modulus * (e2 + NU * e1), YOUNG / (2 * (1 + NU)) * shear
@@ -203,7 +203,7 @@ def radii(result, nodes):
 
 
 @pytest.mark.parametrize(("element_type", "pieces", "error"), [("M3D3", 8, 6e-3), ("M3D6", 4, 1e-3)])
-def test_inflated_balloon(run, element_type, pieces, error):
+def test_inflated_balloon(run_deck, element_type, pieces, error):
     """Cauchy stress S = E/(1 - nu) ln l in both directions, thickness T/l^2, radius R l: p = 2 S T/(R l^3).
 
     The pressure is that of l = 1.15; the largest one is at l = exp(1/3). The error is that of the mesh.
@@ -212,17 +212,17 @@ def test_inflated_balloon(run, element_type, pieces, error):
     stress = YOUNG / (1 - NU) * np.log(stretch)
     pressure = 2 * stress * THICKNESS / stretch**3
     text, nodes = balloon(element_type, pieces, f"*ELASTIC\n{YOUNG}, {NU}", pressure)
-    result = run(text)
+    result = run_deck(text)
     np.testing.assert_allclose(radii(result, nodes).mean(), stretch, rtol=error)
     assert result.field("S11").mean() == pytest.approx(stress, rel=10 * error)
 
 
-def test_balloon_of_rubber(run):
+def test_balloon_of_rubber(run_deck):
     """p = 2 mu T/R (1/l - 1/l^7), incompressible neo-Hooke (R.W. Ogden, Non-linear Elastic Deformations, 1984)."""
     stretch, mu = 1.25, 10.0
     pressure = 2 * mu * THICKNESS * (1 / stretch - stretch**-7)
     text, nodes = balloon("M3D6", 4, f"*USER MATERIAL, CONSTANTS=1\n{mu}\n*DEPVAR\n2", pressure)
-    result = run(text, user=HERE / "balloon.f")
+    result = run_deck(text, user=HERE / "balloon.f")
     np.testing.assert_allclose(radii(result, nodes).mean(), stretch, rtol=2e-3)
     assert result.field("S22").mean() == pytest.approx(mu * (stretch**2 - stretch**-4), rel=1e-2)
     # DFGRD1(3,3) is the change of the thickness, NDI 2 and NSHR 1
@@ -287,7 +287,7 @@ def sheet(
 
 
 @pytest.mark.parametrize(("type", "poisson"), [("M3D4", 0.5), ("M3D4", 0.3), ("M3D4R", 0.0)])
-def test_thickness_follows_the_area(run, type, poisson):
+def test_thickness_follows_the_area(run_deck, type, poisson):
     """Pulled to twice its length: S11 = E ln 2, the width becomes 2^-nu times it, and the thickness
     (area)^(-p/(1 - p)) with the Poisson's ratio p of the section (Abaqus Theory Guide, Membrane elements)."""
     text = sheet(
@@ -297,7 +297,7 @@ def test_thickness_follows_the_area(run, type, poisson):
         procedure="*STATIC\n0.05, 1., 0.05, 0.05",
         load="END, 1, 1, 1.",
     )
-    result = run(text)
+    result = run_deck(text)
     width = 2 * 2**-NU
     thickness = THICKNESS * (width * 2 / 2) ** (-poisson / (1 - poisson))
     expected = YOUNG * np.log(2) * width * thickness
@@ -306,7 +306,7 @@ def test_thickness_follows_the_area(run, type, poisson):
 
 
 @pytest.mark.parametrize("material", ["elastic", "plastic", "umat"])
-def test_initial_stress(run, material):
+def test_initial_stress(run_deck, material):
     """A sheet of 2 x 2 elements that is stretched by an initial stress s, whose middle is pushed along the normal by a
     force F: it deflects by w = F/(4 k), k from the gradients, t s N,1 N,1 in 4 elements of side a: 4 t s (2/3) in all.
 
@@ -323,14 +323,14 @@ def test_initial_stress(run, material):
     lines += [f"*INITIAL CONDITIONS, TYPE=STRESS\nBODY, {stress}, {stress}, 0.", "*STEP, NLGEOM\n*STATIC"]
     lines += ["*BOUNDARY\nEDGE, 1, 3", f"*CLOAD\n5, 3, {force}", "*OUTPUT, FIELD\n*NODE OUTPUT\nU"]
     lines += ["*ELEMENT OUTPUT\nS", "*END STEP\n"]
-    result = run("\n".join(lines), user=HERE / "keeps.f" if material == "umat" else None)
+    result = run_deck(lines, user=HERE / "keeps.f" if material == "umat" else None)
     # integrals of N,1^2 + N,2^2 over a square element: 2/3 for each corner, whatever its side
     stiffness = 4 * THICKNESS * stress * 2 / 3
     np.testing.assert_allclose(result.field("U")[4], [0, 0, force / stiffness], rtol=1e-3, atol=1e-9)
     np.testing.assert_allclose(result.field("S11"), stress, rtol=1e-4)
 
 
-def test_initial_state_by_user(run, tmp_path):
+def test_initial_state_by_user(run_deck, tmp_path):
     """SIGINI and SDVINI at the four points: NTENS 3, three coordinates, which UMAT keeps."""
     source = tmp_path / "user.f"
     source.write_text(
@@ -350,32 +350,32 @@ def test_initial_state_by_user(run, tmp_path):
     )
     initial = "*INITIAL CONDITIONS, TYPE=STRESS, USER\n*INITIAL CONDITIONS, TYPE=SOLUTION, USER"
     text = sheet(material=f"{STRESSED}\n*DEPVAR\n1\n{initial}", load="ALL, 1, 3").replace("S, E", "S, E, SDV")
-    result = run(text, user=source)
+    result = run_deck(text, user=source)
     # means over the points
     found = [float(result.field(name)[0]) for name in ("S11", "S22", "S12", "SDV1")]
     np.testing.assert_allclose(found, [3.0, 3.0, 2.5, 0.5 + 10.0], rtol=1e-6)
 
 
-def test_plastic_sheet(run):
+def test_plastic_sheet(run_deck):
     """Uniaxial tension beyond the yield stress: linear hardening by 0.1 E."""
     hardening = f"*ELASTIC\n{YOUNG}, {NU}\n*PLASTIC\n10., 0.\n110., 1."
-    result = run(sheet(material=hardening, load="END, 1, 1, 0.05"))
+    result = run_deck(sheet(material=hardening, load="END, 1, 1, 0.05"))
     # s = 10 + 100 (e - s/E)
     assert result.field("S11")[0] == pytest.approx((10 + 100 * 0.05) / (1 + 100 / YOUNG), rel=1e-3)
 
 
-def test_elasticity_by_usdfld(run, tmp_path):
+def test_elasticity_by_usdfld(run_deck, tmp_path):
     """E is halved by the field, which is NDI - 1 here."""
     source = tmp_path / "user.f"
     include = HERE.parent / "usdfld.inc"
     source.write_text(f"      INCLUDE '{include}'\n      FIELD(1) = NDI - 1\n      END\n")
     rows = f"*ELASTIC, DEPENDENCIES=1\n{YOUNG}, {NU}, , 0.\n{YOUNG / 2}, {NU}, , 1.\n*USER DEFINED FIELD\n*DEPVAR\n1"
-    result = run(sheet(material=rows), user=source)
+    result = run_deck(sheet(material=rows), user=source)
     assert result.field("S11")[0] == pytest.approx(0.1 * YOUNG / 2, rel=1e-6)
 
 
 @pytest.mark.parametrize("element_type", MEMBRANE)
-def test_loads_and_mass(run, element_type):
+def test_loads_and_mass(run_deck, element_type):
     """Nodal forces of P along the normal, of gravity and of BX in an undistorted cell: shares of thickness and area;
     the mass, lumped or consistent, gives the same force in an acceleration."""
     cell = MEMBRANE[element_type].family.cell
@@ -388,7 +388,7 @@ def test_loads_and_mass(run, element_type):
     lines += ["*DENSITY\n2.", "*SURFACE, NAME=BACK\nBODY, SNEG", "*STEP\n*STATIC\n*BOUNDARY\nALL, 1, 3"]
     lines += ["*DLOAD\nBODY, P, 3.\nBODY, GRAV, 5., 0., 1., 0.\nBODY, BX, 7.", "*DSLOAD\nBACK, P, 4."]
     lines += ["*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nRF\n*END STEP\n"]
-    result = run("\n".join(lines))
+    result = run_deck(lines)
     found = [[-result.history[f"RF{dof}[ALL:{k}]"][-1] for dof in (1, 2, 3)] for k in range(1, n + 1)]
     expected = np.outer(area * share_of_nodes(cell), [7.0 * THICKNESS, 2.0 * 5.0 * THICKNESS, 7.0])
     np.testing.assert_allclose(found, expected, atol=1e-9)
@@ -397,7 +397,7 @@ def test_loads_and_mass(run, element_type):
 @pytest.mark.parametrize(
     ("element_type", "count", "error"), [("M3D4", 8, 2e-2), ("M3D4R", 8, 2e-2), ("M3D8R", 4, 1e-3)]
 )
-def test_drum(run, element_type, count, error):
+def test_drum(run_deck, element_type, count, error):
     """A square membrane that is stretched alike in both directions: f = sqrt(2 s/rho)/(2 a) (Rayleigh, The Theory of
     Sound, section 199). The sides of the mesh are those of the stretched sheet; M3D4 lumps its mass."""
     side, strain, density = 1.0, 1e-3, 2.0
@@ -420,7 +420,7 @@ def test_drum(run, element_type, count, error):
     lines += ["*STEP, NLGEOM\n*STATIC\n1., 1.\n*BOUNDARY\nALL, 3"]
     lines += [f"{k + 1}, {dof}, {dof}, {float(strain * nodes[k, dof - 1])!r}" for k in edge for dof in (1, 2)]
     lines += ["*END STEP", "*STEP\n*FREQUENCY\n1\n*BOUNDARY, OP=NEW\nEDGE, 1, 3\n*END STEP\n"]
-    result = run("\n".join(lines))
+    result = run_deck(lines)
     stress = YOUNG / (1 - NU) * np.log1p(strain)
     expected = np.sqrt(2 * stress / density) / (2 * side * (1 + strain))
     assert result.history["EIGFREQ"][-1] == pytest.approx(expected, rel=error)
@@ -471,9 +471,9 @@ def test_drum(run, element_type, count, error):
         ),
     ],
 )
-def test_what_is_refused(run, text, message):
+def test_what_is_refused(run_deck, text, message):
     with pytest.raises(DeckError, match=message):
-        run(text, user=HERE / "balloon.f")
+        run_deck(text, user=HERE / "balloon.f")
 
 
 @pytest.mark.parametrize(
@@ -488,10 +488,10 @@ def test_what_is_refused(run, text, message):
         ("END, 1, 1, 0.1", "END, 1, 1, -1.", "turns inside out at its integration point 1"),
     ],
 )
-def test_shapes_that_end_the_job(run, old, new, message):
+def test_shapes_that_end_the_job(run_deck, old, new, message):
     text = sheet(section=", ORIENTATION=O" if new == AXES else "", options=", NLGEOM", procedure="*STATIC\n1., 1., 1.")
     with pytest.raises((KernelError, ConvergenceError), match=rf"element 1 \(type M3D4\).*({message})"):
-        run(text.replace(old, new, 1))
+        run_deck(text.replace(old, new, 1))
 
 
 def test_names_of_a_built_model(load):

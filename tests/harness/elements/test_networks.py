@@ -261,44 +261,35 @@ def deck(*material, visco="*VISCO\n0.1, 1., , 0.1", element_type="C3D8", section
     return "\n".join([*lines, "*ENERGY OUTPUT", "*END STEP"]) + "\n"
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text, user="networks.f90", **options):
-        (tmp_path / "rubber.inp").write_text(text)
-        return uel.run(tmp_path / "rubber.inp", user and HERE / user, output_dir=tmp_path, **options)
-
-    return run
-
-
 def pull(result):
     return sum(result.history[f"RF1[ALL:{node}]"] for node in (2, 3, 6, 7))
 
 
-def test_long_term_moduli(run):
+def test_long_term_moduli(run_deck):
     """The default: the coefficients are those of what is left in the end, D too: ratios scale all of the energy."""
     scaled = "*HYPERELASTIC, NEO HOOKE\n0.3, 0.666666666666666667"
-    found, wanted = (pull(run(deck(law, NETWORK))) for law in (scaled, RUBBER))
+    found, wanted = (pull(run_deck(deck(law, NETWORK), HERE / "networks.f90")) for law in (scaled, RUBBER))
     np.testing.assert_allclose(found, wanted, rtol=1e-12)
 
 
 @pytest.mark.parametrize("element_type", ["C3D8", "C3D8R", "C3D8H", "C3D8RH"])
-def test_a_pulled_cube(run, element_type):
+def test_a_pulled_cube(run_deck, element_type):
     """At first the whole elasticity, in the end what is left; the linear law has the time 1/(3 G ratio A)."""
     quick = NETWORK.replace("2., 1.", "200., 1.")
-    force = pull(run(deck(RUBBER, quick, element_type=element_type)))
-    whole = pull(run(deck(RUBBER, element_type=element_type, visco="*STATIC\n1., 1.")))
+    force = pull(run_deck(deck(RUBBER, quick, element_type=element_type), HERE / "networks.f90"))
+    whole = pull(run_deck(deck(RUBBER, element_type=element_type, visco="*STATIC\n1., 1."), HERE / "networks.f90"))
     left = "*HYPERELASTIC, NEO HOOKE\n0.3, 0.4"
     assert force[1] == pytest.approx(whole[-1], rel=1e-9)
     # the change of volume does not relax
-    wanted = pull(run(deck(left, element_type=element_type, visco="*STATIC\n1., 1.")))[-1]
+    wanted = pull(run_deck(deck(left, element_type=element_type, visco="*STATIC\n1., 1."), HERE / "networks.f90"))[-1]
     assert force[-1] == pytest.approx(wanted, rel=1e-7)
 
 
-def test_energies(run):
+def test_energies(run_deck):
     """What is held does no work: strain energy is dissipated, up to an error of the integration of first order."""
     errors = []
     for size in (0.05, 0.025):
-        history = run(deck(RUBBER, NETWORK, visco=f"*VISCO\n{size}, 1., , {size}")).history
+        history = run_deck(deck(RUBBER, NETWORK, visco=f"*VISCO\n{size}, 1., , {size}"), HERE / "networks.f90").history
         held = history["step"] == 2
         lost, stored, at_first = history["ALLCD"][held], history["ALLSE"][held], history["ALLSE"][~held][-1]
         assert lost[-1] > 0.05 * at_first
@@ -308,23 +299,24 @@ def test_energies(run):
     assert errors[0] / errors[1] == pytest.approx(2, rel=0.1)
 
 
-def test_largest_change_of_the_rate(run):
+def test_largest_change_of_the_rate(run_deck):
     """CETOL bounds the change of the creep rate times the increment: the first increment is cut."""
     fine, coarse = (
-        len(run(deck(RUBBER, NETWORK, visco=f"*VISCO, CETOL={limit}\n1., 1.")).status) for limit in ("1e-3", "10.")
+        len(run_deck(deck(RUBBER, NETWORK, visco=f"*VISCO, CETOL={limit}\n1., 1."), HERE / "networks.f90").status)
+        for limit in ("1e-3", "10.")
     )
     assert coarse == 3
     assert fine > 10
 
 
 @pytest.mark.parametrize("procedure", ["*VISCO", "*DYNAMIC, DIRECT, NOHAF"])
-def test_arguments(run, procedure):
+def test_arguments(run_deck, procedure):
     """Of UCREEPNETWORK at the end of the last increment, and of UTRSNETWORK: User Subroutines Guide; means."""
     initial = "*INITIAL CONDITIONS, TYPE="
     start = [f"{initial}TEMPERATURE", "ALL, 20.", f"{initial}FIELD, VARIABLE=1", "ALL, 1."]
     more = ["*TEMPERATURE", "ALL, 60.", "*FIELD, VARIABLE=1", "ALL, 3."]
     shift = "*TRS, DEFINITION=USER, PROPERTIES=3\n2., 2., 7."
-    result = run(
+    result = run_deck(
         deck(
             *(
                 "*DENSITY\n1e-6",
@@ -337,7 +329,8 @@ def test_arguments(run, procedure):
             start=start,
             more=more,
             visco=f"{procedure}\n0.25, 1.",
-        )
+        ),
+        HERE / "networks.f90",
     )
     assert result.completed
     found = np.array([0.0, *(result.field(f"SDV{k}")[0] for k in range(1, 65))])
@@ -458,9 +451,9 @@ def test_nothing_relaxes_in_no_time(element):
         ([RUBBER, NETWORK, "*TRS, DEFINITION=ARRHENIUS\n1., 2."], "DEFINITION=ARRHENIUS is not supported"),
     ],
 )
-def test_errors_of_decks(run, material, message):
-    with pytest.raises(DeckError, match=r"rubber\.inp:\d+: .*" + message):
-        run(deck(*material))
+def test_errors_of_decks(run_deck, material, message):
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: .*" + message):
+        run_deck(deck(*material), HERE / "networks.f90")
 
 
 @pytest.mark.parametrize(
@@ -470,29 +463,30 @@ def test_errors_of_decks(run, material, message):
         (NETWORK + "\n*TRS, DEFINITION=USER", r"\*TRS, DEFINITION=USER: material RUBBER needs UTRSNETWORK"),
     ],
 )
-def test_a_file_without_them(run, material, message):
+def test_a_file_without_them(run_deck, material, message):
     with pytest.raises(DeckError, match=message):
-        run(deck(RUBBER, material), user="points.f")
+        run_deck(deck(RUBBER, material), HERE / "points.f")
 
 
-def test_linear_perturbations_are_refused(run):
+def test_linear_perturbations_are_refused(run_deck):
     with pytest.raises(DeckError, match="a linear perturbation is not supported with material RUBBER, whose stresses"):
-        run(
+        run_deck(
             deck(RUBBER, NETWORK)
             .replace("*STEP, NLGEOM, INC", "*STEP, NLGEOM, PERTURBATION, INC")
-            .replace("*VISCO\n0.1, 1., , 0.1", "*STATIC")
+            .replace("*VISCO\n0.1, 1., , 0.1", "*STATIC"),
+            HERE / "networks.f90",
         )
 
 
-def test_it_ends_the_analysis(run):
+def test_it_ends_the_analysis(run_deck):
     with pytest.raises(KernelError, match=r"UCREEPNETWORK at integration point 1 stopped the analysis"):
-        run(deck(RUBBER, BY_USER.format(way="1.")))
+        run_deck(deck(RUBBER, BY_USER.format(way="1.")), HERE / "networks.f90")
 
 
-def test_a_shift_that_is_not_positive(run):
+def test_a_shift_that_is_not_positive(run_deck):
     message = r"element 1 \(type C3D8\): .*UTRSNETWORK gives the shifts  2\.000E\+00 and +0\.000E\+00; expected"
     with pytest.raises(KernelError, match=message):
-        run(deck(RUBBER, NETWORK, "*TRS, DEFINITION=USER, PROPERTIES=2\n2., 0."))
+        run_deck(deck(RUBBER, NETWORK, "*TRS, DEFINITION=USER, PROPERTIES=2\n2., 0."), HERE / "networks.f90")
 
 
 @pytest.mark.parametrize(
@@ -506,9 +500,9 @@ def test_a_shift_that_is_not_positive(run):
         ),
     ],
 )
-def test_warnings_of_mistakes(run, tmp_path, way, text):
+def test_warnings_of_mistakes(run_deck, tmp_path, way, text):
     try:
-        run(deck(RUBBER, BY_USER.format(way=f"{way}.")))
+        run_deck(deck(RUBBER, BY_USER.format(way=f"{way}.")), HERE / "networks.f90")
     except uel.errors.UelError:
         assert way == 3
-    assert text in " ".join((tmp_path / "rubber.msg").read_text().split())
+    assert text in " ".join((tmp_path / "deck.msg").read_text().split())

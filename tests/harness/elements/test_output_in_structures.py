@@ -6,27 +6,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from point_routines import getvrm, usdfld, uvarm
 from shell_decks import ShellDeck
 from truss_decks import LENGTH, PULL, truss
 
-import uel
 from uel.errors import KernelError
 from uel.model.element_types import MEMBRANE, SHELL
 
 HERE = Path(__file__).parents[1]
 SINGLE = 1e-6
 """Field output has single precision."""
-UVARM = """      SUBROUTINE UVARM(UVAR,DIRECT,T,TIME,DTIME,CMNAME,ORNAME,NUVARM,
-     1 NOEL,NPT,LAYER,KSPT,KSTEP,KINC,NDI,NSHR,COORD,JMAC,JMATYP,
-     2 MATLAYO,LACCFLA)
-      INCLUDE 'ABA_PARAM.INC'
-      CHARACTER*80 CMNAME,ORNAME
-      CHARACTER*3 FLGRAY(15)
-      DIMENSION UVAR(NUVARM),DIRECT(3,3),T(3,3),TIME(2),ARRAY(15),
-     1 JARRAY(15),JMAC(*),JMATYP(*),COORD(*)
-%s
-      END
-"""
 ELASTIC = "*ELASTIC\n1000., {nu}\n*USER OUTPUT VARIABLES\n{count}"
 TURN = "*ORIENTATION, NAME=O\n0.8, 0.6, 0., -0.6, 0.8, 0.\n3, 0.\n"
 STEP = """*STEP{options}
@@ -40,19 +29,12 @@ STEP = """*STEP{options}
 """
 
 
-def getvrm(name):
-    return f"CALL GETVRM('{name}',ARRAY,JARRAY,FLGRAY,JRCD,JMAC,JMATYP,MATLAYO,LACCFLA)"
-
-
 @pytest.fixture
-def run(tmp_path):
-    def run(text, body="", more=""):
-        (tmp_path / "job.inp").write_text(text)
-        source = UVARM.replace("%s", "\n".join(f"      {line}" for line in body.split("\n"))) if body else ""
-        (tmp_path / "user.f").write_text(source + more)
-        return uel.run(tmp_path / "job.inp", tmp_path / "user.f", output_dir=tmp_path)
+def run_with_uvarm(run_deck):
+    def run_with_uvarm(text, body="", more=""):
+        return run_deck(text, (uvarm(body) if body else "") + more)
 
-    return run
+    return run_with_uvarm
 
 
 def arguments(moved):
@@ -104,7 +86,7 @@ def flat(coordinates, dofs):
 
 @pytest.mark.parametrize("element_type", SHELL)
 @pytest.mark.parametrize("options", ["", ", NLGEOM"])
-def test_arguments_in_shells(run, element_type, options):
+def test_arguments_in_shells(run_with_uvarm, element_type, options):
     """All section points of both layers; DIRECT and COORD are those at the end of the increment."""
     large = bool(options)
     turned = roll(ANGLE if large else 0.0)
@@ -126,13 +108,13 @@ def test_arguments_in_shells(run, element_type, options):
         text = deck.text(STEP.format(options=options, data=data, output="S, UVARM"))
         if element_type.startswith("S3"):
             expressions.pop(next(name for name in expressions if "NOEL" in name))
-        found = run(text, lines(expressions))
+        found = run_with_uvarm(text, lines(expressions))
         for k, (expression, value) in enumerate(expressions.items(), 1):
             values = found.field(f"UVARM{k}_{side}")
             np.testing.assert_allclose(values, value, rtol=SINGLE, atol=SINGLE, err_msg=expression)
 
 
-def test_arguments_in_continuum_shells(run):
+def test_arguments_in_continuum_shells(run_with_uvarm):
     """A plate of thickness 0.4 of two layers, turned about its normal, that is stretched: place, directions, stress."""
     corners = [(x, y, z) for z in (0.0, 0.4) for x, y in ((0, 0), (2, 0), (2, 2), (0, 2))]
     nodes = "\n".join(f"{k}, {x}, {y}, {z}" for k, (x, y, z) in enumerate(corners, 1))
@@ -151,7 +133,7 @@ def test_arguments_in_continuum_shells(run):
         )
         text += ELASTIC.format(nu=0.25, count=len(expressions) + 1) + "\n"
         held = "*BOUNDARY\nALL, 2, 3\n" + "".join(f"{k}, 1, 1, {1e-3 * x}\n" for k, (x, *_) in enumerate(corners, 1))
-        found = run(text + STEP.format(options="", data=held, output="S, UVARM"), own)
+        found = run_with_uvarm(text + STEP.format(options="", data=held, output="S, UVARM"), own)
         for k, (expression, value) in enumerate(expressions.items(), 1):
             np.testing.assert_allclose(
                 found.field(f"UVARM{k}_{side}"), value, rtol=SINGLE, atol=SINGLE, err_msg=expression
@@ -191,7 +173,7 @@ def sheet(element_type, material):
 
 @pytest.mark.parametrize("element_type", MEMBRANE)
 @pytest.mark.parametrize("options", ["", ", NLGEOM"])
-def test_arguments_in_membranes(run, element_type, options):
+def test_arguments_in_membranes(run_with_uvarm, element_type, options):
     large = bool(options)
     turned, axes = roll(ANGLE if large else 0.0), plane(FROM_X)
     expressions = {
@@ -205,7 +187,7 @@ def test_arguments_in_membranes(run, element_type, options):
     expressions |= arguments(len(expressions) + 3 + 100)
     text, nodes = sheet(element_type, ELASTIC.format(nu=0.25, count=len(expressions)))
     data = (rolled if large else flat)(nodes, 3)
-    found = run(text + STEP.format(options=options, data=data, output="S, UVARM"), lines(expressions))
+    found = run_with_uvarm(text + STEP.format(options=options, data=data, output="S, UVARM"), lines(expressions))
     for k, (expression, value) in enumerate(expressions.items(), 1):
         values = found.field(f"UVARM{k}")
         np.testing.assert_allclose(values, value, rtol=SINGLE, atol=SINGLE, err_msg=expression)
@@ -226,7 +208,7 @@ BEAM = """*NODE, NSET=ALL
 
 @pytest.mark.parametrize(("element_type", "ntens", "point"), [("B31", 11, 25), ("B21", 1, 5)])
 @pytest.mark.parametrize("options", ["", ", NLGEOM"])
-def test_arguments_in_beams(run, element_type, ntens, point, options):
+def test_arguments_in_beams(run_with_uvarm, element_type, ntens, point, options):
     """Of a beam along x that turns about z: direction 1 is -z, the section point is the last one along 2."""
     c, s = (np.cos(ANGLE), np.sin(ANGLE)) if options else (1.0, 0.0)
     t, first = np.array([c, s, 0]), np.array([0, 0, -1.0])
@@ -245,7 +227,7 @@ def test_arguments_in_beams(run, element_type, ntens, point, options):
     data += f"2, 1, 1, {turn[0]!r}\n2, 2, 2, {turn[1]!r}"
     data = data if options else "*BOUNDARY\nALL, 1, 6"
     text = BEAM.format(type=element_type, material=ELASTIC.format(nu=0.25, count=len(expressions)))
-    found = run(text + STEP.format(options=options, data=data, output="S, UVARM"), lines(expressions))
+    found = run_with_uvarm(text + STEP.format(options=options, data=data, output="S, UVARM"), lines(expressions))
     for k, (expression, value) in enumerate(expressions.items(), 1):
         values = found.field(f"UVARM{k}_SP{point}")
         np.testing.assert_allclose(values, value, rtol=SINGLE, atol=SINGLE, err_msg=expression)
@@ -257,7 +239,7 @@ def pulled(element_type, material, *, options="", data=PULL):
 
 @pytest.mark.parametrize("element_type", ["T2D2", "T3D2"])
 @pytest.mark.parametrize("options", ["", ", NLGEOM"])
-def test_arguments_in_trusses(run, element_type, options):
+def test_arguments_in_trusses(run_with_uvarm, element_type, options):
     """There are no directions in trusses (User Subroutines Guide, UVARM)."""
     expressions = {
         "NDI + 10*NSHR + 100*NPT + 1000*LAYER + 10000*KSPT": 11101,
@@ -267,7 +249,7 @@ def test_arguments_in_trusses(run, element_type, options):
     }
     expressions |= arguments(len(expressions) + 3 + 100)
     text = pulled(element_type, ELASTIC.format(nu=0.5, count=len(expressions)), options=options)
-    found = run(text, lines(expressions))
+    found = run_with_uvarm(text, lines(expressions))
     for k, (expression, value) in enumerate(expressions.items(), 1):
         assert found.field(f"UVARM{k}") == pytest.approx(value, rel=SINGLE), expression
 
@@ -303,10 +285,10 @@ PLASTIC = "*ELASTIC\n1000., 0.\n*PLASTIC\n10., 0.\n*USER OUTPUT VARIABLES\n8"
 
 @pytest.mark.parametrize("element_type", EACH)
 @pytest.mark.parametrize("name", ["E", "S", "SINV", "PE"])
-def test_getvrm_has_the_end_of_the_increment(run, element_type, name):
+def test_getvrm_has_the_end_of_the_increment(run_with_uvarm, element_type, name):
     """A strain of 0.02 along x with a yield stress of 10, constant, and a modulus of 1000: half of it is plastic."""
     text, side = strained(element_type, PLASTIC)
-    found = run(text, f"{getvrm(name)}\nUVAR(1:7) = ARRAY(1:7)\nUVAR(8) = JRCD")
+    found = run_with_uvarm(text, f"{getvrm(name)}\nUVAR(1:7) = ARRAY(1:7)\nUVAR(8) = JRCD")
     values = np.array([float(found.field(f"UVARM{k}{side}")[0]) for k in range(1, 9)])
     assert values[7] == 0
     index, expected = {
@@ -320,10 +302,10 @@ def test_getvrm_has_the_end_of_the_increment(run, element_type, name):
 
 
 @pytest.mark.parametrize("element_type", EACH)
-def test_variables_stay_where_uvarm_leaves_them(run, element_type):
+def test_variables_stay_where_uvarm_leaves_them(run_with_uvarm, element_type):
     """They come as they were at the end of the increment before; each point is called once an increment."""
     text, side = strained(element_type, ELASTIC.format(nu=0.0, count=1))
-    found = run(text, "UVAR(1) = UVAR(1) + NPT")
+    found = run_with_uvarm(text, "UVAR(1) = UVAR(1) + NPT")
     points = POINTS.get(element_type, 1)
     for increment in (1, 2):
         value = float(found.field(f"UVARM1{side}", increment=increment)[0])
@@ -331,22 +313,22 @@ def test_variables_stay_where_uvarm_leaves_them(run, element_type):
 
 
 @pytest.mark.parametrize("element_type", EACH)
-def test_uvarm_ends_the_analysis(run, element_type):
+def test_uvarm_ends_the_analysis(run_with_uvarm, element_type):
     text, _ = strained(element_type, ELASTIC.format(nu=0.0, count=1))
     message = rf"element 1 \(type {element_type}\): UVARM at integration point 1 stopped the analysis \(XIT\)"
     with pytest.raises(KernelError, match=rf"{message}.*\(step 1, increment 2"):
-        run(text, "IF (KINC .EQ. 2) CALL XIT")
+        run_with_uvarm(text, "IF (KINC .EQ. 2) CALL XIT")
 
 
 @pytest.mark.parametrize("element_type", EACH)
-def test_without_uvarm_its_variables_are_left_out(run, element_type):
+def test_without_uvarm_its_variables_are_left_out(run_with_uvarm, element_type):
     text, side = strained(element_type, ELASTIC.format(nu=0.0, count=1))
-    found = run(text.replace(", UVARM\n", "\n"), more="      SUBROUTINE NOTHING\n      END\n")
+    found = run_with_uvarm(text.replace(", UVARM\n", "\n"), more="      SUBROUTINE NOTHING\n      END\n")
     assert float(found.field(f"S11{side}")[0]) == pytest.approx(20, rel=SINGLE)
 
 
 @pytest.mark.parametrize("element_type", ["S4", "S3R", "S8R"])
-def test_layers_of_other_materials(run, element_type):
+def test_layers_of_other_materials(run_with_uvarm, element_type):
     """Each layer has the variables of its material and its STATEV, and a third one has none."""
     field = "*USER DEFINED FIELD\n*DEPVAR\n{}\n*USER OUTPUT VARIABLES\n{}"
     first = "*ELASTIC\n1000., 0.\n" + field.format(1, 3)
@@ -355,21 +337,18 @@ def test_layers_of_other_materials(run, element_type):
     deck = ShellDeck(element_type, 1, 1, lambda a, b: (a, b, 0.0), section, first, others)
     data = flat(deck.coordinates, 6)
     text = deck.text(STEP.format(options="", data=data, output="SDV, UVARM"))
-    usdfld = f"""      INCLUDE '{HERE / "usdfld.inc"}'
-      STATEV(NSTATV) = STATEV(NSTATV) + 1
-      END
-"""
-    found = run(text, f"{getvrm('SDV')}\nUVAR(NUVARM) = 10*ICHAR(CMNAME(1:1)) + SUM(ARRAY(1:4))", usdfld)
+    sums = f"{getvrm('SDV')}\nUVAR(NUVARM) = 10*ICHAR(CMNAME(1:1)) + SUM(ARRAY(1:4))"
+    found = run_with_uvarm(text, sums, usdfld("STATEV(NSTATV) = STATEV(NSTATV) + 1"))
     expected = {"UVARM3_SNEG": 772, "UVARM1_SNEG": 0, "UVARM1_SPOS": 782, "SDV1_SNEG": 2, "SDV4_SPOS": 2}
     for name, value in expected.items():
         np.testing.assert_allclose(found.field(name), value, err_msg=name)
 
 
 @pytest.mark.parametrize("element_type", ["S4", "M3D4", "B31", "T3D2"])
-def test_the_middle_of_an_increment_is_not_its_end(run, element_type):
+def test_the_middle_of_an_increment_is_not_its_end(run_with_uvarm, element_type):
     """*DYNAMIC asks for forces there, for the half-increment residual, once the increment has converged."""
     text, side = strained(element_type, "*DENSITY\n1e-3\n" + ELASTIC.format(nu=0.0, count=2))
     text = text.replace("*STATIC, DIRECT\n0.5, 1.", "*DYNAMIC, HALFINC SCALE FACTOR=1e9\n0.5, 1., 0.5, 0.5")
-    found = run(text, "UVAR(1) = TIME(1) + 10*DTIME\nUVAR(2) = TIME(2)")
+    found = run_with_uvarm(text, "UVAR(1) = TIME(1) + 10*DTIME\nUVAR(2) = TIME(2)")
     assert float(found.field(f"UVARM1{side}")[0]) == pytest.approx(0.5 + 5)
     assert float(found.field(f"UVARM2{side}")[0]) == pytest.approx(0.5)

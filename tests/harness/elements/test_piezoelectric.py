@@ -11,7 +11,6 @@ import pytest
 from reference_cells import patch_of
 from small_decks import body_lines
 
-import uel
 from uel.errors import DeckError
 from uel.model.element_types import PIEZOELECTRIC, Tensor
 
@@ -54,15 +53,6 @@ def deck(element_type, nodes, elements, given, *, step, orientation="", thicknes
     return "\n".join([*lines, "*ENERGY OUTPUT, VARIABLE=ALL", "*END STEP", ""])
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text):
-        (tmp_path / "piezo.inp").write_text(text)
-        return uel.run(tmp_path / "piezo.inp", output_dir=tmp_path)
-
-    return run
-
-
 def compliance():
     """(6, 6) in the axes of the material, for engineering strains 11, 22, 33, 12, 13, 23."""
     found = np.diag([1 / e for e in (*YOUNG, *SHEAR)])
@@ -102,7 +92,7 @@ def held(nodes, values, dof):
 
 @pytest.mark.parametrize("element_type", PLANE + SPACE)
 @pytest.mark.parametrize("turned", [False, True])
-def test_patch(run, element_type, turned):
+def test_patch(run_deck, element_type, turned):
     """Linear displacements and potentials at the boundary: constant stress and electrical displacement in the body."""
     kind = PIEZOELECTRIC[element_type]
     dim = kind.dimension
@@ -115,7 +105,7 @@ def test_patch(run, element_type, turned):
         step += held(outside, nodes[outside] @ gradient[k], k + 1)
     step += held(outside, nodes[outside] @ slope, 9)
     orientation = f"{lines_of(AXES[0].tolist() + AXES[1].tolist())}\n" if turned else ""
-    result = run(deck(element_type, nodes, elements, material(), step=step, orientation=orientation.strip()))
+    result = run_deck(deck(element_type, nodes, elements, material(), step=step, orientation=orientation.strip()))
     strain = np.zeros(6)
     for place, (i, j) in enumerate(PAIRS):
         if max(i, j) < dim:
@@ -176,7 +166,7 @@ def supports(nodes, dim):
 
 
 @pytest.mark.parametrize("element_type", [name for name in TYPES if not name.startswith("CPE")])
-def test_a_free_body_between_electrodes(run, element_type):
+def test_a_free_body_between_electrodes(run_deck, element_type):
     """Strain d E; about an axis the radial strain is that around it, here where both coefficients are the same."""
     dim = PIEZOELECTRIC[element_type].dimension
     nodes, elements, bottom, top = column(element_type)
@@ -189,7 +179,7 @@ def test_a_free_body_between_electrodes(run, element_type):
         # isotropic across the axis: E1 = E3, nu13 = 0.3
         given = given.replace(lines_of([*YOUNG, *POISSON, *SHEAR]), "60., 80., 60., 0.2, 0.3, 0.25, 20., 20.\n25.")
     step = "*STEP\n*STATIC\n*BOUNDARY\n" + held(bottom, 0 * bottom, 9) + held(top, 5.0 + 0 * top, 9)
-    result = run(deck(element_type, nodes, elements, given, step=step, before=supports(nodes, dim)))
+    result = run_deck(deck(element_type, nodes, elements, given, step=step, before=supports(nodes, dim)))
     last = dim - 1
     for k in range(dim):
         found = [result.history[f"U{k + 1}[ALL:{n + 1}]"][-1] for n in range(len(nodes))]
@@ -203,7 +193,7 @@ def test_a_free_body_between_electrodes(run, element_type):
 
 @pytest.mark.parametrize("element_type", ["C3D8E", "C3D20RE"])
 @pytest.mark.parametrize("circuit", ["open", "short", "charged"])
-def test_a_bar_that_is_pulled(run, element_type, circuit):
+def test_a_bar_that_is_pulled(run_deck, element_type, circuit):
     """Short circuit: strain s T, charge d33 T; open: E = -d33 T over the free permittivity, which stiffens the bar."""
     nodes, elements, bottom, top = column(element_type)
     permittivity = np.diag([2.0, 2.0, 2.5])
@@ -217,7 +207,9 @@ def test_a_bar_that_is_pulled(run, element_type, circuit):
     ]
     step += f"*CLOAD\n{top[0] + 1}, 3, {stress}\n"
     before = electrode + supports(nodes, 3)
-    result = run(deck(element_type, nodes, elements, material(STRAINS, "E", permittivity), step=step, before=before))
+    result = run_deck(
+        deck(element_type, nodes, elements, material(STRAINS, "E", permittivity), step=step, before=before)
+    )
     history = {name: values[-1] for name, values in result.history.items()}
     on_it = {"open": 0.0, "charged": charge}
     displaced = -on_it[circuit] if circuit in on_it else STRAINS[2, 2] * stress
@@ -235,7 +227,7 @@ def test_a_bar_that_is_pulled(run, element_type, circuit):
 
 
 @pytest.mark.parametrize("how", ["*FREQUENCY", "*STEADY STATE DYNAMICS"])
-def test_the_resonance_of_an_open_circuit_is_higher(run, how):
+def test_the_resonance_of_an_open_circuit_is_higher(run_deck, how):
     """A column without lateral strain: its stiffness goes from C33 to C33 + b33^2/d33 where no charge flows."""
     nodes, elements, bottom, top = column("C3D8E")
     piezo = np.zeros((3, 6))
@@ -252,7 +244,7 @@ def test_the_resonance_of_an_open_circuit_is_higher(run, how):
     for circuit in ("", held(top[:1], [0.0], 9)):
         if how == "*FREQUENCY":
             step = "*STEP\n*FREQUENCY\n1,\n"
-            result = run(
+            result = run_deck(
                 deck(
                     "C3D8E",
                     nodes,
@@ -265,7 +257,7 @@ def test_the_resonance_of_an_open_circuit_is_higher(run, how):
             found.append(result.history["EIGVAL"][0])
         else:
             step = f"*STEP\n{how}, DIRECT\n0.\n*CLOAD\n{top[0] + 1}, 3, 1.\n"
-            result = run(
+            result = run_deck(
                 deck(
                     "C3D8E",
                     nodes,
@@ -279,7 +271,7 @@ def test_the_resonance_of_an_open_circuit_is_higher(run, how):
     assert found[0] / found[1] == pytest.approx(1 + piezo[2, 2] ** 2 / permittivity[2, 2] / c33)
 
 
-def test_modes_leave_electricity_alone(run):
+def test_modes_leave_electricity_alone(run_deck):
     """*MODAL DYNAMIC of a piezoelectric column runs, with the stiffness of its circuit in the frequency of its mode."""
     nodes, elements, bottom, top = column("CPE4E")
     before = supports(nodes, 2) + held(bottom, 0 * bottom, 9)
@@ -295,8 +287,8 @@ def test_modes_leave_electricity_alone(run):
         "CPE4E", nodes, elements, material(), step=f"*STEP\n*STATIC\n*CLOAD\n{top[0] + 1}, 2, 1.\n", before=before
     )
     # undamped, the motion is about the static displacement
-    dynamic = run(text).history[f"U2[ALL:{top[0] + 1}]"]
-    rest = run(static).history[f"U2[ALL:{top[0] + 1}]"][-1]
+    dynamic = run_deck(text).history[f"U2[ALL:{top[0] + 1}]"]
+    rest = run_deck(static).history[f"U2[ALL:{top[0] + 1}]"][-1]
     assert np.nanmax(dynamic) > 1.2 * rest
 
 
@@ -322,7 +314,7 @@ def test_modes_leave_electricity_alone(run):
         ("**axes", "*ORIENTATION, NAME=O, SYSTEM=CYLINDRICAL\n0., 0., 0., 0., 0., 1.", "differ from point to point"),
     ],
 )
-def test_what_is_wrong_is_named(run, old, new, message):
+def test_what_is_wrong_is_named(run_deck, old, new, message):
     nodes, elements, bottom, _ = column("C3D8E")
     before = "**axes\n*AMPLITUDE, NAME=A, VALUE=ABSOLUTE\n0., 1.\n" + supports(nodes, 3) + held(bottom, 0 * bottom, 9)
     text = deck("C3D8E", nodes, elements, material(), step="*STEP\n*STATIC", before=before)
@@ -331,4 +323,4 @@ def test_what_is_wrong_is_named(run, old, new, message):
     if "*ORIENTATION" in new:
         text = text.replace("MATERIAL=M\n", "MATERIAL=M, ORIENTATION=O\n", 1)
     with pytest.raises(DeckError, match=message):
-        run(text)
+        run_deck(text)

@@ -57,10 +57,10 @@ PAIRS = ["", ", SMALL SLIDING", ", SMALL SLIDING, TYPE=SURFACE TO SURFACE"]
 
 @pytest.mark.parametrize("pair", PAIRS)
 @pytest.mark.parametrize("options", ["", ", NLGEOM"])
-def test_plate_on_a_block(run, pair, options):
+def test_plate_on_a_block(run_deck, pair, options):
     """Free to widen: the stress is E times the strain, and the force that on the whole width."""
     body = Box("BODY", "CPS4", (0, 0), (2, 1), (4, 2))
-    result = run(pressed(body, plate(), [step_of("1., 1.", DOWN.format(-STRAIN), options=options)], pair=pair))
+    result = run_deck(pressed(body, plate(), [step_of("1., 1.", DOWN.format(-STRAIN), options=options)], pair=pair))
     # the order of the strain, where it is not small
     near = 2 * STRAIN if options else 1e-9
     np.testing.assert_allclose(in_body(result, body, "S22"), -YOUNG * STRAIN, rtol=near)
@@ -70,27 +70,31 @@ def test_plate_on_a_block(run, pair, options):
 
 
 @pytest.mark.parametrize(("side", "backwards"), [("SNEG", True), ("SNEG", False), ("SPOS", True)])
-def test_sides(run, side, backwards):
+def test_sides(run_deck, side, backwards):
     """The positive normal is on the left of the way from node 1 to 2; the other side of the plate touches nothing."""
     body = Box("BODY", "CPS4", (0, 0), (2, 1), (4, 2))
-    result = run(pressed(body, plate(side, backwards=backwards), [step_of("1., 1.", DOWN.format(-STRAIN), options="")]))
+    result = run_deck(
+        pressed(body, plate(side, backwards=backwards), [step_of("1., 1.", DOWN.format(-STRAIN), options="")])
+    )
     touches = side == "SNEG" and backwards
     force = -YOUNG * STRAIN * 2 * THICKNESS if touches else 0.0
     assert total(result, "RF2", "REF")[-1] == pytest.approx(force, rel=1e-9, abs=1e-12)
 
 
 @pytest.mark.parametrize("pair", PAIRS)
-def test_plate_on_a_ring(run, pair):
+def test_plate_on_a_ring(run_deck, pair):
     """About the axis: the stress E strain on the whole circle."""
     body = Box("BODY", "CAX4", (0, 0), (2, 1), (4, 2))
-    result = run(pressed(body, plate(kind="RAX2"), [step_of("1., 1.", DOWN.format(-STRAIN), options="")], pair=pair))
+    result = run_deck(
+        pressed(body, plate(kind="RAX2"), [step_of("1., 1.", DOWN.format(-STRAIN), options="")], pair=pair)
+    )
     np.testing.assert_allclose(in_body(result, body, "S22"), -YOUNG * STRAIN, rtol=1e-9)
     assert total(result, "RF2", "REF")[-1] == pytest.approx(-YOUNG * STRAIN * np.pi * 2**2, rel=1e-9)
 
 
 @pytest.mark.parametrize("pair", PAIRS)
 @pytest.mark.parametrize("kind", ["R3D4", "R3D3"])
-def test_plate_on_a_cuboid(run, kind, pair):
+def test_plate_on_a_cuboid(run_deck, kind, pair):
     """Uniaxial stress; the plate's nodes are round it clockwise from above, so that SPOS looks down."""
     body = Box("BODY", "C3D8", (0, 0, 0), (2, 1, 1), (3, 2, 2))
     nodes = [[-1, -1, 1], [-1, 2, 1], [3, 2, 1], [3, -1, 1.0]]
@@ -98,7 +102,7 @@ def test_plate_on_a_cuboid(run, kind, pair):
     push = f"*BOUNDARY\nREF, 1, 2\nREF, 4, 6\nREF, 3, 3, {-STRAIN}"
     held = "BODY_BOTTOM, 3\nBODY_LEFT, 1\nBODY_FRONT, 2"
     tool = tool_of(kind, nodes, elements, "SPOS", "0., 0., 5.")
-    result = run(pressed(body, tool, [step_of("1., 1.", push, options="")], pair=pair, held=held))
+    result = run_deck(pressed(body, tool, [step_of("1., 1.", push, options="")], pair=pair, held=held))
     # surface to surface is exact in space only where faces match
     near = 1e-2 if "SURFACE" in pair else 1e-9
     np.testing.assert_allclose(in_body(result, body, "S33"), -YOUNG * STRAIN, rtol=near)
@@ -116,7 +120,7 @@ def polygon(count):
     return tool_of("R2D2", nodes, [[k, k + 1] for k in range(count)], "SNEG", "3., 3.")
 
 
-def test_roller(run):
+def test_roller(run_deck):
     """Pressed down and turned, it slips with a moment mu R times the normal forces, as an analytical surface does.
 
     The corners of a polygon stand out of the chord by 4e-6 of the radius.
@@ -135,7 +139,7 @@ def test_roller(run):
             interaction=f"*FRICTION\n{FRICTION},",
             held="BODY_BOTTOM, 1, 2\nBODY_RIGHT, 1",
         )
-        result = run(text)
+        result = run_deck(text)
         moment, pull, push = (total(result, name, "REF")[-1] for name in ("RM3", "RF1", "RF2"))
         pressure = result.field("CPRESS")[body.numbers[:, -1] - 1]
         normal = (pressure * np.gradient(ACROSS) * THICKNESS).sum()
@@ -169,9 +173,9 @@ def test_no_forces_in_averages(tmp_path):
         ("TOOL, SPOS", "TOOL, S1", r"elements of type R2D2 have no face S1 \(faces: SNEG, SPOS\)"),
     ],
 )
-def test_what_is_refused(run, old, new, message):
+def test_what_is_refused(run_deck, old, new, message):
     body = Box("BODY", "CPS4", (0, 0), (2, 1), (4, 2))
     text = pressed(body, plate(), [step_of("1., 1.", DOWN.format(-STRAIN))])
     assert old in text
     with pytest.raises(DeckError, match=rf"deck\.inp:\d+: .*{message}"):
-        run(text.replace(old, new))
+        run_deck(text.replace(old, new))

@@ -92,7 +92,7 @@ def at_top(result, body, name):
     return result.field(name)[[int(np.flatnonzero(numbers == number)[0]) for number in body.numbers[:, -1]]]
 
 
-def test_hertz_of_a_rigid_cylinder(run):
+def test_hertz_of_a_rigid_cylinder(run_deck):
     """Half-width b = sqrt(4 P R / (pi E*)), pressure 2 P / (pi b) sqrt(1 - x^2 / b^2).
 
     K. L. Johnson, Contact Mechanics (1985), section 4.2, with one body rigid. Faces have a length of 0.1.
@@ -103,7 +103,7 @@ def test_hertz_of_a_rigid_cylinder(run):
     profile = [f"START, {x!r}, {y!r}", f"CIRCL, {-x!r}, {y!r}, 0., {radius!r}"]
     push = ("1., 1.", "*BOUNDARY\nREF, 1\nREF, 6\nREF, 2, 2, -0.05")
     body, text = block_and(profile, [push], ACROSS)
-    result = run(text)
+    result = run_deck(text)
     force = -2 * total(result, "RF2", "REF")[-1] / THICKNESS
     half = np.sqrt(4 * force * radius / (np.pi * REDUCED))
     assert 0.7 < half < 1.3
@@ -115,7 +115,7 @@ def test_hertz_of_a_rigid_cylinder(run):
     np.testing.assert_allclose(pressure[inner], wanted, rtol=0.03)
 
 
-def test_flat_punch(run):
+def test_flat_punch(run_deck):
     """Without friction the pressure under a flat punch of half-width a is P / (pi sqrt(a^2 - x^2)).
 
     K. L. Johnson, Contact Mechanics (1985), section 2.8. Nodes at the edge have a singular pressure and are left out.
@@ -123,7 +123,7 @@ def test_flat_punch(run):
     half = 1.45
     push = ("1., 1.", "*BOUNDARY\nREF, 1\nREF, 6\nREF, 2, 2, -0.01")
     body, text = block_and([f"START, {half}, 0.", f"LINE, {-half}, 0."], [push], ACROSS)
-    result = run(text)
+    result = run_deck(text)
     force = -2 * total(result, "RF2", "REF")[-1] / THICKNESS
     pressure = at_top(result, body, "CPRESS")
     np.testing.assert_array_equal(pressure > 0, half > ACROSS)
@@ -132,7 +132,7 @@ def test_flat_punch(run):
     np.testing.assert_allclose(pressure[inner], wanted, rtol=0.05)
 
 
-def test_roller_turned_about_its_reference_node(run):
+def test_roller_turned_about_its_reference_node(run_deck):
     """A roller of radius 2 is pressed down and turned: it slips with a moment mu R times the sum of normal forces."""
     radius, friction = 2.0, 0.3
     across = np.linspace(0.0, 6.0, 25)
@@ -147,7 +147,7 @@ def test_roller_turned_about_its_reference_node(run):
         interaction=f"*FRICTION\n{friction},",
         held="*BOUNDARY\nBODY_BOTTOM, 1\nBODY_RIGHT, 1",
     )
-    result = run(text)
+    result = run_deck(text)
     normal = (at_top(result, body, "CPRESS") * np.gradient(across) * THICKNESS).sum()
     moment, pull, push = (total(result, name, "REF")[-1] for name in ("RM3", "RF1", "RF2"))
     assert normal > 10.0
@@ -157,18 +157,18 @@ def test_roller_turned_about_its_reference_node(run):
     assert pull == pytest.approx(-friction * normal, rel=0.05)
 
 
-def test_ring_on_a_rigid_plate(run):
+def test_ring_on_a_rigid_plate(run_deck):
     """About the axis: a cylinder under a rigid plate has the stress E strain, and presses with its whole area."""
     across = np.linspace(0.0, 2.0, 5)
     push = ("1., 1.", "*BOUNDARY\nREF, 1\nREF, 6\nREF, 2, 2, -0.002")
     _, text = block_and(["START, 3., 0.", "LINE, -1., 0."], [push], across, reference="0., 0.", element_type="CAX4")
-    result = run(text.replace("*STEP, NLGEOM", "*STEP"))
+    result = run_deck(text.replace("*STEP, NLGEOM", "*STEP"))
     assert total(result, "RF2", "REF")[-1] == pytest.approx(-YOUNG * 0.001 * np.pi * 2**2, rel=1e-9)
     np.testing.assert_allclose(result.field("S22"), -YOUNG * 0.001, rtol=1e-9)
 
 
 @pytest.mark.long
-def test_roller_that_is_free_to_turn(run):
+def test_roller_that_is_free_to_turn(run_deck):
     """Drawn along a held block with friction, it rolls: no moment, hardly a force, and it turns by way over radius.
 
     Nodes come into contact one after the other and stick; it turns with the chord of those in contact.
@@ -188,7 +188,7 @@ def test_roller_that_is_free_to_turn(run):
         interaction="*FRICTION\n0.5,",
         held="*BOUNDARY\nBODY_BOTTOM, 1\nBODY_RIGHT, 1",
     )
-    result = run(text.replace("BODY_BOTTOM, 1, 2\n", "BODY_BOTTOM, 1, 2\nBODY_LEFT, 1\n"))
+    result = run_deck(text.replace("BODY_BOTTOM, 1, 2\n", "BODY_BOTTOM, 1, 2\nBODY_LEFT, 1\n"))
     turn, pull, push = (total(result, name, "REF")[-1] for name in ("UR3", "RF1", "RF2"))
     assert push < -1.0
     assert turn == pytest.approx(-1.0 / radius, rel=0.02)

@@ -15,7 +15,6 @@ import numpy as np
 import pytest
 from shell_decks import ShellDeck
 
-import uel
 from uel.model.element_types import SHELL
 
 TYPES = tuple(SHELL)
@@ -28,21 +27,19 @@ def section(thickness, more=""):
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(deck, data, sets, *, user=None, step=STEP):
-        file = tmp_path / "shell.inp"
-        file.write_text(deck.text(step.format(data), sets))
-        return uel.run(file, user, output_dir=tmp_path)
+def run_shell(run_deck):
+    def run_shell(deck, data, sets, *, user=None, step=STEP):
+        return run_deck(deck.text(step.format(data), sets), user)
 
-    return run
+    return run_shell
 
 
 @pytest.fixture
-def deflection(run):
+def deflection(run_shell):
     """The largest magnitude of a displacement of set P at the end of a job."""
 
     def deflection(deck, data, sets, dof):
-        history = run(deck, data, sets).history
+        history = run_shell(deck, data, sets).history
         return max(abs(values[-1]) for name, values in history.items() if name.startswith(f"U{dof}[P"))
 
     return deflection
@@ -57,7 +54,7 @@ PATCH = {
 }
 
 
-def solve_patch(run, element_type, *, bending, skew=0.0, moved=PATCH, thickness=0.001):
+def solve_patch(run_shell, element_type, *, bending, skew=0.0, moved=PATCH, thickness=0.001):
     """Displacements inside, those of MacNeal and Harder there, and errors of stresses over the largest stress."""
     deck = ShellDeck(
         element_type,
@@ -79,7 +76,7 @@ def solve_patch(run, element_type, *, bending, skew=0.0, moved=PATCH, thickness=
     inner = [k for k in range(len(x)) if k not in edge]
     dofs = (1, 2, 3, 4, 5) if bending else (1, 2, 3, 4, 5, 6)
     data = "*BOUNDARY\n" + "\n".join(f"{k + 1}, {dof}, {dof}, {u[k, dof - 1]:.17g}" for k in edge for dof in dofs)
-    result = run(deck, data, {"P": [k + 1 for k in inner]})
+    result = run_shell(deck, data, {"P": [k + 1 for k in inner]})
     found = np.array([[result.history[f"U{i}[P:{k + 1}]"][-1] for i in (1, 2, 3)] for k in inner])
     top = 1000 * thickness * np.array([2 / 3, 2 / 3, 0.2]) if bending else np.array([4000 / 3, 4000 / 3, 400.0])
     stresses = [
@@ -92,21 +89,21 @@ def solve_patch(run, element_type, *, bending, skew=0.0, moved=PATCH, thickness=
 
 @pytest.mark.parametrize("element_type", TYPES)
 @pytest.mark.parametrize("bending", [False, True])
-def test_patch(run, element_type, bending):
+def test_patch(run_shell, element_type, bending):
     """The displacements of MacNeal and Harder at the edges give theirs inside, and their stresses everywhere.
 
     S8R bends exactly in parallelograms only: its functions have no square of the coordinates in other quadrilaterals.
     """
     other = {"skew": 0.07, "moved": {}} if bending and element_type == "S8R" else {}
-    found, expected, stresses = solve_patch(run, element_type, bending=bending, **other)
+    found, expected, stresses = solve_patch(run_shell, element_type, bending=bending, **other)
     np.testing.assert_allclose(found, expected, rtol=1e-7, atol=1e-14)
     np.testing.assert_allclose(stresses, 0, atol=1e-6)
 
 
 @pytest.mark.parametrize("thickness", [0.001, 0.02])
-def test_patch_that_eight_nodes_fail(run, thickness):
+def test_patch_that_eight_nodes_fail(run_shell, thickness):
     """What shells.md says of the patch of MacNeal and Harder in bending."""
-    found, expected, stresses = solve_patch(run, "S8R", bending=True, thickness=thickness)
+    found, expected, stresses = solve_patch(run_shell, "S8R", bending=True, thickness=thickness)
     page = (Path(__file__).parents[3] / "harness" / "uel" / "elements" / "families" / "shells.md").read_text()
     displacement, stress = re.search(rf"\| {thickness} \| ([\d.]+) % \| ([\d.]+) % \|", page).groups()
     assert 100 * abs(found - expected).max() / abs(expected).max() == pytest.approx(float(displacement), abs=0.06)
@@ -253,7 +250,7 @@ def test_obstacle_course_on_a_fine_mesh(deflection, element_type, problem, exact
     assert {"S4": 0.985, "S3": 0.96}[element_type] < found < 1.01
 
 
-def test_lamina_of_a_public_job_of_abaqus(run):
+def test_lamina_of_a_public_job_of_abaqus(run_shell):
     """A square of S4, one lamina at 30 degrees, is pulled.
 
     The figures are those of "2 UMAT planestress orthotropic/ABAQUS.msg" of SaschaGolod/SomeBasicV-UMAT on GitHub.
@@ -262,7 +259,7 @@ def test_lamina_of_a_public_job_of_abaqus(run):
     layer = "*SHELL SECTION, ELSET=SHELL, COMPOSITE\n0.1, 3, M, 30.\n*TRANSVERSE SHEAR STIFFNESS\n5100., 5100., 0."
     deck = ShellDeck("S4", 25, 25, lambda a, b: (50 * a, 50 * b, 0.0), layer, lamina)
     sets = {"P": [676], "FIX": deck.side(i=0), "END": deck.side(i=25)}
-    result = run(deck, "*BOUNDARY\nFIX, 1, 6\nEND, 1, 1, 5.", sets)
+    result = run_shell(deck, "*BOUNDARY\nFIX, 1, 6\nEND, 1, 1, 5.", sets)
     text = result.file(".msg").read_text()
     assert float(re.search(r"AVERAGE FORCE +(\S+)", text)[1]) == pytest.approx(99.2, rel=2e-3)
     assert result.history["U2[P]"][-1] == pytest.approx(-7.52, abs=0.005)
@@ -271,7 +268,7 @@ def test_lamina_of_a_public_job_of_abaqus(run):
 
 
 @pytest.mark.parametrize("element_type", TYPES)
-def test_loads(run, element_type):
+def test_loads(run_shell, element_type):
     """Reactions of a clamped, tilted plate: pressure along its normal, both surfaces, body force and gravity."""
     normal = np.cross([2, 0, 1], [0, 3, 0])
     area, unit = np.linalg.norm(normal), normal / np.linalg.norm(normal)
@@ -302,14 +299,14 @@ def test_loads(run, element_type):
         "*DLOAD\nFIRST, EDLD1, 7., 3., 0., 4.": 7 * length * np.array([0.6, 0, 0.8]),
     }
     for data, force in cases.items():
-        history = run(deck, f"*BOUNDARY\nP, 1, 6\n{data}", {"P": deck.side(i=0)}).history
+        history = run_shell(deck, f"*BOUNDARY\nP, 1, 6\n{data}", {"P": deck.side(i=0)}).history
         found = [sum(v[-1] for k, v in history.items() if k.startswith(f"RF{i}[P")) for i in (1, 2, 3)]
         np.testing.assert_allclose(found, -force, atol=1e-9)
 
 
 @pytest.mark.parametrize("element_type", TYPES)
 @pytest.mark.parametrize(("face", "kind"), [("E1", "KINEMATIC"), ("SPOS", "DISTRIBUTING")])
-def test_coupling_to_a_surface(run, element_type, face, kind):
+def test_coupling_to_a_surface(run_shell, element_type, face, kind):
     """An edge, or the whole shell, follows the rotation of a node: a rigid motion, without reaction."""
     deck = ShellDeck(element_type, 2, 1, lambda a, b: (a, b, 0.2 * a), section(0.1), ISOTROPIC.format(1000.0, 0.3))
     deck.before = (
@@ -320,13 +317,13 @@ def test_coupling_to_a_surface(run, element_type, face, kind):
     lines = [f"REF, {i}, {i}, {value!r}" for i, value in zip((4, 5, 6), turn.tolist(), strict=True)]
     expected = np.cross(turn, deck.coordinates - [0.3, 0.1, 0.5])
     nodes = range(1, len(expected) + 1)
-    history = run(deck, "\n".join(["*BOUNDARY", "REF, 1, 3", *lines]), {"P": nodes}).history
+    history = run_shell(deck, "\n".join(["*BOUNDARY", "REF, 1, 3", *lines]), {"P": nodes}).history
     found = np.array([[history[f"U{i}[P:{k}]"][-1] for i in (1, 2, 3)] for k in nodes])
     np.testing.assert_allclose(found, expected, atol=1e-9)
 
 
 @pytest.mark.parametrize("element_type", TYPES)
-def test_vibration_of_a_supported_plate(run, element_type):
+def test_vibration_of_a_supported_plate(run_shell, element_type):
     """omega = 2 pi^2/a^2 sqrt(D/(rho t)) (S. Timoshenko, Vibration Problems in Engineering, 1937, section 70)."""
     n = 12
     deck = ShellDeck(
@@ -334,7 +331,7 @@ def test_vibration_of_a_supported_plate(run, element_type):
     )
     sets = {"X": deck.side(i=0) + deck.side(i=n), "Y": deck.side(j=0) + deck.side(j=n)}
     step = "*STEP\n*FREQUENCY\n1\n*BOUNDARY\nX, 1, 4\nX, 6\nY, 1, 3\nY, 5, 6\n*END STEP"
-    found = run(deck, "", sets, step=step).history["EIGFREQ"][-1]
+    found = run_shell(deck, "", sets, step=step).history["EIGFREQ"][-1]
     stiffness = 1000 * 0.1**3 / 12 / (1 - 0.3**2)
     exact = np.pi / 100 * np.sqrt(stiffness / 0.4)
     # triangles of a regular mesh are stiffer than squares
@@ -374,17 +371,11 @@ UMAT = """\
 """
 
 
-@pytest.fixture
-def user(tmp_path):
-    file = tmp_path / "material.f"
-    file.write_text(UMAT.format(here=Path(__file__).parents[1]))
-    return file
-
-
 @pytest.mark.parametrize("element_type", ["S4", "S4R", "S3", "S8R"])
-def test_umat(run, user, element_type):
+def test_umat(run_shell, element_type):
     """Its arguments at each section point; a laminate of it does what elastic layers do."""
     layers = "\n*SHELL SECTION, ELSET=SHELL, COMPOSITE\n0.2, 3, M, 30.\n0.4, 5, M, -10."
+    user = UMAT.format(here=Path(__file__).parents[1])
     given = {
         "elastic": ("*ELASTIC\n1000., 0.3", ""),
         "user": (
@@ -398,7 +389,7 @@ def test_umat(run, user, element_type):
         deck = ShellDeck(element_type, 1, 1, lambda a, b: (2 * a, b, 0.0), layers.strip() + more, material)
         data = "*BOUNDARY\nFIX, 1, 6\n*CLOAD\nP, 3, 0.01\nP, 1, 0.1"
         sets = {"P": deck.side(i=1), "FIX": deck.side(i=0)}
-        found[name] = run(deck, data, sets, user=user if name == "user" else None)
+        found[name] = run_shell(deck, data, sets, user=user if name == "user" else None)
     # the enhanced and hourglass modes of UMAT are those of a Poisson's ratio of zero
     for dof in (1, 3):
         one, other = (found[name].history[f"U{dof}[P:2]"][-1] for name in ("user", "elastic"))
@@ -420,12 +411,12 @@ def test_umat(run, user, element_type):
     np.testing.assert_allclose(places, middle, rtol=1e-12)
 
 
-def test_print(run):
+def test_print(run_shell):
     """*EL PRINT: stresses at the first and last section point, section forces once for each point."""
     deck = ShellDeck("S4R", 1, 1, lambda a, b: (a, b, 0.0), section(0.5), ISOTROPIC.format(100.0, 0.0))
     step = STEP.replace("*OUTPUT, FIELD", "*EL PRINT\nS, SF\n*OUTPUT, FIELD")
     data = "*BOUNDARY\nFIX, 1, 6\nEND, 1, 1, 0.01\nEND, 2, 4\nEND, 5, 5, 0.02\nEND, 6"
-    result = run(deck, data, {"P": [1], "END": deck.side(i=1), "FIX": deck.side(i=0)}, step=step)
+    result = run_shell(deck, data, {"P": [1], "END": deck.side(i=1), "FIX": deck.side(i=0)}, step=step)
     lines = [line.split() for line in result.file(".dat").read_text().splitlines()]
     rows = [line for line in lines if line[:2] == ["1", "1"]]
     assert ["ELEMENT", "PT", "SEC", "FOOT-", "S11", "S22", "S12"] in lines

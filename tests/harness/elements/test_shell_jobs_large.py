@@ -14,7 +14,6 @@ from scipy.integrate import solve_bvp
 from shell_decks import ShellDeck
 from test_shell_jobs import UMAT
 
-import uel
 from uel.model.element_types import SHELL
 
 TYPES = tuple(SHELL)
@@ -38,13 +37,11 @@ def section(thickness):
 
 
 @pytest.fixture
-def ends(tmp_path):
+def ends(run_deck):
     """Displacements (and reactions) of set P at the end of a job, by name."""
 
     def ends(deck, data, sets, *, first=0.1):
-        file = tmp_path / "shell.inp"
-        file.write_text(deck.text(STEP.format(first=first, data=data), sets))
-        result = uel.run(file, output_dir=tmp_path)
+        result = run_deck(deck.text(STEP.format(first=first, data=data), sets))
         assert result.completed
         return {name: values[-1] for name, values in result.history.items()}
 
@@ -143,17 +140,14 @@ def test_pressure_turns_with_the_shell(ends, element_type, load):
 
 
 @pytest.mark.parametrize("element_type", ["S4", "S4R"])
-def test_umat(tmp_path, element_type):
+def test_umat(run_deck, element_type):
     """A strip that stands up: COORDS are where the section points are now, and what turns with the element does not."""
-    user = tmp_path / "material.f"
-    user.write_text(UMAT.format(here=Path(__file__).parents[1]))
+    user = UMAT.format(here=Path(__file__).parents[1])
     more = "\n*TRANSVERSE SHEAR STIFFNESS\n32., 32.\n*HOURGLASS STIFFNESS\n2."
     material = "*USER MATERIAL, CONSTANTS=2\n1000., 0.3\n*DEPVAR\n13"
     deck = ShellDeck(element_type, 1, 1, lambda a, b: (2 * a, b, 0.0), section(0.1) + more, material)
     data = f"*BOUNDARY\nFIX, 1, 4\nFIX, 6\nFIX, 5, 5, {-np.pi / 2!r}"
-    file = tmp_path / "shell.inp"
-    file.write_text(deck.text(STEP.format(first=0.1, data=data), {"P": [1], "FIX": deck.side(i=0)}))
-    result = uel.run(file, user, output_dir=tmp_path)
+    result = run_deck(deck.text(STEP.format(first=0.1, data=data), {"P": [1], "FIX": deck.side(i=0)}), user)
     # the middle, and half of the thickness along the normal, which was 3 and is -1 now; traces of DROT and DFGRD1
     expected = {8: -0.05, 9: 0.5, 10: 1.0, 12: 3.0, 13: 3.0}
     for k, value in expected.items():
@@ -225,7 +219,7 @@ HELD = "*BOUNDARY\nALL, 6\nX, 3\nX, 5\nY, 3\nY, 4\nCORNER, 1, 2\nSIDE, 2"
 @pytest.mark.sample(3)
 @pytest.mark.parametrize(("element_type", "error"), [("S4", 0.01), ("S4R", 0.01), ("S3", 0.06), ("S8R", 0.01)])
 @pytest.mark.parametrize("base", [0.0, 0.6])
-def test_buckling_of_a_supported_plate(tmp_path, element_type, error, base):
+def test_buckling_of_a_supported_plate(run_deck, element_type, error, base):
     """4 pi^2 D/b^2 along one side (S.P. Timoshenko, Theory of Elastic Stability, plates); a preload counts."""
     n, side, thickness = 16, 10.0, 0.1
     deck = ShellDeck(
@@ -242,7 +236,5 @@ def test_buckling_of_a_supported_plate(tmp_path, element_type, error, base):
     step = f"*STEP\n*BUCKLE\n1\n{HELD}\n{loads(1.0)}\n*END STEP"
     if base:
         step = f"*STEP\n*STATIC\n1., 1.\n{HELD}\n{loads(base * critical)}\n*END STEP\n" + step.replace(f"{HELD}\n", "")
-    file = tmp_path / "plate.inp"
-    file.write_text(deck.text(step, sets))
-    factor = uel.run(file, output_dir=tmp_path).history["EIGVAL"][-1]
+    factor = run_deck(deck.text(step, sets)).history["EIGVAL"][-1]
     assert factor == pytest.approx((1 - base) * critical, abs=error * critical)

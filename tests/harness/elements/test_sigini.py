@@ -8,7 +8,6 @@ from itertools import pairwise, product
 import numpy as np
 import pytest
 
-import uel
 from uel.errors import DeckError, KernelError
 
 HEIGHTS, WEIGHT, AT_REST = (0.0, 1.0, 2.5, 4.0), 20.0, 0.4
@@ -81,22 +80,11 @@ def deck(type, *, material=ELASTIC, conditions="", more="", step="", static="1.,
     return "\n".join([line for line in lines if line] + ["*ELEMENT OUTPUT", "S", "*END STEP", ""])
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text, user=BY_WEIGHT):
-        (tmp_path / "soil.inp").write_text(text)
-        if user:
-            (tmp_path / "user.f").write_text(user)
-        return uel.run(tmp_path / "soil.inp", tmp_path / "user.f" if user else None, output_dir=tmp_path)
-
-    return run
-
-
 @pytest.mark.parametrize("conditions", ["", ", UNBALANCED STRESS=STEP"])
 @pytest.mark.parametrize("type", TYPES)
-def test_the_stress_of_its_weight_keeps_soil_at_rest(run, type, conditions):
+def test_the_stress_of_its_weight_keeps_soil_at_rest(run_deck, type, conditions):
     """S22 = -w (H - y) is in equilibrium with the body force, whatever the lateral stress between fixed sides."""
-    result = run(deck(type, conditions=conditions))
+    result = run_deck(deck(type, conditions=conditions), BY_WEIGHT)
     settled = WEIGHT * HEIGHTS[-1] ** 2 / (2 * 1200.0)  # without initial stress: E (1 - nu)/((1 + nu)(1 - 2 nu)) = 1200
     moved = [values[-1] for name, values in result.history.items() if name.startswith("U2")]
     np.testing.assert_allclose(moved, 0.0, atol=1e-9 * settled)
@@ -106,8 +94,8 @@ def test_the_stress_of_its_weight_keeps_soil_at_rest(run, type, conditions):
         assert stress == pytest.approx([AT_REST * vertical, vertical, AT_REST * vertical], rel=1e-9)
 
 
-def test_umat_begins_with_the_stress(run):
-    result = run(deck("C3D8", material="*USER MATERIAL, CONSTANTS=0"), SIGINI.format(GEOSTATIC) + UMAT)
+def test_umat_begins_with_the_stress(run_deck):
+    result = run_deck(deck("C3D8", material="*USER MATERIAL, CONSTANTS=0"), SIGINI.format(GEOSTATIC) + UMAT)
     moved = [values[-1] for name, values in result.history.items() if name.startswith("U2")]
     np.testing.assert_allclose(moved, 0.0, atol=1e-10)
 
@@ -116,7 +104,7 @@ def test_umat_begins_with_the_stress(run):
     "step", [", NLGEOM\n*STATIC\n1., 1.", "\n*STATIC\n1., 1.", "\n*DYNAMIC\n1., 1.", ", PERTURBATION\n*STATIC"]
 )
 @pytest.mark.parametrize("type", ["CPS4", "CPE4R", "C3D8"])
-def test_arguments_of_sigini(run, tmp_path, type, step):
+def test_arguments_of_sigini(run_deck, tmp_path, type, step):
     """Each argument at each point, once, before the first step, after UEXTERNALDB has begun the analysis."""
     body = """      WRITE(6,'(A,7I4,2(A,1X),9F10.5)') 'SIGINI ', NTENS, NCRDS, NOEL,
      1 NPT, LAYER, KSPT, LREBAR, ' '//TRIM(NAMES(2)), '<'//
@@ -129,8 +117,8 @@ def test_arguments_of_sigini(run, tmp_path, type, step):
 """
     text = deck(type, material=f"{ELASTIC}\n*DENSITY\n1.")
     text = re.sub(r"\*STEP\n\*STATIC\n1., 1.", f"*STEP{step}", text)
-    run(text, SIGINI.format(body) + database)
-    dat = (tmp_path / "soil.dat").read_text().splitlines()
+    run_deck(text, SIGINI.format(body) + database)
+    dat = (tmp_path / "deck.dat").read_text().splitlines()
     printed = [line.split()[1:] for line in dat if line.lstrip().startswith("SIGINI ")]
     assert printed[0] == ["after", "0"]
     points = {"CPS4": 4, "CPE4R": 1, "C3D8": 8}[type]
@@ -147,15 +135,15 @@ def test_arguments_of_sigini(run, tmp_path, type, step):
         assert [float(number) for number in call[9:]] == pytest.approx([*coords, *[0.0] * tensor], abs=1e-5)
 
 
-def test_elements_without_material_points_are_passed_over(run):
+def test_elements_without_material_points_are_passed_over(run_deck):
     """Springs, masses and user elements have no stress; only the soil asks."""
     more = "*ELEMENT, TYPE=MASS, ELSET=M\n90, 1\n*MASS, ELSET=M\n1.\n*ELEMENT, TYPE=SPRING1, ELSET=K\n91, 1\n"
-    result = run(deck("CPE4", more=more + "*SPRING, ELSET=K\n2\n1."))
+    result = run_deck(deck("CPE4", more=more + "*SPRING, ELSET=K\n2\n1."), BY_WEIGHT)
     assert result.completed
 
 
-def test_sigini_writes_outside_sigma(run):
-    result = run(deck("CPE4"), SIGINI.format(GEOSTATIC + "\n      SIGMA(5) = 1"))
+def test_sigini_writes_outside_sigma(run_deck):
+    result = run_deck(deck("CPE4"), SIGINI.format(GEOSTATIC + "\n      SIGMA(5) = 1"))
     message = "element 1: SIGINI writes outside SIGMA: entry 5 of 4 (NTENS) at integration point 1; the run goes on"
     assert any(message in warning for warning in result.warnings)
 
@@ -167,24 +155,24 @@ def test_sigini_writes_outside_sigma(run):
         ("S4, ELSET=T\n90, 1, 2, 3, 4", "*SHELL SECTION, ELSET=T, MATERIAL=SOIL\n1.", "S4"),
     ],
 )
-def test_elements_whose_stress_cannot_be_set_are_refused(run, elements, section, message):
+def test_elements_whose_stress_cannot_be_set_are_refused(run_deck, elements, section, message):
     more = f"*ELEMENT, TYPE={elements}\n{section}"
-    with pytest.raises(DeckError, match=rf"soil\.inp:\d+: .*TYPE=STRESS, USER: elements of type {message} do not take"):
-        run(deck("CPE4", more=more))
+    with pytest.raises(DeckError, match=rf"deck\.inp:\d+: .*TYPE=STRESS, USER: elements of type {message} do not take"):
+        run_deck(deck("CPE4", more=more), BY_WEIGHT)
 
 
-def test_a_job_without_sigini(run):
+def test_a_job_without_sigini(run_deck):
     with pytest.raises(
-        DeckError, match=r"soil\.inp:\d+: .*TYPE=STRESS, USER needs SIGINI, which the job does not have"
+        DeckError, match=r"deck\.inp:\d+: .*TYPE=STRESS, USER needs SIGINI, which the job does not have"
     ):
-        run(deck("CPE4"), "")
+        run_deck(deck("CPE4"))
 
 
-def test_data_lines_beside_sigini(run):
-    with pytest.raises(DeckError, match=r"soil\.inp:\d+: .*USER: SIGINI gives the stresses; expected no data lines"):
-        run(deck("CPE4", more="SOIL, 1."))
+def test_data_lines_beside_sigini(run_deck):
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: .*USER: SIGINI gives the stresses; expected no data lines"):
+        run_deck(deck("CPE4", more="SOIL, 1."), BY_WEIGHT)
 
 
-def test_sigini_may_end_the_analysis(run):
+def test_sigini_may_end_the_analysis(run_deck):
     with pytest.raises(KernelError, match=r"element 2 \(type CPE4\): SIGINI at integration point 3 stopped"):
-        run(deck("CPE4"), SIGINI.format("      IF (NOEL .EQ. 2 .AND. NPT .EQ. 3) CALL XIT"))
+        run_deck(deck("CPE4"), SIGINI.format("      IF (NOEL .EQ. 2 .AND. NPT .EQ. 3) CALL XIT"))

@@ -9,8 +9,6 @@ import numpy as np
 import pytest
 from small_decks import body_lines
 
-import uel
-
 HERE = Path(__file__).parent
 CUBE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
 HELD = ["1, 1, 3", "4, 1", "5, 1", "8, 1", "2, 2", "5, 2", "6, 2", "2, 3", "3, 3", "4, 3"]
@@ -23,7 +21,7 @@ PRINTED = ("LARGEST RESIDUAL", "AVERAGE")
 AVERAGES = [4.117e-4, 3.502e-4, 3.331e-4, 3.171e-4, 3.149e-4, 3.145e-4, 6.288e-4]
 
 
-def test_matrix_is_the_half_sum_with_the_transpose(tmp_path):
+def test_matrix_is_the_half_sum_with_the_transpose(run_deck, tmp_path):
     """DDSDDE has its upper triangle alone. The Abaqus User Subroutines Guide, UMAT, has the half sum: by it the
     residual shrinks by 0.28 in each iteration, by the mirrored triangle it would by 0.41, by the diagonal at once."""
     source = tmp_path / "upper.f"
@@ -43,9 +41,8 @@ def test_matrix_is_the_half_sum_with_the_transpose(tmp_path):
     lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M, CONTROLS=C", "", "*SECTION CONTROLS, NAME=C, HOURGLASS=ENHANCED"]
     lines += ["*MATERIAL, NAME=M", "*USER MATERIAL, CONSTANTS=2", "47000., 0.35", "*STEP, NLGEOM"]
     lines += ["*STATIC", "1e-6, 2e-6, 1e-6, 1e-6", "*BOUNDARY", *HELD, *PULLED, "*END STEP"]
-    (tmp_path / "upper.inp").write_text("\n".join(lines) + "\n")
-    uel.run(tmp_path / "upper.inp", user=source, output_dir=tmp_path)
-    text = (tmp_path / "upper.msg").read_text()
+    run_deck(lines, user=source)
+    text = (tmp_path / "deck.msg").read_text()
     found = {what: list(map(float, re.findall(rf"^ {what} FORCE +(\S+)", text, re.MULTILINE))) for what in PRINTED}
     # the last digit that is printed
     assert found["LARGEST RESIDUAL"] == pytest.approx(RESIDUALS, rel=3e-4)

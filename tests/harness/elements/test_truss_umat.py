@@ -8,20 +8,8 @@ import numpy as np
 import pytest
 from truss_decks import LENGTH, PULL, truss
 
-import uel
-
 HERE = Path(__file__).parents[1]
 FIELD = "*OUTPUT, FIELD\n*ELEMENT OUTPUT\nE, S, SDV\n*END STEP\n"
-
-
-@pytest.fixture
-def run(tmp_path):
-    def run(text, user):
-        (tmp_path / "job.inp").write_text(text)
-        (tmp_path / "user.f").write_text(user)
-        return uel.run(tmp_path / "job.inp", tmp_path / "user.f", output_dir=tmp_path)
-
-    return run
 
 
 UMAT = f"""      INCLUDE '{HERE / "umat.inc"}'
@@ -46,12 +34,12 @@ HISTORY = "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nU, RF\n*ENERGY OUTPUT\n*END
         "*STEP, NLGEOM\n*VISCO\n0.25, 1.",
     ],
 )
-def test_elasticity_of_umat_in_trusses(run, element_type, step):
+def test_elasticity_of_umat_in_trusses(run_deck, element_type, step):
     """Forces, energies and iterations of *ELASTIC."""
     load = "\n*CLOAD\n2, 1, 100.\n" if "RIKS" in step else f"\n{PULL}\n"
     results = []
     for material in (USER + "1", "*ELASTIC\n1000., 0.5\n*DENSITY\n1e-3"):
-        results.append(run(truss(element_type, material) + step + load + HISTORY, UMAT.replace("%s", "")))
+        results.append(run_deck(truss(element_type, material) + step + load + HISTORY, UMAT.replace("%s", "")))
     found, expected = results
     assert max(map(abs, expected.history["RF2[ALL:2]"])) > 10
     for name, values in expected.history.items():
@@ -61,7 +49,7 @@ def test_elasticity_of_umat_in_trusses(run, element_type, step):
 
 @pytest.mark.parametrize("options", ["", ", NLGEOM"])
 @pytest.mark.parametrize("element_type", ["T2D2", "T3D2"])
-def test_arguments_of_umat_in_trusses(run, element_type, options):
+def test_arguments_of_umat_in_trusses(run_deck, element_type, options):
     """In the second increment: NDI = 1, NSHR = 0; strains are those along the bar, logarithmic with NLGEOM. Deformation
     gradients are those of solids, membranes and shells (User Subroutines Guide, Deformation gradient): here one."""
     ends = [np.hypot(3 + u, 4) for u in (0.3, 0.6)]
@@ -87,7 +75,7 @@ def test_arguments_of_umat_in_trusses(run, element_type, options):
     data = f"{PULL}\n*TEMPERATURE\nALL, 30.\n*FIELD\nALL, 4."
     text = truss(element_type, f"{USER}{len(expressions)}\n{initial}")
     text += f"*STEP{options}\n*STATIC, DIRECT\n0.5, 1.\n{data}\n{FIELD}"
-    found = run(text, UMAT.replace("%s", body))
+    found = run_deck(text, UMAT.replace("%s", body))
     for k, (expression, value) in enumerate(expressions.items(), 1):
         assert found.field(f"SDV{k}") == pytest.approx(value, rel=1e-5), expression
 
@@ -111,14 +99,14 @@ PLASTIC = f"""      INCLUDE '{HERE / "umat.inc"}'
 
 @pytest.mark.parametrize("options", ["", ", NLGEOM"])
 @pytest.mark.parametrize("element_type", ["T2D2", "T3D2"])
-def test_plasticity_of_umat_in_trusses(run, element_type, options):
+def test_plasticity_of_umat_in_trusses(run_deck, element_type, options):
     """Forces, strain energy and iterations of *PLASTIC with the same line: a load that goes and comes."""
     user = "*USER MATERIAL, CONSTANTS=3\n1000., 10., 100.\n*DEPVAR\n1"
     step = f"*AMPLITUDE, NAME=BACK\n0., 0., 0.5, 1., 1., -1.\n*STEP{options}\n*STATIC\n0.1, 1., 1e-5, 0.1\n"
     step += "*BOUNDARY, AMPLITUDE=BACK\n2, 1, 1, 0.6\n"
     results = []
     for material in (user, "*ELASTIC\n1000., 0.5\n*PLASTIC\n10., 0.\n110., 1."):
-        results.append(run(truss(element_type, material) + step + HISTORY, PLASTIC))
+        results.append(run_deck(truss(element_type, material) + step + HISTORY, PLASTIC))
     found, expected = results
     assert max(expected.history["ALLPD"]) > 0
     for name in ("RF1[ALL:2]", "RF2[ALL:2]", "ALLSE"):
@@ -126,7 +114,7 @@ def test_plasticity_of_umat_in_trusses(run, element_type, options):
     assert [row.total_iterations for row in found.status] == [row.total_iterations for row in expected.status]
 
 
-def test_buckling_under_the_stress_of_umat(run):
+def test_buckling_under_the_stress_of_umat(run_deck):
     """A bar on a spring across its end turns about its foot at P = k L."""
     text = """*NODE, NSET=ALL
 1, 0., 0.
@@ -152,5 +140,5 @@ def test_buckling_under_the_stress_of_umat(run):
 2, 1, -1.
 *END STEP
 """
-    found = run(text, UMAT.replace("%s", ""))
+    found = run_deck(text, UMAT.replace("%s", ""))
     assert found.history["EIGVAL"] == pytest.approx([7.0 * LENGTH])

@@ -11,7 +11,6 @@ from moving_element import turn
 from reference_cells import unit_cell
 from small_decks import body_lines
 
-import uel
 from uel.elements import Flags
 from uel.errors import DeckError, KernelError, Source
 from uel.model.element_types import COUPLED
@@ -69,24 +68,13 @@ def pulled(element_type):
     return "\n".join([*lines, *(f"{k}, 1, 1, {0.04 + 0.005 * k}" for k in right), "2, 2, 2, 0.02"])
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text, user=LINEAR):
-        (tmp_path / "hard.inp").write_text(text)
-        if user:
-            (tmp_path / "uhard.f").write_text(user)
-        return uel.run(tmp_path / "hard.inp", tmp_path / "uhard.f" if user else None, output_dir=tmp_path)
-
-    return run
-
-
 @pytest.mark.sample(3)
 @pytest.mark.parametrize("step", ["", ", NLGEOM"])
 @pytest.mark.parametrize("element_type", CELLS)
-def test_a_line_of_uhard_is_a_line_of_the_table(run, element_type, step):
+def test_a_line_of_uhard_is_a_line_of_the_table(run_deck, element_type, step):
     """The same forces, energies and iterations: CPS4 has a return of its own for tables."""
-    found = run(deck(element_type, BY_USER, step=step, held=pulled(element_type)))
-    expected = run(deck(element_type, TABLE, step=step, held=pulled(element_type)), "")
+    found = run_deck(deck(element_type, BY_USER, step=step, held=pulled(element_type)), LINEAR)
+    expected = run_deck(deck(element_type, TABLE, step=step, held=pulled(element_type)))
     assert max(expected.history["ALLPD"]) > 0.0
     largest = max(abs(np.array(values)).max() for name, values in expected.history.items() if name.startswith("RF"))
     for name, values in expected.history.items():
@@ -99,7 +87,7 @@ BAR = "*BOUNDARY\n1, 1, 3\n4, 1\n5, 1\n8, 1\n2, 2, 3\n4, 3\n3, 3\n{}"
 
 
 @pytest.mark.parametrize("procedure", ["*STATIC\n0.2, 1., 0.2, 0.2", "*VISCO\n0.2, 1., 0.2, 0.2"])
-def test_a_yield_stress_that_depends_on_the_rate(run, procedure):
+def test_a_yield_stress_that_depends_on_the_rate(run_deck, procedure):
     """A bar at a constant rate: E (e - p) = s + h p + n dp/dt, by backward Euler in each increment."""
     straight = np.array([[x, y, z] for z in (0.0, 1.0) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))])
     CELLS["bar"] = straight
@@ -107,7 +95,7 @@ def test_a_yield_stress_that_depends_on_the_rate(run, procedure):
     by_user = BY_USER.replace(" 0.", f" {VISCOSITY}")
     text = deck("bar", by_user, procedure=procedure, held=BAR.format(ends)).replace("TYPE=bar", "TYPE=C3D8")
     del CELLS["bar"]
-    result = run(text)
+    result = run_deck(text, LINEAR)
     force = sum(np.array(result.history[f"RF1[ALL:{k}]"]) for k in (2, 3, 6, 7))
     plastic, step = 0.0, 0.2
     for k, value in enumerate(force):
@@ -136,7 +124,7 @@ COUPLED_STEP = "*COUPLED TEMPERATURE-DISPLACEMENT{}\n0.5, 1., 0.5, 0.5"
     ],
 )
 @pytest.mark.parametrize("element_type", ["C3D8R", "CPS3"])
-def test_arguments_of_uhard(run, tmp_path, element_type, step, procedure):
+def test_arguments_of_uhard(run_deck, tmp_path, element_type, step, procedure):
     """The first call of the second increment of a step has the values at its start, at the plastic strain before it."""
     if "COUPLED" in procedure:
         element_type += "T"
@@ -166,8 +154,8 @@ def test_arguments_of_uhard(run, tmp_path, element_type, step, procedure):
         load=load,
         held=held,
     )
-    run(text, UHARD.format(body))
-    dat = (tmp_path / "hard.dat").read_text().splitlines()
+    run_deck(text, UHARD.format(body))
+    dat = (tmp_path / "deck.dat").read_text().splitlines()
     printed = [line.split()[1:] for line in dat if line.lstrip().startswith("UHARD ")]
     first, second, third = printed[:3]
     assert first == ["1", "1", "1", "1", "1", "2", "2", "1", "STUFF"]
@@ -193,7 +181,7 @@ def test_arguments_of_uhard(run, tmp_path, element_type, step, procedure):
     assert (rows[:, 2] == calls).all()
 
 
-def test_a_yield_stress_that_falls_with_the_temperature(run):
+def test_a_yield_stress_that_falls_with_the_temperature(run_deck):
     """A bar that is warmed while it is pulled: E (e - p) = s + h p - a T, at the end of each increment."""
     straight = np.array([[x, y, z] for z in (0.0, 1.0) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))])
     ends = "".join(f"{k}, 1, 1, 0.02\n" for k in (2, 3, 6, 7)) + "ALL, 11, 11, 50.\n"
@@ -202,7 +190,7 @@ def test_a_yield_stress_that_falls_with_the_temperature(run):
     text = text.replace(
         "\n".join(body_lines("C3D8T", CUBE, [range(8)])), "\n".join(body_lines("C3D8T", straight, [range(8)]))
     )
-    result = run(text, WARM)
+    result = run_deck(text, WARM)
     force = sum(np.array(result.history[f"RF1[ALL:{k}]"]) for k in (2, 3, 6, 7))
     plastic = 0.0
     for k, value in enumerate(force, start=1):
@@ -271,26 +259,27 @@ def test_an_increment_begins_elastically_after_one_with_plastic_strain(solid_gro
         np.testing.assert_allclose(tangent(u, still), elastic, atol=1e-9 * abs(elastic).max())
 
 
-def test_stresses_above_the_static_yield_stress_do_not_relax_in_no_time(run):
+def test_stresses_above_the_static_yield_stress_do_not_relax_in_no_time(run_deck):
     """The call for initial accelerations of the second step leaves them, as its very short increment does."""
     first = deck("C3D8", BY_USER.replace(" 0.", f" {VISCOSITY}"), held=pulled("C3D8"))
-    result = run(
+    result = run_deck(
         first
-        + "*STEP\n*DYNAMIC, DIRECT, NOHAF\n1.e-9, 1.e-9\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nRF\n*END STEP\n"
+        + "*STEP\n*DYNAMIC, DIRECT, NOHAF\n1.e-9, 1.e-9\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nRF\n*END STEP\n",
+        LINEAR,
     )
     force = np.array([result.history[f"RF1[ALL:{k}]"][-2:] for k in (1, 4, 5, 8)])
     np.testing.assert_allclose(force[:, 1], force[:, 0], rtol=1e-6)
 
 
-def test_state_variables_of_each_increment(run):
+def test_state_variables_of_each_increment(run_deck):
     """Each call gets STATEV of the start of the increment; those of the last one stay."""
     text = deck("CPE4", BY_USER, more="*DEPVAR\n1")
-    result = run(text, UHARD.format(LINES + "\n      STATEV(1) = STATEV(1) + 1"))
+    result = run_deck(text, UHARD.format(LINES + "\n      STATEV(1) = STATEV(1) + 1"))
     np.testing.assert_array_equal(result.field("SDV1"), 4.0)
 
 
-def test_uhard_writes_outside_hard(run):
-    result = run(deck("CPE4", BY_USER), UHARD.format(LINES + "\n      HARD(4) = 1"))
+def test_uhard_writes_outside_hard(run_deck):
+    result = run_deck(deck("CPE4", BY_USER), UHARD.format(LINES + "\n      HARD(4) = 1"))
     message = "element 1: UHARD writes outside HARD: entry 4 of 3 (3) at integration point 1; the run goes on"
     assert any(message in warning for warning in result.warnings)
 
@@ -307,9 +296,9 @@ def test_uhard_writes_outside_hard(run):
         ("      IF (NPT .EQ. 3) CALL XIT\n" + LINES, r"UHARD at integration point 3 stopped the analysis"),
     ],
 )
-def test_uhard_ends_the_analysis(run, body, message):
+def test_uhard_ends_the_analysis(run_deck, body, message):
     with pytest.raises(KernelError, match=rf"element 1 \(type CPE4\).*{message}"):
-        run(deck("CPE4", BY_USER), UHARD.format(body))
+        run_deck(deck("CPE4", BY_USER), UHARD.format(body))
 
 
 @pytest.mark.parametrize(
@@ -340,12 +329,12 @@ def test_uhard_ends_the_analysis(run, body, message):
         ),
     ],
 )
-def test_what_is_wrong_is_named(run, text, message):
-    with pytest.raises(DeckError, match=rf"hard\.inp:\d+: .*{message}"):
-        run(text)
+def test_what_is_wrong_is_named(run_deck, text, message):
+    with pytest.raises(DeckError, match=rf"deck\.inp:\d+: .*{message}"):
+        run_deck(text, LINEAR)
 
 
-def test_a_job_without_uhard(run):
-    message = r"hard\.inp:\d+: \*PLASTIC, HARDENING=USER: material STUFF needs UHARD; .* has no user routine"
+def test_a_job_without_uhard(run_deck):
+    message = r"deck\.inp:\d+: \*PLASTIC, HARDENING=USER: material STUFF needs UHARD; .* has no user routine"
     with pytest.raises(DeckError, match=message):
-        run(deck("C3D8", BY_USER), "      SUBROUTINE NOTHING\n      END\n")
+        run_deck(deck("C3D8", BY_USER), "      SUBROUTINE NOTHING\n      END\n")

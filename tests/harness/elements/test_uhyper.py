@@ -10,7 +10,6 @@ from differences import check_energy
 from moving_element import CUBE, NODES, SQUARE, MovingElement
 from small_decks import body_lines
 
-import uel
 from uel.errors import DeckError, KernelError, Source
 from uel.model.mesh import ElementGroup
 from uel.model.properties import Hyperelastic, Material, Potential, SolidSection, UserPotential
@@ -67,24 +66,15 @@ def deck(keyword, *, element_type="C3D8", more="", section="", step="*STEP, NLGE
     return "\n".join(line for line in lines if line) + "\n"
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text, user="potential.f90"):
-        (tmp_path / "rubber.inp").write_text(text)
-        return uel.run(tmp_path / "rubber.inp", HERE / user, output_dir=tmp_path)
-
-    return run
-
-
 RUBBER = "*HYPERELASTIC, USER, TYPE=COMPRESSIBLE, PROPERTIES=5\n0.5, 0.2, 0.4, 0., 0."
 
 
-def test_arguments(run):
+def test_arguments(run_deck):
     """STATEV of the last increment begins with that of the one before; TEMP and FIELDV at the end, FIELDVINC."""
     initial = "*INITIAL CONDITIONS, TYPE="
     more = f"*DEPVAR\n9\n{initial}TEMPERATURE\nALL, 20.\n{initial}FIELD, VARIABLE=1\nALL, 1."
     loads = "*TEMPERATURE\nALL, 60.\n*FIELD, VARIABLE=1\nALL, 3."
-    result = run(deck(RUBBER, more=more, loads=loads))
+    result = run_deck(deck(RUBBER, more=more, loads=loads), HERE / "potential.f90")
     assert result.completed
     increments = len(result.status)
     assert increments == 4
@@ -93,10 +83,10 @@ def test_arguments(run):
     np.testing.assert_allclose(found, [increments, 60, 1, 0, 1, 5, 3, 0.5, 1], rtol=1e-12)
 
 
-def test_a_pulled_cube(run):
+def test_a_pulled_cube(run_deck):
     """As with the built-in potential."""
-    user = run(deck(RUBBER)).field("S11")
-    built_in = run(deck("*HYPERELASTIC, MOONEY-RIVLIN\n0.5, 0.2, 0.4")).field("S11")
+    user = run_deck(deck(RUBBER), HERE / "potential.f90").field("S11")
+    built_in = run_deck(deck("*HYPERELASTIC, MOONEY-RIVLIN\n0.5, 0.2, 0.4"), HERE / "potential.f90").field("S11")
     assert built_in[0] > 0.5
     np.testing.assert_allclose(user, built_in, rtol=1e-9)
 
@@ -122,25 +112,25 @@ def test_a_pulled_cube(run):
         (RUBBER, {"step": "*STEP"}, "needs NLGEOM"),
     ],
 )
-def test_errors_of_decks(run, keyword, options, message):
-    with pytest.raises(DeckError, match=r"rubber\.inp:\d+: .*" + message):
-        run(deck(keyword, **options))
+def test_errors_of_decks(run_deck, keyword, options, message):
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: .*" + message):
+        run_deck(deck(keyword, **options), HERE / "potential.f90")
 
 
-def test_a_file_without_it(run):
+def test_a_file_without_it(run_deck):
     with pytest.raises(DeckError, match=r"\*HYPERELASTIC, USER: material RUBBER needs UHYPER; .* has UMAT"):
-        run(deck(RUBBER), user="points.f")
+        run_deck(deck(RUBBER), HERE / "points.f")
 
 
 def wrong(way):
     return RUBBER.replace("=5", "=6") + f", {way}"
 
 
-def test_it_ends_the_analysis(run):
+def test_it_ends_the_analysis(run_deck):
     with pytest.raises(
         KernelError, match=r"element 1 \(type C3D8\): UHYPER at integration point 1 stopped the analysis"
     ):
-        run(deck(wrong(1)))
+        run_deck(deck(wrong(1)), HERE / "potential.f90")
 
 
 @pytest.mark.parametrize(
@@ -150,6 +140,6 @@ def test_it_ends_the_analysis(run):
         pytest.param(3, "element 1: UHYPER sets an entry of U to NaN or infinity, entry 1,", marks=pytest.mark.nan),
     ],
 )
-def test_its_mistakes_are_told(run, way, text):
-    result = run(deck(wrong(way)))
+def test_its_mistakes_are_told(run_deck, way, text):
+    result = run_deck(deck(wrong(way)), HERE / "potential.f90")
     assert any(text in " ".join(warning.split()) for warning in result.warnings), result.warnings

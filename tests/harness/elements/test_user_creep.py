@@ -10,7 +10,6 @@ import pytest
 from differences import asymmetry_along_a_path
 from small_decks import body_lines
 
-import uel
 from uel.elements import Flags
 from uel.errors import DeckError, KernelError, Source
 from uel.model.properties import Creep, Elastic, ElasticType, Material
@@ -55,23 +54,21 @@ def deck(element_type, law, *, step="", procedure="*VISCO\n0.5, 2.", held="", mo
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(text, body=NORTON, more=""):
-        (tmp_path / "flow.inp").write_text(text)
-        (tmp_path / "user.f").write_text(CREEP.format(body) + more)
-        return uel.run(tmp_path / "flow.inp", tmp_path / "user.f", output_dir=tmp_path)
+def run_with_creep(run_deck):
+    def run_with_creep(text, body=NORTON, more=""):
+        return run_deck(text, CREEP.format(body) + more)
 
-    return run
+    return run_with_creep
 
 
 @pytest.mark.sample(3)
 @pytest.mark.parametrize("procedure", ["*VISCO\n0.5, 2.", "*VISCO, CETOL=1e-3\n0.02, 2."])
 @pytest.mark.parametrize("step", ["", ", NLGEOM"])
 @pytest.mark.parametrize("element_type", CELLS)
-def test_norton_of_creep_is_that_of_the_deck(run, element_type, step, procedure):
+def test_norton_of_creep_is_that_of_the_deck(run_with_creep, element_type, step, procedure):
     """The same forces, energies, increments and iterations."""
-    found = run(deck(element_type, BY_USER, step=step, procedure=procedure))
-    expected = run(deck(element_type, "*CREEP\n1e-6, 3., 0.", step=step, procedure=procedure))
+    found = run_with_creep(deck(element_type, BY_USER, step=step, procedure=procedure))
+    expected = run_with_creep(deck(element_type, "*CREEP\n1e-6, 3., 0.", step=step, procedure=procedure))
     assert max(expected.history["ALLCD"]) > 0.01 * max(expected.history["ALLIE"])
     largest = max(abs(np.array(values)).max() for name, values in expected.history.items() if name.startswith("RF"))
     for name, values in expected.history.items():
@@ -137,7 +134,7 @@ FIELDS = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\n*INITIAL CONDITIONS, 
 
 
 @pytest.mark.parametrize("options", ["", ", NLGEOM"])
-def test_arguments_of_creep(run, tmp_path, options):
+def test_arguments_of_creep(run_with_creep, tmp_path, options):
     """A bar is stretched at once in *STATIC, where materials do not creep, and held in two increments of *VISCO: first
     all values of the start of the increment with LEND = 0, then those of its end with LEND = 1."""
     ends = "".join(f"{k}, 1, 1, 0.02\n" for k in (2, 3, 6, 7))
@@ -146,8 +143,8 @@ def test_arguments_of_creep(run, tmp_path, options):
     )
     load = "*TEMPERATURE\nALL, 60.\n*FIELD\nALL, 6.\n"
     text = f"{first}*STEP{options}\n*VISCO\n0.5, 1.\n{load}*OUTPUT, FIELD\n*ELEMENT OUTPUT\nS, CEEQ\n*END STEP\n"
-    found = run(text.replace("S, CEEQ", "S"), PRINT + NORTON)
-    lines = [line.split()[1:] for line in (tmp_path / "flow.dat").read_text().splitlines() if "GIVEN " in line]
+    found = run_with_creep(text.replace("S, CEEQ", "S"), PRINT + NORTON)
+    lines = [line.split()[1:] for line in (tmp_path / "deck.dat").read_text().splitlines() if "GIVEN " in line]
     calls = list(zip(lines[::3], lines[1::3], lines[2::3], strict=True))
     assert {call[0][0] for call in calls} == {"2"}
     stresses = [float(found.field("S11", step=2, increment=k)[0]) for k in (1, 2)]
@@ -175,13 +172,15 @@ def test_arguments_of_creep(run, tmp_path, options):
         start, before = stress, creep
 
 
-def test_state_variables_and_calls_of_each_increment(run):
+def test_state_variables_and_calls_of_each_increment(run_with_creep):
     """Each call gets STATEV of the start of the increment; those of the last one stay."""
-    result = run(deck("CPE4", BY_USER, more="*DEPVAR\n1"), "      STATEV(1) = STATEV(1) + LEND + 1\n" + NORTON)
+    result = run_with_creep(
+        deck("CPE4", BY_USER, more="*DEPVAR\n1"), "      STATEV(1) = STATEV(1) + LEND + 1\n" + NORTON
+    )
     np.testing.assert_array_equal(result.field("SDV1"), 8.0)
 
 
-def test_usdfld_before_creep(run):
+def test_usdfld_before_creep(run_with_creep):
     """The field of USDFLD, and its STATEV: the rate grows with both."""
     usdfld = f"""      INCLUDE '{HERE.parent / "usdfld.inc"}'
       FIELD(1) = 2
@@ -192,26 +191,26 @@ def test_usdfld_before_creep(run):
     body = """      A = 1.D-6*PREDEF(1)*STATEV(1)
       DECRA(1) = A*QTILD**3*DTIME
       DECRA(5) = 3*A*QTILD**2*DTIME"""
-    found = run(deck("C3D8", BY_USER, more=more), body, usdfld)
-    expected = run(deck("C3D8", "*CREEP\n6e-6, 3., 0."))
+    found = run_with_creep(deck("C3D8", BY_USER, more=more), body, usdfld)
+    expected = run_with_creep(deck("C3D8", "*CREEP\n6e-6, 3., 0."))
     np.testing.assert_allclose(found.history["RF2[ALL:1]"], expected.history["RF2[ALL:1]"], rtol=1e-9)
 
 
-def test_creep_writes_outside_decra(run):
-    result = run(deck("CPE4", BY_USER), NORTON + "\n      DECRA(6) = 1")
+def test_creep_writes_outside_decra(run_with_creep):
+    result = run_with_creep(deck("CPE4", BY_USER), NORTON + "\n      DECRA(6) = 1")
     message = "element 1: CREEP writes outside DECRA: entry 6 of 5 (5) at integration point 1; the run goes on"
     assert any(message in warning for warning in result.warnings)
 
 
-def test_swelling_needs_a_keyword(run):
+def test_swelling_needs_a_keyword(run_with_creep):
     """*SWELLING, LAW=USER, says that CREEP gives DESWA (Abaqus Keywords Guide); it is not supported."""
-    result = run(deck("CPE4", BY_USER), NORTON + "\n      DESWA(1) = 1.D-3*DTIME")
+    result = run_with_creep(deck("CPE4", BY_USER), NORTON + "\n      DESWA(1) = 1.D-3*DTIME")
     warnings = [warning for warning in result.warnings if "CREEP gives DESWA, which has no effect" in warning]
     assert len(warnings) == 1
-    expected = run(deck("CPE4", BY_USER))
+    expected = run_with_creep(deck("CPE4", BY_USER))
     np.testing.assert_array_equal(result.history["RF2[ALL:1]"], expected.history["RF2[ALL:1]"])
-    with pytest.raises(DeckError, match=r"flow\.inp:\d+: \*SWELLING"):
-        run(deck("CPE4", BY_USER, more="*SWELLING, LAW=USER"))
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: \*SWELLING"):
+        run_with_creep(deck("CPE4", BY_USER, more="*SWELLING, LAW=USER"))
 
 
 @pytest.mark.parametrize(
@@ -226,14 +225,13 @@ def test_swelling_needs_a_keyword(run):
         ("      IF (NPT .EQ. 3) CALL XIT\n" + NORTON, "CREEP at integration point 3 stopped the analysis"),
     ],
 )
-def test_creep_ends_the_analysis(run, body, message):
+def test_creep_ends_the_analysis(run_with_creep, body, message):
     with pytest.raises(KernelError, match=rf"element 1 \(type CPE4\).*{message}"):
-        run(deck("CPE4", BY_USER), body)
+        run_with_creep(deck("CPE4", BY_USER), body)
 
 
-def test_a_job_without_creep(run, tmp_path):
-    message = r"flow\.inp:\d+: \*CREEP, LAW=USER: material STUFF needs CREEP; .* has no user routine"
+def test_a_job_without_creep(run_with_creep, run_deck, tmp_path):
+    message = r"deck\.inp:\d+: \*CREEP, LAW=USER: material STUFF needs CREEP; .* has no user routine"
     (tmp_path / "nothing.f").write_text("      SUBROUTINE NOTHING\n      END\n")
-    (tmp_path / "flow.inp").write_text(deck("C3D8", BY_USER))
     with pytest.raises(DeckError, match=message):
-        uel.run(tmp_path / "flow.inp", tmp_path / "nothing.f", output_dir=tmp_path)
+        run_deck(deck("C3D8", BY_USER), tmp_path / "nothing.f")

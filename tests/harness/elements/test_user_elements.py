@@ -27,10 +27,10 @@ def springs(load, user_group, bound):
 
 
 @pytest.fixture
-def run(load, user_group, bound, call):
+def evaluate_springs(load, user_group, bound, call):
     """One pass over two springs of a file, with an option in JPROPS(1); gives the library too."""
 
-    def run(file, option, *, lflag=1, assemble=True):
+    def evaluate_springs(file, option, *, lflag=1, assemble=True):
         library = load(file)
         group = user_group(np.array([[0, 1], [1, 2]]), SPRING, properties=(10.0,), integers=(option,), variables=2)
         block, matrix = bound(group, ROW, library)
@@ -40,7 +40,7 @@ def run(load, user_group, bound, call):
         report = block.evaluate(call_, u, u, residual, matrix.data if assemble else None)
         return library, block, report
 
-    return run
+    return evaluate_springs
 
 
 def test_residual_matrix_and_sums(springs, call):
@@ -160,46 +160,46 @@ def test_matrix_is_symmetrised_unless_unsymmetric(load, user_group, bound, call,
         (15, r"element 102 \(type U1\): stopped the analysis \(XIT\) without a message"),
     ],
 )
-def test_faults_are_reported_by_element(run, option, message):
+def test_faults_are_reported_by_element(evaluate_springs, option, message):
     with pytest.raises(KernelError, match=message):
-        run("faults.f", option)
+        evaluate_springs("faults.f", option)
 
 
 @pytest.mark.nan
 @pytest.mark.parametrize("option, entry", [(1, r"RHS\(2\)"), (2, r"AMATRX\(1,2\)"), (3, r"RHS\(1\)")])
-def test_entries_left_unset_are_reported(run, option, entry):
+def test_entries_left_unset_are_reported(evaluate_springs, option, entry):
     with pytest.raises(KernelError, match=rf"element 101 \(type U1\): {entry} was not filled, or was added to"):
-        run("unset.f", option)
+        evaluate_springs("unset.f", option)
 
 
 @pytest.mark.nan
-def test_what_is_not_used_may_stay_unset(run):
-    run("unset.f", 2, assemble=False)
-    run("unset.f", 1, lflag=2)
+def test_what_is_not_used_may_stay_unset(evaluate_springs):
+    evaluate_springs("unset.f", 2, assemble=False)
+    evaluate_springs("unset.f", 1, lflag=2)
     with pytest.raises(KernelError, match=r"AMATRX\(1,2\) was not filled"):
-        run("unset.f", 2, lflag=2)
+        evaluate_springs("unset.f", 2, lflag=2)
 
 
-def test_damage_beyond_one_pass_is_not_repeated(run):
+def test_damage_beyond_one_pass_is_not_repeated(evaluate_springs):
     """The guards are whole again after a fault."""
     with pytest.raises(KernelError):
-        run("faults.f", 1)
-    run("faults.f", 0)
+        evaluate_springs("faults.f", 1)
+    evaluate_springs("faults.f", 0)
 
 
-def test_changing_the_arguments_harms_nobody(run):
-    _, block, _ = run("faults.f", 14)
+def test_changing_the_arguments_harms_nobody(evaluate_springs):
+    _, block, _ = evaluate_springs("faults.f", 14)
     block.commit()
     assert block.state(0).svars[:, 0].tolist() == [4, 4]
 
 
-def test_smallest_pnewdt_of_normal_calls(run):
-    assert run("faults.f", 12)[2].pnewdt == 0.25
-    assert run("faults.f", 12, lflag=5)[2].pnewdt > 1e30
+def test_smallest_pnewdt_of_normal_calls(evaluate_springs):
+    assert evaluate_springs("faults.f", 12)[2].pnewdt == 0.25
+    assert evaluate_springs("faults.f", 12, lflag=5)[2].pnewdt > 1e30
 
 
-def test_messages_are_kept_with_their_place(run):
-    library, _, _ = run("faults.f", 9)
+def test_messages_are_kept_with_their_place(evaluate_springs):
+    library, _, _ = evaluate_springs("faults.f", 9)
     found = [(m.file, m.kind, m.text, m.element, m.step, m.increment) for m in library.messages()]
     assert found == [
         (".msg", "note", "a note", 102, 1, 4),
@@ -264,9 +264,7 @@ def test_a_job_goes_on_where_entries_are_not_set(tmp_path):
     assert "was not filled" not in results[0].file(".msg").read_text()
 
 
-def test_local_variables_without_a_value_are_zero_in_a_job(tmp_path):
+def test_local_variables_without_a_value_are_zero_in_a_job(run_deck):
     """A chain of two springs of stiffness 1: the middle goes half as far as the end."""
-    deck = tmp_path / "forgets.inp"
-    deck.write_text(OUTSIDE.format(option=0))
-    result = uel.run(deck, HERE / "forgets.f", output_dir=tmp_path)
+    result = run_deck(OUTSIDE.format(option=0), HERE / "forgets.f")
     np.testing.assert_allclose(result.field("U")[:, 0], [0.0, 0.5, 1.0], rtol=1e-14)

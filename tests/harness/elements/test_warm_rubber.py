@@ -15,7 +15,6 @@ from differences import differences
 from reference_cells import unit_cell
 from small_decks import body_lines
 
-import uel
 from uel.elements import Flags
 from uel.errors import DeckError, Source
 from uel.model.element_types import COUPLED
@@ -54,24 +53,15 @@ def deck(element_type, held, *, law=NEO_HOOKE):
     return "\n".join([*lines, "*ELEMENT OUTPUT", "S", "*END STEP"]) + "\n"
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text, user=None):
-        (tmp_path / "warm.inp").write_text(text)
-        return uel.run(tmp_path / "warm.inp", user, output_dir=tmp_path)
-
-    return run
-
-
 SOLIDS = ["C3D8", "C3D8R", "C3D8H", "C3D8T", "C3D8RT", "C3D4"]
 ROUND = ["CAX4", "CAX4H", "CAX4T"]
 
 
 @pytest.mark.parametrize("element_type", [*SOLIDS[:-1], *ROUND])
-def test_a_free_body_expands_without_stress(run, element_type):
+def test_a_free_body_expands_without_stress(run_deck, element_type):
     """By the stretch of the expansion in every direction."""
     solid = element_type.startswith("C3D")
-    result = run(deck(element_type, "1, 1, 3\n2, 2, 3\n4, 3" if solid else "1, 1, 2\n2, 2\n4, 1"))
+    result = run_deck(deck(element_type, "1, 1, 3\n2, 2, 3\n4, 3" if solid else "1, 1, 2\n2, 2\n4, 1"))
     nodes = CUBE if solid else CUBE[:4, :2]
     for dof in range(nodes.shape[1]):
         moved = [result.history[f"U{dof + 1}[ALL:{k + 1}]"][-1] for k in range(len(nodes))]
@@ -80,7 +70,7 @@ def test_a_free_body_expands_without_stress(run, element_type):
 
 
 @pytest.mark.parametrize("element_type", [*SOLIDS, "CPE4", "CPE4H", "CPE4T"])
-def test_a_held_body_has_the_pressure_of_its_law(run, element_type):
+def test_a_held_body_has_the_pressure_of_its_law(run_deck, element_type):
     """U = (J - 1)^2 / D, of the volume before the expansion, at J = 1 over the change of volume of the expansion."""
     nodes = CUBE[[0, 1, 3, 4]] if element_type == "C3D4" else CUBE
     text = deck(element_type, "ALL, 1, 3")
@@ -88,7 +78,7 @@ def test_a_held_body_has_the_pressure_of_its_law(run, element_type):
         text = text.replace(
             "\n".join(body_lines("C3D4", CUBE, [range(8)])), "\n".join(body_lines("C3D4", nodes, [range(4)]))
         )
-    result = run(text)
+    result = run_deck(text)
     j = STRETCH**-3
     for component in ("S11", "S22", "S33"):
         np.testing.assert_allclose(result.field(component), 2 / D * (j - 1) * j, rtol=1e-7)
@@ -96,12 +86,12 @@ def test_a_held_body_has_the_pressure_of_its_law(run, element_type):
     assert result.history["ALLSE"][-1] == pytest.approx((j - 1) ** 2 / D * volume, rel=1e-7)
 
 
-def test_uhyper_is_the_law_of_the_deck(run):
+def test_uhyper_is_the_law_of_the_deck(run_deck):
     """While a warm block is pulled: forces in a coupled step."""
     user = f"*HYPERELASTIC, USER, TYPE=COMPRESSIBLE, PROPERTIES=5\n{C10}, 0., {D}, 0., 0."
     held = "1, 1, 3\n4, 1\n5, 1\n8, 1\n2, 2, 3\n4, 3\n2, 1, 1, 0.3\n3, 1, 1, 0.4\n6, 1, 1, 0.5\n7, 1, 1, 0.2"
-    expected = run(deck("C3D8T", held)).history
-    found = run(deck("C3D8T", held, law=user), UHYPER).history
+    expected = run_deck(deck("C3D8T", held)).history
+    found = run_deck(deck("C3D8T", held, law=user), UHYPER).history
     largest = max(abs(expected[f"RF1[ALL:{k}]"][-1]) for k in (1, 4, 5, 8))
     assert largest > 0.1
     for name, values in expected.items():
@@ -116,10 +106,10 @@ def test_uhyper_is_the_law_of_the_deck(run):
         (f"*HYPERELASTIC\n{C10}, 0., 0.", "incompressible materials"),
     ],
 )
-def test_hybrid_elements_with_temperatures_have_no_pressure_of_their_own(run, law, what):
-    message = rf"warm\.inp:\d+: {what} \(material M\) are not supported for elements of type C3D8HT"
+def test_hybrid_elements_with_temperatures_have_no_pressure_of_their_own(run_deck, law, what):
+    message = rf"deck\.inp:\d+: {what} \(material M\) are not supported for elements of type C3D8HT"
     with pytest.raises(DeckError, match=message):
-        run(deck("C3D8HT", "1, 1, 3", law=law))
+        run_deck(deck("C3D8HT", "1, 1, 3", law=law))
 
 
 LAWS = {

@@ -17,7 +17,7 @@ SPRINGS = FOLDER / "procedures" / "springs.f"
 SPRING_IN_C = FOLDER / "usersub" / "spring.c"
 
 
-def run(deck: Path, user: Path) -> int:
+def exit_code(deck: Path, user: Path) -> int:
     return main(["run", str(deck), "--user", str(user), "--output-dir", str(deck.parent)])
 
 
@@ -26,7 +26,7 @@ def test_completed_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> No
     deck = pulled(tmp_path)
     text = deck.read_text().replace("*END STEP", "*OUTPUT, HISTORY\n*NODE OUTPUT\nU, RF\n*END STEP")
     deck.write_text(text)
-    assert run(deck, SPRING_IN_C) == 0
+    assert exit_code(deck, SPRING_IN_C) == 0
     how, load, files = capsys.readouterr().out.splitlines()
     assert re.fullmatch(r"pulled: completed, total time 1: 1 increment, 1 iteration, 0 cutbacks in .*", how)
     assert load == "  largest load: RF1[2] = 0.1 at U1[2] = 0.1, in the last increment"
@@ -39,7 +39,7 @@ def test_warnings_of_both_files_are_counted(tmp_path: Path, capsys: pytest.Captu
     text = deck.read_text().replace("1, 1\n2, 1, 1, 0.1\n", "1, 2\n")
     requests = "*OUTPUT, HISTORY\n*NODE OUTPUT\nUU, U\n*NODE PRINT\nVOLT\n*END STEP"
     deck.write_text(text.replace("*END STEP", requests))
-    assert run(deck, SPRING_IN_C) == 0
+    assert exit_code(deck, SPRING_IN_C) == 0
     said = capsys.readouterr().out.splitlines()
     assert said[:2] == [
         "warning: HISTORY OUTPUT OF UU of all nodes IS NOT AVAILABLE AND IS LEFT OUT",
@@ -57,7 +57,7 @@ def test_warnings_of_both_files_are_counted(tmp_path: Path, capsys: pytest.Captu
 
 def test_run_that_ends_early(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A spring of stiffness 10 that fails at 0.1, thus at a force of 1, in series with one of 0.5: at 0.1 + 1/0.5."""
-    assert run(snapping(tmp_path, "*STATIC\n0.1, 1., 1e-5, 0.1\n"), SPRINGS) == 1
+    assert exit_code(snapping(tmp_path, "*STATIC\n0.1, 1., 1e-5, 0.1\n"), SPRINGS) == 1
     error, unbalanced, how, ended, _ = capsys.readouterr().err.splitlines()
     assert "TOO MANY ATTEMPTS" in error
     assert re.fullmatch(r"uel: last iteration: largest (correction|residual force) \S+ at node \d, dof 1", unbalanced)
@@ -70,9 +70,9 @@ def test_run_that_ends_early(tmp_path: Path, capsys: pytest.CaptureFixture[str])
 
 def test_way_out_of_too_many_attempts(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The smallest increment is named only where it was the limit."""
-    assert run(snapping(tmp_path, "*STATIC\n0.1, 1., 1e-5, 0.1\n"), SPRINGS) == 1
+    assert exit_code(snapping(tmp_path, "*STATIC\n0.1, 1., 1e-5, 0.1\n"), SPRINGS) == 1
     assert "; a smaller largest increment (fourth number below *STATIC), which" in capsys.readouterr().err
-    assert run(snapping(tmp_path, "*STATIC\n0.1, 1., 1e-2, 0.1\n"), SPRINGS) == 1
+    assert exit_code(snapping(tmp_path, "*STATIC\n0.1, 1., 1e-2, 0.1\n"), SPRINGS) == 1
     said = capsys.readouterr().err
     assert "TIME INCREMENT REQUIRED IS LESS THAN THE MINIMUM" in said
     assert "; a smaller minimum increment (third number below *STATIC); " in said
@@ -82,7 +82,7 @@ def test_first_of_many_warnings(tmp_path: Path, capsys: pytest.CaptureFixture[st
     deck = pulled(tmp_path)
     names = "\n".join(f"VOLT{k}" for k in range(9))
     deck.write_text(deck.read_text().replace("*END STEP", f"*NODE PRINT\n{names}\n*END STEP"))
-    assert run(deck, SPRING_IN_C) == 0
+    assert exit_code(deck, SPRING_IN_C) == 0
     said = capsys.readouterr().out
     assert said.count("warning: *NODE PRINT: VOLT") == 5
     assert "  warnings in .dat and .msg: 9, the first 5 above\n" in said

@@ -24,7 +24,7 @@ Records = Callable[..., Iterator[Record]]
 Requests = Callable[..., Model]
 
 
-def run(model: Model, directory: Path, records: Iterator[Record], error: UelError | None = None) -> Result:
+def write_records(model: Model, directory: Path, records: Iterator[Record], error: UelError | None = None) -> Result:
     output = JobOutput(model, "job", directory, quiet=True)
     for record in records:
         output.write(record)
@@ -33,7 +33,7 @@ def run(model: Model, directory: Path, records: Iterator[Record], error: UelErro
 
 
 def test_a_job_is_read_back(model: Model, records: Records, tmp_path: Path) -> None:
-    result = run(model, tmp_path, records(model))
+    result = write_records(model, tmp_path, records(model))
     assert result.completed
     assert [(row.increment, row.iterations, row.total_time) for row in result.status] == [
         (1, 2, 0.1),
@@ -63,7 +63,7 @@ def test_a_failed_job_keeps_the_last_converged_increment(
     ]
     abandoned = AttemptAbandoned(1, 3, 1, 5, 0.25, 0.25, 0.25, 0.0, "THE SOLUTION APPEARS TO BE DIVERGING.")
     error = ConvergenceError("TOO MANY ATTEMPTS MADE FOR THIS INCREMENT")
-    result = run(model, tmp_path, iter([*stopped, abandoned]), error)
+    result = write_records(model, tmp_path, iter([*stopped, abandoned]), error)
     assert not result.completed
     assert [(row.increment, row.cutback) for row in result.status] == [(1, False), (2, False), (3, True)]
     assert result.history["increment"].tolist() == [2]
@@ -81,7 +81,7 @@ def test_field_and_history_frequency(
     with_requests: Requests, records: Records, tmp_path: Path, frequency: int, written: list[int]
 ) -> None:
     model = with_requests(field_frequency=frequency, history_frequency=frequency)
-    result = run(model, tmp_path, records(model))
+    result = write_records(model, tmp_path, records(model))
     assert [frame.increment for frame in result.frames] == written
     assert result.history["increment"].tolist() == written
 
@@ -90,7 +90,7 @@ def test_the_last_increment_of_a_step_that_ends_early_is_written_too(
     with_requests: Requests, records: Records, tmp_path: Path
 ) -> None:
     model = with_requests(field_frequency=2)
-    result = run(model, tmp_path, records(model, times=(0.1, 0.2, 0.3)))
+    result = write_records(model, tmp_path, records(model, times=(0.1, 0.2, 0.3)))
     assert [frame.increment for frame in result.frames] == [2, 3]
 
 
@@ -98,7 +98,7 @@ def test_several_steps(model: Model, records: Records, tmp_path: Path) -> None:
     second = replace(model.steps[0], number=2, output=replace(model.steps[0].output, history_nodes=()))
     model = replace(model, steps=(model.steps[0], second))
     both = [*records(model), *records(model, step=2, start=1.0, times=(0.5, 1.0))]
-    result = run(model, tmp_path, iter(both))
+    result = write_records(model, tmp_path, iter(both))
     assert result.history["time"].tolist() == [0.1, 0.25, 0.5, 1.0, 1.5, 2.0]
     assert np.isnan(result.history["U2[LOAD]"]).tolist() == [False] * 4 + [True] * 2
     assert result.history["ALLSE"].tolist()[-2:] == [0.25, 1.0]
@@ -109,8 +109,8 @@ def test_several_steps(model: Model, records: Records, tmp_path: Path) -> None:
 
 
 def test_an_earlier_job_is_replaced(model: Model, with_requests: Requests, records: Records, tmp_path: Path) -> None:
-    run(model, tmp_path, records(model))
-    result = run(with_requests(field_frequency=0), tmp_path, records(model, times=(1.0,)))
+    write_records(model, tmp_path, records(model))
+    result = write_records(with_requests(field_frequency=0), tmp_path, records(model, times=(1.0,)))
     assert len(result.status) == 1
     assert result.frames == []
     assert sorted(path.name for path in tmp_path.iterdir()) == [
@@ -138,7 +138,7 @@ def test_texts_of_user_routines_go_to_their_file(model: Model, tmp_path: Path) -
 def test_what_was_not_written_is_named(model: Model, records: Records, tmp_path: Path) -> None:
     with pytest.raises(UelError, match=r"nothing\.sta: no such job"):
         Result(tmp_path / "nothing")
-    result = run(model, tmp_path, records(model))
+    result = write_records(model, tmp_path, records(model))
     with pytest.raises(UelError, match=r"job\.inp\.sta: no such job; did you mean \S*/job\?$"):
         Result(tmp_path / "job.inp")
     with pytest.raises(UelError, match=r"job\.pvd: no field 'MISES'; available fields: .*RF.*S11"):

@@ -53,12 +53,10 @@ S
 
 
 @pytest.fixture
-def table(tmp_path):
+def table(run_deck, tmp_path):
     def table(request, type="CPE4"):
-        deck = tmp_path / "patch.inp"
-        deck.write_text(PATCH.format(type=type, request=request))
-        uel.run(deck, output_dir=tmp_path)
-        text = (tmp_path / "patch.dat").read_text()
+        run_deck(PATCH.format(type=type, request=request))
+        text = (tmp_path / "deck.dat").read_text()
         assert text.count("THE FOLLOWING TABLE") == 1
         return [line.rstrip() for line in text[text.index("   THE FOLLOWING") :].splitlines()]
 
@@ -168,20 +166,16 @@ def test_a_field_that_the_points_resolve_is_exact_at_nodes_and_centroid(type):
     np.testing.assert_allclose(at_nodes(type).sum(axis=1), 1.0, atol=1e-12)
 
 
-def test_averages_are_over_the_elements_of_the_set_at_a_node(tmp_path):
+def test_averages_are_over_the_elements_of_the_set_at_a_node(run_deck, tmp_path):
     """Quads side by side, stretched by 1e-3 and by 0.24e-3 over 0.14."""
-    deck = tmp_path / "pair.inp"
     quads = PATCH.format(type="CPS4", request="*EL PRINT, POSITION=AVERAGED AT NODES\nS11\n*EL PRINT, POSITION=NODES")
     held = (
         "*BOUNDARY\nALL, 2\n10, 1\n40, 1\n50, 1, 1, 0.1E-3\n60, 1, 1, 0.14E-3\n20, 1, 1, 0.34E-3\n30, 1, 1, 0.34E-3\n"
     )
     start, end = quads.index("*BOUNDARY"), quads.index("*EL PRINT")
     quads = quads[:start] + held + quads[end:]
-    deck.write_text(
-        quads.replace("1.E6, 0.25", "1.E6, 0.").replace("60, 0.14,", "60, 0.1,").replace("0.14E-3", "0.1E-3")
-    )
-    uel.run(deck, output_dir=tmp_path)
-    text = (tmp_path / "pair.dat").read_text()
+    run_deck(quads.replace("1.E6, 0.25", "1.E6, 0.").replace("60, 0.14,", "60, 0.1,").replace("0.14E-3", "0.1E-3"))
+    text = (tmp_path / "deck.dat").read_text()
     averages = text.split("AVERAGED AT THE NODES\n")[1].split("MAXIMUM")[0]
     found = {int(a): float(b) for a, b in re.findall(r"^ +(\d+) +(\S+) *$", averages, re.MULTILINE)}
     outer = 0.24e-3 / 0.14 * 1e6
@@ -189,10 +183,8 @@ def test_averages_are_over_the_elements_of_the_set_at_a_node(tmp_path):
     assert found == pytest.approx({10: 1000, 40: 1000, 20: outer, 30: outer, 50: inner, 60: inner}, rel=1e-3)
 
 
-def test_what_is_not_there_is_named_once_in_a_step_of_one_increment(tmp_path):
-    deck = tmp_path / "patch.inp"
-    deck.write_text(PATCH.format(type="CPE4", request="*EL PRINT\nSDV\n*EL PRINT"))
-    uel.run(deck, output_dir=tmp_path)
-    text = (tmp_path / "patch.dat").read_text()
+def test_what_is_not_there_is_named_once_in_a_step_of_one_increment(run_deck, tmp_path):
+    run_deck(PATCH.format(type="CPE4", request="*EL PRINT\nSDV\n*EL PRINT"))
+    text = (tmp_path / "deck.dat").read_text()
     assert text.count("SDV IS NOT AVAILABLE AND IS LEFT OUT") == 1
     assert "WITH      1 WARNING MESSAGES ON THE DAT FILE" in text

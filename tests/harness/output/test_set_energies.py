@@ -5,10 +5,8 @@
 import numpy as np
 import pytest
 
-import uel
 from uel.errors import DeckError
 from uel.model.records import ELEMENT_ENERGIES
-from uel.output.files.history import read_history
 
 YOUNG, FORCE = 1000.0, 10.0
 BAR = """*NODE
@@ -44,19 +42,18 @@ OUTPUT = "*OUTPUT, HISTORY\n*ENERGY OUTPUT{}\n"
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(text):
-        (tmp_path / "job.inp").write_text(text)
-        result = uel.run(tmp_path / "job.inp", output_dir=tmp_path)
-        return read_history(tmp_path / "job_history.csv"), result.warnings
+def energies_and_warnings(run_deck):
+    def energies_and_warnings(text):
+        result = run_deck(text)
+        return result.history, result.warnings
 
-    return run
+    return energies_and_warnings
 
 
-def test_strain_energy_of_each_part(run):
+def test_strain_energy_of_each_part(energies_and_warnings):
     """A bar in tension has the energy F^2 L/(2 E A); parts have it by their lengths."""
     lines = OUTPUT.format(", ELSET=SHORT\nALLSE, ALLIE") + "*ENERGY OUTPUT, ELSET=LONG\nALLSE\n*ENERGY OUTPUT\nALLSE\n"
-    history, warnings = run(BAR + STEP.format(lines))
+    history, warnings = energies_and_warnings(BAR + STEP.format(lines))
     per_length = FORCE**2 / (2 * YOUNG)
     # linear elements hold a constant stress exactly
     assert history["ALLSE[SHORT]"][-1] == pytest.approx(per_length, rel=1e-12)
@@ -66,21 +63,23 @@ def test_strain_energy_of_each_part(run):
     assert not warnings
 
 
-def test_sets_without_variables_have_all_of_them(run):
-    history, _ = run(BAR + STEP.format(OUTPUT.format(", ELSET=LONG")))
+def test_sets_without_variables_have_all_of_them(energies_and_warnings):
+    history, _ = energies_and_warnings(BAR + STEP.format(OUTPUT.format(", ELSET=LONG")))
     assert [name for name in history if name.startswith("ALL")] == [f"{name}[LONG]" for name in ELEMENT_ENERGIES]
 
 
-def test_kinetic_energy_of_each_part(run):
+def test_kinetic_energy_of_each_part(energies_and_warnings):
     """Energy of a free flight: m v^2/2."""
     text = BAR[: BAR.index("*BOUNDARY")] + "*NSET, NSET=EACH, GENERATE\n1, 6\n"
     text += "*INITIAL CONDITIONS, TYPE=VELOCITY\nEACH, 1, 3.\n*STEP\n*DYNAMIC\n0.1, 0.1\n"
-    history, _ = run(text + OUTPUT.format(", ELSET=SHORT\nALLKE") + "*ENERGY OUTPUT, ELSET=LONG\nALLKE\n*END STEP\n")
+    history, _ = energies_and_warnings(
+        text + OUTPUT.format(", ELSET=SHORT\nALLKE") + "*ENERGY OUTPUT, ELSET=LONG\nALLKE\n*END STEP\n"
+    )
     assert history["ALLKE[SHORT]"][-1] == pytest.approx(2 * 1 * 3**2 / 2, rel=1e-9)
     assert history["ALLKE[LONG]"][-1] == pytest.approx(2 * 2 * 3**2 / 2, rel=1e-9)
 
 
-def test_damage_is_no_plastic_dissipation(run):
+def test_damage_is_no_plastic_dissipation(energies_and_warnings):
     """A layer that has failed has dissipated its fracture energy, the bar beside it nothing."""
     glue = "*NODE\n7, 3., 0.\n8, 3., 1.\n*ELEMENT, TYPE=COH2D4, ELSET=GLUE\n3, 6, 3, 7, 8\n"
     glue += "*COHESIVE SECTION, ELSET=GLUE, MATERIAL=G, RESPONSE=TRACTION SEPARATION\n1., 1.\n*MATERIAL, NAME=G\n"
@@ -92,7 +91,7 @@ def test_damage_is_no_plastic_dissipation(run):
         OUTPUT.format(", ELSET=GLUE\nALLDMD, ALLPD")
         + "*ENERGY OUTPUT, ELSET=LONG\nALLDMD, ALLPD\n*ENERGY OUTPUT\nALLDMD\n"
     )
-    history, _ = run(text + step + lines + "*END STEP\n")
+    history, _ = energies_and_warnings(text + step + lines + "*END STEP\n")
     assert np.array_equal(history["ALLDMD[GLUE]"], history["ALLDMD"])
     assert history["ALLDMD[GLUE]"][-1] == pytest.approx(0.25, rel=1e-9)
     for name in ("ALLPD[GLUE]", "ALLDMD[LONG]", "ALLPD[LONG]"):
@@ -100,27 +99,27 @@ def test_damage_is_no_plastic_dissipation(run):
         assert np.abs(history[name]).max() < 1e-15
 
 
-def test_what_sets_do_not_have(run):
-    history, warnings = run(BAR + STEP.format(OUTPUT.format(", ELSET=LONG\nALLSE, ALLWK, ETOTAL")))
+def test_what_sets_do_not_have(energies_and_warnings):
+    history, warnings = energies_and_warnings(BAR + STEP.format(OUTPUT.format(", ELSET=LONG\nALLSE, ALLWK, ETOTAL")))
     assert [name for name in history if name.startswith(("ALL", "ET"))] == ["ALLSE[LONG]"]
     for name in ("ALLWK", "ETOTAL"):
         assert f"HISTORY OUTPUT OF {name} of element set LONG in step 1 IS NOT AVAILABLE" in " ".join(warnings)
 
 
-def test_sets_have_none_in_linear_steps(run):
+def test_sets_have_none_in_linear_steps(energies_and_warnings):
     text = BAR + STEP.format(OUTPUT.format(", ELSET=LONG\nALLSE")).replace("*STEP", "*STEP, PERTURBATION")
-    history, warnings = run(text)
+    history, warnings = energies_and_warnings(text)
     assert "ALLSE[LONG]" not in history
     assert "ALLSE of element set LONG in step 1 IS NOT AVAILABLE" in " ".join(warnings)
 
 
-def test_an_unknown_set_is_an_error(run):
-    with pytest.raises(DeckError, match=r"job\.inp:\d+: unknown element set NONE"):
-        run(BAR + STEP.format(OUTPUT.format(", ELSET=NONE\nALLSE")))
+def test_an_unknown_set_is_an_error(energies_and_warnings):
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: unknown element set NONE"):
+        energies_and_warnings(BAR + STEP.format(OUTPUT.format(", ELSET=NONE\nALLSE")))
 
 
-def test_energies_of_each_set_are_told(run):
-    _, warnings = run(BAR + STEP.format(OUTPUT.format(", PER ELEMENT SET\nALLSE")))
+def test_energies_of_each_set_are_told(energies_and_warnings):
+    _, warnings = energies_and_warnings(BAR + STEP.format(OUTPUT.format(", PER ELEMENT SET\nALLSE")))
     assert "PER ELEMENT SET and PER SECTION are not supported; ELSET= is" in " ".join(warnings)
 
 
@@ -157,18 +156,18 @@ LINEAR = "*STEP, PERTURBATION\n*STATIC\n*CLOAD\nRIGHT, 1, 1.\n{}*END STEP\n"
         (HARMONIC, "", ""),
     ],
 )
-def test_columns_that_a_step_does_not_have_are_named(run, step, lines, message):
-    _, warnings = run(BAR + step.format(lines))
+def test_columns_that_a_step_does_not_have_are_named(energies_and_warnings, step, lines, message):
+    _, warnings = energies_and_warnings(BAR + step.format(lines))
     assert len(warnings) == bool(message)
     for warning in warnings:
         with pytest.raises(ValueError, match=message):
             raise ValueError(warning)
 
 
-def test_later_steps_keep_or_drop_the_requests(run):
+def test_later_steps_keep_or_drop_the_requests(energies_and_warnings):
     """*OUTPUT without OP=ADD drops those of earlier steps; a step without *OUTPUT keeps them."""
     first = STEP.format(OUTPUT.format(", ELSET=LONG\nALLSE"))
-    kept, _ = run(BAR + first + STEP.format(""))
+    kept, _ = energies_and_warnings(BAR + first + STEP.format(""))
     assert np.isfinite(kept["ALLSE[LONG]"]).tolist() == [True, True]
-    dropped, _ = run(BAR + first + STEP.format(OUTPUT.format("\nALLSE")))
+    dropped, _ = energies_and_warnings(BAR + first + STEP.format(OUTPUT.format("\nALLSE")))
     assert np.isfinite(dropped["ALLSE[LONG]"]).tolist() == [True, False]

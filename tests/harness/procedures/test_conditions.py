@@ -50,10 +50,10 @@ DECK = """\
 
 
 @pytest.fixture
-def run(tmp_path):
+def run_two_steps(tmp_path):
     """SVARS (increments, elements, 20) and U of node 3 after each of the four increments."""
 
-    def run(model="", first="", second=""):
+    def run_two_steps(model="", first="", second=""):
         deck = tmp_path / "deck.inp"
         deck.write_text(DECK.format(model=model, first=first, second=second))
         read = read_deck(deck)
@@ -68,12 +68,12 @@ def run(tmp_path):
         states, displacements = zip(*done, strict=True)
         return np.array(states), list(displacements)
 
-    return run
+    return run_two_steps
 
 
-def test_loads_of_type_u_and_unu(run):
+def test_loads_of_type_u_and_unu(run_two_steps):
     """A ramp to 3 on both elements, one that UEL defines, and one with an amplitude on the second; then OP=NEW."""
-    svars, u = run(
+    svars, u = run_two_steps(
         first="*DLOAD\nFIRST, U2, 3.\nLAST, U2, 3.\n*DLOAD, AMPLITUDE=LATE\n2, U7, 8.\n2, U4NU",
         second="*DLOAD, OP=NEW\nLAST, U2, 5.",
     )
@@ -91,9 +91,9 @@ def test_loads_of_type_u_and_unu(run):
     np.testing.assert_allclose(u, [1.5 + 2 * 1.5, 3 + 2 * 3, 2 * 4, 2 * 5])
 
 
-def test_fields_vary_and_go_back_to_their_start(run):
+def test_fields_vary_and_go_back_to_their_start(run_two_steps):
     """Temperature 20 at the start ramps to 50 and back; field 2 has an amplitude; field 1 stays at its start."""
-    svars, _ = run(
+    svars, _ = run_two_steps(
         model="*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\n*INITIAL CONDITIONS, TYPE=FIELD\n2, 7.",
         first="*TEMPERATURE\nALL, 50.\n*FIELD, VARIABLE=2, AMPLITUDE=LATE\n2, 3.",
         second="*TEMPERATURE, OP=NEW",
@@ -107,8 +107,8 @@ def test_fields_vary_and_go_back_to_their_start(run):
     np.testing.assert_allclose(given[:2, 17], [0, 3])
 
 
-def test_without_either_there_is_one_field_of_zeros(run):
-    svars, _ = run()
+def test_without_either_there_is_one_field_of_zeros(run_two_steps):
+    svars, _ = run_two_steps()
     assert svars[:, :, 0].max() == 0
     assert svars[0, 0, 11:14].tolist() == [1, 0, 0]
 
@@ -123,9 +123,9 @@ def test_without_either_there_is_one_field_of_zeros(run):
         ("*TEMPERATURE, FILE=x", r"deck.inp:23: \*TEMPERATURE: option FILE is not supported"),
     ],
 )
-def test_messages(run, first, message):
+def test_messages(run_two_steps, first, message):
     with pytest.raises(DeckError, match=message):
-        run(first=first)
+        run_two_steps(first=first)
 
 
 def test_load_on_a_built_in_element(tmp_path):

@@ -7,7 +7,6 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-import uel
 from uel.elements.array_mistakes import distortion
 from uel.errors import ConvergenceError, KernelError
 
@@ -34,22 +33,13 @@ def deck(element_type, nodes, *, options=", NLGEOM", order=1):
     return "\n".join(lines)
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text, **options):
-        (tmp_path / "pushed.inp").write_text(text)
-        return uel.run(tmp_path / "pushed.inp", output_dir=tmp_path, **options)
-
-    return run
-
-
 @pytest.mark.parametrize(("element_type", "nodes"), [("CPE4", PLANE), ("CPS4R", PLANE), ("C3D8", CUBE)])
-def test_an_attempt_in_which_an_element_turns_inside_out_is_made_again(run, tmp_path, element_type, nodes):
+def test_an_attempt_in_which_an_element_turns_inside_out_is_made_again(run_deck, tmp_path, element_type, nodes):
     """With a quarter of the increment (D_H), to the end, where the logarithm of the length is -p/E."""
-    result = run(deck(element_type, nodes))
+    result = run_deck(deck(element_type, nodes))
     first, second = result.status[:2]
     assert (first.attempt, first.cutback, second.attempt) == (1, True, 2)
-    message = " ".join((tmp_path / "pushed.msg").read_text().split())
+    message = " ".join((tmp_path / "deck.msg").read_text().split())
     place = rf"element 101 (type {element_type}): turns inside out at its integration point"
     assert f"***WARNING: EXCESSIVE DISTORTION IN SOLID (CONTINUUM) ELEMENTS: {place}" in message
     assert "***NOTE: ELEMENTS ARE DISTORTING EXCESSIVELY. CONVERGENCE IS JUDGED UNLIKELY." in message
@@ -58,14 +48,14 @@ def test_an_attempt_in_which_an_element_turns_inside_out_is_made_again(run, tmp_
     assert np.log(length) == pytest.approx(-PRESSURE / YOUNG, rel=0.02)
 
 
-def test_a_fixed_increment_ends_with_the_element(run):
+def test_a_fixed_increment_ends_with_the_element(run_deck):
     text = deck("CPE4", PLANE).replace("*STATIC", "*STATIC, DIRECT")
     message = (
         r"FIXED TIME INCREMENT IS TOO LARGE \(step 1, increment 1, attempt 1\): "
         r"element 101 \(type CPE4\): turns inside out at its integration point \d \(step 1, increment 1, iteration \d"
     )
     with pytest.raises(ConvergenceError, match=message):
-        run(text)
+        run_deck(text)
 
 
 def thrown(dynamic):
@@ -78,29 +68,29 @@ def thrown(dynamic):
     return text.replace("*ELASTIC", "*DENSITY\n20.\n*ELASTIC").replace(f"*CLOAD\n2, 1, {-PRESSURE}\n", "")
 
 
-def test_an_element_that_turns_inside_out_in_the_middle_of_an_increment_cuts_it_back(run, tmp_path):
+def test_an_element_that_turns_inside_out_in_the_middle_of_an_increment_cuts_it_back(run_deck, tmp_path):
     """The pass for the half-increment residual fails; the smaller increment goes on as if it were the first."""
-    result = run(thrown("HAFTOL=1E9\n1., 2., , 1."))
+    result = run_deck(thrown("HAFTOL=1E9\n1., 2., , 1."))
     first, second = result.status[:2]
     assert (first.attempt, first.cutback, second.attempt, second.time_increment) == (1, True, 2, 0.25)
-    message = " ".join((tmp_path / "pushed.msg").read_text().split())
+    message = " ".join((tmp_path / "deck.msg").read_text().split())
     assert "***WARNING: EXCESSIVE DISTORTION IN SOLID (CONTINUUM) ELEMENTS: element 101 (type CPE4): turns" in message
     assert first.iterations == message.split("ATTEMPT NUMBER 2")[0].count("CONVERGENCE CHECKS FOR")
-    alike = run(thrown("HAFTOL=1E9\n0.25, 2., , 1."))
+    alike = run_deck(thrown("HAFTOL=1E9\n0.25, 2., , 1."))
     np.testing.assert_array_equal(result.history["U1[ALL:2]"], alike.history["U1[ALL:2]"])
 
 
-def test_fixed_increments_do_not_depend_on_the_state_in_their_middle(run):
+def test_fixed_increments_do_not_depend_on_the_state_in_their_middle(run_deck):
     """Their half-increment residual decides nothing, so it need not exist."""
-    fixed = run(thrown("DIRECT, HAFTOL=1E9\n1., 2."))
-    unmeasured = run(thrown("DIRECT, NOHAF\n1., 2."))
+    fixed = run_deck(thrown("DIRECT, HAFTOL=1E9\n1., 2."))
+    unmeasured = run_deck(thrown("DIRECT, NOHAF\n1., 2."))
     np.testing.assert_array_equal(fixed.history["U1[ALL:2]"], unmeasured.history["U1[ALL:2]"])
 
 
 @pytest.mark.parametrize("options", ["", ", NLGEOM"])
-def test_a_mesh_that_is_inside_out_stays_an_error_of_the_mesh(run, options):
+def test_a_mesh_that_is_inside_out_stays_an_error_of_the_mesh(run_deck, options):
     with pytest.raises(KernelError, match=r"element 101 .* nodes must run counter-clockwise"):
-        run(deck("CPE4", PLANE, options=options, order=-1))
+        run_deck(deck("CPE4", PLANE, options=options, order=-1))
 
 
 def test_a_point_that_the_element_does_not_have_is_not_named():

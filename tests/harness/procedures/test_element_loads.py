@@ -173,7 +173,7 @@ def test_consistent_forces_of_loads_of_the_volume(tmp_path, element_type):
 
 
 @pytest.mark.parametrize("element_type", PLAIN)
-def test_body_pulled_at_one_side(tmp_path, element_type):
+def test_body_pulled_at_one_side(run_deck, element_type):
     """A unit square or cube of distorted elements under a traction of 4 on x = 1: stress 4 everywhere, u = 4 x/E."""
     kind = CONTINUUM[element_type]
     cell, d = kind.family.cell, kind.dimension
@@ -203,8 +203,7 @@ def test_body_pulled_at_one_side(tmp_path, element_type):
         "*ELEMENT OUTPUT",
         "S",
     ]
-    (tmp_path / "pull.inp").write_text("\n".join(line for line in [*lines, "*END STEP"] if line) + "\n")
-    result = uel.run(tmp_path / "pull.inp", output_dir=tmp_path)
+    result = run_deck(line for line in [*lines, "*END STEP"] if line)
     found = [[result.history[f"U{axis + 1}[ALL:{k + 1}]"][-1] for axis in range(d)] for k in range(len(nodes))]
     np.testing.assert_allclose(found, np.outer(nodes[:, 0] * 4e-3, np.eye(d)[0]), atol=1e-14)
     np.testing.assert_allclose(result.field("S11"), 4.0, rtol=1e-11)
@@ -238,10 +237,9 @@ RF
 
 
 @pytest.mark.parametrize(("load", "force"), [("P2, 6.", [0, -0.5, -0.5, 0, -2, 0]), ("BX, 6.", [0, 0, 0, 1, 1, 1])])
-def test_loads_of_a_quadratic_triangle(tmp_path, load, force):
+def test_loads_of_a_quadratic_triangle(run_deck, load, force):
     """Of a side 1/6, 1/6 and 2/3 go to its ends and middle; of the area a third to the middle of each side."""
-    (tmp_path / "triangle.inp").write_text(TRIANGLE.format(load=load))
-    history = uel.run(tmp_path / "triangle.inp", output_dir=tmp_path).history
+    history = run_deck(TRIANGLE.format(load=load)).history
     found = [-history[f"RF1[ALL:{label}]"][-1] for label in range(1, 7)]
     # the nodes' order in the side of P2 is 2, 3, middle 5
     assert found == pytest.approx(force, abs=1e-12)

@@ -10,8 +10,6 @@ Abaqus 2018 prints 0.186, 0.0720 and 0.0715 in the three iterations of a job wit
 import pytest
 from small_decks import body_lines
 
-import uel
-
 CUBE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 MODES = {"C3D8": 0, "C3D8I": 13, "CPE4I": 5, "CPS4I": 4, "CPE4": 0}
@@ -21,7 +19,7 @@ FORCE = 1.3
 
 @pytest.mark.parametrize("element_type", TERMS)
 @pytest.mark.parametrize("dynamic", [False, True])
-def test_terms(tmp_path, element_type, dynamic):
+def test_terms(run_deck, tmp_path, element_type, dynamic):
     """A body pulled along 1 by FORCE: its nodes have twice that in all, and nothing else."""
     nodes = CUBE if element_type.startswith("C3D") else SQUARE
     pulled = [k for k, x in enumerate(nodes, start=1) if x[0] == 1]
@@ -32,9 +30,8 @@ def test_terms(tmp_path, element_type, dynamic):
     lines += ["4, 3"] if len(nodes) == 8 else []
     lines += ["*STEP", "*DYNAMIC, APPLICATION=QUASI-STATIC" if dynamic else "*STATIC", "1., 1."]
     lines += ["*CLOAD", *(f"{k}, 1, {FORCE / len(pulled)}" for k in pulled), "*END STEP"]
-    (tmp_path / "pull.inp").write_text("\n".join(lines) + "\n")
-    uel.run(tmp_path / "pull.inp", output_dir=tmp_path)
-    message = (tmp_path / "pull.msg").read_text().splitlines()
+    run_deck(lines)
+    message = (tmp_path / "deck.msg").read_text().splitlines()
     printed = next(line for line in message if line.startswith(" AVERAGE FORCE "))
     terms = (TERMS[element_type] + MODES[element_type]) * (2 if dynamic else 1)
     # printed with three digits

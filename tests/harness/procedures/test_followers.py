@@ -3,6 +3,7 @@
 """Pressures and tractions with NLGEOM: they act on the present faces, with their stiffness, and do work."""
 
 from dataclasses import replace
+from itertools import count
 
 import numpy as np
 import pytest
@@ -66,16 +67,14 @@ DLOAD = """      SUBROUTINE DLOAD(F,KSTEP,KINC,TIME,NOEL,NPT,LAYER,KSPT,
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(text, user=None, **options):
-        folder = tmp_path / str(len(list(tmp_path.iterdir())))
-        folder.mkdir()
-        (folder / "press.inp").write_text(text)
-        if user is not None:
-            (folder / "dload.f").write_text(DLOAD.format(user))
-        return uel.run(folder / "press.inp", user and folder / "dload.f", output_dir=folder, **options)
+def press(run_deck):
+    """Run a deck, each as a job of its own: results are read from its files when they are asked for."""
+    numbers = count(1)
 
-    return run
+    def press(text, user=None, **options):
+        return run_deck(text, user and DLOAD.format(user), name=f"press{next(numbers)}", **options)
+
+    return press
 
 
 def nodal(result, name, nodes):
@@ -99,8 +98,8 @@ def test_stiffness_of_loads(tmp_path, element_type, load):
     text = deck(element_type, [static(load or all_faces(element_type, 1.0))])
     if CONTINUUM[element_type].dimension == 2:
         text = text.replace(", 0.48", "")
-    (tmp_path / "press.inp").write_text(text)
-    model = read_deck(tmp_path / "press.inp")
+    (tmp_path / "deck.inp").write_text(text)
+    model = read_deck(tmp_path / "deck.inp")
     library = usersub.load(None, job="job", output_dir=tmp_path)
     system = System(model.mesh, build_blocks(model, library), model.equations)
     counts = [block.points_of_face if block.load.jltyp else 1 for block in system.loaded]
@@ -129,7 +128,7 @@ def test_stiffness_of_loads(tmp_path, element_type, load):
 
 
 @pytest.mark.parametrize("element_type", ["CPE4", "CPE8R", "CAX4", "CAX8", "C3D8", "C3D20R"])
-def test_compression_from_all_sides(run, element_type):
+def test_compression_from_all_sides(press, element_type):
     """The stress is minus the pressure, whatever the shape has become: in each increment
     2 (l_1 - l_0)/(l_1 + l_0) = -(1 - 2 nu) p/E, in plane strain 1 + nu times that; the work is the integral of p dV."""
     pressure, plane = 300.0, element_type.startswith("CPE")
@@ -137,7 +136,7 @@ def test_compression_from_all_sides(run, element_type):
     if NODES[element_type].shape[1] == 3:
         held = "*BOUNDARY\n1, 1, 3\n4, 1\n4, 3\n2, 2, 3\n"
     accurate = "*CONTROLS, PARAMETERS=FIELD\n1e-7, 1.\n"
-    result = run(deck(element_type, [static(accurate + held + all_faces(element_type, pressure))]))
+    result = press(deck(element_type, [static(accurate + held + all_faces(element_type, pressure))]))
     strain = (1 + NU if plane else 1) * (1 - 2 * NU) * pressure / YOUNG
     stretch = ((1 - strain / 20) / (1 + strain / 20)) ** 10
     nodes = NODES[element_type]
@@ -151,11 +150,11 @@ def test_compression_from_all_sides(run, element_type):
     assert result.history["ALLWK"][-1] == pytest.approx(work, rel=2e-3)
 
 
-def test_pressure_turns_with_its_face(run):
+def test_pressure_turns_with_its_face(press):
     """A held square turned by 90 degrees: pressure times thickness on the side that then looks up."""
     held = "*BOUNDARY\n1, 1, 2\n2, 1, 1, -1.\n2, 2, 2, 1.\n3, 1, 1, -2.\n4, 1, 1, -1.\n4, 2, 2, -1.\n3, 2, 2, 0.\n"
-    turned = run(deck("CPE4", [static(held + "*DSLOAD\nSIDE, P, 4.")]))
-    free = run(deck("CPE4", [static(held)]))
+    turned = press(deck("CPE4", [static(held + "*DSLOAD\nSIDE, P, 4.")]))
+    free = press(deck("CPE4", [static(held)]))
     difference = nodal(turned, "RF", SQUARE) - nodal(free, "RF", SQUARE)
     np.testing.assert_allclose(difference, 4 * THICKNESS / 2 * np.array([[0, 0], [0, 1], [0, 1], [0, 0]]), atol=1e-9)
 
@@ -164,18 +163,18 @@ def test_pressure_turns_with_its_face(run):
     ("load", "force"),
     [("TRVEC, 5., 0.6, 0.8", [-4, 3]), ("TRSHR, 5., 0.6, 0.8", [-5, 0]), ("TRSHR, 5., 0.6, -0.8", [5, 0])],
 )
-def test_traction_turns_with_its_face(run, load, force):
+def test_traction_turns_with_its_face(press, load, force):
     """The square of above turned and its side stretched to 1.5: per present length, along the side as it is now."""
     held = "*BOUNDARY\n1, 1, 2\n2, 1, 1, -1.\n2, 2, 2, 1.\n3, 1, 1, -2.5\n4, 1, 1, -1.5\n4, 2, 2, -1.\n3, 2, 2, 0.\n"
-    turned = run(deck("CPE4", [static(held + "*DSLOAD\nSIDE, " + load)]))
-    free = run(deck("CPE4", [static(held)]))
+    turned = press(deck("CPE4", [static(held + "*DSLOAD\nSIDE, " + load)]))
+    free = press(deck("CPE4", [static(held)]))
     difference = nodal(turned, "RF", SQUARE) - nodal(free, "RF", SQUARE)
     expected = -np.outer([0, 1, 1, 0], force) * 1.5 * THICKNESS / 2
     np.testing.assert_allclose(difference, expected, atol=1e-9)
 
 
 @pytest.mark.parametrize("load", ["TRVEC, 2., 1., 0., 0.", "TRSHR, 2., 1., 0., 1."])
-def test_traction_on_a_face_that_is_sheared(run, load):
+def test_traction_on_a_face_that_is_sheared(press, load):
     """The rotation of the polar decomposition of [1 g; 0 1] is by atan(-g/2), and the area stays."""
     nodes, shear = NODES["C3D8"], 0.8
     up = [k for k, x in enumerate(nodes, start=1) if x[1] == 1]
@@ -183,37 +182,37 @@ def test_traction_on_a_face_that_is_sheared(run, load):
     texts = [deck("C3D8", [static(held + body)], nodes=nodes) for body in (f"*DSLOAD\nSIDE, {load}", "")]
     face = nodes[list(CONTINUUM["C3D8"].family.faces[1])]
     assert np.ptp(face[:, 2]) == 0
-    found = np.subtract(*(nodal(run(text), "RF", nodes).sum(axis=0) for text in texts))
+    found = np.subtract(*(nodal(press(text), "RF", nodes).sum(axis=0) for text in texts))
     angle = np.arctan(-shear / 2)
     np.testing.assert_allclose(found, [-2 * np.cos(angle), -2 * np.sin(angle), 0], atol=1e-9)
 
 
-def test_pressure_on_a_ring_that_grows(run):
+def test_pressure_on_a_ring_that_grows(press):
     """All nodes to 1.5 of the radius: p on the present circumference, as far as it is not held twice."""
     nodes = SQUARE + np.array([1.0, 0.0])
     held = "*BOUNDARY\nALL, 2\n" + "".join(f"{k}, 1, 1, {0.5 * x}\n" for k, (x, _) in enumerate(nodes, start=1))
     found = [
-        nodal(run(deck("CAX4", [static(held + load)], nodes=nodes)), "RF", nodes)[:, 0].sum()
+        nodal(press(deck("CAX4", [static(held + load)], nodes=nodes)), "RF", nodes)[:, 0].sum()
         for load in ("*DLOAD\nBODY, P4, 4.", "")
     ]
     assert found[1] - found[0] == pytest.approx(4 * 2 * np.pi * 1.5 * 1.0)
 
 
-def test_pressure_goes_on_from_a_linear_step(run):
+def test_pressure_goes_on_from_a_linear_step(press):
     """On the initial face without NLGEOM, the same but for the square of the strain; removed in the last step."""
     held = "*BOUNDARY\n1, 1, 2\n4, 1\n"
     linear = static(held + "*DLOAD\nBODY, P2, -4.", options="")
     last = static("*DLOAD, OP=NEW")
-    one = run(deck("CPS4", [linear]))
+    one = press(deck("CPS4", [linear]))
     ends = [
-        nodal(run(deck("CPS4", steps)), "U", SQUARE) for steps in ([linear, static("")], [linear, static(""), last])
+        nodal(press(deck("CPS4", steps)), "U", SQUARE) for steps in ([linear, static("")], [linear, static(""), last])
     ]
     np.testing.assert_allclose(nodal(one, "U", SQUARE)[1], [4 / YOUNG, 0], atol=1e-12)
     assert ends[0][1, 0] == pytest.approx(4 / YOUNG, abs=2 * (4 / YOUNG) ** 2)
     np.testing.assert_allclose(ends[1], 0, atol=2 * (4 / YOUNG) ** 2)
 
 
-def test_dynamic_pressure_is_a_dead_traction_where_nothing_turns(run):
+def test_dynamic_pressure_is_a_dead_traction_where_nothing_turns(press):
     procedure = "*DYNAMIC, DIRECT\n0.01, 0.1"
     held = "*BOUNDARY\nALL, 2\n"
     loads = "*DLOAD\nBODY, P4, 4.", "*SURFACE, NAME=LEFT\nBODY, S4\n*DSLOAD, FOLLOWER=NO\nLEFT, TRVEC, 4., 1."
@@ -221,10 +220,10 @@ def test_dynamic_pressure_is_a_dead_traction_where_nothing_turns(run):
         deck("CPE4", [static(held + load, procedure=procedure)]) for load in (loads[0], loads[1].split("\n", 2)[2])
     ]
     texts[1] = texts[1].replace("*SURFACE, NAME=SIDE\nBODY, S2", "*SURFACE, NAME=LEFT\nBODY, S4")
-    found = [run(text).history["U1[ALL:1]"] for text in texts]
+    found = [press(text).history["U1[ALL:1]"] for text in texts]
     np.testing.assert_allclose(found[0], found[1], rtol=1e-6)
     # the middle of the mass: p t^2/(2 density)
-    ends = [nodal(run(text), "U", SQUARE)[:, 0].mean() for text in texts]
+    ends = [nodal(press(text), "U", SQUARE)[:, 0].mean() for text in texts]
     np.testing.assert_allclose(ends, 4 * 0.1**2 / (2 * DENSITY), rtol=1e-6)
 
 
@@ -243,30 +242,30 @@ def stress_along(result):
 
 
 @pytest.mark.parametrize("procedure", ["*STATIC\n0.5, 1.", "*STATIC, STABILIZE\n0.5, 1."])
-def test_pressure_of_dload_at_the_present_place(run, procedure):
+def test_pressure_of_dload_at_the_present_place(press, procedure):
     """A pressure of 200 x on the end, which is at x: that of the deck is 200, and no amplitude acts on it."""
     text = deck("CPE4", [static(HELD + EXACT + "*DLOAD\nBODY, P2NU, 200.", procedure=procedure)])
-    stress, length = stress_along(run(text, "F = F*COORDS(1)"))
+    stress, length = stress_along(press(text, "F = F*COORDS(1)"))
     # the damping is small, not zero
     np.testing.assert_allclose(stress, -200 * length, rtol=1e-3 if "STABILIZE" in procedure else 1e-6)
 
 
 @pytest.mark.parametrize("load", ["*DLOAD\nBODY, P2, 200.", "*DSLOAD\nSIDE, P, 200."])
-def test_pressure_along_a_path(run, load):
+def test_pressure_along_a_path(press, load):
     """Riks' method: the pressure on the present face is the load factor times that of the deck."""
-    result = run(deck("CPE4", [static(HELD + EXACT + load, procedure=RIKS)]))
+    result = press(deck("CPE4", [static(HELD + EXACT + load, procedure=RIKS)]))
     factors = result.history["LPF"]
     assert len(factors) > 3
     np.testing.assert_allclose(stress_along(result)[0], -200 * factors, rtol=1e-6)
 
 
 @pytest.mark.parametrize("load", ["P2NU, 200.", "BXNU, -400."])
-def test_loads_of_dload_along_a_path(run, load):
+def test_loads_of_dload_along_a_path(press, load):
     """F is a function of the load factor, which is TIME(1), and here not proportional to it.
 
     A body force acts on the initial volume; one half of it on the two nodes at the end.
     """
-    result = run(
+    result = press(
         deck("CPE4", [static(HELD + EXACT + f"*DLOAD\nBODY, {load}", procedure=RIKS)]), "F = F*TIME(1)*(1+TIME(1))/2"
     )
     factors = result.history["LPF"]
@@ -275,24 +274,24 @@ def test_loads_of_dload_along_a_path(run, load):
 
 
 @pytest.mark.parametrize("load", ["*DLOAD\nBODY, P2, 200.", "*DLOAD\nBODY, BXNU, 200."])
-def test_energy_control_refuses_loads_on_elements(run, load):
+def test_energy_control_refuses_loads_on_elements(press, load):
     message = (
         "loads on user elements, those that follow the surface and those of DLOAD are not supported with --control"
     )
     with pytest.raises(DeckError, match=message):
-        run(deck("CPE4", [static(HELD + load)]), "F = F", solver=uel.SolverOptions(energy_control=True))
+        press(deck("CPE4", [static(HELD + load)]), "F = F", solver=uel.SolverOptions(energy_control=True))
 
 
 @pytest.mark.parametrize(
     ("steps", "message"),
     [
-        ([static("*DSLOAD\nSIDE, TRSHR, 1., 1.")], r"press.inp:\d+: TRSHR: the direction is normal to the surface"),
+        ([static("*DSLOAD\nSIDE, TRSHR, 1., 1.")], r"press1.inp:\d+: TRSHR: the direction is normal to the surface"),
         (
             [static("*DLOAD\nBODY, P2, 1."), "*STEP\n*FREQUENCY\n1"],
-            r"load type P follows .* beside a perturbation step \(.*press.inp:\d+\)",
+            r"load type P follows .* beside a perturbation step \(.*press1.inp:\d+\)",
         ),
     ],
 )
-def test_what_is_not_followed_is_refused(run, steps, message):
+def test_what_is_not_followed_is_refused(press, steps, message):
     with pytest.raises(DeckError, match=message):
-        run(deck("CPE4", steps))
+        press(deck("CPE4", steps))

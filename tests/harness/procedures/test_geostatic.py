@@ -7,7 +7,6 @@ import pytest
 from columns import CELLS
 from small_decks import body_lines
 
-import uel
 from uel.errors import DeckError
 from uel.model.element_types import CONTINUUM
 
@@ -49,15 +48,6 @@ def layer(element_type, *, stress=1.0, lateral=LATERAL):
     return [*lines, output], output, d
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(lines, user=None):
-        (tmp_path / "soil.inp").write_text("\n".join(lines) + "\n")
-        return uel.run(tmp_path / "soil.inp", user, output_dir=tmp_path)
-
-    return run
-
-
 def expected_stress(dimension):
     """Components of the four elements, bottom up."""
     vertical = -WEIGHT * (HEIGHT - np.arange(0.5, 4.0))
@@ -66,11 +56,11 @@ def expected_stress(dimension):
 
 
 @pytest.mark.parametrize("element_type", ["CPE4", "CPE4R", "CPE8", "CPE8R", "CAX4", "CAX8R", "C3D8", "C3D8R", "C3D20R"])
-def test_stresses_in_equilibrium(run, element_type):
+def test_stresses_in_equilibrium(run_deck, element_type):
     """Nothing moves, in one increment; a load in the next step moves the top by q H/M."""
     lines, output, d = layer(element_type)
     load = f"*STEP\n*STATIC\n1., 1.\n*DSLOAD\nTOP, P, 3.\n{output}"
-    result = run([*lines, load])
+    result = run_deck([*lines, load])
     assert [(row.step, row.increment) for row in result.status] == [(1, 1), (2, 1)]
     moved = 3 * HEIGHT / CONSTRAINED
     np.testing.assert_allclose(result.field("U", step=1), 0, atol=1e-11 * moved)
@@ -79,29 +69,29 @@ def test_stresses_in_equilibrium(run, element_type):
     assert result.field("U", step=2)[:, d - 1].min() == pytest.approx(-moved, rel=1e-9)
 
 
-def test_stresses_out_of_equilibrium(run):
+def test_stresses_out_of_equilibrium(run_deck):
     """A tenth too little: the layer settles under the rest of the weight, rho g H^2/(2 M)."""
     lines, _, _ = layer("CPE8", stress=0.9)
-    result = run(lines)
+    result = run_deck(lines)
     assert result.field("U")[:, 1].min() == pytest.approx(-0.1 * WEIGHT * HEIGHT**2 / (2 * CONSTRAINED), rel=1e-9)
     np.testing.assert_allclose(result.field("S22"), expected_stress(2)["S22"], rtol=1e-9)
 
 
-def test_second_coefficient_is_the_first_if_it_is_left_out(run):
+def test_second_coefficient_is_the_first_if_it_is_left_out(run_deck):
     lines, _, _ = layer("CPE8", lateral=(0.5,))
-    result = run(lines)
+    result = run_deck(lines)
     np.testing.assert_allclose(result.field("S33"), result.field("S11"))
 
 
 @pytest.mark.parametrize(
     ("new", "message"),
     [
-        ("*GEOSTATIC, UTOL=0.01", r"soil\.inp:\d+: .*UTOL"),
-        ("*GEOSTATIC\n0.1, 1.", r"soil\.inp:\d+: \*GEOSTATIC takes no data lines"),
+        ("*GEOSTATIC, UTOL=0.01", r"deck\.inp:\d+: .*UTOL"),
+        ("*GEOSTATIC\n0.1, 1.", r"deck\.inp:\d+: \*GEOSTATIC takes no data lines"),
     ],
 )
-def test_what_is_not_supported(run, new, message):
+def test_what_is_not_supported(run_deck, new, message):
     lines, _, _ = layer("CPE4")
     lines[lines.index("*GEOSTATIC")] = new
     with pytest.raises(DeckError, match=message):
-        run(lines)
+        run_deck(lines)

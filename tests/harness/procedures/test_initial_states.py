@@ -60,8 +60,8 @@ def deck(folder, conditions, model=SPRINGS, end=3, other=2):
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(*arguments, user=USER, **options):
+def last_state(tmp_path):
+    def last_state(*arguments, user=USER, **options):
         """The last record of a run."""
         path = deck(tmp_path, *arguments, **options)
         model = read_deck(path)
@@ -73,26 +73,26 @@ def run(tmp_path):
             library.close()
         return last.solution
 
-    return run
+    return last_state
 
 
-def test_states_by_data_lines(run):
+def test_states_by_data_lines(last_state):
     """The spring to node 3 has stiffness 8; a line of eight entries goes on in the next."""
-    solution = run("*INITIAL CONDITIONS, TYPE=SOLUTION\nSPRINGS, 3., 4.\n2, 8.\n")
+    solution = last_state("*INITIAL CONDITIONS, TYPE=SOLUTION\nSPRINGS, 3., 4.\n2, 8.\n")
     assert solution.reaction[2] == pytest.approx(8.0 * 0.5)
     assert [state.svars.tolist() for state in solution.elements] == [[[3.0, 4.0], [8.0, 4.0]]]
 
 
-def test_states_by_sdvini(run):
+def test_states_by_sdvini(last_state):
     """100 times the place of the middle: 4 for the second spring."""
-    solution = run(BY_SDVINI)
+    solution = last_state(BY_SDVINI)
     assert solution.reaction[2] == pytest.approx(400.0 * 0.5)
     assert solution.elements[0].svars.tolist() == [[100.0, 11.0], [400.0, 21.0]]
 
 
-def test_sdvini_sets_statev_at_each_point(run):
+def test_sdvini_sets_statev_at_each_point(last_state):
     """Modulus 100 x in a square of side 1, whose corner moves; points in the order of Abaqus."""
-    solution = run(BY_SDVINI, SQUARE, end=2)
+    solution = last_state(BY_SDVINI, SQUARE, end=2)
     statev = solution.elements[0].svars.reshape(4, -1)[:, -2:]
     near, far = (0.5 - 0.5 / 3**0.5) * 100, (0.5 + 0.5 / 3**0.5) * 100
     assert statev[:, 0] == pytest.approx([near, far, near, far])
@@ -126,22 +126,22 @@ def test_checks_begin_with_the_same_states(tmp_path):
         ("*INITIAL CONDITIONS, TYPE=VELOCITY, USER\n1, 1, 1.\n", "USER is for TYPE=SOLUTION"),
     ],
 )
-def test_what_is_wrong_is_named(run, conditions, message):
+def test_what_is_wrong_is_named(last_state, conditions, message):
     with pytest.raises(DeckError, match=message):
-        run(conditions)
+        last_state(conditions)
 
 
-def test_sdvini_is_needed(run, tmp_path):
+def test_sdvini_is_needed(last_state, tmp_path):
     user = tmp_path / "uel.f"
     text = USER.read_text().split("      SUBROUTINE SDVINI")[0]
     user.write_text(text.replace("'../", f"'{USER.parents[1]}/"))
     with pytest.raises(DeckError, match=r"initial.inp:\d+: \*INITIAL CONDITIONS, USER needs SDVINI"):
-        run(BY_SDVINI, user=user)
+        last_state(BY_SDVINI, user=user)
 
 
-def test_sdvini_may_end_the_analysis(run):
+def test_sdvini_may_end_the_analysis(last_state):
     with pytest.raises(KernelError, match=r"element 66 \(type U1\): SDVINI stopped the analysis"):
-        run(BY_SDVINI, other=66)
+        last_state(BY_SDVINI, other=66)
     message = r"element 67 \(type CPS4\): SDVINI at integration point 3 stopped the analysis"
     with pytest.raises(KernelError, match=message):
-        run(BY_SDVINI, SQUARE.replace("\n7,", "\n67,"), end=2)
+        last_state(BY_SDVINI, SQUARE.replace("\n7,", "\n67,"), end=2)

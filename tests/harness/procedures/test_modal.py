@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from vibrating import PAIR, bar
+from vibrating import PAIR, bar, harmonic
 
 import uel
 from uel.deck import read_deck
@@ -46,23 +46,17 @@ SWEEP = "*STEADY STATE DYNAMICS, INTERVAL=RANGE\n0.1, 0.5, 5"
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(model, procedure, more="", *, number="1", how="", options="", user=None):
+def run_modal(run_deck):
+    def run_modal(model, procedure, more="", *, number="1", how="", options="", user=None):
         step = f"*STEP{options}\n{procedure}\n{more}\n{OUTPUT}"
-        (tmp_path / "modal.inp").write_text(model + MODES.format(how=how, number=number) + step)
-        return uel.run(tmp_path / "modal.inp", user, output_dir=tmp_path)
+        return run_deck(model + MODES.format(how=how, number=number) + step, user)
 
-    return run
+    return run_modal
 
 
 def last_step(history):
     """Columns without the rows of the modes."""
     return {name: values[history["step"] == 2] for name, values in history.items()}
-
-
-def harmonic(history, name):
-    """Complex values of a column."""
-    return history[name] * np.exp(1j * np.deg2rad(history[f"P{name}"]))
 
 
 def viscous(fraction):
@@ -90,8 +84,8 @@ DAMPED = [
 
 
 @pytest.mark.parametrize(("damping", "c", "s"), DAMPED)
-def test_an_oscillator_over_frequency(run, damping, c, s):
-    history = last_step(run(OSCILLATOR, SWEEP, f"{damping}\n{PUSHED}").history)
+def test_an_oscillator_over_frequency(run_modal, damping, c, s):
+    history = last_step(run_modal(OSCILLATOR, SWEEP, f"{damping}\n{PUSHED}").history)
     rate = 1j * CYCLES * history["time"]
     x = (3 + 4j) / (K + rate**2 * M + rate * c + 1j * s)
     np.testing.assert_allclose(harmonic(history, "U1[ALL:2]"), x)
@@ -106,24 +100,26 @@ def test_an_oscillator_over_frequency(run, damping, c, s):
 
 @pytest.mark.parametrize("normalization", ["", ", NORMALIZATION=MASS"])
 @pytest.mark.parametrize("projected", [False, True])
-def test_all_modes_of_a_bar_are_the_direct_solution(run, tmp_path, normalization, projected):
+def test_all_modes_of_a_bar_are_the_direct_solution(run_modal, tmp_path, normalization, projected):
     """Twenty modes of twenty unknowns; consistent masses act on the support too."""
     n = 20
     model = bar(n, more="1, 1\n")
     load = f"*CLOAD\n{n + 1}, 1, 3.\n*CLOAD, IMAGINARY\n7, 1, 2."
     kind = ", SUBSPACE PROJECTION" if projected else ""
-    by_modes = run(
+    by_modes = run_modal(
         model, f"*STEADY STATE DYNAMICS, INTERVAL=RANGE{kind}\n0.2, 1.9, 6", load, number=f"{n}", how=normalization
     )
     by_modes = last_step(by_modes.history)
-    direct = last_step(run(model, "*STEADY STATE DYNAMICS, DIRECT, REAL ONLY\n0.2, 1.9, 6", load, number="1").history)
+    direct = last_step(
+        run_modal(model, "*STEADY STATE DYNAMICS, DIRECT, REAL ONLY\n0.2, 1.9, 6", load, number="1").history
+    )
     for name in ("U1[ALL:5]", f"U1[ALL:{n + 1}]", "A1[ALL:9]", "RF1[ALL:1]"):
         np.testing.assert_allclose(harmonic(by_modes, name), harmonic(direct, name), rtol=1e-7)
     for name in ("ALLSE", "ALLKE"):
         np.testing.assert_allclose(by_modes[name], direct[name], rtol=1e-7)
 
 
-def test_projected_matrices_have_the_damping_of_user_elements(run):
+def test_projected_matrices_have_the_damping_of_user_elements(run_modal):
     """A mass on a spring and dampers that are not those of a mode: one mode of one unknown is the direct solution."""
     user = Path(__file__).parent / "harmonic.f"
     c, s = 0.6, 0.9
@@ -140,7 +136,7 @@ def test_projected_matrices_have_the_damping_of_user_elements(run):
 1, 1
 """
     procedure = "*STEADY STATE DYNAMICS, SUBSPACE PROJECTION, INTERVAL=RANGE\n0.1, 0.5, 5"
-    history = last_step(run(model, procedure, PUSHED, user=user).history)
+    history = last_step(run_modal(model, procedure, PUSHED, user=user).history)
     rate = 1j * CYCLES * history["time"]
     x = (3 + 4j) / (K + rate**2 * M + rate * c + 1j * s)
     np.testing.assert_allclose(harmonic(history, "U1[ALL:2]"), x)
@@ -157,7 +153,7 @@ def test_projected_matrices_have_the_damping_of_user_elements(run):
         ("*FREQUENCY\n0., 0.6\n1.4, 1.6", [0, 1]),
     ],
 )
-def test_modes_that_respond(run, selection, chosen):
+def test_modes_that_respond(run_modal, selection, chosen):
     """A bar of lumped masses between walls, pushed in a quarter: each mode by itself, from its shape."""
     n = 20
     model = bar(n, more=f"1, 1\n{n + 1}, 1\n")
@@ -167,7 +163,7 @@ def test_modes_that_respond(run, selection, chosen):
         selection = "*FREQUENCY\n0., 1.05\n1.9, 2.1"
     text = f"*SELECT EIGENMODES{options.get(head, '')}\n{selection.removeprefix(head).lstrip()}"
     history = last_step(
-        run(model, "*STEADY STATE DYNAMICS\n0.33", f"{text}\n*CLOAD\n{n // 4 + 1}, 1, 1.", number="6").history
+        run_modal(model, "*STEADY STATE DYNAMICS\n0.33", f"{text}\n*CLOAD\n{n // 4 + 1}, 1, 1.", number="6").history
     )
     k = np.arange(1, 7)[chosen]
     omega = 2 * n * 2.0 * np.sin(k * np.pi / (2 * n))
@@ -177,28 +173,28 @@ def test_modes_that_respond(run, selection, chosen):
     np.testing.assert_allclose(harmonic(history, f"U1[ALL:{n // 4 + 1}]")[0], expected)
 
 
-def test_natural_frequencies_divide_the_range(run):
+def test_natural_frequencies_divide_the_range(run_modal):
     """Two masses: four points from limit to mode to mode to limit, closer to their ends with the bias 3."""
     natural = np.sqrt(4.0 * (3 + np.array([-1, 1]) * np.sqrt(5)) / 2) / CYCLES
     load = "*MODAL DAMPING\n1, 2, 0.1\n*CLOAD\n3, 1, 1."
     place = 0.5 + 0.5 * np.array([-1, -((1 / 3) ** (1 / 3)), (1 / 3) ** (1 / 3), 1])
     limits = [0.1, *natural, 1.0]
     expected = np.concatenate([[0.1], *(a * (b / a) ** place[1:] for a, b in pairwise(limits))])
-    found = last_step(run(PAIR, "*STEADY STATE DYNAMICS\n0.1, 1., 4", load, number="2").history)
+    found = last_step(run_modal(PAIR, "*STEADY STATE DYNAMICS\n0.1, 1., 4", load, number="2").history)
     np.testing.assert_allclose(found["time"], expected)
     # off the poles, where nothing damps
     by_matrices = "*STEADY STATE DYNAMICS, DIRECT, INTERVAL=EIGENFREQUENCY\n0.1, 1., 4, , 1.01"
-    found = last_step(run(PAIR, by_matrices, "*CLOAD\n3, 1, 1.", number="2").history)
+    found = last_step(run_modal(PAIR, by_matrices, "*CLOAD\n3, 1, 1.", number="2").history)
     np.testing.assert_allclose(found["time"], expected * ([1.0] + [1.01] * 8 + [1.0]))
 
 
 @pytest.mark.parametrize(("kind", "power"), [("", 0), (", TYPE=VELOCITY", 1), (", TYPE=DISPLACEMENT", 2)])
 @pytest.mark.parametrize(("part", "value"), [("", 1.0), (", IMAGINARY", 1j)])
-def test_supports_move_over_frequency(run, kind, power, part, value):
+def test_supports_move_over_frequency(run_modal, kind, power, part, value):
     """Relative displacement -M a / (K - w^2 M); the support pulls what accelerates the mass."""
     table = "*AMPLITUDE, NAME=A\n0., 1., 1., 3.\n"
     moved = f"*BASE MOTION, DOF=1, AMPLITUDE=A, SCALE=0.5{kind}{part}"
-    history = last_step(run(table + OSCILLATOR, SWEEP, moved).history)
+    history = last_step(run_modal(table + OSCILLATOR, SWEEP, moved).history)
     rate = 1j * CYCLES * history["time"]
     acceleration = value * 0.5 * (1 + 2 * history["time"]) * rate**power
     x = -M * acceleration / (K + rate**2 * M)
@@ -206,17 +202,17 @@ def test_supports_move_over_frequency(run, kind, power, part, value):
     np.testing.assert_allclose(harmonic(history, "RF1[ALL:1]"), -K * x)
 
 
-def test_moved_supports_are_the_direct_solution(run):
+def test_moved_supports_are_the_direct_solution(run_modal):
     """Absolute displacements of DIRECT less those of the supports, of a bar with masses and a support at both ends."""
     n, moved = 12, 0.2
     model = "*AMPLITUDE, NAME=A\n0., 1.\n" + bar(n, more=f"1, 1\n{n + 1}, 1\n")
-    found = run(
+    found = run_modal(
         model,
         "*STEADY STATE DYNAMICS\n0.8",
         f"*BASE MOTION, DOF=1, AMPLITUDE=A, TYPE=DISPLACEMENT, SCALE={moved}",
         number=f"{n - 1}",
     ).history
-    direct = run(
+    direct = run_modal(
         model, "*STEADY STATE DYNAMICS, DIRECT, REAL ONLY\n0.8", f"*BOUNDARY\n1, 1, 1, {moved}\n{n + 1}, 1, 1, {moved}"
     ).history
     found, direct = last_step(found), last_step(direct)
@@ -227,10 +223,10 @@ def test_moved_supports_are_the_direct_solution(run):
 
 
 @pytest.mark.parametrize(("damping", "c", "s"), [case for case in DAMPED if not case[2]])
-def test_an_oscillator_over_time(run, damping, c, s):
+def test_an_oscillator_over_time(run_modal, damping, c, s):
     """A force that is there at once, in large increments: x = F/K (1 - e^(-d t) (cos w_d t + d / w_d sin w_d t))."""
     assert not s
-    history = last_step(run(OSCILLATOR, "*MODAL DYNAMIC\n0.7, 6.", f"{damping}\n*CLOAD\n2, 1, 3.").history)
+    history = last_step(run_modal(OSCILLATOR, "*MODAL DYNAMIC\n0.7, 6.", f"{damping}\n*CLOAD\n2, 1, 3.").history)
     t = history["time"]
     np.testing.assert_allclose(t, [0.7, 1.4, 2.1, 2.8, 3.5, 4.2, 4.9, 5.6, 6.0])
     decay = c / (2 * M)
@@ -246,25 +242,25 @@ def test_an_oscillator_over_time(run, damping, c, s):
 
 
 @pytest.mark.parametrize("ramp", ["*AMPLITUDE", ", AMPLITUDE=RAMP"])
-def test_a_ramp_is_integrated_exactly(run, ramp):
+def test_a_ramp_is_integrated_exactly(run_modal, ramp):
     """F t: x = F/K (t - sin(w t)/w)."""
     model = "*AMPLITUDE, NAME=A\n0., 0., 4., 4.\n" + OSCILLATOR
     given = "*CLOAD, AMPLITUDE=A\n2, 1, 3." if ramp == "*AMPLITUDE" else "*CLOAD\n2, 1, 12."
     options = "" if ramp == "*AMPLITUDE" else ramp
-    history = last_step(run(model, "*MODAL DYNAMIC\n1., 4.", given, options=options).history)
+    history = last_step(run_modal(model, "*MODAL DYNAMIC\n1., 4.", given, options=options).history)
     t = history["time"]
     np.testing.assert_allclose(history["U1[ALL:2]"], 3 / K * (t - np.sin(OMEGA * t) / OMEGA))
 
 
-def test_supports_move_over_time(run):
+def test_supports_move_over_time(run_modal):
     model = "*AMPLITUDE, NAME=A\n0., 2., 1., 2.\n" + OSCILLATOR
-    history = last_step(run(model, "*MODAL DYNAMIC\n0.5, 3.", "*BASE MOTION, DOF=1, AMPLITUDE=A").history)
+    history = last_step(run_modal(model, "*MODAL DYNAMIC\n0.5, 3.", "*BASE MOTION, DOF=1, AMPLITUDE=A").history)
     x = -2 * M / K * (1 - np.cos(OMEGA * history["time"]))
     np.testing.assert_allclose(history["U1[ALL:2]"], x)
     np.testing.assert_allclose(history["RF1[ALL:1]"], -K * x)
 
 
-def test_initial_velocities_and_a_mode_without_stiffness(run):
+def test_initial_velocities_and_a_mode_without_stiffness(run_modal):
     """Two masses on one spring, free: the middle goes on at 1.5/2, they vibrate about it with w^2 = 2 k/m.
 
     Their energy stays that at the start.
@@ -273,15 +269,17 @@ def test_initial_velocities_and_a_mode_without_stiffness(run):
         "*BOUNDARY\nALL, 2, 3\n1, 1\n", "*BOUNDARY\nALL, 2, 3\n"
     )
     model = free.replace("1, 0.\n", "", 1) + "*INITIAL CONDITIONS, TYPE=VELOCITY\n3, 1, 1.5\n"
-    history = last_step(run(model, "*MODAL DYNAMIC\n0.25, 2.", number="2").history)
+    history = last_step(run_modal(model, "*MODAL DYNAMIC\n0.25, 2.", number="2").history)
     t, omega = history["time"], np.sqrt(8.0)
     np.testing.assert_allclose(history["U1[ALL:3]"], 0.75 * (t + np.sin(omega * t) / omega), rtol=1e-6)
     np.testing.assert_allclose(history["U1[ALL:2]"], 0.75 * (t - np.sin(omega * t) / omega), rtol=1e-5)
     np.testing.assert_allclose(history["ALLSE"] + history["ALLKE"], 1.5**2, rtol=1e-6)
 
 
-def test_what_is_written(run):
-    result = run(OSCILLATOR, "*MODAL DYNAMIC\n0.5, 1.", "*CLOAD\n2, 1, 3.\n*NODE PRINT\nU\n*MONITOR, NODE=2, DOF=1")
+def test_what_is_written(run_modal):
+    result = run_modal(
+        OSCILLATOR, "*MODAL DYNAMIC\n0.5, 1.", "*CLOAD\n2, 1, 3.\n*NODE PRINT\nU\n*MONITOR, NODE=2, DOF=1"
+    )
     message = result.file(".msg").read_text()
     assert "M O D A L   D Y N A M I C   A N A L Y S I S" in message
     assert "1 OF 1 MODES OF STEP 1 RESPOND" in message
@@ -297,7 +295,7 @@ def test_what_is_written(run):
         (
             SWEEP,
             "*BOUNDARY\n1, 1, 1, 0.1",
-            r"modal.inp:\d+: a step by modes moves all supports alike, by \*BASE MOTION",
+            r"deck.inp:\d+: a step by modes moves all supports alike, by \*BASE MOTION",
         ),
         (SWEEP, "*BOUNDARY\n2, 1", r"\*BOUNDARY holds other dofs than the step of the modes, 1"),
         (SWEEP, "*BOUNDARY, OP=NEW\n1, 1", r"\*BOUNDARY holds other dofs than the step of the modes, 1"),
@@ -307,14 +305,14 @@ def test_what_is_written(run):
         (SWEEP, "*SELECT EIGENMODES, GENERATE\n3, 1", "expected first and last mode and a positive increment"),
         (SWEEP, "*SELECT EIGENMODES, GENERATE, DEFINITION=FREQ\n3, 1", "GENERATE is for DEFINITION=MODE NUMBERS"),
         (SWEEP, "*SELECT EIGENMODES, DEFINITION=FREQ\n3., 1.", "the highest frequency 1 is below the lowest, 3"),
-        (SWEEP, "*SELECT EIGENMODES\n1\n*SELECT EIGENMODES\n1", r"EIGENMODES: a step has one already, at .*modal.inp"),
+        (SWEEP, "*SELECT EIGENMODES\n1\n*SELECT EIGENMODES\n1", r"EIGENMODES: a step has one already, at .*deck.inp"),
         (SWEEP, "*MODAL DAMPING\n", "MODAL DAMPING: needs a data line"),
         (SWEEP, "*MODAL DAMPING\n3, 1, 0.1", "the last mode 1 is before the first, 3"),
         (SWEEP, "*MODAL DAMPING\n1, 1, -0.1", "damping must not be negative"),
         (SWEEP, "*MODAL DAMPING, DEFINITION=FREQ\n1., 0.1\n1., 0.2", "frequencies must increase"),
         (SWEEP, "*MODAL DAMPING, RAYLEIGH, STRUCTURAL\n1", "RAYLEIGH and STRUCTURAL exclude each other"),
         (SWEEP, "*MODAL DAMPING, VISCOUS=COMPOSITE\n1", "VISCOUS=COMPOSITE is not supported"),
-        (SWEEP, "*MODAL DAMPING\n1, 1, .1\n*MODAL DAMPING\n1, 1, .1", "DAMPING is given already, at .*modal.inp"),
+        (SWEEP, "*MODAL DAMPING\n1, 1, .1\n*MODAL DAMPING\n1, 1, .1", "DAMPING is given already, at .*deck.inp"),
         ("*STEADY STATE DYNAMICS, SUBSPACE\n1.", "*MODAL DAMPING\n1, 1, .1", "which has that of the elements"),
         (
             "*MODAL DYNAMIC\n0.1, 1.",
@@ -346,10 +344,10 @@ def test_what_is_written(run):
         ),
     ],
 )
-def test_what_is_wrong_is_named(run, procedure, more, message):
+def test_what_is_wrong_is_named(run_modal, procedure, more, message):
     tables = "*AMPLITUDE, NAME=A\n0., 1.\n*AMPLITUDE, NAME=U, DEFINITION=USER\n"
     with pytest.raises(DeckError, match=message):
-        run(tables + OSCILLATOR, procedure, more)
+        run_modal(tables + OSCILLATOR, procedure, more)
 
 
 @pytest.mark.parametrize(
@@ -365,10 +363,10 @@ def test_modes_do_not_outlast_their_job(tmp_path, monkeypatch, procedure, how):
     static = "*STEP\n*STATIC\n*END STEP\n"
     modes = MODES.format(how="", number=1)
     text = f"{OSCILLATOR}*RESTART, WRITE\n{static}{modes}{static}*STEP\n{procedure}\n*END STEP\n"
-    (tmp_path / "modal.inp").write_text(text)
-    uel.run("modal.inp")
+    (tmp_path / "deck.inp").write_text(text)
+    uel.run("deck.inp")
     with pytest.raises(DeckError, match=rf"{how} needs a \*FREQUENCY step before it in the same job"):
-        uel.run("modal.inp", job="again", oldjob="modal")
+        uel.run("deck.inp", job="again", oldjob="deck")
 
 
 @pytest.mark.parametrize(
@@ -380,8 +378,6 @@ def test_modes_do_not_outlast_their_job(tmp_path, monkeypatch, procedure, how):
     ],
 )
 def test_modes_come_first(tmp_path, procedure, message):
-    (tmp_path / "modal.inp").write_text(
-        OSCILLATOR + f"*STEP\n{procedure}\n*END STEP\n" + MODES.format(how="", number=1)
-    )
+    (tmp_path / "deck.inp").write_text(OSCILLATOR + f"*STEP\n{procedure}\n*END STEP\n" + MODES.format(how="", number=1))
     with pytest.raises(DeckError, match=message):
-        read_deck(tmp_path / "modal.inp")
+        read_deck(tmp_path / "deck.inp")

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import uel
 from uel.check.recording import Pass, record
 from uel.errors import DeckError
 
@@ -47,19 +46,17 @@ OUTPUT = "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nU, RF, CF\n"
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(*parts, user=UEL):
-        (tmp_path / "linear.inp").write_text("".join(parts))
-        (tmp_path / "spring.f").write_text(user)
-        return uel.run(tmp_path / "linear.inp", tmp_path / "spring.f", output_dir=tmp_path)
+def run_springs(run_deck):
+    def run_springs(*parts, user=UEL):
+        return run_deck("".join(parts), user)
 
-    return run
+    return run_springs
 
 
-def test_about_a_base_state(run):
+def test_about_a_base_state(run_springs):
     """f = 3 at u = 1, where the stiffness is 5; the next general step goes on from there to f = 12 at u = 2."""
     more = PULL.format("").replace("2, 1, 3.", "2, 1, 12.")
-    result = run(SPRING, PULL.format(OUTPUT), LINEAR.format("", "*CLOAD\n2, 1, 0.5"), more)
+    result = run_springs(SPRING, PULL.format(OUTPUT), LINEAR.format("", "*CLOAD\n2, 1, 0.5"), more)
     history = result.history
     rows = [np.flatnonzero(history["step"] == number)[-1] for number in (1, 2, 3)]
     np.testing.assert_allclose(history["U1[ALL:2]"][rows], [1, 0.1, 2], rtol=CLOSE)
@@ -73,7 +70,7 @@ def test_about_a_base_state(run):
     assert flags == [["1", "0", "1", "1", "0", "1.0000", "0.0000"], ["1", "0", "100", "1", "0", "1.0000", "0.1000"]]
 
 
-def test_loads_on_user_elements(run):
+def test_loads_on_user_elements(run_springs):
     """U1 pulls node 2 by 3 in the base state (ADLMAG) and by 0.5 more in the linear step (DDLMAG), where S = 5."""
     user = UEL.replace(
         "      SVARS(1) = E\n",
@@ -83,7 +80,7 @@ def test_loads_on_user_elements(run):
         "      RHS(2,1) = RHS(2,1) + PULL\n      SVARS(1) = E\n",
     )
     pull = PULL.format(OUTPUT).replace("*CLOAD\n2, 1, 3.", "*DLOAD\nE, U1, 3.")
-    result = run(SPRING, pull, LINEAR.format("", "*DLOAD\nE, U1, 0.5"), pull, user=user)
+    result = run_springs(SPRING, pull, LINEAR.format("", "*DLOAD\nE, U1, 0.5"), pull, user=user)
     history = result.history
     rows = [np.flatnonzero(history["step"] == number)[-1] for number in (1, 2, 3)]
     np.testing.assert_allclose(history["U1[ALL:2]"][rows], [1, 0.1, 1], rtol=CLOSE)
@@ -92,22 +89,22 @@ def test_loads_on_user_elements(run):
     assert {tuple(line.split()[1:]) for line in lines if line.startswith("LOAD")} == {("3.0000", "0.5000")}
 
 
-def test_forces_of_the_base_state_are_taken_for_loads(run):
+def test_forces_of_the_base_state_are_taken_for_loads(run_springs):
     """An element that does not look at LFLAGS(4) returns -3 at node 2, which acts beside the load of 0.5: a warning."""
     user = UEL.replace("IF (LFLAGS(4) .EQ. 1) F = S*(DU(2,1) - DU(1,1))", "CONTINUE")
-    result = run(SPRING, PULL.format(OUTPUT), LINEAR.format("", "*CLOAD\n2, 1, 0.5"), user=user)
+    result = run_springs(SPRING, PULL.format(OUTPUT), LINEAR.format("", "*CLOAD\n2, 1, 0.5"), user=user)
     assert result.history["U1[ALL:2]"][-1] == pytest.approx((0.5 - 3) / 5, rel=CLOSE)
     message = " ".join(result.file(".msg").read_text().split())
     assert "***WARNING: USER ELEMENTS RETURN FORCES OF THE BASE STATE IN RHS OF A LINEAR STEP" in message
 
 
-def test_prescribed_values_are_changes(run):
-    history = run(SPRING, PULL.format(OUTPUT), LINEAR.format("", "*BOUNDARY\n2, 1, 1, 0.2")).history
+def test_prescribed_values_are_changes(run_springs):
+    history = run_springs(SPRING, PULL.format(OUTPUT), LINEAR.format("", "*BOUNDARY\n2, 1, 1, 0.2")).history
     assert history["U1[ALL:2]"][-1] == pytest.approx(0.2)
     assert history["RF1[ALL:2]"][-1] == pytest.approx(5 * 0.2, rel=CLOSE)
 
 
-def test_disp_gives_changes(run):
+def test_disp_gives_changes(run_springs):
     """It adds 0.1 to the 0.2 of the deck."""
     disp = """      SUBROUTINE DISP(U,KSTEP,KINC,TIME,NODE,NOEL,JDOF,COORDS)
       INCLUDE 'ABA_PARAM.INC'
@@ -116,15 +113,15 @@ def test_disp_gives_changes(run):
       END
 """
     given = PULL.format(OUTPUT), LINEAR.format("", "*BOUNDARY, USER\n2, 1, 1, 0.2")
-    assert run(SPRING, *given, user=UEL + disp).history["U1[ALL:2]"][-1] == pytest.approx(0.3)
-    with pytest.raises(DeckError, match=r"linear.inp:\d+: \*BOUNDARY, USER needs DISP, which the job does not have"):
-        run(SPRING, *given)
+    assert run_springs(SPRING, *given, user=UEL + disp).history["U1[ALL:2]"][-1] == pytest.approx(0.3)
+    with pytest.raises(DeckError, match=r"deck.inp:\d+: \*BOUNDARY, USER needs DISP, which the job does not have"):
+        run_springs(SPRING, *given)
 
 
-def test_checks_are_made_at_states_of_general_steps(run, tmp_path):
+def test_checks_are_made_at_states_of_general_steps(run_springs, tmp_path):
     """In the linear step RHS is none of U, and AMATRX not its derivative."""
-    run(SPRING, PULL.format(OUTPUT), LINEAR.format("", "*CLOAD\n2, 1, 0.5"))
-    recording = record(tmp_path / "linear.inp", [tmp_path / "spring.f"], 2)
+    run_springs(SPRING, PULL.format(OUTPUT), LINEAR.format("", "*CLOAD\n2, 1, 0.5"))
+    recording = record(tmp_path / "deck.inp", [tmp_path / "user.f"], 2)
     passes = [event for event in recording.events if isinstance(event, Pass)]
     assert recording.increments == 2
     assert {event.call.step for event in passes} == {1, 2}
@@ -152,12 +149,12 @@ BODY, S2
 FIELD = "*OUTPUT, FIELD\n" + OUTPUT.replace("HISTORY", "HISTORY, OP=ADD")
 
 
-def test_stresses_are_changes(run):
+def test_stresses_are_changes(run_springs):
     """After 3 in the general step 7 along and 5 across in the first, the linear one."""
     pull = "*STEP\n*STATIC\n*DSLOAD\nSIDE, TRVEC, 3., 1.\n*END STEP\n"
     linear = LINEAR.format("", "*DSLOAD\nSIDE, TRVEC, 7., 1.\n*DLOAD\nBODY, P3, -5.\n" + FIELD)
     for before in ("", pull):
-        result = run(SQUARE, before, linear)
+        result = run_springs(SQUARE, before, linear)
         np.testing.assert_allclose(result.field("S11"), 7, rtol=1e-9)
         np.testing.assert_allclose(result.field("S22"), 5, rtol=1e-9)
         np.testing.assert_allclose(result.field("E11"), (7 - 0.25 * 5) / 1000, rtol=1e-9)
@@ -165,8 +162,8 @@ def test_stresses_are_changes(run):
         assert result.history["RF1[ALL:1]"][-1] + result.history["RF1[ALL:4]"][-1] == pytest.approx(-2 * 7)
 
 
-def test_energies_of_general_steps_after_it_are_there(run):
-    history = run(SPRING, LINEAR.format("", "*CLOAD\n2, 1, 0.5"), PULL.format("")).history
+def test_energies_of_general_steps_after_it_are_there(run_springs):
+    history = run_springs(SPRING, LINEAR.format("", "*CLOAD\n2, 1, 0.5"), PULL.format("")).history
     assert history["ALLWK"][-1] > 0 and np.isfinite(history["ETOTAL"][-1])
 
 
@@ -183,12 +180,12 @@ def test_energies_of_general_steps_after_it_are_there(run):
         ),
     ],
 )
-def test_what_has_no_meaning_is_named(run, step, message):
+def test_what_has_no_meaning_is_named(run_springs, step, message):
     with pytest.raises(DeckError, match=message):
-        run(SPRING, step, "\n*END STEP\n")
+        run_springs(SPRING, step, "\n*END STEP\n")
 
 
-def test_loads_of_dload_in_steps_by_modes_are_named(run):
+def test_loads_of_dload_in_steps_by_modes_are_named(run_springs):
     modes = "*STEP\n*FREQUENCY\n1,\n*END STEP\n*STEP\n*MODAL DYNAMIC\n0.1, 1.\n*DLOAD\nBODY, P2NU\n*END STEP\n"
-    with pytest.raises(DeckError, match=r"linear.inp:\d+: loads by DLOAD are not supported in a step by modes"):
-        run(SQUARE, modes)
+    with pytest.raises(DeckError, match=r"deck.inp:\d+: loads by DLOAD are not supported in a step by modes"):
+        run_springs(SQUARE, modes)

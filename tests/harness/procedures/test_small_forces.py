@@ -38,7 +38,7 @@ NOTE = "THE AVERAGE FORCE FLUX"
 CONTROLS = "*CONTROLS, PARAMETERS=FIELD, FIELD=DISPLACEMENT\n, , 1e-9"
 
 
-def run(tmp_path, modulus, controls=""):
+def run_chain(tmp_path, modulus, controls=""):
     """Displacement, and whether the message file has the note."""
     tmp_path.mkdir(exist_ok=True)
     text = DECK.format(modulus=modulus, force=0.02 * modulus, controls=controls)
@@ -49,9 +49,9 @@ def run(tmp_path, modulus, controls=""):
 
 
 def test_forces_that_count_as_zero(tmp_path):
-    exact, said = run(tmp_path / "usual", 1.0)
+    exact, said = run_chain(tmp_path / "usual", 1.0)
     assert NOTE not in said
-    coarse, said = run(tmp_path / "small", 1e-8)
+    coarse, said = run_chain(tmp_path / "small", 1e-8)
     assert said.count(NOTE) == 1
     assert "COUNTS AS ZERO BESIDE 0.01, WHICH IS TAKEN FOR ITS TIME AVERAGE UNTIL A LARGER ONE IS SEEN" in said
     assert "OTHER UNITS, OR AN INITIAL TIME AVERAGE FLUX (*CONTROLS, PARAMETERS=FIELD), MAKE RESULTS ACCURATE" in said
@@ -60,7 +60,7 @@ def test_forces_that_count_as_zero(tmp_path):
 
 
 def test_initial_time_average_flux_that_is_given(tmp_path):
-    exact, _ = run(tmp_path / "usual", 1.0)
-    given, said = run(tmp_path / "given", 1e-8, CONTROLS)
+    exact, _ = run_chain(tmp_path / "usual", 1.0)
+    given, said = run_chain(tmp_path / "given", 1e-8, CONTROLS)
     assert NOTE not in said
     assert given == pytest.approx(exact, rel=1e-3)

@@ -5,7 +5,6 @@
 import numpy as np
 import pytest
 
-import uel
 from uel.errors import DeckError
 from uel.procedures.general.stabilized import NOTHING_DAMPED
 
@@ -39,12 +38,12 @@ U1
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(options, deck=DECK):
-        (tmp_path / "bar.inp").write_text(deck % options)
-        return uel.run(tmp_path / "bar.inp", output_dir=tmp_path).history, (tmp_path / "bar.msg").read_text()
+def run_bar(run_deck):
+    def run_bar(options, deck=DECK):
+        result = run_deck(deck % options)
+        return result.history, result.file(".msg").read_text()
 
-    return run
+    return run_bar
 
 
 def damped(factors):
@@ -57,8 +56,8 @@ def damped(factors):
     return np.array(found)
 
 
-def test_given_factor(run):
-    history, message = run(", STABILIZE, FACTOR=5.")
+def test_given_factor(run_bar):
+    history, message = run_bar(", STABILIZE, FACTOR=5.")
     u = damped([5.0] * 10)
     assert history["U1[END]"] == pytest.approx(u)
     assert "THE DAMPING FACTOR IS 5" in message
@@ -68,34 +67,34 @@ def test_given_factor(run):
     assert history["ETOTAL"] == pytest.approx(0.0, abs=1e-10)
 
 
-def test_a_step_with_temperatures_is_damped_alike(run):
+def test_a_step_with_temperatures_is_damped_alike(run_bar):
     deck = DECK.replace("*STATIC, DIRECT%s", "*COUPLED TEMPERATURE-DISPLACEMENT%s").replace(
         "*STEP", "*STEP, AMPLITUDE=RAMP"
     )
-    history, message = run(", STABILIZE, FACTOR=5., CREEP=NONE", deck)
+    history, message = run_bar(", STABILIZE, FACTOR=5., CREEP=NONE", deck)
     assert history["U1[END]"] == pytest.approx(damped([5.0] * 10))
     assert "THE DAMPING FACTOR IS 5" in message
-    history, _ = run(", STABILIZE", deck)
+    history, _ = run_bar(", STABILIZE", deck)
     assert history["U1[END]"] == pytest.approx(damped([0.0] + [2e-4 * K / 2 * H / M] * 9))
 
 
-def test_factor_from_the_energy_of_the_first_increment(run):
+def test_factor_from_the_energy_of_the_first_increment(run_bar):
     """u_1 = P_1/K, energy K u_1^2/2; c M u_1^2/h is 2e-4 of it. Nothing else is damped before."""
-    history, _ = run(", STABILIZE")
+    history, _ = run_bar(", STABILIZE")
     factor = 2e-4 * K / 2 * H / M
     assert history["U1[END]"] == pytest.approx(damped([0.0] + [factor] * 9))
 
 
-def test_factor_falls_where_too_much_is_dissipated(run):
-    history, message = run(", STABILIZE, FACTOR=50., ALLSDTOL=0.01")
+def test_factor_falls_where_too_much_is_dissipated(run_bar):
+    history, message = run_bar(", STABILIZE, FACTOR=50., ALLSDTOL=0.01")
     assert history["ALLSD"][-1] / history["ALLSE"][-1] < 0.5 * history["ALLSD"][0] / history["ALLSE"][0]
     assert message.count("FROM THE NEXT INCREMENT ON") > 2
 
 
-def test_without_masses_it_says_so(run):
+def test_without_masses_it_says_so(run_bar):
     spring = DECK.replace("*ELEMENT, TYPE=T2D2", "*ELEMENT, TYPE=SPRINGA")
     spring = spring.replace("*SOLID SECTION, ELSET=BAR, MATERIAL=M\n2.\n", "*SPRING, ELSET=BAR\n\n200.\n")
-    history, message = run(", STABILIZE", spring)
+    history, message = run_bar(", STABILIZE", spring)
     assert NOTHING_DAMPED in " ".join(message.split())
     assert history["U1[END]"][-1] == pytest.approx(10 / K)
 
@@ -109,6 +108,6 @@ def test_without_masses_it_says_so(run):
         (", STABILIZE, CONTINUE=YES", "CONTINUE=YES is not supported"),
     ],
 )
-def test_options_that_are_wrong(run, options, message):
+def test_options_that_are_wrong(run_bar, options, message):
     with pytest.raises(DeckError, match=message):
-        run(options)
+        run_bar(options)

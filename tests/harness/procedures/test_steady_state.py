@@ -6,9 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from vibrating import PAIR, bar
+from vibrating import PAIR, bar, harmonic
 
-import uel
 from uel.deck import read_deck
 from uel.errors import DeckError, SingularMatrixError
 from uel.output.formats import exponential
@@ -40,18 +39,12 @@ U, V, A, RF, CF
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(model, frequencies="0.1, 0.5, 5", more=PUSHED, *, how="", user=UEL, before="", after=""):
+def run_sweep(run_deck):
+    def run_sweep(model, frequencies="0.1, 0.5, 5", more=PUSHED, *, how="", user=UEL, before="", after=""):
         step = STEP.format(how=how, frequencies=frequencies, more=more)
-        (tmp_path / "sweep.inp").write_text(model + before + step + after)
-        return uel.run(tmp_path / "sweep.inp", user, output_dir=tmp_path)
+        return run_deck(model + before + step + after, user)
 
-    return run
-
-
-def harmonic(history, name):
-    """Complex values of a column."""
-    return history[name] * np.exp(1j * np.deg2rad(history[f"P{name}"]))
+    return run_sweep
 
 
 def stiffness(history, damped=True):
@@ -61,8 +54,8 @@ def stiffness(history, damped=True):
 
 
 @pytest.mark.parametrize("how", ["", ", REAL ONLY"])
-def test_an_oscillator(run, how):
-    history = run(OSCILLATOR + HELD, how=how).history
+def test_an_oscillator(run_sweep, how):
+    history = run_sweep(OSCILLATOR + HELD, how=how).history
     rate = 2j * np.pi * history["time"]
     x = (3 + 4j) / stiffness(history, damped=not how)
     np.testing.assert_allclose(harmonic(history, "U1[ALL:2]"), x)
@@ -73,9 +66,9 @@ def test_an_oscillator(run, how):
     np.testing.assert_allclose(harmonic(history, "RF1[ALL:1]"), -(K + (rate * C + 1j * S) * (not how)) * x)
 
 
-def test_energies_are_means_over_a_period(run):
+def test_energies_are_means_over_a_period(run_sweep):
     """Half of 1/2 k |x|^2 and 1/2 m |v|^2, which the means of 1/2 k x(t)^2 and 1/2 m v(t)^2 are."""
-    history = run(OSCILLATOR + HELD).history
+    history = run_sweep(OSCILLATOR + HELD).history
     rate = 2j * np.pi * history["time"]
     x = (3 + 4j) / stiffness(history)
     np.testing.assert_allclose(history["ALLSE"], K / 4 * np.abs(x) ** 2)
@@ -85,8 +78,8 @@ def test_energies_are_means_over_a_period(run):
     np.testing.assert_allclose(history["ALLKE"], (M / 2 * np.outer(turn, rate * x).real ** 2).mean(axis=0))
 
 
-def test_energies_are_printed(run):
-    result = run(OSCILLATOR + HELD, "0.2", more=PUSHED + "\n*ENERGY PRINT")
+def test_energies_are_printed(run_sweep):
+    result = run_sweep(OSCILLATOR + HELD, "0.2", more=PUSHED + "\n*ENERGY PRINT")
     text = " ".join(result.file(".dat").read_text().split())
     head = "FOR THE WHOLE MODEL AT FREQUENCY = 0.200000 MEAN ENERGIES OVER A PERIOD - RECOVERABLE STRAIN ENERGY"
     found = text.split(head)[1].replace("KINETIC ENERGY", "").split()[:2]
@@ -94,18 +87,18 @@ def test_energies_are_printed(run):
     np.testing.assert_allclose([float(value) for value in found], expected, rtol=1e-5)
 
 
-def test_energies_of_a_moved_support(run):
+def test_energies_of_a_moved_support(run_sweep):
     """The spring stretches by the difference of the displacements; only the second node has a mass."""
-    history = run(OSCILLATOR + HELD, more="*BOUNDARY, IMAGINARY\n1, 1, 1, 0.2").history
+    history = run_sweep(OSCILLATOR + HELD, more="*BOUNDARY, IMAGINARY\n1, 1, 1, 0.2").history
     first, second = (harmonic(history, f"U1[ALL:{node}]") for node in (1, 2))
     np.testing.assert_allclose(history["ALLSE"], K / 4 * np.abs(second - first) ** 2)
     np.testing.assert_allclose(history["ALLKE"], M * (np.pi * history["time"] * np.abs(second)) ** 2)
 
 
-def test_a_moved_support(run):
+def test_a_moved_support(run_sweep):
     """Transmissibility of displacements; the harmonic motion of node 1 has an imaginary part alone."""
     moved = "*BOUNDARY, IMAGINARY\n1, 1, 1, 0.2"
-    history = run(OSCILLATOR + HELD, more=moved).history
+    history = run_sweep(OSCILLATOR + HELD, more=moved).history
     rate = 2j * np.pi * history["time"]
     np.testing.assert_allclose(harmonic(history, "U1[ALL:1]"), 0.2j)
     expected = 0.2j * (K + rate * C + 1j * S) / stiffness(history)
@@ -113,16 +106,16 @@ def test_a_moved_support(run):
     np.testing.assert_allclose(harmonic(history, "RF1[ALL:1]"), rate**2 * M * expected)
 
 
-def test_everything_is_moved(run):
+def test_everything_is_moved(run_sweep):
     moved = "*BOUNDARY, REAL\n1, 1, 1, 0.\n2, 1, 1, 0.5"
-    history = run(OSCILLATOR, "0.3", more=moved).history
+    history = run_sweep(OSCILLATOR, "0.3", more=moved).history
     np.testing.assert_allclose(harmonic(history, "RF1[ALL:2]"), 0.5 * stiffness(history))
 
 
-def test_the_matrix_need_not_be_symmetric(run):
+def test_the_matrix_need_not_be_symmetric(run_sweep):
     """A force on the mass, -5 times the displacement of its free support."""
     free = OSCILLATOR.replace(", 0., 0", ", 5., 0")
-    history = run(free, more="*CLOAD\n1, 1, 2.").history
+    history = run_sweep(free, more="*CLOAD\n1, 1, 2.").history
     rate = 2j * np.pi * history["time"]
     spring = K + rate * C + 1j * S
     for k, (pull, mass) in enumerate(zip(spring, rate**2 * M, strict=True)):
@@ -131,10 +124,10 @@ def test_the_matrix_need_not_be_symmetric(run):
         np.testing.assert_allclose(found, expected)
 
 
-def test_loads_over_frequency(run):
+def test_loads_over_frequency(run_sweep):
     """An amplitude is one over frequency."""
     table = "*AMPLITUDE, NAME=A\n0.1, 1., 0.5, 3.\n"
-    history = run(
+    history = run_sweep(
         table + OSCILLATOR + HELD,
         "0.1, 0.4, 3",
         how=", FREQUENCY SCALE=LINEAR",
@@ -146,7 +139,7 @@ def test_loads_over_frequency(run):
 
 
 @pytest.mark.parametrize("more", ["", "*EQUATION\n2\n{tip}, 1, 1., {pulled}, 1, -1.\n"])
-def test_a_bar_that_is_pulled_at_its_end(run, more):
+def test_a_bar_that_is_pulled_at_its_end(run_sweep, more):
     """Lumped masses: u_j = F h sin(j t) / (EA cos(n t) sin t), w = 2 c / h sin(t/2); a node tied to the end takes F."""
     n, pulled = 40, 40
     model = bar(n, more="1, 1\n")
@@ -159,7 +152,7 @@ def test_a_bar_that_is_pulled_at_its_end(run, more):
         )
     else:
         pulled = n + 1
-    history = run(model, "0.2, 1.9, 6", more=f"*CLOAD\n{pulled}, 1, 3.", user=None).history
+    history = run_sweep(model, "0.2, 1.9, 6", more=f"*CLOAD\n{pulled}, 1, 3.", user=None).history
     h, c = 1 / n, 2.0
     angle = 2 * np.arcsin(np.pi * history["time"] * h / c)
     scale = 3 * h / (4 * np.cos(n * angle) * np.sin(angle))
@@ -180,12 +173,12 @@ def test_a_bar_that_is_pulled_at_its_end(run, more):
 STRING = PAIR.replace("4, 3\n", "")
 
 
-def test_about_the_base_state(run):
+def test_about_the_base_state(run_sweep):
     """A mass in the middle of a string under the tension T: stiffness 2 T / L across; nothing of it goes on."""
     pull = "*STEP, NLGEOM\n*STATIC\n*BOUNDARY\n2, 1, 1, 0.25\n3, 1, 1, 0.5\n*END STEP\n"
     across = "*BOUNDARY, OP=NEW\nALL, 3\nALL, 1\n1, 2\n3, 2\n*CLOAD\n2, 2, 1."
     stay = "*STEP\n*STATIC\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nU1, U2\n*END STEP\n"
-    result = run(STRING, "0.05, 0.08, 2", more=across, user=None, before=pull, after=stay)
+    result = run_sweep(STRING, "0.05, 0.08, 2", more=across, user=None, before=pull, after=stay)
     history = result.history
     sweep = history["step"] == 2
     expected = 1 / (2 * 8 * 0.25 / 1.25 - 2 * (2 * np.pi * history["time"][sweep]) ** 2)
@@ -219,9 +212,9 @@ S, S3
 
 
 @pytest.mark.parametrize("load", ["*DLOAD, IMAGINARY\nS, P3, -10.", "*DSLOAD, IMAGINARY\nTOP, P, -10."])
-def test_stresses_of_slow_loads(run, load):
+def test_stresses_of_slow_loads(run_sweep, load):
     """At frequency zero stress and strain are the static ones: a pull of 10 stretches by 10/100."""
-    result = run(SQUARE, "0.", more=load, user=None)
+    result = run_sweep(SQUARE, "0.", more=load, user=None)
     np.testing.assert_allclose(result.field("U_imaginary")[:, 1], [0, 0, 0.1, 0.1], atol=1e-15)
     np.testing.assert_allclose(result.field("U"), 0, atol=1e-15)
     np.testing.assert_allclose(result.field("S22_imaginary"), 10)
@@ -243,12 +236,12 @@ def test_stresses_of_slow_loads(run, load):
 )
 def test_frequencies(tmp_path, how, data, expected):
     """Abaqus Analysis User's Guide, Direct-solution steady-state dynamic analysis."""
-    (tmp_path / "sweep.inp").write_text(OSCILLATOR + HELD + STEP.format(how=how, frequencies=data, more=PUSHED))
-    np.testing.assert_allclose(read_deck(tmp_path / "sweep.inp").steps[0].procedure.frequencies(np.zeros(0)), expected)
+    (tmp_path / "deck.inp").write_text(OSCILLATOR + HELD + STEP.format(how=how, frequencies=data, more=PUSHED))
+    np.testing.assert_allclose(read_deck(tmp_path / "deck.inp").steps[0].procedure.frequencies(np.zeros(0)), expected)
 
 
-def test_calls(run):
-    result = run(OSCILLATOR.replace(", 0., 0", ", 0., 1") + HELD, "0.1\n0.2")
+def test_calls(run_sweep):
+    result = run_sweep(OSCILLATOR.replace(", 0., 0", ", 0., 1") + HELD, "0.1\n0.2")
     lines = result.file(".msg").read_text().splitlines()
     calls = [line.split()[1:] for line in lines if line.startswith("FLAGS")]
     assert calls[0] == ["95", "0", "4", "0", "0", "0", "0", "0.000"]
@@ -257,8 +250,8 @@ def test_calls(run):
     assert calls[1:] == expected
 
 
-def test_what_is_written(run):
-    result = run(OSCILLATOR + HELD, "0.1, 0.5, 5", more=f"{PUSHED}\n*NODE PRINT\nU, PU\n*MONITOR, NODE=2, DOF=1")
+def test_what_is_written(run_sweep):
+    result = run_sweep(OSCILLATOR + HELD, "0.1, 0.5, 5", more=f"{PUSHED}\n*NODE PRINT\nU, PU\n*MONITOR, NODE=2, DOF=1")
     times = [row.total_time for row in result.status]
     np.testing.assert_allclose(times, result.history["time"], rtol=1e-2)
     data = result.file(".dat").read_text()
@@ -272,24 +265,24 @@ def test_what_is_written(run):
     assert "D I R E C T   S O L U T I O N   S T E A D Y   S T A T E" in message
 
 
-def test_every_second_frequency(run):
-    result = run(OSCILLATOR + HELD, more=f"{PUSHED}\n*NODE PRINT, FREQUENCY=2\nU")
+def test_every_second_frequency(run_sweep):
+    result = run_sweep(OSCILLATOR + HELD, more=f"{PUSHED}\n*NODE PRINT, FREQUENCY=2\nU")
     data = result.file(".dat").read_text()
     assert [f"INCREMENT{k:6d} SUMMARY" in data for k in range(1, 6)] == [False, True, False, True, True]
 
 
-def test_phases_are_there_for_harmonic_responses_alone(run):
+def test_phases_are_there_for_harmonic_responses_alone(run_sweep):
     after = "*STEP\n*STATIC\n*NODE PRINT\nPU\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALL\nPU1\n*END STEP\n"
-    result = run(OSCILLATOR + HELD, after=after)
+    result = run_sweep(OSCILLATOR + HELD, after=after)
     data = result.file(".dat").read_text()
     assert "*NODE PRINT: PU IS NOT AVAILABLE AND IS LEFT OUT" in data
     assert "HISTORY OUTPUT OF PU1 of ALL IS NOT AVAILABLE" in data
 
 
-def test_resonance_without_damping(run):
+def test_resonance_without_damping(run_sweep):
     """A frequency at which the matrix is singular is named like any other singular matrix."""
     with pytest.raises(SingularMatrixError, match="node 2, dof 1"):
-        run(OSCILLATOR + HELD, f"{1.5 / (2 * np.pi)!r}", how=", REAL ONLY")
+        run_sweep(OSCILLATOR + HELD, f"{1.5 / (2 * np.pi)!r}", how=", REAL ONLY")
 
 
 @pytest.mark.parametrize(
@@ -319,6 +312,6 @@ def test_resonance_without_damping(run):
 def test_what_is_wrong_is_named(tmp_path, old, new, message):
     deck = OSCILLATOR + HELD + STEP.format(how="", frequencies="0.1, 0.5, 5", more=PUSHED)
     assert old in deck
-    (tmp_path / "sweep.inp").write_text("*AMPLITUDE, NAME=A, DEFINITION=USER\n" + deck.replace(old, new))
+    (tmp_path / "deck.inp").write_text("*AMPLITUDE, NAME=A, DEFINITION=USER\n" + deck.replace(old, new))
     with pytest.raises(DeckError, match=message):
-        read_deck(tmp_path / "sweep.inp")
+        read_deck(tmp_path / "deck.inp")

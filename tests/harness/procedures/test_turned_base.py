@@ -7,7 +7,6 @@ with it.
 import numpy as np
 import pytest
 
-import uel
 from uel.elements import rotation_matrices
 from uel.errors import DeckError
 from uel.model.element_types import SHELL
@@ -89,15 +88,13 @@ def loads(angle, *, force, moment):
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(text):
-        file = tmp_path / "turned.inp"
-        file.write_text(text)
-        result = uel.run(file, output_dir=tmp_path)
+def histories(run_deck):
+    def histories(text):
+        result = run_deck(text)
         assert result.completed
         return {name.split("[")[0]: np.array(values) for name, values in result.history.items()}
 
-    return run
+    return histories
 
 
 KINDS = (*SHELL, "B31", "B32")
@@ -108,21 +105,21 @@ each = pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.sample(6)
 @each
 @pytest.mark.parametrize("angle", ANGLES)
-def test_frequencies(run, kind, angle):
+def test_frequencies(histories, kind, angle):
     """A body that turns without stress keeps its natural frequencies."""
-    still, turned = (run(strip(kind, at, "*STEP\n*FREQUENCY\n6"))["EIGFREQ"][-6:] for at in (0.0, angle))
+    still, turned = (histories(strip(kind, at, "*STEP\n*FREQUENCY\n6"))["EIGFREQ"][-6:] for at in (0.0, angle))
     np.testing.assert_allclose(turned, still, rtol=TURNED)
 
 
 @pytest.mark.sample(6)
 @each
 @pytest.mark.parametrize("angle", ANGLES)
-def test_buckling(run, kind, angle):
+def test_buckling(histories, kind, angle):
     """So it does its buckling loads, if the loads turn along."""
 
     def factors(at):
         given = loads(at, force=[-1e-3, 0.0, 0.0], moment=[0.0, 0.0, 0.0])
-        return run(strip(kind, at, f"*STEP\n*BUCKLE\n2\n*CLOAD\n{given}"))["EIGVAL"][-2:]
+        return histories(strip(kind, at, f"*STEP\n*BUCKLE\n2\n*CLOAD\n{given}"))["EIGVAL"][-2:]
 
     np.testing.assert_allclose(factors(angle), factors(0.0), rtol=TURNED)
 
@@ -130,7 +127,7 @@ def test_buckling(run, kind, angle):
 @pytest.mark.sample(6)
 @each
 @pytest.mark.parametrize(("procedure", "angle"), [("STATIC", 1.0), ("STEADY", 2.0)])
-def test_response(run, kind, procedure, angle):
+def test_response(histories, kind, procedure, angle):
     """Displacements and small rotations turn with the body, and their energy stays."""
     lines = {
         "STATIC": "*STEP, PERTURBATION\n*STATIC\n*CLOAD",
@@ -139,7 +136,7 @@ def test_response(run, kind, procedure, angle):
 
     def found(at):
         given = loads(at, force=[1e-4, 2e-4, 3e-4], moment=[2e-4, 3e-4, 1e-4])
-        history = run(strip(kind, at, f"{lines}\n{given}"))
+        history = histories(strip(kind, at, f"{lines}\n{given}"))
         phases = {name: history.get(f"P{name}", np.zeros(1))[-1] for name in UNKNOWNS}
         values = np.array([history[name][-1] * np.cos(np.radians(phase)) for name, phase in phases.items()])
         return values.reshape(2, 3), history["ALLSE"][-1]
@@ -151,12 +148,12 @@ def test_response(run, kind, procedure, angle):
         assert energy_turned == pytest.approx(energy, rel=TURNED)
 
 
-def test_a_spring_on_one_rotation_of_a_node_that_has_turned(run):
+def test_a_spring_on_one_rotation_of_a_node_that_has_turned(histories):
     """Its moment is about one axis and its rotation no spin about it: the matrix would lack places for the others."""
     spring = "*ELEMENT, TYPE=SPRING2, ELSET=S\n9, 2, 99\n*SPRING, ELSET=S\n4, 4\n1.\n"
     text = strip("B31", 0.3, "*STEP\n*FREQUENCY\n2", spring).replace(
         "*ELEMENT, TYPE=B31", "99, 9., 9., 9.\n*ELEMENT, TYPE=B31"
     )
     message = r"an element acts on rotations of node 2, which has turned, but not on dof [56]; expected"
-    with pytest.raises(DeckError, match=rf"turned\.inp:\d+: \*FREQUENCY: {message}"):
-        run(text)
+    with pytest.raises(DeckError, match=rf"deck\.inp:\d+: \*FREQUENCY: {message}"):
+        histories(text)

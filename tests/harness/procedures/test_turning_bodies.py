@@ -11,8 +11,6 @@ import pytest
 from scipy.spatial.transform import Rotation
 from scipy.special import ellipk
 
-import uel
-
 MASS, LENGTH, GRAVITY = 2.0, 0.8, 10.0
 CONSTRAINTS = {
     "coupling": "*SURFACE, NAME=S, TYPE=NODE\nENDS\n*COUPLING, CONSTRAINT NAME=C, REF NODE=9, SURFACE=S\n*KINEMATIC",
@@ -54,8 +52,8 @@ ETOTAL, ALLKE
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(places, size, count, *, loads="", velocities="", boundary="", how="ALPHA=0.", constraint="coupling"):
+def turn(run_deck):
+    def turn(places, size, count, *, loads="", velocities="", boundary="", how="ALPHA=0.", constraint="coupling"):
         values = {
             "nodes": "\n".join(f"{k}, {', '.join(map(repr, map(float, x)))}" for k, x in enumerate(places, start=1)),
             "ends": "\n".join(str(k + 1) for k in range(len(places))),
@@ -67,12 +65,9 @@ def run(tmp_path):
         text = DECK.format(mass=MASS, **values)
         if not velocities:
             text = text.replace("*INITIAL CONDITIONS, TYPE=VELOCITY\n", "")
-        (tmp_path / "turn.inp").write_text(text.replace("\n\n", "\n"))
-        result = uel.run(tmp_path / "turn.inp", output_dir=tmp_path)
-        result.message = (tmp_path / "turn.msg").read_text()
-        return result
+        return run_deck(text.replace("\n\n", "\n"))
 
-    return run
+    return turn
 
 
 def vectors(result, quantity, node):
@@ -90,10 +85,10 @@ SPIN, SIZE, COUNT = 3.0, 0.1, 42
 
 
 @pytest.mark.parametrize("constraint", CONSTRAINTS)
-def test_rotor(run, constraint):
+def test_rotor(turn, constraint):
     """About a skew axis that is held, given by the velocity of the reference node alone: two turns."""
     velocities = "\n".join(f"9, {k}, {SPIN * one!r}" for k, one in enumerate(AXIS.tolist(), start=4))
-    result = run(ROTOR, SIZE, COUNT, velocities=velocities, constraint=constraint)
+    result = turn(ROTOR, SIZE, COUNT, velocities=velocities, constraint=constraint)
     each = 2 * np.arctan(SPIN * SIZE / 2)
     steps = np.arange(1, COUNT + 1)
     # no element has moments, so that a correction of a thousandth ends the iterations: its square is left
@@ -105,11 +100,11 @@ def test_rotor(run, constraint):
         np.testing.assert_allclose(vectors(result, "A", number), -(SPIN**2) * turned, atol=1e-3)
     energy = 0.5 * MASS * SPIN**2 * sum(arm @ arm for arm in ROTOR)
     np.testing.assert_allclose(result.history["ETOTAL"], energy, rtol=1e-6)
-    said = " ".join(result.message.split())
+    said = " ".join(result.file(".msg").read_text().split())
     assert "INITIAL VELOCITIES OF NODES THAT FOLLOW OTHERS BY CONSTRAINTS ARE NOT THEIRS AND ARE REPLACED" in said
 
 
-def test_pendulum(run):
+def test_pendulum(turn):
     """It falls from rest at 90 degrees and is below its axis after a quarter of its period, 4 sqrt(l/g) K(sin^2 45).
 
     (L. Landau, E. Lifshitz, Mechanics, section 11.) Errors of the angle and of the energy fall with the square of the
@@ -119,7 +114,7 @@ def test_pendulum(run):
     errors = []
     for count in (20, 40, 80):
         loads = f"*CLOAD, AMPLITUDE=NOW\n1, 2, {-MASS * GRAVITY}"
-        result = run([[LENGTH, 0.0, 0.0]], quarter / count, count, loads=loads)
+        result = turn([[LENGTH, 0.0, 0.0]], quarter / count, count, loads=loads)
         u = vectors(result, "U", 1)[-1]
         np.testing.assert_allclose(np.linalg.norm(u + np.array([LENGTH, 0.0, 0.0])), LENGTH, rtol=1e-12)
         errors.append((u[0] + LENGTH, np.abs(result.history["ETOTAL"]).max()))
@@ -129,26 +124,26 @@ def test_pendulum(run):
     np.testing.assert_allclose(errors[:-1] / errors[1:], 4, rtol=0.2)
 
 
-def test_initial_accelerations_of_a_body_that_turns(run):
+def test_initial_accelerations_of_a_body_that_turns(turn):
     """Weight alone turns a pendulum at 90 degrees that is at rest: a = -g, and with NLGEOM nothing towards the axis."""
     loads = f"*CLOAD, AMPLITUDE=NOW\n1, 2, {-MASS * GRAVITY}"
-    result = run([[LENGTH, 0.0, 0.0]], 1e-6, 1, loads=loads)
+    result = turn([[LENGTH, 0.0, 0.0]], 1e-6, 1, loads=loads)
     np.testing.assert_allclose(vectors(result, "A", 1)[0], [0.0, -GRAVITY, 0.0], atol=1e-4)
 
 
-def test_backward_euler_damps_a_pendulum(run):
+def test_backward_euler_damps_a_pendulum(turn):
     """Backward Euler takes energy from a pendulum that swings, and never gives it any: it hangs nearly still."""
     loads = f"*CLOAD, AMPLITUDE=NOW\n1, 2, {-MASS * GRAVITY}"
-    result = run([[LENGTH, 0.0, 0.0]], 0.1, 200, loads=loads, how="APPLICATION=QUASI-STATIC")
+    result = turn([[LENGTH, 0.0, 0.0]], 0.1, 200, loads=loads, how="APPLICATION=QUASI-STATIC")
     energy = result.history["ETOTAL"]
     assert energy[-1] < -0.2 * MASS * GRAVITY * LENGTH
     assert np.diff(energy).max() < 1e-2 * MASS * GRAVITY * LENGTH
 
 
-def test_damping_of_a_pendulum(run):
+def test_damping_of_a_pendulum(turn):
     """Its swings lose energy by alpha, one after the other, about half of it in ten."""
     loads = f"*CLOAD, AMPLITUDE=NOW\n1, 2, {-MASS * GRAVITY}"
-    result = run([[LENGTH, 0.0, 0.0]], 0.1, 200, loads=loads, how="ALPHA=-0.2")
+    result = turn([[LENGTH, 0.0, 0.0]], 0.1, 200, loads=loads, how="ALPHA=-0.2")
     swings = result.history["ETOTAL"].reshape(8, 25).max(axis=1)
     assert np.diff(swings).max() < 0.0
     assert -0.6 < swings[-1] / (MASS * GRAVITY * LENGTH) < -0.2
@@ -192,7 +187,7 @@ HOW = ["ALPHA=-0.05", "ALPHA=-0.2", "APPLICATION=MODERATE DISSIPATION"]
 
 
 @pytest.fixture
-def spin(tmp_path):
+def spin(run_deck):
     """Run a block of side 1, or with the given sides, whose nodes follow, from a spin about its centre or a point."""
 
     def spin(
@@ -223,8 +218,7 @@ def spin(tmp_path):
             "loads": "",
         }
         values |= {"control": "DIRECT, NOHAF", "boundary": ""}
-        (tmp_path / "spin.inp").write_text(BODY.format(**(values | has)).replace("\n\n", "\n"))
-        return uel.run(tmp_path / "spin.inp", output_dir=tmp_path).history
+        return run_deck(BODY.format(**(values | has)).replace("\n\n", "\n")).history
 
     return spin
 

@@ -75,18 +75,17 @@ U
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(deck, more=""):
-        (tmp_path / "free.inp").write_text(deck + STEP.format(pull=PULL, more=more))
-        history = uel.run(tmp_path / "free.inp", output_dir=tmp_path).history
-        return history, " ".join((tmp_path / "free.msg").read_text().split())
+def pull(run_deck):
+    def pull(deck, more=""):
+        result = run_deck(deck + STEP.format(pull=PULL, more=more))
+        return result.history, " ".join(result.file(".msg").read_text().split())
 
-    return run
+    return pull
 
 
 @pytest.mark.parametrize("deck", [SQUARE, SQUARE + BESIDE], ids=["free to turn", "and a part beside it"])
-def test_what_no_force_moves_does_no_harm(run, deck):
-    history, message = run(deck)
+def test_what_no_force_moves_does_no_harm(pull, deck):
+    history, message = pull(deck)
     moved = np.array([[history[f"U{dof}[ALL:{node}]"][-1] for dof in (1, 2)] for node in (1, 2, 3, 4)])
     # the stress of two forces on a unit side; nu = 0; the square may have turned
     stretch, turn = 2 * PULL / YOUNG, moved[1, 1]
@@ -98,11 +97,11 @@ def test_what_no_force_moves_does_no_harm(run, deck):
 
 
 @pytest.mark.parametrize("more", ["2, 2, 0.01\n", "13, 1, 0.01\n"], ids=["turned", "pushed"])
-def test_a_force_on_what_moves_freely_is_an_error(run, more):
+def test_a_force_on_what_moves_freely_is_an_error(pull, more):
     with pytest.raises(
-        SingularMatrixError, match=r"free.inp:\d+: singular system matrix at node \d+, dof [12]: .* unconstrained"
+        SingularMatrixError, match=r"deck.inp:\d+: singular system matrix at node \d+, dof [12]: .* unconstrained"
     ):
-        run(SQUARE + BESIDE, more)
+        pull(SQUARE + BESIDE, more)
 
 
 BRICK = """*NODE, NSET=ALL
@@ -145,38 +144,36 @@ def test_many_increments_of_a_body_free_to_turn(tmp_path, options, linear_solver
     """A brick is pulled and free to turn about the way of the pull: increments that the extrapolation has solved leave
     rounding alone, and the run goes on, with one warning. So does a restart. The force is that of uniaxial stress.
     """
-    (tmp_path / "free.inp").write_text(BRICK % options)
+    (tmp_path / "deck.inp").write_text(BRICK % options)
     solver = uel.SolverOptions(linear_solver=linear_solver)
-    result = uel.run(tmp_path / "free.inp", output_dir=tmp_path, solver=solver)
+    result = uel.run(tmp_path / "deck.inp", output_dir=tmp_path, solver=solver)
     assert len(result.status) == 100
     stretch = 1.01
     # of NLGEOM: E ln(l) l^(-2 nu) (logarithmic strain, Cauchy stress)
     force = 4 * 1000 * (np.log(stretch) * stretch**-0.6 if options else 0.01)
     total = sum(values[-1] for name, values in result.history.items() if name.startswith("RF1["))
     assert total == pytest.approx(force, rel=1e-6)
-    assert (tmp_path / "free.msg").read_text().count("***WARNING") == 1
+    assert (tmp_path / "deck.msg").read_text().count("***WARNING") == 1
     largest = max(np.abs(values).max() for name, values in result.history.items() if name.startswith("U"))
     assert largest < 0.02
-    (tmp_path / "free_restart" / "step1_increment0100.npz").unlink()
-    again = uel.run(tmp_path / "free.inp", output_dir=tmp_path, solver=solver, job="again", oldjob=tmp_path / "free")
+    (tmp_path / "deck_restart" / "step1_increment0100.npz").unlink()
+    again = uel.run(tmp_path / "deck.inp", output_dir=tmp_path, solver=solver, job="again", oldjob=tmp_path / "deck")
     assert again.completed
 
 
-def test_an_unknown_without_any_stiffness_stays(tmp_path):
+def test_an_unknown_without_any_stiffness_stays(run_deck, tmp_path):
     """Its displacement is exactly zero, and the others are those of the bar: F L/(E A)."""
-    (tmp_path / "bar.inp").write_text(BAR + ALONG.format(pull=PULL, across=0.0))
-    history = uel.run(tmp_path / "bar.inp", output_dir=tmp_path).history
+    history = run_deck(BAR + ALONG.format(pull=PULL, across=0.0)).history
     assert history["U2[ALL:2]"][-1] == 0.0
     np.testing.assert_allclose(history["U1[ALL:2]"][-1], PULL * 2.0 / YOUNG, rtol=1e-14)
-    assert "NO FORCE ACTS ON THE FREE PART" in " ".join((tmp_path / "bar.msg").read_text().split())
+    assert "NO FORCE ACTS ON THE FREE PART" in " ".join((tmp_path / "deck.msg").read_text().split())
 
 
-def test_a_force_on_an_unknown_without_any_stiffness_is_an_error(tmp_path):
-    (tmp_path / "bar.inp").write_text(BAR + ALONG.format(pull=PULL, across=1.0))
+def test_a_force_on_an_unknown_without_any_stiffness_is_an_error(run_deck):
     with pytest.raises(
-        SingularMatrixError, match=r"bar.inp:\d+: singular system matrix at node 2, dof 2: .* unconstrained"
+        SingularMatrixError, match=r"deck.inp:\d+: singular system matrix at node 2, dof 2: .* unconstrained"
     ):
-        uel.run(tmp_path / "bar.inp", output_dir=tmp_path)
+        run_deck(BAR + ALONG.format(pull=PULL, across=1.0))
 
 
 def test_a_soft_part_beside_what_moves_freely():

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """*AMPLITUDE, DEFINITION=USER: UAMP gives the force on a spring of stiffness 2; what it is told comes back as force."""
 
+import textwrap
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-import uel
 from uel.errors import DeckError, Source, UelError
 from uel.model.amplitude import AmplitudeType, UserAmplitude
 from uel.model.procedures import Static
@@ -66,14 +66,12 @@ UAMP = """      SUBROUTINE UAMP(AMPNAME,TIME,AMPVALUEOLD,DT,NPROPS,PROPS,NSVARS,
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(body, *, requests=REQUESTS, more="", direct=", DIRECT", time="", user=UAMP):
+def run_with_uamp(run_deck):
+    def run_with_uamp(body, *, requests=REQUESTS, more="", direct=", DIRECT", time="", user=UAMP):
         text = DECK.format(requests=requests, more=more, direct=direct, time=time)
-        (tmp_path / "told.inp").write_text(text)
-        (tmp_path / "uamp.f").write_text(user.replace("%s", "\n".join(f"      {line}" for line in body.split("\n"))))
-        return uel.run(tmp_path / "told.inp", tmp_path / "uamp.f", output_dir=tmp_path)
+        return run_deck(text, user.replace("%s", textwrap.indent(body, 6 * " ")))
 
-    return run
+    return run_with_uamp
 
 
 @pytest.mark.parametrize(
@@ -87,39 +85,39 @@ def run(tmp_path):
         ("LFLAGSINFO(3) + 10*LFLAGSINFO(4) + 100*NSVARS + 1000*NSENSOR", [1210] * 4 + [1220] * 2),
     ],
 )
-def test_arguments(run, expression, expected):
+def test_arguments(run_with_uamp, expression, expected):
     more = SECOND.format("*CLOAD, AMPLITUDE=TOLD\n2, 1, 10.")
-    history = run(f"AMPVALUENEW = {expression}", more=more).history
+    history = run_with_uamp(f"AMPVALUENEW = {expression}", more=more).history
     np.testing.assert_allclose(history["CF1[ALL:2]"], 10 * np.array(expected))
     np.testing.assert_allclose(history["U1[ALL:2]"], 10 * np.array(expected) / 2)
 
 
-def test_a_sensor_has_the_value_of_the_last_increment(run):
+def test_a_sensor_has_the_value_of_the_last_increment(run_with_uamp):
     """Force 10 (1 + u/10) with u of the increment before: u' = 5 + u/2, from zero."""
-    history = run("AMPVALUENEW = 1 + GETSENSORVALUE('STRETCH',JSENSORLOOKUPTABLE,SENSORVALUES)/10").history
+    history = run_with_uamp("AMPVALUENEW = 1 + GETSENSORVALUE('STRETCH',JSENSORLOOKUPTABLE,SENSORVALUES)/10").history
     np.testing.assert_allclose(history["U1[ALL:2]"], [5, 7.5, 8.75, 9.375])
 
 
-def test_a_sensor_by_its_number(run):
+def test_a_sensor_by_its_number(run_with_uamp):
     body = "K = IGETSENSORID('STRETCH',JSENSORLOOKUPTABLE)\nIF (SENSORNAMES(K) .EQ. 'STRETCH') AMPVALUENEW = K"
-    np.testing.assert_allclose(run(body).history["CF1[ALL:2]"], 10)
+    np.testing.assert_allclose(run_with_uamp(body).history["CF1[ALL:2]"], 10)
 
 
-def test_state_variables_go_on(run):
+def test_state_variables_go_on(run_with_uamp):
     body = "SVARS(1) = SVARS(1) + LFLAGSINFO(2)\nSVARS(2) = SVARS(2) + 10*LFLAGSINFO(1)\nAMPVALUENEW = SUM(SVARS)"
-    np.testing.assert_allclose(run(body).history["CF1[ALL:2]"], 10 * np.array([11, 12, 13, 14]))
+    np.testing.assert_allclose(run_with_uamp(body).history["CF1[ALL:2]"], 10 * np.array([11, 12, 13, 14]))
 
 
 @pytest.mark.parametrize(("time", "expected"), [("", [2.5, 5, 7.5, 10, 10, 10]), (", TIME=TOTAL TIME", None)])
-def test_in_a_later_step_it_goes_on_only_in_total_time(run, time, expected):
-    history = run("AMPVALUENEW = TIME(2)", more=SECOND.format(""), time=time).history
+def test_in_a_later_step_it_goes_on_only_in_total_time(run_with_uamp, time, expected):
+    history = run_with_uamp("AMPVALUENEW = TIME(2)", more=SECOND.format(""), time=time).history
     np.testing.assert_allclose(history["CF1[ALL:2]"], expected or [2.5, 5, 7.5, 10, 15, 20])
 
 
-def test_a_step_may_be_concluded(run):
+def test_a_step_may_be_concluded(run_with_uamp):
     """After the second of four increments; a load that ramps beside it stays where it is."""
     body = "AMPVALUENEW = TIME(1)\nIF (TIME(1) .GT. 0.4) LFLAGSDEFINE(6) = 1"
-    result = run(body, requests=REQUESTS + "\n*CLOAD\n2, 1, 100.", more=SECOND.format(""))
+    result = run_with_uamp(body, requests=REQUESTS + "\n*CLOAD\n2, 1, 100.", more=SECOND.format(""))
     np.testing.assert_allclose(result.history["time"], [0.25, 0.5, 1.0, 1.5])
     np.testing.assert_allclose(result.history["CF1[ALL:2]"], [27.5, 55, 55, 55])
 
@@ -147,10 +145,10 @@ def test_state_and_value_of_an_attempt_that_failed_are_dropped():
     assert [amplitude.value(t, t) for t in (0.0, 0.125, 0.25, 0.5)] == [0.0, 0.125, 0.25, 0.5]
 
 
-def test_a_velocity_is_integrated(run):
+def test_a_velocity_is_integrated(run_with_uamp):
     """V = 3 t^2 linear between the ends of increments of 0.25: the trapezoidal rule."""
     requests = REQUESTS + "\n*BOUNDARY, TYPE=VELOCITY, AMPLITUDE=TOLD\n2, 1, 1, 3."
-    history = run("AMPVALUENEW = TIME(1)**2", requests=requests).history
+    history = run_with_uamp("AMPVALUENEW = TIME(1)**2", requests=requests).history
     ends = np.linspace(0, 1, 5)
     np.testing.assert_allclose(history["U1[ALL:2]"], [np.trapezoid(3 * ends[:k] ** 2, ends[:k]) for k in (2, 3, 4, 5)])
 
@@ -158,40 +156,40 @@ def test_a_velocity_is_integrated(run):
 @pytest.mark.parametrize(
     ("body", "message"),
     [
-        ("CALL XIT", r"uamp.f: UAMP stopped the analysis .*\(amplitude TOLD, step 1, increment 0\)"),
+        ("CALL XIT", r"user.f: UAMP stopped the analysis .*\(amplitude TOLD, step 1, increment 0\)"),
         ("AMPVALUENEW = 1\nLFLAGSDEFINE(5) = LFLAGSINFO(2)", r"by lFlagsDefine\(5\) \(.*, increment 1\)"),
         ("AMPVALUEOLD = 1", r"UAMP does not set AmpValueNew, or sets it to NaN or infinity"),
         ("AMPVALUENEW = GETSENSORVALUE('OTHER',JSENSORLOOKUPTABLE,SENSORVALUES)", "there is no sensor OTHER"),
     ],
 )
-def test_ends_of_the_analysis(run, body, message):
+def test_ends_of_the_analysis(run_with_uamp, body, message):
     with pytest.raises(UelError, match=message):
-        run(body)
+        run_with_uamp(body)
 
 
-def test_it_needs_uamp(run):
-    with pytest.raises(DeckError, match=r"told.inp:14: \*AMPLITUDE, DEFINITION=USER needs UAMP, which the job"):
-        run("", user="      SUBROUTINE OTHER\n      END\n")
+def test_it_needs_uamp(run_with_uamp):
+    with pytest.raises(DeckError, match=r"deck.inp:14: \*AMPLITUDE, DEFINITION=USER needs UAMP, which the job"):
+        run_with_uamp("", user="      SUBROUTINE OTHER\n      END\n")
 
 
-def test_it_has_no_meaning_along_a_path(run):
+def test_it_has_no_meaning_along_a_path(run_with_uamp):
     with pytest.raises(DeckError, match="an amplitude has no meaning in a step whose load factor"):
-        run("AMPVALUENEW = 1", direct=", RIKS")
+        run_with_uamp("AMPVALUENEW = 1", direct=", RIKS")
 
 
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("PROPERTIES=9", "PROPERTIES=8", r"told.inp:14: \*AMPLITUDE: PROPERTIES=8, but the data lines have 9"),
+        ("PROPERTIES=9", "PROPERTIES=8", r"deck.inp:14: \*AMPLITUDE: PROPERTIES=8, but the data lines have 9"),
         ("VARIABLES=2", "VARIABLES=0", r"VARIABLES=0: expected a number from 1 to"),
         ("DEFINITION=USER", "DEFINITION=TABULAR", "PROPERTIES and VARIABLES are for DEFINITION=USER"),
         ("NAME=Stretch, ", "", r"\*OUTPUT: SENSOR needs HISTORY and NAME="),
         ("NSET=END\nU1", "NSET=ALL\nU1", r"sensor STRETCH must be one component, such as U2, of one node"),
         ("NSET=END\nU1", "NSET=END\nU", r"sensor STRETCH must be one component, such as U2, of one node"),
-        ("NSET=END\nU1", "NSET=END\nUR1", r"told.inp:17: sensor STRETCH: no element uses dof 4 of node 2"),
+        ("NSET=END\nU1", "NSET=END\nUR1", r"deck.inp:17: sensor STRETCH: no element uses dof 4 of node 2"),
     ],
 )
-def test_what_is_wrong_in_a_deck_is_named(run, monkeypatch, old, new, message):
+def test_what_is_wrong_in_a_deck_is_named(run_with_uamp, monkeypatch, old, new, message):
     monkeypatch.setattr(f"{__name__}.DECK", DECK.replace(old, new, 1))
     with pytest.raises(DeckError, match=message):
-        run("AMPVALUENEW = 1", requests=REQUESTS.replace(old, new, 1))
+        run_with_uamp("AMPVALUENEW = 1", requests=REQUESTS.replace(old, new, 1))

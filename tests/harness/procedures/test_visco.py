@@ -7,7 +7,6 @@ import pytest
 from reference_cells import unit_cell
 from small_decks import body_lines
 
-import uel
 from uel.errors import DeckError
 
 CUBE = unit_cell("hexahedron")[0]
@@ -37,24 +36,15 @@ def deck(material, visco, *, element_type="C3D8", first=("*BOUNDARY", *PULLED), 
     return "\n".join(line for line in lines if line) + "\n"
 
 
-@pytest.fixture
-def run(tmp_path):
-    def run(text):
-        (tmp_path / "creep.inp").write_text(text)
-        return uel.run(tmp_path / "creep.inp", None, output_dir=tmp_path)
-
-    return run
-
-
 def pulls(history):
     """Force of the face that is pulled."""
     return sum(history[f"RF1[ALL:{node}]"] for node in (2, 3, 6, 7))
 
 
 @pytest.mark.parametrize("element_type", ["C3D8", "C3D8I"])
-def test_relaxation(run, element_type):
+def test_relaxation(run_deck, element_type):
     """With g = k Poisson's ratio is constant, and the modulus E (1/2 + exp(-t/tau)/2); what goes is dissipated."""
-    history = run(deck(PRONY, "*VISCO, CETOL=1e-4\n0.1, 6.", element_type=element_type)).history
+    history = run_deck(deck(PRONY, "*VISCO, CETOL=1e-4\n0.1, 6.", element_type=element_type)).history
     force = pulls(history)
     assert force[0] == pytest.approx(0.01 * E, rel=1e-9)
     assert force[-1] == pytest.approx(0.01 * E * (0.5 + 0.5 * np.exp(-3.0)), rel=1e-9)
@@ -64,22 +54,22 @@ def test_relaxation(run, element_type):
     np.testing.assert_array_equal(history["ALLPD"], 0)
 
 
-def test_norton(run):
+def test_norton(run_deck):
     """A constant stress: the creep strain is A stress^n t, beside that of the elasticity."""
     first = ["*CLOAD", *(f"{node}, 1, 5." for node in (2, 3, 6, 7))]
-    history = run(deck(NORTON, "*VISCO, CETOL=1.\n0.1, 2.", first=first)).history
+    history = run_deck(deck(NORTON, "*VISCO, CETOL=1.\n0.1, 2.", first=first)).history
     assert history["U1[ALL:2]"][-1] == pytest.approx(20 / E + 1e-6 * 20**3 * 2, rel=1e-8)
     assert history["U2[ALL:3]"][-1] == pytest.approx(-0.3 * 20 / E - 0.5e-6 * 20**3 * 2, rel=1e-8)
     # work of the constant load
     assert history["ALLCD"][-1] == pytest.approx(20 * 1e-6 * 20**3 * 2, rel=1e-8)
 
 
-def test_tolerance(run):
+def test_tolerance(run_deck):
     """A smaller CETOL takes more increments, and comes closer to stress^(1 - n) = start^(1 - n) + (n - 1) A E t."""
     expected = (10.0**-2 + 2 * 1e-6 * E * 20) ** -0.5
     errors, counts = [], []
     for tolerance in ("1e-2", "1e-5"):
-        history = run(deck(NORTON, f"*VISCO, CETOL={tolerance}\n0.1, 20.")).history
+        history = run_deck(deck(NORTON, f"*VISCO, CETOL={tolerance}\n0.1, 20.")).history
         errors.append(abs(pulls(history)[-1] - expected))
         counts.append(len(history["time"]))
     assert counts[1] > 2 * counts[0]
@@ -87,8 +77,8 @@ def test_tolerance(run):
     assert errors[1] < 0.02 * expected
 
 
-def test_increments_are_fixed_without_a_tolerance(run):
-    history = run(deck(NORTON, "*VISCO\n0.25, 1.")).history
+def test_increments_are_fixed_without_a_tolerance(run_deck):
+    history = run_deck(deck(NORTON, "*VISCO\n0.25, 1.")).history
     assert len(history["time"]) == 5
 
 
@@ -96,7 +86,7 @@ ERRORS = [
     (PRONY, {"more": "*PLASTIC\n1."}, r"has \*VISCOELASTIC and \*PLASTIC, at .*, which are not supported together"),
     (NORTON, {"more": "*PLASTIC\n1."}, r"has \*CREEP and \*PLASTIC, at .*, which are not supported together"),
     (PRONY, {"more": "*CREEP\n1., 2."}, r"has \*VISCOELASTIC and \*CREEP, at .*, which are not supported together"),
-    ("*CREEP\n1., 2.", {}, r"material M has \*CREEP, at .*creep\.inp:\d+, but no \*ELASTIC"),
+    ("*CREEP\n1., 2.", {}, r"material M has \*CREEP, at .*deck\.inp:\d+, but no \*ELASTIC"),
     (
         PRONY,
         {"more": "*INITIAL CONDITIONS, TYPE=STRESS\nBODY, 1., 0., 0., 0., 0., 0."},
@@ -106,26 +96,26 @@ ERRORS = [
 
 
 @pytest.mark.parametrize(("material", "options", "message"), ERRORS)
-def test_errors_of_decks(run, material, options, message):
-    with pytest.raises(DeckError, match=r"creep\.inp:\d+: .*" + message):
-        run(deck(material, "*VISCO\n1., 1.", **options))
+def test_errors_of_decks(run_deck, material, options, message):
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: .*" + message):
+        run_deck(deck(material, "*VISCO\n1., 1.", **options))
 
 
-def test_hybrid_elements_are_refused(run):
+def test_hybrid_elements_are_refused(run_deck):
     text = deck(PRONY, "*VISCO\n1., 1.", element_type="C3D8H")
-    with pytest.raises(DeckError, match=r"creep\.inp:\d+: \*VISCOELASTIC is not supported for elements of type C3D8H"):
-        run(text)
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: \*VISCOELASTIC is not supported for elements of type C3D8H"):
+        run_deck(text)
 
 
-def test_coupled_elements_are_refused(run):
+def test_coupled_elements_are_refused(run_deck):
     step = "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE\n1., 1."
     text = deck(PRONY, step, element_type="C3D8T", more="*CONDUCTIVITY\n1.").replace("*STATIC\n1., 1.", step)
-    with pytest.raises(DeckError, match=r"creep\.inp:\d+: \*VISCOELASTIC is not supported for elements of type C3D8T"):
-        run(text)
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: \*VISCOELASTIC is not supported for elements of type C3D8T"):
+        run_deck(text)
 
 
-def test_linear_perturbations_are_refused(run):
+def test_linear_perturbations_are_refused(run_deck):
     with pytest.raises(
-        DeckError, match=r"creep\.inp:\d+: \*STEP: a linear perturbation is not supported with material M"
+        DeckError, match=r"deck\.inp:\d+: \*STEP: a linear perturbation is not supported with material M"
     ):
-        run(deck(NORTON, "*FREQUENCY\n1", more="*DENSITY\n1."))
+        run_deck(deck(NORTON, "*FREQUENCY\n1", more="*DENSITY\n1."))

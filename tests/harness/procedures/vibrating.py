@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Decks of two masses in a row and of a bar, for vibrations."""
+"""Decks of two masses in a row and of a bar, for vibrations, and their results."""
+
+import numpy as np
 
 PAIR = """*NODE, NSET=ALL
 1, 0.
@@ -31,3 +33,8 @@ def bar(elements, *, more=""):
         f"*NODE, NSET=ALL\n{nodes}*ELEMENT, TYPE=T2D2, ELSET=BAR\n{trusses}*SOLID SECTION, ELSET=BAR, MATERIAL=M\n1.\n"
         f"*MATERIAL, NAME=M\n*ELASTIC\n4.\n*DENSITY\n1.\n*BOUNDARY\nALL, 2\n{more}"
     )
+
+
+def harmonic(history, name):
+    """Complex values of a column."""
+    return history[name] * np.exp(1j * np.deg2rad(history[f"P{name}"]))

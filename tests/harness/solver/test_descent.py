@@ -132,16 +132,16 @@ def test_short_steps_mix_the_matrix_with_that_of_the_start(monkeypatch):
     """sqrt(x^2 + e^2) is straight beyond e: the tangent e^2/x^3 tends to zero, and c to a million times the way."""
     e = 1e-3
 
-    def run():
+    def descend():
         return search(
             lambda x: [x / np.hypot(x, e)], lambda x: [e**2 / np.hypot(x, e) ** 3], [1.0], [[1 / e]], iterations=40
         )[0]
 
-    states = run()
+    states = descend()
     assert 1.0 + states[-1].increment[0] == pytest.approx(0.0, abs=1e-6)
     assert len(states) < 40
     monkeypatch.setattr(descent, "SHORT", 0.0)
-    assert len(run()) > len(states)
+    assert len(descend()) > len(states)
 
 
 def test_trial_passes_ask_for_the_residual_alone():

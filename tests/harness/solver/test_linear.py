@@ -13,7 +13,6 @@ from scipy import sparse
 from scipy.linalg import lu_factor, lu_solve
 from scipy.sparse.linalg import splu
 
-import uel
 from uel.errors import SingularMatrixError, UelError
 from uel.solver.linear import LinearSolver, available, choose, singular, superlu
 from uel.solver.linear.choice import SOLVERS
@@ -323,7 +322,7 @@ def test_auto_takes_a_sparse_solver_where_the_band_would_fill_the_memory(monkeyp
 
 
 @pytest.mark.parametrize(("only", "slow", "advised"), [("superlu", 1, True), ("superlu", 10**9, False)])
-def test_slow_solver_advises_a_faster_one(tmp_path, monkeypatch, only, slow, advised) -> None:
+def test_slow_solver_advises_a_faster_one(run_deck, monkeypatch, only, slow, advised) -> None:
     """A warning of the run, which the terminal shows too."""
     from uel.output.outcome import ending  # noqa: PLC0415
     from uel.solver.linear import choice  # noqa: PLC0415
@@ -335,8 +334,7 @@ def test_slow_solver_advises_a_faster_one(tmp_path, monkeypatch, only, slow, adv
     text = "*NODE\n" + "".join(f"{k}, {x}., {y}., {z}.\n" for k, (x, y, z) in enumerate(nodes, start=1))
     text += "*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 4, 3, 5, 6, 8, 7\n*SOLID SECTION, ELSET=E, MATERIAL=M\n"
     text += "*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*STEP\n*STATIC\n1., 1.\n*BOUNDARY\n1, 1, 3\n2, 2, 3\n3, 3\n"
-    (tmp_path / "brick.inp").write_text(f"{text}*CLOAD\n8, 1, 1.\n5, 1, -1.\n*END STEP\n")
-    result = uel.run(tmp_path / "brick.inp", output_dir=tmp_path)
+    result = run_deck(f"{text}*CLOAD\n8, 1, 1.\n5, 1, -1.\n*END STEP\n")
     advice = "pardiso takes a third of the time of superlu for 18 unknowns: pip install pypardiso"
     assert (advice in result.warnings) == advised
     assert (f"warning: {advice}" in ending(result)) == advised

@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import uel
 from uel.elements import Request
 
 STIFFNESS, AREA, MASS, VELOCITY, SIZE = 100.0, 4.0, 0.5, 0.6, 0.02
@@ -48,21 +47,20 @@ MASSES = f"*ELEMENT, TYPE=MASS, ELSET=MASSES\n2, 3\n3, 4\n*MASS, ELSET=MASSES\n{
 
 
 @pytest.fixture
-def run(tmp_path):
-    def run(alpha, count, *, size=SIZE, damage="", nlgeom="", mass=MASSES, thickness=1.0):
+def run_layer(run_deck):
+    def run_layer(alpha, count, *, size=SIZE, damage="", nlgeom="", mass=MASSES, thickness=1.0):
         values = {"modulus": STIFFNESS * thickness, "velocity": VELOCITY, "size": size, "end": count * size}
         values |= {"mass": mass, "thickness": thickness}
         text = DECK.format(alpha=alpha, damage=damage, nlgeom=nlgeom, **values)
-        (tmp_path / "layer.inp").write_text(text.replace("\n\n", "\n"))
-        return uel.run(tmp_path / "layer.inp", output_dir=tmp_path).history
+        return run_deck(text.replace("\n\n", "\n")).history
 
-    return run
+    return run_layer
 
 
 @pytest.mark.parametrize("alpha", [0.0, -0.05, -0.3])
 @pytest.mark.parametrize("nlgeom", ["", ", NLGEOM"])
 @pytest.mark.parametrize("own", [0.0, 1.0, 0.5])
-def test_a_mass_on_a_layer(run, alpha, nlgeom, own):
+def test_a_mass_on_a_layer(run_layer, alpha, nlgeom, own):
     """The mass of nodes, or that of the layer of this constitutive thickness: half of it, as the other half is held.
 
     M a_1 + (1 + alpha) K u_1 - alpha K u_0 = 0 with Newmark's formulas; nothing is damaged, compression included."""
@@ -80,18 +78,18 @@ def test_a_mass_on_a_layer(run, alpha, nlgeom, own):
     if own:
         # both nodes on top have a quarter of density times thickness times area each
         given |= {"damage": f"*DENSITY\n{4 * MASS / (AREA * own)}", "mass": "", "thickness": own}
-    history = run(alpha, count, **given)
+    history = run_layer(alpha, count, **given)
     found = np.stack([history["U2[TOP:3]"], history["V2[TOP:3]"]], axis=1)
     np.testing.assert_allclose(found, expected, atol=1e-8)
     if alpha == 0.0:
         np.testing.assert_allclose(history["ETOTAL"], MASS * VELOCITY**2, rtol=1e-8)
 
 
-def test_a_layer_that_breaks_takes_its_fracture_energy(run):
+def test_a_layer_that_breaks_takes_its_fracture_energy(run_layer):
     """By the energy of the masses before: what flies off has the rest of it."""
     toughness = 0.02
     damage = f"*DAMAGE INITIATION, CRITERION=QUADS\n1., 1., 1.\n*DAMAGE EVOLUTION, TYPE=ENERGY\n{toughness}"
-    history = run(0.0, 100, size=SIZE / 10, damage=damage)
+    history = run_layer(0.0, 100, size=SIZE / 10, damage=damage)
     lost = history["ALLDMD"][-1]
     assert lost == pytest.approx(toughness * AREA, rel=0.01)
     assert history["ALLKE"][-1] == pytest.approx(MASS * VELOCITY**2 - lost, rel=0.01)
