@@ -54,13 +54,26 @@ ENGINEERING = (1.2e5, 1.05e4, 1.05e4, 0.3, 0.3, 0.51, 5.52e3, 5.52e3, 3.48e3)
 PLY_MATERIAL = Material("PLY", SOURCE, Elastic(ElasticType.ENGINEERING_CONSTANTS, ENGINEERING, SOURCE))
 
 
-@pytest.fixture(scope="session", params=["library", "amalgam"])
-def library(request, tmp_path_factory):
-    """The kernels as they are installed, and as Abaqus would compile them."""
-    user = None if request.param == "library" else path_of_amalgam()
-    loaded = usersub.load(user, job="kernels", output_dir=tmp_path_factory.mktemp("job"))
+@pytest.fixture(scope="session")
+def installed(tmp_path_factory):
+    """The kernels as they are installed."""
+    loaded = usersub.load(None, job="kernels", output_dir=tmp_path_factory.mktemp("job"))
     yield loaded
     loaded.close()
+
+
+@pytest.fixture(scope="session")
+def amalgam(tmp_path_factory):
+    """The kernels as Abaqus would compile them."""
+    loaded = usersub.load(path_of_amalgam(), job="kernels", output_dir=tmp_path_factory.mktemp("job"))
+    yield loaded
+    loaded.close()
+
+
+@pytest.fixture
+def library(request):
+    """The installed kernels, or those that a test asks for by the name of their fixture."""
+    return request.getfixturevalue(getattr(request, "param", "installed"))
 
 
 class Element:

@@ -8,7 +8,6 @@ hypothesis draws the properties, a crowd of like elements its states: hundreds, 
 from collections import namedtuple
 
 import numpy as np
-import pytest
 from hypothesis import HealthCheck, Phase, assume, given, settings
 from hypothesis import strategies as st
 from reference_cells import EDGES as EDGES_OF_CELLS
@@ -33,7 +32,6 @@ SIX = [3, 2, 9, 8, 6, 12]  # nodes of U5 among those of U6
 BOTTOM, TOP, FOUR = 1, 1001, 2001  # first labels of the quads of U3 and of the bricks of U10, and their own
 
 sampling = settings(deadline=None, database=None, phases=[Phase.generate], suppress_health_check=list(HealthCheck))
-one_library = pytest.mark.parametrize("library", ["library"], indirect=True)  # the amalgam has the same formulas
 Tools = namedtuple("Tools", "element interface library reference")
 
 
@@ -232,7 +230,7 @@ def separations(rng, values, pure=1 / 6):
     return size[..., None] * np.stack([np.sin(angle), closed * np.cos(angle)], axis=-1)
 
 
-def run(check, examples, tools, *case, again=False):
+def run_examples(check, examples, tools, *case, again=False):
     """Some hypothesis examples of a check, the same ones `again`; what they return."""
     found = []
 

@@ -4,7 +4,6 @@
 
 import numpy as np
 import pytest
-from random_states import one_library
 from space import nodes_of, opened
 
 LAWS = {
@@ -26,8 +25,6 @@ VARIANTS = {
 }
 MODES = [0.0, 20.0, 55.0, 90.0]
 COUNT = 1001
-
-pytestmark = one_library
 
 
 class Point:

@@ -8,7 +8,7 @@ at the end of the increment and at its start, RHS is -M A + (1 + alpha) G - alph
 
 import numpy as np
 import pytest
-from random_states import COPIES, VARIANTS, Crowd, SpaceCrowd, one_library
+from random_states import COPIES, VARIANTS, Crowd, SpaceCrowd
 
 ALPHA = -0.2
 PARAMS = (ALPHA, 0.25 * (1 - ALPHA) ** 2, 0.5 - ALPHA)
@@ -16,8 +16,6 @@ QUAD = [[0.0, 0.0], [1.1, 0.2], [0.9, 1.3], [-0.2, 0.8]]
 BRICK = [[0, 0, 0], [1, 0, 0.1], [1.1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 0.8, 1], [0, 1, 0.9]]
 PLANE = {name: case for name, case in VARIANTS.items() if name != "U6 consistent"}
 CASES = [*PLANE, "U7", "U8", "U10", "U11", "U12"]
-
-pytestmark = one_library
 
 
 class Solid:

@@ -8,7 +8,6 @@ U3 and U10 are tested with the quads or bricks whose stress they take.
 import numpy as np
 import pytest
 from neighbours import Sandwich
-from random_states import one_library
 from scipy.spatial.transform import Rotation
 from space import QUADRATIC, bottom_of, nodes_of, top_of
 
@@ -112,7 +111,6 @@ def test_no_force_under_rigid_motions(interface_element, jtype, name):
     assert not item.state["DAMAGE"].any()
 
 
-@one_library
 @options
 @pytest.mark.parametrize("size", [5e-4, 4e-3, 8e-3, -1e-3])
 def test_tangent(interface_element, reference, jtype, name, size):

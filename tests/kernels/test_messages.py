@@ -15,7 +15,8 @@ EIGHT = np.array([[0, -1], [1, -1], [1, 0], [0, 0], [0, 0], [1, 0], [1, 1], [0, 
 NODES = {1: QUAD, 2: FLAT, 3: FLAT, 4: EIGHT}
 
 
-@pytest.mark.parametrize("request_", [1, 4], ids=["normal", "mass"])
+# the texts of the single file have other line ends
+@pytest.mark.parametrize("library", ["installed", "amalgam"], indirect=True)
 @pytest.mark.parametrize(
     ("jtype", "values", "message"),
     [
@@ -72,10 +73,18 @@ NODES = {1: QUAD, 2: FLAT, 3: FLAT, 4: EIGHT}
     ],
     ids=lambda value: " ".join(f"{k}={v}" for k, v in value.items()) if isinstance(value, dict) else "",
 )
-def test_properties_out_of_range(element, jtype, values, message, request_):
+def test_properties_out_of_range(element, jtype, values, message):
     item = element(jtype, NODES[jtype], label=42, **values)
     with pytest.raises(KernelError, match=message):
-        item.evaluate(np.zeros(item.n), request=request_)
+        item.evaluate(np.zeros(item.n))
+
+
+@pytest.mark.parametrize(("jtype", "values"), [(1, {"THICKNESS": 0.0}), *((k, {"GIC": -0.1}) for k in (2, 3, 4))])
+def test_whatever_is_asked_for_properties_are_checked(element, jtype, values):
+    item = element(jtype, NODES[jtype], label=42, **values)
+    for request in (2, 3, 4, 5, 6):
+        with pytest.raises(KernelError, match=rf"U{jtype} element 42: PROPS\(\d\) {next(iter(values))} = "):
+            item.evaluate(np.zeros(item.n), request=request)
 
 
 @pytest.mark.parametrize(

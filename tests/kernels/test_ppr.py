@@ -10,7 +10,6 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from uel import usersub
 from uel.errors import KernelError
 
 FLAT = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 0.0]])
@@ -98,14 +97,6 @@ def properties(potential, strength):
     values = {"LAW": 4, "ALPHAN": alpha[1], "ALPHAT": alpha[0], "SIGMAMAX": strength[1], "TAUMAX": strength[0]}
     values |= {"GIC": potential.phi[1], "GIIC": potential.phi[0]}
     return values | {"SHAPEN": potential.shape[1], "SHAPET": potential.shape[0]}
-
-
-@pytest.fixture(scope="module")
-def library(tmp_path_factory):
-    """The kernels as they are installed; the battery runs the amalgam."""
-    loaded = usersub.load(None, job="ppr", output_dir=tmp_path_factory.mktemp("job"))
-    yield loaded
-    loaded.close()
 
 
 @pytest.fixture(params=CASES, name="case")

@@ -10,9 +10,8 @@ from random_states import (
     COPIES,
     VARIANTS,
     Crowd,
-    one_library,
     properties,
-    run,
+    run_examples,
     separations,
 )
 
@@ -82,15 +81,13 @@ def check_energies(tools, variant, kind, extra, data):
     assert before["DISSI"].any() and before["DISSII"].any()
 
 
-@one_library
 @cases
 def test_energies(tools, variant, kind, extra):
-    run(check_energies, 1, tools, variant, kind, extra, again=True)
+    run_examples(check_energies, 1, tools, variant, kind, extra, again=True)
 
 
 @pytest.mark.long
-@one_library
 @cases
 def test_energies_at_length(tools, variant, kind, extra):
     # 32 copies, 32 increments
-    run(check_energies, 50, tools, variant, kind, extra)
+    run_examples(check_energies, 50, tools, variant, kind, extra)

@@ -17,10 +17,9 @@ from random_states import (
     VARIANTS,
     Crowd,
     SpaceCrowd,
-    one_library,
     options,
     properties,
-    run,
+    run_examples,
     separations,
 )
 from space import QUADRATIC
@@ -88,17 +87,15 @@ def check_tangents(tools, variant, kind, extra, data):
 
 
 @pytest.mark.sample(3)
-@one_library
 @cases
 def test_tangents(tools, variant, kind, extra):
     # a quadratic element in space takes as long as ten others
     examples = 1 if IN_SPACE.get(variant, (0, 0))[0] in QUADRATIC else 2
-    assert sum(run(check_tangents, examples, tools, variant, kind, extra, again=True)) > examples * STATES / 2
+    assert sum(run_examples(check_tangents, examples, tools, variant, kind, extra, again=True)) > examples * STATES / 2
 
 
 @pytest.mark.long
-@one_library
 @cases
 def test_tangents_at_length(tools, variant, kind, extra):
     # up to a third of the states is too near to a kink
-    assert sum(run(check_tangents, 3 * 10_000 // (2 * STATES) + 1, tools, variant, kind, extra)) >= 10_000
+    assert sum(run_examples(check_tangents, 3 * 10_000 // (2 * STATES) + 1, tools, variant, kind, extra)) >= 10_000

@@ -4,7 +4,6 @@
 
 import numpy as np
 import pytest
-from random_states import one_library
 from reference import serendipity
 from scipy.spatial.transform import Rotation
 from space import (
@@ -68,7 +67,6 @@ GAPS = {
 
 
 @pytest.mark.sample(2)
-@one_library
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("name", ELEMENTS)
 @pytest.mark.parametrize("state", GAPS)
