@@ -20,10 +20,9 @@ DASHPOT1 GAPUNI GAPSPHER DCOUP3D ITSUNI JOINTC
 """
 
 
-@pytest.mark.parametrize("name", [*NAMES.split(), *BUILT_IN])
-def test_elements_of_abaqus(name):
-    assert is_abaqus_element(name)
-    assert is_abaqus_element(name.lower())
+def test_elements_of_abaqus():
+    names = [*NAMES.split(), *BUILT_IN]
+    assert [name for name in names if not (is_abaqus_element(name) and is_abaqus_element(name.lower()))] == []
 
 
 @pytest.mark.parametrize(
