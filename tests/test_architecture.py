@@ -218,17 +218,6 @@ def test_the_converged_state_is_written_in_one_file() -> None:
     assert {path: names for path, names in writing.items() if names} == {}
 
 
-def test_lflags_are_put_together_in_one_place() -> None:
-    """`Flags` has them by name; what hands them to Fortran takes them from there."""
-    knowing = {
-        f"harness/uel/{name}"
-        for name in ("elements/lflags.py", "elements/call.py", "usersub/exchange.py", "usersub/_binding.py")
-    }
-    files = [path for path in TRACKED if path.parts[0] == "harness" and path.suffix == ".py"]
-    used = re.compile(r"(?<!uel\.elements\.)\blflags\b")
-    assert {str(path) for path in files if used.search((ROOT / path).read_text())} == knowing
-
-
 def test_fortran_order() -> None:
     module_of = {}
     for path in fortran_files():

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uel.elements.materials.library import USER_HISTORY_VALUES
 from uel.errors import DeckError, KernelError
 
 HERE = Path(__file__).parent
@@ -129,9 +128,24 @@ def test_without_uvarm_its_variables_are_left_out(run_strip):
     assert run_strip("*ELASTIC\n1000., 0.3\n*USER OUTPUT VARIABLES\n2", user=None).status
 
 
-def test_history_is_laid_out_as_in_fortran():
-    text = (Path(__file__).parents[3] / "fortran/host/routines/umat.f90").read_text()
-    assert f"head = {USER_HISTORY_VALUES}," in text
+COUNTS = f"""      include '{HERE.parent / "umat.inc"}'
+      do k = 1, nstatv
+        statev(k) = statev(k) + 10*npt + k
+      end do
+      ddsdde = 0
+      do k = 1, ntens
+        ddsdde(k,k) = props(1)
+      end do
+      stress = stress + props(1)*dstran
+      end
+"""
+
+
+def test_points_do_not_share_state_variables(run_strip):
+    """To the last one: means over the four points after four increments."""
+    result = run_strip("*USER MATERIAL, CONSTANTS=1\n1000.\n*DEPVAR\n3", user=COUNTS)
+    for k in (1, 2, 3):
+        np.testing.assert_allclose(result.field(f"SDV{k}"), 4 * (10 * 2.5 + k), err_msg=str(k))
 
 
 BEYOND = "*USER MATERIAL, CONSTANTS=4\n1000., {}, {}, {}\n"
