@@ -16,6 +16,7 @@ import traceback
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 from corpus import DECK, Case
 from mutations import ODD_FILES
@@ -51,6 +52,7 @@ def make_odd_files(folder: Path) -> None:
     (folder / "folder").mkdir()
 
 
+@patch.object(job, "run_steps", first_attempt)
 def run(case: Case, folder: Path) -> tuple[str, str]:
     """Kind of the outcome and its text: 'runs', 'reads', 'refused' and 'stopped' are good, any other is a finding."""
     for name, content in case.files.items():
@@ -59,7 +61,6 @@ def run(case: Case, folder: Path) -> tuple[str, str]:
         path.write_bytes(content)
     if any(name.encode() in content for content in case.files.values() for name in ODD_FILES):
         make_odd_files(folder)
-    job.run_steps = first_attempt
     try:
         if not case.runs:
             read_deck(folder / DECK)
