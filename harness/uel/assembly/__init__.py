@@ -3,9 +3,20 @@
 """Assembly of elements to a system of equations: numbering, sparsity, scatter, constraints."""
 
 from uel.assembly.constraints import Constraints
+from uel.assembly.contributors import Contributors
 from uel.assembly.dofs import DofMap
+from uel.assembly.evaluation import Evaluation
 from uel.assembly.rotating_constraints import TurningConstraints
-from uel.assembly.system import Evaluation, System
+from uel.assembly.system import System, system_of
 from uel.assembly.tolerant_system import TolerantSystem
 
-__all__ = ["Constraints", "DofMap", "Evaluation", "System", "TolerantSystem", "TurningConstraints"]
+__all__ = [
+    "Constraints",
+    "Contributors",
+    "DofMap",
+    "Evaluation",
+    "System",
+    "TolerantSystem",
+    "TurningConstraints",
+    "system_of",
+]

@@ -4,21 +4,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uel.contact import ContactBlock
-from uel.elements import COUPLED, MULTIPLIER, PRESSURE, REFERENCE, DistributingBlock, ElementBlock, field_of
+from uel.elements import COUPLED, MULTIPLIER, PRESSURE, REFERENCE, Contributor, field_of
 from uel.model.arrays import ComplexArray, FloatArray, IntArray
-from uel.model.mesh import Mesh, full_name
+from uel.model.mesh import Mesh
 from uel.model.model import Equation, dof_in_deck, is_local
 
 Forces = TypeVar("Forces", FloatArray, ComplexArray)
-Block = ElementBlock | ContactBlock | DistributingBlock
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,8 +24,7 @@ class DofMap:
     """Unknowns of a model, ordered by node, then by dof; those of elements, contact points and couplings, which are of
     no node, come last.
 
-    node  (n,) node index of each unknown; the elements of the model follow the nodes, then its contact points
-          and distributing couplings
+    node  (n,) node index of each unknown; the items of the contributors follow the nodes
     dof   (n,) its dof, as Abaqus numbers them (1-3 displacements, ...)
     field (n,) its field, index into FIELD_NAMES
     coordinates  (n, 3) original coordinates of its node, or of the middle of its element
@@ -44,8 +41,8 @@ class DofMap:
     _local: tuple[IntArray, IntArray, FloatArray]
 
     @classmethod
-    def build(cls, mesh: Mesh, blocks: Sequence[Block], equations: Sequence[Equation] = ()) -> Self:
-        """Collect unknowns of elements, contact pairs and distributing couplings, and of *EQUATION.
+    def build(cls, mesh: Mesh, contributors: Iterable[Contributor], equations: Sequence[Equation] = ()) -> Self:
+        """Collect the unknowns of the contributors, and of *EQUATION.
 
         Reference nodes need not belong to an element.
         """
@@ -53,16 +50,15 @@ class DofMap:
         dofs = [np.zeros(0, dtype=np.int64)]
         elements: dict[int, str] = {}
         middles: dict[int, FloatArray] = {}
-        for block in blocks:
-            for local, dof in block.unknowns:
-                used = np.unique(_positions(mesh, block, local))
+        for contributor in contributors:
+            for local, dof in contributor.unknowns:
+                used = np.unique(_positions(mesh, contributor, local))
                 nodes.append(used)
                 dofs.append(np.full(len(used), dof))
-            if any(dof >= PRESSURE for _, dof in block.unknowns):
-                own = _positions(mesh, block, block.group.nodes.shape[1]).tolist()
-                names = _names(block) if isinstance(block, ElementBlock) else block.names
-                elements |= dict(zip(own, names, strict=True))
-                middles |= dict(zip(own, mesh.coordinates[block.group.nodes].mean(axis=1), strict=True))
+            if any(dof >= PRESSURE for _, dof in contributor.unknowns):
+                own = _positions(mesh, contributor, contributor.nodes.shape[1]).tolist()
+                elements |= dict(zip(own, contributor.names, strict=True))
+                middles |= dict(zip(own, mesh.coordinates[contributor.nodes].mean(axis=1), strict=True))
         terms = np.array([(node, dof) for equation in equations for node, dof, _ in equation.terms], dtype=np.int64)
         nodes.append(terms.reshape(-1, 2)[:, 0])
         dofs.append(terms.reshape(-1, 2)[:, 1])
@@ -110,20 +106,20 @@ class DofMap:
         known = (self._keys[found] == keys) & (np.asarray(dof) < self._base)
         return np.asarray(np.where(known, found, -1), dtype=np.int64)
 
-    def equations_of(self, block: Block) -> NDArray[np.int32]:
-        """Return the unknowns of each element of a block.
+    def equations_of(self, contributor: Contributor) -> NDArray[np.int32]:
+        """Return the unknowns of each item of a contributor.
 
         Parameters
         ----------
-        block
-            One of those from which the map was built, or of faces of their elements.
+        contributor
+            One of those from which the map was built, with all or some of its items.
 
         Returns
         -------
         NDArray[np.int32]
-            (m, element unknowns) numbers from 0; a row has the order of `block.unknowns`.
+            (m, unknowns) numbers from 0; a row has the order of `contributor.unknowns`.
         """
-        columns = [self.find(_positions(self.mesh, block, local), dof) for local, dof in block.unknowns]
+        columns = [self.find(_positions(self.mesh, contributor, local), dof) for local, dof in contributor.unknowns]
         return np.stack(columns, axis=1).astype(np.int32)
 
     def element(self, unknown: int) -> str:
@@ -154,17 +150,14 @@ class DofMap:
         return turned
 
 
-def _names(block: ElementBlock) -> list[str]:
-    return [full_name(block.group.instance, label) for label in block.group.labels.tolist()]
-
-
-def _positions(mesh: Mesh, block: Block, local: int) -> IntArray:
-    """Return (m,) nodes with this local number, or the reference node. The number after the nodes of an element stands
-    for the element itself, numbered after all nodes.
+def _positions(mesh: Mesh, contributor: Contributor, local: int) -> IntArray:
+    """Return (m,) nodes with this local number, or the reference node. The number after the nodes of an item stands
+    for the item itself, numbered after all nodes.
     """
-    if local == REFERENCE and isinstance(block, ElementBlock):
-        return np.full(len(block.group.labels), block.group.reference)
-    if local < block.group.nodes.shape[1]:
-        return block.group.nodes[:, local]
-    positions: IntArray = len(mesh.labels) + block.first + block.rows
+    nodes = contributor.nodes
+    if local == REFERENCE:
+        return np.full(len(nodes), contributor.reference)
+    if local < nodes.shape[1]:
+        return nodes[:, local]
+    positions: IntArray = len(mesh.labels) + contributor.first + contributor.rows
     return positions

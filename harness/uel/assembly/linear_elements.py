@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from uel.elements import BlockReport, Call, ElementBlock, Motion, Request
+from uel.elements import BlockReport, Call, Contributor, ElementBlock, Motion, Request
 from uel.errors import ElementError
 from uel.model.arrays import FloatArray
 
@@ -73,7 +73,7 @@ class LinearElements:
         """Whether the matrices are known."""
         return len(self._matrices) == len(self._blocks)
 
-    def __contains__(self, block: ElementBlock) -> bool:
+    def __contains__(self, block: object) -> bool:
         return any(one is block for one in self._blocks)
 
     def learn(
@@ -147,9 +147,9 @@ class LinearElements:
                 self._verify(block, behind, called)
         return energy
 
-    def waits(self, block: ElementBlock) -> bool:
+    def waits(self, block: Contributor) -> bool:
         """Return whether the state of a block is older than the end of the last increment."""
-        return self._unread is not None and block.can_wait and block in self
+        return self._unread is not None and any(one is block and one.can_wait for one in self._blocks)
 
     def bring_up(self) -> None:
         """Call the elements that wait for their state at the end of the last increment.

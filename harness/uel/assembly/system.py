@@ -6,87 +6,35 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import partial
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
+from uel.assembly.contributors import Contributors
 from uel.assembly.dofs import DofMap
 from uel.assembly.element_states import States
+from uel.assembly.evaluation import Evaluation
 from uel.assembly.linear_elements import LinearElements
-from uel.contact import ContactBlock
-from uel.elements import (
-    FIELD_NAMES,
-    BlockReport,
-    Call,
-    DistributingBlock,
-    ElementBlock,
-    FollowerBlock,
-    HeatLoadBlock,
-    Motion,
-    Request,
-)
+from uel.contact import nodal_fields
+from uel.elements import FIELD_NAMES, BlockReport, Call, Contributor, Motion, Request
 from uel.errors import ElementError
 from uel.model.arrays import ComplexArray, FloatArray, IntArray
-from uel.model.contact import ContactChanges
-from uel.model.couplings import CouplingErrors
 from uel.model.mesh import Mesh
-from uel.model.model import Equation
+from uel.model.model import Equation, Model
 from uel.model.records import ElementState
 from uel.model.restart import Saved
 from uel.parallel.partition import owners_of
 from uel.parallel.ranks import ALONE, FAILURES, Ranks
-from uel.usersub import _binding
-
-
-@dataclass(frozen=True, slots=True)
-class Evaluation:
-    """Outcome of one pass over all elements.
-
-    residual    (n,) sum of RHS: external minus internal force
-    data        (nnz,) CSR values of the matrix, None if not asked for; overwritten by the next pass that asks for it
-    flux        (fields,) sum of |element nodal force| by field, as FIELD_NAMES orders them, and of loads that are terms
-                of the average flux
-    flux_count  (fields,) number of terms in it, those above the call's floor
-    pnewdt      smallest PNEWDT an element returned
-    energy      (8,) sum of ENERGY; that of linear elements that were not called is added by `System.commit`
-                The residual and all sums are those of all ranks, the matrix is the part of this rank's elements.
-    load        (n,) sum of column 2 of RHS, increments of the loads that elements apply; None unless NRHS = 2
-    damage      dissipated by the damage of built-in elements
-    largest     (fields,) largest |element nodal force|
-    entries     (fields,) number of element nodal forces, and what the loads count as
-    contact     what the iteration changed in each contact pair
-    coupling    errors of distributing couplings, None without any
-    """
-
-    residual: FloatArray
-    data: FloatArray | None
-    flux: FloatArray
-    flux_count: IntArray
-    pnewdt: float
-    energy: FloatArray
-    load: FloatArray | None = None
-    damage: float = 0.0
-    largest: FloatArray = field(default_factory=lambda: np.zeros(len(FIELD_NAMES)))
-    entries: IntArray = field(default_factory=lambda: np.zeros(len(FIELD_NAMES), dtype=np.int64))
-    contact: tuple[ContactChanges, ...] = ()
-    coupling: CouplingErrors | None = None
-
-
-LOADED: Final = (FollowerBlock, HeatLoadBlock)
-"""Blocks of loads."""
+from uel.usersub import Library
 
 
 class System:
-    """All blocks of a model on one numbering of unknowns.
+    """All contributors of a model on one numbering of unknowns.
 
     blocks   of its elements
-    loaded   faces under loads that follow them, and what heat enters: called where loads act, and no elements
-    contacts its contact pairs, whose points do not count as elements either
-    coupled  its distributing couplings, whose pairs of nodes do not
     dofs     what each unknown is
     indptr   (n + 1,) row starts of the matrix, int32
     indices  (nnz,) columns, ascending in each row, int32; every diagonal entry is there and the pattern is symmetric.
@@ -96,58 +44,49 @@ class System:
     def __init__(
         self,
         mesh: Mesh,
-        blocks: Sequence[ElementBlock],
+        contributors: Contributors,
         equations: Sequence[Equation] = (),
-        contacts: Sequence[ContactBlock] = (),
-        coupled: Sequence[DistributingBlock] = (),
         *,
         spare_linear: bool = False,
         ranks: Ranks = ALONE,
     ) -> None:
-        """Assemble blocks of a model with this mesh, these constraints, contact pairs and distributing couplings.
-
-        This rank keeps a part of the elements.
+        """Assemble the contributors of a model with this mesh and these constraints; this rank keeps a part of them.
 
         spare_linear: do not call linear elements again. Raises UsageError if several ranks cannot share the elements.
         """
         self.ranks = ranks
-        self.contacts, self.coupled = tuple(contacts), tuple(coupled)
-        self.blocks = tuple(block for block in blocks if not isinstance(block, LOADED))
-        self.loaded = tuple(block for block in blocks if isinstance(block, LOADED))
-        self.dofs = DofMap.build(mesh, (*self.blocks, *self.contacts, *self.coupled), equations)
+        self.contributors, self.blocks = contributors, tuple(contributors.elements)
+        self.dofs = DofMap.build(mesh, contributors, equations)
         if ranks.size > 1:
             self._keep_own()
-        self._of_elements = tuple(blocks)
-        for pair in self.contacts:
-            pair.number(self.dofs.find, self.dofs.equations_of(pair)[:, -1])
+        for contributor in contributors:
+            contributor.number(self.dofs.find, self.dofs.equations_of(contributor))
         self._bind()
         self._committed = 0
         self._last: Evaluation | None = None
         self._linear = LinearElements(self.blocks if spare_linear else (), len(self.indices))
 
     def _keep_own(self) -> None:
-        """Keep the elements of this rank, and faces on them."""
+        """Keep the elements of this rank, and what enters them."""
         owners = self.ranks.tell(lambda: owners_of([block.group.nodes for block in self.blocks], self.ranks.size))
-        for block in (*self.blocks, *self.loaded):
-            elements = block.elements if isinstance(block, LOADED) else block.first + block.rows
-            # what enters nodes is that of rank 0
-            found = np.zeros(len(block.rows), dtype=np.int64) if elements is None else owners[elements]
-            block.keep(np.flatnonzero(found == self.ranks.rank))
+        for block in self.contributors.shared:
+            block.keep(np.flatnonzero(block.owners(owners) == self.ranks.rank))
 
     def _bind(self) -> None:
-        """Build the pattern, in new arrays, and bind all blocks to it."""
-        bound: tuple[ElementBlock | DistributingBlock, ...] = (*self._of_elements, *self.coupled)
-        numbers = [self.dofs.equations_of(block) for block in bound]
-        couplings = [pair.couplings() for pair in self.contacts]
-        self.indptr, self.indices = build_pattern(len(self.dofs), [*numbers, *couplings])
-        self.of_elements = np.zeros(len(self.dofs), dtype=np.bool_)
-        for equation_numbers in numbers:
-            self.of_elements[equation_numbers] = True
-        for block, equation_numbers in zip(bound, numbers, strict=True):
-            block.bind(equation_numbers, _binding.scatter_map(equation_numbers, self.indptr, self.indices))
-        for pair in self.contacts:
-            pair.bind(self.indptr, self.indices)
+        """Build the pattern, in new arrays, and locate the entries of all contributors in it."""
+        couplings = [contributor.couplings() for contributor in self.contributors]
+        self.indptr, self.indices = build_pattern(len(self.dofs), couplings)
+        for contributor in self.contributors:
+            contributor.locate(self.indptr, self.indices)
         self._data = np.zeros(len(self.indices))
+
+    @property
+    def of_elements(self) -> NDArray[np.bool_]:
+        """Mask (n,) of the unknowns of elements and distributing couplings."""
+        found = np.zeros(len(self.dofs), dtype=np.bool_)
+        for contributor in (*self.blocks, *self.contributors.couplings):
+            found[contributor.couplings()] = True
+        return found
 
     def __len__(self) -> int:
         return len(self.dofs)
@@ -202,7 +141,7 @@ class System:
     ) -> Evaluation:
         """Sum over the elements of this rank; arguments and errors as in `evaluate`."""
         columns = np.zeros((nrhs, len(self.dofs)))
-        tracked = [pair.track(call, u, du, matrix=matrix) for pair in self.contacts]
+        tracked = [contributor.track(call, u, du, matrix=matrix) for contributor in self.contributors]
         if not all(tracked):
             self._bind()
             self._linear.rebind(len(self.indices))
@@ -218,47 +157,17 @@ class System:
             data.fill(0.0)
         reports: list[BlockReport] = [*call.load_terms]
         for block in self.blocks:
-            kept = columns if block.group.definition or not call.flags.linear else np.zeros_like(columns)
             if spared and block in linear:
                 report = linear.forces(block, call, u, columns[0])
             elif applies and data is not None and block in linear:
                 report = linear.learn(block, call, u, du, columns[0], data)
             else:
-                report = block.evaluate(call, u, du, kept if nrhs > 1 else kept[0], data, motion)
+                report = block.contribute(call, u, du, columns, data, motion)
             reports.append(report)
-        distributed = call.distributed
-        for entered in self.loaded if distributed is not None else ():
-            assert distributed is not None
-            report = entered.evaluate(call, u, du, columns if nrhs > 1 else columns[0], data, motion)
-            reports.append(entered.as_terms(report, distributed))
-        energy = sum((report.energy for report in reports), np.zeros(8))
-        damage = float(sum(report.damage for report in reports))
-        load = columns[1] if nrhs > 1 else None
+        for contributor in list(self.contributors)[len(self.blocks) :]:
+            reports.append(contributor.contribute(call, u, du, columns, data, motion))
         linear.passed(call, u, du, spared=spared)
-        for pair in self.contacts:
-            pair.evaluate(call, u, du, columns[0], data)
-            energy += pair.energies[0]
-            damage += pair.energies[1]
-        for coupled in self.coupled:
-            coupled.evaluate(call, u, du, columns[0], data)
-        contact = tuple(pair.trial_changes for pair in self.contacts)
-        coupling = next((coupled.errors for coupled in self.coupled), None)
-        fields = len(FIELD_NAMES)
-        return Evaluation(
-            columns[0],
-            data,
-            sum((report.flux for report in reports), np.zeros(fields)),
-            sum((report.flux_count for report in reports), np.zeros(fields, dtype=np.int64)),
-            # NaN, which .msg warns of, asks for nothing
-            min((report.pnewdt for report in reports if report.pnewdt <= np.inf), default=np.inf),
-            energy,
-            load,
-            damage,
-            np.max([np.zeros(fields), *(report.largest * np.ones(fields) for report in reports)], axis=0),
-            sum((report.entries for report in reports), np.zeros(fields, dtype=np.int64)),
-            contact,
-            coupling,
-        )
+        return Evaluation.of(reports, columns, data)
 
     def _evaluate_all(self, act: Callable[[], Evaluation], nrhs: int) -> Evaluation:
         """Sum over the elements of all ranks; act: returns the sums of this one. The matrix stays distributed.
@@ -377,11 +286,9 @@ class System:
     def _commit_own(self) -> FloatArray:
         """Commit the elements of this rank, and return ENERGY (8,) of those that the last pass spared."""
         energy = self._linear.catch_up()
-        for block in (*self.blocks, *self.loaded):
-            if not self._linear.waits(block):
-                block.commit()
-        for pair in self.contacts:
-            pair.commit()
+        for contributor in self.contributors:
+            if not self._linear.waits(contributor):
+                contributor.commit()
         return energy
 
     def viscous_change(self) -> float:
@@ -419,64 +326,42 @@ class System:
         return tuple(map(_joined, zip(*self.ranks.collect(own), strict=True)))
 
     def contact_fields(self) -> dict[str, FloatArray]:
-        """Return contact variables (nodes,) by Abaqus name at the end of the increment,
-        NaN at nodes without a contact point.
-
-        A node of several pairs has those of the one where its clearance is smallest.
-        """
-        if not self.contacts:
-            return {}
-        nodes = np.concatenate([block.secondary for block in self.contacts])
-        clearance, pressure = (np.concatenate([block.output[k] for block in self.contacts]) for k in range(2))
-        # directions of friction: one in the plane
-        shear = np.concatenate([np.pad(block.output[2], ((0, 0), (0, 2)))[:, :2] for block in self.contacts])
-        order = np.argsort(-clearance, kind="stable")
-        found = {}
-        for name, values in (
-            ("COPEN", clearance),
-            ("CPRESS", pressure),
-            ("CSHEAR1", shear[:, 0]),
-            ("CSHEAR2", shear[:, 1]),
-        ):
-            found[name] = np.full(len(self.dofs.mesh.labels), np.nan)
-            found[name][nodes[order]] = values[order]
-        for block in self.contacts:
-            for name, values in block.bonds.items():
-                of_nodes = found.setdefault(name, np.full(len(self.dofs.mesh.labels), np.nan))
-                of_nodes[block.secondary] = np.fmax(of_nodes[block.secondary], values)
-        return found
+        """Return contact variables (nodes,), see `uel.contact.nodal_fields`."""
+        return nodal_fields(self.contributors.contacts, len(self.dofs.mesh.labels))
 
     def kept(self) -> Saved:
         """Return the committed states of all elements and of loads on their faces, not copied. Raises KernelError."""
         self._linear.bring_up()
+        contributors = self.contributors
         return {
             "blocks": [block.kept() for block in self.blocks],
-            "faces": [[face.key, face.elements, face.kept()] for face in self._faces],
-            "contacts": [pair.kept() for pair in self.contacts],
-            "coupled": [coupled.kept() for coupled in self.coupled],
+            "faces": [[face.key, face.elements, face.kept()] for face in contributors.followers],
+            "contacts": [pair.kept() for pair in contributors.contacts],
+            "coupled": [coupled.kept() for coupled in contributors.couplings],
             "linear": self._linear.known,
         }
 
     def resume(self, saved: Saved) -> None:
-        """Restore the state that `kept` returned. Raises ValueError if it is not of these elements."""
-        if len(saved["blocks"]) != len(self.blocks):
-            raise ValueError("groups of elements")
-        if len(saved["contacts"]) != len(self.contacts):
-            raise ValueError("contact pairs")
-        if len(saved["coupled"]) != len(self.coupled):
-            raise ValueError("distributing couplings")
-        for block, own in zip(self.blocks, saved["blocks"], strict=True):
-            block.resume(own)
-        for pair, own in zip(self.contacts, saved["contacts"], strict=True):
-            pair.resume(own)
-        for coupled, own in zip(self.coupled, saved["coupled"], strict=True):
-            coupled.resume(own)
-        if self.contacts:
+        """Restore the state that `kept` returned. Raises ValueError if it is not of these contributors."""
+        contributors = self.contributors
+        kinds: list[tuple[str, str, Sequence[Contributor]]] = [
+            ("blocks", "groups of elements", self.blocks),
+            ("contacts", "contact pairs", contributors.contacts),
+            ("coupled", "distributing couplings", contributors.couplings),
+        ]
+        for key, what, own in kinds:
+            if len(saved[key]) != len(own):
+                raise ValueError(what)
+        for key, _, own in kinds:
+            for contributor, state in zip(own, saved[key], strict=True):
+                contributor.resume(state)
+        if contributors.contacts:
             self._bind()
-        for key, elements, own in saved["faces"]:
-            for face in self._faces:
+        # steps of the deck that goes on may load other faces
+        for key, elements, state in saved["faces"]:
+            for face in contributors.followers:
                 if face.key == key:
-                    face.resume_some(elements, own)
+                    face.resume_some(elements, state)
 
     def relearn(self, call: Call, u: FloatArray, saved: Saved) -> None:
         """Compute the matrices of linear elements if the system had them when `saved` was kept.
@@ -495,10 +380,6 @@ class System:
         """
         if saved["linear"]:
             self._linear.relearn(call, u)
-
-    @property
-    def _faces(self) -> list[FollowerBlock]:
-        return [block for block in self.loaded if isinstance(block, FollowerBlock)]
 
     def product(self, data: FloatArray, vector: FloatArray) -> FloatArray:
         """Compute K x, with the parts of K of all ranks.
@@ -531,6 +412,15 @@ class System:
             (n, n); it shares the values.
         """
         return sparse.csr_array((data, self.indices, self.indptr), shape=(len(self), len(self)))
+
+
+def system_of(model: Model, library: Library, *, strict: bool = True, spare_linear: bool = False) -> System:
+    """Assemble the system of a model in one process; errors as in `build_blocks`.
+
+    strict: writes of user elements outside their arrays are errors; spare_linear: as in `System`.
+    """
+    contributors = Contributors.of(model, library, strict=strict)
+    return System(model.mesh, contributors, model.equations, spare_linear=spare_linear)
 
 
 def _joined(parts: tuple[tuple[IntArray, ElementState], ...]) -> ElementState:

@@ -8,9 +8,10 @@ from collections.abc import Collection
 from contextlib import suppress
 from typing import Any
 
-from uel.assembly.system import Evaluation, System
-from uel.contact import contact_blocks
-from uel.elements import Call, build_blocks, distributing_blocks
+from uel.assembly.contributors import Contributors
+from uel.assembly.evaluation import Evaluation
+from uel.assembly.system import System
+from uel.elements import Call
 from uel.errors import NotFiniteError
 from uel.model.arrays import FloatArray
 from uel.model.model import Model
@@ -22,11 +23,9 @@ class TolerantSystem(System):
     """A system whose elements may read outside their arrays: if that makes NaN, they read zeros from then on."""
 
     def __init__(self, model: Model, library: Library, linear: Collection[str] = (), ranks: Ranks = ALONE) -> None:
-        """Build the blocks of all elements of a model; linear: types of user elements that the user says are linear."""
-        blocks = build_blocks(model, library, strict=False, zeros=True, linear=linear)
-        contacts = contact_blocks(model, blocks)
-        coupled = distributing_blocks(model, blocks, sum(len(pair.rows) for pair in contacts))
-        super().__init__(model.mesh, blocks, model.equations, contacts, coupled, spare_linear=True, ranks=ranks)
+        """Build the contributors of a model; linear: types of user elements that the user says are linear."""
+        contributors = Contributors.of(model, library, strict=False, zeros=True, linear=linear)
+        super().__init__(model.mesh, contributors, model.equations, spare_linear=True, ranks=ranks)
         self._library = library
         self._tolerated = False
 

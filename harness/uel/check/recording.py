@@ -14,10 +14,9 @@ from typing import Final
 import numpy as np
 
 from uel import usersub
-from uel.assembly import Evaluation, System
-from uel.contact import contact_blocks
+from uel.assembly import Contributors, Evaluation, System
 from uel.deck import read_deck
-from uel.elements import Call, ElementBlock, Flags, Motion, Request, build_blocks, distributing_blocks
+from uel.elements import Call, Flags, Motion, Request
 from uel.errors import (
     ConvergenceError,
     ElementError,
@@ -197,7 +196,7 @@ def record(
     stopped = ""
     ending: UelError | None = None
     with opened(model, user, build) as library, one_blas_thread():
-        system = _RecordedSystem(model, build_blocks(model, library, strict=strict), events)
+        system = _RecordedSystem(model, Contributors.of(model, library, strict=strict), events)
         try:
             for happened in run_steps(system, model, _RecordedRoutines(library, events)):
                 done += isinstance(happened, IncrementDone)
@@ -229,10 +228,8 @@ def _general(events: Sequence[Event]) -> Pass:
 class _RecordedSystem(System):
     """A system that keeps what its elements are called with."""
 
-    def __init__(self, model: Model, blocks: Sequence[ElementBlock], events: list[Event]) -> None:
-        contacts = contact_blocks(model, blocks)
-        coupled = distributing_blocks(model, blocks, sum(len(pair.rows) for pair in contacts))
-        super().__init__(model.mesh, blocks, model.equations, contacts, coupled)
+    def __init__(self, model: Model, contributors: Contributors, events: list[Event]) -> None:
+        super().__init__(model.mesh, contributors, model.equations)
         self._events = events
 
     def evaluate(

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from uel.assembly import Contributors
 from uel.check.recording import Commit, External, Pass, Recording, opened
 from uel.check.single import Single, entry
-from uel.elements import build_blocks
 from uel.errors import KernelError
 from uel.model.arrays import FloatArray, IntArray
 from uel.procedures import set_initial_states
@@ -53,8 +53,7 @@ class Elements:
         self.singles: list[Single] = []
         self.equations: list[IntArray] = []
         self.library = library
-        # faces under loads that follow them, which come last, are not elements
-        blocks = build_blocks(recording.model, library, strict=strict)[: len(recording.equations)]
+        blocks = Contributors.of(recording.model, library, strict=strict).elements
         for block, equations in zip(blocks, recording.equations, strict=True):
             self.singles += [Single(part) for part in block.split(strict=strict)]
             self.equations += list(equations)

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Contact: blocks of contact points, their motion over the surfaces, bonds and friction."""
 
-from uel.contact.block import ContactBlock, contact_blocks
+from uel.contact.block import ContactBlock
 from uel.contact.finite_sliding import FiniteSliding, normals_of
 from uel.contact.main_surface import FaceSurface, monomials
+from uel.contact.nodal_fields import nodal_fields
 from uel.contact.rigid_surface import RigidSurface
 from uel.contact.surface_finite_sliding import FACING, SurfaceSliding
 
@@ -15,7 +16,7 @@ __all__ = [
     "FiniteSliding",
     "RigidSurface",
     "SurfaceSliding",
-    "contact_blocks",
     "monomials",
+    "nodal_fields",
     "normals_of",
 ]

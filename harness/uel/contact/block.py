@@ -10,8 +10,6 @@ User's Guide, "Frictional behavior"). Bonds (`contact_cohesion`) are in parallel
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -19,10 +17,11 @@ from numpy.typing import NDArray
 
 from uel.contact.cohesion import Bonding, Bonds
 from uel.contact.finite_sliding import FiniteSliding
-from uel.contact.kinematics import Clearances, Find, Motion, Slips, SmallSliding
+from uel.contact.kinematics import Clearances, Motion, Slips, SmallSliding
 from uel.contact.surface_finite_sliding import SurfaceSliding
-from uel.elements.block import ElementBlock
-from uel.elements.call import Call
+from uel.elements.call import NOTHING, BlockReport, Call
+from uel.elements.call import Motion as NodalMotion
+from uel.elements.contributor import Contributor, Find
 from uel.elements.fields import MULTIPLIER
 from uel.elements.lflags import Request
 from uel.elements.multipliers import scale_of_multipliers
@@ -42,16 +41,13 @@ NONE: Final = 1e-200
 """Part of a stiffness that is none."""
 
 
-class ContactBlock:
+class ContactBlock(Contributor):
     """The points of a contact pair: their committed and trial status and elastic slip.
 
-    unknowns  (local node, dof) of each unknown at the start: displacements, then the multiplier of the point, if any
+    unknowns  at the start: displacements, then the multiplier of the point, if any
     secondary (m,) secondary nodes
-    names     of them
     direct    a multiplier enforces the constraints, else a stiffness
     """
-
-    unsymmetric = True
 
     def __init__(self, model: Model, pair: ContactPair | SlidingPair) -> None:
         self.pair, self.first = pair, 0
@@ -65,15 +61,7 @@ class ContactBlock:
         self.secondary = self._motion.nodes[:, 0]
         m = len(self.secondary)
         self.rows = np.arange(m)
-        self.names = [model.mesh.name(node) for node in self.secondary.tolist()]
-        self.group = replace(
-            model.groups[0],
-            type="CONTACT",
-            labels=model.mesh.labels[self.secondary],
-            nodes=self._motion.nodes,
-            definition=None,
-            source=pair.source,
-        )
+        self._mesh = model.mesh
         self.direct = pair.property.stiffness is None
         count = self._motion.nodes.shape[1]
         self.unknowns = self._motion.unknowns_of(count) + (((count, MULTIPLIER),) if self.direct else ())
@@ -93,17 +81,19 @@ class ContactBlock:
         self._multipliers = np.zeros(m, dtype=np.int32)
         self._pattern = (self._equations, self._equations)
 
-    def number(self, find: Find, last: NDArray[np.int32]) -> None:
-        """Set the numbers of the unknowns.
+    @property
+    def nodes(self) -> IntArray:
+        """Nodes (m, k) of the points: the secondary node, then those that move it."""
+        return self._motion.nodes
 
-        Parameters
-        ----------
-        find
-            Numbers of the unknowns of nodes and dofs.
-        last
-            (m,) number of the last unknown of each point, which is its multiplier if it has one.
-        """
-        self._find, self._multipliers = find, last
+    @property
+    def names(self) -> list[str]:
+        """Names (m,) of the secondary nodes."""
+        return [self._mesh.name(node) for node in self.secondary.tolist()]
+
+    def number(self, find: Find, equations: NDArray[np.int32]) -> None:
+        """Set the numbers of the unknowns, of which the last is the multiplier of a point, if it has one."""
+        self._find, self._multipliers = find, equations[:, -1]
         self._equations = self._equations_of(self.rows, self._motion.nodes)
 
     def track(self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool) -> bool:
@@ -123,7 +113,7 @@ class ContactBlock:
         if self._motion.nodes is not nodes:
             self._equations = self._equations_of(self.rows, self._motion.nodes)
             if self._motion.known:
-                self.bind(*self._pattern)
+                self.locate(*self._pattern)
         if self._motion.known or not matrix:
             return True
         self._motion.reach()
@@ -139,11 +129,26 @@ class ContactBlock:
         multipliers = [self._multipliers[points].astype(np.int64)] if self.direct else []
         return np.stack([*columns, *multipliers], axis=1).astype(np.int32)
 
-    def bind(self, indptr: NDArray[np.int32], indices: NDArray[np.int32]) -> None:
+    def locate(self, indptr: NDArray[np.int32], indices: NDArray[np.int32]) -> None:
         """Store the CSR pattern of the matrix, which has the couplings."""
         self._pattern = indptr, indices
         own = np.concatenate([self._equations[:, : self.pair.dimension], self._equations[:, -1:]], axis=1)
         self._own_places = _binding.scatter_map(own, indptr, indices)
+
+    def contribute(
+        self,
+        call: Call,
+        u: FloatArray,
+        du: FloatArray,
+        columns: FloatArray,
+        data: FloatArray | None,
+        motion: NodalMotion | None = None,
+    ) -> BlockReport:
+        """Run one pass, see `evaluate`, and report its changes and the energies of bonds."""
+        del motion
+        self.evaluate(call, u, du, columns[0], data)
+        energy, damage = (np.zeros(8), 0.0) if self._bonds is None else self._bonds.energies
+        return NOTHING._replace(energy=energy, damage=damage, contact=self._changes())
 
     def evaluate(
         self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, data: FloatArray | None
@@ -304,9 +309,8 @@ class ContactBlock:
             matrix += clearances.curvature(points, normal)
         np.add.at(data, _binding.scatter_map(equations, *self._pattern), matrix)
 
-    @property
-    def trial_changes(self) -> ContactChanges:
-        """Changes in the last iteration, and the errors of the constraints at its end."""
+    def _changes(self) -> ContactChanges:
+        """Return the changes in the last iteration, and the errors of the constraints at its end."""
         before, after = self._before, self._status_trial
         switched = (before == OPEN) != (after == OPEN)
         return ContactChanges(
@@ -337,11 +341,6 @@ class ContactBlock:
         """Variables of the bonds (m,), by their names in Abaqus."""
         return {} if self._bonds is None else self._bonds.output
 
-    @property
-    def energies(self) -> tuple[FloatArray, float]:
-        """Energies of the bonds after the last iteration: ENERGY (8,) and the dissipation by damage."""
-        return (np.zeros(8), 0.0) if self._bonds is None else self._bonds.energies
-
     def commit(self) -> None:
         """Commit the trial state at the end of a converged increment."""
         self._status, self._slip = self._status_trial, self._slip_trial
@@ -364,18 +363,6 @@ class ContactBlock:
             self._bonds.resume(saved["bonds"])
         self._equations = self._equations_of(self.rows, self._motion.nodes)
         self._status_trial, self._slip_trial = self._status, self._slip
-
-
-def contact_blocks(model: Model, blocks: Sequence[ElementBlock]) -> list[ContactBlock]:
-    """Build a block for each contact pair of a model; their points are numbered after
-    the elements of the other blocks.
-    """
-    found = [ContactBlock(model, pair) for pair in model.contacts]
-    following = blocks[-1].first + len(blocks[-1].group.labels)
-    for block in found:
-        block.first = following
-        following += len(block.rows)
-    return found
 
 
 class _Friction:

@@ -22,9 +22,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from uel.contact.kinematics import Clearances, Find, Slips
+from uel.contact.kinematics import Clearances, Slips
 from uel.contact.main_surface import EQUAL, FaceSurface, Place, Surface
 from uel.contact.rigid_surface import RigidSurface
+from uel.elements.contributor import Find
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.contact import Pieces, RigidProfile, SlidingPair
 from uel.model.restart import Saved

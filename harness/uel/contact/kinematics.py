@@ -20,12 +20,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uel.contact.frames import TURN, Jet, components, make_variables, turning_axes
+from uel.elements.contributor import Find
 from uel.model.arrays import FloatArray, IntArray, flat_rows
 from uel.model.contact import ContactPair
 from uel.model.restart import Saved
-
-Find = Callable[[IntArray, IntArray | int], IntArray]
-"""Numbers of the unknowns of nodes and dofs, broadcast against each other; -1 for none."""
 
 
 @dataclass(frozen=True, slots=True)

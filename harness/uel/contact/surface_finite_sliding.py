@@ -20,8 +20,9 @@ from numpy.typing import NDArray
 
 from uel.contact.finite_sliding import FiniteSliding, Opposites, normals_of, rounding_of, unit
 from uel.contact.geometric_corrections import corrections
-from uel.contact.kinematics import Clearances, Find, Slips, displacements
+from uel.contact.kinematics import Clearances, Slips, displacements
 from uel.contact.main_surface import EQUAL, FaceSurface, weights_of
+from uel.elements.contributor import Find
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.contact import Pieces, SurfacePair
 from uel.model.restart import Saved

@@ -5,11 +5,12 @@
 from uel.elements.block import ElementBlock
 from uel.elements.build import build_blocks
 from uel.elements.call import BlockReport, Call, Distributed, Motion, Predefined
-from uel.elements.distributing import DistributingBlock, distributing_blocks
+from uel.elements.contributor import Contributor
+from uel.elements.distributing import DistributingBlock
 from uel.elements.fields import COUPLED, FIELD_NAMES, MULTIPLIER, PRESSURE, REFERENCE, VOLUME, field_of
 from uel.elements.lflags import Damping, Flags, Request
-from uel.elements.loads.followers import FollowerBlock
-from uel.elements.loads.heat import HeatLoadBlock
+from uel.elements.loads.followers import FollowerBlock, follower_blocks
+from uel.elements.loads.heat import HeatLoadBlock, heat_load_blocks
 from uel.elements.rotations import PERMUTATION, rotation_matrices, spin_matrices
 
 __all__ = [
@@ -22,6 +23,7 @@ __all__ = [
     "VOLUME",
     "BlockReport",
     "Call",
+    "Contributor",
     "Damping",
     "Distributed",
     "DistributingBlock",
@@ -33,8 +35,9 @@ __all__ = [
     "Predefined",
     "Request",
     "build_blocks",
-    "distributing_blocks",
     "field_of",
+    "follower_blocks",
+    "heat_load_blocks",
     "rotation_matrices",
     "spin_matrices",
 ]

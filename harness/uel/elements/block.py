@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uel.elements.array_mistakes import ERRORS, at_point, distortion, material_point, write_outside, wrong_entry
-from uel.elements.call import BlockReport, Call, Distributed, Motion, Predefined
+from uel.elements.call import NOTHING, BlockReport, Call, Distributed, Motion, Predefined
+from uel.elements.contributor import Contributor, Find
 from uel.elements.fields import FIELD_NAMES, field_of
 from uel.elements.finite_values import Watch
 from uel.elements.initial_state import InitialState
@@ -19,7 +20,7 @@ from uel.elements.lflags import Flags, Request
 from uel.elements.routine import Linearity, PointAxes, Routine
 from uel.errors import ElementError, KernelError
 from uel.model.arrays import FloatArray, IntArray
-from uel.model.mesh import ElementGroup
+from uel.model.mesh import ElementGroup, full_name
 from uel.model.records import PLASTIC, ElementState, PointVariables
 from uel.model.restart import Saved
 from uel.usersub import Library, _binding, _points
@@ -40,15 +41,13 @@ Rounding is 1e-12 in thin shells; a matrix that is not the derivative of the for
 
 _NO_MATRIX = np.zeros(1)
 _AT_REST = Motion(np.zeros(1), np.zeros(1))
-_NOTHING = BlockReport(np.zeros(1), np.zeros(1, dtype=np.int64), np.inf, np.zeros(8))
 _NO_LOADS = LoadArrays(np.zeros(1, np.int32), np.zeros((1, 1), np.int32), np.zeros((1, 1, 2)))
 
 
-class ElementBlock:
+class ElementBlock(Contributor):
     """Elements of one group: their committed and trial state, and one pass over them.
 
-    unknowns     (local node, dof) of each element unknown, in the order of U and RHS; the local node behind the last
-                 one is the element itself, which has pressures, and REFERENCE the reference node of its section
+    unknowns     in the order of U and RHS; REFERENCE stands for the reference node of the section
     unsymmetric  False: (A + A^T)/2 is assembled
     first        position of the first element of the group in the model
     rows         (m,) elements of the group that are here, ascending: all of them, or those of this rank
@@ -120,6 +119,21 @@ class ElementBlock:
         self._no_fields = np.zeros((1, group.nodes.shape[1], 1 if group.definition else 2, 2))
 
     @property
+    def nodes(self) -> IntArray:
+        """Nodes (m, k) of the elements."""
+        return self.group.nodes
+
+    @property
+    def names(self) -> list[str]:
+        """Names (m,) of the elements."""
+        return [full_name(self.group.instance, label) for label in self.group.labels.tolist()]
+
+    @property
+    def reference(self) -> int:
+        """Reference node of the section, which has unknowns of all elements; -1 without one."""
+        return self.group.reference
+
+    @property
     def initial(self) -> InitialState:
         """Setter of the initial state of the elements."""
         return InitialState(self.group, self._arrays, self._routine, self._library)
@@ -175,8 +189,13 @@ class ElementBlock:
         rows: IntArray = elements - self.first
         return rows if len(self.rows) == self._size else np.searchsorted(self.rows, rows)
 
+    def owners(self, ranks: IntArray) -> IntArray:
+        """Return the ranks (m,) that call the elements, from those (elements,) of all elements of the model."""
+        owners: IntArray = ranks[self.first + self.rows]
+        return owners
+
     def keep(self, rows: IntArray) -> None:
-        """Keep only these elements, before `bind`: the others belong to other ranks.
+        """Keep only these elements, before `number`: the others belong to other ranks.
 
         Parameters
         ----------
@@ -188,6 +207,19 @@ class ElementBlock:
         self._watch = Watch(self.group, self._library)
         if self._uvar is not None:
             self._uvar = self._uvar[rows]
+
+    def number(self, find: Find, equations: NDArray[np.int32]) -> None:
+        """Set the numbers of the unknowns; arguments as in `Contributor.number`."""
+        del find
+        self._numbers = equations
+
+    def couplings(self) -> NDArray[np.int32]:
+        """Return the numbers (m, unknowns) of the unknowns of each element."""
+        return self._numbers
+
+    def locate(self, indptr: NDArray[np.int32], indices: NDArray[np.int32]) -> None:
+        """Locate the entries of the element matrices in a CSR pattern."""
+        self.bind(self._numbers, _binding.scatter_map(self._numbers, indptr, indices))
 
     def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
         """Bind the block to the unknowns of the system.
@@ -245,6 +277,19 @@ class ElementBlock:
             getattr(part._arrays, name)[:] = getattr(self._arrays, name)[places]
         return part
 
+    def contribute(
+        self,
+        call: Call,
+        u: FloatArray,
+        du: FloatArray,
+        columns: FloatArray,
+        data: FloatArray | None,
+        motion: Motion | None,
+    ) -> BlockReport:
+        """Run one pass; in a linear step without RHS of built-in elements, whose loads are added elsewhere."""
+        added = columns if self.group.definition or not call.flags.linear else np.zeros_like(columns)
+        return self.evaluate(call, u, du, added, data, motion)
+
     def evaluate(
         self,
         call: Call,
@@ -266,8 +311,8 @@ class ElementBlock:
         u, du
             (n,) estimate of the end of the increment, and the increment, of all unknowns of the system.
         residual
-            (n,), changed in place; (2, n) for a pass with NRHS = 2: its rows take the columns of RHS. RHS is left out
-            if LFLAGS(3) asks for a matrix only (2, 3, 4).
+            (n,) or (NRHS, n), changed in place: its rows take the columns of RHS. RHS is left out if LFLAGS(3) asks for
+            a matrix only (2, 3, 4).
         matrix
             (nnz,) CSR values of the system, changed in place; None: AMATRX is ignored.
         motion
@@ -286,8 +331,8 @@ class ElementBlock:
             A call does not return within its limit.
         """
         if not len(self.group.labels):
-            return _NOTHING
-        motion = motion or _AT_REST
+            return NOTHING
+        motion, columns = motion or _AT_REST, np.atleast_2d(residual)
         outcome = _binding.evaluate(
             self._routine.called,
             self._arrays,
@@ -298,7 +343,7 @@ class ElementBlock:
             self._fields(call.predefined),
             self._floor(call),
             self._unknown_fields,
-            residual if residual.ndim == 2 else residual[np.newaxis],
+            columns,
             _NO_MATRIX if matrix is None else matrix,
         )
         if call.flags.request is not Request.RESIDUAL:
@@ -311,12 +356,12 @@ class ElementBlock:
         self._count_interrupted(outcome)
         if outcome.fault is Fault.UNSET and self._entries is not Entries.STOP:
             self._entries = Entries.ZERO
-            error = self._error(outcome, residual.ndim, call)
+            error = self._error(outcome, len(columns), call)
             self._library.warn(f"{error}; the run goes on with zeros there before each call")
         elif self._guards is not Guards.STOP and outcome.fault in (Fault.NONE, Fault.OUTSIDE):
-            self._warn(outcome, residual.ndim, call)
+            self._warn(outcome, len(columns), call)
         elif outcome.fault is not Fault.NONE:
-            raise self._error(outcome, residual.ndim, call)
+            raise self._error(outcome, len(columns), call)
         self._watch.pnewdt(call, outcome.pnewdt)
         energy, damage = outcome.energy, 0.0
         if self._routine.damages:
@@ -374,7 +419,7 @@ class ElementBlock:
             As of `evaluate`, without PNEWDT; ENERGY(2) if the elements have no other, and none if they have.
         """
         if not len(self.group.labels):
-            return _NOTHING
+            return NOTHING
         outcome = _binding.linear_pass(
             matrices, self._arrays.equations, self._first, u, self._floor(call), self._unknown_fields, residual
         )

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from difflib import get_close_matches
-from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -36,8 +35,6 @@ from uel.elements.families.piezoelectric import piezoelectric_routine, piezoelec
 from uel.elements.families.shell import check_normals, directors, shell_routine, shell_variables
 from uel.elements.families.solid import history_of, solid_routine, solid_variables
 from uel.elements.fields import PRESSURE, REFERENCE
-from uel.elements.loads.followers import follower_blocks
-from uel.elements.loads.heat import heat_load_blocks
 from uel.elements.materials.hybrid import has_unsymmetric_pressure, pressure_unknowns
 from uel.elements.materials.library import (
     define_material,
@@ -113,8 +110,7 @@ def build_blocks(
     Returns
     -------
     list[ElementBlock]
-        One per group of the model, in the same order, then those of faces under loads that follow them, and those that
-        heat enters.
+        One per group of the model, in the same order.
 
     Raises
     ------
@@ -132,9 +128,6 @@ def build_blocks(
             raise _too_large(group) from None
     if errors:
         raise all_of(list(errors.values()))
-    blocks += [*follower_blocks(model, library), *heat_load_blocks(model, library)]
-    for block, following in pairwise(blocks):
-        following.first = block.first + len(block.group.labels)
     return blocks
 
 

@@ -6,12 +6,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple, Self
+from typing import Final, NamedTuple, Self
 
 import numpy as np
 
 from uel.elements.lflags import Damping, Flags, Request
 from uel.model.arrays import FloatArray, IntArray
+from uel.model.contact import ContactChanges
+from uel.model.couplings import CouplingErrors
 from uel.usersub.exchange import Moment, Outcome
 
 
@@ -130,6 +132,8 @@ class BlockReport(NamedTuple):
     damage      dissipated by the damage of built-in elements (ALLDMD), for which ENERGY has no entry
     largest     (fields,) largest |element nodal force| by field
     entries     (fields,) number of element nodal forces
+    contact     changes of a contact pair in the iteration; None of others
+    coupling    errors of distributing couplings; None of others
     """
 
     flux: FloatArray
@@ -139,9 +143,15 @@ class BlockReport(NamedTuple):
     damage: float = 0.0
     largest: FloatArray = np.zeros(1)
     entries: IntArray = np.zeros(1, dtype=np.int64)
+    contact: ContactChanges | None = None
+    coupling: CouplingErrors | None = None
 
     @classmethod
     def of(cls, outcome: Outcome, entries: IntArray, energy: FloatArray, damage: float) -> Self:
         """Make the report from the sums of a pass."""
         flux, terms, largest = outcome.flux
         return cls(flux, terms.astype(np.int64), outcome.pnewdt, energy, damage, largest, entries)
+
+
+NOTHING: Final = BlockReport(np.zeros(1), np.zeros(1, dtype=np.int64), np.inf, np.zeros(8))
+"""Report of a pass in which nothing was called."""

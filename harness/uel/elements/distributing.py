@@ -18,22 +18,20 @@ mesh, and omega the increment of dofs 4 to 6.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 
-from uel.elements.block import ElementBlock
-from uel.elements.call import Call
+from uel.elements.call import NOTHING, BlockReport, Call, Motion
+from uel.elements.contributor import Contributor, Find
 from uel.elements.fields import COUPLED
 from uel.elements.lflags import Request
 from uel.elements.multipliers import scale_of_multipliers
 from uel.elements.rotations import PERMUTATION, cross_matrices, rotation_matrices, spin_matrices
-from uel.model.arrays import FloatArray, first_largest
+from uel.model.arrays import FloatArray, IntArray, first_largest
 from uel.model.couplings import CouplingErrors
 from uel.model.model import Model
 from uel.model.restart import Saved
+from uel.usersub import _binding
 
 # unknowns of a pair: displacements of both nodes, rotations of the reference node, a and b
 _OWN, _FAR, _TURN, _A, _B = (slice(start, start + 3) for start in range(0, 15, 3))
@@ -42,22 +40,18 @@ _CHOSEN = {2: [0, 1, 3, 4, 8, 9, 10, 14], 3: list(range(_COUNT))}
 """Unknowns of a pair that exist in a model in the plane, and in space."""
 
 
-class DistributingBlock:
+class DistributingBlock(Contributor):
     """All distributing couplings of a model.
 
-    unknowns  (local node, dof) of each unknown of a pair: the reference node is the second one, multipliers are of the
-              coupling, which follows the nodes
+    unknowns  of a pair: the reference node is the second one, multipliers are of the coupling, which follows the nodes
     rows      (m,) coupling of each pair
-    names     (m,) of its reference node
     """
 
-    unsymmetric = True
-
-    def __init__(self, model: Model, first: int) -> None:
-        """Prepare the couplings of a model that has some; first: number of its elements and contact points."""
+    def __init__(self, model: Model) -> None:
+        """Prepare the couplings of a model that has some."""
         given = model.couplings
         counts = [len(coupling.nodes) for coupling in given]
-        self.first, self.rows = first, np.repeat(np.arange(len(given)), counts)
+        self.first, self.rows = 0, np.repeat(np.arange(len(given)), counts)
         self._references = np.array([coupling.reference for coupling in given])
         self._starts = np.cumsum([0, *counts[:-1]])
         nodes = np.concatenate([coupling.nodes for coupling in given])
@@ -65,31 +59,57 @@ class DistributingBlock:
         places = model.mesh.coordinates
         self._apart = places[nodes] - places[self._references[self.rows]]
         self._length = np.sqrt(self._sum(self._weights * self._apart**2).sum(axis=1))
-        self.names = [model.mesh.name(node) for node in self._references[self.rows].tolist()]
-        self.group = replace(
-            model.groups[0],
-            type="DISTRIBUTING",
-            labels=model.mesh.labels[nodes],
-            nodes=np.stack([nodes, self._references[self.rows]], axis=1),
-            definition=None,
-            source=given[0].source,
-        )
+        self._mesh = model.mesh
+        self._nodes = np.stack([nodes, self._references[self.rows]], axis=1)
         dofs = range(1, 4), range(4, 7), range(COUPLED, COUPLED + 3), range(COUPLED + 3, COUPLED + 6)
         every = [(node, dof) for node, own in zip((0, 1, 1, 2, 2), (dofs[0], *dofs), strict=True) for dof in own]
         self._dimension = given[0].dimension
         self._chosen = np.array(_CHOSEN[self._dimension])
         self.unknowns = tuple(every[k] for k in self._chosen)
         self._scale = 0.0
-        self.errors = CouplingErrors((0.0, -1), (0.0, -1))
+        self._last = CouplingErrors((0.0, -1), (0.0, -1))
 
-    def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
-        """Store the unknowns (m, unknowns) of the pairs, and the places of their matrices in that of the system."""
-        self._equations, self._scatter = equations, scatter
+    @property
+    def nodes(self) -> IntArray:
+        """Nodes (m, 2) of the pairs: the coupled node and the reference node."""
+        return self._nodes
+
+    @property
+    def names(self) -> list[str]:
+        """Names (m,) of the reference nodes."""
+        return [self._mesh.name(node) for node in self._nodes[:, 1].tolist()]
+
+    def number(self, find: Find, equations: NDArray[np.int32]) -> None:
+        """Set the numbers (m, unknowns) of the unknowns of the pairs."""
+        del find
+        self._equations = equations
+
+    def couplings(self) -> NDArray[np.int32]:
+        """Return the numbers (m, unknowns) of the unknowns of the pairs."""
+        return self._equations
+
+    def locate(self, indptr: NDArray[np.int32], indices: NDArray[np.int32]) -> None:
+        """Locate the matrices of the pairs in a CSR pattern."""
+        self._scatter = _binding.scatter_map(self._equations, indptr, indices)
+
+    def contribute(
+        self,
+        call: Call,
+        u: FloatArray,
+        du: FloatArray,
+        columns: FloatArray,
+        data: FloatArray | None,
+        motion: Motion | None,
+    ) -> BlockReport:
+        """Run one pass, see `evaluate`, and report the errors of the couplings."""
+        del motion
+        self.evaluate(call, u, du, columns[0], data)
+        return NOTHING._replace(coupling=self._last)
 
     def evaluate(
         self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, data: FloatArray | None
     ) -> None:
-        """Add the forces of the couplings and their derivatives in a pass; arguments as in `ContactBlock.evaluate`."""
+        """Add the forces (n,) of the couplings and their derivatives (nnz,); nothing if neither is asked for."""
         if call.flags.request not in (Request.NORMAL, Request.RESIDUAL):
             return
         if data is not None and not self._scale:
@@ -113,7 +133,7 @@ class DistributingBlock:
         )
         np.add.at(residual, self._equations, rows[:, self._chosen])
         if call.flags.request is Request.NORMAL:
-            self.errors = self._errors(middle, missing)
+            self._last = self._errors(middle, missing)
         if data is None:
             return
         share, length = share[:, None], length[:, None]
@@ -162,6 +182,9 @@ class DistributingBlock:
         )
         return CouplingErrors(displacement, rotation)
 
+    def commit(self) -> None:
+        """Do nothing: the couplings have no history."""
+
     def kept(self) -> Saved:
         """Return the state to be saved: the scale of the multipliers."""
         return {"scale": self._scale}
@@ -169,14 +192,6 @@ class DistributingBlock:
     def resume(self, saved: Saved) -> None:
         """Restore the state that `kept` returned."""
         self._scale = saved["scale"]
-
-
-def distributing_blocks(model: Model, blocks: Sequence[ElementBlock], contact_points: int) -> list[DistributingBlock]:
-    """Build the block of a model's distributing couplings, if any, numbered after elements and contact points."""
-    if not model.couplings:
-        return []
-    first = blocks[-1].first + len(blocks[-1].group.labels)
-    return [DistributingBlock(model, first + contact_points)]
 
 
 def _increment(angles: FloatArray, change: FloatArray, *, nlgeom: bool) -> tuple[FloatArray, FloatArray]:

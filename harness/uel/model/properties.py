@@ -592,6 +592,14 @@ class RigidSection:
 
 
 @dataclass(frozen=True, slots=True)
+class NodalSection:
+    """Section of nodes that a load enters: it has no properties, and no element set."""
+
+    source: Source
+    elset: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class ElementNames:
     """Names that a deck gives in comments, all of a kind or none; a unit may follow a name: 'E [MPa]'.
 
@@ -664,6 +672,7 @@ Section = (
     | SpringSection
     | MassSection
     | RigidSection
+    | NodalSection
     | UserProperty
 )
 

@@ -8,42 +8,60 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from uel.elements import FIELD_NAMES, BlockReport, Call, ElementBlock, Flags
+from uel.assembly import Contributors
+from uel.elements import FIELD_NAMES, BlockReport, Call, Contributor, ElementBlock, Flags
 from uel.errors import Source
 from uel.model.mesh import ElementGroup, Mesh
 from uel.model.properties import UserProperty
+from uel.usersub._binding import scatter_map
 
 PLACE = Source("fake.inp", 1)
 
 
-class LinearBlock:
+class LinearBlock(Contributor):
     """Elements with constant matrices (m, k, k): RHS = -K u."""
 
-    unsymmetric = True
-    variables = None
+    names = ()
 
     def __init__(self, nodes, unknowns, matrices):
         nodes = np.asarray(nodes)
         labels = np.arange(1, len(nodes) + 1)
         self.group = ElementGroup("U1", labels, nodes, "", UserProperty("ALL", PLACE), None, PLACE)
+        self.first, self.rows = 0, np.arange(len(nodes))
         self.unknowns = tuple(unknowns)
         self.matrices = np.asarray(matrices)
         self.commits = 0
 
-    def bind(self, equations, scatter):
-        self.equations, self.scatter = equations, scatter
+    @property
+    def nodes(self):
+        return self.group.nodes
 
-    def evaluate(self, call, u, du, residual, matrix, motion=None):
+    def number(self, find, equations):
+        self.equations = equations
+
+    def couplings(self):
+        return self.equations
+
+    def locate(self, indptr, indices):
+        self.scatter = scatter_map(self.equations, indptr, indices)
+
+    def contribute(self, call, u, du, columns, data, motion):
         forces = -np.einsum("eij,ej->ei", self.matrices, u[self.equations])
-        np.add.at(residual, self.equations, forces)
-        if matrix is not None:
-            np.add.at(matrix, self.scatter, self.matrices)
+        np.add.at(columns[0], self.equations, forces)
+        if data is not None:
+            np.add.at(data, self.scatter, self.matrices)
         flux, count = np.zeros(len(FIELD_NAMES)), np.zeros(len(FIELD_NAMES), dtype=np.int64)
         flux[0], count[0] = np.abs(forces).sum(), forces.size
         return BlockReport(flux, count, 0.5 + 0.1 * len(self.equations), np.arange(8.0))
 
     def commit(self):
         self.commits += 1
+
+    def kept(self):
+        return {}
+
+    def resume(self, saved):
+        pass
 
 
 @pytest.fixture
@@ -63,26 +81,26 @@ def make_mesh() -> Callable[..., Mesh]:
 
 
 @pytest.fixture
-def springs(make_mesh) -> Callable[..., tuple[Mesh, list[LinearBlock]]]:
-    def make(n: int) -> tuple[Mesh, list[LinearBlock]]:
+def springs(make_mesh) -> Callable[..., tuple[Mesh, Contributors]]:
+    def make(n: int) -> tuple[Mesh, Contributors]:
         """A chain of n nodes with springs of stiffness 1, 2, 3, ... along dof 1."""
         nodes = np.column_stack([np.arange(n - 1), np.arange(1, n)])
         stiffness = np.arange(1.0, n)
         matrices = stiffness[:, None, None] * np.array([[1.0, -1.0], [-1.0, 1.0]])
-        return make_mesh(n), [LinearBlock(nodes, [(0, 1), (1, 1)], matrices)]
+        return make_mesh(n), Contributors([LinearBlock(nodes, [(0, 1), (1, 1)], matrices)])
 
     return make
 
 
 @pytest.fixture
-def two_blocks(make_mesh) -> tuple[Mesh, list[LinearBlock]]:
+def two_blocks(make_mesh) -> tuple[Mesh, Contributors]:
     """Unsymmetric quads with dofs 1 and 2 and triangles with dofs 1 at two nodes and 11 at the third, random values."""
     rng = np.random.default_rng(7)
     quads = LinearBlock(
         [[0, 1, 4, 3], [1, 2, 5, 4]], [(k, dof) for k in range(4) for dof in (1, 2)], rng.normal(size=(2, 8, 8))
     )
     triangles = LinearBlock([[5, 4, 6], [2, 5, 6]], [(0, 1), (1, 1), (2, 11)], rng.normal(size=(2, 3, 3)))
-    return make_mesh(8), [quads, triangles]
+    return make_mesh(8), Contributors([quads, triangles])
 
 
 @pytest.fixture

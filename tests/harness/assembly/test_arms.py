@@ -13,10 +13,10 @@ from scipy.spatial.transform import Rotation
 from small_decks import bars
 
 from uel import usersub
-from uel.assembly import System, TurningConstraints
+from uel.assembly import TurningConstraints, system_of
 from uel.assembly.kinematic_couplings import Arms
 from uel.deck import read_deck
-from uel.elements import Call, Flags, build_blocks, rotation_matrices, spin_matrices
+from uel.elements import Call, Flags, rotation_matrices, spin_matrices
 from uel.errors import DeckError, Source
 from uel.model.model import Arm
 
@@ -165,7 +165,7 @@ def test_tangent(tmp_path, name, weight):
     (tmp_path / "bars.inp").write_text(bars("*RIGID BODY, REF NODE=9, PIN NSET=BODY"))
     model = read_deck(tmp_path / "bars.inp")
     library = usersub.load(None, job="bars", output_dir=tmp_path)
-    system = System(model.mesh, build_blocks(model, library), model.equations)
+    system = system_of(model, library)
     held = np.sort(system.dofs.find(np.arange(3)[:, None], np.array([1, 2, 3])).ravel())
     of_body = [int(system.dofs.find(model.mesh.labels.tolist().index(node), dof)) for node, dof in HELD[name]]
     held = np.concatenate([held, np.array(of_body, dtype=np.int64)])
@@ -211,7 +211,7 @@ def test_tangential_velocities(tmp_path, name):
     (tmp_path / "bars.inp").write_text(bars("*RIGID BODY, REF NODE=9, PIN NSET=BODY"))
     model = read_deck(tmp_path / "bars.inp")
     library = usersub.load(None, job="bars", output_dir=tmp_path)
-    system = System(model.mesh, build_blocks(model, library), model.equations)
+    system = system_of(model, library)
     of_body = [int(system.dofs.find(model.mesh.labels.tolist().index(node), dof)) for node, dof in HELD[name]]
     turned = np.zeros(len(system))
     turned[-6:] = [0.1, -0.2, 0.3, 1.2, 0.3, -0.5]

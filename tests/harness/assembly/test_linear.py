@@ -13,7 +13,7 @@ from reference_cells import patch_of
 
 import uel
 from uel import usersub
-from uel.assembly import System
+from uel.assembly import system_of
 from uel.assembly.linear_elements import LinearElements
 from uel.cli import main
 from uel.deck import read_deck
@@ -23,7 +23,6 @@ from uel.delamination.materials import TABLE_2
 from uel.delamination.mesh import two_arms
 from uel.delamination.specimens import ARM_HEIGHT, dcb_deck, dcb_specimen, mesh_files
 from uel.delamination.steps import Increments
-from uel.elements import build_blocks
 from uel.errors import ElementError, UelError, UsageError
 from uel.model.element_types import CONTINUUM
 from uel.model.records import IncrementDone
@@ -226,7 +225,7 @@ def test_states_are_not_read_too_late(tmp_path, spring):
     deck.write_text(deck_of("CPS4"))
     model = read_deck(deck)
     library = usersub.load([spring], job="late", output_dir=tmp_path, deck=deck)
-    system = System(model.mesh, build_blocks(model, library), model.equations, spare_linear=True)
+    system = system_of(model, library, spare_linear=True)
     done = [record.solution for record in run_steps(system, model, library) if isinstance(record, IncrementDone)]
     with pytest.raises(UelError, match="element states have to be read before the next increment ends"):
         len(done[0].elements)

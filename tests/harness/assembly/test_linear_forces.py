@@ -11,10 +11,10 @@ from small_decks import body_lines
 
 import uel
 from uel import usersub
-from uel.assembly import System
+from uel.assembly import system_of
 from uel.assembly.linear_elements import LinearElements
 from uel.deck import read_deck
-from uel.elements import Call, ElementBlock, Flags, build_blocks
+from uel.elements import Call, ElementBlock, Flags
 from uel.model.element_types import BEAM, CONTINUUM, CONTINUUM_SHELL, GENERALISED, HYBRID, MEMBRANE, SHELL
 
 TYPES = {**CONTINUUM, **GENERALISED, **SHELL, **CONTINUUM_SHELL, **MEMBRANE, **BEAM}
@@ -89,7 +89,7 @@ def test_matrix_times_displacements_is_the_force_of_the_element(tmp_path, monkey
     deck.write_text(deck_of(element_type, law))
     model = read_deck(deck)
     library = usersub.load(None, job="patch", output_dir=tmp_path)
-    system = System(model.mesh, build_blocks(model, library), model.equations, spare_linear=True)
+    system = system_of(model, library, spare_linear=True)
     zero = np.zeros(len(system))
     first = system.evaluate(CALL, zero, zero)
     matrix = first.data.copy()

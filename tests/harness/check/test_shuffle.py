@@ -8,12 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uel.assembly import System
+from uel.assembly import system_of
 from uel.check.recording import Pass, opened, record
 from uel.check.replay import abaqus_order, replay
 from uel.check.shuffle import ORDERS, TypeVerdict, advice_on_order, shuffle
 from uel.cli import main
-from uel.elements import build_blocks
 from uel.errors import KernelError
 
 PATCH = Path(__file__).parents[3] / "abaqus_inputs" / "patch_horizontal"
@@ -195,7 +194,7 @@ def test_replay_makes_the_calls_of_the_run():
     for start, row in zip(elements.starts, numbers, strict=False):
         np.add.at(sums, row, last.values[start : start + len(row)])
     with opened(recording.model, ()) as library:
-        system = System(recording.model.mesh, build_blocks(recording.model, library))
+        system = system_of(recording.model, library)
         assembled = system.evaluate(last.made.call, last.made.u, last.made.du)
     np.testing.assert_allclose(sums, assembled.residual, rtol=0, atol=1e-9 * np.abs(assembled.residual).max())
     assert np.abs(assembled.residual).max() > 1

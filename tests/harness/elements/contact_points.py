@@ -30,7 +30,7 @@ class Points:
         self.block = ContactBlock(Model(Path("test.inp"), "", mesh, (group,), ()), pair)
         m = len(pair.secondary) * self.block.direct
         self.size = n * len(dofs) + m
-        self.block.number(self._find, n * len(dofs) + np.arange(len(pair.secondary), dtype=np.int32))
+        self.block.number(self._find, n * len(dofs) + np.arange(len(pair.secondary), dtype=np.int32)[:, None])
         self._bind()
         self.multipliers = slice(n * len(dofs), self.size)
         self.first, self.second = (replace(call, iteration=k, flags=Flags(1, True)) for k in range(2))
@@ -40,7 +40,7 @@ class Points:
 
     def _bind(self):
         size = self.size
-        self.block.bind(size * np.arange(size + 1, dtype=np.int32), np.tile(np.arange(size, dtype=np.int32), size))
+        self.block.locate(size * np.arange(size + 1, dtype=np.int32), np.tile(np.arange(size, dtype=np.int32), size))
 
     def evaluate(self, call, u, du):
         """Residual and matrix of a pass."""

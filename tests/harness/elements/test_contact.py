@@ -464,9 +464,9 @@ def pair_of(dimension, stiffness, friction, rng, cohesion=None):
     block = ContactBlock(Model(Path("test.inp"), "", mesh, (group,), ()), pair)
     size = len(block.unknowns)
     equations = np.arange(2 * size, dtype=np.int32).reshape(2, size)
-    block.number(lambda nodes, dof: nodes // count * size + nodes % count * dimension + dof - 1, equations[:, -1])
+    block.number(lambda nodes, dof: nodes // count * size + nodes % count * dimension + dof - 1, equations)
     dense = np.arange(2 * size, dtype=np.int32)
-    block.bind(2 * size * np.arange(2 * size + 1, dtype=np.int32), np.tile(dense, 2 * size))
+    block.locate(2 * size * np.arange(2 * size + 1, dtype=np.int32), np.tile(dense, 2 * size))
     return block
 
 
@@ -571,11 +571,12 @@ def test_status_is_that_of_the_increment_until_it_is_committed(call):
     np.testing.assert_array_equal(block.kept()["status"], [OPEN, STICKING])
     pulled = zero.copy()
     pulled[n - 1] = -1.0  # the multiplier of the second point: tension
-    block.evaluate(replace(call, iteration=1), pulled, pulled, zero.copy(), data.copy())
-    assert block.trial_changes.opened == 1
-    assert block.trial_changes.force[0] == -1.0
-    block.evaluate(replace(call, iteration=0), zero, zero, zero.copy(), data.copy())
-    assert block.trial_changes.count == 0
+    changes = block.contribute(replace(call, iteration=1), pulled, pulled, np.zeros((1, n)), data.copy(), None).contact
+    assert changes.opened == 1
+    assert changes.force[0] == -1.0
+    assert not block.contribute(
+        replace(call, iteration=0), zero, zero, np.zeros((1, n)), data.copy(), None
+    ).contact.count
     block.evaluate(replace(call, iteration=1), pulled, pulled, zero.copy(), data.copy())
     block.commit()
     kept = block.kept()

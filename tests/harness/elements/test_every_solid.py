@@ -14,9 +14,9 @@ from moving_element import turn
 from reference_cells import patch_of
 from small_decks import body_lines
 
-from uel.assembly import System
+from uel.assembly import system_of
 from uel.deck import read_deck
-from uel.elements import Request, build_blocks
+from uel.elements import Request
 from uel.model.element_types import BUILT_IN, ContinuumType, Tensor
 
 SOLIDS = {name: kind for name, kind in BUILT_IN.items() if type(kind) is ContinuumType}
@@ -119,7 +119,7 @@ def test_mass_of_a_translation(load, call, tmp_path, element_type):
     deck = tmp_path / "mass.inp"
     deck.write_text("\n".join([*lines, "*STEP\n*FREQUENCY\n1\n*END STEP\n"]))
     model = read_deck(deck)
-    system = System(model.mesh, build_blocks(model, load(None)), model.equations)
+    system = system_of(model, load(None))
     zero = np.zeros(len(system))
     evaluation = system.evaluate(call.asking(Request.MASS), zero, zero)
     mass = sp.csr_array((evaluation.data, system.indices, system.indptr), shape=(len(zero),) * 2)

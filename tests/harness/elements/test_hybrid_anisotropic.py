@@ -13,9 +13,9 @@ import scipy.sparse as sp
 from reference_cells import patch_of
 from small_decks import body_lines
 
-from uel.assembly import System
+from uel.assembly import system_of
 from uel.deck import read_deck
-from uel.elements import Call, Flags, Predefined, build_blocks
+from uel.elements import Call, Flags, Predefined
 from uel.model.element_types import BUILT_IN, HYBRID, ContinuumType
 
 STEEP = np.radians(20.0)
@@ -105,7 +105,7 @@ def test_forces_are_derivatives_of_the_energy(load, tmp_path, element_type, even
     deck = tmp_path / "patch.inp"
     deck.write_text("\n".join([*lines, "*STEP\n*STATIC\n*TEMPERATURE\nALL, 0.5\n*END STEP\n"]))
     model = read_deck(deck)
-    system = System(model.mesh, build_blocks(model, load(None)), model.equations)
+    system = system_of(model, load(None))
     random = np.random.default_rng(5)
     size = len(model.mesh.labels)
     temperatures = (random.uniform(0, 1, size) if not even else np.full(size, 0.5))[None]

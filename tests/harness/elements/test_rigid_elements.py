@@ -7,10 +7,9 @@ import pytest
 from contact_decks import YOUNG, Box, total
 
 from uel import usersub
-from uel.assembly import System
-from uel.contact import contact_blocks
+from uel.assembly import system_of
 from uel.deck import read_deck
-from uel.elements import Call, Flags, build_blocks
+from uel.elements import Call, Flags
 from uel.errors import DeckError
 
 THICKNESS = 1.5
@@ -155,8 +154,7 @@ def test_no_forces_in_averages(tmp_path):
     text = pressed(body, plate(), [step_of("1., 1.", DOWN.format(-STRAIN))])
     (tmp_path / "deck.inp").write_text(text)
     model = read_deck(tmp_path / "deck.inp")
-    blocks = build_blocks(model, usersub.load(None, job="deck", output_dir=tmp_path))
-    system = System(model.mesh, blocks, model.equations, contact_blocks(model, blocks))
+    system = system_of(model, usersub.load(None, job="deck", output_dir=tmp_path))
     call = Call(Flags(1), step=1, increment=1, step_time=1.0, total_time=1.0, time_increment=1.0, period=1.0)
     u = 1e-3 * np.random.default_rng(1).standard_normal(len(system))
     found = system.evaluate(call, u, u)

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from uel import usersub
-from uel.assembly import System
-from uel.elements import build_blocks
+from uel.assembly import system_of
 from uel.errors import Source
 from uel.model.mesh import ElementGroup, Mesh
 from uel.model.model import Equation, Model
@@ -117,7 +116,7 @@ class Bench:
         library = usersub.load(HERE / self.user, job="job", output_dir=self.folder)
         records, error = [], None
         try:
-            system = System(mesh, build_blocks(model, library), model.equations)
+            system = system_of(model, library)
             for record in run_steps(system, model, library, SolverOptions(**options)):
                 records.append(record)
         except Exception as caught:

@@ -4,9 +4,8 @@
 
 import pytest
 
-from uel.assembly import System
+from uel.assembly import system_of
 from uel.deck import read_deck
-from uel.elements import build_blocks
 from uel.model.records import IterationDone
 from uel.model.steps import FieldControls
 from uel.procedures import run_steps
@@ -60,7 +59,7 @@ def test_zeros_are_terms_in_the_first_increment_alone(tmp_path):
     deck.write_text(DECK)
     model = read_deck(deck)
     library = load(None, job="cube", output_dir=tmp_path)
-    system = System(model.mesh, build_blocks(model, library), model.equations)
+    system = system_of(model, library)
     records = list(run_steps(system, model, library))
     library.close()
     averages = [record.checks[0].average_flux for record in records if isinstance(record, IterationDone)]
@@ -138,7 +137,7 @@ def test_a_heat_load_is_as_many_terms_as_an_element(tmp_path, kind, nodes, loads
     deck.write_text(NODES + HEATED.format(type=kind, element=element, loads=loads))
     model = read_deck(deck)
     library = load(None, job="heat", output_dir=tmp_path)
-    system = System(model.mesh, build_blocks(model, library), model.equations)
+    system = system_of(model, library)
     *_, checks = (record.checks for record in run_steps(system, model, library) if isinstance(record, IterationDone))
     library.close()
     assert checks[0].average_flux == pytest.approx(heat / (nodes + terms), rel=1e-9)
@@ -171,7 +170,7 @@ def test_a_pressure_on_a_shell_is_eight_times_the_terms_of_its_forces(tmp_path, 
     deck.write_text("\n".join(lines))
     model = read_deck(deck)
     library = load(None, job="shell", output_dir=tmp_path)
-    system = System(model.mesh, build_blocks(model, library), model.equations)
+    system = system_of(model, library)
     *_, checks = (record.checks for record in run_steps(system, model, library) if isinstance(record, IterationDone))
     library.close()
     assert checks[0].average_flux == pytest.approx(5.0 / (12 + 96), rel=1e-9)

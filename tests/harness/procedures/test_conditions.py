@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from uel import usersub
-from uel.assembly import System
+from uel.assembly import system_of
 from uel.deck import read_deck
-from uel.elements import build_blocks
 from uel.errors import DeckError
 from uel.model.records import IncrementDone
 from uel.procedures import run_steps
@@ -58,7 +57,7 @@ def run_two_steps(tmp_path):
         deck.write_text(DECK.format(model=model, first=first, second=second))
         read = read_deck(deck)
         library = usersub.load(USER, job="job", output_dir=tmp_path)
-        system = System(read.mesh, build_blocks(read, library), read.equations)
+        system = system_of(read, library)
         done = [
             (np.vstack([e.svars for e in r.solution.elements]), r.solution.displacement[-1])
             for r in run_steps(system, read, library)

@@ -11,9 +11,9 @@ from reference_cells import unit_cell
 
 import uel
 from uel import usersub
-from uel.assembly import System
+from uel.assembly import system_of
 from uel.deck import read_deck
-from uel.elements import Call, Distributed, Flags, build_blocks
+from uel.elements import Call, Distributed, Flags
 from uel.errors import DeckError
 from uel.model.element_types import CONTINUUM
 
@@ -101,9 +101,9 @@ def test_stiffness_of_loads(tmp_path, element_type, load):
     (tmp_path / "deck.inp").write_text(text)
     model = read_deck(tmp_path / "deck.inp")
     library = usersub.load(None, job="job", output_dir=tmp_path)
-    system = System(model.mesh, build_blocks(model, library), model.equations)
-    counts = [block.points_of_face if block.load.jltyp else 1 for block in system.loaded]
-    faces = np.repeat([block.first for block in system.loaded], counts)
+    system = system_of(model, library)
+    counts = [block.points_of_face if block.load.jltyp else 1 for block in system.contributors.followers]
+    faces = np.repeat([block.first for block in system.contributors.followers], counts)
     magnitudes = np.linspace(3, 5, len(faces))
     call = Call(
         Flags(1, nlgeom=True), step=1, increment=1, step_time=1.0, total_time=1.0, time_increment=1.0, period=1.0

@@ -7,11 +7,10 @@ from pathlib import Path
 import pytest
 
 from uel import usersub
-from uel.assembly import System
+from uel.assembly import system_of
 from uel.check.recording import record
 from uel.check.replay import abaqus_order, replay
 from uel.deck import read_deck
-from uel.elements import build_blocks
 from uel.errors import DeckError, KernelError
 from uel.model.records import IncrementDone
 from uel.procedures import run_steps
@@ -67,7 +66,7 @@ def last_state(tmp_path):
         model = read_deck(path)
         library = usersub.load(user, job="job", output_dir=tmp_path, deck=path)
         try:
-            system = System(model.mesh, build_blocks(model, library), model.equations)
+            system = system_of(model, library)
             *_, last = (r for r in run_steps(system, model, library) if isinstance(r, IncrementDone))
         finally:
             library.close()

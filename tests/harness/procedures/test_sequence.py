@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from uel.assembly import System
+from uel.assembly import Contributors, System
 from uel.errors import ConvergenceError
 from uel.model.mesh import Mesh
 from uel.model.model import Model
@@ -25,4 +25,4 @@ def test_error_before_the_first_step_begins_stays_itself(bench):
     missing = dict.fromkeys(("sdvini", "sigini", "orient", "disp", "dload", "utemp", "ufield", "uamp"))
     user = SimpleNamespace(external_database=external_database, **missing)
     with pytest.raises(ConvergenceError, match="no step has begun"):
-        list(run_steps(System(mesh, (), ()), model, user))
+        list(run_steps(System(mesh, Contributors(())), model, user))

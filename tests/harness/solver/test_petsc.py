@@ -9,9 +9,9 @@ from scipy import sparse
 from small_decks import body_lines
 
 from uel import usersub
-from uel.assembly import System
+from uel.assembly import system_of
 from uel.deck import read_deck
-from uel.elements import Call, Flags, build_blocks
+from uel.elements import Call, Flags
 from uel.solver.linear import petsc
 
 BRICKS = np.array([[x, y, z] for x in (0.0, 2.0, 3.5) for y in (0.0, 1.0) for z in (0.0, 1.5)])
@@ -26,7 +26,7 @@ def test_rigid_modes_take_no_force(tmp_path):
     deck.write_text("\n".join(lines))
     model = read_deck(deck)
     library = usersub.load(None, job="bricks", output_dir=tmp_path, deck=deck)
-    system = System(model.mesh, build_blocks(model, library), model.equations)
+    system = system_of(model, library)
     rest = np.zeros(len(system))
     data = system.evaluate(Call(Flags(1), 1, 1, 0.0, 0.0, 1.0, 1.0), rest, rest).data
     matrix = sparse.csr_array((data, system.indices, system.indptr))

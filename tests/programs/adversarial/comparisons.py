@@ -30,9 +30,9 @@ import mpiexec  # noqa: E402
 from bodies import ANGLE, Body, Frame, Lines, bodies, numbers, rotation  # noqa: E402
 
 from uel import usersub  # noqa: E402
-from uel.assembly import System  # noqa: E402
+from uel.assembly import system_of  # noqa: E402
 from uel.deck import read_deck  # noqa: E402
-from uel.elements import Call, Flags, build_blocks  # noqa: E402
+from uel.elements import Call, Flags  # noqa: E402
 from uel.errors import UelError  # noqa: E402
 from uel.output import Result  # noqa: E402
 from uel.parallel.launch import launched  # noqa: E402
@@ -297,10 +297,7 @@ def compare_matrices(body: Body, folder: Path) -> Iterator[Row]:
     try:
         model = read_deck(deck)
         library = usersub.load(None, job="own", output_dir=folder)
-        spared, called = (
-            System(model.mesh, build_blocks(model, library), model.equations, spare_linear=spare)
-            for spare in (True, False)
-        )
+        spared, called = (system_of(model, library, spare_linear=spare) for spare in (True, False))
     except UelError:
         return
     if not any(block.linear for block in spared.blocks):

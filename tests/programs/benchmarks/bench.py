@@ -32,9 +32,9 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from uel import usersub
-from uel.assembly import Constraints, System, TolerantSystem
+from uel.assembly import Constraints, System, TolerantSystem, system_of
 from uel.deck import read_deck
-from uel.elements import Call, ElementBlock, Flags, build_blocks
+from uel.elements import Call, ElementBlock, Flags
 from uel.model.arrays import FloatArray
 from uel.model.mesh import ElementGroup
 from uel.model.model import Model
@@ -292,7 +292,7 @@ def main() -> int:
         seconds = time.thread_time() - start
         console.print(f"DCB-ref: deck read and system built in {seconds:.2f} s, {len(system)} unknowns")
         # a matrix of the same pattern, to be factorised beside the run
-        at_rest = System(model.mesh, build_blocks(model, library), model.equations)
+        at_rest = system_of(model, library)
         call = Call(Flags(1), 1, 1, 1.0, 1.0, 0.01, 1.0)
         superlu = Iterations(at_rest, model, call, np.zeros(len(at_rest))).superlu
         done = run(system, model, library, options.increments, superlu)

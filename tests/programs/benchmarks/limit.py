@@ -24,9 +24,9 @@ from rich.console import Console
 from scipy.linalg.lapack import dgbtrf, dgbtrs
 
 from uel import usersub
-from uel.assembly import Constraints, System, TolerantSystem
+from uel.assembly import Constraints, TolerantSystem, system_of
 from uel.deck import read_deck
-from uel.elements import Call, Flags, build_blocks
+from uel.elements import Call, Flags
 from uel.model.arrays import FloatArray
 from uel.model.model import Model
 from uel.model.records import IncrementDone, IterationDone
@@ -54,7 +54,7 @@ def band_of(constraints: Constraints, data: FloatArray) -> tuple[FloatArray, int
 
 def least_iteration(model: Model, library: usersub.Library) -> Callable[[], None]:
     """What an iteration needs at least, on the elastic matrix."""
-    system = System(model.mesh, build_blocks(model, library), model.equations)
+    system = system_of(model, library)
     call, u = Call(Flags(1), 1, 1, 1.0, 1.0, 0.01, 1.0), np.zeros(len(system))
     boundaries = [*model.boundaries, *model.steps[0].boundaries]
     prescribed = np.unique(np.concatenate([system.dofs.find(entry.nodes, entry.dof) for entry in boundaries]))

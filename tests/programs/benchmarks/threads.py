@@ -29,9 +29,9 @@ from rich.console import Console
 from rich.table import Table
 
 from uel import usersub
-from uel.assembly import System
+from uel.assembly import system_of
 from uel.deck import read_deck
-from uel.elements import Call, Flags, build_blocks
+from uel.elements import Call, Flags
 from uel.model.arrays import FloatArray
 from uel.paper.bricks import CONSISTENT, STANDARD, dcb_of_bricks
 
@@ -87,7 +87,7 @@ class Loop:
         model = read_deck(deck)
         own = Path(tempfile.mkdtemp(dir=folder))
         self.library = usersub.load(user or None, job="threads", output_dir=own, deck=deck)
-        self._system = System(model.mesh, build_blocks(model, self.library), model.equations)
+        self._system = system_of(model, self.library)
         self.block = self._system.blocks[place]
         self._u = 1e-4 * np.random.default_rng(1).normal(size=len(self._system))
         self._call = Call(Flags(1, nlgeom=True), 1, 1, 1.0, 1.0, 0.01, 1.0)

@@ -14,9 +14,9 @@ from typing import Final
 
 import numpy as np
 
-from uel.elements.block import ElementBlock
 from uel.elements.call import BlockReport, Distributed
 from uel.elements.families.solid import section_depth, solid_of
+from uel.elements.loads.load_block import LoadBlock
 from uel.elements.loads.vectors import outward_sign, unit_forces
 from uel.elements.routine import Routine
 from uel.model.arrays import FloatArray, IntArray
@@ -36,7 +36,7 @@ _AT_POINTS: Final = 3
 """JPROPS(5) of a pressure that differs from point to point, as DLOAD gives it."""
 
 
-class FollowerBlock(ElementBlock):
+class FollowerBlock(LoadBlock):
     """Faces of elements of one group that loads of one type may act on.
 
     elements  (m,) their positions in the model
@@ -102,7 +102,7 @@ class FollowerBlock(ElementBlock):
         found: FloatArray = np.einsum("pk,mkd->mpd", shapes, x)
         return found
 
-    def as_terms(self, report: BlockReport, distributed: Distributed) -> BlockReport:
+    def _as_terms(self, report: BlockReport, distributed: Distributed) -> BlockReport:
         """Return the report of a pass with the loads on these faces counted as terms of the average flux.
 
         Loads normal to shells are SHELL_PRESSURE times the components of their nodal forces, others none.
@@ -132,6 +132,11 @@ class FollowerBlock(ElementBlock):
         for name, array in self.kept().items():
             array[here] = saved[name][there]
         self._keep_committed()
+
+    def owners(self, ranks: IntArray) -> IntArray:
+        """Return the ranks (m,) that call the faces: those of their elements."""
+        owners: IntArray = ranks[self.elements]
+        return owners
 
     def keep(self, rows: IntArray) -> None:
         """Keep these elements only, as in other blocks."""

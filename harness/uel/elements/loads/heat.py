@@ -14,16 +14,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from uel.elements.block import ElementBlock
 from uel.elements.call import BlockReport, Distributed
 from uel.elements.families.solid import section_depth
+from uel.elements.loads.load_block import LoadBlock
 from uel.elements.routine import Routine
 from uel.errors import DeckError
 from uel.model.arrays import IntArray
 from uel.model.element_types import Family, HeatType, SolidType
 from uel.model.mesh import ElementGroup
 from uel.model.model import CONCENTRATION, TEMPERATURE, Model
-from uel.model.properties import SolidSection
+from uel.model.properties import NodalSection, SolidSection
 from uel.model.steps import HeatLaw, HeatLoad, HeatLoadType
 from uel.usersub import Library, _binding
 
@@ -31,7 +31,7 @@ FACE, VOLUME, NODE = 1, 2, 3
 """JTYPE in fortran/host/elements/heat/loads.f90."""
 
 
-class HeatLoadBlock(ElementBlock):
+class HeatLoadBlock(LoadBlock):
     """Faces, volumes or nodes that heat of one type may enter.
 
     places  (m,) positions of the elements in the model, or nodes, ascending
@@ -43,12 +43,11 @@ class HeatLoadBlock(ElementBlock):
     load: HeatLoadType
     terms: int
 
-    @property
-    def elements(self) -> IntArray | None:
-        """Positions (m,) of the elements in the model; None if heat enters nodes."""
-        return None if self.load.area else self.places
+    def owners(self, ranks: IntArray) -> IntArray:
+        """Return the ranks (m,) that call the items: those of their elements, rank 0 where heat enters nodes."""
+        return np.zeros_like(self.places) if self.load.area else np.asarray(ranks[self.places])
 
-    def as_terms(self, report: BlockReport, distributed: Distributed) -> BlockReport:
+    def _as_terms(self, report: BlockReport, distributed: Distributed) -> BlockReport:
         """Return the report of a pass with the loads on these elements counted as terms of the average flux."""
         loaded = np.count_nonzero(self.holds(distributed.elements[distributed.kinds == 1]))
         return report._replace(entries=np.where(self._forces > 0, self.terms * loaded, 0))
@@ -71,7 +70,7 @@ def heat_load_blocks(model: Model, library: Library) -> Iterator[HeatLoadBlock]:
         places = np.unique(np.concatenate([entry.places for entry in entries]))
         if load.area:
             _check_nodes(model, entries)
-            yield _at_nodes(model, places, load, number, library)
+            yield _at_nodes(model, places, entries[0], number, library)
             continue
         for parent, start, end in zip(model.groups, starts, starts[1:], strict=False):
             mine = places[(places >= start) & (places < end)]
@@ -142,9 +141,9 @@ def _check_nodes(model: Model, entries: list[HeatLoad]) -> None:
             raise DeckError(entry.source, f"*{entry.type.keyword}: node {label} has no temperature")
 
 
-def _at_nodes(model: Model, nodes: IntArray, load: HeatLoadType, number: int, library: Library) -> HeatLoadBlock:
-    labels = model.mesh.labels[nodes]
-    group = replace(model.groups[0], type=load.keyword, labels=labels, nodes=nodes[:, None])
+def _at_nodes(model: Model, nodes: IntArray, entry: HeatLoad, number: int, library: Library) -> HeatLoadBlock:
+    load, section = entry.type, NodalSection(entry.source)
+    group = ElementGroup(load.keyword, model.mesh.labels[nodes], nodes[:, None], "", section, None, entry.source)
     routine = _routine(NODE, 3, load.area, [0, 0, 0, 0, number, False])
     return _block(model, group, routine, library, None, nodes, load, 1)
 

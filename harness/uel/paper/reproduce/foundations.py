@@ -17,11 +17,11 @@ from pathlib import Path
 import numpy as np
 
 from uel import usersub
-from uel.assembly import System
+from uel.assembly import system_of
 from uel.deck import read_deck
 from uel.delamination import law
 from uel.delamination.materials import TABLE_2
-from uel.elements import Call, Flags, build_blocks
+from uel.elements import Call, Flags
 from uel.model.arrays import FloatArray
 from uel.paper.patches import PLIES, plane_stress, stabilisation
 from uel.paper.reproduce.basics import swing
@@ -168,7 +168,7 @@ def _stiffness(case: PatchCase) -> FloatArray:
             Path(folder, name).write_text(content, encoding="ascii")
         model = read_deck(Path(folder, f"{case.name}.inp"))
     with closing(_own_elements()) as library:
-        system = System(model.mesh, build_blocks(model, library, strict=False), model.equations)
+        system = system_of(model, library, strict=False)
         rest = np.zeros(len(system))
         data = system.evaluate(Call(Flags(1), 1, 1, 0.0, 0.0, 0.0, 1.0), rest, rest).data
         assert data is not None

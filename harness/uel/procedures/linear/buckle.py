@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from uel.elements import FollowerBlock, Request
+from uel.elements import Request
 from uel.errors import DeckError
 from uel.model.arrays import FloatArray
 from uel.model.perturbations import Buckle
@@ -85,9 +85,7 @@ class BuckleStep(PerturbationStep):
         data, still = np.zeros(len(system.indices)), np.zeros(len(system))
         call = self._call(Request.STIFFNESS)
         flags = replace(call.flags, nlgeom=True)
-        for block in system.loaded:
-            if not isinstance(block, FollowerBlock):
-                continue
+        for block in system.contributors.followers:
             time = self._step_time, self._state.total_time
             given = self._state.loads.on_faces(block, step, self._user, self._increment, time, self._state.displacement)
             block.evaluate(replace(call, flags=flags, distributed=given), still, still, still.copy(), data)

@@ -381,8 +381,7 @@ class _ElementLoads:
         self._active = np.zeros(len(self._slots), dtype=bool)
         self._reference = np.zeros(len(self._slots))
         parts: list[_Points] = []
-        loaded = (block for block in system.loaded if isinstance(block, FollowerBlock) and block.acts)
-        faces = [block for block in loaded if block.surface == surface]
+        faces = [block for block in system.contributors.followers if block.acts and block.surface == surface]
         turning = {block.load for block in faces}
         self._turning = [k for k, kind in enumerate(self._types) if kind in turning]
         for entry in {entry.type: entry for entry in entries}.values():

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from uel.assembly import System
-from uel.elements import Distributed, HeatLoadBlock
+from uel.elements import Distributed
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.model import Model
 from uel.model.steps import HeatLoad, HeatLoadType, Load, Step
@@ -56,7 +56,7 @@ class HeatLoads:
     """Heat loads through the steps: magnitudes by keyword, as each has its own OP=."""
 
     def __init__(self, system: System, model: Model) -> None:
-        self._blocks = [block for block in system.loaded if isinstance(block, HeatLoadBlock)]
+        self._blocks = system.contributors.heat
         entries = [entry for step in model.steps for entry in step.heat_loads]
         self._keywords = list(dict.fromkeys(entry.type.keyword for entry in entries))
         self._all = [_OfKeyword([e for e in entries if e.type.keyword == keyword]) for keyword in self._keywords]

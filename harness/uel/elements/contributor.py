@@ -1,0 +1,118 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Interface of all that contributes to the system: elements, loads on faces, heat exchange, contact, couplings."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uel.elements.call import BlockReport, Call, Motion
+from uel.model.arrays import FloatArray, IntArray
+from uel.model.restart import Saved
+
+Find = Callable[[IntArray, IntArray | int], IntArray]
+"""Numbers of the unknowns of nodes and dofs, broadcast against each other; -1 for none."""
+
+
+class Contributor(ABC):
+    """Like items that add forces, and the derivatives of these, to the system: elements, faces under a load, contact
+    points, pairs of coupled nodes.
+
+    unknowns  (local node, dof) of each unknown of an item, in the order of its forces; the local node behind the last
+              one is the item itself, which has pressures or multipliers, and REFERENCE the reference node
+    first     number of its first item among the items of the model: elements, then those of the other contributors
+    rows      (m,) number of each item here, from `first` on
+    """
+
+    unknowns: tuple[tuple[int, int], ...]
+    first: int
+    rows: IntArray
+
+    @property
+    @abstractmethod
+    def nodes(self) -> IntArray:
+        """Nodes (m, k) of the items, indices into the mesh."""
+
+    @property
+    @abstractmethod
+    def names(self) -> list[str]:
+        """Names (m,) of the items, for messages."""
+
+    @property
+    def reference(self) -> int:
+        """Index of the node that REFERENCE stands for, -1 without one."""
+        return -1
+
+    @abstractmethod
+    def number(self, find: Find, equations: NDArray[np.int32]) -> None:
+        """Set the numbers of the unknowns in the system, from 0.
+
+        Parameters
+        ----------
+        find
+            Numbers of the unknowns of nodes and dofs.
+        equations
+            (m, unknowns) numbers of those of the items.
+        """
+
+    @abstractmethod
+    def couplings(self) -> NDArray[np.int32]:
+        """Return (r, k) numbers of the unknowns that have common entries in the matrix, row by row."""
+
+    @abstractmethod
+    def locate(self, indptr: NDArray[np.int32], indices: NDArray[np.int32]) -> None:
+        """Locate the entries of `couplings` in a CSR pattern that has them."""
+
+    def track(self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool) -> bool:
+        """Prepare for a pass; arguments as in `System.evaluate`. Return whether the pattern has its `couplings`."""
+        del call, u, du, matrix
+        return True
+
+    @abstractmethod
+    def contribute(
+        self,
+        call: Call,
+        u: FloatArray,
+        du: FloatArray,
+        columns: FloatArray,
+        data: FloatArray | None,
+        motion: Motion | None,
+    ) -> BlockReport:
+        """Add forces and matrices to the system in one pass; the state it leads to is kept for `commit`.
+
+        Parameters
+        ----------
+        call, u, du, motion
+            As in `System.evaluate`.
+        columns
+            (NRHS, n) residuals, changed in place: external minus internal force, and increments of loads.
+        data
+            (nnz,) CSR values, changed in place, which hold the matrices of the contributors before this one; None: no
+            matrix is wanted.
+
+        Returns
+        -------
+        BlockReport
+            Sums over the items.
+
+        Raises
+        ------
+        KernelError, CallLimitError
+            An item fails; residuals and matrix are then incomplete.
+        """
+
+    @abstractmethod
+    def commit(self) -> None:
+        """Commit the state of the last normal pass at the end of a converged increment. Raises KernelError."""
+
+    @abstractmethod
+    def kept(self) -> Saved:
+        """Return the committed state, not copied."""
+
+    @abstractmethod
+    def resume(self, saved: Saved) -> None:
+        """Restore the state that `kept` returned. Raises ValueError if it is not of these items."""
