@@ -6,6 +6,7 @@ from uel.assembly.constraints import Constraints
 from uel.assembly.contributors import Contributors
 from uel.assembly.dofs import DofMap
 from uel.assembly.evaluation import Evaluation
+from uel.assembly.linear_shortcut import LinearShortcut
 from uel.assembly.rotating_constraints import TurningConstraints
 from uel.assembly.system import System, system_of
 from uel.assembly.tolerant_system import TolerantSystem
@@ -15,6 +16,7 @@ __all__ = [
     "Contributors",
     "DofMap",
     "Evaluation",
+    "LinearShortcut",
     "System",
     "TolerantSystem",
     "TurningConstraints",

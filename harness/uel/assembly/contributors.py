@@ -60,7 +60,12 @@ class Contributors:
         return found
 
     def __iter__(self) -> Iterator[Contributor]:
-        return chain(self.elements, self.followers, self.heat, self.contacts, self.couplings)
+        return chain(self.elements, self.others)
+
+    @property
+    def others(self) -> Iterator[Contributor]:
+        """All but the elements."""
+        return chain(self.followers, self.heat, self.contacts, self.couplings)
 
     @property
     def shared(self) -> Sequence[ElementBlock]:

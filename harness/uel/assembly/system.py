@@ -17,7 +17,6 @@ from uel.assembly.contributors import Contributors
 from uel.assembly.dofs import DofMap
 from uel.assembly.element_states import States
 from uel.assembly.evaluation import Evaluation
-from uel.assembly.linear_elements import LinearElements
 from uel.contact import nodal_fields
 from uel.elements import FIELD_NAMES, BlockReport, Call, Contributor, Motion, Request
 from uel.errors import ElementError
@@ -47,12 +46,11 @@ class System:
         contributors: Contributors,
         equations: Sequence[Equation] = (),
         *,
-        spare_linear: bool = False,
         ranks: Ranks = ALONE,
     ) -> None:
         """Assemble the contributors of a model with this mesh and these constraints; this rank keeps a part of them.
 
-        spare_linear: do not call linear elements again. Raises UsageError if several ranks cannot share the elements.
+        Raises UsageError if several ranks cannot share the elements.
         """
         self.ranks = ranks
         self.contributors, self.blocks = contributors, tuple(contributors.elements)
@@ -63,8 +61,6 @@ class System:
             contributor.number(self.dofs.find, self.dofs.equations_of(contributor))
         self._bind()
         self._committed = 0
-        self._last: Evaluation | None = None
-        self._linear = LinearElements(self.blocks if spare_linear else (), len(self.indices))
 
     def _keep_own(self) -> None:
         """Keep the elements of this rank, and what enters them."""
@@ -131,10 +127,7 @@ class System:
             A call does not return within its limit.
         """
         own = partial(self._evaluate_own, call, u, du, matrix=matrix, nrhs=nrhs, motion=motion)
-        evaluation = self._evaluate_all(own, nrhs)
-        if call.flags.request is Request.NORMAL:
-            self._last = evaluation
-        return evaluation
+        return self._evaluate_all(own, nrhs)
 
     def _evaluate_own(
         self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool, nrhs: int, motion: Motion | None
@@ -144,30 +137,23 @@ class System:
         tracked = [contributor.track(call, u, du, matrix=matrix) for contributor in self.contributors]
         if not all(tracked):
             self._bind()
-            self._linear.rebind(len(self.indices))
         data = self._data if matrix else None
-        linear = self._linear
-        applies = linear.applies(call, motion, nrhs)
-        spared = applies and linear.known
-        if not spared:
-            linear.bring_up()
-        if data is not None and spared:
-            linear.fill(data)
-        elif data is not None:
+        if data is not None:
             data.fill(0.0)
-        reports: list[BlockReport] = [*call.load_terms]
-        for block in self.blocks:
-            if spared and block in linear:
-                report = linear.forces(block, call, u, columns[0])
-            elif applies and data is not None and block in linear:
-                report = linear.learn(block, call, u, du, columns[0], data)
-            else:
-                report = block.contribute(call, u, du, columns, data, motion)
-            reports.append(report)
-        for contributor in list(self.contributors)[len(self.blocks) :]:
-            reports.append(contributor.contribute(call, u, du, columns, data, motion))
-        linear.passed(call, u, du, spared=spared)
-        return Evaluation.of(reports, columns, data)
+        reports = self._contribute(call, u, du, columns, data, motion)
+        return Evaluation.of([*call.load_terms, *reports], columns, data)
+
+    def _contribute(
+        self,
+        call: Call,
+        u: FloatArray,
+        du: FloatArray,
+        columns: FloatArray,
+        data: FloatArray | None,
+        motion: Motion | None,
+    ) -> list[BlockReport]:
+        """Run one pass over all contributors; arguments as in `Contributor.contribute`, data is zero."""
+        return [contributor.contribute(call, u, du, columns, data, motion) for contributor in self.contributors]
 
     def _evaluate_all(self, act: Callable[[], Evaluation], nrhs: int) -> Evaluation:
         """Sum over the elements of all ranks; act: returns the sums of this one. The matrix stays distributed.
@@ -273,23 +259,16 @@ class System:
 
         Raises
         ------
-        ElementError
-            An element that is linear only because the user says so is not.
         KernelError
             UVARM ends the analysis.
         """
         self._committed += 1
-        energy = self.ranks.sum(self.ranks.agree(self._commit_own, self._calling_order))
-        if self._last is not None:
-            self._last.energy[:] += energy
+        self.ranks.agree(self._commit_own, self._calling_order)
 
-    def _commit_own(self) -> FloatArray:
-        """Commit the elements of this rank, and return ENERGY (8,) of those that the last pass spared."""
-        energy = self._linear.catch_up()
+    def _commit_own(self) -> None:
+        """Commit the contributors of this rank."""
         for contributor in self.contributors:
-            if not self._linear.waits(contributor):
-                contributor.commit()
-        return energy
+            contributor.commit()
 
     def viscous_change(self) -> float:
         """Return the largest change of a viscous strain rate in the increment times its length, by the last pass."""
@@ -313,13 +292,11 @@ class System:
         return self.share_states()
 
     def _read_state(self, index: int) -> ElementState | None:
-        """Return the state of one block, or None if it takes a call of the elements or other ranks to read it."""
-        block = self.blocks[index]
-        return None if self.ranks.size > 1 or self._linear.waits(block) else block.state(index)
+        """Return the state of one block, or None if it takes other ranks to read it."""
+        return None if self.ranks.size > 1 else self.blocks[index].state(index)
 
     def share_states(self) -> tuple[ElementState, ...]:
         """Collect the states of all ranks; rank 0 asks the others to do so when it reads them. Raises KernelError."""
-        self.ranks.agree(self._linear.bring_up, self._calling_order)
         own = [(block.rows, block.state(k)) for k, block in enumerate(self.blocks)]
         if self.ranks.size == 1:
             return tuple(state for _, state in own)
@@ -331,14 +308,12 @@ class System:
 
     def kept(self) -> Saved:
         """Return the committed states of all elements and of loads on their faces, not copied. Raises KernelError."""
-        self._linear.bring_up()
         contributors = self.contributors
         return {
             "blocks": [block.kept() for block in self.blocks],
             "faces": [[face.key, face.elements, face.kept()] for face in contributors.followers],
             "contacts": [pair.kept() for pair in contributors.contacts],
             "coupled": [coupled.kept() for coupled in contributors.couplings],
-            "linear": self._linear.known,
         }
 
     def resume(self, saved: Saved) -> None:
@@ -364,7 +339,7 @@ class System:
                     face.resume_some(elements, state)
 
     def relearn(self, call: Call, u: FloatArray, saved: Saved) -> None:
-        """Compute the matrices of linear elements if the system had them when `saved` was kept.
+        """Compute what was derived from calls of the elements when `saved` was kept: nothing here.
 
         Parameters
         ----------
@@ -378,8 +353,6 @@ class System:
         KernelError
             An element fails.
         """
-        if saved["linear"]:
-            self._linear.relearn(call, u)
 
     def product(self, data: FloatArray, vector: FloatArray) -> FloatArray:
         """Compute K x, with the parts of K of all ranks.
@@ -414,13 +387,12 @@ class System:
         return sparse.csr_array((data, self.indices, self.indptr), shape=(len(self), len(self)))
 
 
-def system_of(model: Model, library: Library, *, strict: bool = True, spare_linear: bool = False) -> System:
+def system_of(model: Model, library: Library, *, strict: bool = True) -> System:
     """Assemble the system of a model in one process; errors as in `build_blocks`.
 
-    strict: writes of user elements outside their arrays are errors; spare_linear: as in `System`.
+    strict: writes of user elements outside their arrays are errors.
     """
-    contributors = Contributors.of(model, library, strict=strict)
-    return System(model.mesh, contributors, model.equations, spare_linear=spare_linear)
+    return System(model.mesh, Contributors.of(model, library, strict=strict), model.equations)
 
 
 def _joined(parts: tuple[tuple[IntArray, ElementState], ...]) -> ElementState:

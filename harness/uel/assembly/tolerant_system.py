@@ -10,7 +10,7 @@ from typing import Any
 
 from uel.assembly.contributors import Contributors
 from uel.assembly.evaluation import Evaluation
-from uel.assembly.system import System
+from uel.assembly.linear_shortcut import LinearShortcut
 from uel.elements import Call
 from uel.errors import NotFiniteError
 from uel.model.arrays import FloatArray
@@ -19,13 +19,13 @@ from uel.parallel.ranks import ALONE, Ranks
 from uel.usersub import ARRAYS, AS_GOOD_AS_ZERO, Library, guard_values, set_guard_values
 
 
-class TolerantSystem(System):
+class TolerantSystem(LinearShortcut):
     """A system whose elements may read outside their arrays: if that makes NaN, they read zeros from then on."""
 
     def __init__(self, model: Model, library: Library, linear: Collection[str] = (), ranks: Ranks = ALONE) -> None:
         """Build the contributors of a model; linear: types of user elements that the user says are linear."""
         contributors = Contributors.of(model, library, strict=False, zeros=True, linear=linear)
-        super().__init__(model.mesh, contributors, model.equations, spare_linear=True, ranks=ranks)
+        super().__init__(model.mesh, contributors, model.equations, ranks=ranks)
         self._library = library
         self._tolerated = False
 

@@ -13,8 +13,7 @@ from reference_cells import patch_of
 
 import uel
 from uel import usersub
-from uel.assembly import system_of
-from uel.assembly.linear_elements import LinearElements
+from uel.assembly import Contributors, LinearShortcut
 from uel.cli import main
 from uel.deck import read_deck
 from uel.delamination.blocks import BY_EQUATION_21, Interface
@@ -81,7 +80,7 @@ def spring(tmp_path: Path) -> Path:
 
 
 def always_called(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(LinearElements, "applies", lambda *_: False)
+    monkeypatch.setattr(LinearShortcut, "_applies", lambda *_: False)
 
 
 def assert_same(found: uel.Result, expected: uel.Result) -> None:
@@ -225,7 +224,7 @@ def test_states_are_not_read_too_late(tmp_path, spring):
     deck.write_text(deck_of("CPS4"))
     model = read_deck(deck)
     library = usersub.load([spring], job="late", output_dir=tmp_path, deck=deck)
-    system = system_of(model, library, spare_linear=True)
+    system = LinearShortcut(model.mesh, Contributors.of(model, library), model.equations)
     done = [record.solution for record in run_steps(system, model, library) if isinstance(record, IncrementDone)]
     with pytest.raises(UelError, match="element states have to be read before the next increment ends"):
         len(done[0].elements)

@@ -11,8 +11,7 @@ from small_decks import body_lines
 
 import uel
 from uel import usersub
-from uel.assembly import system_of
-from uel.assembly.linear_elements import LinearElements
+from uel.assembly import Contributors, LinearShortcut
 from uel.deck import read_deck
 from uel.elements import Call, ElementBlock, Flags
 from uel.model.element_types import BEAM, CONTINUUM, CONTINUUM_SHELL, GENERALISED, HYBRID, MEMBRANE, SHELL
@@ -89,7 +88,7 @@ def test_matrix_times_displacements_is_the_force_of_the_element(tmp_path, monkey
     deck.write_text(deck_of(element_type, law))
     model = read_deck(deck)
     library = usersub.load(None, job="patch", output_dir=tmp_path)
-    system = system_of(model, library, spare_linear=True)
+    system = LinearShortcut(model.mesh, Contributors.of(model, library), model.equations)
     zero = np.zeros(len(system))
     first = system.evaluate(CALL, zero, zero)
     matrix = first.data.copy()
@@ -97,7 +96,7 @@ def test_matrix_times_displacements_is_the_force_of_the_element(tmp_path, monkey
     u = np.random.default_rng(2).standard_normal(len(system))
     spared = system.evaluate(CALL, u, u).residual.copy()
     assert not calls
-    monkeypatch.setattr(LinearElements, "applies", lambda *_: False)
+    monkeypatch.setattr(LinearShortcut, "_applies", lambda *_: False)
     called = system.evaluate(CALL, u, u)
     assert calls[element_type] == 1
     scale = np.abs(called.residual).max()
@@ -134,7 +133,7 @@ def test_elements_whose_matrix_is_not_the_derivative_are_called(tmp_path, monkey
     deck.write_text(deck_of("CPE4", "isotropic"))
     found = uel.run(deck, output_dir=tmp_path)
     passes = calls["CPE4"]
-    monkeypatch.setattr(LinearElements, "applies", lambda *_: False)
+    monkeypatch.setattr(LinearShortcut, "_applies", lambda *_: False)
     expected = uel.run(deck, output_dir=tmp_path / "called")
     assert found.status[-1].total_iterations > 1
     # the pass that begins the analysis, that of the matrices, that of the comparison, and one for each iteration

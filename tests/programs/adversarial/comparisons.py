@@ -30,7 +30,7 @@ import mpiexec  # noqa: E402
 from bodies import ANGLE, Body, Frame, Lines, bodies, numbers, rotation  # noqa: E402
 
 from uel import usersub  # noqa: E402
-from uel.assembly import system_of  # noqa: E402
+from uel.assembly import Contributors, LinearShortcut, System  # noqa: E402
 from uel.deck import read_deck  # noqa: E402
 from uel.elements import Call, Flags  # noqa: E402
 from uel.errors import UelError  # noqa: E402
@@ -297,7 +297,9 @@ def compare_matrices(body: Body, folder: Path) -> Iterator[Row]:
     try:
         model = read_deck(deck)
         library = usersub.load(None, job="own", output_dir=folder)
-        spared, called = (system_of(model, library, spare_linear=spare) for spare in (True, False))
+        spared, called = (
+            kind(model.mesh, Contributors.of(model, library), model.equations) for kind in (LinearShortcut, System)
+        )
     except UelError:
         return
     if not any(block.linear for block in spared.blocks):
