@@ -175,7 +175,7 @@ class LinearShortcut(System):
             UVARM ends the analysis.
         """
         super().commit()
-        energy = self.ranks.sum(self._lacking)
+        energy = self.sum(self._lacking)
         if self._last is not None:
             self._last.energy[:] += energy
 
@@ -223,7 +223,7 @@ class LinearShortcut(System):
 
     def share_states(self) -> tuple[ElementState, ...]:
         """Bring up to date and collect the states of all ranks, as a system does."""
-        self.ranks.agree(self._bring_up, self._calling_order)
+        self.agree(self._bring_up)
         return super().share_states()
 
     def kept(self) -> Saved:

@@ -4,10 +4,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import partial
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,17 +16,18 @@ from uel.assembly.contributors import Contributors
 from uel.assembly.dofs import DofMap
 from uel.assembly.element_states import States
 from uel.assembly.evaluation import Evaluation
+from uel.assembly.sharing import Sharing
 from uel.contact import nodal_fields
-from uel.elements import FIELD_NAMES, BlockReport, Call, Contributor, Motion, Request
-from uel.errors import ElementError
-from uel.model.arrays import ComplexArray, FloatArray, IntArray
+from uel.elements import BlockReport, Call, Contributor, Motion, Request
+from uel.model.arrays import ComplexArray, FloatArray
 from uel.model.mesh import Mesh
 from uel.model.model import Equation, Model
 from uel.model.records import ElementState
 from uel.model.restart import Saved
-from uel.parallel.partition import owners_of
-from uel.parallel.ranks import ALONE, FAILURES, Ranks
+from uel.parallel.ranks import ALONE, Ranks
 from uel.usersub import Library
+
+_T = TypeVar("_T")
 
 
 class System:
@@ -52,21 +52,27 @@ class System:
 
         Raises UsageError if several ranks cannot share the elements.
         """
-        self.ranks = ranks
+        self.sharing = Sharing(contributors, ranks)
         self.contributors, self.blocks = contributors, tuple(contributors.elements)
         self.dofs = DofMap.build(mesh, contributors, equations)
-        if ranks.size > 1:
-            self._keep_own()
+        self.sharing.keep_own()
         for contributor in contributors:
             contributor.number(self.dofs.find, self.dofs.equations_of(contributor))
         self._bind()
         self._committed = 0
 
-    def _keep_own(self) -> None:
-        """Keep the elements of this rank, and what enters them."""
-        owners = self.ranks.tell(lambda: owners_of([block.group.nodes for block in self.blocks], self.ranks.size))
-        for block in self.contributors.shared:
-            block.keep(np.flatnonzero(block.owners(owners) == self.ranks.rank))
+    @property
+    def ranks(self) -> Ranks:
+        """Ranks of the job, for the linear solver; all others need `sum` and `agree` only."""
+        return self.sharing.ranks
+
+    def sum(self, values: FloatArray) -> FloatArray:
+        """Sum what the elements of each rank give, see `Sharing.sum`."""
+        return self.sharing.sum(values)
+
+    def agree(self, act: Callable[[], _T]) -> _T:
+        """Act on the elements of each rank, see `Sharing.agree`."""
+        return self.sharing.agree(act)
 
     def _bind(self) -> None:
         """Build the pattern, in new arrays, and locate the entries of all contributors in it."""
@@ -127,7 +133,7 @@ class System:
             A call does not return within its limit.
         """
         own = partial(self._evaluate_own, call, u, du, matrix=matrix, nrhs=nrhs, motion=motion)
-        return self._evaluate_all(own, nrhs)
+        return self.sharing.evaluate(own, len(self), nrhs)
 
     def _evaluate_own(
         self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool, nrhs: int, motion: Motion | None
@@ -154,59 +160,6 @@ class System:
     ) -> list[BlockReport]:
         """Run one pass over all contributors; arguments as in `Contributor.contribute`, data is zero."""
         return [contributor.contribute(call, u, du, columns, data, motion) for contributor in self.contributors]
-
-    def _evaluate_all(self, act: Callable[[], Evaluation], nrhs: int) -> Evaluation:
-        """Sum over the elements of all ranks; act: returns the sums of this one. The matrix stays distributed.
-
-        The ranks exchange one array, that of the sums, in which each has a place for what is not a sum.
-        """
-        if self.ranks.size == 1:
-            return act()
-        failure: Exception | None = None
-        fields = len(FIELD_NAMES)
-        own = Evaluation(np.zeros(len(self)), None, np.zeros(fields), np.zeros(fields, np.int64), np.inf, np.zeros(8))
-        own = replace(own, load=np.zeros(len(self)) if nrhs > 1 else None)
-        try:
-            own = act()
-        except FAILURES as error:
-            failure = error
-        extremes = np.array([failure is not None, -own.pnewdt, *own.largest], dtype=np.float64)
-        loads = [] if own.load is None else [own.load]
-        counts = own.flux_count.astype(np.float64), own.entries.astype(np.float64)
-        parts = [own.residual, *loads, own.flux, counts[0], own.energy, np.array([own.damage]), counts[1]]
-        total = self.ranks.sum(np.concatenate([*parts, self.ranks.apart(extremes)]))
-        residual, *loads, flux, count, energy, damage, entries, found = np.split(
-            total, np.cumsum([len(part) for part in parts])
-        )
-        failed, refused, *largest = found.reshape(self.ranks.size, -1).max(axis=0)
-
-        def raise_it() -> None:
-            if failure is not None:
-                raise failure
-
-        if failed:
-            self.ranks.agree(raise_it, self._calling_order)
-        return Evaluation(
-            residual,
-            own.data,
-            flux,
-            count.astype(np.int64),
-            -float(refused),
-            energy,
-            loads[0] if loads else None,
-            float(damage[0]),
-            np.array(largest),
-            entries.astype(np.int64),
-        )
-
-    def _calling_order(self, error: Exception) -> float:
-        """Return the position in the model of the element that an error names; infinite if it names none."""
-        if isinstance(error, ElementError):
-            for block in self.blocks:
-                found = np.flatnonzero(block.group.labels == error.element)
-                if block.group.type == error.element_type and len(found):
-                    return float(block.first + block.rows[found[0]])
-        return math.inf
 
     def artificial_mass(self, call: Call) -> FloatArray:
         """Return the mass of the built-in elements that have an artificial one, for unit density.
@@ -263,7 +216,7 @@ class System:
             UVARM ends the analysis.
         """
         self._committed += 1
-        self.ranks.agree(self._commit_own, self._calling_order)
+        self.agree(self._commit_own)
 
     def _commit_own(self) -> None:
         """Commit the contributors of this rank."""
@@ -297,10 +250,7 @@ class System:
 
     def share_states(self) -> tuple[ElementState, ...]:
         """Collect the states of all ranks; rank 0 asks the others to do so when it reads them. Raises KernelError."""
-        own = [(block.rows, block.state(k)) for k, block in enumerate(self.blocks)]
-        if self.ranks.size == 1:
-            return tuple(state for _, state in own)
-        return tuple(map(_joined, zip(*self.ranks.collect(own), strict=True)))
+        return self.sharing.states()
 
     def contact_fields(self) -> dict[str, FloatArray]:
         """Return contact variables (nodes,), see `uel.contact.nodal_fields`."""
@@ -369,7 +319,7 @@ class System:
         FloatArray
             (n,).
         """
-        return self.ranks.sum(np.asarray(self.matrix(data) @ vector))
+        return self.sum(np.asarray(self.matrix(data) @ vector))
 
     def matrix(self, data: FloatArray | ComplexArray) -> sparse.csr_array:
         """Return the matrix with these CSR values, on several ranks the part of this one's elements.
@@ -393,14 +343,6 @@ def system_of(model: Model, library: Library, *, strict: bool = True) -> System:
     strict: writes of user elements outside their arrays are errors.
     """
     return System(model.mesh, Contributors.of(model, library, strict=strict), model.equations)
-
-
-def _joined(parts: tuple[tuple[IntArray, ElementState], ...]) -> ElementState:
-    """Join the states of a group on each rank, which come with their rows in the group."""
-    rows = np.argsort(np.concatenate([rows for rows, _ in parts]))
-    state = parts[0][1]
-    svars, energy = (np.concatenate(one)[rows] for one in zip(*((s.svars, s.energy) for _, s in parts), strict=True))
-    return replace(state, svars=svars, energy=energy)
 
 
 def build_pattern(n: int, numbers: Sequence[NDArray[np.int32]]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:

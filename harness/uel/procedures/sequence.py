@@ -108,7 +108,7 @@ def run_steps(
 def _begin(system: System, model: Model, state: ConvergedState, user: UserRoutines) -> Iterator[Record]:
     """Begin the analysis in the initial state of the model."""
     user.external_database(0, 0, (0.0, 0.0), 0.0, 1, 0)
-    system.ranks.agree(lambda: set_initial_states(system.blocks, model, user))
+    system.agree(lambda: set_initial_states(system.blocks, model, user))
     forces = yield from set_initial_stresses(system, model, state, user)
     if forces is not None:
         state.hold(forces)

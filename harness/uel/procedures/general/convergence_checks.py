@@ -353,7 +353,7 @@ def length_of_moments(system: System, mesh: Mesh) -> float:
             places = mesh.coordinates[block.group.nodes]
             distances = np.linalg.norm(places - np.roll(places, 1, axis=1), axis=2)
             total, count = total + float(distances.sum()), count + distances.size
-    total, count = system.ranks.sum(np.array([total, count])).tolist()
+    total, count = system.sum(np.array([total, count])).tolist()
     return total / count if count else 0.0
 
 

@@ -36,7 +36,7 @@ class ViscousForces(Part):
 
     def start(self) -> PartStart:
         """Note the damping factor if the deck gives it, or warn if nothing is damped."""
-        if not self._context.system.ranks.largest(np.array([self._mass.any()], dtype=np.float64))[0]:
+        if not self._context.system.sum(np.array([self._mass.any()], dtype=np.float64))[0]:
             return PartStart([Warned(NOTHING_DAMPED)])
         return PartStart([Noted(f"STABILIZE: THE DAMPING FACTOR IS {self._factor:.4g}")] if self._factor else [])
 

@@ -238,7 +238,7 @@ class PerturbationStep:
         entries = found.row.astype(np.int64) * n + found.col
         places = np.minimum(np.searchsorted(own, entries), len(own) - 1)
         inside = own[places] == entries
-        system.ranks.agree(partial(self._refuse_single_rotations, found, ~inside & (found.data != 0.0)))
+        system.agree(partial(self._refuse_single_rotations, found, ~inside & (found.data != 0.0)))
         by_spins = np.zeros_like(data)
         by_spins[places[inside]] = found.data[inside]
         return by_spins

@@ -28,7 +28,6 @@ from uel.model.element_types import ShellType
 from uel.model.model import Model
 from uel.model.steps import ElementLoad, Load, LoadKind, LoadType, Step
 from uel.model.user_values import GivesValues, UserValues
-from uel.parallel.ranks import Ranks
 from uel.procedures.loads.heat import HeatLoads, StepHeat
 from uel.procedures.loads.nodal import Loads, ScaledUnknowns, Slots, Variation
 
@@ -82,7 +81,7 @@ class StepLoads:
     distributed: tuple[_StepElementLoads, ...]
     user: GivesValues
     heat: StepHeat
-    ranks: Ranks
+    system: System
     increment: int = 0
 
     @property
@@ -105,7 +104,7 @@ class StepLoads:
         concentrated = self.concentrated.at(step_time, total_time)
         if not self.distributed:
             return concentrated
-        return concentrated + self.ranks.sum(self._on_elements(step_time, total_time))
+        return concentrated + self.system.sum(self._on_elements(step_time, total_time))
 
     def terms(self, times: tuple[float, float], floor: FloatArray) -> tuple[BlockReport, ...]:
         """Return the loads on shells of this rank that are terms of the average force at a step and a total time."""
@@ -122,7 +121,7 @@ class StepLoads:
 
     def of_user(self, time: tuple[float, float], u: FloatArray) -> FloatArray:
         """Return nodal forces (n,) of the loads that DLOAD gives at a step and total time, at displacements (n,)."""
-        return self.ranks.sum(self.ranks.agree(lambda: self._of_user(time, u)))
+        return self.system.sum(self.system.agree(lambda: self._of_user(time, u)))
 
     def _of_user(self, time: tuple[float, float], u: FloatArray) -> FloatArray:
         values = np.zeros(self.shape)
@@ -155,7 +154,7 @@ class StepLoads:
         u (n,) are the displacements at which DLOAD is asked. factor: what it gets in place of step times; only then
         changes of its loads in the increment are known.
         """
-        by_user = self.ranks.agree(lambda: self._on_faces_of_user(end, u, factor)) if self.by_user else None
+        by_user = self.system.agree(lambda: self._on_faces_of_user(end, u, factor)) if self.by_user else None
         parts = [part for part in (others, self._on_faces(start, end), by_user, self.heat.between(start, end)) if part]
         if len(parts) < 2:
             return parts[0] if parts else None
@@ -264,7 +263,7 @@ class AllLoads:
     def __init__(self, system: System, model: Model) -> None:
         """Integrate the nodal forces of distributed loads once. Raises DeckError."""
         self._concentrated = Loads(system.dofs)
-        self._ranks = system.ranks
+        self._system = system
         on_elements = [load for step in model.steps for load in step.element_loads]
         on_surfaces = [load for step in model.steps for load in step.surface_loads]
         self._shape = len(system)
@@ -282,7 +281,7 @@ class AllLoads:
         found = tuple(load for load in distributed if load is not None)
         heat = self._heat.start_step(step, total_time)
         concentrated = self._concentrated.start_step(step, total_time)
-        return StepLoads(step.number, self._shape, step.nlgeom, concentrated, found, user, heat, self._ranks)
+        return StepLoads(step.number, self._shape, step.nlgeom, concentrated, found, user, heat, self._system)
 
     def in_perturbation(
         self, step: Step, user: GivesValues, increment: int, time: tuple[float, float], u: FloatArray

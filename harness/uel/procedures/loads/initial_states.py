@@ -80,7 +80,7 @@ def set_initial_stresses(
     stressed: dict[int, ElementBlock] = {}
     for entry in model.initial_stresses:
         if entry.values is None:
-            stressed |= system.ranks.agree(partial(_stresses_by_user, system, entry, user))
+            stressed |= system.agree(partial(_stresses_by_user, system, entry, user))
             continue
         for block in system.blocks:
             if not block.are_of_group(entry.elements).any():
@@ -104,8 +104,8 @@ def set_initial_stresses(
         for block in stressed.values():
             block.begin_stressed(call, state.displacement, residual)
 
-    system.ranks.agree(begin)
-    residual = system.ranks.sum(residual)
+    system.agree(begin)
+    residual = system.sum(residual)
     # Analysis User's Guide, Initial conditions: stresses of opposite sign are added at first, and ramped off in the
     # first step. Here they are nodal forces, whose work is external work, so that ETOTAL is constant
     return -residual if model.initial_stresses[0].ramped else None
