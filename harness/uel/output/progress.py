@@ -69,16 +69,17 @@ class ProgressDisplay:
             )
         if self._task is None:
             return
-        if isinstance(record, AttemptStarted):
-            self._progress.update(self._task, increment=record.increment, iteration=0)
-        elif isinstance(record, IterationDone):
-            self._progress.update(self._task, iteration=record.iteration, ratio=self._ratio(record.checks))
-        elif isinstance(record, AttemptAbandoned):
-            self._cutbacks += 1
-            self._progress.update(self._task, cutbacks=self._cutbacks)
-        elif isinstance(record, IncrementDone):
-            linear = self._model.steps[record.step - 1].procedure.linear
-            self._progress.update(self._task, completed=record.increment if linear else record.step_time)
+        match record:
+            case AttemptStarted():
+                self._progress.update(self._task, increment=record.increment, iteration=0)
+            case IterationDone():
+                self._progress.update(self._task, iteration=record.iteration, ratio=self._ratio(record.checks))
+            case AttemptAbandoned():
+                self._cutbacks += 1
+                self._progress.update(self._task, cutbacks=self._cutbacks)
+            case IncrementDone():
+                linear = self._model.steps[record.step - 1].procedure.linear
+                self._progress.update(self._task, completed=record.increment if linear else record.step_time)
 
     def close(self) -> None:
         """Leave the last state on the terminal."""

@@ -52,24 +52,27 @@ def _head_line(line: HeadLine) -> str:
 
 def completed(record: IncrementDone, period: float) -> str:
     """Print how far an increment has come, in time or along a path."""
-    if isinstance(record, BucklingMode):
-        return f" MODE{record.increment:6d},  EIGENVALUE{general(record.step_time)}\n"
-    if isinstance(record, ModeShape):
-        return f" MODE{record.increment:6d},  FREQUENCY (CYCLES/TIME){general(record.step_time)}\n"
-    if isinstance(record, HarmonicResponse):
-        return f" FREQUENCY (CYCLES/TIME){general(record.step_time)}\n"
-    if record.load_factor is None:
-        fraction = record.step_time / period
-        return (
-            f" TIME INCREMENT COMPLETED{general(record.time_increment)},"
-            f"  FRACTION OF STEP COMPLETED{general(fraction)}\n"
-            f" STEP TIME COMPLETED     {general(record.step_time)},  TOTAL TIME COMPLETED      "
-            f"{general(record.total_time)}\n"
-        )
-    return (
-        f" LOAD PROPORTIONALITY FACTOR{general(record.load_factor)},"
-        f"  LENGTH OF THE PATH    {general(record.total_time)}\n"
-    )
+    match record:
+        case BucklingMode():
+            return f" MODE{record.increment:6d},  EIGENVALUE{general(record.step_time)}\n"
+        case ModeShape():
+            return f" MODE{record.increment:6d},  FREQUENCY (CYCLES/TIME){general(record.step_time)}\n"
+        case HarmonicResponse():
+            return f" FREQUENCY (CYCLES/TIME){general(record.step_time)}\n"
+        case IncrementDone(load_factor=None):
+            fraction = record.step_time / period
+            return (
+                f" TIME INCREMENT COMPLETED{general(record.time_increment)},"
+                f"  FRACTION OF STEP COMPLETED{general(fraction)}\n"
+                f" STEP TIME COMPLETED     {general(record.step_time)},  TOTAL TIME COMPLETED      "
+                f"{general(record.total_time)}\n"
+            )
+        case _:
+            assert record.load_factor is not None
+            return (
+                f" LOAD PROPORTIONALITY FACTOR{general(record.load_factor)},"
+                f"  LENGTH OF THE PATH    {general(record.total_time)}\n"
+            )
 
 
 def tolerances(

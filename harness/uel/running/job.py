@@ -22,7 +22,7 @@ from uel.errors import ConvergenceError, ElementError, UelError, UsageError, in_
 from uel.files import deck_named
 from uel.interrupts import held, settle
 from uel.model.model import Model, constraints_with_multipliers
-from uel.model.records import AttemptEnded, IncrementDone, ModeShape, Record, StepDone
+from uel.model.records import AttemptEnded, IncrementDone, Record, StepDone
 from uel.model.restart import Resumption
 from uel.output import JobOutput, Result
 from uel.output.earlier_jobs import EarlierJobs
@@ -199,7 +199,7 @@ def _analyse(
         with one_blas_thread(), guard_values({}):
             for record in run_steps(system, model, library, solver, resumed=resumed):
                 with held():
-                    if isinstance(record, AttemptEnded | StepDone | ModeShape):
+                    if isinstance(record, AttemptEnded | StepDone):
                         write(partial(put, record))
                     elif output is not None:
                         # nothing of the other ranks is in it

@@ -32,11 +32,21 @@ def unit_forces(
     rows are elements of the group. Also returns the coordinates of the points (elements, points, 3), and the functions
     (points, nodes) that they follow from. Raises DeckError if the load makes no sense there.
     """
-    section, structural = group.section, group.built_in
-    if isinstance(structural, SurfaceType):
-        return _forces_on_surfaces(group, structural, rows, load, coordinates)
-    if isinstance(structural, BeamType):
-        return beam_forces(group, structural, rows, load, coordinates)
+    match group.built_in:
+        case ShellType() as kind if load.type.kind in ON_EDGES:
+            return _forces_on_edges(group, kind, rows, load, coordinates)
+        case SurfaceType() as kind:
+            return _forces_on_surfaces(group, kind, rows, load, coordinates)
+        case BeamType() as kind:
+            return beam_forces(group, kind, rows, load, coordinates)
+        case _:
+            return _forces_on_solids(group, rows, load, coordinates)
+
+
+def _forces_on_solids(
+    group: ElementGroup, rows: IntArray, load: ElementLoad, coordinates: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    section = group.section
     assert isinstance(section, SolidSection | CompositeSection | ShellSection)
     kind = solid_of(group)
     dimension = kind.dimension
@@ -68,9 +78,6 @@ def unit_forces(
 def _forces_on_surfaces(
     group: ElementGroup, kind: SurfaceType, rows: IntArray, load: ElementLoad, coordinates: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    if load.type.kind in ON_EDGES:
-        assert isinstance(kind, ShellType)
-        return _forces_on_edges(group, kind, rows, load, coordinates)
     section = group.section
     assert isinstance(section, ShellSection | MembraneSection)
     local = list(load.type.face) or list(range(kind.nodes))

@@ -190,20 +190,28 @@ def _named(arrays: Sequence[FloatArray]) -> dict[str, Any]:
 
 def _numbered(value: Any, arrays: list[FloatArray]) -> Any:
     """Replace the arrays of a part of a state by numbers, and append them to the list."""
-    if isinstance(value, np.ndarray):
-        arrays.append(value)
-        return {_ARRAY: len(arrays) - 1}
-    if isinstance(value, dict):
-        return {name: _numbered(part, arrays) for name, part in value.items()}
-    if isinstance(value, list | tuple):
-        return [_numbered(part, arrays) for part in value]
-    return value.item() if isinstance(value, np.generic) else value
+    match value:
+        case np.ndarray():
+            arrays.append(value)
+            return {_ARRAY: len(arrays) - 1}
+        case dict():
+            return {name: _numbered(part, arrays) for name, part in value.items()}
+        case list() | tuple():
+            return [_numbered(part, arrays) for part in value]
+        case np.generic():
+            return value.item()
+        case _:
+            return value
 
 
 def _filled(value: Any, arrays: Sequence[FloatArray]) -> Any:
     """Invert `_numbered`; tuples have become lists."""
-    if isinstance(value, dict):
-        if value.keys() == {_ARRAY}:
+    match value:
+        case dict() if value.keys() == {_ARRAY}:
             return arrays[value[_ARRAY]]
-        return {name: _filled(part, arrays) for name, part in value.items()}
-    return [_filled(part, arrays) for part in value] if isinstance(value, list) else value
+        case dict():
+            return {name: _filled(part, arrays) for name, part in value.items()}
+        case list():
+            return [_filled(part, arrays) for part in value]
+        case _:
+            return value
