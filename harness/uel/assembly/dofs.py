@@ -11,10 +11,11 @@ from typing import Self, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from uel.elements import COUPLED, MULTIPLIER, PRESSURE, REFERENCE, Contributor, field_of
+from uel.elements import REFERENCE, Contributor, field_of
 from uel.model.arrays import ComplexArray, FloatArray, IntArray
+from uel.model.dofs import COUPLED, MULTIPLIER, PRESSURE, dof_in_deck, is_local
 from uel.model.mesh import Mesh
-from uel.model.model import Equation, dof_in_deck, is_local
+from uel.model.model import Equation
 
 Forces = TypeVar("Forces", FloatArray, ComplexArray)
 

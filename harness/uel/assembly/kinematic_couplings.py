@@ -28,6 +28,7 @@ from uel.assembly.prescribed_followers import COLUMNS, SMALLEST, HeldFollowers, 
 from uel.elements import PERMUTATION, rotation_matrices, spin_matrices
 from uel.errors import DeckError, SingularMatrixError, Source
 from uel.model.arrays import FloatArray, IntArray
+from uel.model.dofs import DISPLACEMENTS, ROTATIONS
 from uel.model.model import Arm, Equation
 
 IMAGINARY = 1e-30
@@ -47,7 +48,7 @@ UNBALANCED = 1e-6
 
 UNREACHABLE = "no position of it gives the prescribed displacements of the nodes that follow it"
 
-_DISPLACEMENTS, _ROTATIONS = np.array([1, 2, 3]), np.array([4, 5, 6])
+_DISPLACEMENTS, _ROTATIONS = np.array(DISPLACEMENTS), np.array(ROTATIONS)
 _MOVES, _TURNS = slice(0, 3), slice(3, 6)
 
 

@@ -22,11 +22,11 @@ from uel.contact.surface_finite_sliding import SurfaceSliding
 from uel.elements.call import NOTHING, BlockReport, Call
 from uel.elements.call import Motion as NodalMotion
 from uel.elements.contributor import Contributor, Find
-from uel.elements.fields import MULTIPLIER
 from uel.elements.lflags import Request
 from uel.elements.multipliers import scale_of_multipliers
 from uel.model.arrays import FloatArray, IntArray, first_largest
 from uel.model.contact import STIFFENED, STIFFENING, ContactChanges, ContactPair, SlidingPair, SurfacePair
+from uel.model.dofs import MULTIPLIER
 from uel.model.model import Model
 from uel.model.restart import Saved
 from uel.usersub import _binding

@@ -7,18 +7,15 @@ from uel.elements.build import build_blocks
 from uel.elements.call import BlockReport, Call, Distributed, Motion, Predefined
 from uel.elements.contributor import Contributor
 from uel.elements.distributing import DistributingBlock
-from uel.elements.fields import COUPLED, FIELD_NAMES, MULTIPLIER, PRESSURE, REFERENCE, VOLUME, field_of
+from uel.elements.fields import FIELD_NAMES, REFERENCE, VOLUME, field_of
 from uel.elements.lflags import Damping, Flags, Request
 from uel.elements.loads.followers import FollowerBlock, follower_blocks
 from uel.elements.loads.heat import HeatLoadBlock, heat_load_blocks
 from uel.elements.rotations import PERMUTATION, rotation_matrices, spin_matrices
 
 __all__ = [
-    "COUPLED",
     "FIELD_NAMES",
-    "MULTIPLIER",
     "PERMUTATION",
-    "PRESSURE",
     "REFERENCE",
     "VOLUME",
     "BlockReport",

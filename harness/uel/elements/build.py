@@ -34,7 +34,7 @@ from uel.elements.families.membrane import membrane_routine, membrane_variables
 from uel.elements.families.piezoelectric import piezoelectric_routine, piezoelectric_variables
 from uel.elements.families.shell import check_normals, directors, shell_routine, shell_variables
 from uel.elements.families.solid import history_of, solid_routine, solid_variables
-from uel.elements.fields import PRESSURE, REFERENCE
+from uel.elements.fields import REFERENCE
 from uel.elements.materials.hybrid import has_unsymmetric_pressure, pressure_unknowns
 from uel.elements.materials.library import (
     define_material,
@@ -46,10 +46,10 @@ from uel.elements.materials.library import (
 from uel.elements.routine import Linearity, Routine
 from uel.errors import DeckError, all_of
 from uel.model.arrays import flat_rows
+from uel.model.dofs import CONCENTRATION, POTENTIAL, PRESSURE, TEMPERATURE
 from uel.model.element_types import (
     BUILT_IN,
     PLANES,
-    POTENTIAL,
     BeamType,
     CohesiveType,
     ContinuumShellType,
@@ -63,7 +63,7 @@ from uel.model.element_types import (
     Tensor,
 )
 from uel.model.mesh import ElementGroup
-from uel.model.model import CONCENTRATION, TEMPERATURE, Model
+from uel.model.model import Model
 from uel.model.properties import (
     BeamSection,
     CohesiveSection,

@@ -23,12 +23,12 @@ from numpy.typing import NDArray
 
 from uel.elements.call import NOTHING, BlockReport, Call, Motion
 from uel.elements.contributor import Contributor, Find
-from uel.elements.fields import COUPLED
 from uel.elements.lflags import Request
 from uel.elements.multipliers import scale_of_multipliers
 from uel.elements.rotations import PERMUTATION, cross_matrices, rotation_matrices, spin_matrices
 from uel.model.arrays import FloatArray, IntArray, first_largest
 from uel.model.couplings import CouplingErrors
+from uel.model.dofs import COUPLED
 from uel.model.model import Model
 from uel.model.restart import Saved
 from uel.usersub import _binding

@@ -8,7 +8,17 @@ from typing import Final
 
 from uel.model.contact import CONTACT
 from uel.model.couplings import COUPLING
-from uel.model.model import CONCENTRATION, dof_in_deck
+from uel.model.dofs import (
+    CONCENTRATION,
+    COUPLED,
+    DISPLACEMENTS,
+    MULTIPLIER,
+    PORE_PRESSURE,
+    POTENTIAL,
+    PRESSURE,
+    WARPING,
+    dof_in_deck,
+)
 
 FIELD_NAMES: Final = (
     *("force", "moment", "pore", "electrical", "temperature", "concentration"),
@@ -16,17 +26,20 @@ FIELD_NAMES: Final = (
 )
 """Names of the fields; their numbers index the arrays by field."""
 
-PRESSURE: Final = 101
-"""Number of the first pressure of hybrid elements among the unknowns of an element: more than any dof of Abaqus."""
-
 REFERENCE: Final = -1
 """Local number, among the nodes of an element, of the reference node of its section."""
 
-MULTIPLIER: Final = 201
-"""Number of the multiplier of a contact point among the unknowns of its block."""
 
-COUPLED: Final = 301
-"""Number of the first multiplier of a distributing coupling among the unknowns of its block."""
+_LAST: Final = (
+    (DISPLACEMENTS[-1], FIELD_NAMES.index("force")),
+    (WARPING, FIELD_NAMES.index("moment")),
+    (PORE_PRESSURE, FIELD_NAMES.index("pore")),
+    (POTENTIAL, FIELD_NAMES.index("electrical")),
+    (PRESSURE - 1, FIELD_NAMES.index("temperature")),
+    (MULTIPLIER - 1, FIELD_NAMES.index(VOLUME)),
+    (COUPLED - 1, FIELD_NAMES.index(CONTACT)),
+)
+"""Last dof of each field, in ascending order."""
 
 
 def field_of(dof: int) -> int:
@@ -45,9 +58,6 @@ def field_of(dof: int) -> int:
         Index into FIELD_NAMES.
     """
     if dof == CONCENTRATION:
-        return 5
+        return FIELD_NAMES.index("concentration")
     dof = dof_in_deck(dof)
-    for last, field in ((3, 0), (7, 1), (8, 2), (9, 3), (PRESSURE - 1, 4), (MULTIPLIER - 1, 6), (COUPLED - 1, 7)):
-        if dof <= last:
-            return field
-    return 8
+    return next((field for last, field in _LAST if dof <= last), FIELD_NAMES.index(COUPLING))

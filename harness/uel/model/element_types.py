@@ -13,10 +13,9 @@ from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from typing import Final
 
-Face = tuple[int, ...]
+from uel.model.dofs import POTENTIAL, TEMPERATURE
 
-POTENTIAL: Final = 9
-"""Dof of an electrical potential."""
+Face = tuple[int, ...]
 
 PLANES: Final = (3, 4, 5)
 """Dofs of the reference node of generalised plane strain: change of the length of its fibre, rotations of planes."""
@@ -183,7 +182,7 @@ class HeatType(SolidType):
     def dofs(self, node: int) -> tuple[int, ...]:
         """Return the dofs of a local node, from 0."""
         del node
-        return (11,)
+        return (TEMPERATURE,)
 
 
 @dataclass(frozen=True, slots=True)
@@ -255,7 +254,7 @@ class ContinuumType(SolidType):
         displacements = tuple(range(1, self.dimension + 1))
         if self.electrical:
             return (*displacements, POTENTIAL)
-        return (*displacements, 11) if self.coupled and node < self.corners else displacements
+        return (*displacements, TEMPERATURE) if self.coupled and node < self.corners else displacements
 
 
 @dataclass(frozen=True, slots=True)

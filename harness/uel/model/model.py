@@ -14,27 +14,6 @@ from uel.model.couplings import Distributing
 from uel.model.mesh import ElementGroup, Mesh
 from uel.model.steps import Boundary, InitialSolution, InitialStress, InitialValue, Step
 
-FIRST_LOCAL = 40
-"""Local displacements and rotations of nodes with *TRANSFORM are the dofs FIRST_LOCAL + 1 to FIRST_LOCAL + 6."""
-_MOTION = 6
-"""Dofs of the motion of a node."""
-CONCENTRATION = 31
-"""Normalized concentration, in a deck dof 11, which is a temperature elsewhere."""
-TEMPERATURE = 11
-"""First of the dofs that are temperatures."""
-
-
-def is_local(dof: int) -> bool:
-    """Return whether a dof is along a direction of *TRANSFORM."""
-    return FIRST_LOCAL < dof <= FIRST_LOCAL + _MOTION
-
-
-def dof_in_deck(dof: int) -> int:
-    """Return the dof as the deck numbers it."""
-    if dof == CONCENTRATION:
-        return TEMPERATURE
-    return dof - FIRST_LOCAL if is_local(dof) else dof
-
 
 @dataclass(frozen=True, slots=True)
 class PhysicalConstants:

@@ -13,14 +13,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from uel.model.arrays import FloatArray, IntArray
-from uel.model.model import CONCENTRATION, TEMPERATURE, dof_in_deck
+from uel.model.dofs import (
+    CONCENTRATION,
+    DISPLACEMENTS,
+    LAST_TEMPERATURE,
+    POTENTIAL,
+    ROTATIONS,
+    TEMPERATURE,
+    WARPING,
+    dof_in_deck,
+)
 from uel.model.records import Solution
 
 PHASE = "P"
 
-LARGEST_DOF = 30
-
-# name of the component of each degree of freedom, by quantity; 11 and up are temperatures, then the concentration
+# name of the component of each degree of freedom, by quantity; temperatures and the concentration follow
 _NAMES: dict[str, dict[int, str]] = {
     "displacement": {1: "U1", 2: "U2", 3: "U3", 4: "UR1", 5: "UR2", 6: "UR3", 7: "WARP", 8: "POR", 9: "EPOT"},
     "reaction": {1: "RF1", 2: "RF2", 3: "RF3", 4: "RM1", 5: "RM2", 6: "RM3", 7: "RWM", 8: "RVF", 9: "RECUR"},
@@ -28,36 +35,36 @@ _NAMES: dict[str, dict[int, str]] = {
     "acceleration": {1: "A1", 2: "A2", 3: "A3", 4: "AR1", 5: "AR2", 6: "AR3"},
     "load": {1: "CF1", 2: "CF2", 3: "CF3", 4: "CM1", 5: "CM2", 6: "CM3", 7: "CW", 8: "CVF", 9: "CECUR"},
 }
-for _dof in range(11, LARGEST_DOF + 1):
+for _dof in range(TEMPERATURE, LAST_TEMPERATURE + 1):
     _NAMES["displacement"][_dof] = f"NT{_dof}"
     _NAMES["reaction"][_dof] = f"RFL{_dof}"
     _NAMES["load"][_dof] = f"CFL{_dof}"
 _NAMES["displacement"][CONCENTRATION] = "NNC11"
 
-_CHARGES = {"RCHG": ("reaction", 9), "CECHG": ("load", 9)}
+_CHARGES = {"RCHG": ("reaction", POTENTIAL), "CECHG": ("load", POTENTIAL)}
 """Charges of piezoelectric elements: minus the values of the array."""
 
 COMPONENTS = {name: (quantity, dof) for quantity, names in _NAMES.items() for dof, name in names.items()} | _CHARGES
 """Array of `Solution` and dof of each component."""
 _GROUPS = {
-    "U": ("displacement", range(1, 8)),
-    "UT": ("displacement", range(1, 4)),
-    "UR": ("displacement", range(4, 7)),
-    "NT": ("displacement", range(11, LARGEST_DOF + 1)),
+    "U": ("displacement", range(1, WARPING + 1)),
+    "UT": ("displacement", DISPLACEMENTS),
+    "UR": ("displacement", ROTATIONS),
+    "NT": ("displacement", range(TEMPERATURE, LAST_TEMPERATURE + 1)),
     "NNC": ("displacement", (CONCENTRATION,)),
-    "V": ("velocity", range(1, 7)),
-    "VT": ("velocity", range(1, 4)),
-    "VR": ("velocity", range(4, 7)),
-    "A": ("acceleration", range(1, 7)),
-    "AT": ("acceleration", range(1, 4)),
-    "AR": ("acceleration", range(4, 7)),
-    "RF": ("reaction", range(1, 8)),
-    "RT": ("reaction", range(1, 4)),
-    "RM": ("reaction", range(4, 7)),
-    "RFL": ("reaction", range(11, CONCENTRATION + 1)),
-    "CF": ("load", range(1, 8)),
-    "CM": ("load", range(4, 7)),
-    "CFL": ("load", range(11, CONCENTRATION + 1)),
+    "V": ("velocity", range(1, ROTATIONS[-1] + 1)),
+    "VT": ("velocity", DISPLACEMENTS),
+    "VR": ("velocity", ROTATIONS),
+    "A": ("acceleration", range(1, ROTATIONS[-1] + 1)),
+    "AT": ("acceleration", DISPLACEMENTS),
+    "AR": ("acceleration", ROTATIONS),
+    "RF": ("reaction", range(1, WARPING + 1)),
+    "RT": ("reaction", DISPLACEMENTS),
+    "RM": ("reaction", ROTATIONS),
+    "RFL": ("reaction", range(TEMPERATURE, CONCENTRATION + 1)),
+    "CF": ("load", range(1, WARPING + 1)),
+    "CM": ("load", ROTATIONS),
+    "CFL": ("load", range(TEMPERATURE, CONCENTRATION + 1)),
 }
 
 

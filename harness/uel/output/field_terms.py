@@ -6,25 +6,26 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from uel.model.model import CONCENTRATION, Model
+from uel.elements import FIELD_NAMES, field_of
+from uel.model.dofs import DISPLACEMENTS
+from uel.model.model import Model
 
 
 @dataclass(frozen=True, slots=True)
 class FieldTerms:
-    """Abaqus' terms for the flux of a field and the quantity conjugate to it; `dofs` belong to the field."""
+    """Abaqus' terms for the flux of a field and the quantity conjugate to it."""
 
     flux: str
     quantity: str
-    dofs: range
 
 
 FIELDS = {
-    "force": FieldTerms("FORCE", "DISP.", range(1, 4)),
-    "moment": FieldTerms("MOMENT", "ROTATION", range(4, 8)),
-    "pore": FieldTerms("VOL. FLUX", "P. PRESS.", range(8, 9)),
-    "electrical": FieldTerms("CURRENT", "ELEC.POT.", range(9, 10)),
-    "temperature": FieldTerms("HEAT FLUX", "TEMP.", range(11, 31)),
-    "concentration": FieldTerms("CONC. FLUX", "CONC.", range(CONCENTRATION, CONCENTRATION + 1)),
+    "force": FieldTerms("FORCE", "DISP."),
+    "moment": FieldTerms("MOMENT", "ROTATION"),
+    "pore": FieldTerms("VOL. FLUX", "P. PRESS."),
+    "electrical": FieldTerms("CURRENT", "ELEC.POT."),
+    "temperature": FieldTerms("HEAT FLUX", "TEMP."),
+    "concentration": FieldTerms("CONC. FLUX", "CONC."),
 }
 
 
@@ -32,7 +33,8 @@ def fields_of(model: Model) -> list[str]:
     """Return the fields of a model's elements; built-in elements have displacements, or concentrations, only."""
     if model.diffusive:
         return ["concentration"]
-    dofs: set[int] = set()
+    found: set[str] = set()
     for group in model.groups:
-        dofs |= {1} if group.definition is None else {dof for _, dof in group.definition.dofs}
-    return [name for name, words in FIELDS.items() if dofs & set(words.dofs)]
+        dofs = DISPLACEMENTS if group.definition is None else [dof for _, dof in group.definition.dofs]
+        found |= {FIELD_NAMES[field_of(dof)] for dof in dofs}
+    return [name for name in FIELDS if name in found]

@@ -13,7 +13,7 @@ from uel.assembly import Constraints, TurningConstraints
 from uel.elements import Call, Flags
 from uel.errors import DeckError
 from uel.model.arrays import FloatArray, IntArray
-from uel.model.model import dof_in_deck
+from uel.model.dofs import dof_in_deck
 from uel.model.user_values import UserValues
 from uel.procedures.general.convergence_checks import Checker, length_of_moments
 from uel.procedures.general.unconstrained import UnconstrainedSolver, tolerate

@@ -13,7 +13,7 @@ import numpy as np
 from uel.assembly import Constraints, DofMap, System
 from uel.elements import FIELD_NAMES, Predefined
 from uel.model.arrays import FloatArray
-from uel.model.element_types import POTENTIAL
+from uel.model.dofs import POTENTIAL
 from uel.model.model import Model
 from uel.model.records import Solution, energies_of_elements
 from uel.model.restart import Saved

@@ -18,8 +18,9 @@ import uel
 from uel import usersub
 from uel.assembly import system_of
 from uel.deck import read_deck
-from uel.elements import COUPLED, Call, Flags
+from uel.elements import Call, Flags
 from uel.errors import ConvergenceError, DeckError, UsageError
+from uel.model.dofs import COUPLED
 
 REFERENCE = np.array([1.5, 1.0, 3.0])
 DISTANCES = np.linalg.norm(BAR_ENDS - REFERENCE, axis=1)

@@ -17,8 +17,9 @@ from scipy.integrate import quad
 from small_decks import body_lines
 
 from uel.assembly import DofMap
-from uel.elements import PRESSURE, Flags, build_blocks
+from uel.elements import Flags, build_blocks
 from uel.errors import DeckError, SingularMatrixError, Source
+from uel.model.dofs import PRESSURE
 from uel.model.element_types import CONTINUUM, HYBRID
 from uel.model.mesh import ElementGroup, Mesh
 from uel.model.model import Model

@@ -16,9 +16,9 @@ from small_decks import body_lines
 
 from uel.elements import Flags, Predefined
 from uel.errors import DeckError, KernelError, Source
+from uel.model.dofs import CONCENTRATION
 from uel.model.element_types import BUILT_IN, HEAT
 from uel.model.mesh import ElementGroup
-from uel.model.model import CONCENTRATION
 from uel.model.procedures import MassDiffusion
 from uel.model.properties import Diffusivity, Material, SolidSection
 from uel.model.steps import Step

@@ -15,8 +15,9 @@ from uel.deck.error_report import Problems
 from uel.deck.language.blocks import Block, Row
 from uel.deck.language.table import Keyword, Where, one_of, refused
 from uel.deck.materials.heat import read_by_temperature
+from uel.model.dofs import CONCENTRATION, TEMPERATURE
 from uel.model.element_types import HEAT, HeatType
-from uel.model.model import CONCENTRATION, TEMPERATURE, Equation, Model
+from uel.model.model import Equation, Model
 from uel.model.properties import Diffusivity, Material
 from uel.model.steps import PRESSURE_STRESS, Boundary, Step
 

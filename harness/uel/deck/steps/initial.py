@@ -18,7 +18,7 @@ from uel.deck.mesh.imperfection import EarlierResults, same_nodes
 from uel.deck.sections.user_elements import LARGEST_DOF
 from uel.errors import Source, UelError
 from uel.model.arrays import FloatArray, IntArray
-from uel.model.model import CONCENTRATION, TEMPERATURE
+from uel.model.dofs import CONCENTRATION, TEMPERATURE
 from uel.model.steps import PRESSURE_STRESS, InitialSolution, InitialStress, InitialValue, VerticalStress
 
 MOST_FIELDS = 1000

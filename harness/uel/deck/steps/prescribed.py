@@ -20,7 +20,7 @@ from uel.deck.mesh.transforms import Transforms
 from uel.deck.sections.user_elements import LARGEST_DOF
 from uel.errors import Source
 from uel.model.amplitude import Amplitude
-from uel.model.model import dof_in_deck
+from uel.model.dofs import dof_in_deck
 from uel.model.steps import Boundary, Load
 
 # dofs that a named boundary type holds (Abaqus Analysis User's Guide, "Boundary conditions")

@@ -24,9 +24,10 @@ from uel.elements.materials.library import define_thermal, define_user_field, di
 from uel.elements.routine import Routine
 from uel.errors import DeckError
 from uel.model.arrays import FloatArray
+from uel.model.dofs import TEMPERATURE
 from uel.model.element_types import HeatType
 from uel.model.mesh import ElementGroup
-from uel.model.model import TEMPERATURE, Model
+from uel.model.model import Model
 from uel.model.properties import Material, SolidSection
 from uel.model.records import PointVariables
 from uel.usersub import Library, _binding, _materials

@@ -21,9 +21,10 @@ import numpy as np
 
 from uel.errors import Source
 from uel.model.arrays import FloatArray, IntArray
+from uel.model.dofs import TEMPERATURE
 from uel.model.element_types import BUILT_IN, HEX8, HEX20, QUAD4, QUAD8, ContinuumShellType, ContinuumType
 from uel.model.mesh import ElementGroup, full_name
-from uel.model.model import TEMPERATURE, Model
+from uel.model.model import Model
 from uel.model.properties import CompositeSection, Material, Section, SolidSection, materials_of
 from uel.model.steps import InitialStress, InitialValue, Load
 from uel.usersub.layout import element_layouts

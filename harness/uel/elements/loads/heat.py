@@ -20,9 +20,10 @@ from uel.elements.loads.load_block import LoadBlock
 from uel.elements.routine import Routine
 from uel.errors import DeckError
 from uel.model.arrays import IntArray
+from uel.model.dofs import CONCENTRATION, TEMPERATURE
 from uel.model.element_types import Family, HeatType, SolidType
 from uel.model.mesh import ElementGroup
-from uel.model.model import CONCENTRATION, TEMPERATURE, Model
+from uel.model.model import Model
 from uel.model.properties import NodalSection, SolidSection
 from uel.model.steps import HeatLaw, HeatLoad, HeatLoadType
 from uel.usersub import Library, _binding

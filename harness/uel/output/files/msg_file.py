@@ -156,7 +156,7 @@ class MessageFile:
                 f"{check.residual.element}\n          THE VOLUMETRIC STRAIN COMPATIBILITY EQUATIONS HAVE "
                 f"{'' if check.verdict.accepted else 'NOT '}CONVERGED\n"
             )
-        words = FIELDS.get(check.field) or FieldTerms(check.field.upper(), check.field.upper(), range(0))
+        words = FIELDS.get(check.field) or FieldTerms(check.field.upper(), check.field.upper())
         flux = words.flux
         text = (
             f"\n{f' AVERAGE {flux}':<34}{general(check.average_flux)}   {f'TIME AVG. {flux}':<19} "

@@ -16,8 +16,8 @@ from uel.elements import FIELD_NAMES, VOLUME
 from uel.model.arrays import FloatArray, IntArray, first_largest
 from uel.model.contact import CONTACT
 from uel.model.couplings import COUPLING, CouplingErrors
+from uel.model.dofs import ROTATIONS, dof_in_deck
 from uel.model.mesh import Mesh
-from uel.model.model import dof_in_deck
 from uel.model.records import Convergence, FieldCheck, Largest
 from uel.model.restart import Saved
 from uel.model.steps import Controls, FieldControls
@@ -34,8 +34,6 @@ CONTROLLED_AS = dict(
 )
 """FIELD= of *CONTROLS by field."""
 
-ROTATIONS = range(4, 7)
-"""Dofs that are rotations."""
 
 Positions = IntArray | slice
 """Positions of a field's entries in a vector; a slice if that is all of it, which is much faster."""

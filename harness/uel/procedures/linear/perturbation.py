@@ -24,6 +24,7 @@ from uel.assembly import Constraints, Evaluation
 from uel.elements import Call, Flags, Request, spin_matrices
 from uel.errors import DeckError
 from uel.model.arrays import FloatArray, first_largest
+from uel.model.dofs import ROTATIONS
 from uel.model.records import AttemptStarted, ElementState, IncrementDone, Noted, Record, Solution, StepDone, Warned
 from uel.model.steps import Step
 from uel.model.user_values import UserValues
@@ -40,8 +41,8 @@ BASE_FORCES = (
 LAST_DISPLACEMENT = 3
 """Dof."""
 
-ROTATIONS = np.array([4, 5, 6])
-"""Dofs of nodes in space."""
+_TURNS = np.array(ROTATIONS)
+"""Rotations of nodes in space."""
 
 ROUNDING = 1e-8
 """Rounding relative to the average force of the elements."""
@@ -211,8 +212,8 @@ class PerturbationStep:
     def _vectors_by_spins(self) -> sparse.csr_array | None:
         """Changes (n, n) of all unknowns by those with spins in place of rotation vectors; None: they are the same."""
         dofs, u = self._system.dofs, self._state.displacement
-        nodes = np.unique(dofs.node[np.isin(dofs.dof, ROTATIONS)])
-        unknowns = dofs.find(nodes[:, None], ROTATIONS)
+        nodes = np.unique(dofs.node[np.isin(dofs.dof, _TURNS)])
+        unknowns = dofs.find(nodes[:, None], _TURNS)
         unknowns = unknowns[(unknowns >= 0).all(axis=1)]
         unknowns = unknowns[np.any(u[unknowns], axis=1)]
         if not self._step.nlgeom or not len(unknowns):

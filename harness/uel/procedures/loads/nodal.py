@@ -26,7 +26,7 @@ from uel.assembly import DofMap
 from uel.errors import Source
 from uel.model.amplitude import Amplitude
 from uel.model.arrays import FloatArray, IntArray
-from uel.model.model import dof_in_deck
+from uel.model.dofs import dof_in_deck
 from uel.model.steps import Boundary, InitialValue, Load, Step
 
 _LAST_ROTATION = 7

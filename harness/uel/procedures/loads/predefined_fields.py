@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 
 from uel.elements import Distributed, Predefined
 from uel.model.arrays import FloatArray, IntArray
+from uel.model.dofs import TEMPERATURE
 from uel.model.mesh import Mesh
-from uel.model.model import TEMPERATURE, Model
+from uel.model.model import Model
 from uel.model.restart import Saved
 from uel.model.steps import PRESSURE_STRESS, Load, Step
 from uel.model.user_values import GivesValues, UserValues
