@@ -3,10 +3,11 @@
 """Contact: blocks of contact points, their motion over the surfaces, bonds and friction."""
 
 from uel.contact.block import ContactBlock
+from uel.contact.face_surface import FaceSurface
 from uel.contact.finite_sliding import FiniteSliding, normals_of
-from uel.contact.main_surface import FaceSurface, monomials
 from uel.contact.nodal_fields import nodal_fields
 from uel.contact.rigid_surface import RigidSurface
+from uel.contact.shape_functions import monomials
 from uel.contact.surface_finite_sliding import FACING, SurfaceSliding
 
 __all__ = [

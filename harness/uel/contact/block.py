@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from uel.contact.cohesion import Bonding, Bonds
 from uel.contact.finite_sliding import FiniteSliding
+from uel.contact.friction import Friction
 from uel.contact.kinematics import Clearances, Motion, Slips, SmallSliding
 from uel.contact.surface_finite_sliding import SurfaceSliding
 from uel.elements.call import NOTHING, BlockReport, Call
@@ -36,9 +37,6 @@ OPEN, STICKING, SLIPPING = 0, 1, 2
 
 ROUNDING: Final = 1e-12
 """Relative error of clearances and contact forces that does not change a status."""
-
-NONE: Final = 1e-200
-"""Part of a stiffness that is none."""
 
 
 class ContactBlock(Contributor):
@@ -191,7 +189,7 @@ class ContactBlock(Contributor):
         force = np.where(closed, multiplier, 0.0)
         slips = self._motion.slips(moved, change, self._slip)
         sticks = np.ones(len(force)) if self._bonds is None else self._bonds.damage
-        friction = _Friction(self.pair, force, np.where(closed[:, None], slips.value, 0.0), closed, sticks, small)
+        friction = Friction(self.pair, force, np.where(closed[:, None], slips.value, 0.0), closed, sticks, small)
         self._add(residual, data, (found, slips), (multiplier, force, closed), friction)
         normal, shear = force, friction.force
         if self._bonds is not None:
@@ -249,7 +247,7 @@ class ContactBlock(Contributor):
         data: FloatArray | None,
         motion: tuple[Clearances, Slips],
         state: tuple[FloatArray, FloatArray, NDArray[np.bool_]],
-        friction: _Friction,
+        friction: Friction,
     ) -> None:
         """Add the contributions of contact and friction at points with this motion, multipliers (or forces),
         and status.
@@ -363,34 +361,3 @@ class ContactBlock(Contributor):
             self._bonds.resume(saved["bonds"])
         self._equations = self._equations_of(self.rows, self._motion.nodes)
         self._status_trial, self._slip_trial = self._status, self._slip
-
-
-class _Friction:
-    """Friction of closed points: forces (m, directions), their derivatives, elastic slip, and which points slip."""
-
-    def __init__(
-        self,
-        pair: ContactPair | SlidingPair,
-        force: FloatArray,
-        slip: FloatArray,
-        closed: NDArray[np.bool_],
-        sticks: FloatArray,
-        small: float,
-    ) -> None:
-        """Compute the friction of closed points; sticks: (m,) part of the stiffness of sticking points.
-
-        small: rounding of the slip; an increment after one with slip begins with sticking on every processor.
-        """
-        given, directions = pair.property, slip.shape[1]
-        coefficient = given.friction
-        most = (given.elastic_slip or given.slip_tolerance * pair.length) / np.maximum(sticks, NONE)
-        size = np.linalg.norm(slip, axis=1)
-        self.slips = closed & (coefficient > 0.0) & (size > most + small)
-        # length of the slip at which the force would reach its limit
-        reach = np.where(self.slips, size, most)[:, None]
-        along = slip / reach
-        limit = coefficient * np.maximum(force, 0.0)[:, None]
-        self.force, self.by_force = limit * along, coefficient * closed[:, None] * along
-        across = np.eye(directions) - np.where(self.slips, 1.0, 0.0)[:, None, None] * along[:, :, None] * along[:, None]
-        self.by_slip = (limit / reach)[:, :, None] * across
-        self.elastic = np.where(self.slips[:, None], most[:, None] * along, slip)

@@ -22,8 +22,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from uel.contact.face_surface import FaceSurface
 from uel.contact.kinematics import Clearances, Slips
-from uel.contact.main_surface import EQUAL, FaceSurface, Place, Surface
+from uel.contact.main_surface import EQUAL, Place, Surface
 from uel.contact.rigid_surface import RigidSurface
 from uel.elements.contributor import Find
 from uel.model.arrays import FloatArray, IntArray

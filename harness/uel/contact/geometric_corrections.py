@@ -13,7 +13,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from uel.contact.main_surface import FaceSurface, weights_of
+from uel.contact.face_surface import FaceSurface
+from uel.contact.shape_functions import weights_of
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.contact import Pieces, Rounded
 

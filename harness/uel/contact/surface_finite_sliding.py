@@ -18,10 +18,12 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from uel.contact.face_surface import FaceSurface
 from uel.contact.finite_sliding import FiniteSliding, Opposites, normals_of, rounding_of, unit
 from uel.contact.geometric_corrections import corrections
 from uel.contact.kinematics import Clearances, Slips, displacements
-from uel.contact.main_surface import EQUAL, FaceSurface, weights_of
+from uel.contact.main_surface import EQUAL
+from uel.contact.shape_functions import weights_of
 from uel.elements.contributor import Find
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.contact import Pieces, SurfacePair
