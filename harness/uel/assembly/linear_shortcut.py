@@ -14,6 +14,7 @@ from uel.assembly.contributors import Contributors
 from uel.assembly.evaluation import Evaluation
 from uel.assembly.system import System
 from uel.elements import BlockReport, Call, Contributor, ElementBlock, Motion, Request
+from uel.elements.linear_forces import has_forces_of, largest_deviation
 from uel.errors import ElementError
 from uel.model.arrays import FloatArray
 from uel.model.mesh import Mesh
@@ -157,7 +158,7 @@ class LinearShortcut(System):
         if self._matrices[block] is not None:
             return report
         # the user's elements are not called again: they are verified at the end of each increment
-        if block.assumed_linear or not len(matrices) or block.has_forces_of(matrices, call):
+        if block.assumed_linear or not len(matrices) or has_forces_of(block, matrices, call):
             block.add_matrices(matrices, self._known_data)
             self._matrices[block] = matrices
         else:
@@ -248,7 +249,7 @@ def _verify(block: ElementBlock, matrices: FloatArray, behind: Behind, called: F
     report = block.linear_pass(matrices, behind.call, behind.u, expected)
     if np.abs(called - expected).max() <= TOLERANCE * report.largest.max():
         return
-    row, entry, found, linear = block.largest_deviation(matrices, behind.call, behind.u, behind.du)
+    row, entry, found, linear = largest_deviation(block, matrices, behind.call, behind.u, behind.du)
     message = f"is not linear: RHS({entry}) is {found:g}, its first AMATRX times U gives {linear:g}"
     hint = f"run without --linear {block.group.type}"
     label = int(block.group.labels[row])

@@ -10,38 +10,30 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uel.elements.array_mistakes import ERRORS, at_point, distortion, material_point, write_outside, wrong_entry
-from uel.elements.call import NOTHING, BlockReport, Call, Distributed, Motion, Predefined
+from uel.elements.array_mistakes import at_point
+from uel.elements.call import NOTHING, BlockReport, Call, Distributed, Motion
 from uel.elements.contributor import Contributor, Find
+from uel.elements.driver_arrays import NO_LOADS, fields_of, loads_of
 from uel.elements.fields import FIELD_NAMES, field_of
 from uel.elements.finite_values import Watch
 from uel.elements.initial_state import InitialState
 from uel.elements.lflags import Flags, Request
+from uel.elements.mistakes import Mistakes
 from uel.elements.routine import Linearity, PointAxes, Routine
-from uel.errors import ElementError, KernelError
+from uel.errors import KernelError
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.mesh import ElementGroup, full_name
 from uel.model.records import PLASTIC, ElementState, PointVariables
 from uel.model.restart import Saved
 from uel.usersub import Library, _binding, _points
 from uel.usersub.exchange import BlockArrays, LoadArrays, Outcome, UnknownFields
-from uel.usersub.faults import Entries, Fault, Guards
+from uel.usersub.faults import Entries, Guards
 
 MOST_INTERRUPTED: Final = 5
 """Passes in a row that several threads may abandon for a pass on one thread."""
 
-MOST_TRIED: Final = 20
-"""Elements of a block whose forces are compared with their matrices before those stand for them."""
-
-FORCE_TOLERANCE: Final = 1e-8
-"""Largest difference of a force from matrix times U, over the sum of the magnitudes of its terms.
-
-Rounding is 1e-12 in thin shells; a matrix that is not the derivative of the force differs in the first digits.
-"""
-
 _NO_MATRIX = np.zeros(1)
 _AT_REST = Motion(np.zeros(1), np.zeros(1))
-_NO_LOADS = LoadArrays(np.zeros(1, np.int32), np.zeros((1, 1), np.int32), np.zeros((1, 1, 2)))
 
 
 class ElementBlock(Contributor):
@@ -83,9 +75,7 @@ class ElementBlock(Contributor):
         self._size = len(group.labels)
         self.parallel = False
         self._interrupted = 0
-        self._guards = Guards.STOP if strict else Guards.NOTICE
-        self._entries = Entries.NOTICE if zeros else Entries.STOP
-        self._noticed: Outcome | None = None
+        self._mistakes = Mistakes(group, routine, len(unknowns), library, strict=strict, zeros=zeros)
         m, n = len(group.labels), len(unknowns)
         svars = np.zeros((m, routine.svars))
         energy = np.zeros((m, 8))
@@ -116,7 +106,6 @@ class ElementBlock(Contributor):
         dofs = [dof for _, dof in unknowns]
         # of each unknown the first one of the same dof, from 1
         self._first = np.array([(dofs.index(dof) + 1) * (dof in routine.free) for dof in dofs], dtype=np.int32)
-        self._no_fields = np.zeros((1, group.nodes.shape[1], 1 if group.definition else 2, 2))
 
     @property
     def nodes(self) -> IntArray:
@@ -204,7 +193,7 @@ class ElementBlock(Contributor):
         """
         self.group = self.group.take(rows)
         self.rows, self._arrays = rows, self._arrays.of(rows)
-        self._watch = Watch(self.group, self._library)
+        self._watch, self._mistakes.group = Watch(self.group, self._library), self.group
         if self._uvar is not None:
             self._uvar = self._uvar[rows]
 
@@ -258,10 +247,10 @@ class ElementBlock(Contributor):
         list[ElementBlock]
             In the order of the elements; changes of their states do not affect this block.
         """
-        return [self._part(np.array([k]), coordinates, strict=strict) for k in range(len(self.group.labels))]
+        return [self.part(np.array([k]), coordinates, strict=strict) for k in range(len(self.group.labels))]
 
-    def _part(self, places: IntArray, coordinates: FloatArray | None = None, *, strict: bool = True) -> ElementBlock:
-        """Make an unbound block of some of the elements (rows from 0), in their committed state."""
+    def part(self, places: IntArray, coordinates: FloatArray | None = None, *, strict: bool = True) -> ElementBlock:
+        """Make an unbound block of some of the elements (rows from 0), in their committed state; see `split`."""
         part = ElementBlock(
             self.group.take(places),
             self._coordinates if coordinates is None else coordinates,
@@ -340,7 +329,7 @@ class ElementBlock(Contributor):
             call.moment,
             (u, du, motion.velocity, motion.acceleration),
             self._loads(call.distributed),
-            self._fields(call.predefined),
+            fields_of(self.group, self._routine, call.predefined),
             self._floor(call),
             self._unknown_fields,
             columns,
@@ -354,14 +343,7 @@ class ElementBlock(Contributor):
             if self._routine.outputs:
                 self._end = u.copy()
         self._count_interrupted(outcome)
-        if outcome.fault is Fault.UNSET and self._entries is not Entries.STOP:
-            self._entries = Entries.ZERO
-            error = self._error(outcome, len(columns), call)
-            self._library.warn(f"{error}; the run goes on with zeros there before each call")
-        elif self._guards is not Guards.STOP and outcome.fault in (Fault.NONE, Fault.OUTSIDE):
-            self._warn(outcome, len(columns), call)
-        elif outcome.fault is not Fault.NONE:
-            raise self._error(outcome, len(columns), call)
+        self._mistakes.judge(outcome, len(columns), call)
         self._watch.pnewdt(call, outcome.pnewdt)
         energy, damage = outcome.energy, 0.0
         if self._routine.damages:
@@ -431,97 +413,16 @@ class ElementBlock(Contributor):
         own = 2 * self._forces if self._routine.massive and call.flags.dynamic else self._forces
         return BlockReport.of(outcome, own, energy, damage)
 
-    def has_forces_of(self, matrices: FloatArray, call: Call) -> bool:
-        """Return whether RHS is minus the matrix times U, in some elements of the block and for trial values of U.
-
-        Parameters
-        ----------
-        matrices
-            Of the elements, as `evaluate_apart` returns them.
-        call
-            A static one with small displacements.
-        """
-        places = np.unique(np.linspace(0, len(matrices) - 1, MOST_TRIED).round().astype(np.int64))
-        matrices = matrices[places]
-        part, (m, n) = self._part(places), matrices.shape[:2]
-        # all elements apart, so that their forces do not add up
-        part.bind(np.arange(m * n, dtype=np.int32).reshape(m, n), np.arange(m * n * n, dtype=np.int32).reshape(m, n, n))
-        stiffness = np.abs(matrices)
-        largest = stiffness.max(axis=2)
-        # displacements, rotations and pressures whose forces are alike
-        trial = np.divide(
-            np.random.default_rng(0).uniform(-1.0, 1.0, (m, n)), largest, where=largest > 0, out=np.zeros((m, n))
-        )
-        called, u = np.zeros(m * n), trial.ravel()
-        part.evaluate(call.asking(Request.RESIDUAL), u, u, called, None)
-        deviation = np.abs(called.reshape(m, n) + np.einsum("ej,eji->ei", trial, matrices))
-        return bool((deviation <= FORCE_TOLERANCE * np.einsum("ej,eji->ei", np.abs(trial), stiffness)).all())
-
-    def largest_deviation(
-        self, matrices: FloatArray, call: Call, u: FloatArray, du: FloatArray
-    ) -> tuple[int, int, float, float]:
-        """Find the entry of RHS that differs most from minus the matrix times U.
-
-        Parameters
-        ----------
-        matrices
-            Of the elements, as `evaluate_apart` returns them.
-        call, u, du
-            As of `evaluate`.
-
-        Returns
-        -------
-        tuple[int, int, float, float]
-            Row of the element in the block from 0, entry of RHS from 1, RHS there, and what the matrix gives.
-        """
-        n = len(self.unknowns)
-        own, places = np.arange(n, dtype=np.int32)[None], np.zeros((1, n, n), dtype=np.int32)
-        called, expected = np.zeros((len(matrices), n)), np.zeros((len(matrices), n))
-        for row, part in enumerate(self.split(strict=False)):
-            at = self._arrays.equations[row] - 1
-            part.bind(own, places)
-            part.evaluate(call, u[at], du[at], called[row], None)
-            expected[row] = -u[at] @ matrices[row]
-        row, entry = divmod(int(np.abs(called - expected).argmax()), n)
-        return row, entry + 1, float(called[row, entry]), float(expected[row, entry])
-
     def _floor(self, call: Call) -> FloatArray:
         """Return, by unknown, the force above which an entry of RHS counts in the average flux."""
         return self._all_terms if call.flux_floor is None else call.flux_floor[self._unknown_fields.of - 1]
 
     def _loads(self, distributed: Distributed | None) -> LoadArrays:
-        """Return the loads on the elements of the block, one row for each element, or one row in all without loads."""
+        """Return the loads on the elements of the block."""
         if distributed is None:
-            return _NO_LOADS
-        m = len(self.group.labels)
+            return NO_LOADS
         mine = self.holds(distributed.elements)
-        row = self.places_of(distributed.elements[mine])
-        counts = np.bincount(row, minlength=m)
-        # number of a load among those of its element
-        column = np.arange(len(row)) - (np.cumsum(counts) - counts)[row]
-        most = max(int(counts.max(initial=0)), 1)
-        kinds, values = np.zeros((m, most), np.int32), np.zeros((m, most, 2))
-        kinds[row, column] = distributed.kinds[mine]
-        values[row, column] = np.stack([distributed.end[mine], distributed.increment[mine]], axis=1)
-        return LoadArrays(counts.astype(np.int32), kinds, values)
-
-    def _fields(self, predefined: Predefined | None) -> FloatArray:
-        """Return PREDEF of the elements, (m, nodes, fields, 2), or (1, nodes, fields, 2) without predefined fields.
-
-        That of built-in elements ends with the initial temperature.
-        """
-        initial = self._routine.initial_temperatures
-        if predefined is None:
-            if initial is None:
-                return self._no_fields
-            none = np.zeros((1, len(initial)))
-            predefined = Predefined(none, none, initial)
-        end, increment = predefined.end, predefined.increment
-        if self.group.definition is None:
-            initial = predefined.initial if initial is None else initial
-            end, increment = np.vstack([end, initial]), np.vstack([increment, np.zeros_like(increment[0])])
-        values = np.stack([end, increment], axis=-1)[:, self.group.nodes]
-        return np.ascontiguousarray(values.transpose(1, 2, 0, 3))
+        return loads_of(distributed, mine, self.places_of(distributed.elements[mine]), len(self.group.labels))
 
     def stress_matrix(self, call: Call, u: FloatArray, added: FloatArray, matrix: FloatArray) -> None:
         """Add the initial stress matrix into matrix, if the elements have one.
@@ -588,7 +489,7 @@ class ElementBlock(Contributor):
         symmetric = not (self.unsymmetric or (call.unsymmetric and self.group.definition))
         # in their first calls routines, and the host, set up what they keep
         parallel = self.parallel and self._last is not None and call.flags.request is not Request.OUTPUT_VARIABLES
-        return symmetric, assemble, self._guards, self._entries, parallel
+        return symmetric, assemble, self._mistakes.guards, self._mistakes.entries, parallel
 
     def begin_stressed(self, call: Call, u: FloatArray, residual: FloatArray) -> None:
         """Pass the stresses of `initial.set_stress` to the material; the state that follows is committed.
@@ -731,35 +632,3 @@ class ElementBlock(Contributor):
     def _axes_now(self, given: PointAxes) -> FloatArray:
         """Return the current directions (m, points, 3, 3) of the points, in rows."""
         return given.view(self._arrays.svars)[:, :, 1].swapaxes(-1, -2)
-
-    def _error(self, outcome: Outcome, nrhs: int, call: Call) -> ElementError:
-        element = int(self.group.labels[outcome.position]) if outcome.position >= 0 else 0
-        match outcome.fault:
-            case Fault.LEFT | Fault.ENDLESS:
-                message = material_point(outcome) + self._library.stop_reason()
-            case Fault.OUTSIDE:
-                message = self._outside(outcome, nrhs)
-            case Fault.DISTORTED:
-                message = distortion(outcome, getattr(self.group.built_in, "points", 0))
-            case _:
-                message = wrong_entry(outcome, len(self.unknowns))
-        return ERRORS.get(outcome.fault, KernelError)(element, self.group.type, f"{message} ({call.place})")
-
-    def _warn(self, outcome: Outcome, nrhs: int, call: Call) -> None:
-        """Report a write outside an array once; the run goes on, and the next pass finds the element."""
-        if self._guards is Guards.SEARCH:
-            self._guards = Guards.IGNORE
-            found = outcome if outcome.fault is Fault.OUTSIDE else self._noticed
-            assert found is not None
-            self._library.warn(f"{self._error(found, nrhs, call)}; the run goes on, with extra room after the arrays")
-        elif outcome.fault is Fault.OUTSIDE:
-            self._guards, self._noticed = Guards.SEARCH, outcome
-
-    def _outside(self, outcome: Outcome, nrhs: int) -> str:
-        sizes = {
-            "SVARS": f"{self._routine.svars} (VARIABLES=)",
-            "PROPS": f"{len(self._routine.props)} (PROPERTIES=)",
-            "COORDS": str(self._routine.mcrd * self.group.nodes.shape[1]),
-            "PREDEF": str(2 * self.group.nodes.shape[1]),
-        }
-        return write_outside(outcome, len(self.unknowns), nrhs, sizes)
