@@ -10,7 +10,6 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uel.elements.array_mistakes import at_point
 from uel.elements.call import NOTHING, BlockReport, Call, Distributed, Motion
 from uel.elements.contributor import Contributor, Find
 from uel.elements.driver_arrays import NO_LOADS, fields_of, loads_of
@@ -19,13 +18,13 @@ from uel.elements.finite_values import Watch
 from uel.elements.initial_state import InitialState
 from uel.elements.lflags import Flags, Request
 from uel.elements.mistakes import Mistakes
-from uel.elements.routine import Linearity, PointAxes, Routine
-from uel.errors import KernelError
+from uel.elements.routine import Linearity, Routine
+from uel.elements.user_variables import UserVariables
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.mesh import ElementGroup, full_name
 from uel.model.records import PLASTIC, ElementState, PointVariables
 from uel.model.restart import Saved
-from uel.usersub import Library, _binding, _points
+from uel.usersub import Library, _binding
 from uel.usersub.exchange import BlockArrays, LoadArrays, Outcome, UnknownFields
 from uel.usersub.faults import Entries, Guards
 
@@ -94,9 +93,8 @@ class ElementBlock(Contributor):
             history=history,
             history_trial=history.copy(),
         )
-        self._uvar = np.zeros((m, routine.uvarm.points, routine.uvarm.count)) if routine.uvarm else None
+        self._uvar = UserVariables(routine.uvarm, routine, library, m) if routine.uvarm else None
         self._last: Call | None = None
-        self._places = self._arrays.coords
         self._end = np.zeros(0)
         self._watch = Watch(group, library)
         of = np.array([0 if routine.forceless else field_of(dof) + 1 for _, dof in unknowns], dtype=np.int32)
@@ -195,7 +193,7 @@ class ElementBlock(Contributor):
         self.rows, self._arrays = rows, self._arrays.of(rows)
         self._watch, self._mistakes.group = Watch(self.group, self._library), self.group
         if self._uvar is not None:
-            self._uvar = self._uvar[rows]
+            self._uvar.keep(rows)
 
     def number(self, find: Find, equations: NDArray[np.int32]) -> None:
         """Set the numbers of the unknowns; arguments as in `Contributor.number`."""
@@ -339,7 +337,7 @@ class ElementBlock(Contributor):
             # that may be of half the increment, or a trial
             self._last = call
             if self._uvar is not None:
-                self._places = self._coordinates_at(call, u)
+                self._uvar.move(call, u, self._arrays, self.unknowns)
             if self._routine.outputs:
                 self._end = u.copy()
         self._count_interrupted(outcome)
@@ -521,7 +519,7 @@ class ElementBlock(Contributor):
         arrays = self._arrays
         self._watch.state(self._last, arrays.svars, arrays.energy)
         if self._uvar is not None and self._last is not None:
-            self._call_uvarm(self._last, self._uvar)
+            self._uvar.call(self._last, self.group, arrays)
         elif self._routine.outputs and self._last is not None:
             still = np.zeros_like(self._end)
             self.evaluate(self._last.asking(Request.OUTPUT_VARIABLES), self._end, still, still, None)
@@ -537,7 +535,7 @@ class ElementBlock(Contributor):
     def kept(self) -> Saved:
         """Return the whole committed state, not copied, in the order of the elements in this block."""
         arrays = self._arrays
-        uvar = {} if self._uvar is None else {"uvar": self._uvar}
+        uvar = {} if self._uvar is None else {"uvar": self._uvar.values}
         return {"svars": arrays.svars, "energy": arrays.energy, "history": arrays.history, **uvar}
 
     def resume(self, saved: Saved) -> None:
@@ -589,46 +587,9 @@ class ElementBlock(Contributor):
         kept, points = self._routine.outputs + self._routine.statev, self._routine.history[1]
         parts = [history[:, :, history.shape[2] - kept :]] if kept else []
         if self._uvar is not None:
-            parts.append(self._uvar)
-            points = self._uvar.shape[1]
+            parts.append(self._uvar.values)
+            points = self._uvar.values.shape[1]
         if not parts:
             return svars.copy()
         of_points = np.concatenate([svars.reshape(len(svars), points, svars.shape[1] // points), *parts], axis=2)
         return of_points.reshape(len(svars), points * of_points.shape[2])
-
-    def _call_uvarm(self, call: Call, uvar: FloatArray) -> None:
-        given = self._routine.uvarm
-        assert given is not None
-        start = call.step_time - call.time_increment, call.total_time - call.time_increment, call.time_increment
-        place = call.step, call.increment
-        element, point = _points.uvarm(
-            given.address,
-            given.names,
-            given.axes[None, None] if self._routine.axes is None else self._axes_now(self._routine.axes),
-            (self._routine.tensor, self._routine.statev, self._routine.family, int(given.plastic)),
-            place,
-            start,
-            replace(self._arrays, coords=self._places),
-            self._routine.hidden,
-            uvar,
-            local=self._routine.axes is not None,
-        )
-        if element:
-            why = f"{at_point('UVARM', point)}{self._library.stop_reason()}"
-            raise KernelError(element, self.group.type, f"{why} (step {call.step}, increment {call.increment})")
-
-    def _coordinates_at(self, call: Call, u: FloatArray) -> FloatArray:
-        """Return (m, nodes, MCRD) coordinates of the nodes, displaced by u (n,) with NLGEOM."""
-        original = self._arrays.coords
-        if not call.flags.nlgeom:
-            return original
-        # the driver counts from 1
-        now, moved = original.copy(), u[self._arrays.equations - 1]
-        for k, (local, dof) in enumerate(self.unknowns):
-            if local < original.shape[1] and dof <= original.shape[2]:
-                now[:, local, dof - 1] += moved[:, k]
-        return now
-
-    def _axes_now(self, given: PointAxes) -> FloatArray:
-        """Return the current directions (m, points, 3, 3) of the points, in rows."""
-        return given.view(self._arrays.svars)[:, :, 1].swapaxes(-1, -2)
