@@ -112,7 +112,7 @@ def test_a_row_replaces_that_of_its_command() -> None:
 
 
 def test_the_page_takes_rows() -> None:
-    page = (HERE.parent / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    page = (HERE.parent / "docs/testing.md").read_text(encoding="utf-8")
     columns = next(line for line in page.split(matrix.BEGIN)[0].splitlines() if line.startswith("| Python"))
     assert columns.count("|") == 9
     assert "| 1 | `make a` |" in matrix.written(page, "| 1 | `make a` |")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run the tests on clean clones as on several machines, and write the table of CONTRIBUTING.md.
+"""Run the tests on clean clones as on several machines, and write the table of docs/testing.md.
 
     PYTHONS="python3.11 python3.12 python3.13" make test-matrix
 
@@ -127,11 +127,11 @@ def main() -> int:
             f"--{name}", default=given, help=f"also by the environment variable {name.upper()} ({given})"
         )
     parser.add_argument("--list", action="store_true", help="print the commands and run nothing")
-    parser.add_argument("--page", type=Path, help="the file that gets the rows (CONTRIBUTING.md; none with -k)")
+    parser.add_argument("--page", type=Path, help="the file that gets the rows (docs/testing.md; none with -k)")
     parser.add_argument("-k", dest="select", default="", metavar="EXPRESSION", help="only tests that pytest -k selects")
     options = parser.parse_args()
     lists = [getattr(options, name).split() for name in ("targets", "pythons", "processors", "cores", "seeds")]
-    page: Path | None = options.page or (None if options.select else ROOT / "CONTRIBUTING.md")
+    page: Path | None = options.page or (None if options.select else ROOT / "docs/testing.md")
     LOGS.mkdir(parents=True, exist_ok=True)
     failed = 0
     for number, configuration in enumerate(configurations(*lists)):
