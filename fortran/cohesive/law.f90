@@ -44,7 +44,7 @@ contains
   !>
   !> Along a fixed direction tau + b lambda grows with lambda if b exceeds the steepest slope k. Where b = beta/ratio differs
   !> between the two components, the direction changes with the damage; for the bilinear law the root stays the only one
-  !> if b exceeds k (2 - b_min/b_max): fortran/README.md.
+  !> if b exceeds k (2 - b_min/b_max): fortran/laws.md.
   pure subroutine check_beta(law, beta, status)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: beta(2)            !< stress/length

@@ -3,7 +3,7 @@
 """The paper's equations as they are printed, one point at a time, to compare the kernels with.
 
 Ghosh, Duddu, Annavarapu, "A stabilized finite element method for delamination analysis of composites using cohesive
-elements". Signs as in fortran/README.md; vectors are (tau, n).
+elements". Signs as in fortran/laws.md; vectors are (tau, n).
 """
 
 from itertools import combinations, product

@@ -96,7 +96,7 @@ def test_an_estimate_beside_a_beta_of_the_deck(
 ):
     """Raised to the b = beta/ratio of the deck where that exceeds the slope, at most to twice the slope.
 
-    With one b for both components b > k is the condition (fortran/README.md); a larger b beside it would demand more.
+    With one b for both components b > k is the condition (fortran/laws.md); a larger b beside it would demand more.
     """
     stiffness = {"ALPHAN": 1e8, "ALPHAT": ratio * 1e8, "CLOSURE": 1}
     ratios = {"N": 1.0, "T": ratio}

@@ -13,7 +13,7 @@ from scipy.linalg import eigh
 
 from uel.errors import KernelError
 
-README = Path(__file__).parents[2] / "fortran/README.md"
+PAGE = Path(__file__).parents[2] / "fortran/laws.md"
 PLY_90 = {"E1": 1.05e4, "E2": 1.05e4, "E3": 1.2e5, "NU12": 0.51, "NU13": 0.02625, "NU23": 0.02625, "G12": 3.48e3}
 
 
@@ -266,8 +266,8 @@ def test_quad_inside_out_at_a_gauss_point(element):
 
 
 def test_table_of_the_documentation_is_current(element, ply):
-    """The rows that README.md prints, worked out by the element."""
-    text = README.read_text()
+    """The rows that laws.md prints, worked out by the element."""
+    text = PAGE.read_text()
     quadratic = {f"{shape}, eight nodes": eight_nodes(xy) for shape, xy in list(SHAPES.items())[:3]}
     for shape, coordinates in (SHAPES | quadratic).items():
         cells = [shape]

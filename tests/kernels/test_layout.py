@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The tables that the harness and the documentation read from the Fortran layout."""
 
+import re
 from pathlib import Path
 
 import pytest
 
+import uel
 from uel import usersub
 from uel.delamination.kernels import state_labels
 from uel.usersub import layout
@@ -29,6 +31,14 @@ def test_user_element_lines_of_the_documentation_are_current():
         ):
             assert option in line
         assert ("UNSYMM" in line) == item.unsymmetric
+
+
+def test_the_deck_of_the_documentation_dissipates_its_fracture_energy(tmp_path):
+    """G_Ic of 0.26 N/mm times the area of 0.125 mm x 1 mm: both points fail in mode I."""
+    deck = re.search(r"^```abaqus pulled.inp\n(.*?)^```$", (ROOT / "fortran/README.md").read_text(), re.M | re.S)
+    (tmp_path / "pulled.inp").write_text(deck[1])
+    result = uel.run(tmp_path / "pulled.inp", output_dir=tmp_path)
+    assert result.history["ALLPD"][-1] == pytest.approx(0.0325, rel=1e-9)
 
 
 def test_names_of_svars():

@@ -177,7 +177,7 @@ def smallest_eigenvalue(element, height, points, share=1.0, **values):
 
 @pytest.mark.parametrize("height", [0.25, 1.0, 2.0, 3.0])
 def test_coercivity_beside_reduced_integration(element, height):
-    """BETAN = -1 beside C3D20, and beside C3D20R, which has six modes without energy: the statements of README.md."""
+    """BETAN = -1 beside C3D20, and beside C3D20R, which has six modes without energy: the statements of laws.md."""
     assert min(smallest_eigenvalue(element, height, 3, SAMPLING=sampling) for sampling in (0, 1)) > -1e-12
     assert (smallest_eigenvalue(element, height, 2) > -1e-12) == (height < 3.0)
     assert smallest_eigenvalue(element, height, 2, 2.0) > -1e-12
