@@ -19,7 +19,7 @@ from uel.procedures.general.convergence_checks import Checker, length_of_moments
 from uel.procedures.general.unconstrained import UnconstrainedSolver, tolerate
 from uel.procedures.step_setting import Setting, SolverTimes, choose_rank_solver, choose_solver, places
 from uel.solver.linear import LinearSolver, RankSolver
-from uel.solver.newton import Acting, Factoriser
+from uel.solver.newton import DependentLoads, Factoriser
 
 
 class StepContext:
@@ -73,10 +73,10 @@ class StepContext:
         arms = setting.model.arms if self.step.nlgeom else ()
         constraints, solver, start = state.constraints, state.solver, self.beginning["displacement"]
         if constraints is None or solver is None or not constraints.matches(self.unknowns, equations, arms, start):
-            given = self.system, self.unknowns, equations, state.boundaries.sources
-            constraints = TurningConstraints(*given, arms, start) if arms else Constraints(*given)
-            find = choose_solver if self.system.ranks.size == 1 else choose_rank_solver
-            choose = partial(find, setting.solver.linear_solver, constraints, state.effort)
+            arguments = self.system, self.unknowns, equations, state.boundaries.sources
+            constraints = TurningConstraints(*arguments, arms, start) if arms else Constraints(*arguments)
+            chooser = choose_solver if self.system.ranks.size == 1 else choose_rank_solver
+            choose = partial(chooser, setting.solver.linear_solver, constraints, state.effort)
             if isinstance(solver, RankSolver):
                 solver.release()
             chosen = choose()
@@ -105,8 +105,8 @@ class StepContext:
     def loads_at(self, step_time: float, u: FloatArray | None = None) -> FloatArray:
         """Return the loads (n,) without fading forces, as in `load_at`."""
         time = step_time, self.start + step_time
-        found = self.load.at(*time)
-        return found + self.load.of_user(time, self._at(u)) if self.load.by_user else found
+        steady = self.load.at(*time)
+        return steady + self.load.of_user(time, self._at(u)) if self.load.by_user else steady
 
     def steady_at(self, step_time: float) -> FloatArray:
         """Return loads and fading forces (n,) without those of DLOAD."""
@@ -116,11 +116,11 @@ class StepContext:
     def _at(self, u: FloatArray | None) -> FloatArray:
         return self.state.displacement if u is None else u
 
-    def acting(self, end: float, u: FloatArray) -> Acting:
-        """Return the forces at a step time and displacements (n,) beside the steady loads, where DLOAD gives any."""
+    def dependent_loads(self, end: float, u: FloatArray) -> DependentLoads:
+        """Return the loads beside the steady ones, at a step time and at displacements (n,): those of DLOAD."""
         time, start = (end, self.start + end), self.times
         on_elements = self.conditions.distributed(start, time)
-        return Acting(self.load.of_user(time, u), self.load.with_faces(on_elements, start, time, u))
+        return DependentLoads(self.load.of_user(time, u), self.load.with_faces(on_elements, start, time, u))
 
     def prescribed_at(self, step_time: float) -> FloatArray:
         """Return the prescribed values (n,), those of DISP among them."""

@@ -196,21 +196,31 @@ class ConvergedState:
 
     def _conclude(self, step_time: float) -> None:
         """End the step before its period."""
-        for given in (self.boundaries, self.loads, self.conditions):
-            given.conclude(step_time)
+        for actions in (self.boundaries, self.loads, self.conditions):
+            actions.conclude(step_time)
         if self.begun:
             self.begun[-1].concluded = step_time
 
     def accept(self, converged: Iterate, load: FloatArray, released: FloatArray, ends: Iterable[PartEnd]) -> None:
-        """Take over a converged increment; load and released (fading forces) are those of its end, ends its parts'."""
+        """Take over a converged increment.
+
+        Parameters
+        ----------
+        converged
+            State after the last iteration.
+        load, released
+            (n,) loads and fading forces at its end.
+        ends
+            What the parts of the step return for it.
+        """
         assert self.constraints is not None
-        reaction = self.constraints.reactions(converged.residual)
+        reaction = self.constraints.reactions(converged.r)
         external = load + released + reaction
         energy = converged.evaluation.energy
         # ENERGY(8) is the work of loads that user elements apply themselves, in this increment only
-        moved = self.signs * converged.increment
+        moved = self.signs * converged.du
         self.work += 0.5 * float((self.external + external) @ moved) + float(energy[7])
-        self.displacement = self.displacement + converged.increment
+        self.displacement = self.displacement + converged.du
         self.reaction, self.load, self.external, self.energy = reaction, load, external, energy
         self.damage = converged.evaluation.damage
         for end in ends:

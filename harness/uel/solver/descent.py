@@ -72,7 +72,7 @@ SINGULAR = "THE MATRIX WAS SINGULAR"
 
 
 class Majoriser:
-    """K_0, the matrix of the first pass of the analysis; factorised when it is first needed."""
+    """K_0, the matrix of the first pass of the analysis; it is factorised when it is first used."""
 
     def __init__(self) -> None:
         self._data: FloatArray | None = None
@@ -137,53 +137,53 @@ class Descent(Newton):
         if not self.reason:
             self.since, self.reason = iteration, reason
 
-    def _advance(self, given: Increment, state: Iterate, missing: FloatArray) -> Iterate:
+    def _advance(self, increment: Increment, state: Iterate, ddu_p: FloatArray) -> Iterate:
         assert state.evaluation.data is not None
         if state.iteration == 0:
             self.reason, self._share = "", 0.0
             self._majoriser.keep(state.evaluation.data)
-        if np.abs(missing).max(initial=0.0) > NEGLIGIBLE * np.abs(given.prescribed).max(initial=0.0):
-            # the correction introduces the prescribed values: it has to be taken in full
-            return super()._advance(given, state, missing)
+        if np.abs(ddu_p).max(initial=0.0) > NEGLIGIBLE * np.abs(increment.du_p).max(initial=0.0):
+            # the correction introduces the prescribed values: it is applied in full
+            return super()._advance(increment, state, ddu_p)
         iteration = state.iteration + 1
         try:
             data = self._majoriser.blend(state.evaluation.data, self._share)
             blended = replace(state, evaluation=replace(state.evaluation, data=data))
-            correction = self._correction(blended, np.zeros_like(missing))
+            ddu = self._correction(blended, np.zeros_like(ddu_p))
         except SingularMatrixError:
             self.take_over(iteration, SINGULAR)
-            return self._descend(given, state, missing, self._majoriser.direction(state.reduced))
-        slope, noise = float(correction @ state.residual), _noise(state, correction)
+            return self._descend(increment, state, ddu_p, self._majoriser.direction(state.r_q))
+        slope, noise = float(ddu @ state.r), _noise(state, ddu)
         if slope < -noise:
             self.take_over(iteration, UPHILL)
         if self.reason:
-            return self._descend(given, state, missing, self._downhill(state, correction))
-        new = self._taken(given, state, correction + self._lift(missing), searchable=True)
+            return self._descend(increment, state, ddu_p, self._downhill(state, ddu))
+        new = self._apply(increment, state, ddu + self._lift(ddu_p), searchable=True)
         if new.evaluation.pnewdt < 1.0:
             return new
-        if abs(float(self._constraints.along(correction) @ new.residual)) <= slope + noise:
+        if abs(float(self._constraints.along(ddu) @ new.r)) <= slope + noise:
             return new
         self.take_over(iteration, GROWING)
-        self._restore(given, state)
-        return self._descend(given, state, missing, self._downhill(state, correction))
+        self._restore(increment, state)
+        return self._descend(increment, state, ddu_p, self._downhill(state, ddu))
 
-    def _restore(self, given: Increment, state: Iterate) -> None:
+    def _restore(self, increment: Increment, state: Iterate) -> None:
         """Set the constraints to a state, after trials."""
-        at = given.displacement + state.increment
-        self._constraints.follow(at, state.residual, state.increment, given.weight)
+        at = increment.u + state.du
+        self._constraints.follow(at, state.r, state.du, increment.weight)
 
-    def _lift(self, missing: FloatArray) -> FloatArray:
-        """Return the missing part of the prescribed values, (n,)."""
-        return self._constraints.expand(np.zeros(len(self._constraints.free)), missing)
+    def _lift(self, ddu_p: FloatArray) -> FloatArray:
+        """Return the correction (n,) of all unknowns that ddu_p (n_p,) stands for: zero at the free ones."""
+        return self._constraints.expand(np.zeros(len(self._constraints.free)), ddu_p)
 
-    def _downhill(self, state: Iterate, correction: FloatArray) -> FloatArray:
-        """Return the correction, or its negative, or K_0^-1 r where it is almost orthogonal to that."""
-        slope = float(correction @ state.residual)
-        steepest = self._majoriser.direction(state.reduced)
-        length = self._majoriser.norm(correction) * self._majoriser.norm(steepest)
+    def _downhill(self, state: Iterate, ddu: FloatArray) -> FloatArray:
+        """Return the correction ddu, -ddu, or K_0^-1 r where ddu is almost orthogonal to that."""
+        slope = float(ddu @ state.r)
+        steepest = self._majoriser.direction(state.r_q)
+        length = self._majoriser.norm(ddu) * self._majoriser.norm(steepest)
         if abs(slope) <= SMALLEST_COSINE * length:
             return steepest
-        return correction if slope > 0.0 else -correction
+        return ddu if slope > 0.0 else -ddu
 
     def _adapt(self, scale: float) -> None:
         """Mix more of K_0 into the matrix after a short step, less after a good one."""
@@ -192,27 +192,27 @@ class Descent(Newton):
         elif scale >= GOOD:
             self._share = self._share / CHANGE if self._share > FIRST_SHARE else 0.0
 
-    def _descend(self, given: Increment, state: Iterate, missing: FloatArray, direction: FloatArray) -> Iterate:
-        """Return the state at the scale found along a direction, or along K_0^-1 r if none is found there."""
-        start = state.increment + self._lift(missing)
+    def _descend(self, increment: Increment, state: Iterate, ddu_p: FloatArray, direction: FloatArray) -> Iterate:
+        """Return the state at the scale of `descend` along a direction, or along K_0^-1 r if that scale is 0."""
+        start = state.du + self._lift(ddu_p)
 
         def component(scale: float) -> float | None:
-            evaluation, residual = self._trial(given, start + scale * direction)
-            work = float(self._constraints.along(direction) @ residual)
+            evaluation, r = self._trial(increment, start + scale * direction)
+            work = float(self._constraints.along(direction) @ r)
             return work if evaluation.pnewdt >= 1.0 else None
 
-        scale, tried = descend(component, float(direction @ state.residual))
+        scale, tried = descend(component, float(direction @ state.r))
         if scale == 0.0:
-            self._restore(given, state)
-            direction = self._majoriser.direction(state.reduced)
-            scale, more = descend(component, float(direction @ state.residual))
+            self._restore(increment, state)
+            direction = self._majoriser.direction(state.r_q)
+            scale, more = descend(component, float(direction @ state.r))
             tried += more
         self._adapt(scale)
         end = start + (scale or tried[-1]) * direction
-        new = self._evaluate(given.call, given, state.iteration + 1, end, end - state.increment)
+        new = self._evaluate(increment.call, increment, state.iteration + 1, end, end - state.du)
         return replace(new, line_search=tried)
 
 
-def _noise(state: Iterate, correction: FloatArray) -> float:
-    """Return the work on a correction of the rounding errors of the residual."""
-    return ROUNDING * float(state.evaluation.flux.sum()) * float(np.abs(correction).max(initial=0.0))
+def _noise(state: Iterate, ddu: FloatArray) -> float:
+    """Return the work of the rounding errors of the residual on a correction ddu."""
+    return ROUNDING * float(state.evaluation.flux.sum()) * float(np.abs(ddu).max(initial=0.0))

@@ -9,10 +9,10 @@ the work of the external forces F (reactions included) on its displacements u, a
     tau = 1/2 (F_0 . du - dF . u_0),
 
 exactly, if F and u vary linearly in it. (An elastic structure that stiffens would seem to dissipate negative energy:
-this is for damage at small displacements.) An increment ends when a given tau is reached or when the load factor has
-grown by a given amount, whichever comes first: without dissipation it is an increment of load, in a snap-back the
-factor falls. Nobody has to guess the energy: tau is half the work that the largest forces so far do on that growth of
-the factor.
+this is for damage at small displacements.) An increment ends when it has dissipated tau or when the load factor lam has
+grown by its size, whichever comes first: without dissipation it is an increment of load, in a snap-back lam falls.
+Nobody has to guess tau: it is half the work that the largest forces so far do on that growth of lam. Symbols are those
+of `newton` and `path`.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class Dissipation:
     Parameters
     ----------
     constraints
-        Of the step.
+        Those of the step.
     """
 
     def __init__(self, constraints: Constraints) -> None:
@@ -40,8 +40,8 @@ class Dissipation:
 
     def start(
         self,
-        given: PathIncrement,
-        external: FloatArray,
+        increment: PathIncrement,
+        f_ext: FloatArray,
         reaction: FloatArray,
         *,
         size: float,
@@ -51,34 +51,33 @@ class Dissipation:
 
         Parameters
         ----------
-        given
-            The increment.
-        external, reaction
+        increment
+            Its definition.
+        f_ext, reaction
             (n,) external forces at its start, reactions included, and reactions.
         size
-            Growth of the load factor at which it ends if nothing is dissipated; also the largest fall.
+            Growth of lam at which it ends if nothing is dissipated; also the largest fall.
         left
-            Remaining growth of the load factor.
+            Growth of lam up to the end of the step.
         """
-        self._given, self._external, self._reaction = given, external, reaction
+        self._increment, self._f_ext, self._reaction = increment, f_ext, reaction
         self._size, self._rise = size, min(size, left)
 
     def change(self, state: PathIterate, directions: Directions, reaction: Reaction) -> float:
-        """Return the change of the load factor towards the target, linearised, within the limits of the increment."""
-        v, u = directions.tangent, self._given.displacement
-        work = float(self._external @ v)
-        released = float((self._given.load_rate + reaction(v, 1.0)) @ u)
+        """Return dlam towards the target, linearised, within the limits of the increment."""
+        du_lam, du_r, u = directions.du_lam, directions.du_r, self._increment.u
+        work = float(self._f_ext @ du_lam)
+        released = float((self._increment.f_ref + reaction(du_lam, 1.0)) @ u)
         if state.iteration == 0:
             self._work = max(self._work, abs(work))
-        largest = self._rise - state.factor
+        largest = self._rise - state.lam
         if abs(work - released) <= ELASTIC * (abs(work) + abs(released)):
             return largest
-        c = directions.particular
-        expected = self.dissipated(state) + 0.5 * float(self._external @ c - reaction(c, 0.0) @ u)
-        change = (0.5 * self._work * self._size - expected) / (0.5 * (work - released))
-        return min(max(change, -self._size - state.factor), largest)
+        expected = self.dissipated(state) + 0.5 * float(self._f_ext @ du_r - reaction(du_r, 0.0) @ u)
+        dlam = (0.5 * self._work * self._size - expected) / (0.5 * (work - released))
+        return min(max(dlam, -self._size - state.lam), largest)
 
     def dissipated(self, state: PathIterate) -> float:
         """Return the energy tau dissipated so far in the increment."""
-        change = state.factor * self._given.load_rate + self._constraints.reactions(state.residual) - self._reaction
-        return 0.5 * float(self._external @ state.increment - change @ self._given.displacement)
+        df_ext = state.lam * self._increment.f_ref + self._constraints.reactions(state.r) - self._reaction
+        return 0.5 * float(self._f_ext @ state.du - df_ext @ self._increment.u)

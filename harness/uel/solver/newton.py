@@ -1,6 +1,17 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Newton's method for one attempt at an increment, with the passes over the elements that Abaqus makes."""
+"""Newton's method for one attempt at an increment, with the passes over the elements that Abaqus makes.
+
+Symbols here and in the other files of this folder:
+
+u          (n,) displacements, and all other unknowns, at the start of the increment
+du, ddu    (n,) their increment so far, and its correction by an iteration
+du_p       (n_p,) increments of the prescribed unknowns
+f_ext      (n,) external load
+r, r_q     (n,) residual f_ext + RHS, and (n_q,) its reduction T^T r to the free unknowns
+k          (nnz,) CSR values of the tangent, -dRHS/du: `Evaluation.data`
+lam        load factor
+"""
 
 from __future__ import annotations
 
@@ -34,43 +45,43 @@ class Factoriser(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Acting:
-    """Forces from outside at certain displacements, where they depend on these or on a load factor.
+class DependentLoads:
+    """Loads that depend on displacements or on the load factor, at one value of these.
 
-    forces       (n,) on the nodes
+    f_ext        (n,) on the nodes
     distributed  on elements and faces
-    change       (n,) of the forces in the increment
+    df_ext       (n,) change of f_ext with the load factor in the increment
     """
 
-    forces: FloatArray
+    f_ext: FloatArray
     distributed: Distributed | None
-    change: FloatArray | None = None
+    df_ext: FloatArray | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Increment:
     """Definition of an increment.
 
-    call          of the passes after a solve; the first pass carries LFLAGS(5) = 1 if it starts from an extrapolation
-    displacement  (n,) at the start
-    guess         (n,) extrapolated increment; None: from the start state
-    prescribed    (n_p,) increment of each prescribed unknown
-    load          (n,) external load at the end
-    acting        what acts besides, at displacements (n,), in place of the loads of the call; None: nothing does
-    weight        of the forces at the end in their mean with those at the start, which is in equilibrium: by it count
-                  the forces that act besides, and constraints act in the directions of its time
-    damping       (nnz,) CSR values of a matrix whose product with the increment is also a force; None: no such force
-    motion        velocities and accelerations at the end that go with an increment (n,); None: at rest
+    call       arguments of the passes after a solve; the first pass carries LFLAGS(5) = 1 if it starts from a guess
+    u          (n,) displacements at the start
+    guess      (n,) extrapolated increment; None: start from du = 0
+    du_p       (n_p,) increment of each prescribed unknown
+    f_ext      (n,) external load at the end
+    dependent  returns the loads that depend on displacements (n,), in place of those of the call; None: there are none
+    weight     weight of the end of the increment in the mean of end and start that is in equilibrium (1 + alpha in
+               *DYNAMIC); it scales the dependent loads, and constraints act in the directions at its time
+    damping    (nnz,) CSR values of a matrix whose product with du is another internal force; None: no such force
+    motion     returns velocities and accelerations at the end from du (n,); None: at rest
     """
 
     call: Call
-    displacement: FloatArray
+    u: FloatArray
     guess: FloatArray | None
-    prescribed: FloatArray
-    load: FloatArray
+    du_p: FloatArray
+    f_ext: FloatArray
     motion: Callable[[FloatArray], Motion] | None = None
     damping: FloatArray | None = None
-    acting: Callable[[FloatArray], Acting] | None = None
+    dependent: Callable[[FloatArray], DependentLoads] | None = None
     weight: float = 1.0
 
 
@@ -78,18 +89,17 @@ class Increment:
 class Iterate:
     """State after an iteration: one solve and one pass over the elements; iteration 0 is the pass before the first.
 
-    increment    (n,) increment so far
-    correction   (n,) its change by this iteration
-    residual     (n,) load + RHS; equilibrium is T^T residual = 0
-    reduced      (n_q,) T^T residual
-    line_search  scales tried, none if the full correction was taken without a search
+    du           (n,) increment so far
+    ddu          (n,) its correction by this iteration
+    r, r_q       (n,) residual, and (n_q,) T^T r, which is zero in equilibrium
+    line_search  scales that a line search tried; empty without a search
     """
 
     iteration: int
-    increment: FloatArray
-    correction: FloatArray
-    residual: FloatArray
-    reduced: FloatArray
+    du: FloatArray
+    ddu: FloatArray
+    r: FloatArray
+    r_q: FloatArray
     evaluation: Evaluation
     line_search: tuple[float, ...] = ()
 
@@ -104,9 +114,9 @@ class Newton:
         self._constraints = constraints
         self._solver = solver
         self._line_search = line_search
-        # values of the matrix that the solver has factorised, and whether the next solve reuses it
         self._factorised: FloatArray | None = None
-        self._again = self._anew = False
+        # the next solve reuses the values of the last matrix; it factorises them although the matrix is the same
+        self._reuse = self._refactorise = False
         self._pattern = system.indices
 
     def kept(self) -> FloatArray | None:
@@ -115,121 +125,119 @@ class Newton:
 
     def resume(self, factorised: FloatArray | None) -> None:
         """Go on like a new object that has solved with this matrix: so do a run that was kept and its restart."""
-        self._factorised, self._anew = factorised, True
+        self._factorised, self._refactorise = factorised, True
         self._pattern = self._system.indices
         self._solver.forget()
 
-    def iterates(self, given: Increment, *, same_matrix: bool = False) -> Iterator[Iterate]:
+    def iterates(self, increment: Increment, *, same_matrix: bool = False) -> Iterator[Iterate]:
         """Iterate without end; the caller stops when it accepts or abandons the attempt.
 
-        The first pass is at the start state, or at the extrapolated one. Prescribed values are not written into it:
-        their missing part enters the linear system of iteration 1, so that the correction of all unknowns includes it.
-        With `same_matrix` the first solve reuses the matrix of the last one. Raises KernelError and
+        The first pass is at the start state, or at the extrapolated one. Prescribed values are not written into it: the
+        part of du_p that it lacks enters the linear system of iteration 1, so that the correction of all unknowns
+        includes it. With `same_matrix` the first solve reuses the matrix of the last one. Raises KernelError and
         SingularMatrixError.
         """
-        call = given.call
-        self._again = same_matrix and self._factorised is not None
-        if given.guess is None:
-            increment, first = np.zeros_like(given.displacement), call
+        call = increment.call
+        self._reuse = same_matrix and self._factorised is not None
+        if increment.guess is None:
+            du, first = np.zeros_like(increment.u), call
         else:
-            increment, first = self._rounded(given, given.guess), call.extrapolated
-        state = self._evaluate(first, given, 0, increment, np.zeros_like(increment))
+            du, first = self._rounded(increment, increment.guess), call.extrapolated
+        state = self._evaluate(first, increment, 0, du, np.zeros_like(du))
         yield state
-        missing = given.prescribed - increment[self._constraints.prescribed]
+        ddu_p = increment.du_p - du[self._constraints.prescribed]
         while True:
-            state = self._advance(given, state, missing)
+            state = self._advance(increment, state, ddu_p)
             yield state
-            missing = np.zeros_like(missing)
+            ddu_p = np.zeros_like(ddu_p)
 
-    def _rounded(self, given: Increment, guess: FloatArray) -> FloatArray:
+    def _rounded(self, increment: Increment, guess: FloatArray) -> FloatArray:
         """Return the guess with the prescribed values where it differs from them only by rounding of the displacements.
 
-        Otherwise the last bits, and thus the units, would decide whether a part of them is missing.
+        Otherwise the last bits, and thus the units, would decide whether it lacks a part of them.
         """
         prescribed = self._constraints.prescribed
-        total = np.abs(given.displacement[prescribed]) + np.abs(given.prescribed)
-        close = np.abs(given.prescribed - guess[prescribed]) <= ROUNDING * total
+        total = np.abs(increment.u[prescribed]) + np.abs(increment.du_p)
+        close = np.abs(increment.du_p - guess[prescribed]) <= ROUNDING * total
         rounded = guess.copy()
-        rounded[prescribed[close]] = given.prescribed[close]
+        rounded[prescribed[close]] = increment.du_p[close]
         return rounded
 
-    def _advance(self, given: Increment, state: Iterate, missing: FloatArray) -> Iterate:
-        """Return the next iterate: a solve, a pass, and a line search if one is requested."""
-        correction = self._correction(state, missing)
-        return self._taken(given, state, correction, searchable=not missing.any())
+    def _advance(self, increment: Increment, state: Iterate, ddu_p: FloatArray) -> Iterate:
+        """Return the next iterate: a solve, a pass, and a line search if one is requested.
 
-    def _taken(self, given: Increment, state: Iterate, correction: FloatArray, *, searchable: bool) -> Iterate:
-        """Apply a correction and return the state; scaling one that introduces prescribed values would miss them."""
-        new = self._evaluate(given.call, given, state.iteration + 1, state.increment + correction, correction)
+        ddu_p  (n_p,) correction of the prescribed unknowns
+        """
+        ddu = self._correction(state, ddu_p)
+        return self._apply(increment, state, ddu, searchable=not ddu_p.any())
+
+    def _apply(self, increment: Increment, state: Iterate, ddu: FloatArray, *, searchable: bool) -> Iterate:
+        """Apply a correction and return the state; to scale one that introduces prescribed values would lose them."""
+        new = self._evaluate(increment.call, increment, state.iteration + 1, state.du + ddu, ddu)
         if self._line_search.n_ls > 0 and searchable and new.evaluation.pnewdt >= 1.0:
-            return self._searched(given, state, new)
+            return self._searched(increment, state, new)
         return new
 
-    def _evaluate(
-        self, call: Call, given: Increment, iteration: int, increment: FloatArray, correction: FloatArray
-    ) -> Iterate:
-        increment = self._constraints.place(given.displacement, increment)
-        evaluation, load = self._pass(replace(call, iteration=iteration), given, increment)
-        residual = evaluation.residual + load
-        self._constraints.follow(given.displacement + increment, residual, increment, given.weight)
-        reduced = self._constraints.reduce_vector(residual)
-        return Iterate(iteration, increment, correction, residual, reduced, evaluation)
+    def _evaluate(self, call: Call, increment: Increment, iteration: int, du: FloatArray, ddu: FloatArray) -> Iterate:
+        du = self._constraints.place(increment.u, du)
+        evaluation, f_ext = self._pass(replace(call, iteration=iteration), increment, du)
+        r = evaluation.residual + f_ext
+        self._constraints.follow(increment.u + du, r, du, increment.weight)
+        return Iterate(iteration, du, ddu, r, self._constraints.reduce_vector(r), evaluation)
 
-    def _correction(self, state: Iterate, missing: FloatArray) -> FloatArray:
-        again = self._again and self._pattern is self._system.indices
-        if not again:
+    def _correction(self, state: Iterate, ddu_p: FloatArray) -> FloatArray:
+        """Solve k ddu = r with the prescribed part ddu_p (n_p,); return ddu (n,)."""
+        reuse = self._reuse and self._pattern is self._system.indices
+        if not reuse:
             assert state.evaluation.data is not None
             # the memory of the last matrix first; a copy, as a pass overwrites the values of the one before
             self._factorised = None
             self._factorised, self._pattern = state.evaluation.data.copy(), self._system.indices
         assert self._factorised is not None
-        if self._anew or not again:
+        if self._refactorise or not reuse:
             self._solver.factorise(self._constraints.reduce_tangent(self._factorised))
-        self._again = self._anew = False
-        rhs = state.reduced
-        if missing.any():
-            rhs = rhs - self._constraints.reduce_vector(
-                self._constraints.prescribed_residual(self._factorised, missing)
-            )
-        return self._constraints.expand(self._solver.solve(rhs), missing)
+        self._reuse = self._refactorise = False
+        rhs = state.r_q
+        if ddu_p.any():
+            rhs = rhs - self._constraints.reduce_vector(self._constraints.prescribed_residual(self._factorised, ddu_p))
+        return self._constraints.expand(self._solver.solve(rhs), ddu_p)
 
-    def _trial(self, given: Increment, increment: FloatArray) -> tuple[Evaluation, FloatArray]:
-        """Make a pass for the residual alone, to which the constraints are set; return it with that residual."""
-        increment = self._constraints.place(given.displacement, increment)
-        evaluation, load = self._pass(given.call.asking(Request.RESIDUAL), given, increment, matrix=False)
-        residual = evaluation.residual + load
-        self._constraints.follow(given.displacement + increment, residual, increment, given.weight)
-        return evaluation, residual
+    def _trial(self, increment: Increment, du: FloatArray) -> tuple[Evaluation, FloatArray]:
+        """Make a pass for the residual alone, and set the constraints to it; return the evaluation and r (n,)."""
+        du = self._constraints.place(increment.u, du)
+        evaluation, f_ext = self._pass(increment.call.asking(Request.RESIDUAL), increment, du, matrix=False)
+        r = evaluation.residual + f_ext
+        self._constraints.follow(increment.u + du, r, du, increment.weight)
+        return evaluation, r
 
     def _pass(
-        self, call: Call, given: Increment, increment: FloatArray, *, matrix: bool = True
+        self, call: Call, increment: Increment, du: FloatArray, *, matrix: bool = True
     ) -> tuple[Evaluation, FloatArray]:
-        motion, load = given.motion and given.motion(increment), given.load
-        if given.acting is not None:
-            acting = given.acting(given.displacement + increment)
-            call, load = replace(call, distributed=acting.distributed), load + given.weight * acting.forces
-        evaluation = self._system.evaluate(
-            call, given.displacement + increment, increment, matrix=matrix, motion=motion
-        )
-        if given.damping is not None:
-            evaluation.residual[:] -= self._system.product(given.damping, increment)
+        """Make a pass over the elements; return the evaluation and f_ext (n,)."""
+        motion, f_ext = increment.motion and increment.motion(du), increment.f_ext
+        if increment.dependent is not None:
+            dependent = increment.dependent(increment.u + du)
+            call, f_ext = replace(call, distributed=dependent.distributed), f_ext + increment.weight * dependent.f_ext
+        evaluation = self._system.evaluate(call, increment.u + du, du, matrix=matrix, motion=motion)
+        if increment.damping is not None:
+            evaluation.residual[:] -= self._system.product(increment.damping, du)
             if evaluation.data is not None:
-                evaluation.data[:] += given.damping
-        return evaluation, load
+                evaluation.data[:] += increment.damping
+        return evaluation, f_ext
 
-    def _searched(self, given: Increment, before: Iterate, full: Iterate) -> Iterate:
-        """Return the state at the scale that line search finds; the last pass is a normal one at that scale."""
-        direction = full.correction
+    def _searched(self, increment: Increment, before: Iterate, full: Iterate) -> Iterate:
+        """Return the state at the scale that line search chooses; the last pass is a normal one at that scale."""
+        direction = full.ddu
 
         def component(scale: float) -> float:
-            _, residual = self._trial(given, before.increment + scale * direction)
-            return float(self._constraints.along(direction) @ residual)
+            _, r = self._trial(increment, before.du + scale * direction)
+            return float(self._constraints.along(direction) @ r)
 
-        at_zero = float(direction @ before.residual)
-        at_one = float(self._constraints.along(direction) @ full.residual)
+        at_zero = float(direction @ before.r)
+        at_one = float(self._constraints.along(direction) @ full.r)
         scale, tried = search(component, at_zero, at_one, self._line_search)
         if len(tried) == 1:
             return replace(full, line_search=tried)
-        correction = scale * direction
-        found = self._evaluate(given.call, given, full.iteration, before.increment + correction, correction)
-        return replace(found, line_search=tried)
+        ddu = scale * direction
+        scaled = self._evaluate(increment.call, increment, full.iteration, before.du + ddu, ddu)
+        return replace(scaled, line_search=tried)

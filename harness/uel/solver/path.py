@@ -1,10 +1,15 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Newton's method with the load factor as an unknown too: loads and prescribed values are proportional to it.
+"""Newton's method with the load factor lam as an unknown too: loads and prescribed values are proportional to it.
 
-Each iteration solves for two right-hand sides with one factorisation, K c_r = r and K v = q, where q is the load per
-unit of the factor (column 2 of RHS in it, and prescribed values through K). The correction is c_r + mu v, the factor
-grows by mu, and mu follows from one more equation, the `Control`.
+Each iteration solves for two right-hand sides with one factorisation, k du_r = r and k du_lam = f_ref. The correction
+is ddu = du_r + dlam du_lam, lam grows by dlam, and dlam follows from one more equation, the `Control`.
+
+Symbols beside those of `newton`:
+
+lam, dlam  change of the load factor in the increment so far, and its correction by an iteration
+f_ref      (n,) change of f_ext per unit of lam; column 2 of RHS and the prescribed values, through k, add to it
+u_ref      (n_p,) change of each prescribed unknown per unit of lam
 """
 
 from __future__ import annotations
@@ -18,69 +23,67 @@ import numpy as np
 from uel.assembly import Constraints, System
 from uel.elements import Call
 from uel.model.arrays import FloatArray
-from uel.solver.newton import Acting, Factoriser, Iterate
+from uel.solver.newton import DependentLoads, Factoriser, Iterate
 
 
 @dataclass(frozen=True, slots=True)
 class PathIncrement:
     """Definition of an increment along a path.
 
-    call             of the passes after a solve
-    displacement     (n,) at the start
-    guess            (n,) extrapolated increment and its part of the factor; None: from the start state
-    load             (n,) external load at the start
-    load_rate        (n,) its change per unit of the factor
-    prescribed_rate  (n_p,) change of each prescribed unknown per unit of the factor
-    acting           what acts besides at displacements (n,) and a change of the factor, in place of the loads of the
-                     call; None: nothing does
-    nrhs             NRHS of the passes
+    call       arguments of the passes after a solve
+    u          (n,) displacements at the start
+    guess      (n,) extrapolated increment, and its lam; None: start from du = 0
+    f_ext      (n,) external load at the start
+    dependent  returns the loads that depend on displacements (n,) and lam, in place of those of the call; None: there
+               are none
+    nrhs       NRHS of the passes
     """
 
     call: Call
-    displacement: FloatArray
+    u: FloatArray
     guess: tuple[FloatArray, float] | None
-    load: FloatArray
-    load_rate: FloatArray
-    prescribed_rate: FloatArray
-    acting: Callable[[FloatArray, float], Acting] | None = None
+    f_ext: FloatArray
+    f_ref: FloatArray
+    u_ref: FloatArray
+    dependent: Callable[[FloatArray, float], DependentLoads] | None = None
     nrhs: int = 1
 
 
 @dataclass(frozen=True, slots=True)
 class PathIterate(Iterate):
-    """An iterate with the change of the load factor so far.
+    """An iterate with lam.
 
-    added  (n,) by how much the loads that act besides, and those that elements apply, have changed with it; None: none
+    df_ext  (n,) change with lam of the dependent loads and of those that elements report; None: there are none
     """
 
-    factor: float = 0.0
-    added: FloatArray | None = None
+    lam: float = 0.0
+    df_ext: FloatArray | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Directions:
     """Solutions of one iteration, (n,) each.
 
-    particular  c_r, the correction at a fixed load factor
-    tangent     v, per unit of the factor
+    du_r    correction at a fixed load factor
+    du_lam  correction per unit of the load factor
     """
 
-    particular: FloatArray
-    tangent: FloatArray
+    du_r: FloatArray
+    du_lam: FloatArray
 
 
 class Control(Protocol):
     """The equation that fixes the load factor."""
 
     def change(self, state: PathIterate, directions: Directions, reaction: Reaction) -> float:
-        """Return the change mu of the load factor in the iteration that follows `state`."""
+        """Return dlam of the iteration that follows `state`."""
 
 
 class Reaction(Protocol):
     """Linearised reactions."""
 
-    def __call__(self, correction: FloatArray, factor: float) -> FloatArray:
-        """Return the change (n,) of the reactions by a correction and a change of the factor."""
+    def __call__(self, ddu: FloatArray, dlam: float) -> FloatArray:
+        """Return the change (n,) of the reactions by a correction of displacements and load factor."""
 
 
 class PathFollower:
@@ -91,78 +94,67 @@ class PathFollower:
         self._constraints = constraints
         self._solver = solver
 
-    def iterates(self, given: PathIncrement, control: Control) -> Iterator[PathIterate]:
-        """Iterate without end, as `Newton.iterates`; the factor of each iterate satisfies the control."""
-        first = given.call
-        increment, factor = np.zeros_like(given.displacement), 0.0
-        if given.guess is not None:
-            increment, factor = given.guess
+    def iterates(self, increment: PathIncrement, control: Control) -> Iterator[PathIterate]:
+        """Iterate without end, as `Newton.iterates`; lam of each iterate satisfies the control."""
+        first = increment.call
+        du, lam = np.zeros_like(increment.u), 0.0
+        if increment.guess is not None:
+            du, lam = increment.guess
             first = first.extrapolated
-        state = self._evaluate(first, given, 0, increment, np.zeros_like(increment), factor)
+        state = self._evaluate(first, increment, 0, du, np.zeros_like(du), lam)
         yield state
         while True:
-            directions = self._directions(given, state)
-            change = control.change(state, directions, self._reaction(given, state))
-            correction = directions.particular + change * directions.tangent
+            directions = self._directions(increment, state)
+            dlam = control.change(state, directions, self._reaction(increment, state))
+            ddu = directions.du_r + dlam * directions.du_lam
             state = self._evaluate(
-                given.call,
-                given,
-                state.iteration + 1,
-                state.increment + correction,
-                correction,
-                state.factor + change,
+                increment.call, increment, state.iteration + 1, state.du + ddu, ddu, state.lam + dlam
             )
             yield state
 
     def _evaluate(
-        self,
-        call: Call,
-        given: PathIncrement,
-        iteration: int,
-        increment: FloatArray,
-        correction: FloatArray,
-        factor: float,
+        self, call: Call, increment: PathIncrement, iteration: int, du: FloatArray, ddu: FloatArray, lam: float
     ) -> PathIterate:
         call = replace(call, iteration=iteration)
-        increment = self._constraints.place(given.displacement, increment)
-        at, load = given.displacement + increment, given.load + factor * given.load_rate
-        acting = given.acting(at, factor) if given.acting is not None else None
-        if acting is not None:
-            call, load = replace(call, distributed=acting.distributed), load + acting.forces
-        evaluation = self._system.evaluate(call, at, increment, nrhs=given.nrhs)
-        added = evaluation.load
-        if acting is not None and acting.change is not None:
-            added = acting.change if added is None else added + acting.change
-        residual = evaluation.residual + load
-        self._constraints.follow(at, residual)
-        reduced = self._constraints.reduce_vector(residual)
-        return PathIterate(iteration, increment, correction, residual, reduced, evaluation, factor=factor, added=added)
+        du = self._constraints.place(increment.u, du)
+        u, f_ext = increment.u + du, increment.f_ext + lam * increment.f_ref
+        dependent = increment.dependent(u, lam) if increment.dependent is not None else None
+        if dependent is not None:
+            call, f_ext = replace(call, distributed=dependent.distributed), f_ext + dependent.f_ext
+        evaluation = self._system.evaluate(call, u, du, nrhs=increment.nrhs)
+        df_ext = evaluation.load
+        if dependent is not None and dependent.df_ext is not None:
+            df_ext = dependent.df_ext if df_ext is None else df_ext + dependent.df_ext
+        r = evaluation.residual + f_ext
+        self._constraints.follow(u, r)
+        r_q = self._constraints.reduce_vector(r)
+        return PathIterate(iteration, du, ddu, r, r_q, evaluation, lam=lam, df_ext=df_ext)
 
-    def _directions(self, given: PathIncrement, state: PathIterate) -> Directions:
-        data, constraints = state.evaluation.data, self._constraints
-        assert data is not None
-        self._solver.factorise(constraints.reduce_tangent(data))
-        # prescribed values follow the factor, except for rounding
-        missing = state.factor * given.prescribed_rate - state.increment[constraints.prescribed]
-        held = state.residual - constraints.prescribed_residual(data, missing)
-        particular = constraints.expand(self._solver.solve(constraints.reduce_vector(held)), missing)
-        pattern = self._load_rate(given, state) - constraints.prescribed_residual(data, given.prescribed_rate)
-        tangent = constraints.expand(self._solver.solve(constraints.reduce_vector(pattern)), given.prescribed_rate)
-        return Directions(particular, tangent)
+    def _directions(self, increment: PathIncrement, state: PathIterate) -> Directions:
+        k, constraints = state.evaluation.data, self._constraints
+        assert k is not None
+        self._solver.factorise(constraints.reduce_tangent(k))
+        # prescribed values follow lam, except for rounding
+        ddu_p = state.lam * increment.u_ref - state.du[constraints.prescribed]
+        r = state.r - constraints.prescribed_residual(k, ddu_p)
+        du_r = constraints.expand(self._solver.solve(constraints.reduce_vector(r)), ddu_p)
+        f_ref = self._reference_load(increment, state) - constraints.prescribed_residual(k, increment.u_ref)
+        du_lam = constraints.expand(self._solver.solve(constraints.reduce_vector(f_ref)), increment.u_ref)
+        return Directions(du_r, du_lam)
 
     @staticmethod
-    def _load_rate(given: PathIncrement, state: PathIterate) -> FloatArray:
-        """Load per unit of the factor, including the loads that elements report."""
-        if state.added is None or state.factor == 0.0:
-            return given.load_rate
-        return given.load_rate + state.added / state.factor
+    def _reference_load(increment: PathIncrement, state: PathIterate) -> FloatArray:
+        """Return the load (n,) per unit of lam, including the loads that elements report."""
+        if state.df_ext is None or state.lam == 0.0:
+            return increment.f_ref
+        return increment.f_ref + state.df_ext / state.lam
 
-    def _reaction(self, given: PathIncrement, state: PathIterate) -> Reaction:
-        data = state.evaluation.data
-        assert data is not None
+    def _reaction(self, increment: PathIncrement, state: PathIterate) -> Reaction:
+        k = state.evaluation.data
+        assert k is not None
 
         # the next pass overwrites the values, but this is used only before it
-        def change(correction: FloatArray, factor: float) -> FloatArray:
-            return self._constraints.reactions(factor * given.load_rate - self._system.product(data, correction))
+        def change(ddu: FloatArray, dlam: float) -> FloatArray:
+            return self._constraints.reactions(dlam * increment.f_ref - self._system.product(k, ddu))
 
         return change

@@ -3,7 +3,7 @@
 """The modified Riks method: arc length along the path in the space of displacements and load factor.
 
 Abaqus Theory Guide, "Modified Riks algorithm": displacements are scaled by the largest entry of the first solution of
-the step; an increment goes a given length along the tangent at its start, then Newton's method searches the plane
+the step; an increment goes the arc length along the tangent at its start, then Newton's method searches the plane
 through that point normal to the tangent. The tangent continues in the direction of the previous increment.
 """
 
@@ -22,7 +22,8 @@ class ArcLength:
     Parameters
     ----------
     measured
-        (n,) the unknowns in which it is measured: those of nodes, and not the pressures of elements, in other units.
+        (n,) mask of the unknowns in which the length is measured: those of nodes, not the pressures of elements, which
+        have other units.
     """
 
     def __init__(self, measured: NDArray[np.bool_]) -> None:
@@ -34,32 +35,32 @@ class ArcLength:
         self._last: tuple[FloatArray, float] | None = None
 
     def change(self, state: PathIterate, directions: Directions, reaction: Reaction) -> float:
-        """Return the change along the tangent in iteration 1, in the plane normal to it afterwards.
+        """Return dlam along the tangent in iteration 1, in the plane normal to it afterwards.
 
         The first increment of a step changes the load factor by its length; the length of later ones is measured
         in the scaled space in that unit.
         """
         del reaction
-        v = np.where(self._measured, directions.tangent, 0.0)
+        v = np.where(self._measured, directions.du_lam, 0.0)
         if state.iteration == 0:
             if not self._scale:
                 self._scale = float(np.abs(v).max(initial=0.0)) or 1.0
                 self._unit = self._norm(v)
             self._tangent = v
-            return self._sign(v) * self.length * self._unit / self._norm(v) - state.factor
+            return self._sign(v) * self.length * self._unit / self._norm(v) - state.lam
         assert self._tangent is not None
         scale = self._scale**2
-        return -float(directions.particular @ self._tangent) / (float(v @ self._tangent) + scale)
+        return -float(directions.du_r @ self._tangent) / (float(v @ self._tangent) + scale)
 
-    def converged(self, increment: FloatArray, factor: float) -> None:
-        """Keep the direction of a converged increment."""
-        self._last = np.where(self._measured, increment, 0.0), factor
+    def converged(self, du: FloatArray, lam: float) -> None:
+        """Keep the direction of a converged increment: its displacements (n,) and its change of the load factor."""
+        self._last = np.where(self._measured, du, 0.0), lam
 
     def _sign(self, v: FloatArray) -> float:
         if self._last is None:
             return 1.0
-        increment, factor = self._last
-        return 1.0 if float(increment @ v) / self._scale**2 + factor >= 0.0 else -1.0
+        du, lam = self._last
+        return 1.0 if float(du @ v) / self._scale**2 + lam >= 0.0 else -1.0
 
     def _norm(self, v: FloatArray) -> float:
         return float(np.sqrt(v @ v / self._scale**2 + 1.0))

@@ -71,15 +71,15 @@ class Dashpots(Part):
     def __init__(self, context, procedure):
         self._context, self._slowest, self._rate = context, procedure.slowest, math.inf
 
-    def given(self, given, size):
+    def add_to(self, increment, size):
         system = self._context.system
         positions = system.matrix(np.arange(len(system.indices))).diagonal()
         damping = np.zeros(len(system.indices))
         damping[positions] = 10.0 / size
-        return replace(given, damping=damping)
+        return replace(increment, damping=damping)
 
     def converged(self, last, size):
-        self._rate = abs(last.increment).max() / size
+        self._rate = abs(last.du).max() / size
         return PartEnd([Noted(f"RATE {self._rate:.6f}")])
 
     @property

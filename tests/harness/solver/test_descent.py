@@ -80,7 +80,7 @@ def search(gradient, hessian, start, stiff, *, iterations=60, tolerance=1e-8):
     found = []
     for state in solver.iterates(Increment(CALL, start, None, np.zeros(0), zero)):
         found.append(state)
-        if np.abs(state.reduced).max() < tolerance or state.iteration == iterations:
+        if np.abs(state.r_q).max() < tolerance or state.iteration == iterations:
             return found, solver, land
     raise AssertionError
 
@@ -89,7 +89,7 @@ def search(gradient, hessian, start, stiff, *, iterations=60, tolerance=1e-8):
 def test_out_of_a_hollow_between_two_wells(start):
     """(x^2 - 1)^2/4: around 0 the tangent is negative and Newton's method climbs to the top."""
     states, solver, _ = search(lambda x: [x**3 - x], lambda x: [3 * x**2 - 1], [start], [[2.0]])
-    assert start + states[-1].increment[0] == pytest.approx(np.sign(start), abs=1e-6)
+    assert start + states[-1].du[0] == pytest.approx(np.sign(start), abs=1e-6)
     assert bool(solver.reason) == (start**2 < 1 / 3)
 
 
@@ -101,7 +101,7 @@ def test_banana_valley():
         [-1.2, 1.0],
         [[1330.0, 480.0], [480.0, 200.0]],
     )
-    assert states[-1].increment == pytest.approx([2.2, 0.0], abs=1e-6)
+    assert states[-1].du == pytest.approx([2.2, 0.0], abs=1e-6)
 
 
 @pytest.mark.parametrize("start", [(0.31, 0.02), (-0.1, 2.9), (7.0, 0.4)])
@@ -121,11 +121,11 @@ def test_energy_falls_in_every_iteration_of_the_search(start):
 
     states, solver, _ = search(gradient, hessian, start, 1.45 * np.eye(2))
     assert solver.reason
-    assert np.abs(states[-1].reduced).max() < 1e-8
-    energies = [energy(*(state.increment + start)) for state in states[solver.since - 1 :]]
+    assert np.abs(states[-1].r_q).max() < 1e-8
+    energies = [energy(*(state.du + start)) for state in states[solver.since - 1 :]]
     assert (np.diff(energies) < 1e-15).all()
     # a minimum, not a saddle
-    assert np.linalg.eigvalsh(hessian(*(states[-1].increment + start))).min() > 0
+    assert np.linalg.eigvalsh(hessian(*(states[-1].du + start))).min() > 0
 
 
 def test_short_steps_mix_the_matrix_with_that_of_the_start(monkeypatch):
@@ -138,7 +138,7 @@ def test_short_steps_mix_the_matrix_with_that_of_the_start(monkeypatch):
         )[0]
 
     states = descend()
-    assert 1.0 + states[-1].increment[0] == pytest.approx(0.0, abs=1e-6)
+    assert 1.0 + states[-1].du[0] == pytest.approx(0.0, abs=1e-6)
     assert len(states) < 40
     monkeypatch.setattr(descent, "SHORT", 0.0)
     assert len(descend()) > len(states)

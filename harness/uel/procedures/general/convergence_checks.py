@@ -122,7 +122,7 @@ class Checker:
         self._calm = 0
         for checked in self.fields:
             checked.residuals = []
-        self._start = [_largest(state.reduced, checked.free) if extrapolated else 0.0 for checked in self.fields]
+        self._start = [_largest(state.r_q, checked.free) if extrapolated else 0.0 for checked in self.fields]
 
     def check(self, state: Iterate) -> tuple[FieldCheck, ...]:
         """Check all fields after an iteration, then volumes, distributing couplings and contact."""
@@ -236,9 +236,9 @@ class Checker:
 
     def _check(self, k: int, checked: FieldChecker, state: Iterate) -> FieldCheck:
         time_average = checked.average
-        residual = self._find(state.reduced, checked.free, self._free)
-        increment = self._find(state.increment, checked.unknowns)
-        correction = self._find(state.correction, checked.unknowns)
+        residual = self._find(state.r_q, checked.free, self._free)
+        increment = self._find(state.du, checked.unknowns)
+        correction = self._find(state.ddu, checked.unknowns)
         previous = checked.residuals[-1] if checked.residuals else self._start[k]
         checked.residuals.append(abs(residual.value))
         check = FieldMeasures(
@@ -267,12 +267,12 @@ class Checker:
 
         Abaqus' volumetric strain compatibility tolerance for hybrid solids.
         """
-        chosen = state.reduced[self._pressures]
+        chosen = state.r_q[self._pressures]
         k = int(first_largest(np.abs(chosen)))
         nothing = Largest(0.0, -1, 0)
-        found = Largest(float(chosen[k]), -1, 0, self._dofs.element(int(self._free[self._pressures[k]])))
-        verdict = _verdict(state, fulfilled=abs(found.value) <= self._controls.volume)
-        return FieldCheck(VOLUME, 0.0, 0.0, found, nothing, nothing, verdict)
+        largest = Largest(float(chosen[k]), -1, 0, self._dofs.element(int(self._free[self._pressures[k]])))
+        verdict = _verdict(state, fulfilled=abs(largest.value) <= self._controls.volume)
+        return FieldCheck(VOLUME, 0.0, 0.0, largest, nothing, nothing, verdict)
 
     def _check_coupling(self, state: Iterate, errors: CouplingErrors) -> FieldCheck:
         """Check that reference nodes move with the nodes over which distributing couplings spread their forces.
@@ -298,7 +298,7 @@ class Checker:
         force = _worst(Largest(*changes.force, 0, changes.pair) for changes in pairs)
         field = next(checked for checked in self.fields if checked.name == "force")
         verdict = Convergence.CONVERGED
-        if abs(penetration.value) > controls.contact * _largest(state.increment, field.unknowns):
+        if abs(penetration.value) > controls.contact * _largest(state.du, field.unknowns):
             verdict = Convergence.NOT_ACHIEVED
         elif is_severe(state) and not (
             self._convert_sdi and abs(force.value) <= controls.contact_force * field.average

@@ -31,7 +31,7 @@ class LimitedChange(Part):
 
     def _change(self, last: Iterate) -> float:
         """Return the largest change of a value that is not prescribed."""
-        return float(np.abs(last.increment[self._limited]).max(initial=0.0))
+        return float(np.abs(last.du[self._limited]).max(initial=0.0))
 
     def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
         """Return the change over the largest one allowed."""

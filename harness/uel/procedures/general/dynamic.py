@@ -161,14 +161,14 @@ class ImplicitIntegration(Part):
         after, of_nodes = advance(self._procedure, before, size, increment), self._context.system.dofs.of_nodes
         return Motion(np.where(of_nodes, after.velocity, 0.0), np.where(of_nodes, after.acceleration, 0.0))
 
-    def given(self, given: Increment, size: float) -> Increment:
+    def add_to(self, increment: Increment, size: float) -> Increment:
         """Weight the loads over the increment, and add the motion that follows from displacements."""
         alpha, state, context = self._procedure.alpha, self._context.state, self._context
-        load = (1.0 + alpha) * given.load - alpha * context.load_at(context.step_time)
-        guess = given.guess
+        f_ext = (1.0 + alpha) * increment.f_ext - alpha * context.load_at(context.step_time)
+        guess = increment.guess
         if context.step.extrapolation == "VELOCITY PARABOLIC":
             guess = size * state.velocity + 0.5 * size**2 * state.acceleration
-        return replace(given, guess=guess, load=load, weight=1.0 + alpha, motion=partial(self._motion, size))
+        return replace(increment, guess=guess, f_ext=f_ext, weight=1.0 + alpha, motion=partial(self._motion, size))
 
     def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
         """Return the half-increment residual: forces out of balance in the middle of the increment."""
@@ -187,7 +187,7 @@ class ImplicitIntegration(Part):
         # the forces at the start count by the mean of the last two increments, as the loads do
         constraints.follow(before + increment, residual, increment + 0.5 * self._previous, 1.0 + alpha)
         ratio = context.checker.largest_ratio(residual, self._tolerances())
-        constraints.follow(before + last.increment, last.residual, last.increment, 1.0 + alpha)
+        constraints.follow(before + last.du, last.r, last.du, 1.0 + alpha)
         return Accuracy(ratio, HALF_INCREMENT)
 
     def _tolerances(self) -> dict[str, float]:
@@ -202,15 +202,15 @@ class ImplicitIntegration(Part):
     def _half(self, last: Iterate, size: float) -> FloatArray:
         """Interpolate the increment at its middle: a cubic from the start state to the displacements at the end."""
         state = self._context.state
-        increment = last.increment / 8 + 0.375 * size * state.velocity + size**2 / 16 * state.acceleration
-        increment = np.where(self._context.system.dofs.of_nodes, increment, 0.5 * last.increment)
+        increment = last.du / 8 + 0.375 * size * state.velocity + size**2 / 16 * state.acceleration
+        increment = np.where(self._context.system.dofs.of_nodes, increment, 0.5 * last.du)
         return self._context.constraints.place(state.displacement, increment)
 
     def _half_increment(self, last: Iterate, size: float, increment: FloatArray) -> Evaluation:
         """Pass at half the increment, over which accelerations are linear."""
         context, state, half = self._context, self._context.state, 0.5 * size
-        end = self._motion(size, last.increment)
-        velocity = 0.75 / size * last.increment + 0.25 * state.velocity - size / 8 * state.acceleration
+        end = self._motion(size, last.du)
+        velocity = 0.75 / size * last.du + 0.25 * state.velocity - size / 8 * state.acceleration
         acceleration = 0.5 * (state.acceleration + end.acceleration)
         motion, at = Motion(velocity, acceleration), state.displacement + increment
         call = context.call(size, context.step_time + half, context.start + context.step_time + half, at)
@@ -236,8 +236,8 @@ class ImplicitIntegration(Part):
         of the increment h. Left so, errors of a spin omega grow in each by (1 + omega h)(1 + alpha)/(1 - alpha).
         """
         context = self._context
-        self._previous_load, self._previous = context.load_at(context.step_time), last.increment
-        motion = self._motion(size, last.increment)
+        self._previous_load, self._previous = context.load_at(context.step_time), last.du
+        motion = self._motion(size, last.du)
         velocity = motion.velocity
         if self._inertia is not None:
             velocity = context.constraints.tangential(velocity, self._inertia)

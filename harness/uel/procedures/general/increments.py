@@ -308,7 +308,7 @@ class GeneralStep:
     def _passed_limit(self, last: Iterate, size: float) -> Cutback | None:
         """Take the increment in parts if the search passed the largest load in it."""
         external = -last.evaluation.residual
-        if not self._helped or not self._limit.passed(self._state.external, external, last.increment, size):
+        if not self._helped or not self._limit.passed(self._state.external, external, last.du, size):
             return None
         in_parts = self._control.part(self._context.step_time + size)
         return Cutback(self._step.controls.time.d_f, PASSED) if in_parts else None
@@ -341,14 +341,14 @@ class GeneralStep:
         last = ended.last
         context, number, attempt = self._context, self._step.number, self._control.attempts
         moment = f"step {number}, increment {context.increment}"
-        context.constraints.refuse_contradictions(self._state.displacement + last.increment, moment)
-        context.constraints.refuse_unbalanced(last.residual)
+        context.constraints.refuse_contradictions(self._state.displacement + last.du, moment)
+        context.constraints.refuse_unbalanced(last.r)
         # the states of the increment before are gone now, and those of this one are not recorded
         hold()
         self._system.commit()
         ends = [part.converged(last, size) for part in self._parts]
         reached = self._path.reach(last, size, ended.checks)
-        self._limit.converged(self._state.external, -last.evaluation.residual, last.increment, size)
+        self._limit.converged(self._state.external, -last.evaluation.residual, last.du, size)
         self._state.accept(last, reached.load, reached.released, ends)
         self._checker.converged()
         context.amplitudes.converged()

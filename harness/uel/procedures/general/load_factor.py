@@ -27,7 +27,7 @@ from uel.procedures.general.incrementation import IncrementControl
 from uel.procedures.general.path import Path, Reached
 from uel.procedures.loads.element_loads import FactorTimes
 from uel.solver.energy_control import Dissipation
-from uel.solver.newton import Acting, Iterate
+from uel.solver.newton import DependentLoads, Iterate
 from uel.solver.path import Control, PathFollower, PathIncrement, PathIterate
 from uel.solver.riks import ArcLength
 
@@ -38,7 +38,7 @@ ROUNDING = 1e-12
 """A load factor this close to 1 is 1."""
 
 NEARBY = 1e-4
-"""Difference of the load factor by which the change of loads of DLOAD is found: exact for those proportional to it."""
+"""Difference of the load factor that measures the change of loads of DLOAD: exact for those proportional to it."""
 
 REMAINDER = 1e-6
 """Limit relative to an increment: a smaller remainder of the load factor is added to it."""
@@ -61,8 +61,8 @@ class LoadFactorPath(Path):
         _check(context)
         self._follower = PathFollower(context.system, context.constraints, context.solver)
         period = step.procedure.period
-        self._prescribed_rate = (context.prescribed.at(period, 0.0) - state.displacement)[context.unknowns]
-        # the load of the state includes what DLOAD has given
+        self._u_ref = (context.prescribed.at(period, 0.0) - state.displacement)[context.unknowns]
+        # the load of the state includes that of DLOAD
         start = context.load.at(0.0, 0.0) if context.load.by_user else state.load
         self._loads = start, context.load.at(period, 0.0)
         self._fading = context.released.at(0.0, 0.0), context.released.at(period, 0.0)
@@ -71,47 +71,50 @@ class LoadFactorPath(Path):
         self._last: tuple[FloatArray, float, float] | None = None
 
     @abstractmethod
-    def _control_of(self, given: PathIncrement, size: float) -> Control:
+    def _control_of(self, increment: PathIncrement, size: float) -> Control:
         """Return the equation that fixes the load factor in an increment."""
 
     def begin(self, size: float) -> tuple[Iterator[Iterate], bool]:
         """Start from the state at the start, or a little further in the direction of the last increment."""
         context, guess = self._context, None
         if self._last is not None:
-            last, factor, length = self._last
+            du, lam, length = self._last
             part = EXTRAPOLATED * size / length
-            guess = part * last, part * factor
+            guess = part * du, part * lam
         elif self._on_elements:
             # their change tells the load per unit of the factor
             guess = np.zeros_like(context.state.displacement), EXTRAPOLATED * size / context.step.procedure.period
         end = self._length + size
         context.load.increment = context.increment
         load, released = self._loads_at(self._factor)
-        given = PathIncrement(
+        increment = PathIncrement(
             call=context.call(size, end, context.start + end),
-            displacement=context.state.displacement,
+            u=context.state.displacement,
             guess=guess,
-            load=load + released,
-            load_rate=self._loads[1] - self._loads[0] + self._fading[1] - self._fading[0],
-            prescribed_rate=self._prescribed_rate,
-            acting=partial(self._acting, context.start + end) if self._on_elements else None,
+            f_ext=load + released,
+            f_ref=self._loads[1] - self._loads[0] + self._fading[1] - self._fading[0],
+            u_ref=self._u_ref,
+            dependent=partial(self._dependent_loads, context.start + end) if self._on_elements else None,
             nrhs=self.nrhs,
         )
-        return self._follower.iterates(given, self._control_of(given, size)), guess is not None
+        return self._follower.iterates(increment, self._control_of(increment, size)), guess is not None
 
-    def _acting(self, total_time: float, u: FloatArray, change: float) -> Acting:
-        """Return loads on elements and faces, and those of DLOAD, at displacements (n,) and a change of load factor."""
+    def _dependent_loads(self, total_time: float, u: FloatArray, lam: float) -> DependentLoads:
+        """Return loads on elements and faces, and those of DLOAD, at displacements u (n,).
+
+        lam  change of the load factor in the increment
+        """
         context, period, load = self._context, self._context.step.procedure.period, self._context.load
-        before, after = self._factor, self._factor + change
+        before, after = self._factor, self._factor + lam
         times = (before * period, context.state.total_time), (after * period, total_time)
         others = context.conditions.distributed(*times)
         if not load.by_user:
-            return Acting(np.zeros_like(u), load.with_faces(others, *times, u))
+            return DependentLoads(np.zeros_like(u), load.with_faces(others, *times, u))
         # DLOAD gets the load factor in place of the step time; it need not be proportional to it
         nearby = load.of_user((after - NEARBY, total_time), u)
-        distributed = load.with_faces(others, *times, u, FactorTimes(after, NEARBY, change))
-        forces = load.of_user((after, total_time), u)
-        return Acting(forces, distributed, change / NEARBY * (forces - nearby))
+        distributed = load.with_faces(others, *times, u, FactorTimes(after, NEARBY, lam))
+        f_ext = load.of_user((after, total_time), u)
+        return DependentLoads(f_ext, distributed, lam / NEARBY * (f_ext - nearby))
 
     def _loads_at(self, factor: float) -> tuple[FloatArray, FloatArray]:
         """Return loads and fading reactions."""
@@ -121,8 +124,8 @@ class LoadFactorPath(Path):
     def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
         """Take over the load factor, and the length so far."""
         assert isinstance(last, PathIterate)
-        self._last = last.increment, last.factor, size
-        self._factor += last.factor
+        self._last = last.du, last.lam, size
+        self._factor += last.lam
         if abs(self._factor - 1.0) < ROUNDING:
             self._factor = 1.0
         self._length += size
@@ -130,8 +133,8 @@ class LoadFactorPath(Path):
         load, released = self._loads_at(self._factor)
         if self._context.load.by_user:
             time = self._factor, self._context.start + self._length
-            load = load + self._context.load.of_user(time, self._context.state.displacement + last.increment)
-        change = last.factor * self.scale
+            load = load + self._context.load.of_user(time, self._context.state.displacement + last.du)
+        change = last.lam * self.scale
         return Reached(load, released, step_time, self._context.start + self._length, change, self._factor)
 
 
@@ -149,7 +152,7 @@ def _check(context: StepContext) -> None:
 
 
 class RiksPath(LoadFactorPath):
-    """*STATIC, RIKS. If the step gives no end, it ends with its last increment."""
+    """*STATIC, RIKS. A step without a limit ends with its last increment."""
 
     nrhs = 2
 
@@ -171,27 +174,27 @@ class RiksPath(LoadFactorPath):
 
     @property
     def finished(self) -> bool:
-        """True if the end that the step gives, or its last increment, is reached."""
+        """True if the limit of the step, or its last increment, is reached."""
         if self._crossed:
             return True
         endless = self._riks.largest_factor is None and self._monitored < 0
         return endless and self._context.increment == self._context.step.increments
 
-    def _control_of(self, given: PathIncrement, size: float) -> Control:
+    def _control_of(self, increment: PathIncrement, size: float) -> Control:
         self._arc.length = size / self._context.step.procedure.period
         return self._arc
 
     def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
-        """Report the end of the increment, and note whether it crosses the end that the step gives."""
+        """Report the end of the increment, and note whether it crosses the limit of the step."""
         before = self._context.state.displacement
         reached = super().reach(last, size, checks)
         assert reached.load_factor is not None
-        self._arc.converged(last.increment, reached.size)
+        self._arc.converged(last.du, reached.size)
         largest = self._riks.largest_factor
         self._crossed = largest is not None and reached.load_factor >= largest
         if self._monitored >= 0:
             u = float(before[self._monitored])
-            to_go, way = self._riks.value - u, float(last.increment[self._monitored])
+            to_go, way = self._riks.value - u, float(last.du[self._monitored])
             self._crossed = self._crossed or (way != 0.0 and 0.0 <= to_go / way <= 1.0)
         return reached
 
@@ -216,9 +219,9 @@ class EnergyPath(LoadFactorPath):
         """True if the full load is reached."""
         return self._factor >= 1.0
 
-    def _control_of(self, given: PathIncrement, size: float) -> Control:
+    def _control_of(self, increment: PathIncrement, size: float) -> Control:
         state, share, left = self._context.state, size / self.scale, 1.0 - self._factor
         if share < left <= share * (1.0 + REMAINDER):
             share = left
-        self._energy.start(given, state.external, state.reaction, size=share, left=left)
+        self._energy.start(increment, state.external, state.reaction, size=share, left=left)
         return self._energy

@@ -127,11 +127,11 @@ class TimePath(Path):
         step = context.step
         super().__init__(context, IncrementControl(step.procedure, step.controls.time))
         self._parts = parts
-        given = context.system, context.constraints, context.solver, step.controls.line_search
-        self._newton = Newton(*given)
-        self._descent = Descent(*given, context.state.majoriser) if fallback else None
+        arguments = context.system, context.constraints, context.solver, step.controls.line_search
+        self._newton = Newton(*arguments)
+        self._descent = Descent(*arguments, context.state.majoriser) if fallback else None
         self._extrapolation = Extrapolation(step.extrapolation, step.controls.time.d_e)
-        # size of the last increment, where its response was linear
+        # size of the last increment if its response was linear
         self._linear: float | None = None
 
     @property
@@ -175,9 +175,9 @@ class TimePath(Path):
 
     def begin(self, size: float) -> tuple[Iterator[Iterate], bool]:
         """Start from the state at the start, or an extrapolation."""
-        given = self._given(size)
+        increment = self._increment(size)
         if self.search is not None:
-            return self.search.iterates(given), given.guess is not None
+            return self.search.iterates(increment), increment.guess is not None
         # Abaqus does not form the matrix again if the response was linear in the increment before: public message files
         # show it for increments of equal size, and abaqus_inputs/dcb_3d is cut back as in Abaqus only if that holds for
         # all sizes. What the parts of a step add to the matrix depends on the size.
@@ -185,32 +185,32 @@ class TimePath(Path):
         # the inertia of nodes on arms is that of rotation vectors, and another one after each turn: where nothing else
         # holds a body, a matrix of an increment before enlarges the errors of its rotations about other axes
         turning = self._context.step.procedure.inertia and self._context.constraints.arms
-        again = alike and self.control.attempts == 1 and not turning
-        return self._newton.iterates(given, same_matrix=again), given.guess is not None
+        reuse = alike and self.control.attempts == 1 and not turning
+        return self._newton.iterates(increment, same_matrix=reuse), increment.guess is not None
 
-    def _given(self, size: float) -> Increment:
-        """Return the increment as its end prescribes it, with the additions of the parts."""
+    def _increment(self, size: float) -> Increment:
+        """Define the increment by what its end prescribes, with the additions of the parts."""
         context, end = self._context, self.end(size)
-        displacement = context.state.displacement
+        u = context.state.displacement
         context.load.increment = context.increment
-        given = Increment(
+        increment = Increment(
             call=context.call(size, end, context.start + end),
-            displacement=displacement,
+            u=u,
             guess=self._extrapolation.guess(size),
-            prescribed=(context.prescribed_at(end) - displacement)[context.unknowns],
-            load=context.steady_at(end),
-            acting=partial(context.acting, end) if context.load.by_user else None,
+            du_p=(context.prescribed_at(end) - u)[context.unknowns],
+            f_ext=context.steady_at(end),
+            dependent=partial(context.dependent_loads, end) if context.load.by_user else None,
         )
         for part in self._parts:
-            given = part.given(given, size)
-        return given
+            increment = part.add_to(increment, size)
+        return increment
 
     def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
         """Return the end of the increment."""
         self._linear = size if was_linear(checks) else None
         context, end = self._context, self.end(size)
         total = context.start + end
-        self._extrapolation.converged(last.increment, size)
-        load = context.loads_at(end, context.state.displacement + last.increment)
+        self._extrapolation.converged(last.du, size)
+        load = context.loads_at(end, context.state.displacement + last.du)
         context.step_time = end
         return Reached(load, context.released.at(end, total), end, total, size)

@@ -3,8 +3,8 @@
 """STABILIZE: viscous forces c M v on an artificial mass M of unit density, v the increment over its time.
 
 Abaqus Analysis User's Guide, "Automatic stabilization of unstable problems". What the guide leaves open: the first
-increment runs without damping, and c is such that it would have dissipated the given fraction of what its internal
-energy changed by. Where ALLSD exceeds ALLSDTOL times ALLSE, c is reduced in that ratio. User elements have no
+increment runs without damping, and c is such that it would have dissipated the fraction of the change of its internal
+energy that the deck sets. Where ALLSD exceeds ALLSDTOL times ALLSE, c is reduced in that ratio. User elements have no
 artificial mass.
 """
 
@@ -40,26 +40,26 @@ class ViscousForces(Part):
             return PartStart([Warned(NOTHING_DAMPED)])
         return PartStart([Noted(f"STABILIZE: THE DAMPING FACTOR IS {self._factor:.4g}")] if self._factor else [])
 
-    def given(self, given: Increment, size: float) -> Increment:
+    def add_to(self, increment: Increment, size: float) -> Increment:
         """Add the viscous matrix."""
         if not self._factor:
-            return given
-        return replace(given, damping=self._factor / size * self._mass)
+            return increment
+        return replace(increment, damping=self._factor / size * self._mass)
 
     def converged(self, last: Iterate, size: float) -> PartEnd:
         """Return the dissipated energy, and the factor if it is chosen or reduced."""
         state = self._context.state
-        flow = self._context.system.product(self._mass, last.increment) / size
+        flow = self._context.system.product(self._mass, last.du) / size
         force = self._factor * flow
         # the trapezoidal rule of the external work
-        dissipated = 0.5 * float((self._force + force) @ last.increment)
+        dissipated = 0.5 * float((self._force + force) @ last.du)
         total = state.stabilization + dissipated
         self._force = force
         elastic, change = last.evaluation.energy[1], last.evaluation.energy - state.energy
         limit = self._damping.limit
         remarks: list[Record] = []
         if not self._factor:
-            remarks = self._choose(float(abs(change[1:7].sum())), float(flow @ last.increment))
+            remarks = self._choose(float(abs(change[1:7].sum())), float(flow @ last.du))
         elif limit and total > limit * elastic > 0.0:
             remarks = [self._change(self._factor * limit * float(elastic) / total)]
         return PartEnd(remarks, stabilization=dissipated)

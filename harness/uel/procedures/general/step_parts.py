@@ -60,17 +60,17 @@ class Part:
         """Begin the step, before its first increment. Raises KernelError, SingularMatrixError."""
         return PartStart()
 
-    def given(self, given: Increment, size: float) -> Increment:
+    def add_to(self, increment: Increment, size: float) -> Increment:
         """Return the increment with the part's additions to what its end prescribes.
 
         Parameters
         ----------
-        given
-            With the additions of the parts before this one; not to be changed, but copied by `dataclasses.replace`.
+        increment
+            It has the additions of the parts before this one. Copy it by `dataclasses.replace`.
         size
-            Of the increment, in step time.
+            Step time of the increment.
         """
-        return given
+        return increment
 
     def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
         """Measure the accuracy of the integration over time in an increment in equilibrium.
@@ -80,7 +80,7 @@ class Part:
         last
             State after the last iteration.
         size
-            Of the increment, in step time.
+            Step time of the increment.
 
         Returns
         -------
@@ -101,7 +101,7 @@ class Part:
         last
             State after the last iteration.
         size
-            Of the increment, in step time.
+            Step time of the increment.
 
         Returns
         -------
