@@ -17,7 +17,7 @@ from uel.model.dofs import dof_in_deck
 from uel.model.user_values import UserValues
 from uel.procedures.general.convergence_checks import Checker, length_of_moments
 from uel.procedures.general.unconstrained import UnconstrainedSolver, tolerate
-from uel.procedures.step_setting import Setting, SolverTimes, choose_rank_solver, choose_solver, places
+from uel.procedures.step_setting import Setting, SolverTimes, choose_rank_solver, choose_solver, displaced_coordinates
 from uel.solver.linear import LinearSolver, RankSolver
 from uel.solver.newton import DependentLoads, Factoriser
 
@@ -26,12 +26,12 @@ class StepContext:
     """General step, apart from its procedure.
 
     start       total time at the start of the step
-    step_time   at the start of the increment; the total time is that of the state
+    step_time   step time at the start of the increment; the total time is in the state
     increment   number of the current increment
-    times_of_solver  of the linear solver in this step
-    beginning   arrays of the state from which the step's prescribed values and loads follow
-    choice      which linear solver was chosen and why; '' if that of the last step is kept
-    advice      what would be faster, '' for nothing
+    times_of_solver  times of the linear solver in this step
+    beginning   arrays of the state at the start of the step, on which its prescribed values and loads depend
+    choice      name of the linear solver, and the reason; '' if that of the last step is kept
+    advice      a faster solver, as a sentence; '' if there is none
     """
 
     constraints: Constraints
@@ -130,21 +130,23 @@ class StepContext:
             dofs = self.system.dofs
             nodes = dofs.node[by_user]
             numbers = [dof_in_deck(dof) for dof in dofs.dof[by_user].tolist()]
-            places = np.stack([dofs.mesh.labels[nodes], numbers], axis=1).astype(np.int32)
+            numbered = np.stack([dofs.mesh.labels[nodes], numbers], axis=1).astype(np.int32)
             moment = self.step.number, self.increment, time
             size = step_time - self.step_time
-            asked = UserValues("DISP", *moment, places, self.places(nodes), values[by_user], size=size)
+            asked = UserValues("DISP", *moment, numbered, self.coordinates(nodes), values[by_user], size=size)
             values[by_user] = self.user.user_values(asked)
         return values
 
-    def places(self, nodes: IntArray) -> FloatArray:
+    def coordinates(self, nodes: IntArray) -> FloatArray:
         """Return coordinates (k, 3) of nodes at the start of the increment; with NLGEOM those of displaced nodes."""
-        return places(self.system.dofs, nodes, self.state.displacement if self.step.nlgeom else None)
+        return displaced_coordinates(self.system.dofs, nodes, self.state.displacement if self.step.nlgeom else None)
 
     def call(self, size: float, step_time: float, total_time: float, u: FloatArray | None = None) -> Call:
         """Return the arguments of the passes of an increment that ends at these times; u as in `load_at`."""
         step, end = self.step, (step_time, total_time)
-        distributed, predefined = self.conditions.at(self.times, end, max(self.increment, 1), self.user, self.places)
+        distributed, predefined = self.conditions.at(
+            self.times, end, max(self.increment, 1), self.user, self.coordinates
+        )
         return Call(
             flags=Flags.of(step),
             step=step.number,

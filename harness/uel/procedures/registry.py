@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Registry of the runs of a step by its procedure: the only place that asks which procedure a step has.
+"""Registry of the runs of a step by its procedure: the only file that asks which procedure a step has.
 
 A general step is assembled here from a path and parts. A further procedure is registered like those below.
 """
@@ -43,9 +43,9 @@ def run_of(procedure: Procedure, setting: Setting) -> StepRun:
     Parameters
     ----------
     procedure
-        Of the step; its class decides.
+        Procedure of the step; its class chooses the run.
     setting
-        What the step is run with. Its state takes over the step's prescribed values and loads.
+        System, model and state of the run. The state takes over the step's prescribed values and loads.
 
     Returns
     -------

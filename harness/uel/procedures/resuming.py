@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The step of a kept state, taken up again.
+"""Resume the step of a kept state.
 
 Prescribed values, loads and amplitudes are not kept: they follow from the deck, the total times at which steps began,
 and the state at the start of the last one.

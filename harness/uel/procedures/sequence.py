@@ -45,9 +45,9 @@ def run_steps(
         The loaded library of user routines: UEXTERNALDB is called at the start and end of the analysis, of each step
         and of each increment.
     solver
-        How the equations are solved.
+        Options for solving the equations.
     resumed
-        The state to go on from, in place of the initial one.
+        The state to go on from; None: the initial one.
 
     Yields
     ------

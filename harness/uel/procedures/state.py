@@ -71,10 +71,10 @@ class ConvergedState:
     stabilization  energy that *STATIC, STABILIZE has dissipated
     flux       flux history by field
     predefined predefined fields, which are constant
-    effort     what all linear solvers have done
+    effort     counts and times of all linear solvers
     majoriser  matrix of the start of the analysis, for the fall-back
     begun      general steps so far
-    modes      of the last *FREQUENCY
+    modes      modes of the last *FREQUENCY; None: there is none
     signs      (n,) of the work of forces: -1 of potentials in piezoelectric elements, whose forces are minus charges
     """
 
@@ -114,13 +114,13 @@ class ConvergedState:
         start = initial_values(system.dofs, unknown)
         loads = AllLoads(system, model)
         conditions = Conditions(model)
-        given = boundaries, loads, conditions, UserAmplitudes(model)
+        actions = boundaries, loads, conditions, UserAmplitudes(model)
         charged = [group.nodes for group in model.groups if group.electrical]
         signs = np.ones(len(system))
         for nodes in charged:
             signs[system.dofs.find(nodes.ravel(), POTENTIAL)] = -1.0
         fields = conditions.initial()
-        return cls(start, zero, zero, zero, *given, velocity, zero, zero, predefined=fields, signs=signs)
+        return cls(start, zero, zero, zero, *actions, velocity, zero, zero, predefined=fields, signs=signs)
 
     def hold(self, forces: FloatArray) -> None:
         """Take forces (n,) that keep initial stresses in equilibrium until they fade in the first step."""
@@ -211,7 +211,7 @@ class ConvergedState:
         load, released
             (n,) loads and fading forces at its end.
         ends
-            What the parts of the step return for it.
+            Data that the parts of the step return for this increment.
         """
         assert self.constraints is not None
         reaction = self.constraints.reactions(converged.r)
@@ -253,6 +253,6 @@ class ConvergedState:
 
     def _energies(self) -> dict[str, float]:
         """Return the energies of the whole model as Abaqus sums them: ETOTAL is constant where the balance holds."""
-        found = energies_of_elements(self.energy, self.damage)
-        total = found["ALLKE"] + found["ALLIE"] + found["ALLVD"] + self.stabilization - self.work
-        return found | {"ALLSD": self.stabilization, "ALLWK": self.work, "ETOTAL": total}
+        energies = energies_of_elements(self.energy, self.damage)
+        total = energies["ALLKE"] + energies["ALLIE"] + energies["ALLVD"] + self.stabilization - self.work
+        return energies | {"ALLSD": self.stabilization, "ALLWK": self.work, "ETOTAL": total}

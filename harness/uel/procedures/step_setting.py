@@ -42,7 +42,7 @@ class UserRoutines(GivesValues, Protocol):
 class Setting:
     """Setting with which a step is run.
 
-    state  at the end of the last step; the step continues it
+    state  state at the end of the last step, from which this one continues
     """
 
     system: System
@@ -61,7 +61,7 @@ class StepRun(Protocol):
         """Step and total time, no time increment, step and increment, as UEXTERNALDB gets them at the end."""
 
     def run(self) -> Generator[Record, None, Modes | None]:
-        """Yield records of the step; return the modes that it finds for later steps.
+        """Yield records of the step; return the modes for later steps, if it computes any.
 
         Raises ConvergenceError, KernelError, SingularMatrixError, DeckError.
         """
@@ -70,7 +70,7 @@ class StepRun(Protocol):
 def choose_solver(name: str, constraints: Constraints, effort: Effort) -> LinearSolver:
     """Return the linear solver for the matrices of free unknowns; name as `uel.solver.linear.choose` takes it.
 
-    What the solver does is added to the effort.
+    effort: the solver adds its work to it.
     """
     solver = choose(
         name,
@@ -85,12 +85,12 @@ def choose_solver(name: str, constraints: Constraints, effort: Effort) -> Linear
 
 def choose_rank_solver(name: str, constraints: Constraints, effort: Effort) -> RankSolver:
     """Choose the solver as `choose_solver` does, on several ranks."""
-    given = constraints.reduced_indptr, constraints.reduced_indices, constraints.coordinates, constraints.dofs
-    pattern = Pattern(*given)
+    indptr, indices = constraints.reduced_indptr, constraints.reduced_indices
+    pattern = Pattern(indptr, indices, constraints.coordinates, constraints.dofs)
     return RankSolver(constraints.ranks, name, pattern, constraints.name_of, effort)
 
 
-def places(dofs: DofMap, nodes: IntArray, displacement: FloatArray | None) -> FloatArray:
+def displaced_coordinates(dofs: DofMap, nodes: IntArray, displacement: FloatArray | None) -> FloatArray:
     """Return coordinates (k, 3) of nodes, moved by the displacements (n,) if there are any."""
     coordinates = dofs.mesh.coordinates[nodes]
     if displacement is None:

@@ -31,14 +31,14 @@ def smallest_factors(pair: Pair, count: int, solver: Factoriser) -> tuple[FloatA
     pair
         K as its stiffness, G as its mass.
     count
-        k, unless there are less.
+        Largest k; there may be fewer.
     solver
         Has factorised K.
 
     Returns
     -------
     tuple[FloatArray, FloatArray]
-        Of a body in which G is zero there are none.
+        Empty if G is zero.
 
     Raises
     ------
@@ -59,8 +59,8 @@ def smallest_factors(pair: Pair, count: int, solver: Factoriser) -> tuple[FloatA
     values, vectors = 1.0 / inverse[order], vectors[:, order]
     # where K is indefinite the iteration has no meaning, but ends
     elastic = stiffness @ vectors
-    missing = np.linalg.norm(elastic - values * (stress @ vectors), axis=0)
-    if np.any(missing > RESIDUAL * np.linalg.norm(elastic, axis=0)) or np.any(np.sum(vectors * elastic, axis=0) <= 0.0):
+    r = np.linalg.norm(elastic - values * (stress @ vectors), axis=0)
+    if np.any(r > RESIDUAL * np.linalg.norm(elastic, axis=0)) or np.any(np.sum(vectors * elastic, axis=0) <= 0.0):
         raise UnstableError
     return values, vectors
 

@@ -17,7 +17,7 @@ from uel.model.arrays import FloatArray
 from uel.solver.newton import Factoriser
 
 DENSE = 200
-"""Unknowns up to which all eigenvalues are found at once."""
+"""Unknowns up to which all eigenvalues are computed at once."""
 
 SHIFT = 1e-6
 """First shift, as a fraction of the mean of K over that of M."""
@@ -48,7 +48,7 @@ class Pair:
 
 
 def lowest_eigenvalues(pair: Pair, count: int, solver: Factoriser) -> tuple[FloatArray, FloatArray]:
-    """Return the eigenvalues (k,) ascending and vectors (n, k); k is `count`, or less if there are no more.
+    """Return the eigenvalues (k,) ascending and vectors (n, k); k is `count`, or less if there are fewer.
 
     The vectors have x^T M x = 1. `solver` is for matrices of the pattern. Raises UnstableError.
     """

@@ -31,7 +31,7 @@ class Dissipation:
     Parameters
     ----------
     constraints
-        Those of the step.
+        Constraints of the step.
     """
 
     def __init__(self, constraints: Constraints) -> None:

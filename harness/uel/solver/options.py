@@ -26,7 +26,7 @@ class SolverOptions:
     Raises
     ------
     UsageError
-        Both `fallback` and `energy_control` are given.
+        Both `fallback` and `energy_control` are true.
     """
 
     linear_solver: str = "auto"

@@ -119,7 +119,7 @@ class FluxHistory:
         return self.count > 0 and peak >= SMALL_PEAK * self.peaks / self.count
 
     def next_step(self, controls: FieldControls) -> FluxHistory:
-        """Return the history at the start of the next step: q_0 where given, else the time average of this step."""
+        """Return the history at the start of the next step: q_0 if set by the controls, else the time average."""
         return FluxHistory(controls.q_0 if controls.q_0 > 0.0 else self._mean())
 
     @property

@@ -195,7 +195,7 @@ class Checker:
         return {checked.name: list(astuple(checked.history)) for checked in self.fields}
 
     def resume(self, saved: Saved) -> None:
-        """Go on from what `kept` returned."""
+        """Restore what `kept` returned."""
         for checked in self.fields:
             checked.history = FluxHistory(*saved[checked.name])
 
@@ -317,8 +317,8 @@ class Checker:
         return Largest(float(chosen[k]), int(self._dofs.node[unknown]), dof_in_deck(int(self._dofs.dof[unknown])))
 
 
-def _worst(found: Iterable[Largest]) -> Largest:
-    return max(found, key=lambda largest: abs(largest.value))
+def _worst(values: Iterable[Largest]) -> Largest:
+    return max(values, key=lambda largest: abs(largest.value))
 
 
 def _verdict(state: Iterate, *, fulfilled: bool) -> Convergence:
@@ -348,8 +348,8 @@ def length_of_moments(system: System, mesh: Mesh) -> float:
     total, count = 0.0, 0.0
     for block in system.blocks:
         if any(dof in ROTATIONS for _, dof in block.unknowns):
-            places = mesh.coordinates[block.group.nodes]
-            distances = np.linalg.norm(places - np.roll(places, 1, axis=1), axis=2)
+            corners = mesh.coordinates[block.group.nodes]
+            distances = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
             total, count = total + float(distances.sum()), count + distances.size
     total, count = system.sum(np.array([total, count])).tolist()
     return total / count if count else 0.0

@@ -49,7 +49,7 @@ class LimitedChange(Part):
         return {"rate": self._rate}
 
     def resume(self, saved: Saved) -> None:
-        """Go on from what `kept` returned."""
+        """Restore what `kept` returned."""
         self._rate = saved["rate"]
 
     @property

@@ -223,7 +223,7 @@ class ImplicitIntegration(Part):
         return {"load": self._previous_load, "increment": self._previous, "inertia": inertia}
 
     def resume(self, saved: Saved) -> None:
-        """Go on from what `kept` returned."""
+        """Restore what `kept` returned."""
         self._previous_load, self._previous = saved["load"], saved["increment"]
         if saved["inertia"]:
             values = tuple(saved["inertia"][name] for name in ("data", "indices", "indptr"))

@@ -41,7 +41,7 @@ class Extrapolation:
         return {"increments": [list(one) for one in (self._last, self._before)[:needed] if one is not None]}
 
     def resume(self, saved: Saved) -> None:
-        """Go on from what `kept` returned."""
+        """Restore what `kept` returned."""
         self._last, self._before = ([(one[0], one[1]) for one in saved["increments"]] + [None, None])[:2]
 
     def converged(self, increment: FloatArray, size: float) -> None:

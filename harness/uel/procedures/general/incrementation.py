@@ -102,7 +102,7 @@ class Accuracy:
     """Accuracy of the integration over time in an increment.
 
     measure    error measure over its tolerance: above 1 the increment is too large
-    complaint  what Abaqus prints then
+    complaint  message of Abaqus for that case
     """
 
     measure: float
@@ -119,7 +119,7 @@ def refused(pnewdt: float) -> Cutback | None:
 class IncrementControl:
     """Increment sizes of one step, automatic or direct.
 
-    The sequence of a step is: `attempt`, then either `cut_back` and `attempt` again, or `converged`.
+    The sequence of a step is: `attempt`, then either `cut_back` and the next `attempt`, or `converged`.
     """
 
     def __init__(self, procedure: Procedure, controls: TimeControls) -> None:
@@ -148,7 +148,7 @@ class IncrementControl:
     def part(self, end: float) -> bool:
         """Take the current increment, up to step time `end`, in parts sized by `cut_back`; False if it may not be.
 
-        After `end` the size of the whole is used again. If a part fails, the rest is taken at once: `in_parts` ends.
+        After `end` increments have the size of the whole. If a part fails, the rest is one increment: `in_parts` ends.
         """
         if self._procedure.direct or self._whole:
             return False
@@ -220,7 +220,7 @@ class IncrementControl:
         searched
             The descent search helped: its many iterations say nothing about the next increment.
         accuracy
-            Of the integration over time: if measured, it decides the growth.
+            Accuracy of the integration over time; if measured, it decides the growth.
         disturbed
             There were more than I_J severe discontinuity iterations, I_J^c with CONVERT SDI=YES.
         """

@@ -360,7 +360,7 @@ class GeneralStep:
             disturbed=spent.severe > self._most_severe,
         )
         times = reached.step_time, reached.total_time
-        _, predefined = context.conditions.at(times, times, context.increment, self._user, context.places)
+        _, predefined = context.conditions.at(times, times, context.increment, self._user, context.coordinates)
         self._state.reach(reached.total_time, predefined)
         yield IncrementDone(
             number,

@@ -3,8 +3,8 @@
 """Paths of static steps whose load factor is unknown: *STATIC, RIKS, and energy control.
 
 The step goes from the state at its start, load factor (LPF) 0, to what it prescribes, LPF 1: forces and displacements
-are P_0 + LPF (P_ref - P_0). The length of the path takes the place of time in the sizes of increments and in the
-arguments of elements.
+are P_0 + LPF (P_ref - P_0). The length of the path replaces time in the sizes of increments and in the arguments of
+elements.
 """
 
 from __future__ import annotations
@@ -110,7 +110,7 @@ class LoadFactorPath(Path):
         others = context.conditions.distributed(*times)
         if not load.by_user:
             return DependentLoads(np.zeros_like(u), load.with_faces(others, *times, u))
-        # DLOAD gets the load factor in place of the step time; it need not be proportional to it
+        # DLOAD gets the load factor instead of the step time; it need not be proportional to it
         nearby = load.of_user((after - NEARBY, total_time), u)
         distributed = load.with_faces(others, *times, u, FactorTimes(after, NEARBY, lam))
         f_ext = load.of_user((after, total_time), u)

@@ -21,8 +21,8 @@ OTHERS = ", LIKE {} MORE UNKNOWNS"
 
 def warn_overconstrained(constraints: Constraints) -> Iterator[Warned]:
     """Warn once of all such values of a step."""
-    found = constraints.overconstraints
-    if found:
-        unknown, source = found[0]
-        others = OTHERS.format(len(found) - 1) if len(found) > 1 else ""
+    overconstraints = constraints.overconstraints
+    if overconstraints:
+        unknown, source = overconstraints[0]
+        others = OTHERS.format(len(overconstraints) - 1) if len(overconstraints) > 1 else ""
         yield Warned(OVERCONSTRAINED.format(*constraints.name(unknown), others, source))

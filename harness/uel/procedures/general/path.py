@@ -27,7 +27,7 @@ class Reached:
 
     load, released  (n,) loads and fading forces
     size            change of the step time
-    load_factor     if it is part of the solution
+    load_factor     load factor if it is part of the solution, else None
     """
 
     load: FloatArray
@@ -63,26 +63,26 @@ class Path(ABC):
         return ()
 
     def end(self, size: float) -> float:
-        """Return the step time at the end of an increment, as far as it is known in advance.
+        """Return the step time at the end of an increment; an estimate where the load factor is unknown.
 
         Parameters
         ----------
         size
-            Of the increment, along the path.
+            Size of the increment along the path.
         """
         return self._context.step_time + size
 
     @property
     def obstacle(self) -> str:
-        """Reason why its state cannot be kept, as the end of a sentence; '' if it can."""
+        """Reason why *RESTART cannot keep the state, as the end of a sentence; '' if it can."""
         return "the load factor is part of the solution"
 
     def kept(self) -> Saved:
-        """Return what an increment takes from those before it in the step."""
+        """Return the data of earlier increments that the next one needs, for *RESTART."""
         return {}
 
     def resume(self, saved: Saved) -> None:
-        """Go on from what `kept` returned."""
+        """Restore what `kept` returned."""
         assert not saved, self.obstacle
 
     @abstractmethod
@@ -92,27 +92,27 @@ class Path(ABC):
         Parameters
         ----------
         size
-            Of the increment, along the path.
+            Size of the increment along the path.
 
         Returns
         -------
         tuple[Iterator[Iterate], bool]
-            Iterates without end, whose errors (KernelError, SingularMatrixError) end the attempt or the run; and
-            whether they start from an extrapolation.
+            Endless iterates, whose errors (KernelError, SingularMatrixError) end the attempt or the run; True if they
+            start from an extrapolation.
         """
 
     @abstractmethod
     def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
-        """Return where a converged increment ends. Sets the step time of the context to it.
+        """Return the end of a converged increment, and set the step time of the context to it.
 
         Parameters
         ----------
         last
             State after the last iteration.
         size
-            Of the increment, along the path.
+            Size of the increment along the path.
         checks
-            Of the last iteration, all of which accept it.
+            Checks of the last iteration; all of them accept it.
         """
 
 
@@ -157,7 +157,7 @@ class TimePath(Path):
         }
 
     def resume(self, saved: Saved) -> None:
-        """Go on from what `kept` returned."""
+        """Restore what `kept` returned."""
         self.control.resume(saved["control"])
         self._extrapolation.resume(saved["extrapolation"])
         self._linear = saved["linear"]

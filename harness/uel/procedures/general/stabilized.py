@@ -69,7 +69,7 @@ class ViscousForces(Part):
         return {"factor": self._factor, "force": self._force}
 
     def resume(self, saved: Saved) -> None:
-        """Go on from what `kept` returned."""
+        """Restore what `kept` returned."""
         self._factor, self._force = saved["factor"], saved["force"]
 
     def _choose(self, energy: float, dissipated: float) -> list[Record]:

@@ -106,16 +106,16 @@ class Part:
         Returns
         -------
         PartEnd
-            What the state at the end of the increment takes over from the part.
+            Data of the part for the state at the end of the increment.
         """
         return PartEnd()
 
     def kept(self) -> Saved:
-        """Return what an increment takes from those before it in the step."""
+        """Return the data of earlier increments that the next one needs, for *RESTART."""
         return {}
 
     def resume(self, saved: Saved) -> None:
-        """Go on from what `kept` returned; `start` is not called then."""
+        """Restore what `kept` returned; `start` is not called then."""
 
     @property
     def finished(self) -> bool:

@@ -20,7 +20,7 @@ from uel.model.arrays import FloatArray
 from uel.solver.linear import LinearSolver, RankSolver
 
 SHIFT = 1e-10
-"""Stiffness that replaces the missing one, as a fraction of the largest entry of each row."""
+"""Stiffness that is added where there is none, as a fraction of the largest entry of each row."""
 
 LOADED = 1e-6
 """Fraction of a right-hand side that no solution balances, above which the singular matrix is an error."""
@@ -96,10 +96,10 @@ class UnconstrainedSolver:
         if np.abs(rhs).max() <= small:
             return np.zeros_like(rhs)
         for _ in range(1 + REFINEMENTS):
-            missing = rhs - self._matrix @ solution
-            if np.linalg.norm(missing) <= LOADED * np.linalg.norm(rhs) or np.abs(missing).max() <= small:
+            r = rhs - self._matrix @ solution
+            if np.linalg.norm(r) <= LOADED * np.linalg.norm(rhs) or np.abs(r).max() <= small:
                 return solution
-            solution += self._solver.solve(missing)
+            solution += self._solver.solve(r)
         raise self.free
 
     def _shift(self, error: SingularMatrixError) -> None:

@@ -35,7 +35,7 @@ class FrequencyStep(PerturbationStep):
     def __init__(self, setting: Setting, procedure: Frequency) -> None:
         super().__init__(setting)
         self._procedure = procedure
-        self._given: dict[Request, FloatArray] = {}
+        self._matrices: dict[Request, FloatArray] = {}
 
     def _solve(self) -> list[Record]:
         """Compute the modes, lowest first."""
@@ -76,7 +76,7 @@ class FrequencyStep(PerturbationStep):
         """Return CSR values of the symmetric part of a matrix of the free unknowns; that of all unknowns is kept."""
         evaluation = self._pass(request)
         assert evaluation.data is not None
-        self._given[request] = evaluation.data.copy()
+        self._matrices[request] = evaluation.data.copy()
         return self._symmetric(evaluation.data)
 
     def _kept(self, values: FloatArray, masses: FloatArray, shapes: FloatArray) -> Modes:
@@ -84,12 +84,12 @@ class FrequencyStep(PerturbationStep):
         along = np.array([self._system.dofs.dof == dof for dof in TRANSLATIONS], dtype=float)
         products = []
         for request, vectors in ((Request.STIFFNESS, shapes), (Request.MASS, np.vstack([shapes, along]))):
-            found = [self._system.product(self._given[request], vector) for vector in vectors]
-            products.append(np.array(found).reshape(vectors.shape))
+            rows = [self._system.product(self._matrices[request], vector) for vector in vectors]
+            products.append(np.array(rows).reshape(vectors.shape))
         stiffness, inertia = products
         count = len(values)
-        given = values, masses, shapes, stiffness, inertia[:count], inertia[count:]
-        return Modes(self._step.number, self._constraints, *given)
+        arrays = values, masses, shapes, stiffness, inertia[:count], inertia[count:]
+        return Modes(self._step.number, self._constraints, *arrays)
 
     def _scaled(self, vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the shapes (k, n) with the requested normalization, and their generalized masses."""

@@ -21,7 +21,7 @@ def given_at(step: Step, at: tuple[float, float], *, imaginary: bool = False, wi
 
     def scaled(entry: Entry) -> Entry:
         if isinstance(entry, ElementLoad) and entry.type.jltyp:
-            # no amplitude acts on what DLOAD gets
+            # no amplitude applies to what DLOAD gets
             return entry
         if entry.amplitude is None:
             return replace(entry, magnitude=without * entry.magnitude)

@@ -46,5 +46,5 @@ class Modes:
     def chosen(self, numbers: NDArray[np.int64]) -> Modes:
         """Select the modes with these numbers, from 1."""
         at = numbers - 1
-        found = self.values[at], self.masses[at], self.shapes[at], self.stiffness[at], self.inertia[at]
-        return Modes(self.step, self.constraints, *found, self.rigid)
+        arrays = self.values[at], self.masses[at], self.shapes[at], self.stiffness[at], self.inertia[at]
+        return Modes(self.step, self.constraints, *arrays, self.rigid)

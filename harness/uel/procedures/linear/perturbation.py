@@ -30,7 +30,7 @@ from uel.model.steps import Step
 from uel.model.user_values import UserValues
 from uel.procedures.general.overconstraints import warn_overconstrained
 from uel.procedures.linear.modes import Modes
-from uel.procedures.step_setting import Setting, SolverTimes, choose_solver, places
+from uel.procedures.step_setting import Setting, SolverTimes, choose_solver, displaced_coordinates
 from uel.solver.linear import LinearSolver
 
 BASE_FORCES = (
@@ -65,7 +65,7 @@ class PerturbationStep:
         return (0.0, self._state.total_time), 0.0, self._step.number, self._increment
 
     def run(self) -> Generator[Record, None, Modes | None]:
-        """Yield records of the step; return the modes found. Raises KernelError, SingularMatrixError, DeckError."""
+        """Yield records of the step; return its modes. Raises KernelError, SingularMatrixError, DeckError."""
         yield Noted(f"LINEAR SOLVER {self._solver.name.upper()}: {self._solver.reason}")
         yield from warn_overconstrained(self._constraints)
         yield from self._increments()
@@ -116,9 +116,9 @@ class PerturbationStep:
         solution = self._solution(change, {"ALLSE": work, "ALLWK": work})
         reaction = constraints.reactions(external - internal)
         turned = self._system.dofs.in_global
-        found = replace(solution, reaction=turned(reaction), load=turned(load), elements=self._elements(change))
+        solution = replace(solution, reaction=turned(reaction), load=turned(load), elements=self._elements(change))
         period = step.procedure.period
-        done = IncrementDone(step.number, 1, 1, 1, period, self._state.total_time, period, found)
+        done = IncrementDone(step.number, 1, 1, 1, period, self._state.total_time, period, solution)
         return [Warned(BASE_FORCES), done] if self._unloaded(evaluation) else [done]
 
     def _response(self, data: FloatArray, reduced: FloatArray, external: FloatArray) -> FloatArray:
@@ -128,9 +128,9 @@ class PerturbationStep:
         """
         constraints = self._constraints
         prescribed = self._prescribed()[constraints.prescribed]
-        missing = external - constraints.prescribed_residual(data, prescribed)
+        r = external - constraints.prescribed_residual(data, prescribed)
         self._solver.factorise(reduced)
-        return constraints.expand(self._solver.solve(constraints.reduce_vector(missing)), prescribed)
+        return constraints.expand(self._solver.solve(constraints.reduce_vector(r)), prescribed)
 
     def _loads(self, step: Step) -> FloatArray:
         """Return the forces (n,) of the loads that the step, or a part of it, gives."""
@@ -139,7 +139,7 @@ class PerturbationStep:
 
     @property
     def _step_time(self) -> float:
-        """Step time, 0 as none passes; a frequency may stand in its place."""
+        """Step time, 0 as none passes; a frequency may replace it."""
         return 0.0
 
     def _prescribed(self) -> FloatArray:
@@ -152,7 +152,7 @@ class PerturbationStep:
                 raise DeckError(source, "*BOUNDARY, USER needs DISP, which the job does not have")
             nodes = dofs.node[by_user]
             numbered = np.stack([dofs.mesh.labels[nodes], dofs.dof[by_user]], axis=1).astype(np.int32)
-            coords = places(dofs, nodes, state.displacement if step.nlgeom else None)
+            coords = displaced_coordinates(dofs, nodes, state.displacement if step.nlgeom else None)
             moment, size = (self._increment, (self._step_time, state.total_time)), step.procedure.period
             asked = UserValues("DISP", step.number, *moment, numbered, coords, values[by_user], size=size)
             values[by_user] = user.user_values(asked)
@@ -179,7 +179,7 @@ class PerturbationStep:
         return np.array(largest)
 
     def _refuse_single_rotations(self, matrix: sparse.coo_array, lost: NDArray[np.bool_]) -> None:
-        """Raise DeckError if a matrix by spins has entries that are `lost`: the pattern has no places for them."""
+        """Raise DeckError if a matrix by spins has entries that are `lost`: the pattern does not have them."""
         sizes = np.where(lost, np.abs(matrix.data), 0.0)
         if sizes.max(initial=0.0) <= ROUNDING * np.abs(matrix.data).max(initial=0.0):
             return
@@ -195,7 +195,7 @@ class PerturbationStep:
         return not self._step.distributed and largest > ROUNDING * float(evaluation.flux.sum()) / count
 
     def _pass(self, request: Request, change: FloatArray | None = None) -> Evaluation:
-        """Make a pass over the elements in the base state, also for the matrix unless a perturbation is given."""
+        """Make a pass over the elements in the base state: for the change (n,), or for residual and matrix."""
         at = self._state.displacement
         du = np.zeros_like(at) if change is None else self._by_vectors(change)
         evaluation = self._system.evaluate(self._call(request), at, du, matrix=change is None)
@@ -210,7 +210,7 @@ class PerturbationStep:
 
     @cached_property
     def _vectors_by_spins(self) -> sparse.csr_array | None:
-        """Changes (n, n) of all unknowns by those with spins in place of rotation vectors; None: they are the same."""
+        """Changes (n, n) of all unknowns by those with spins instead of rotation vectors; None: they are the same."""
         dofs, u = self._system.dofs, self._state.displacement
         nodes = np.unique(dofs.node[np.isin(dofs.dof, _TURNS)])
         unknowns = dofs.find(nodes[:, None], _TURNS)
@@ -234,14 +234,14 @@ class PerturbationStep:
         if self._vectors_by_spins is None:
             return data
         system, n = self._system, len(self._system)
-        found = (system.matrix(data) @ self._vectors_by_spins).tocoo()
+        product = (system.matrix(data) @ self._vectors_by_spins).tocoo()
         own = np.repeat(np.arange(n), np.diff(system.indptr)) * n + system.indices
-        entries = found.row.astype(np.int64) * n + found.col
-        places = np.minimum(np.searchsorted(own, entries), len(own) - 1)
-        inside = own[places] == entries
-        system.agree(partial(self._refuse_single_rotations, found, ~inside & (found.data != 0.0)))
+        entries = product.row.astype(np.int64) * n + product.col
+        positions = np.minimum(np.searchsorted(own, entries), len(own) - 1)
+        inside = own[positions] == entries
+        system.agree(partial(self._refuse_single_rotations, product, ~inside & (product.data != 0.0)))
         by_spins = np.zeros_like(data)
-        by_spins[places[inside]] = found.data[inside]
+        by_spins[positions[inside]] = product.data[inside]
         return by_spins
 
     def _call(self, request: Request) -> Call:
@@ -277,11 +277,11 @@ class PerturbationStep:
             return ()
         call = self._call(Request.NORMAL)
         end, scratch = self._state.displacement + change, np.zeros_like(change)
-        found = []
+        changes = []
         before = self._system.states()[:]
         for k, block in enumerate(self._system.blocks):
             if block.elastic:
                 block.evaluate(call, end, change, scratch, None)
                 trial, base = block.trial(k), before[k]
-                found.append(replace(trial, svars=trial.svars - base.svars, energy=trial.energy - base.energy))
-        return tuple(found)
+                changes.append(replace(trial, svars=trial.svars - base.svars, energy=trial.energy - base.energy))
+        return tuple(changes)

@@ -36,7 +36,7 @@ def set_initial_states(blocks: Iterable[ElementBlock], model: Model, user: Initi
     Parameters
     ----------
     blocks
-        Of all elements; their committed state is changed.
+        Blocks of all elements; their committed state changes.
     model
         Its initial solutions, in their order.
     user

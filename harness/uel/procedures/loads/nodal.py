@@ -7,11 +7,11 @@ Abaqus Analysis User's Guide, "Prescribed conditions: overview", "Amplitude curv
 - without an amplitude a value ramps from where the previous step ended (RAMP), or acts at once (STEP), as
   AMPLITUDE= of *STEP says; prescribed displacements and rotations always ramp;
 - with an amplitude it is the magnitude times the curve, or the curve itself (VALUE=ABSOLUTE);
-- in later steps that do not give it again it stays at the end value, or continues along a curve in total time;
+- in later steps that do not mention it, it stays at the end value, or continues along a curve in total time;
 - FIXED holds a value as it is at the start of the step;
 - TYPE=VELOCITY prescribes the rate, by default constant over the step, and continues in later steps;
-- OP=NEW removes what is not given again: a load, and the reaction of a released degree of freedom, fade over the step
-  (RAMP) or vanish at once (STEP).
+- OP=NEW removes what the step does not mention: a load, and the reaction of a released degree of freedom, fade over
+  the step (RAMP) or vanish at once (STEP).
 """
 
 from __future__ import annotations
@@ -118,8 +118,8 @@ class Variation:
 
 def find_unknowns(dofs: Unknowns, entry: Boundary | Load | InitialValue) -> tuple[IntArray, IntArray]:
     """Return the unknowns of an entry, and the nodes where no element uses its dof."""
-    found = dofs.find(entry.nodes, entry.dof)
-    return found[found >= 0], entry.nodes[found < 0]
+    unknowns = dofs.find(entry.nodes, entry.dof)
+    return unknowns[unknowns >= 0], entry.nodes[unknowns < 0]
 
 
 def initial_values(dofs: DofMap, entries: Sequence[InitialValue]) -> FloatArray:
@@ -204,8 +204,8 @@ class Boundaries:
 
     def perturbed_by_user(self, step: Step) -> IntArray:
         """Return the unknowns (k,) whose changes DISP gives in a perturbation step, ascending."""
-        found = [find_unknowns(self._dofs, entry)[0] for entry in step.boundaries if entry.user]
-        return np.unique(np.concatenate([np.zeros(0, dtype=np.int64), *found]))
+        by_user = [find_unknowns(self._dofs, entry)[0] for entry in step.boundaries if entry.user]
+        return np.unique(np.concatenate([np.zeros(0, dtype=np.int64), *by_user]))
 
     def conclude(self, step_time: float) -> None:
         """End the step before its period."""
@@ -247,22 +247,22 @@ class Loads:
     def take(self, entries: Sequence[Load], new: bool, step: Step, total_time: float) -> Variation:
         """Take over entries of a step; new: those of earlier steps are removed."""
         reached = self.reached(total_time)
-        given = [(entry, find_unknowns(self._dofs, entry)[0]) for entry in entries]
-        anew = np.concatenate([np.zeros(0, dtype=np.int64), *(unknowns for _, unknowns in given)])
+        mentioned = [(entry, find_unknowns(self._dofs, entry)[0]) for entry in entries]
+        loaded = np.concatenate([np.zeros(0, dtype=np.int64), *(unknowns for _, unknowns in mentioned)])
         curves: list[ScaledUnknowns] = []
         if new:
             held, start = self._initial.copy(), reached.copy()
         else:
             held = reached.copy()
-            curves = [curve.without(anew) for curve in self._previous.curves if curve.amplitude.total_time]
+            curves = [curve.without(loaded) for curve in self._previous.curves if curve.amplitude.total_time]
             # these continue by themselves: only the rest is held
             for curve in curves:
                 held[curve.unknowns] -= curve.value(0.0, total_time)
             start = held.copy()
         target = held.copy()
-        target[anew] = 0.0
-        start[anew] = reached[anew]
-        for entry, unknowns in given:
+        target[loaded] = 0.0
+        start[loaded] = reached[loaded]
+        for entry, unknowns in mentioned:
             if entry.amplitude is None:
                 np.add.at(target, unknowns, entry.magnitude)
             else:
@@ -312,15 +312,15 @@ class Slots:
         return np.atleast_1d(places).astype(np.int64) * self._kinds + int(kind) - self._least
 
     def find(self, places: IntArray | int, kind: IntArray | int) -> IntArray:
-        """Return the numbers of the pairs, which must be among those given."""
+        """Return the numbers of the pairs, which must exist."""
         return np.searchsorted(self._sorted, self._keys(places, kind))
 
     def find_some(self, places: IntArray, kind: int) -> IntArray:
-        """Return the numbers of the pairs that are among those given."""
-        found = self.find(places, kind)
-        known = found < len(self)
-        found, keys = found[known], self._keys(places, kind)[known]
-        return np.asarray(found[self._sorted[found] == keys])
+        """Return the numbers of the pairs that exist."""
+        numbers = self.find(places, kind)
+        known = numbers < len(self)
+        numbers, keys = numbers[known], self._keys(places, kind)[known]
+        return np.asarray(numbers[self._sorted[numbers] == keys])
 
 
 def fading_forces(reaction: FloatArray, prescribed: IntArray, step: Step, unbalanced: FloatArray) -> Variation:

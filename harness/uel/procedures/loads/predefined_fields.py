@@ -28,7 +28,7 @@ from uel.procedures.loads.nodal import Loads, Slots, Variation
 
 Times = tuple[float, float]
 """Step and total time."""
-Places = Callable[[IntArray], FloatArray]
+Coordinates = Callable[[IntArray], FloatArray]
 """Coordinates (k, 3) of nodes at the start of the increment."""
 
 
@@ -101,9 +101,9 @@ class Conditions:
         return Predefined(values, np.zeros_like(values), self._initial[: self._nodes.nodes])
 
     def kept(self) -> Saved:
-        """Return the fields that UTEMP and UFIELD have given."""
-        given = self._reached if self._by_user.any() else []
-        return {"reached": [list(one) for one in given]}
+        """Return the fields that UTEMP and UFIELD have set."""
+        reached = self._reached if self._by_user.any() else []
+        return {"reached": [list(one) for one in reached]}
 
     def resume(self, saved: Saved) -> None:
         """Go on from what `kept` returned. Raises ValueError if the model has other fields now."""
@@ -148,9 +148,15 @@ class UserFields:
     reached: list[tuple[float, FloatArray]]
 
     def replace(
-        self, values: FloatArray, before: FloatArray, increment: int, end: Times, user: GivesValues, places: Places
+        self,
+        values: FloatArray,
+        before: FloatArray,
+        increment: int,
+        end: Times,
+        user: GivesValues,
+        coordinates: Coordinates,
     ) -> None:
-        """Put what the routines give into values (n,); before: those at the start of the increment."""
+        """Write what the routines return into values (n,); before: those at the start of the increment."""
         nodes, numbers = self.slots % self.grid.nodes, self.slots // self.grid.nodes
         routines: tuple[Literal["UTEMP", "UFIELD"], ...] = ("UTEMP", "UFIELD")
         for routine, chosen in zip(routines, (numbers == 0, numbers > 0), strict=True):
@@ -160,7 +166,7 @@ class UserFields:
             numbered = np.stack([self.mesh.labels[at], numbers[chosen]], axis=1).astype(np.int32)
             temperatures = np.stack([values[at], values[at] - before[at]], axis=1)
             moment = self.step, increment, end
-            asked = UserValues(routine, *moment, numbered, places(at), values[slots], temperatures)
+            asked = UserValues(routine, *moment, numbered, coordinates(at), values[slots], temperatures)
             values[slots] = user.user_values(asked)
 
     def at(self, total_time: float) -> FloatArray | None:
@@ -188,16 +194,18 @@ class StepConditions:
     by_user: UserFields
 
     def at(
-        self, start: Times, end: Times, increment: int, user: GivesValues, places: Places
+        self, start: Times, end: Times, increment: int, user: GivesValues, coordinates: Coordinates
     ) -> tuple[Distributed | None, Predefined | None]:
-        """Return loads and fields of an increment between these step and total times; places: for UTEMP and UFIELD."""
+        """Return loads and fields of an increment between these step and total times.
+
+        coordinates: those of nodes, for UTEMP and UFIELD."""
         predefined = None
         distributed = self.distributed(start, end)
         if len(self.grid):
             shape = self.grid.fields, self.grid.nodes
             values, before = self.fields.at(*end), self.fields.at(*start)
             if len(self.by_user.slots):
-                values, before = self._with_user(values, before, (start, end), increment, user, places)
+                values, before = self._with_user(values, before, (start, end), increment, user, coordinates)
             predefined = Predefined(values.reshape(shape), (values - before).reshape(shape), self.initial)
         return distributed, predefined
 
@@ -218,7 +226,7 @@ class StepConditions:
         times: tuple[Times, Times],
         increment: int,
         user: GivesValues,
-        places: Places,
+        coordinates: Coordinates,
     ) -> tuple[FloatArray, FloatArray]:
         """Return the fields at the end and at the start of an increment, those of the routines among them."""
         (_, start), (_, end) = times
@@ -226,7 +234,7 @@ class StepConditions:
         before = before if known is None else known
         if start == end:
             return before, before
-        self.by_user.replace(values, before, increment, times[1], user, places)
+        self.by_user.replace(values, before, increment, times[1], user, coordinates)
         self.by_user.keep(start, end, values)
         return values, before
 
@@ -240,5 +248,5 @@ def _distributed(elements: IntArray, kinds: IntArray, end: FloatArray, increment
     """Return the loads as elements get them; None if there are none."""
     if not len(elements):
         return None
-    given = kinds > 0  # UEL itself gives the magnitude of type UnNU
-    return Distributed(elements, kinds, np.where(given, end, 0.0), np.where(given, increment, 0.0))
+    uniform = kinds > 0  # UEL itself sets the magnitude of type UnNU
+    return Distributed(elements, kinds, np.where(uniform, end, 0.0), np.where(uniform, increment, 0.0))

@@ -96,7 +96,7 @@ class StepAmplitudes:
     """User amplitudes of one step.
 
     sensors    array of `nodal` and unknown of each
-    concluded  whether UAMP ends the step with the current increment
+    concluded  True if UAMP ends the step with the current increment
     """
 
     step: int
@@ -113,7 +113,7 @@ class StepAmplitudes:
         for course in self.courses:
             amplitude = course.amplitude
             del amplitude.table[course.kept :]
-            given = self.user.user_amplitude(
+            answer = self.user.user_amplitude(
                 AskedAmplitude(
                     name=amplitude.name,
                     old=amplitude.table[-1][1] if amplitude.table else 0.0,
@@ -127,9 +127,9 @@ class StepAmplitudes:
                     sensors=sensors,
                 )
             )
-            amplitude.table.append((end[1], given.value))
-            course.trial = given.state
-            self.concluded = self.concluded or given.concludes
+            amplitude.table.append((end[1], answer.value))
+            course.trial = answer.state
+            self.concluded = self.concluded or answer.concludes
 
     def converged(self) -> None:
         """Keep the values of the last attempt."""

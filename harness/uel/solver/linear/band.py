@@ -107,7 +107,7 @@ def _storage(n: int, width: int) -> FloatArray:
 
 
 def _target(row: Positions, column: Positions, width: int) -> IntArray:
-    """Return the places of entries in the storage: (i, j) in row kl + ku + i - j of column j."""
+    """Return the positions of entries in the storage: (i, j) in row kl + ku + i - j of column j."""
     return column.astype(np.int64) * (3 * width) + (2 * width + row)
 
 
@@ -147,9 +147,9 @@ class _Factors:
             (2 width, k) solutions there.
         """
         # an interchange of rows reaches over one width, so elimination begins two widths before the end
-        given = np.zeros((2 * self.width, rhs.shape[1]), order="F")
-        given[self.width :] = rhs
-        return self._solve(self._lu.shape[1] - 2 * self.width, given)
+        end = np.zeros((2 * self.width, rhs.shape[1]), order="F")
+        end[self.width :] = rhs
+        return self._solve(self._lu.shape[1] - 2 * self.width, end)
 
     def spread(self, rhs: FloatArray) -> FloatArray:
         """Return the solution (n,) for one right-hand side that is zero but for the last rows (width,)."""
@@ -174,9 +174,9 @@ class _End:
         Parameters
         ----------
         storage
-            Of the end.
+            Storage of the end.
         row, column, data
-            Of all entries of the band.
+            Positions and values of all entries of the band.
         last
             The last unknown of the band, if the end counts from there.
         """
@@ -210,7 +210,7 @@ class _End:
 class _Cut:
     """A band matrix with two ends that stay and a middle that changes; an end may be empty.
 
-    begin, end  of the middle
+    begin, end  first unknown of the middle, and the one behind it
     pivot       smallest one; before the middle is factorised, of the ends, which may not be used if it is 0
     """
 

@@ -36,7 +36,7 @@ _ANALYSE, _FACTORISE, _SOLVE, _RELEASE = 11, 22, 33, -1
 """Phases."""
 
 _PARAMETERS: Final = {
-    0: 1,  # these values in place of the defaults
+    0: 1,  # these values replace the defaults
     1: 2,  # nested dissection
     9: 13,  # pivots below 1e-13 are replaced
     20: 1,  # pivots of symmetric matrices: Bunch and Kaufman
@@ -78,16 +78,16 @@ def version() -> str:
 def loaded() -> ctypes.CDLL:
     """Load the library that has the solver. Raises OSError."""
     files = {path.name.partition(".")[0]: path for path in distribution(_DISTRIBUTION).files or ()}
-    found = [Path(str(files[name].locate())) for name in _LIBRARIES if name in files]
-    if len(found) < len(_LIBRARIES):
+    libraries = [Path(str(files[name].locate())) for name in _LIBRARIES if name in files]
+    if len(libraries) < len(_LIBRARIES):
         raise OSError("this version lacks parts for clusters")
     from mpi4py import MPI  # noqa: PLC0415 (only in a job on several ranks)
 
-    # a loaded library, found by its name, becomes visible to those that follow
+    # a loaded library becomes visible by its name to those that follow
     ctypes.CDLL(_library_of_mpi(MPI.Get_library_version()), mode=ctypes.RTLD_GLOBAL)
     process = ctypes.CDLL(None)
     process.dlopen.restype = ctypes.c_void_p
-    for path in found:
+    for path in libraries:
         # they need each other; ctypes would look for all names at once
         if not process.dlopen(os.fsencode(path), os.RTLD_LAZY | os.RTLD_GLOBAL):
             raise OSError(f"cannot load {path}")
@@ -104,7 +104,7 @@ def _library_of_mpi(version: str) -> str:
 class Cluster:
     """Matrices of one pattern.
 
-    largest_diagonal  of the last matrix, in magnitude
+    largest_diagonal  largest magnitude on the diagonal of the last matrix
     """
 
     def __init__(self, ranks: Ranks, rows: DistributedRows) -> None:
@@ -138,7 +138,7 @@ class Cluster:
         return self._ranks.sum(solution)
 
     def release(self) -> None:
-        """Give back the memory of the factors; all ranks do so at the same place."""
+        """Give back the memory of the factors; all ranks do so at the same point of the program."""
         if self._matrix is not None:
             self._matrix.release()
         self._matrix = None
@@ -153,15 +153,15 @@ class _Matrix:
         self.kind = kind
         self._ranks = ranks
         self._n = len(rows.order)
-        taken = np.flatnonzero(rows.indices >= row) if kind == _SYMMETRIC else np.arange(len(row))
-        self._taken = taken
-        self._indices = np.ascontiguousarray(rows.indices[taken])
-        self._indptr = np.searchsorted(taken, rows.indptr).astype(np.int32)
-        self._values = np.zeros(len(taken))
+        entries = np.flatnonzero(rows.indices >= row) if kind == _SYMMETRIC else np.arange(len(row))
+        self._entries = entries
+        self._indices = np.ascontiguousarray(rows.indices[entries])
+        self._indptr = np.searchsorted(entries, rows.indptr).astype(np.int32)
+        self._values = np.zeros(len(entries))
         self._handle = np.zeros(64, dtype=np.int64)
         self._parameters = np.zeros(64, dtype=np.int32)
-        for place, value in _PARAMETERS.items():
-            self._parameters[place] = value
+        for index, value in _PARAMETERS.items():
+            self._parameters[index] = value
         self._parameters[_FIRST] = rows.first
         self._parameters[_LAST] = rows.first + len(rows.indptr) - 2
         self._comm = ctypes.c_int(MPI.COMM_WORLD.py2f())
@@ -169,7 +169,7 @@ class _Matrix:
 
     def factorise(self, values: FloatArray) -> None:
         """Factorise the matrix with these values of all entries of the rows. Raises ClusterError."""
-        self._values = values[self._taken]
+        self._values = values[self._entries]
         if not self._analysed:
             self._call(_ANALYSE)
             self._analysed = True

@@ -39,17 +39,17 @@ class DistributedRows:
         self._ends = np.searchsorted(target, np.arange(1, ranks.size))
         keys = number[rows[self._sent]] * n + number[pattern.indices[self._sent]]
         received = ranks.exchange(np.split(keys, self._ends))
-        found = np.unique(np.concatenate(received))
+        entries_here = np.unique(np.concatenate(received))
         self._incoming = np.array([len(part) for part in received])
-        self._places = [np.searchsorted(found, part) for part in received]
-        row = found // max(n, 1) - self.first
+        self._positions = [np.searchsorted(entries_here, part) for part in received]
+        row = entries_here // max(n, 1) - self.first
         self.indptr = np.searchsorted(row, np.arange(owned[ranks.rank] + 1)).astype(np.int32)
-        self.indices: NDArray[np.int32] = (found % max(n, 1)).astype(np.int32)
+        self.indices: NDArray[np.int32] = (entries_here % max(n, 1)).astype(np.int32)
 
     def assemble(self, data: FloatArray) -> FloatArray:
         """Values of the rows of this rank from the part (nnz,) of each rank, added in the order of the ranks."""
         values = np.zeros(len(self.indices))
         parts = self._ranks.exchange_known(np.split(data[self._sent], self._ends), self._incoming)
-        for places, part in zip(self._places, parts, strict=True):
-            values[places] += part
+        for positions, part in zip(self._positions, parts, strict=True):
+            values[positions] += part
         return values

@@ -87,12 +87,12 @@ class Pattern:
     @cached_property
     def transposed(self) -> NDArray[np.int32]:
         """Position (nnz,) of entry (j, i) for each entry (i, j)."""
-        places = np.arange(len(self.indices), dtype=np.int32)
+        positions = np.arange(len(self.indices), dtype=np.int32)
         # the conversion keeps rows in order: entries of a column come by ascending rows
-        return np.asarray(sparse.csr_array((places, self.indices, self.indptr), (self.size,) * 2).tocsc().data)
+        return np.asarray(sparse.csr_array((positions, self.indices, self.indptr), (self.size,) * 2).tocsc().data)
 
     def matrix(self, data: FloatArray) -> sparse.csr_array:
-        """Return the matrix with the given values, not copied."""
+        """Return the matrix with these values (nnz,), not copied."""
         return sparse.csr_array((data, self.indices, self.indptr), shape=(self.size, self.size))
 
     def rows_of(self, entries: IntArray) -> IntArray:
@@ -132,9 +132,9 @@ class Pattern:
 class Effort:
     """Work of a linear solver.
 
-    factorisations  of matrices, among them those in part
-    in_part         of them, where the last factors were renewed only where the matrix had changed
-    refused         of these, where the solution was not accurate and the whole matrix was factorised again
+    factorisations  number of factorisations
+    in_part         number of those that renewed the last factors only where the matrix had changed
+    refused         number of these whose solution was not accurate, so that the whole matrix was factorised
     solutions       right-hand sides
     factorising, solving  CPU seconds
     """
@@ -156,9 +156,9 @@ def is_accurate(residual: FloatArray, rhs: FloatArray, terms: Callable[[], Float
     Parameters
     ----------
     residual, rhs
-        (n,) what the solution leaves of the right-hand side, and this.
+        (n,) residual of the solution, and right-hand side.
     terms
-        Gives the sum (n,) of the magnitudes of the terms of each row.
+        Returns the sum (n,) of the magnitudes of the terms of each row.
     """
     error = np.abs(residual)
     if not error.max() > ACCURATE * np.abs(rhs).max():
@@ -170,12 +170,12 @@ def is_accurate(residual: FloatArray, rhs: FloatArray, terms: Callable[[], Float
 class LinearSolver(ABC):
     """Solver that factorises matrices of one pattern.
 
-    name         by which it is requested
-    module, distribution  that it needs: to import, and to install
+    name         name by which a user requests the solver
+    module, distribution  what the solver imports, and what provides it
     widest_band  half bandwidths, in the plane and in space, up to which the band solver beats it, see `choice`
-    reason       why this solver was chosen, a phrase for the message file
-    advice       what would be faster, '' for nothing
-    effort       what it has done so far
+    reason       reason why this solver was chosen, a phrase for the message file
+    advice       a faster solver, as a sentence; '' if there is none
+    effort       counts and times of its work so far
     """
 
     name: ClassVar[str]
@@ -189,10 +189,10 @@ class LinearSolver(ABC):
         Parameters
         ----------
         pattern
-            Of all matrices to be factorised.
+            Pattern of all matrices.
         name_of
-            Gives node name and dof of an unknown, for the message of a singular matrix; without it unknowns are
-            numbered.
+            Returns node name and dof of an unknown, for the message of a singular matrix; None: the message has the
+            number of the unknown.
         """
         self.pattern = pattern
         self.reason, self.advice = "requested", ""

@@ -39,7 +39,7 @@ class MumpsSolver(LinearSolver):
         self._taken: NDArray[np.int32] | slice = slice(None)
 
     def forget(self) -> None:
-        """Forget earlier matrices; the kind of matrix is found and the analysis made again."""
+        """Forget earlier matrices; the kind of the next one is chosen, and its analysis made, without them."""
         super().forget()
         self._context, self._symmetric = None, True
 
@@ -53,7 +53,7 @@ class MumpsSolver(LinearSolver):
                 self._context.set_matrix(self.pattern.matrix(data.copy()), symmetric=self._symmetric)
                 self._taken = self.pattern.upper if self._symmetric else slice(None)
                 self._context.analyze()
-            # MUMPS reads the values in place
+            # MUMPS reads the values without a copy
             self._context.data[:] = data[self._taken]
             self._context.factor(reuse_analysis=True)
         except self._error as error:

@@ -15,7 +15,7 @@ from uel.solver.linear.linear_solver import Pattern
 
 @dataclass(frozen=True, slots=True)
 class BandOrdering:
-    """position (n,) of each unknown in the band, the half bandwidth this gives, and how it was found."""
+    """position (n,) of each unknown in the band, the half bandwidth this gives, and the method that gave it."""
 
     position: IntArray
     width: int

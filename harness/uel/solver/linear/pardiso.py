@@ -46,7 +46,7 @@ NO_MEMORY: Final = -2
 """PARDISO's error where memory is not to be had."""
 
 PARAMETERS: Final = {
-    0: 1,  # these values in place of the defaults, which refine each solution twice, at twice its cost
+    0: 1,  # these values replace the defaults, which refine each solution twice, at twice its cost
     1: 2,  # nested dissection
     7: 0,  # two steps of refinement if pivots were replaced, none otherwise
     9: 13,  # pivots below 1e-13 are replaced: with the 1e-8 of symmetric matrices a stiff interface would be changed
@@ -99,7 +99,7 @@ class PardisoSolver(LinearSolver):
         self._matrix: _Matrix | None = None
 
     def forget(self) -> None:
-        """Forget earlier matrices; the kind of matrix is found again."""
+        """Forget earlier matrices; the kind of the next one is chosen without them."""
         super().forget()
         self._type, self._matrix = SYMMETRIC, None
 
@@ -157,8 +157,8 @@ class _Matrix:
         self._handle = PyPardisoSolver(kind.number)
         self.renewable = kind is not PIVOTED and _without_openmp(self._handle)
         renewable = RENEWABLE if self.renewable else {}
-        for place, value in (PARAMETERS | renewable | kind.parameters).items():
-            self._handle.iparm[place] = value
+        for index, value in (PARAMETERS | renewable | kind.parameters).items():
+            self._handle.iparm[index] = value
         self._upper: NDArray[np.int32] | None = None
         self._pattern = pattern
         if kind is SYMMETRIC:
@@ -177,8 +177,8 @@ class _Matrix:
         self._handle.perm = np.zeros(0 if changed is None else 1, dtype=np.int32)
         if changed is not None:
             if self._upper is not None:
-                place = np.minimum(np.searchsorted(self._upper, changed), len(self._upper) - 1)
-                changed = place[self._upper[place] == changed]
+                position = np.minimum(np.searchsorted(self._upper, changed), len(self._upper) - 1)
+                changed = position[self._upper[position] == changed]
             pairs = np.column_stack([self._pattern.rows_of(changed), self._pattern.indices[changed]])
             self._handle.perm = np.concatenate([[len(pairs)], pairs.ravel()]).astype(np.int32)
         self._call(FACTORISE)

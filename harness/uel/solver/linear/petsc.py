@@ -73,7 +73,7 @@ def _loaded() -> Any:
 class Petsc:
     """Matrices of one pattern.
 
-    largest_diagonal  of the last matrix, in magnitude
+    largest_diagonal  largest magnitude on the diagonal of the last matrix
     """
 
     def __init__(self, ranks: Ranks, rows: DistributedRows, pattern: Pattern) -> None:
@@ -119,18 +119,18 @@ class Petsc:
 
     def solve(self, rhs: FloatArray) -> FloatArray:
         """Solve for a right-hand side (n,) that all ranks have; NaN where the solver has failed."""
-        given, found = self._matrix.createVecs("left"), self._matrix.createVecs("right")
-        given.array[:] = rhs[self._own]
+        b, x = self._matrix.createVecs("left"), self._matrix.createVecs("right")
+        b.array[:] = rhs[self._own]
         solution = np.zeros_like(rhs)
-        self._solver.solve(given, found)
+        self._solver.solve(b, x)
         # all ranks have the same reason
-        solution[self._own] = found.array if self._solver.getConvergedReason() > 0 else np.nan
-        for vector in (given, found):
+        solution[self._own] = x.array if self._solver.getConvergedReason() > 0 else np.nan
+        for vector in (b, x):
             vector.destroy()
         return self._ranks.sum(solution)
 
     def release(self) -> None:
-        """Give back the memory of the factors; all ranks do so at the same place."""
+        """Give back the memory of the factors; all ranks do so at the same point of the program."""
         if self._matrix is not None:
             self._solver.destroy()
             self._matrix.destroy()
@@ -171,15 +171,15 @@ def rigid_modes(coordinates: FloatArray, dofs: IntArray) -> FloatArray:
         (n, modes): three translations, three rotations about the middle over the size of the body, and one for each
         other dof there is.
     """
-    places = coordinates - coordinates.mean(axis=0)
-    size = np.abs(places).max(initial=0.0) or 1.0
+    centred = coordinates - coordinates.mean(axis=0)
+    size = np.abs(centred).max(initial=0.0) or 1.0
     unit = np.eye(3)
     others = np.unique(dofs[dofs > _ROTATIONS[-1]])
     modes = np.zeros((len(dofs), 6 + len(others)))
     for dof in range(1, 4):
         moved = dofs == dof
         modes[moved, dof - 1] = 1.0
-        modes[moved, 3:6] = np.cross(unit, places[moved, None])[:, :, dof - 1] / size
+        modes[moved, 3:6] = np.cross(unit, centred[moved, None])[:, :, dof - 1] / size
         modes[dofs == dof + 3, dof + 2] = 1.0 / size
     modes[:, 6:] = dofs[:, None] == others
     return modes

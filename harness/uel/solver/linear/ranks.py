@@ -62,8 +62,8 @@ class RankSolver:
     """Solver for matrices of one pattern, of which each rank has a part, on all ranks or on rank 0.
 
     name, reason  for the message file
-    effort        of rank 0
-    wrap          what rank 0 puts around the linear solver of a gathered matrix
+    effort        counts and times of rank 0
+    wrap          wrapper of the linear solver of a gathered matrix, on rank 0
     negligible    gives the force that counts as zero for `wrap`
     free          message of the part of the model that moves freely, where `wrap` tolerates that; None without one
     """
@@ -74,15 +74,15 @@ class RankSolver:
         Parameters
         ----------
         ranks
-            Which all call the functions of this class together.
+            All of them call each function of this class together.
         name
             'auto', 'substructures', 'cluster', or the solver with which rank 0 works.
         pattern
-            Of the part of this rank, with unknowns numbered as on all others.
+            Pattern of this rank's part of the matrix; all ranks number the unknowns alike.
         name_of
-            Node name and dof of an unknown.
+            Returns node name and dof of an unknown.
         effort
-            To which that of this solver is added.
+            The effort of this solver is added to it.
 
         Raises
         ------
@@ -249,8 +249,10 @@ class RankSolver:
         self._whole = rows = DistributedRows(self._ranks, self._pattern, np.zeros(self._pattern.size, dtype=np.int64))
 
         def begin() -> tuple[str, str]:
-            given = self._wanted, rows.indptr, rows.indices
-            self._chosen = choose(*given, coordinates=self._pattern.coordinates, name_of=self._name_of)
+            coordinates = self._pattern.coordinates
+            self._chosen = choose(
+                self._wanted, rows.indptr, rows.indices, coordinates=coordinates, name_of=self._name_of
+            )
             self._chosen.effort = self.effort
             return self._chosen.name, f"on rank 0, {self._chosen.reason}"
 
@@ -288,5 +290,5 @@ def _owners(ranks: Ranks, pattern: Pattern) -> IntArray:
     """Return the rank of each unknown: the lowest one that has an element with it."""
     used = np.diff(pattern.indptr) > 1
     mine = np.where(used, float(ranks.size - ranks.rank), 0.0)
-    found = ranks.size - ranks.largest(mine).astype(np.int64)
-    return np.where(found == ranks.size, 0, found)
+    lowest = ranks.size - ranks.largest(mine).astype(np.int64)
+    return np.where(lowest == ranks.size, 0, lowest)

@@ -4,7 +4,7 @@
 
 A small pivot alone does not tell: the tip of a slender beam held by an interface stiffness of 1e12 has one of 1e-13
 of the largest diagonal entry and is sound, that of an unconstrained body can be 1e-10 by accumulated rounding. So
-a suspicious matrix is examined by the vector v that it stretches least, found by inverse iteration: it is
+a suspicious matrix is examined by the vector v that it stretches least, by inverse iteration: it is
 singular if v^T A v is not larger than the rounding error of its own terms. Measured on 12,000 unknowns of a double
 cantilever beam, v^T A v is 0.0003 to 0.3 times that error if a body is free (interface stiffness 1e6 to 1e12), and
 1e7 (1e6) to 25 (1e12) times if the beam is clamped.
@@ -40,7 +40,7 @@ def refuse_singular(
 def free_unknown(matrix: sparse.csr_array, *, certain: bool = False) -> int | None:
     """Return the unknown that moves most in the direction the matrix does not resist, None if the matrix is regular.
 
-    With `certain`, a factorisation met a zero pivot: the matrix is taken as singular in any case.
+    With `certain`, a factorisation met a zero pivot: the matrix counts as singular in any case.
     """
     largest = abs(matrix).max(axis=1).toarray().ravel()
     empty = np.flatnonzero(largest == 0.0)

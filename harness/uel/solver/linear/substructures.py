@@ -62,9 +62,9 @@ _FORWARD, _BACKWARD = 331, 333
 class Substructures:
     """Matrices of one pattern.
 
-    usable            whether each rank has unknowns of its own, and shares some
+    usable            True if each rank has unknowns of its own and shares some
     shared            unknowns of several ranks, the same array on all of them
-    largest_diagonal  of the last matrix, in magnitude
+    largest_diagonal  largest magnitude on the diagonal of the last matrix
     """
 
     def __init__(self, ranks: Ranks, pattern: Pattern, owners: IntArray) -> None:
@@ -73,11 +73,11 @@ class Substructures:
         Parameters
         ----------
         ranks
-            Which all call the functions of this class together.
+            All of them call each function of this class together.
         pattern
-            Of the part of the matrix of this rank, with unknowns numbered as on all others.
+            Pattern of this rank's part of the matrix; all ranks number the unknowns alike.
         owners
-            (n,) a rank for each unknown, one of those that have it, the same array on all ranks.
+            (n,) for each unknown one of the ranks that have it; the same array on all ranks.
         """
         self._ranks, self._size, self._diagonal = ranks, pattern.size, pattern.diagonal
         self._used = np.diff(pattern.indptr) > 1
@@ -85,8 +85,8 @@ class Substructures:
         self.shared = np.flatnonzero(common)
         self._own, stay = np.flatnonzero((owners == ranks.rank) & ~common), np.flatnonzero(common & self._used)
         self.usable = not ranks.largest(np.array([float(not (len(self._own) and len(stay)))]))[0]
-        # for each rank, places of its unknowns among the shared ones
-        self._places = ranks.everyones(np.searchsorted(self.shared, stay))
+        # for each rank, positions of its unknowns among the shared ones
+        self._positions = ranks.everyones(np.searchsorted(self.shared, stay))
         self._here = np.concatenate([self._own, stay])
         self._owned = owners[self._here] == ranks.rank
         numbers = np.arange(len(pattern.indices), dtype=np.int32)
@@ -143,11 +143,11 @@ class Substructures:
         both = self._ranks.sum(np.concatenate([diagonal, np.where(self._used, 0.0, diagonal)]))
         self.largest_diagonal = float(np.abs(both[: self._size]).max(initial=0.0))
         values: FloatArray = data[self._take]
-        places = self._pattern.diagonal
-        values[places] = np.where(self._used[self._here], values[places], 0.0)
-        values[places] += np.where(self._owned, both[self._size :][self._here], 0.0)
-        self._stand_in = STAND_IN * float(np.abs(values[places]).max())
-        values[places[len(self._own) :]] += self._stand_in
+        positions = self._pattern.diagonal
+        values[positions] = np.where(self._used[self._here], values[positions], 0.0)
+        values[positions] += np.where(self._owned, both[self._size :][self._here], 0.0)
+        self._stand_in = STAND_IN * float(np.abs(values[positions]).max())
+        values[positions[len(self._own) :]] += self._stand_in
         return values
 
     def _eliminate(self, kind: Type) -> FloatArray:
@@ -169,17 +169,17 @@ class Substructures:
             sent[0] = complement.ravel()
         elif complement is not None:
             self._complements[0] = complement
-        for rank, found in enumerate(self._ranks.exchange(sent)):
-            if len(found):
-                self._complements[rank] = found.reshape((len(self._places[rank]),) * 2)
+        for rank, received in enumerate(self._ranks.exchange(sent)):
+            if len(received):
+                self._complements[rank] = received.reshape((len(self._positions[rank]),) * 2)
 
     def _factorise_complement(self) -> bool:
         """Factorise the sum of the Schur complements on rank 0; returns whether it is regular."""
         total = np.zeros((len(self.shared),) * 2)
-        for places, own in zip(self._places, self._complements, strict=True):
+        for positions, own in zip(self._positions, self._complements, strict=True):
             # a rank that has failed may have sent none
             if len(own):
-                total[np.ix_(places, places)] += own
+                total[np.ix_(positions, positions)] += own
         factors, pivots, info = lapack.dgetrf(total, overwrite_a=True)
         self._factors = factors, pivots
         return not info
@@ -187,18 +187,18 @@ class Substructures:
     def solve(self, rhs: FloatArray) -> FloatArray:
         """Solve for a right-hand side (n,) that all ranks have; all get the same solution (n,)."""
         assert self._matrix is not None
-        own, places = len(self._own), self._places[self._ranks.rank]
-        given = np.zeros(len(self._here))
-        given[:own] = rhs[self._own]
-        forward = self._matrix.solve(_FORWARD, given)
+        own, positions = len(self._own), self._positions[self._ranks.rank]
+        own_rhs = np.zeros(len(self._here))
+        own_rhs[:own] = rhs[self._own]
+        forward = self._matrix.solve(_FORWARD, own_rhs)
         reduced = np.zeros(len(self.shared))
-        reduced[places] = forward[own:]
+        reduced[positions] = forward[own:]
         reduced = self._ranks.sum(reduced) + rhs[self.shared]
         stay = np.zeros(len(self.shared))
         if not self._ranks.rank:
             stay, _ = lapack.dgetrs(*self._factors, reduced)
         stay = self._ranks.sum(stay)
-        forward[own:] = stay[places]
+        forward[own:] = stay[positions]
         solution = np.zeros(self._size)
         solution[self._own] = self._matrix.solve(_BACKWARD, forward)[:own]
         solution = self._ranks.sum(solution)
@@ -216,8 +216,8 @@ class _Handle:
     def __init__(self, kind: Type, perm: NDArray[np.int32]) -> None:
         self.mtype, self.perm = kind.number, perm
         self.pt, self.iparm = np.zeros(64, dtype=np.int64), np.zeros(64, dtype=np.int32)
-        for place, value in (PARAMETERS | _CHANGES).items():
-            self.iparm[place] = value
+        for index, value in (PARAMETERS | _CHANGES).items():
+            self.iparm[index] = value
         self._mkl_pardiso = loaded().pardiso
         integers, reals = ctypes.POINTER(ctypes.c_int32), ctypes.POINTER(ctypes.c_double)
         numbers = ctypes.POINTER(ctypes.c_int64)

@@ -35,7 +35,7 @@ RESIDUAL: Final = 1e-11
 
 
 class SuperLUSolver(LinearSolver):
-    """Minimum degree on the pattern of A + A^T in symmetric mode, found once, then kept.
+    """Minimum degree on the pattern of A + A^T in symmetric mode, computed once, then kept.
 
     If many diagonal entries cannot be pivots, as with Lagrange multipliers, columns are ordered by COLAMD and any row
     may be the pivot: 12,000 unknowns of a public mixed element take 0.7 s, in symmetric mode minutes, with seven times
@@ -55,11 +55,11 @@ class SuperLUSolver(LinearSolver):
         super().__init__(pattern, name_of)
         self._order: IntArray = np.zeros(0, dtype=np.int64)
         self._on_diagonal = True
-        # the factors are those of an earlier matrix; iterations that may take the place of a factorisation
+        # the factors are those of an earlier matrix; iterations that may replace a factorisation
         self._behind, self._most = False, 0
 
     def forget(self) -> None:
-        """Forget earlier matrices; the order is found again."""
+        """Forget earlier matrices; the next one is ordered without them."""
         super().forget()
         self._order = np.zeros(0, dtype=np.int64)
 
@@ -70,8 +70,8 @@ class SuperLUSolver(LinearSolver):
                 ordering = "MMD_AT_PLUS_A" if self._on_diagonal else "COLAMD"
                 indices, indptr = self.pattern.indices, self.pattern.indptr
                 self._keep_order(_factors(data, indices, indptr, ordering, on_diagonal=self._on_diagonal))
-            given = data[self._take], self._indices, self._indptr
-            self._lu = _factors(*given, "NATURAL", on_diagonal=self._on_diagonal)
+            values = data[self._take]
+            self._lu = _factors(values, self._indices, self._indptr, "NATURAL", on_diagonal=self._on_diagonal)
         except RuntimeError:
             return 0.0
         self._behind, self._most = False, int(self._lu.nnz / (self.pattern.size * FILL_PER_ITERATION))
