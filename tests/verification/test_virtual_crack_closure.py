@@ -129,7 +129,7 @@ def test_releases_along_a_front(
     assert mean.sum() == pytest.approx(sharp_mean.sum(), rel=0.03)
     assert mean[mode] == pytest.approx(sharp_mean[mode], rel=0.03)
 
-    y = front.places[:, 1]
+    y = front.coordinates[:, 1]
     middle = y < 0.25 * WIDTH
     at = np.stack([np.interp(y, laminate().mesh.y, values) for values in expected.T], axis=-1)
     assert front.releases[middle, mode] == pytest.approx(at[middle, mode], rel=0.08)

@@ -152,7 +152,7 @@ def read_deck(
         initial_solutions=tuple(solutions),
         initial_stresses=tuple(stresses),
         constants=read_physical_constants(structure.root),
-        given=dict(given or {}),
+        parameters=dict(given or {}),
         ignored=(*interactions.unused, *structure.ignored),
         warnings=problems.warnings,
         differences=problems.differences,

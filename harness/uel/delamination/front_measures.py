@@ -39,12 +39,12 @@ def _columns(result: Result, variable: str, name: str) -> list[str]:
 def last_front(result: Result) -> Front:
     """Return the longest front of the last increment that has one."""
     found = fronts(result)
-    return max((front for front in found if front.time == found[-1].time), key=lambda front: len(front.places))
+    return max((front for front in found if front.time == found[-1].time), key=lambda front: len(front.coordinates))
 
 
 def grown_fronts(result: Result, crack: float) -> list[Front]:
     """Return the fronts across the specimen that have left the initial edge at `crack` (mm)."""
-    return [front for front in fronts(result) if front.places[:, 0].min() > crack + GROWN]
+    return [front for front in fronts(result) if front.coordinates[:, 0].min() > crack + GROWN]
 
 
 def dissipated_release(result: Result, crack: float, width: float) -> float:
@@ -78,4 +78,4 @@ def compliance_release(result: Result, crack: float, width: float) -> float:
 def mean_fronts(result: Result, crack: float) -> tuple[FloatArray, FloatArray]:
     """Return times and mean positions (mm) of the fronts that have left the initial edge."""
     found = grown_fronts(result, crack)
-    return np.array([front.time for front in found]), np.array([front.places[:, 0].mean() for front in found])
+    return np.array([front.time for front in found]), np.array([front.coordinates[:, 0].mean() for front in found])

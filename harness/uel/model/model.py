@@ -20,7 +20,7 @@ class PhysicalConstants:
     """*PHYSICAL CONSTANTS.
 
     absolute_zero     on the scale of the temperatures
-    stefan_boltzmann  constant of radiation, 0 where it is not given
+    stefan_boltzmann  constant of radiation, 0 if the deck does not set it
     """
 
     absolute_zero: float = 0.0
@@ -51,7 +51,7 @@ class Model:
     nsets      node indices of each set; a set of an instance is also there as INSTANCE.NAME
     elsets     element positions of each set (position in the groups walked in order)
     boundaries *BOUNDARY before the first step
-    arms       which of the equations have finite rotations with NLGEOM
+    arms       equations that have finite rotations with NLGEOM
     couplings  distributing ones that are no equations, as a step has NLGEOM
     initial_velocities    *INITIAL CONDITIONS, TYPE=VELOCITY
     initial_temperatures  TYPE=TEMPERATURE, for unknowns that are temperatures, and as a predefined field
@@ -60,10 +60,10 @@ class Model:
     initial_solutions     TYPE=SOLUTION
     initial_stresses      TYPE=STRESS
     constants  *PHYSICAL CONSTANTS
-    given      values of parameters that replace those in the deck: listed in .dat
-    ignored    keywords that cannot change the solution, with their places: listed once in .dat
-    warnings   places where the deck is odd but understood
-    differences  what Abaqus does otherwise with the deck, without a change of this run: warnings too
+    parameters  values of parameters that replace those in the deck: listed in .dat
+    ignored    keywords that cannot change the solution, with file and line: listed once in .dat
+    warnings   file:line and reason where the deck is odd but understood
+    differences  what Abaqus would do differently with the deck; warnings without an effect on this run
     """
 
     deck: Path
@@ -85,7 +85,7 @@ class Model:
     initial_solutions: tuple[InitialSolution, ...] = ()
     initial_stresses: tuple[InitialStress, ...] = ()
     constants: PhysicalConstants = PhysicalConstants()
-    given: dict[str, float] = field(default_factory=dict)
+    parameters: dict[str, float] = field(default_factory=dict)
     ignored: tuple[tuple[str, Source], ...] = ()
     warnings: tuple[str, ...] = ()
     differences: tuple[str, ...] = ()
@@ -97,6 +97,6 @@ class Model:
 
 
 def constraints_with_multipliers(model: Model) -> list[tuple[str, Source]]:
-    """Return the keywords, with their places, that Lagrange multipliers or stiffnesses between nodes enforce."""
+    """Return the keywords, with file and line, that Lagrange multipliers or stiffnesses between nodes enforce."""
     contacts = [(f"*{pair.keyword}", pair.source) for pair in model.contacts]
     return contacts + [("*DISTRIBUTING with NLGEOM", coupling.source) for coupling in model.couplings]

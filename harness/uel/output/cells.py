@@ -62,7 +62,7 @@ def cells_of(group: ElementGroup, variables: PointVariables | None, *, solid: bo
 
 def _family(nodes: int, *dimensions: int) -> Family | None:
     """Return the family of a number of nodes, in the first of the dimensions that has one."""
-    return next((FAMILIES[found, nodes] for found in dimensions if (found, nodes) in FAMILIES), None)
+    return next((FAMILIES[dimension, nodes] for dimension in dimensions if (dimension, nodes) in FAMILIES), None)
 
 
 def is_solid(model: Model) -> bool:
@@ -91,7 +91,7 @@ def cell_values(states: Sequence[ElementState], cells: tuple[Cells, ...]) -> dic
                 continue
             sides = {name: 0}
             if state.variables.sides and name not in state.variables.whole:
-                sides = {name + suffix: place for suffix, _, place in state.variables.sides}
+                sides = {name + suffix: position for suffix, _, position in state.variables.sides}
             for side, section in sides.items():
                 known.setdefault(side, {})[state.group] = means[elements, section, k]
     return {

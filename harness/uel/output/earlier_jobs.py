@@ -42,7 +42,7 @@ class EarlierJobs:
         mode
             Mode of a linear step; 1 of others.
         increment
-            Of a general step; 0: the last one written.
+            Increment of a general step; 0: the last one written.
 
         Returns
         -------

@@ -23,7 +23,7 @@ def engineering(value: float) -> str:
 def general(value: float, width: int = 11, digits: int = 3) -> str:
     """Format as Fortran's `1PGw.d`, with which the .msg and .dat files are written.
 
-    A number that rounds into [0.1, 10**digits) has `digits` significant digits and four blanks in place of the
+    A number that rounds into [0.1, 10**digits) has `digits` significant digits and four blanks instead of the
     exponent; any other has one digit more and an exponent.
     """
     if not math.isfinite(value):
@@ -99,10 +99,10 @@ def read_remarks(path: Path, kind: str) -> list[str]:
     """Read the remarks of a kind in a file, each on one line; none if there is no such file."""
     if not path.exists():
         return []
-    found = re.findall(
+    remarks = re.findall(
         rf"^ \*\*\*{kind}: (.*\n(?: {{{len(kind) + 6}}}\S.*\n)*)", path.read_text("utf-8", "replace"), re.M
     )
-    return [" ".join(text.split()) for text in found]
+    return [" ".join(text.split()) for text in remarks]
 
 
 def remark(kind: str, text: str) -> str:

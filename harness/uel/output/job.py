@@ -49,7 +49,7 @@ from uel.output.files.state_files import StateFiles
 from uel.output.progress import ProgressDisplay
 
 ERRORS = {CONTACT: ("penetration", "contact force error"), COUPLING: ("displacement error", "rotation error")}
-"""Names of the errors that the checks of constraints measure, in place of the residual and correction of fields."""
+"""Names of the errors that the checks of constraints measure, instead of the residual and correction of fields."""
 
 
 class JobOutput:
@@ -174,8 +174,8 @@ class JobOutput:
         if last is None:
             return "before its first increment was complete"
         period = steps[last.step - 1].procedure.period
-        place = f"increment {last.increment} of step {last.step} (of {len(steps)})"
-        return f"after {place}, step time {last.step_time:g} of {period:g}"
+        moment = f"increment {last.increment} of step {last.step} (of {len(steps)})"
+        return f"after {moment}, step time {last.step_time:g} of {period:g}"
 
     @property
     def unbalanced(self) -> list[str]:
@@ -209,14 +209,14 @@ class JobOutput:
         Parameters
         ----------
         error
-            What ended the run; None if it is complete.
+            Error that ended the run; None if it is complete.
 
         Raises
         ------
         OSError
-            Of the first file that cannot be written; the others are closed all the same.
+            A file cannot be written; the others are closed nevertheless.
         UelError
-            Of an element that the last increment's output calls.
+            An element fails that the output of the last increment calls.
         """
         if self._closed:
             return
@@ -309,5 +309,5 @@ class JobOutput:
         if monitor is None:
             return None
         solution = record.solution
-        found = np.flatnonzero((solution.node == monitor[0]) & (solution.dof == monitor[1]))
-        return float(solution.displacement[found[0]]) if len(found) else None
+        positions = np.flatnonzero((solution.node == monitor[0]) & (solution.dof == monitor[1]))
+        return float(solution.displacement[positions[0]]) if len(positions) else None

@@ -16,7 +16,7 @@ _FILES: Final = (".sta", ".msg", ".dat", "_history.csv", "_interface.csv", ".pvd
 def ending(result: Result) -> list[str]:
     """Return the lines about a completed run: its first warnings, how it went, its largest load and its files."""
     last = result.status[-1]
-    # a linear step takes no time, and may have a frequency in its place
+    # a linear step takes no time, and may have a frequency instead
     time = f", total time {last.total_time:g}" if last.time_increment > PERTURBATION_TIME else ""
     seconds = "" if result.seconds is None else f" in {duration(result.seconds)}"
     warnings, shown = len(result.warnings), min(len(result.warnings), MOST_REPEATED)
@@ -45,8 +45,8 @@ def largest_load(result: Result) -> str:
     if curve is None:
         return ""
     peak = curve.peak
-    place = f"in increment {curve.increment[peak]:.0f} of step {curve.step[peak]:.0f}"
-    where = "in the last increment" if peak == len(curve.y) - 1 else place
+    moment = f"in increment {curve.increment[peak]:.0f} of step {curve.step[peak]:.0f}"
+    where = "in the last increment" if peak == len(curve.y) - 1 else moment
     return f"largest load: {curve.y_name} = {curve.y[peak]:.5g} at {curve.x_name} = {curve.x[peak]:.5g}, {where}"
 
 

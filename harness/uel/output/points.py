@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Variables at the integration points of a group, taken from its SVARS."""
+"""Variables at the integration points of a group, from its SVARS."""
 
 from __future__ import annotations
 

@@ -53,7 +53,7 @@ class Result:
     seconds
         Wall-clock time of the run, if known.
     warnings
-        Those in the .dat and .msg files, for a run just made; None: they are read when asked for.
+        Warnings of the .dat and .msg files, if known from the run; None: they are read on demand.
 
     Raises
     ------
@@ -84,7 +84,7 @@ class Result:
         Parameters
         ----------
         ending
-            What follows the name of the job: '.msg', '_history.csv', ...
+            End of the file name after the name of the job: '.msg', '_history.csv', ...
 
         Returns
         -------
@@ -166,7 +166,7 @@ class Result:
         Parameters
         ----------
         name
-            Of point data ('U', 'RF', ...) or of cell data ('S11', 'DAMAGE', ...).
+            Name of point data ('U', 'RF', ...) or of cell data ('S11', 'DAMAGE', ...).
         increment, step
             As in `mesh`.
 

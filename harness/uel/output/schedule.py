@@ -26,10 +26,10 @@ class Schedule:
 
     def due(self, frequency: int, record: IncrementDone, *, last: bool) -> bool:
         """Report whether the increment must be written now; `last`: no increment of the step follows."""
-        place = (record.step, record.increment)
-        if frequency < 1 or place == self._written or not (last or record.increment % frequency == 0):
+        entry = (record.step, record.increment)
+        if frequency < 1 or entry == self._written or not (last or record.increment % frequency == 0):
             return False
-        self._written = place
+        self._written = entry
         return True
 
     def due_field(self, step: Step, record: IncrementDone, *, last: bool) -> bool:
@@ -45,16 +45,16 @@ class Schedule:
         return self.due(step.output.field_frequency, record, last=last)
 
 
-def find_written(path: Path, what: str, places: Sequence[tuple[int, int]], step: int | None, increment: int) -> int:
-    """Find the entry of a file that is asked for.
+def find_written(path: Path, what: str, entries: Sequence[tuple[int, int]], step: int | None, increment: int) -> int:
+    """Return the index of a requested entry of a file.
 
     Parameters
     ----------
     path
         The file.
     what
-        What its entries are, such as 'field output'.
-    places
+        Kind of its entries, such as 'field output'.
+    entries
         Step and increment of each entry, in the order in which they were written.
     step
         Number of the step; None: the last one that has the increment.
@@ -68,8 +68,8 @@ def find_written(path: Path, what: str, places: Sequence[tuple[int, int]], step:
     """
     wanted = [
         index
-        for index, place in enumerate(places)
-        if (step is None or place[0] == step) and (increment < 1 or place[1] == increment)
+        for index, entry in enumerate(entries)
+        if (step is None or entry[0] == step) and (increment < 1 or entry[1] == increment)
     ]
     if not wanted:
         named = ([] if step is None else [f"step {step}"]) + ([] if increment < 1 else [f"increment {increment}"])

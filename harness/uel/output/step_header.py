@@ -30,14 +30,14 @@ def controls_of(field: str, controls: Controls) -> FieldControls:
 
 def procedure(step: Step) -> str:
     """Return the kind of the step and its time incrementation."""
-    given = step.procedure
+    procedure = step.procedure
     lines = [
-        f"                        S T E P  {step.number:6d}     {' '.join(given.full_title)}",
+        f"                        S T E P  {step.number:6d}     {' '.join(procedure.full_title)}",
         "",
         "",
         f"          {step.title}".rstrip(),
         "",
-        *map(_head_line, given.head()),
+        *map(_head_line, procedure.head()),
     ]
     return "\n".join([*lines, "", ""])
 

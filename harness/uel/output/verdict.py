@@ -35,7 +35,7 @@ def close_ended_run(stem: Path, reason: str) -> None:
 
 
 def write_verdict(stem: Path, reason: str) -> None:
-    """Say in STEM.sta and STEM.msg that the analysis was not completed, and why; missing files are not created.
+    """Say in STEM.sta and STEM.msg that the analysis was not completed, and why; it creates no files.
 
     Incomplete last lines are cut off. Does nothing if the verdict has been written.
     """
@@ -71,8 +71,8 @@ def _cut(path: Path) -> None:
         while start > 0:
             start = max(start - 65536, 0)
             file.seek(start)
-            found = file.read(min(65536, end - start)).rfind(b"\n")
-            if found >= 0:
-                file.truncate(start + found + 1)
+            position = file.read(min(65536, end - start)).rfind(b"\n")
+            if position >= 0:
+                file.truncate(start + position + 1)
                 return
         file.truncate(0)

@@ -23,8 +23,8 @@ def mid_width_loads(result: Result) -> dict[float, float]:
     curve = 2.0 * load(result)
     lengths, loads = [], []
     for front in fronts(result):
-        middle = np.argmin(front.places[:, 1])
-        lengths.append(front.places[middle, 0])
+        middle = np.argmin(front.coordinates[:, 1])
+        lengths.append(front.coordinates[middle, 0])
         loads.append(np.interp(front.time, result.history["time"], curve))
     known = [length for length in literature.DCB_CRITICAL if lengths[0] < length < lengths[-1]]
     values = np.interp(known, lengths, loads)
@@ -78,7 +78,7 @@ def compliance_deviation(result: Result) -> float:
 
 def thumbnail(result: Result) -> float:
     """Return the distance (mm) by which the front is ahead in the middle of the width, at the end."""
-    return float(np.ptp(last_front(result).places[:, 0]))
+    return float(np.ptp(last_front(result).coordinates[:, 0]))
 
 
 def front_release(result: Result) -> float:
@@ -107,7 +107,7 @@ def circle_radii(result: Result) -> list[tuple[float, float, float]]:
     rows = []
     times, distances, loads = result.history["time"], displacement(result), load(result)
     for front in fronts(result):
-        radius = float(np.hypot(*front.places[:, :2].T).mean())
+        radius = float(np.hypot(*front.coordinates[:, :2].T).mean())
         force = 4.0 * float(np.interp(front.time, times, loads))
         opening = 0.5 * float(np.interp(front.time, times, distances))
         # the clamped plate of the same compliance
@@ -129,7 +129,7 @@ def corrected_circle_deviation(result: Result) -> float:
 
 def circle_roundness(result: Result) -> float:
     """Return the largest less smallest radius of the front at the end (mm)."""
-    return float(np.ptp(np.hypot(*last_front(result).places[:, :2].T)))
+    return float(np.ptp(np.hypot(*last_front(result).coordinates[:, :2].T)))
 
 
 MEASURES: dict[str, Callable[[Result], float]] = {

@@ -53,7 +53,7 @@ def beam_dissipation_ratio(result: Result) -> float:
 
 def beam_front_depth(result: Result) -> float:
     """Return the largest distance along x of two points of one front (mm)."""
-    return max(float(np.ptp(front.places[:, 0])) for front in front_measures.grown_fronts(result, CRACK))
+    return max(float(np.ptp(front.coordinates[:, 0])) for front in front_measures.grown_fronts(result, CRACK))
 
 
 def beam_dcb_deviation(result: Result) -> float:
@@ -102,7 +102,7 @@ def against_theory(case: SpaceBeam, result: Result) -> dict[str, tuple[float, fl
 def _releases(result: Result) -> FloatArray:
     """Return G_I, G_II, G_III (3,), mean over the second half of the way."""
     found = front_measures.grown_fronts(result, CRACK)
-    places = np.array([front.places[:, 0].mean() for front in found])
+    places = np.array([front.coordinates[:, 0].mean() for front in found])
     later = [front for front, place in zip(found, places, strict=True) if place > 0.5 * (places[0] + places[-1])]
     return np.asarray(np.mean([front.releases.mean(axis=0) for front in later], axis=0))
 

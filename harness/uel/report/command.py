@@ -12,7 +12,7 @@ from typing import Final
 from uel.deck import read_deck
 from uel.errors import UelError
 from uel.model.model import Model
-from uel.output.files.dat_file import echo, read_deck_place, read_given
+from uel.output.files.dat_file import echo, read_deck_path, read_parameters
 from uel.output.files.msg_file import read_times
 from uel.output.formats import read_remarks
 from uel.output.outcome import duration, largest_load
@@ -118,11 +118,11 @@ class _Deck:
     @classmethod
     def of(cls, result: Result) -> _Deck:
         """Read the deck that the .dat file names."""
-        path = read_deck_place(result.file(".dat"))
+        path = read_deck_path(result.file(".dat"))
         if path is None:
             return cls(None, None, [], [f"{result.file('.dat').name} does not name the deck of the job."])
         try:
-            model = read_deck(path, read_given(result.file(".dat")))
+            model = read_deck(path, read_parameters(result.file(".dat")))
             lines = path.read_text("utf-8", errors="replace").splitlines()
         except (UelError, OSError) as error:
             return cls(path, None, [], [f"The deck cannot be read any more: {error}"])

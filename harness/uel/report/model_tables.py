@@ -106,10 +106,10 @@ def _user_table(group: ElementGroup, section: UserProperty) -> Table:
     title = f"{section.elset}: {group.type}"
     layout = layout_of(definition)
     if layout is not None:
-        given = [*zip(layout.reals, section.values.tolist(), strict=False)]
-        given += [*zip(layout.integers, section.integers.tolist(), strict=False)]
-        rows = [_item_row(item, value) for item, value in given if value]
-        if zero := ", ".join(item.name for item, value in given if not value):
+        items = [*zip(layout.reals, section.values.tolist(), strict=False)]
+        items += [*zip(layout.integers, section.integers.tolist(), strict=False)]
+        rows = [_item_row(item, value) for item, value in items if value]
+        if zero := ", ".join(item.name for item, value in items if not value):
             rows.append(("the others", "0", zero))
         return Table(title, ("property", "value", "meaning"), rows, section.source)
     names = definition.names if definition else None
@@ -126,10 +126,10 @@ def _item_row(item: Item, value: float) -> Row:
 
 
 def _named(values: Sequence[float], names: Sequence[str], array: str) -> list[Row]:
-    places = [f"{array}({k})" for k in range(1, len(values) + 1)]
+    entries = [f"{array}({k})" for k in range(1, len(values) + 1)]
     if not names:
-        return [(place, f"{value:g}", "") for place, value in zip(places, values, strict=True)]
-    return [(name, f"{value:g}", place) for name, value, place in zip(names, values, places, strict=True)]
+        return [(entry, f"{value:g}", "") for entry, value in zip(entries, values, strict=True)]
+    return [(name, f"{value:g}", entry) for name, value, entry in zip(names, values, entries, strict=True)]
 
 
 def _said_once(rows: Sequence[Row]) -> list[Row]:
@@ -157,8 +157,8 @@ def _section_rows(section: _WithMaterial, kind: BuiltInType | None) -> list[Row]
 
 def _layer_rows(section: ShellSection) -> Iterator[Row]:
     for number, layer in enumerate(section.layers, 1):
-        place = f"layer {number}, {layer.angle:g} degrees, {layer.points} section points"
-        yield f"thickness of {layer.material.name}", f"{layer.thickness:g}", place
+        remark = f"layer {number}, {layer.angle:g} degrees, {layer.points} section points"
+        yield f"thickness of {layer.material.name}", f"{layer.thickness:g}", remark
     if section.offset:
         yield "offset", f"{section.offset:g}", "of the thickness"
     if section.orientation is not None:
@@ -167,12 +167,12 @@ def _layer_rows(section: ShellSection) -> Iterator[Row]:
 
 def _solid_layer_rows(section: CompositeSection) -> Iterator[Row]:
     for number, layer in enumerate(section.layers, 1):
-        place = f"layer {number}, {layer.points} section points"
+        remark = f"layer {number}, {layer.points} section points"
         if layer.orientation is not None:
-            place += f", orientation {layer.orientation.name}"
+            remark += f", orientation {layer.orientation.name}"
         if layer.angle is not None:
-            place += f", {layer.angle:g} degrees"
-        yield f"relative thickness of {layer.material.name}", f"{layer.thickness:g}", place
+            remark += f", {layer.angle:g} degrees"
+        yield f"relative thickness of {layer.material.name}", f"{layer.thickness:g}", remark
     yield "stack direction", f"{section.direction}", ""
 
 
@@ -233,8 +233,8 @@ def _thermal_rows(material: Material) -> Iterator[Row]:
     if material.expansion is not None:
         table = material.expansion.table
         for temperature, *values in table.tolist():
-            place = f"at temperature {temperature:g}" if len(table) > 1 else ""
-            yield "expansion", ", ".join(f"{value:g}" for value in values if value), place
+            remark = f"at temperature {temperature:g}" if len(table) > 1 else ""
+            yield "expansion", ", ".join(f"{value:g}" for value in values if value), remark
     for name, table in (("conductivity", material.conductivity), ("specific heat", material.specific_heat)):
         for value, temperature in table.tolist():
             yield name, f"{value:g}", f"at temperature {temperature:g}" if len(table) > 1 else ""

@@ -53,7 +53,7 @@ def test_given_value_replaces_the_one_of_the_deck(deck: Path) -> None:
     assert end(read_deck(deck).mesh) == [2.0, 1.0]
     model = read_deck(deck, {"LENGTH": 6.0})
     assert end(model.mesh) == [6.0, 3.0]
-    assert model.given == {"LENGTH": 6.0}
+    assert model.parameters == {"LENGTH": 6.0}
     assert end(read_deck(deck, {"half": 5.0}).mesh) == [2.0, 5.0]
 
 

@@ -85,7 +85,7 @@ def test_a_round_front(tilt: float, names: str) -> None:
     disc = Disc(tilt, names)
     (front,) = fronts(disc)
     assert (front.step, front.increment, front.time, front.surface, front.line) == (1, 3, 0.5, 1, 1)
-    flat = front.places @ disc.turn
+    flat = front.coordinates @ disc.turn
     radius = np.hypot(flat[:, 0], flat[:, 1])
     assert np.abs(flat[:, 2]).max() < 1e-12
     assert radius == pytest.approx(RADIUS, abs=0.1 * 0.5)
@@ -108,10 +108,10 @@ class Ring(Disc):
 
 def test_two_fronts_of_one_surface() -> None:
     """Each has its own process zone, of three elements."""
-    inner, outer = sorted(fronts(Ring()), key=lambda front: np.abs(front.places).max())
+    inner, outer = sorted(fronts(Ring()), key=lambda front: np.abs(front.coordinates).max())
     assert (inner.surface, outer.surface) == (1, 1)
     for front, radius, side in ((inner, 4.0, -1.0), (outer, 8.0, 1.0)):
-        places = front.places[:, :2]
+        places = front.coordinates[:, :2]
         assert np.hypot(*places.T) == pytest.approx(radius, abs=0.15)
         assert (side * np.sum(front.ahead[:, :2] * places, axis=1)).min() > 0.9 * radius
         middle = slice(3, -3)
@@ -134,13 +134,15 @@ class Edge(Disc):
 def test_a_zone_counts_up_to_the_edge_of_the_surface(level: float) -> None:
     """The integral of t dw from d = 0 to 0.4 is that of (1 - d) dd."""
     (front,) = fronts(Edge(), level)
-    assert front.places[:, 0] == pytest.approx(1.5 * (1.0 - level / 0.4), abs=0.02)
-    assert np.abs(front.releases) == pytest.approx(np.tile((0.4 - 0.08) * 2.0 * G, (len(front.places), 1)), rel=1e-2)
+    assert front.coordinates[:, 0] == pytest.approx(1.5 * (1.0 - level / 0.4), abs=0.02)
+    assert np.abs(front.releases) == pytest.approx(
+        np.tile((0.4 - 0.08) * 2.0 * G, (len(front.coordinates), 1)), rel=1e-2
+    )
 
 
 def test_another_damage_is_elsewhere() -> None:
     (front,) = fronts(Disc(), 0.75)
-    assert np.hypot(*front.places.T[:2]) == pytest.approx(RADIUS - 0.25 * ZONE, abs=0.05)
+    assert np.hypot(*front.coordinates.T[:2]) == pytest.approx(RADIUS - 0.25 * ZONE, abs=0.05)
 
 
 class Rolled(Disc):
@@ -180,14 +182,14 @@ def test_a_front_on_a_curved_surface() -> None:
     A projection on the mean plane exchanges them, and is not unique beyond a quarter of the circle on both sides.
     """
     (flat,), (front,) = fronts(Disc()), fronts(Rolled())
-    assert len(front.places) == len(flat.places)
-    x, y, z = front.places.T
+    assert len(front.coordinates) == len(flat.coordinates)
+    x, y, z = front.coordinates.T
     radius = np.hypot(x, z)
     # on facets of a twelfth of a radian
     assert radius.min() > Rolled.RADIUS * np.cos(1 / 24.0) - 1e-9 and radius.max() < Rolled.RADIUS + 1e-9
     angle = np.arctan2(x, z)
-    order = np.argsort(y), np.argsort(flat.places[:, 1])
-    assert Rolled.RADIUS * angle[order[0]] == pytest.approx(flat.places[order[1], 0], abs=0.02)
+    order = np.argsort(y), np.argsort(flat.coordinates[:, 1])
+    assert Rolled.RADIUS * angle[order[0]] == pytest.approx(flat.coordinates[order[1], 0], abs=0.02)
     normal = np.column_stack([x, 0.0 * y, z]) / radius[:, None]
     assert np.abs(np.sum(front.ahead * normal, axis=1)).max() < 1.0 / 24.0
     assert np.linalg.norm(front.ahead, axis=1) == pytest.approx(1.0)
@@ -218,7 +220,7 @@ def test_a_closed_front() -> None:
             return [profile]
 
     (front,) = fronts(Island())
-    outward = front.places[:, :2] - 6.0
+    outward = front.coordinates[:, :2] - 6.0
     assert np.hypot(*outward.T) == pytest.approx(3.0, abs=0.05)
     assert len(outward) == pytest.approx(2 * np.pi * 3.0 / 0.5, rel=0.1)
     assert np.sum(front.ahead[:, :2] * outward, axis=1).max() < -0.95 * 3.0
@@ -230,9 +232,9 @@ def test_files_of_a_front(tmp_path: Path) -> None:
     lines = (tmp_path / "disc_front.csv").read_text().splitlines()
     names = "step,increment,time,surface,line,point,X,Y,Z,AHEADX,AHEADY,AHEADZ,TN,TII,TIII,GI,GII,GIII,MIX"
     assert lines[0] == names
-    assert len(lines) == 1 + len(found[0].places)
+    assert len(lines) == 1 + len(found[0].coordinates)
     rows = np.loadtxt(lines[1:], delimiter=",")
-    assert rows[:, 6:9] == pytest.approx(found[0].places)
+    assert rows[:, 6:9] == pytest.approx(found[0].coordinates)
     assert rows[:, 18] == pytest.approx(found[0].releases[:, 1:].sum(axis=1) / found[0].releases.sum(axis=1))
     draw_fronts(tmp_path / "disc_front.png", found)
     assert (tmp_path / "disc_front.png").stat().st_size > 10000

@@ -35,10 +35,10 @@ _USER_ELEMENT_OUTPUT = (
     "OF SDV HAS THE SOLUTION-DEPENDENT VARIABLES OF ANY USER ELEMENT."
 )
 
-_PLACE: Final = "     INPUT FILE: "
-_GIVEN: Final = "PARAMETERS GIVEN IN PLACE OF THE VALUES IN THE DECK: "
+_DECK: Final = "     INPUT FILE: "
+_PARAMETERS: Final = "PARAMETERS GIVEN IN PLACE OF THE VALUES IN THE DECK: "
 _HEAD_LINES: Final = 10
-"""Number of lines in which the place of the deck is."""
+"""Number of lines at the top, one of which has the path of the deck."""
 
 
 class DataFile:
@@ -59,7 +59,7 @@ class DataFile:
         now = datetime.now()
         self._file.write(
             f"1\n\n   {program()}                                  Date {now:%d-%b-%Y}   Time {now:%H:%M:%S}\n\n"
-            f"{_PLACE}{model.deck.absolute()}\n\n{echo(model.deck)}{self._input()}"
+            f"{_DECK}{model.deck.absolute()}\n\n{echo(model.deck)}{self._input()}"
         )
 
     def step_started(self, record: StepStarted) -> None:
@@ -111,13 +111,13 @@ class DataFile:
         requests: list[tuple[str, NodeRequest | ElementRequest]] = []
         requests += [(_request("*NODE PRINT", "NSET", request.nset), request) for request in output.node_print]
         requests += [(_request("*EL PRINT", "ELSET", request.elset), request) for request in output.element_print]
-        for place, request in requests:
+        for keyword, request in requests:
             if isinstance(request, ElementRequest):
                 for element_type in not_extrapolated(request, self._model):
                     text = f"ELEMENTS OF TYPE {element_type} HAVE VALUES AT THE INTEGRATION POINTS ONLY"
-                    self.remark("WARNING", f"{place}, POSITION={request.position}: {text}")
+                    self.remark("WARNING", f"{keyword}, POSITION={request.position}: {text}")
             for name in missing_variables(request, self._model, record.solution, index):
-                self.remark("WARNING", f"{place}: {name} IS NOT AVAILABLE AND IS LEFT OUT")
+                self.remark("WARNING", f"{keyword}: {name} IS NOT AVAILABLE AND IS LEFT OUT")
 
     def remark(self, kind: str, text: str) -> None:
         """Write a note, warning or error."""
@@ -168,30 +168,30 @@ class DataFile:
             text += "\n\n                            U S E R   E L E M E N T S\n\n"
             text += "".join(_user_element(name, definition) for name, definition in definitions.items())
             text += "\n" + remark("NOTE", _USER_ELEMENT_OUTPUT)
-        if model.given:
-            given = ", ".join(f"{name} = {value}" for name, value in model.given.items())
-            text += "\n" + remark("NOTE", f"{_GIVEN}{given}")
+        if model.parameters:
+            values = ", ".join(f"{name} = {value}" for name, value in model.parameters.items())
+            text += "\n" + remark("NOTE", f"{_PARAMETERS}{values}")
         if model.ignored:
             text += "\n" + remark("NOTE", "THESE OPTIONS DO NOT CHANGE THE SOLUTION AND ARE IGNORED:")
-            places: dict[str, list[str]] = {}
+            lines: dict[str, list[str]] = {}
             for keyword, source in model.ignored:
-                places.setdefault(keyword, []).append(str(source))
-            text += "".join(f"          {_places(keyword, found)}\n" for keyword, found in places.items())
+                lines.setdefault(keyword, []).append(str(source))
+            text += "".join(f"          {_locations(keyword, sources)}\n" for keyword, sources in lines.items())
         return text + "".join(f"\n{remark('WARNING', warning)}" for warning in self.warnings)
 
 
-def read_deck_place(path: Path) -> Path | None:
+def read_deck_path(path: Path) -> Path | None:
     """Read the path of a job's deck from its .dat file; None if that does not say."""
     if not path.exists():
         return None
     with path.open(encoding="utf-8", errors="replace") as file:
-        found = next((line for line in islice(file, _HEAD_LINES) if line.startswith(_PLACE)), "")
-    return Path(found.removeprefix(_PLACE).rstrip("\n")) if found else None
+        named = next((line for line in islice(file, _HEAD_LINES) if line.startswith(_DECK)), "")
+    return Path(named.removeprefix(_DECK).rstrip("\n")) if named else None
 
 
-def read_given(path: Path) -> dict[str, float]:
+def read_parameters(path: Path) -> dict[str, float]:
     """Read the parameters that replaced those of the deck from the .dat file of a job."""
-    notes = [note.removeprefix(_GIVEN) for note in read_remarks(path, "NOTE") if note.startswith(_GIVEN)]
+    notes = [note.removeprefix(_PARAMETERS) for note in read_remarks(path, "NOTE") if note.startswith(_PARAMETERS)]
     pairs = [pair.partition(" = ") for note in notes for pair in note.split(", ")]
     return {name: float(value) for name, _, value in pairs}
 
@@ -265,7 +265,7 @@ def _request(keyword: str, option: str, name: str) -> str:
     return f"{keyword}, {option}={name}" if name else keyword
 
 
-def _places(keyword: str, found: list[str]) -> str:
-    """Return a keyword with the first places where it occurs."""
-    more = f" and {len(found) - 3} more" if len(found) > 3 else ""
-    return f"{keyword:<24} {', '.join(found[:3])}{more}"
+def _locations(keyword: str, sources: list[str]) -> str:
+    """Return a keyword with the first lines where it occurs."""
+    more = f" and {len(sources) - 3} more" if len(sources) > 3 else ""
+    return f"{keyword:<24} {', '.join(sources[:3])}{more}"

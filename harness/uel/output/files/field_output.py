@@ -189,5 +189,5 @@ def read_field_mesh(pvd: Path, step: int | None = None, increment: int = -1) -> 
     frames = read_frames(pvd)
     if not frames:
         raise UelError(f"{pvd}: no field output; it is written only if the deck has *OUTPUT, FIELD")
-    places = [(frame.step, frame.increment) for frame in frames]
-    return meshio.read(frames[find_written(pvd, "field output", places, step, increment)].path)
+    entries = [(frame.step, frame.increment) for frame in frames]
+    return meshio.read(frames[find_written(pvd, "field output", entries, step, increment)].path)

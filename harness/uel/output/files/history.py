@@ -89,8 +89,8 @@ class HistoryFile:
 
     def _of_set(self, request: EnergyRequest, step: int, *, linear: bool) -> list[_Column]:
         names = [name for name in request.variables if name in ELEMENT_ENERGIES and not linear]
-        missing = [name for name in request.variables if name not in names]
-        self.unavailable += [f"{name} of element set {request.elset} in step {step}" for name in missing]
+        unavailable = [name for name in request.variables if name not in names]
+        self.unavailable += [f"{name} of element set {request.elset} in step {step}" for name in unavailable]
         energies = _SetEnergies(self._model, request.elements)
         return [_Column(f"{name}[{request.elset}]", energies=energies, key=name) for name in names]
 

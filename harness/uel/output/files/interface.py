@@ -100,8 +100,8 @@ def read_interface(path: Path, step: int | None = None, increment: int = -1) -> 
         There is no such file, or it does not hold the increment.
     """
     names, blocks = _read_blocks(path)
-    places = list(blocks)
-    values = blocks[places[find_written(path, "interface profile", places, step, increment)]]
+    entries = list(blocks)
+    values = blocks[entries[find_written(path, "interface profile", entries, step, increment)]]
     return {name: values[:, k].copy() for k, name in enumerate(names)}
 
 
@@ -119,7 +119,7 @@ def _read_blocks(path: Path) -> tuple[list[str], dict[tuple[int, int], FloatArra
     table = np.loadtxt(io.StringIO(cells), delimiter=",", ndmin=2)
     starts = 1 + np.flatnonzero(np.diff(table[:, :2], axis=0).any(axis=1))
     blocks = {(int(rows[0, 0]), int(rows[0, 1])): rows for rows in np.split(table, starts)}
-    places = list(blocks)
-    if len(places) > 1 and len(blocks[places[-1]]) < len(blocks[places[0]]):
-        del blocks[places[-1]]
+    entries = list(blocks)
+    if len(entries) > 1 and len(blocks[entries[-1]]) < len(blocks[entries[0]]):
+        del blocks[entries[-1]]
     return names, blocks

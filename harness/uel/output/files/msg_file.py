@@ -178,9 +178,9 @@ class MessageFile:
         """Return the errors of distributing couplings, a line for displacements and one for rotations."""
         errors = {"DISPLACEMENT": check.residual, "ROTATION": check.correction}
         lines = [
-            f"{f' LARGEST {words} ERROR':<34}{general(found.value)}   AT REFERENCE NODE "
-            f"{self._model.mesh.name(found.node)}\n"
-            for words, found in errors.items()
+            f"{f' LARGEST {words} ERROR':<34}{general(largest.value)}   AT REFERENCE NODE "
+            f"{self._model.mesh.name(largest.node)}\n"
+            for words, largest in errors.items()
         ]
         verdict = "" if check.verdict.accepted else "NOT "
         return "".join(["\n", *lines, f"          THE DISTRIBUTING COUPLING EQUATIONS HAVE {verdict}CONVERGED\n"])
@@ -189,9 +189,9 @@ class MessageFile:
         """Return the errors of the contact constraints, in two lines and a verdict."""
         errors = {"MAX. PENETRATION ERROR": check.residual, "MAX. CONTACT FORCE ERROR": check.correction}
         lines = [
-            f"   {words} {engineering(found.value)} AT NODE {self._model.mesh.name(found.node)} OF CONTACT PAIR\n"
-            f"   {found.element}\n"
-            for words, found in errors.items()
+            f"   {words} {engineering(largest.value)} AT NODE {self._model.mesh.name(largest.node)} OF CONTACT PAIR\n"
+            f"   {largest.element}\n"
+            for words, largest in errors.items()
         ]
         within = "THE CONTACT CONSTRAINT ERRORS ARE WITHIN THE TOLERANCES." if severe else _CONSTRAINED
         verdict = {Convergence.NOT_ACHIEVED: _PENETRATION, Convergence.CORRECTION_TOO_LARGE: _FORCE_ERROR}
@@ -235,8 +235,8 @@ def read_times(path: Path) -> tuple[float, float] | None:
         return None
     with path.open("rb") as file:
         file.seek(max(file.seek(0, os.SEEK_END) - _LONGEST_END, 0))
-        found = _TIMES.findall(file.read())
-    return (float(found[-1][0]), float(found[-1][1])) if found else None
+        times = _TIMES.findall(file.read())
+    return (float(times[-1][0]), float(times[-1][1])) if times else None
 
 
 _TIMES: Final = re.compile(rb"TOTAL CPU TIME \(SEC\) = *(\S+)\s+WALLCLOCK TIME \(SEC\) = *(\S+)")

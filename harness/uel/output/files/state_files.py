@@ -70,8 +70,8 @@ class StateFiles:
         """Write a state; at every moment the last one is there, or the one before."""
         self._folder.mkdir(parents=True, exist_ok=True)
         arrays: list[FloatArray] = []
-        place = {"step": record.step, "increment": record.increment}
-        tree = {"format": FORMAT, **place, "decks": self._decks, "analysis": _numbered(record.analysis, arrays)}
+        moment = {"step": record.step, "increment": record.increment}
+        tree = {"format": FORMAT, **moment, "decks": self._decks, "analysis": _numbered(record.analysis, arrays)}
         text = np.frombuffer(
             json.dumps(tree | {"digests": [array_digest(array) for array in arrays]}).encode(), np.uint8
         )
@@ -104,12 +104,12 @@ def read_state(stem: Path, step: int | None = None, increment: int | None = None
     stem
         Folder and name of the job.
     step, increment
-        At the end of which it was kept; None: the last one.
+        Step and increment at the end of which it was kept; None: the last one.
 
     Returns
     -------
     KeptState
-        What its file holds.
+        Content of its file.
 
     Raises
     ------
@@ -117,15 +117,15 @@ def read_state(stem: Path, step: int | None = None, increment: int | None = None
         There is no such state, or its file is damaged, of another state or of another version.
     """
     folder = folder_of(stem)
-    found = sorted(
+    kept_states = sorted(
         (int(name[1]), int(name[2])) for path in folder.glob("*.npz") if (name := _NAME.fullmatch(path.name))
     )
-    if not found:
+    if not kept_states:
         where = f"in {folder}; a warning in {stem}.dat says where it has no effect"
         raise UelError(f"{stem}: the job has kept no state; *RESTART, WRITE keeps them, {where}")
-    step = found[-1][0] if step is None else step
-    place = found[find_written(folder, "state", found, step, -1 if increment is None else increment)]
-    path = folder / f"step{place[0]}_increment{place[1]:04d}.npz"
+    step = kept_states[-1][0] if step is None else step
+    moment = kept_states[find_written(folder, "state", kept_states, step, -1 if increment is None else increment)]
+    path = folder / f"step{moment[0]}_increment{moment[1]:04d}.npz"
     if not is_zipfile(path):
         raise UelError(f"{path} is damaged, or is not a state of a job: it is no archive of arrays")
     try:
@@ -139,7 +139,7 @@ def read_state(stem: Path, step: int | None = None, increment: int | None = None
         raise UelError(f"{path} is damaged, or is not a state of a job: {_reason(error)}") from None
     if version != FORMAT:
         raise UelError(f"{path} has format {version}; this version of uel reads format {FORMAT}: run the old job again")
-    if (kept.step, kept.increment) != place:
+    if (kept.step, kept.increment) != moment:
         raise UelError(f"{path} is the state of step {kept.step}, increment {kept.increment}: it has been renamed")
     return kept
 
@@ -160,9 +160,9 @@ def _tree(file: NpzFile) -> tuple[dict[str, Any], Any]:
 def _arrays(file: NpzFile, tree: dict[str, Any]) -> list[FloatArray]:
     """Return the arrays of a file. Raises ValueError if they are not what was written."""
     names = {f"{_ARRAY}{k}" for k in range(len(tree["digests"]))}
-    found = set(file.files) - {"tree", "check"}
-    if found != names:
-        other, kind = (names - found, "is missing") if names - found else (found - names, "does not belong to it")
+    members = set(file.files) - {"tree", "check"}
+    if members != names:
+        other, kind = (names - members, "is missing") if names - members else (members - names, "does not belong to it")
         raise ValueError(f"{min(other)} {kind}")
     arrays = []
     for k, digest in enumerate(tree["digests"]):
@@ -175,9 +175,9 @@ def _arrays(file: NpzFile, tree: dict[str, Any]) -> list[FloatArray]:
 
 def array_digest(array: np.ndarray) -> str:
     """Return a digest of type, shape and bytes of an array."""
-    found = hashlib.blake2b(f"{array.dtype.str} {array.shape}".encode(), digest_size=16)
-    found.update(np.ascontiguousarray(array).tobytes())
-    return found.hexdigest()
+    digest = hashlib.blake2b(f"{array.dtype.str} {array.shape}".encode(), digest_size=16)
+    digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()
 
 
 def _reason(error: BaseException) -> str:

@@ -38,7 +38,7 @@ class _Table:
 
     head, width    head of the lines; of a name of a column
     note           line below the head
-    indent, where  of the extremes, and the head of the line below that says where they are
+    indent, where  indent of the extremes, and head of the line below with their nodes or elements
     """
 
     title: str
@@ -301,18 +301,18 @@ def _at_position(
         lines = [f"{label:12d}{point}" for label in elements for point in points]
         labels = [str(label) for label in elements for _ in points]
         return Position.POINTS, lines, labels, values.reshape(-1, values.shape[2])
-    found = np.einsum("np,epv->env", matrix, values)
-    flat = found.reshape(-1, found.shape[2])
+    values = np.einsum("np,epv->env", matrix, values)
+    flat = values.reshape(-1, values.shape[2])
     if position is Position.CENTROID:
         return position, [f"{label:12d}     " for label in elements], [str(label) for label in elements], flat
     if position is Position.NODES:
         names = mesh.labels[nodes].tolist()
         lines = [f"{label:12d}{name:11d}       " for label, row in zip(elements, names, strict=True) for name in row]
         return position, lines, [str(label) for label in elements for _ in names[0]], flat
-    used, place = np.unique(nodes, return_inverse=True)
+    used, positions = np.unique(nodes, return_inverse=True)
     mean = np.zeros((len(used), flat.shape[1]))
-    np.add.at(mean, place.ravel(), flat)
-    mean /= np.bincount(place.ravel())[:, None]
+    np.add.at(mean, positions.ravel(), flat)
+    mean /= np.bincount(positions.ravel())[:, None]
     order = np.argsort(mesh.labels[used], kind="stable")
     labels = [_label(mesh, node) for node in used[order].tolist()]
     return position, [f"{label:>12}     " for label in labels], labels, mean[order]
@@ -328,7 +328,7 @@ def _element_values(
     (S, S11, DAMAGE, ...) are values at the points and need elements whose SVARS are known.
     """
     svars = state.svars[inside]
-    found: list[tuple[list[str], FloatArray, Sections]] = []
+    columns: list[tuple[list[str], FloatArray, Sections]] = []
     if state.variables is not None:
         known = {name: k for k, name in enumerate(state.variables.names)}
         known |= {name: known[own] for name, own in state.variables.aliases}
@@ -337,23 +337,25 @@ def _element_values(
             values, count = point_values(state, state.variables)[inside], state.variables.sections
             of_section = values.reshape(len(values), values.shape[1] // count, count, values.shape[2])
             sides = state.variables.sides
-            for some, places in (
+            for some, section_points in (
                 ([name for name in names if name not in state.variables.whole], sides),
                 ([name for name in names if name in state.variables.whole], ()),
             ):
-                chosen = of_section[:, :, [place for *_, place in places] or [0]][..., [known[name] for name in some]]
+                chosen = of_section[:, :, [section_point for *_, section_point in section_points] or [0]][
+                    ..., [known[name] for name in some]
+                ]
                 if some:
-                    numbers = tuple(number for _, number, _ in places)
-                    found.append(
+                    numbers = tuple(number for _, number, _ in section_points)
+                    columns.append(
                         (some, chosen.reshape(len(values), chosen.shape[1] * chosen.shape[2], len(some)), numbers)
                     )
     if group.definition is None:
-        return found
+        return columns
     names = [f"SDV{k}" for k in range(1, svars.shape[1] + 1)]
     names = [name for variable in variables for name in names if variable in ("SDV", name)]
     if names:
-        found.append((names, svars[:, None, [int(name[3:]) - 1 for name in names]], ()))
-    return found
+        columns.append((names, svars[:, None, [int(name[3:]) - 1 for name in names]], ()))
+    return columns
 
 
 def _asked(variable: str, name: str) -> bool:

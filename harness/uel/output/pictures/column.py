@@ -76,8 +76,8 @@ def column_names(history: Mapping[str, FloatArray]) -> str:
             match = COLUMN.fullmatch(name)
             names.setdefault(_of_set(match) if match and match["node"] else name, []).append(name)
     return ", ".join(
-        key if found == [key] else f"{key} ({found[0]}{f' to {found[-1]}' if len(found) > 1 else ''})"
-        for key, found in names.items()
+        key if dofs == [key] else f"{key} ({dofs[0]}{f' to {dofs[-1]}' if len(dofs) > 1 else ''})"
+        for key, dofs in names.items()
     )
 
 

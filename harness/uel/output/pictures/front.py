@@ -4,7 +4,7 @@
 
 Computed from the field output and the interface profiles of a job, whatever its interface elements. Values at the
 nodes are means of those of their elements, extrapolated from the integration points. A front is a line of constant
-damage on that surface, given by the middles of equal parts about as long as the elements. Surfaces that share no node
+damage on that surface, taken at the middles of equal parts about as long as the elements. Surfaces that share no node
 are separate; they may be curved.
 
 Energy release rates are Rice's integral along a line through the process zone, in the plane normal to the front:
@@ -35,7 +35,7 @@ from uel.errors import UelError
 from uel.model.arrays import FloatArray, IntArray
 from uel.output.formats import TextFile
 from uel.output.pictures.plots import COLOURS, STYLE
-from uel.output.pictures.triangles import Places, TriangulatedSurface, Ways
+from uel.output.pictures.triangles import Locations, TriangulatedSurface, Ways
 from uel.output.results import Result
 
 DAMAGE = 0.5
@@ -56,7 +56,7 @@ class Front:
 
     step, increment, time  when; total time
     surface, line          numbers from 1, of the surfaces of a model and of the lines on one of them
-    places     (n, 3) points of the front, in order
+    coordinates  (n, 3) of points of the front, in order
     ahead      (n, 3) unit normals of the front in the surface, towards smaller damage
     tractions  (n, 3) normal, shear along `ahead`, shear along the front
     releases   (n, 3) G_I, G_II, G_III (energy/area)
@@ -67,7 +67,7 @@ class Front:
     time: float
     surface: int
     line: int
-    places: FloatArray
+    coordinates: FloatArray
     ahead: FloatArray
     tractions: FloatArray
     releases: FloatArray
@@ -101,8 +101,8 @@ class _Surface:
         self.triangles = TriangulatedSurface(nodes, np.concatenate(triangles))
         self._to_corners: tuple[IntArray, FloatArray, FloatArray] | None = None
 
-    def at_nodes(self, places: FloatArray, values: FloatArray, shears: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the values at the nodes from those at the integration points, which are at `places` (m, 4, 3).
+    def at_nodes(self, locations: FloatArray, values: FloatArray, shears: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the values at the nodes from those at the integration points, which are at `locations` (m, 4, 3).
 
         Parameters
         ----------
@@ -118,9 +118,11 @@ class _Surface:
         """
         if self._to_corners is None:
             corners = self._points[self._cells]
-            nearest = np.argmin(np.linalg.norm(corners[:, :, None] - places[:, None], axis=-1), axis=2)
+            nearest = np.argmin(np.linalg.norm(corners[:, :, None] - locations[:, None], axis=-1), axis=2)
             centres = corners.mean(axis=1, keepdims=True)
-            reach = np.linalg.norm(places - centres, axis=-1).mean() / np.linalg.norm(corners - centres, axis=-1).mean()
+            reach = (
+                np.linalg.norm(locations - centres, axis=-1).mean() / np.linalg.norm(corners - centres, axis=-1).mean()
+            )
             # bilinear functions of the points, at the corners
             shares = 0.25 * np.prod(1.0 + _CORNERS[:, None] * _CORNERS / reach, axis=-1)
             self._to_corners = nearest, shares, _directions(corners, reach)
@@ -170,9 +172,9 @@ def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
     Parameters
     ----------
     result
-        Of a job with interface elements in space.
+        Result of a job with interface elements in space.
     damage
-        Of the front.
+        Value of the damage on the front.
 
     Raises
     ------
@@ -189,7 +191,7 @@ def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
             "a front is a line on a surface of interface elements with four nodes on a face"
         )
     profiles = {(int(profile["step"][0]), int(profile["increment"][0])): profile for profile in result.interfaces()}
-    found: list[Front] = []
+    all_fronts: list[Front] = []
     for frame in frames:
         # a killed run may lack the last profile
         profile = profiles.get((frame.step, frame.increment))
@@ -198,30 +200,30 @@ def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
         for number, surface in enumerate(surfaces, 1):
             fields = _fields(surface, profile)
             lines = _lines(surface, fields.damage, damage)
-            reaches = _reaches(surface, fields.damage, [places for places, _ in lines])
-            for line, ((places, triangles), reach) in enumerate(zip(lines, reaches, strict=True), 1):
-                values = _along(surface, fields, places, triangles, reach)
-                found.append(Front(frame.step, frame.increment, frame.time, number, line, *values))
-    return found
+            reaches = _reaches(surface, fields.damage, [locations for locations, _ in lines])
+            for line, ((locations, triangles), reach) in enumerate(zip(lines, reaches, strict=True), 1):
+                values = _along(surface, fields, locations, triangles, reach)
+                all_fronts.append(Front(frame.step, frame.increment, frame.time, number, line, *values))
+    return all_fronts
 
 
-def write_fronts(path: Path, found: list[Front]) -> None:
+def write_fronts(path: Path, all_fronts: list[Front]) -> None:
     """Write NAME_front.csv: a row for each point of each front, with the ratio (G_II + G_III)/G as MIX."""
     names = ("X", "Y", "Z", "AHEADX", "AHEADY", "AHEADZ", "TN", "TII", "TIII", "GI", "GII", "GIII", "MIX")
     file = TextFile(path)
     file.write(",".join(["step,increment,time,surface,line,point", *names]) + "\n")
-    for front in found:
+    for front in all_fronts:
         total = front.releases.sum(axis=1)
         shear = front.releases[:, 1:].sum(axis=1)
         mix = np.divide(shear, total, out=np.zeros_like(total), where=total > 0.0)
-        rows = np.column_stack([front.places, front.ahead, front.tractions, front.releases, mix])
+        rows = np.column_stack([front.coordinates, front.ahead, front.tractions, front.releases, mix])
         head = f"{front.step},{front.increment},{front.time!r},{front.surface},{front.line}"
         for point, row in enumerate(rows.tolist(), 1):
             file.write(f"{head},{point}," + ",".join(f"{value:.9g}" for value in row) + "\n")
     file.close()
 
 
-def draw_fronts(path: Path, found: list[Front]) -> None:
+def draw_fronts(path: Path, all_fronts: list[Front]) -> None:
     """Draw the fronts of all increments, coloured by time, and G with its parts along those of the last one.
 
     Raises
@@ -229,16 +231,20 @@ def draw_fronts(path: Path, found: list[Front]) -> None:
     UelError
         There is no front.
     """
-    if not found:
+    if not all_fronts:
         raise UelError(f"{path}: no front to draw: the damage of no increment reaches that of the front")
-    last = [front for front in found if (front.step, front.increment) == (found[-1].step, found[-1].increment)]
+    last = [
+        front
+        for front in all_fronts
+        if (front.step, front.increment) == (all_fronts[-1].step, all_fronts[-1].increment)
+    ]
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(5.5, 6.4), layout="constrained")
         FigureCanvasAgg(figure)
         below = figure.add_subplot(2, 1, 2)
-        _draw_lines(figure, found)
+        _draw_lines(figure, all_fronts)
         for k, front in enumerate(last):
-            arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(front.places, axis=0), axis=1))])
+            arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(front.coordinates, axis=0), axis=1))])
             for name, colour, values in zip(("I", "II", "III"), COLOURS, front.releases.T, strict=False):
                 below.plot(arc, values, color=colour, label=None if k else f"$G_{{{name}}}$")
             below.plot(arc, front.releases.sum(axis=1), color="0.35", linestyle="--", label=None if k else "$G$")
@@ -248,18 +254,18 @@ def draw_fronts(path: Path, found: list[Front]) -> None:
         figure.savefig(path, dpi=200)
 
 
-def _draw_lines(figure: Figure, found: list[Front]) -> None:
+def _draw_lines(figure: Figure, all_fronts: list[Front]) -> None:
     """Draw fronts in their plane, along the two axes closest to it, or in space where they lie in none."""
-    places = np.concatenate([front.places for front in found])
-    times = np.array([front.time for front in found])
+    locations = np.concatenate([front.coordinates for front in all_fronts])
+    times = np.array([front.time for front in all_fronts])
     # a single straight front is in the plane into which it grows
-    grown = places + 0.1 * np.ptp(places, axis=0).max() * np.concatenate([front.ahead for front in found])
-    _, sizes, axes = np.linalg.svd(np.concatenate([places, grown]) - places.mean(axis=0), full_matrices=False)
+    grown = locations + 0.1 * np.ptp(locations, axis=0).max() * np.concatenate([front.ahead for front in all_fronts])
+    _, sizes, axes = np.linalg.svd(np.concatenate([locations, grown]) - locations.mean(axis=0), full_matrices=False)
     if sizes[2] > _FLAT * sizes[1]:
         space = figure.add_subplot(2, 1, 1, projection="3d")
-        lines = Line3DCollection([front.places for front in found], array=times, linewidths=1.2)
+        lines = Line3DCollection([front.coordinates for front in all_fronts], array=times, linewidths=1.2)
         space.add_collection(lines)
-        low, high = places.min(axis=0), places.max(axis=0)
+        low, high = locations.min(axis=0), locations.max(axis=0)
         half = 0.5 * (high - low).max()
         for name, middle in zip("xyz", 0.5 * (low + high), strict=True):
             space.set(**{f"{name}lim": (middle - half, middle + half), f"{name}label": name.upper()})
@@ -267,7 +273,7 @@ def _draw_lines(figure: Figure, found: list[Front]) -> None:
         return
     first, second = sorted(np.argsort(np.abs(axes[2]))[:2])
     above = figure.add_subplot(2, 1, 1)
-    drawn = LineCollection([front.places[:, [first, second]] for front in found], array=times, linewidths=1.2)
+    drawn = LineCollection([front.coordinates[:, [first, second]] for front in all_fronts], array=times, linewidths=1.2)
     above.add_collection(drawn)
     above.autoscale_view()
     above.set(xlabel="XYZ"[first], ylabel="XYZ"[second], aspect="equal", adjustable="datalim")
@@ -313,8 +319,8 @@ def _fields(surface: _Surface, profile: Mapping[str, FloatArray]) -> _Fields:
     return _Fields(np.clip(values[:, 0], 0.0, 1.0), values[:, 1:], vectors)
 
 
-def _lines(surface: _Surface, damage: FloatArray, level: float) -> list[tuple[Places, IntArray]]:
-    """Return the lines of a damage on a surface, as places at the distance of the elements and their triangles."""
+def _lines(surface: _Surface, damage: FloatArray, level: float) -> list[tuple[Locations, IntArray]]:
+    """Return the lines of a damage on a surface, as locations at the distance of the elements and their triangles."""
     if not damage.min() < level < damage.max():
         return []
     triangles = surface.triangles
@@ -326,9 +332,9 @@ def _lines(surface: _Surface, damage: FloatArray, level: float) -> list[tuple[Pl
 
 
 def _along(
-    surface: _Surface, fields: _Fields, line: Places, triangles: IntArray, reach: float
+    surface: _Surface, fields: _Fields, line: Locations, triangles: IntArray, reach: float
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Return the places, normals, tractions and energy release rates of a front, as in `Front`."""
+    """Return the locations, normals, tractions and energy release rates of a front, as in `Front`."""
     mesh = surface.triangles
     points = line.values(mesh.nodes)
     normal = _unit(line.values(mesh.normals))
@@ -343,30 +349,30 @@ def _along(
     along = np.cross(normal, ahead)
     releases = np.zeros((len(points), 3))
     for way, sign in zip(both, (1.0, -1.0), strict=True):
-        traction, opening = _components(mesh, fields, way.places, along)
+        traction, opening = _components(mesh, fields, way.locations, along)
         mean = 0.5 * (traction[:, 1:] + traction[:, :-1])
         # ways that have ended count nothing
         releases -= sign * np.nansum(mean * np.diff(opening, axis=1), axis=1)
     (middle,), _ = (
         each[None, :, 0]
-        for each in _components(mesh, fields, Places(line.nodes[:, None], line.weights[:, None]), along)
+        for each in _components(mesh, fields, Locations(line.nodes[:, None], line.weights[:, None]), along)
     )
     return points, ahead, middle, releases
 
 
 def _components(
-    mesh: TriangulatedSurface, fields: _Fields, places: Places, along: FloatArray
+    mesh: TriangulatedSurface, fields: _Fields, locations: Locations, along: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the tractions and separations (n, k, 3) at places (n, k): normal, ahead of the front and along it.
+    """Return the tractions and separations (n, k, 3) at locations (n, k): normal, ahead of the front and along it.
 
     along: (n, 3) the direction of the front, normal to which the ways go; ahead and along turn with the surface.
     """
-    normal = _unit(places.values(mesh.normals))
+    normal = _unit(locations.values(mesh.normals))
     ahead = _unit(np.cross(along[:, None], normal))
     directions = np.stack([ahead, np.cross(normal, ahead)], axis=-2)
-    values = places.values(fields.normals)
+    values = locations.values(fields.normals)
     shape = fields.shears.shape
-    shears = places.values(fields.shears.reshape(shape[0], -1)).reshape(*values.shape[:-1], 2, 3)
+    shears = locations.values(fields.shears.reshape(shape[0], -1)).reshape(*values.shape[:-1], 2, 3)
     parts = np.einsum("nkcd,nkad->nkca", shears, directions)
     traction, opening = (np.concatenate([values[..., c, None], parts[..., c, :]], axis=-1) for c in (0, 1))
     return traction, opening
@@ -374,13 +380,13 @@ def _components(
 
 def _damage_beside(way: Ways, damage: FloatArray, distance: float) -> FloatArray:
     """Return the damage (n,) at a distance along ways; beyond an edge of the surface, where a crack is, 1."""
-    values = way.places.values(damage[:, None])[..., 0]
-    found = np.ones(len(values))
+    values = way.locations.values(damage[:, None])[..., 0]
+    beside = np.ones(len(values))
     for row, (lengths, there) in enumerate(zip(way.lengths, values, strict=True)):
         known = np.isfinite(lengths)
         if lengths[known][-1] >= distance:
-            found[row] = np.interp(distance, lengths[known], there[known])
-    return found
+            beside[row] = np.interp(distance, lengths[known], there[known])
+    return beside
 
 
 def _unit(vectors: FloatArray) -> FloatArray:
@@ -395,7 +401,7 @@ def _tangents(points: FloatArray) -> FloatArray:
     return np.asarray(points[np.minimum(index + 2, len(points) - 1)] - points[np.maximum(index - 2, 0)])
 
 
-def _reaches(surface: _Surface, damage: FloatArray, lines: list[Places]) -> list[float]:
+def _reaches(surface: _Surface, damage: FloatArray, lines: list[Locations]) -> list[float]:
     """Return half the length of the ways through the process zone of each front.
 
     It holds all that is damaged in part and closer to this front than to others, and three faces.

@@ -41,7 +41,7 @@ _ROUNDING: Final = 1e-6
 """Traction over the largest one up to which it is not."""
 
 _SAME: Final = 1e-9
-"""Distance along an interface, over its length, of points at the same place."""
+"""Distance along an interface, over its length, of points with the same coordinates."""
 
 _APART: Final = 1e-4
 """Distance across, over its length, from which on points belong to interfaces above each other."""
@@ -80,7 +80,7 @@ def draw(kind: str, results: Sequence[Result], path: Path, asked: Asked) -> Path
     path
         .png, .svg or .pdf.
     asked
-        What of them.
+        Kind of the picture.
 
     Raises
     ------
@@ -98,9 +98,9 @@ def _load(results: Sequence[Result], path: Path, asked: Asked) -> Path:
     """Load over displacement, or columns of the history over another."""
     if asked.x or asked.y:
         return _columns(results, path, asked)
-    found = [_load_curve(result) for result in results]
-    curves = [_curve(_name(result, results), curve.x, curve.y) for result, curve in zip(results, found, strict=True)]
-    x_names, y_names = {curve.x_name for curve in found}, {curve.y_name for curve in found}
+    of_jobs = [_load_curve(result) for result in results]
+    curves = [_curve(_name(result, results), curve.x, curve.y) for result, curve in zip(results, of_jobs, strict=True)]
+    x_names, y_names = {curve.x_name for curve in of_jobs}, {curve.y_name for curve in of_jobs}
     axes = [Column(next(iter(names)) if len(names) == 1 else "") for names in (x_names, y_names)]
     curves += [Curve(file.stem, *read_curve(file, axes), "points") for file in asked.measured]
     x_label = f"Displacement {next(iter(x_names))}" if len(x_names) == 1 else "Displacement"

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The load-displacement curve of a job, found in its history: the force that does most work, over its displacement.
+"""The load-displacement curve of a job, from its history: the force that does most work, over its displacement.
 
 A force is a reaction or a concentrated load, in a component of a node whose displacement is in the history too, or the
 sum over a node set that moves as one. A moment goes with its rotation. If there is none, as where the load is on
@@ -70,10 +70,10 @@ def load_curve(history: Mapping[str, FloatArray]) -> LoadCurve | None:
         # rounding does not decide between equal ones
         return _curve(history, *pairs[next(k for k, work in enumerate(works) if work >= (1.0 - _TIE) * most)])
     moved = [
-        (f"{found.component}[{found.place(node)}]", values)
-        for (quantity, *_), found in sets.items()
+        (f"{one.component}[{one.brackets(node)}]", values)
+        for (quantity, *_), one in sets.items()
         if quantity == "displacement"
-        for node, values in found.nodes.items()
+        for node, values in one.nodes.items()
     ]
     sizes = [float(np.abs(values[np.isfinite(values)]).max(initial=0.0)) for _, values in moved]
     if "LPF" in history and max(sizes, default=0.0) > 0.0:
@@ -91,7 +91,7 @@ class _Set:
     name: str
     nodes: dict[str, FloatArray]
 
-    def place(self, node: str) -> str:
+    def brackets(self, node: str) -> str:
         """Return the text in the brackets of the column of a node."""
         return f"{self.name}:{node}" if node else self.name
 
@@ -102,14 +102,14 @@ _Pair = tuple[str, FloatArray, str, FloatArray]
 
 def _sets(history: Mapping[str, FloatArray]) -> _Sets:
     """Return the mechanical components by quantity, dof and set."""
-    found: _Sets = {}
+    sets: _Sets = {}
     for name, values in history.items():
         match = COLUMN.fullmatch(name)
         quantity, dof = COMPONENTS.get(match["component"], ("", 0)) if match else ("", 0)
         if match and dof in _MECHANICAL:
             empty = _Set(match["component"], dof, match["set"], {})
-            found.setdefault((quantity, dof, match["set"]), empty).nodes[match["node"] or ""] = values
-    return found
+            sets.setdefault((quantity, dof, match["set"]), empty).nodes[match["node"] or ""] = values
+    return sets
 
 
 def _pairs(sets: _Sets, force: _Set) -> Iterator[_Pair]:
@@ -124,7 +124,7 @@ def _pairs(sets: _Sets, force: _Set) -> Iterator[_Pair]:
         yield names[0], moved.nodes[nodes[0]], names[1], total
         return
     for node in nodes:
-        names = f"{moved.component}[{force.place(node)}]", f"{force.component}[{force.place(node)}]"
+        names = f"{moved.component}[{force.brackets(node)}]", f"{force.component}[{force.brackets(node)}]"
         yield names[0], moved.nodes[node], names[1], force.nodes[node]
 
 

@@ -23,8 +23,8 @@ def read_curve(path: Path, axes: Sequence[Column] = ()) -> tuple[FloatArray, Flo
         Lines of numbers with commas, semicolons, tabs or blanks between them. Lines before the first one that has two
         numbers are a head; a point is the decimal mark, or a comma where semicolons or tabs separate the numbers.
     axes
-        What the abscissae and ordinates are. The columns of these names; the first two if the head does not have both.
-        Where the head gives a name a factor, such as 2*U2[TIP], the values have it, and get that of the axis instead.
+        Columns of the history for abscissae and ordinates. The file's columns of these names are read; the first two if
+        the head does not have both. A factor in the head, such as 2*U2[TIP], is replaced by that of the axis.
 
     Returns
     -------
@@ -50,10 +50,10 @@ def read_curve(path: Path, axes: Sequence[Column] = ()) -> tuple[FloatArray, Flo
         else:
             named = [_place(cells, axis) for axis in axes]
             if axes and all(named):
-                columns = [place[0] for place in named if place]
-            for k, place in enumerate(named):
-                if place and place[0] == columns[k]:
-                    scales[k] = place[1]
+                columns = [column[0] for column in named if column]
+            for k, column in enumerate(named):
+                if column and column[0] == columns[k]:
+                    scales[k] = column[1]
     if not rows:
         raise UelError(f"{path}: no line with two numbers; expected a displacement and a load in each line")
     x, y = (scale * values for scale, values in zip(scales, np.array(rows).T, strict=True))

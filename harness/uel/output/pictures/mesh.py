@@ -54,13 +54,13 @@ def draw_mesh(
     Parameters
     ----------
     mesh
-        Of one increment, as `Result.mesh` gives it.
+        Mesh of one increment, from `Result.mesh`.
     path
         .png, .svg or .pdf.
     field
         Cell or point data; of a vector its magnitude, or a component such as 'U2'.
     scale
-        Of the displacements; None: 1, or what makes small ones visible.
+        Scale of the displacements; None: 1, or a factor that makes small ones visible.
     by_pyvista
         Let PyVista draw a mesh in space, as .png.
 
@@ -284,14 +284,14 @@ def outline(family: Family) -> list[int]:
 
 def outer_faces(family: Family, cells: IntArray, values: FloatArray) -> list[tuple[IntArray, FloatArray]]:
     """Return the corners of faces that belong to one cell of the block, by number of corners, and the cells' values."""
-    found = []
+    values_of_blocks = []
     for corners in sorted({_corners(face) for face in family.faces}):
         faces = [list(face[:corners]) for face in family.faces if _corners(face) == corners]
         nodes = np.concatenate([cells[:, face] for face in faces])
         _, first, counts = np.unique(np.sort(nodes, axis=1), axis=0, return_index=True, return_counts=True)
         once = first[counts == 1]
-        found.append((nodes[once], np.tile(values, len(faces))[once]))
-    return found
+        values_of_blocks.append((nodes[once], np.tile(values, len(faces))[once]))
+    return values_of_blocks
 
 
 def _corners(face: Sequence[int]) -> int:

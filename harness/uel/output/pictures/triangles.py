@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Surfaces of triangles in space: lines of a constant value on them, and ways across them in planes.
 
-A place on a surface is a weighted mean of nodes of one triangle, so a field that is linear in each triangle has its
+A location on a surface is a weighted mean of nodes of one triangle, so a field that is linear in each triangle has its
 value there by the same weights.
 """
 
@@ -24,8 +24,8 @@ _INWARDS = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Places:
-    """Places on a surface: nodes (..., k) and weights (..., k), whose sums are one."""
+class Locations:
+    """Locations on a surface: nodes (..., k) and weights (..., k), whose sums are one."""
 
     nodes: IntArray
     weights: FloatArray
@@ -34,25 +34,25 @@ class Places:
         """Return the values (..., c) of a field (nodes, c)."""
         return np.asarray(np.einsum("...k,...kc->...c", self.weights, field[self.nodes]))
 
-    def take(self, rows: IntArray) -> Places:
-        """Select some of the places."""
-        return Places(self.nodes[rows], self.weights[rows])
+    def take(self, rows: IntArray) -> Locations:
+        """Select some of the locations."""
+        return Locations(self.nodes[rows], self.weights[rows])
 
-    def towards(self, others: Places, share: FloatArray) -> Places:
-        """Return places at a share (...,) of the way to others."""
+    def towards(self, others: Locations, share: FloatArray) -> Locations:
+        """Return locations at a share (...,) of the way to others."""
         weights = ((1.0 - share)[..., None] * self.weights, share[..., None] * others.weights)
-        return Places(np.concatenate([self.nodes, others.nodes], axis=-1), np.concatenate(weights, axis=-1))
+        return Locations(np.concatenate([self.nodes, others.nodes], axis=-1), np.concatenate(weights, axis=-1))
 
 
 @dataclass(frozen=True, slots=True)
 class Line:
     """Line of a constant value.
 
-    places     n of them, on the edges that the line crosses; a closed line ends at its first one
+    locations  n of them, on the edges that the line crosses; a closed line ends at its first one
     triangles  (n - 1,) through which it runs between them
     """
 
-    places: Places
+    locations: Locations
     triangles: IntArray
 
 
@@ -60,7 +60,7 @@ class Line:
 class Ways:
     """Ways across a surface, a row for each: `lengths` (n, k) from the start, NaN where the way has ended before."""
 
-    places: Places
+    locations: Locations
     lengths: FloatArray
 
 
@@ -93,10 +93,10 @@ class TriangulatedSurface:
         edge = edge.ravel()
         order = np.argsort(edge, kind="stable")
         starts = np.concatenate([[0], np.cumsum(counts)[:-1]])[counts == 2]
-        found = np.full(len(pairs), NONE)
+        neighbours = np.full(len(pairs), NONE)
         first, second = order[starts], order[starts + 1]
-        found[first], found[second] = second // 3, first // 3
-        return found.reshape(-1, 3)
+        neighbours[first], neighbours[second] = second // 3, first // 3
+        return neighbours.reshape(-1, 3)
 
     def lines(self, values: FloatArray, level: float) -> list[Line]:
         """Return the lines where a field (nodes,), linear in each triangle, has a value."""
@@ -106,12 +106,12 @@ class TriangulatedSurface:
         left = crossed.any(axis=1)
         # lines begin at edges of the surface; those that are left are closed
         open_ends = np.argwhere(crossed & (self.neighbours == NONE))
-        found = []
+        lines = []
         for triangle, edge in (*open_ends.tolist(), *((int(k), NONE) for k in np.flatnonzero(left))):
             if left[triangle]:
                 edges = list(self._follow(crossed, left, triangle, edge))
-                found.append(self._line(values, level, edges))
-        return found
+                lines.append(self._line(values, level, edges))
+        return lines
 
     def _follow(
         self, crossed: NDArray[np.bool_], left: NDArray[np.bool_], triangle: int, edge: int
@@ -131,21 +131,21 @@ class TriangulatedSurface:
             triangle = beyond
 
     def _line(self, values: FloatArray, level: float, edges: list[tuple[int, int]]) -> Line:
-        triangles, places = np.array(edges).T
-        begin, end = self.triangles[triangles, places], self.triangles[triangles, (places + 1) % 3]
+        triangles, positions = np.array(edges).T
+        begin, end = self.triangles[triangles, positions], self.triangles[triangles, (positions + 1) % 3]
         share = (level - values[begin]) / (values[end] - values[begin])
-        return Line(Places(np.stack([begin, end], axis=1), np.stack([1.0 - share, share], axis=1)), triangles[1:])
+        return Line(Locations(np.stack([begin, end], axis=1), np.stack([1.0 - share, share], axis=1)), triangles[1:])
 
     def length(self, line: Line) -> float:
         """Return the length of a line."""
         return float(self._arc(line)[-1])
 
     def _arc(self, line: Line) -> FloatArray:
-        """Return the length (n,) of a line up to each of its places."""
-        steps = np.linalg.norm(np.diff(line.places.values(self.nodes), axis=0), axis=1)
+        """Return the length (n,) of a line up to each of its locations."""
+        steps = np.linalg.norm(np.diff(line.locations.values(self.nodes), axis=0), axis=1)
         return np.concatenate([[0.0], np.cumsum(steps)])
 
-    def even(self, line: Line, distance: float) -> tuple[Places, IntArray]:
+    def even(self, line: Line, distance: float) -> tuple[Locations, IntArray]:
         """Return the middles of at least three equal parts of a line, about so long, and their triangles."""
         arc = self._arc(line)
         parts = max(3, round(arc[-1] / distance))
@@ -153,17 +153,17 @@ class TriangulatedSurface:
         before = np.clip(np.searchsorted(arc, at, side="right") - 1, 0, len(arc) - 2)
         step = arc[before + 1] - arc[before]
         share = np.divide(at - arc[before], step, out=np.zeros(parts), where=step > 0.0)
-        return line.places.take(before).towards(line.places.take(before + 1), share), line.triangles[before]
+        return line.locations.take(before).towards(line.locations.take(before + 1), share), line.triangles[before]
 
     def ways(
-        self, start: Places, triangles: IntArray, planes: FloatArray, directions: FloatArray, reach: float
+        self, start: Locations, triangles: IntArray, planes: FloatArray, directions: FloatArray, reach: float
     ) -> Ways:
-        """Go from places along the surface, each in a plane.
+        """Go from locations along the surface, each in a plane.
 
         Parameters
         ----------
         start, triangles
-            n places and their triangles.
+            n locations and their triangles.
         planes
             (n, 3) unit normals of the planes.
         directions
@@ -177,7 +177,7 @@ class TriangulatedSurface:
         count = len(triangles)
         rows, triangle, edge = np.arange(count), triangles, np.full(count, NONE)
         last, length = start, np.zeros(count)
-        found, lengths = [start], [length]
+        visited, lengths = [start], [length]
         # no way enters a triangle twice
         for _ in range(len(self.triangles)):
             if not len(rows):
@@ -188,25 +188,25 @@ class TriangulatedSurface:
             share = np.divide(reach - length, step, out=np.ones(len(rows)), where=over & (step > 0.0))
             length = np.minimum(length + step, reach)
             at = last.towards(new, share)
-            places = Places(
+            locations = Locations(
                 np.zeros((count, at.nodes.shape[1]), dtype=np.int64), np.full((count, at.nodes.shape[1]), np.nan)
             )
-            places.nodes[rows], places.weights[rows] = at.nodes, at.weights
-            found.append(places)
+            locations.nodes[rows], locations.weights[rows] = at.nodes, at.weights
+            visited.append(locations)
             lengths.append(np.full(count, np.nan))
             lengths[-1][rows] = length
             beyond = self.neighbours[triangle, edge]
             on = np.flatnonzero((beyond != NONE) & ~over)
             edge = self._same_edge(triangle[on], edge[on], beyond[on])
             rows, triangle, length, last = rows[on], beyond[on], length[on], new.take(on)
-        widest = max(places.nodes.shape[1] for places in found)
+        widest = max(locations.nodes.shape[1] for locations in visited)
         nodes, weights = (
             np.stack(
-                [np.pad(getattr(each, name), ((0, 0), (0, widest - each.nodes.shape[1]))) for each in found], axis=1
+                [np.pad(getattr(each, name), ((0, 0), (0, widest - each.nodes.shape[1]))) for each in visited], axis=1
             )
             for name in ("nodes", "weights")
         )
-        return Ways(Places(nodes, weights), np.stack(lengths, axis=1))
+        return Ways(Locations(nodes, weights), np.stack(lengths, axis=1))
 
     def _shift(self, triangles: IntArray, origin: FloatArray, planes: FloatArray) -> FloatArray:
         """Return the distances (n,) by which planes are moved that touch their first triangle and do not cut it."""
@@ -224,7 +224,7 @@ class TriangulatedSurface:
         planes: FloatArray,
         directions: FloatArray,
         shift: FloatArray,
-    ) -> tuple[Places, IntArray]:
+    ) -> tuple[Locations, IntArray]:
         """Find where planes leave triangles that they entered by an edge, -1 for the first ones; and by which edge."""
         nodes = self.triangles[triangle]
         heights = np.einsum("nkd,nd->nk", self.nodes[nodes] - origin[:, None], planes) - shift[:, None]
@@ -242,10 +242,10 @@ class TriangulatedSurface:
         others = np.arange(3) != entered[:, None]
         edge = (crossed & np.where(entered[:, None] == NONE, first, others)).argmax(axis=1)
         rows = np.arange(len(triangle))
-        return Places(ends[rows, edge], weights[rows, edge]), edge
+        return Locations(ends[rows, edge], weights[rows, edge]), edge
 
     def _same_edge(self, triangle: IntArray, edge: IntArray, other: IntArray) -> IntArray:
-        """Return the place of an edge of each triangle in its neighbour."""
+        """Return the position (n,) of an edge of each triangle among the edges of its neighbour."""
         rows = np.arange(len(triangle))
         own = self.triangles[triangle]
         ends = np.sort(np.stack([own[rows, edge], own[rows, (edge + 1) % 3]], axis=1), axis=1)
