@@ -51,11 +51,11 @@ class State(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """A part of the installation: what it is, what was found of it, and what to do where that does not work."""
+    """A part of the installation: what it is, what is known of it, and what to do where that does not work."""
 
     part: str
     state: State
-    found: str
+    result: str
     advice: str = ""
 
 
@@ -63,7 +63,7 @@ def report(tell: Callable[[str], None]) -> bool:
     """Tell all findings, in lines that can be copied into a question; returns whether nothing is broken."""
     broken = []
     for finding in examine():
-        tell(f"{finding.state.value:7} {finding.part}: {finding.found}")
+        tell(f"{finding.state.value:7} {finding.part}: {finding.result}")
         if finding.state is not State.WORKS:
             tell(f"{'':7} -> {finding.advice}")
         if finding.state is State.BROKEN:
@@ -102,11 +102,11 @@ def release() -> str:
 
 
 def _program() -> Finding:
-    place = f"Python {platform.python_version()} ({sys.executable}), {platform.system()} {platform.machine()}"
+    system = f"Python {platform.python_version()} ({sys.executable}), {platform.system()} {platform.machine()}"
     cores = f"{len(os.sched_getaffinity(0))} cores"
     if version := release():
-        return Finding("uel", State.WORKS, f"{version}, {place}, {cores}")
-    return Finding("uel", State.BROKEN, f"not installed as a package; {place}", AGAIN)
+        return Finding("uel", State.WORKS, f"{version}, {system}, {cores}")
+    return Finding("uel", State.BROKEN, f"not installed as a package; {system}", AGAIN)
 
 
 def _required() -> list[tuple[str, str]]:
@@ -115,8 +115,8 @@ def _required() -> list[tuple[str, str]]:
         lines = metadata.requires(DISTRIBUTION) or []
     except metadata.PackageNotFoundError:
         return []
-    names = [found[0] for found in map(_NAME.match, lines) if found]
-    extras = [found[1] if found else "" for found in map(_EXTRA.search, lines)]
+    names = [match[0] for match in map(_NAME.match, lines) if match]
+    extras = [match[1] if match else "" for match in map(_EXTRA.search, lines)]
     return list(zip(names, extras, strict=True))
 
 
@@ -180,8 +180,8 @@ def _compilers() -> Iterator[Finding]:
             _entry_points([(language.suffixes[0], _LINES[language.suffixes[0]])])
             yield Finding(language.compiler, State.WORKS, f"{version} compiles, and the result loads")
         except (UelError, OSError) as error:
-            found = f"{version}: two lines do not compile or load: {' '.join(str(error).split())}"
-            yield Finding(language.compiler, State.BROKEN, found, f"{language.install}; {purpose} needs it")
+            result = f"{version}: two lines do not compile or load: {' '.join(str(error).split())}"
+            yield Finding(language.compiler, State.BROKEN, result, f"{language.install}; {purpose} needs it")
 
 
 def _run_time_checks() -> Finding:
@@ -202,8 +202,8 @@ def _cache() -> Finding:
                 return Finding(part, State.WORKS, str(folder))
         except OSError:
             pass
-    found = f"{folder or 'none'} (cannot be written, or others can write there): each run compiles again"
-    return Finding(part, State.ABSENT, found, "set XDG_CACHE_HOME to a folder of your own")
+    result = f"{folder or 'none'} (cannot be written, or others can write there): each run compiles again"
+    return Finding(part, State.ABSENT, result, "set XDG_CACHE_HOME to a folder of your own")
 
 
 def _solvers() -> Iterator[Finding]:

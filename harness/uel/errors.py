@@ -45,8 +45,8 @@ def in_words(error: BaseException) -> str:
     if isinstance(error, UelError):
         return str(error)
     if isinstance(error, OSError):
-        place = f"{_shown(os.fsdecode(error.filename))}: " if isinstance(error.filename, str | bytes) else ""
-        return f"{place}{error.strerror or error}"
+        file = f"{_shown(os.fsdecode(error.filename))}: " if isinstance(error.filename, str | bytes) else ""
+        return f"{file}{error.strerror or error}"
     if isinstance(error, MemoryError):
         return "not enough memory for this model"
     if isinstance(error, KeyboardInterrupt):
@@ -113,7 +113,7 @@ FAILURES: Final = (UelError, OSError, MemoryError, KeyboardInterrupt)
 
 
 class DeckError(UelError):
-    """Error of an input deck that is wrong or asks for something unsupported; file:line first, a line per place."""
+    """Error of an input deck that is wrong or asks for something unsupported; each line begins with file:line."""
 
     def __init__(self, source: Source, message: str, others: Sequence[DeckError] = ()) -> None:
         super().__init__("\n".join([f"{source}: {_shown(message)}", *map(str, others)]))
@@ -133,7 +133,7 @@ def _shown(message: str) -> str:
 
 
 def all_of(errors: Sequence[DeckError]) -> DeckError:
-    """Join errors into one that names the places of all of them."""
+    """Join errors into one that has the lines of all of them."""
     first = errors[0]
     return DeckError(first.source, str(first).removeprefix(f"{first.source}: "), errors[1:])
 
@@ -179,14 +179,14 @@ class SingularMatrixError(UelError):
     """Error of a system matrix that is singular at a node and dof, usually because a body is unconstrained."""
 
     def __init__(self, node: str, dof: int, message: str, source: Source | None = None) -> None:
-        place = f"{source}: " if source else ""
-        super().__init__(f"{place}singular system matrix at node {node}, dof {dof}: {message}")
+        prefix = f"{source}: " if source else ""
+        super().__init__(f"{prefix}singular system matrix at node {node}, dof {dof}: {message}")
         self.node = node
         self.dof = dof
         self.message = message
 
     def in_step(self, source: Source) -> SingularMatrixError:
-        """Return this error with the place of the step in which it occurred."""
+        """Return this error with file and line of the step in which it occurred."""
         return SingularMatrixError(self.node, self.dof, self.message, source)
 
 

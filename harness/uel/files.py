@@ -29,7 +29,7 @@ def read_whole(path: Path) -> bytes:
     _check(path.stat().st_mode)
     if os.path.realpath(path).startswith(_MADE_BY_THE_KERNEL):
         raise OSError(errno.EINVAL, "not a file")
-    # does not wait for the other end if a pipe has taken its place
+    # does not wait for the other end if a pipe has replaced it
     descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
     with os.fdopen(descriptor, "rb") as file:
         _check(os.fstat(descriptor).st_mode)

@@ -99,10 +99,10 @@ def settle() -> None:
 @contextmanager
 def collected() -> Iterator[list[int]]:
     """Put these signals on a list within the block, whose reader decides."""
-    found: list[int] = []
-    before = _handle(lambda signum, _: found.append(signum))
+    signals: list[int] = []
+    before = _handle(lambda signum, _: signals.append(signum))
     try:
-        yield found
+        yield signals
     finally:
         for signum, handler in before.items():
             signal.signal(signum, handler)

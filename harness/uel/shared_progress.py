@@ -31,7 +31,7 @@ class Slate(ctypes.Structure):
     calls     of user routines so far
     within    one of Within
     left      number of calls that did not end by returning
-    place     element, step, increment, iteration of the current call, or of the last one that was left
+    location  element, step, increment, iteration of the current call, or of the last one that was left
     routine   its name
     reason    why it was left, or why the process ends
     finished  1 + exit code of a process that ended by itself
@@ -42,7 +42,7 @@ class Slate(ctypes.Structure):
         ("calls", ctypes.c_int64),
         ("within", ctypes.c_int32),
         ("left", ctypes.c_int32),
-        ("place", ctypes.c_int32 * 4),
+        ("location", ctypes.c_int32 * 4),
         ("routine", ctypes.c_char * 16),
         ("reason", ctypes.c_char * 256),
         ("finished", ctypes.c_int32),
@@ -56,16 +56,16 @@ class Slate(ctypes.Structure):
     token: bytes
 
     def where(self) -> str:
-        """Describe the place of the current call, or of the last one left, with the reason; '' without either."""
+        """Describe the current call, or the last one left, with the reason; '' without either."""
         if self.within != Within.CALL and not self.left:
             return ""
-        element, step, increment, iteration = self.place
+        element, step, increment, iteration = self.location
         routine = self.routine.decode(errors="replace").strip()
         # a built-in element has no routine of the user's
         of = f"in {routine} {element}" if routine == BUILT_IN else f"in {routine} for element {element}"
-        place = f"{of}, step {step}, increment {increment}, iteration {iteration}"
+        call = f"{of}, step {step}, increment {increment}, iteration {iteration}"
         reason = self.reason.decode(errors="replace")
-        return f"{place}: {reason}" if reason else place
+        return f"{call}: {reason}" if reason else call
 
 
 def new_slate() -> tuple[int, Slate]:

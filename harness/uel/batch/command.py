@@ -29,7 +29,7 @@ _MOST_TOLD: Final = 3
 
 
 def batch(
-    places: Sequence[Path],
+    paths: Sequence[Path],
     folder: Path,
     settings: Settings,
     *,
@@ -44,12 +44,12 @@ def batch(
 
     Parameters
     ----------
-    places
+    paths
         Decks, and folders of decks.
     folder
         Gets a folder for each run, and the table of all runs, of other parts too.
     settings
-        How the runs are made.
+        User files and options of the runs.
     table
         Values for the parameters of one deck, a row for each run.
     part
@@ -70,7 +70,7 @@ def batch(
     Interrupted
         A signal has ended the batch; what has run until then is kept.
     """
-    runs = list_runs(places, table, settings)
+    runs = list_runs(paths, table, settings)
     first, count = part
     mine = runs[first - 1 :: count]
     records = Records(folder, keep_failed=keep_failed)
@@ -120,9 +120,9 @@ class _Runner:
 
     def __call__(self, run: BatchRun, folder: Path) -> Entry | None:
         """Return the entry of the run; None if the batch is interrupted, or if another one has this run."""
-        place = folder / run.name
-        place.mkdir(parents=True, exist_ok=True)
-        stem = place / run.name
+        own_folder = folder / run.name
+        own_folder.mkdir(parents=True, exist_ok=True)
+        stem = own_folder / run.name
         try:
             with locked(stem.with_name(f"{run.name}.batch")):
                 # another batch may have run it since this one began

@@ -177,13 +177,13 @@ def complete(
     Parameters
     ----------
     decks, store
-        The decks wanted, and the entries there are.
+        The requested decks, and the entries that exist.
     function, folder, workers, threads
         As in `run_all`.
     console, describe
         Gets a progress bar, and a line for each deck that ends: its name and what `describe` says about the entry.
     work
-        How much there is to do for a deck, in any unit: the time left follows from it.
+        Returns the work for a deck, in any unit, from which the remaining time is estimated.
     """
     known = {deck: entry for deck in decks if (entry := store.get(deck)) is not None}
     missing = [deck for deck in decks if deck not in known]

@@ -58,7 +58,7 @@ class BatchProgress:
     total, known
         Number of runs, and of those that need not run.
     work
-        Of all runs that are missing, in any unit.
+        Work of all runs still to be made, in any unit.
     workers
         Runs at a time.
     """

@@ -109,7 +109,7 @@ class Records:
     Parameters
     ----------
     folder
-        Of the batch.
+        Folder of the batch.
     keep_failed
         Runs that did not complete are not repeated.
     """

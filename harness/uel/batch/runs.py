@@ -28,7 +28,7 @@ class BatchRun:
 
     name    of the job and of its folder
     deck    the deck
-    values  names of parameters, and texts of the values given to them
+    values  names of parameters, and texts of their values
     inputs  names, and digests or texts, of all that its results depend on, as they were when the batch began
     """
 
@@ -61,17 +61,17 @@ class Settings:
         return "--debug" in self.options
 
 
-def list_runs(places: Sequence[Path], table: Path | None, settings: Settings) -> list[BatchRun]:
+def list_runs(paths: Sequence[Path], table: Path | None, settings: Settings) -> list[BatchRun]:
     """List the runs, in the order of the decks or of the rows; the user files are compiled once for all of them.
 
     Parameters
     ----------
-    places
+    paths
         Decks, and folders all of whose decks run: their files .inp but those that another one includes.
     table
         Values for the parameters of the deck, of which there is one then.
     settings
-        How the runs are made.
+        User files and options of the runs.
 
     Raises
     ------
@@ -83,7 +83,7 @@ def list_runs(places: Sequence[Path], table: Path | None, settings: Settings) ->
         The user files do not compile.
     """
     digest, survey_of = cache(_digest), cache(_survey)
-    decks = list(dict.fromkeys(deck for place in places for deck in _decks(place, survey_of)))
+    decks = list(dict.fromkeys(deck for path in paths for deck in _decks(path, survey_of)))
 
     @cache
     def code(folder: Path) -> str:
@@ -108,17 +108,17 @@ def list_runs(places: Sequence[Path], table: Path | None, settings: Settings) ->
     ]
 
 
-def _decks(place: Path, survey: Callable[[Path], Survey]) -> list[Path]:
+def _decks(path: Path, survey: Callable[[Path], Survey]) -> list[Path]:
     """Return a deck, or those of a folder. Raises UsageError."""
-    if not place.is_dir():
-        if not place.exists():
-            raise UsageError(f"{place}: no such deck or folder")
-        return [place]
-    found = sorted(file for file in place.iterdir() if file.suffix.lower() == ENDING and file.is_file())
-    included = {file.resolve() for deck in found for file in survey(deck).files[1:]}
-    decks = [deck for deck in found if deck.resolve() not in included]
+    if not path.is_dir():
+        if not path.exists():
+            raise UsageError(f"{path}: no such deck or folder")
+        return [path]
+    files = sorted(file for file in path.iterdir() if file.suffix.lower() == ENDING and file.is_file())
+    included = {file.resolve() for deck in files for file in survey(deck).files[1:]}
+    decks = [deck for deck in files if deck.resolve() not in included]
     if not decks:
-        raise UsageError(f"{place}: the folder has no decks; expected files that end in {ENDING}")
+        raise UsageError(f"{path}: the folder has no decks; expected files that end in {ENDING}")
     return decks
 
 

@@ -48,7 +48,7 @@ def read_table(path: Path, deck: Path, parameters: Sequence[str]) -> list[Row]:
     Raises
     ------
     DeckError
-        With file:line for each of the first 50 places where a name is unknown, a value is missing or not a number, or
+        With file:line for each of the first 50 lines where a name is unknown, a value is missing or not a number, or
         a job has a name that cannot be one or that another one has.
     UsageError
         The table cannot be read.
@@ -60,10 +60,10 @@ def read_table(path: Path, deck: Path, parameters: Sequence[str]) -> list[Row]:
         _check_names(start, names, deck, parameters)
     problems.check()
     rows: list[Row] = []
-    places: dict[str, Source] = {}
+    sources: dict[str, Source] = {}
     for source, cells in lines:
         with problems.gather():
-            rows.append(_row(source, names, cells, places))
+            rows.append(_row(source, names, cells, sources))
     problems.check()
     if not rows:
         raise DeckError(start, "expected a line of values for each run below the line of names")
@@ -71,7 +71,7 @@ def read_table(path: Path, deck: Path, parameters: Sequence[str]) -> list[Row]:
 
 
 def read_cells(path: Path, name: str) -> Iterator[tuple[Source, list[str]]]:
-    """Yield the cells of the lines of a CSV file that are not empty, with their places.
+    """Yield the cells of the lines of a CSV file that are not empty, with their lines.
 
     Raises UsageError, with the name for the file, if it cannot be read, and DeckError if it is no table.
     """
@@ -94,24 +94,24 @@ def _check_names(source: Source, names: Sequence[str], deck: Path, parameters: S
     if not names:
         raise DeckError(source, f"expected names of parameters of {deck}, with commas between them")
     known = dict.fromkeys(parameters, 0)
-    for place, name in enumerate(names, 1):
+    for number, name in enumerate(names, 1):
         if not name:
-            raise DeckError(source, f"column {place} has no name")
-        if name in names[: place - 1]:
-            raise DeckError(source, f"column {place}: there is another column '{name}'")
+            raise DeckError(source, f"column {number} has no name")
+        if name in names[: number - 1]:
+            raise DeckError(source, f"column {number}: there is another column '{name}'")
         if name != JOB and find(name, known) is None:
             raise DeckError(source, f"column '{name}': {unknown_parameter(name, deck, parameters)}")
 
 
-def _row(source: Source, names: Sequence[str], cells: Sequence[str], places: dict[str, Source]) -> Row:
-    """Read the row of a line; places: of the jobs so far, to which this one is added. Raises DeckError."""
+def _row(source: Source, names: Sequence[str], cells: Sequence[str], sources: dict[str, Source]) -> Row:
+    """Read the row of a line; sources: of the jobs so far, to which this one is added. Raises DeckError."""
     if len(cells) != len(names):
-        found = "1 value" if len(cells) == 1 else f"{len(cells)} values"
-        raise DeckError(source, f"expected a value for each of {', '.join(names)}, found {found}")
+        count = "1 value" if len(cells) == 1 else f"{len(cells)} values"
+        raise DeckError(source, f"expected a value for each of {', '.join(names)}, found {count}")
     row = dict(zip(names, cells, strict=True))
     job = row.pop(JOB, "")
     if JOB in names:
-        _check_job(source, job, places)
+        _check_job(source, job, sources)
     for name, text in row.items():
         try:
             value_of(text)
@@ -120,11 +120,11 @@ def _row(source: Source, names: Sequence[str], cells: Sequence[str], places: dic
     return Row(job, tuple(row.items()))
 
 
-def _check_job(source: Source, job: str, places: dict[str, Source]) -> None:
+def _check_job(source: Source, job: str, sources: dict[str, Source]) -> None:
     try:
         job_stem(job, None)
     except UsageError:
         raise DeckError(source, f"{JOB}: expected a file name without folders, found '{job}'") from None
-    if job in places:
-        raise DeckError(source, f"{JOB}: '{job}' is also the name of the run of {places[job]}")
-    places[job] = source
+    if job in sources:
+        raise DeckError(source, f"{JOB}: '{job}' is also the name of the run of {sources[job]}")
+    sources[job] = source

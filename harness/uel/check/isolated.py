@@ -110,8 +110,8 @@ def call_isolated(
         return result
     interrupted = end.interrupted or end.code == INTERRUPTED
     why = "interrupted" if interrupted else end.reason
-    place = f"; {end.place}" if end.place else ""
-    raise EndedError(f"the process was {why} during {snapshot.running}{place}", snapshot, interrupted=interrupted)
+    location = f"; {end.location}" if end.location else ""
+    raise EndedError(f"the process was {why} during {snapshot.running}{location}", snapshot, interrupted=interrupted)
 
 
 def _snapshot(file: Path) -> Snapshot:

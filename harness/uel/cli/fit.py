@@ -54,7 +54,7 @@ def fit_parameters(options: argparse.Namespace) -> int:
     from uel.fit.command import fit  # noqa: PLC0415
     from uel.fit.estimate import CONVERGED  # noqa: PLC0415
 
-    found = fit(
+    result = fit(
         options.deck,
         options.curve,
         options.variables,
@@ -66,4 +66,4 @@ def fit_parameters(options: argparse.Namespace) -> int:
         workers=options.cpus,
         quiet=options.quiet,
     )
-    return 0 if found.ended == CONVERGED else 1
+    return 0 if result.ended == CONVERGED else 1

@@ -22,7 +22,7 @@ def add_insert(insert: argparse.ArgumentParser) -> None:
         "files", nargs="+", type=Path, metavar="FILE", help="a deck (.inp); or a mesh (.msh, ...), and its deck"
     )
     insert.add_argument("-o", "--output", type=Path, required=True, metavar="OUT.inp", help="the deck that is written")
-    where = insert.add_argument_group("where; repeat what takes names of one place")
+    where = insert.add_argument_group("where; repeat an option to name several interfaces")
     where.add_argument(
         *("--between", "-b"),
         nargs=2,

@@ -86,9 +86,9 @@ def trace_front(options: argparse.Namespace) -> int:
     from uel.output.results import Result  # noqa: PLC0415
 
     result = Result(options.job)
-    found = fronts(result, options.damage)
+    lines = fronts(result, options.damage)
     table, picture = result.file("_front.csv"), result.file("_front.png")
-    write_fronts(table, found)
-    draw_fronts(picture, found)
+    write_fronts(table, lines)
+    draw_fronts(picture, lines)
     print(f"written: {table} {picture}")
     return 0

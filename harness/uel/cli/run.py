@@ -50,7 +50,7 @@ def add_run(run: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="NAME=VALUE",
-        help="value of a parameter in place of the one in the deck's *PARAMETER; repeat for each parameter",
+        help="value of a parameter that replaces the one in the deck's *PARAMETER; repeat for each parameter",
     )
     run.add_argument(
         "--cpus", type=int, default=1, metavar="N", help="threads that call the elements: the same results (1)"
@@ -69,7 +69,7 @@ def add_run(run: argparse.ArgumentParser) -> None:
 
 def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
     """Translate `job=NAME input=DECK user=FILE cpus=2` into this command's options."""
-    given: list[tuple[str, str]] = []
+    pairs: list[tuple[str, str]] = []
     rest: list[str] = []
     for before, word in zip(["", *words], words, strict=False):
         key, equals, value = word.partition("=")
@@ -78,15 +78,15 @@ def from_abaqus(parser: argparse.ArgumentParser, words: list[str]) -> list[str]:
         if word.startswith("-") or before == "--parameter" or plain:
             rest.append(word)
         elif key.lower() in ABAQUS_OPTIONS:
-            given.append((key.lower(), value))
+            pairs.append((key.lower(), value))
         else:
             parser.error(f"unknown option '{key}='; expected one of {', '.join(f'{name}=' for name in ABAQUS_OPTIONS)}")
-    if not given:
+    if not pairs:
         return words
-    deck = dict(given).get("input", dict(given).get("job", ""))
+    deck = dict(pairs).get("input", dict(pairs).get("job", ""))
     if deck:
         rest.append(deck if Path(deck).suffix else f"{deck}.inp")
-    for key, value in given:
+    for key, value in pairs:
         if (option := ABAQUS_OPTIONS[key]) and key != "input":
             rest += [option, value]
     return rest

@@ -57,7 +57,7 @@ def part(text: str) -> tuple[int, int]:
 
 
 def assignment(text: str) -> tuple[str, float]:
-    """Split the name and value of a parameter, given as an option."""
+    """Split the name and value of a parameter in an option."""
     from uel.batch.values import value_of  # noqa: PLC0415 (keeps the other commands quick)
 
     name, _, value = text.partition("=")

@@ -47,7 +47,7 @@ def fit(
     folder
         Gets the runs, NAME_fit.csv, NAME_fit_curve.csv and NAME_fit.png.
     settings
-        How the runs are made.
+        User files and options of the runs.
     limit
         Largest number of runs.
     x, y
@@ -72,14 +72,14 @@ def fit(
     measured = read_measurement(curve, x, y)
     runs = _Runs(prepare_deck(deck, variables, folder), variables, measured, folder, settings, workers)
     say = (lambda _: None) if quiet else tell
-    found = fit_curve(measured, variables, runs.curves, limit=limit, tell=say)
+    result = fit_curve(measured, variables, runs.curves, limit=limit, tell=say)
     stem = folder / f"{deck.stem}_fit"
-    _write(stem, variables, measured, found)
-    _draw(stem.with_suffix(".png"), variables, measured, found)
-    for line in _summary(variables, found, runs.count):
+    _write(stem, variables, measured, result)
+    _draw(stem.with_suffix(".png"), variables, measured, result)
+    for line in _summary(variables, result, runs.count):
         say(line)
     say(f"{stem}.csv, {stem}_curve.csv, {stem}.png")
-    return found
+    return result
 
 
 class _Runs:
@@ -104,7 +104,7 @@ class _Runs:
         return len(self._rows)
 
     def curves(self, points: Sequence[FloatArray]) -> list[FloatArray]:
-        """Return the curves of runs with these values, at the places of the measured one."""
+        """Return the curves of runs with these values, at the x of the measured one."""
         first = len(self._rows)
         self._rows += [[f"fit-{first + k:03d}", *map(repr, map(float, p))] for k, p in enumerate(points, 1)]
         self._folder.mkdir(parents=True, exist_ok=True)
@@ -126,11 +126,11 @@ class _Runs:
             raise
 
 
-def _summary(variables: Sequence[Variable], found: Fit, runs: int) -> list[str]:
-    lines = [f"{found.ended} after {runs} runs; standard deviation from the measured curve {found.deviation:.4g}"]
+def _summary(variables: Sequence[Variable], result: Fit, runs: int) -> list[str]:
+    lines = [f"{result.ended} after {runs} runs; standard deviation from the measured curve {result.deviation:.4g}"]
     for k, variable in enumerate(variables):
-        low, high = found.intervals[k]
-        value, largest = found.values[k], float(np.abs(found.sensitivity[:, k]).max())
+        low, high = result.intervals[k]
+        value, largest = result.values[k], float(np.abs(result.sensitivity[:, k]).max())
         bound = next((f", at its bound {b:g}" for b in (variable.low, variable.high) if np.isclose(value, b, 1e-3)), "")
         lines.append(
             f"{variable.name} = {value:.5g}{bound}, {LEVEL:.0%} between {low:.5g} and {high:.5g}; 1 % more of it moves "
@@ -138,26 +138,26 @@ def _summary(variables: Sequence[Variable], found: Fit, runs: int) -> list[str]:
         )
     for i in range(len(variables)):
         for k in range(i):
-            if abs(found.correlation[i, k]) > 0.9:
+            if abs(result.correlation[i, k]) > 0.9:
                 lines.append(
                     f"{variables[k].name} and {variables[i].name} cannot be told apart by this curve: correlation "
-                    f"{found.correlation[i, k]:.2f}"
+                    f"{result.correlation[i, k]:.2f}"
                 )
     return lines
 
 
-def _write(stem: Path, variables: Sequence[Variable], measured: Measurement, found: Fit) -> None:
+def _write(stem: Path, variables: Sequence[Variable], measured: Measurement, result: Fit) -> None:
     """Write NAME_fit.csv with the variables, and NAME_fit_curve.csv with the curves and their derivatives."""
     names = [variable.name for variable in variables]
     head = ["name", "value", "lower", "upper", "start", "low", "high", *(f"correlation {name}" for name in names)]
     rows = [
-        [v.name, found.values[k], *found.intervals[k], v.start, v.low, v.high, *found.correlation[k]]
+        [v.name, result.values[k], *result.intervals[k], v.start, v.low, v.high, *result.correlation[k]]
         for k, v in enumerate(variables)
     ]
     _write_table(Path(f"{stem}.csv"), head, rows)
     x, y = map(str, measured.columns)
     head = [x, f"measured {y}", f"fitted {y}", f"start {y}", *(f"{name} d/d{name}" for name in names)]
-    columns = [measured.x, measured.y, found.curve, found.start, *found.sensitivity.T]
+    columns = [measured.x, measured.y, result.curve, result.start, *result.sensitivity.T]
     _write_table(Path(f"{stem}_curve.csv"), head, np.column_stack(columns).tolist())
 
 
@@ -168,15 +168,17 @@ def _write_table(path: Path, head: Sequence[str], rows: Sequence[Sequence[object
         writer.writerows([[f"{c:.9g}" if isinstance(c, float) else c for c in row] for row in rows])
 
 
-def _draw(path: Path, variables: Sequence[Variable], measured: Measurement, found: Fit) -> None:
+def _draw(path: Path, variables: Sequence[Variable], measured: Measurement, result: Fit) -> None:
     """Draw the curves, and how they depend on the variables."""
     from uel.output.pictures.plots import Curve, Panel, grid  # noqa: PLC0415 (the runs come first)
 
     x, y = map(str, measured.columns)
     curves = [
         Curve("measured", measured.x, measured.y, "points"),
-        Curve("start", measured.x, found.start, "reference"),
-        Curve("fitted", measured.x, found.curve),
+        Curve("start", measured.x, result.start, "reference"),
+        Curve("fitted", measured.x, result.curve),
     ]
-    depends = [Curve(f"1 % more {v.name}", measured.x, 0.01 * found.sensitivity[:, k]) for k, v in enumerate(variables)]
+    depends = [
+        Curve(f"1 % more {v.name}", measured.x, 0.01 * result.sensitivity[:, k]) for k, v in enumerate(variables)
+    ]
     grid([[Panel("", curves, x, y), Panel("", depends, x, f"change of {y}")]], path)

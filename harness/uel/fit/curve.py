@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The measured curve, and the curve of a run at the same places."""
+"""The measured curve, and the curve of a run at the same x."""
 
 from __future__ import annotations
 
@@ -30,15 +30,15 @@ class Measurement:
     columns: tuple[Column, Column]
 
     def of_run(self, history: Mapping[str, FloatArray], job: str) -> FloatArray:
-        """Return the values of a run (n,) at the places x, from a start at (0, 0) on.
+        """Return the values of a run (n,) at x, from a start at (0, 0) on.
 
         Raises
         ------
         UelError
-            The run has not the columns, does not reach the last place, or its x does not rise.
+            The run does not have the columns, does not reach the last x, or its x does not rise.
         """
         x, y = (np.concatenate([[0.0], column.find(history, job)]) for column in self.columns)
-        # what comes after the last place does not count
+        # what comes after the last x does not count
         stop = 1 + int(np.argmax(x >= self.x[-1])) if x.max() >= self.x[-1] else len(x)
         x, y = x[:stop], y[:stop]
         if not np.all(np.diff(x) > 0.0):
@@ -62,7 +62,7 @@ def read_measurement(path: Path, x: str | None, y: str | None) -> Measurement:
     path
         The file.
     x, y
-        What its columns are in the history of a run; None: what their names in the file say.
+        Columns of the history that correspond to its columns; None: the names in the file.
 
     Raises
     ------
@@ -91,9 +91,9 @@ def read_measurement(path: Path, x: str | None, y: str | None) -> Measurement:
 
 def _numbers(source: Source, words: list[str]) -> list[float]:
     try:
-        found = [float(word) for word in words]
+        numbers = [float(word) for word in words]
     except ValueError:
         raise DeckError(source, f"expected two numbers, found '{', '.join(words)}'") from None
-    if not all(map(math.isfinite, found)):
+    if not all(map(math.isfinite, numbers)):
         raise DeckError(source, f"expected finite numbers, found '{', '.join(words)}'")
-    return found
+    return numbers

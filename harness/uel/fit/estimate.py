@@ -24,7 +24,7 @@ LEVEL = 0.95
 """Level of the confidence intervals."""
 
 CONVERGED = "converged"
-"""Reasons why the search ended, if it has found what it sought."""
+"""Reasons why the search ended, if it has converged."""
 
 Curves = Callable[[Sequence[FloatArray]], list[FloatArray]]
 """Curves (n,) of runs with these values (k,) of the variables, several at a time."""
@@ -76,31 +76,31 @@ class _Search:
         self.best: FloatArray | None = None
         self._least = np.inf
 
-    def residual(self, place: FloatArray) -> FloatArray:
+    def residual(self, logarithms: FloatArray) -> FloatArray:
         """Return the differences (n,), as part of the largest measured value."""
-        return self._at(place)[0]
+        return self._at(logarithms)[0]
 
-    def jacobian(self, place: FloatArray) -> FloatArray:
+    def jacobian(self, logarithms: FloatArray) -> FloatArray:
         """Return the derivatives (n, k) of the residuals."""
-        return self._at(place)[1]
+        return self._at(logarithms)[1]
 
-    def _at(self, place: FloatArray) -> tuple[FloatArray, FloatArray]:
-        key = place.tobytes()
+    def _at(self, logarithms: FloatArray) -> tuple[FloatArray, FloatArray]:
+        key = logarithms.tobytes()
         if key not in self._known:
-            if self._left <= len(place):
+            if self._left <= len(logarithms):
                 raise _SpentError
-            self._left -= 1 + len(place)
+            self._left -= 1 + len(logarithms)
             low, high = (np.log([getattr(v, name) for v in self._variables]) for name in ("low", "high"))
             size = np.minimum(STEP, 0.5 * (high - low))
-            steps = np.where(place + size <= high, size, -size)
-            points = [place, *(place + row for row in np.diag(steps))]
+            steps = np.where(logarithms + size <= high, size, -size)
+            points = [logarithms, *(logarithms + row for row in np.diag(steps))]
             base, *moved = self._curves([np.exp(point) for point in points])
             residual = (base - self._measured.y) / self._scale
             slopes = np.column_stack([(curve - base) / step for curve, step in zip(moved, steps, strict=True)])
             self._known[key] = residual, slopes / self._scale
             if (squares := float(residual @ residual)) < self._least:
-                self.best, self._least = place.copy(), squares
-            named = zip(self._variables, np.exp(place), strict=True)
+                self.best, self._least = logarithms.copy(), squares
+            named = zip(self._variables, np.exp(logarithms), strict=True)
             off = np.sqrt(squares / len(residual))
             self._tell(f"{', '.join(f'{v.name} = {value:.6g}' for v, value in named)}: off by {off:.2%} of the peak")
         return self._known[key]
@@ -138,10 +138,10 @@ def fit_curve(
     search = _Search(measured, variables, curves, limit, tell)
     start, low, high = (np.log([getattr(v, name) for v in variables]) for name in ("start", "low", "high"))
     try:
-        found = least_squares(
+        solution = least_squares(
             search.residual, start, search.jacobian, bounds=(low, high), xtol=TOLERANCE, ftol=TOLERANCE, gtol=1e-12
         )
-        ended = CONVERGED if found.success else found.message
+        ended = CONVERGED if solution.success else solution.message
     except _SpentError:
         ended = f"the limit of {limit} runs"
     if search.best is None:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Parameters that are fitted, and decks of ours that have properties in place of parameters."""
+"""Parameters that are fitted, and decks of ours that have properties instead of parameters."""
 
 from __future__ import annotations
 
@@ -71,8 +71,8 @@ def prepare_deck(deck: Path, variables: Sequence[Variable], folder: Path) -> Pat
     groups = list({group.section.source: group for group in read_deck(deck).groups}.values())
     for variable in missing:
         text = f"<{variable.name.upper()}>"
-        places = [place for group in groups if (place := _place_of(group, variable.name, deck)) is not None]
-        if not [place for place in places if _replace(lines, *place, text)]:
+        positions = [position for group in groups if (position := _position_of(group, variable.name, deck)) is not None]
+        if not [position for position in positions if _replace(lines, *position, text)]:
             raise UsageError(
                 f"{unknown_parameter(variable.name, deck, known)}; nor is '{variable.name}' a property of the "
                 f"project's interface elements on data lines of {deck}"
@@ -86,7 +86,7 @@ def prepare_deck(deck: Path, variables: Sequence[Variable], folder: Path) -> Pat
     return copy
 
 
-def _place_of(group: ElementGroup, name: str, deck: Path) -> tuple[int, int] | None:
+def _position_of(group: ElementGroup, name: str, deck: Path) -> tuple[int, int] | None:
     """Find a property on *UEL PROPERTY in the deck: line from 1 and position from 0; None if there is no such."""
     section = group.section
     if not isinstance(section, UserProperty) or group.definition is None or section.source.file != str(deck):
@@ -99,7 +99,7 @@ def _place_of(group: ElementGroup, name: str, deck: Path) -> tuple[int, int] | N
 
 
 def _replace(lines: list[str], keyword: int, position: int, text: str) -> bool:
-    """Put a text in place of a value on the data lines after a keyword line, whose number counts from 1.
+    """Replace a value by a text on the data lines after a keyword line, whose number counts from 1.
 
     Returns False if there is no such value.
     """

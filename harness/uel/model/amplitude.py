@@ -31,7 +31,7 @@ class Amplitude:
                 DECAY: rows (A0, A), (t0, td)
     total_time  TIME=TOTAL TIME; step time otherwise
     absolute    VALUE=ABSOLUTE: the curve is the magnitude itself
-    smoothing   SMOOTH of a table, None if not given: fraction of each interval that Abaqus rounds where it needs time
+    smoothing   SMOOTH of a table, None without it: fraction of each interval that Abaqus rounds where it needs time
                 derivatives of the curve; the value here is that of the table
     """
 

@@ -53,7 +53,7 @@ class ContactProperty:
     initial         part of the stiffness with which the pressure begins (PENALTY=NONLINEAR); 1: it is constant
     friction        coefficient; 0: none
     slip_tolerance  largest elastic slip over the length of a face
-    elastic_slip    largest elastic slip itself, which replaces the tolerance; 0: not given
+    elastic_slip    largest elastic slip itself, which replaces the tolerance unless it is 0
     cohesion        of points that are in contact at the start
     heat            the first keyword of heat that crosses the contact, which is not conducted here
     """
@@ -74,7 +74,7 @@ class ContactProperty:
 class ContactPair:
     """*CONTACT PAIR, SMALL SLIDING: a point at each secondary node that faces the main surface.
 
-    The clearance of a point is its normal times the sum of the shares of its nodes, each times the place of the node.
+    The clearance of a point is its normal times the sum of the shares of its nodes, each times their coordinates.
 
     name        both surfaces, '(SECONDARY,MAIN)'
     dimension   displacements of a node: 2 or 3

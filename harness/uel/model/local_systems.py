@@ -56,7 +56,7 @@ class LocalSystem:
         rectangular = self.kind in (SystemKind.RECTANGULAR, SystemKind.Z_RECTANGULAR)
         return rectangular and not self.nodes and self.points.ndim == 2 and np.ndim(self.angle) == 0
 
-    def axes(self, elements: IntArray, nodes: FloatArray, places: FloatArray) -> FloatArray:
+    def axes(self, elements: IntArray, nodes: FloatArray, coordinates: FloatArray) -> FloatArray:
         """Compute the directions at the points of elements.
 
         Parameters
@@ -65,7 +65,7 @@ class LocalSystem:
             (m,) positions in the model.
         nodes
             (m, k, 3) coordinates of their nodes.
-        places
+        coordinates
             (m, p, 3) coordinates of the points.
 
         Returns
@@ -89,8 +89,8 @@ class LocalSystem:
                 # a is on the 3-axis, b in the plane of 3 and 1: 3, 1, 2 are right-handed too
                 axes = _frame(a - c, b - c)[..., [1, 2, 0], :]
             case _:
-                polar, radial = np.broadcast_to(b - a, places.shape), places - a
-                _check_radii(polar, radial, np.linalg.norm(places, axis=-1) + np.linalg.norm(a, axis=-1))
+                polar, radial = np.broadcast_to(b - a, coordinates.shape), coordinates - a
+                _check_radii(polar, radial, np.linalg.norm(coordinates, axis=-1) + np.linalg.norm(a, axis=-1))
                 around = _frame(polar, radial)[..., [1, 2, 0], :]
                 if self.kind is SystemKind.CYLINDRICAL:
                     axes = around
@@ -99,11 +99,11 @@ class LocalSystem:
                     axes = np.stack([outward, around[..., 1, :], np.cross(outward, around[..., 1, :])], axis=-2)
         angle = np.asarray(self.angle, dtype=np.float64)
         angle = angle if angle.ndim == 0 else angle[elements][:, None]
-        return np.broadcast_to(rotated(axes, self.axis, angle), (*places.shape, 3))
+        return np.broadcast_to(rotated(axes, self.axis, angle), (*coordinates.shape, 3))
 
 
 def _check_radii(polar: FloatArray, radial: FloatArray, sizes: FloatArray) -> None:
-    """Raise UndefinedDirectionsError for a place on the polar axis, within rounding of coordinates of these sizes."""
+    """Raise UndefinedDirectionsError for a point on the polar axis, within rounding of coordinates of these sizes."""
     areas = np.linalg.norm(np.cross(polar, radial), axis=-1)
     wrong = np.argwhere(~(areas > SMALLEST_SINE * sizes * np.linalg.norm(polar, axis=-1)))
     if len(wrong):

@@ -44,10 +44,10 @@ class ModalDamping:
         if self.by_frequency:
             at = self.ranges[:, 0]
             return np.column_stack([np.interp(frequencies, at, factors) for factors in self.factors.T])
-        found = np.zeros((len(modes), self.factors.shape[1]))
+        fractions = np.zeros((len(modes), self.factors.shape[1]))
         for (first, last), factors in zip(self.ranges.tolist(), self.factors, strict=True):
-            found[(modes >= first) & (modes <= last)] = factors
-        return found
+            fractions[(modes >= first) & (modes <= last)] = factors
+        return fractions
 
 
 class Motion(StrEnum):
@@ -104,22 +104,22 @@ class Superposition:
 
     def viscous(self, modes: NDArray[np.int64], omega: FloatArray) -> FloatArray:
         """Return (modes,) 2 xi omega: viscous damping over generalized mass; omega (modes,): radians per time."""
-        found = np.zeros(len(modes))
+        damped = np.zeros(len(modes))
         for damping in self.damping:
             factors = damping.of(modes, omega / (2 * np.pi))
             if damping.kind is DampingKind.CRITICAL:
-                found += 2 * factors[:, 0] * omega
+                damped += 2 * factors[:, 0] * omega
             elif damping.kind is DampingKind.RAYLEIGH:
-                found += factors[:, 0] + factors[:, 1] * omega**2
-        return found
+                damped += factors[:, 0] + factors[:, 1] * omega**2
+        return damped
 
     def structural(self, modes: NDArray[np.int64], omega: FloatArray) -> FloatArray:
         """Return (modes,) structural damping s: the stiffness is complex, 1 + i s times the real one."""
-        found = np.zeros(len(modes))
+        damped = np.zeros(len(modes))
         for damping in self.damping:
             if damping.kind is DampingKind.STRUCTURAL:
-                found += damping.of(modes, omega / (2 * np.pi))[:, 0]
-        return found
+                damped += damping.of(modes, omega / (2 * np.pi))[:, 0]
+        return damped
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,15 +146,15 @@ class FrequencyRange:
             return [self.lowest]
         inside = np.unique(natural[(natural > self.lowest) & (natural < self.highest)])
         limits = [self.lowest, *inside.tolist(), self.highest]
-        found = [self.lowest]
+        frequencies = [self.lowest]
         for first, last in pairwise(limits):
-            found += [*self._between(first, last), last]
-        return [found[0], *(self.factor * point for point in found[1:-1]), found[-1]]
+            frequencies += [*self._between(first, last), last]
+        return [frequencies[0], *(self.factor * point for point in frequencies[1:-1]), frequencies[-1]]
 
     def _between(self, first: float, last: float) -> list[float]:
         """Return the points inside an interval."""
         # Abaqus Analysis User's Guide, "Direct-solution steady-state dynamic analysis", the bias parameter
-        place = np.linspace(-1.0, 1.0, self.number)[1:-1]
-        place = 0.5 + 0.5 * np.sign(place) * np.abs(place) ** (1.0 / self.bias)
-        inside = first * (last / first) ** place if self.logarithmic else first + (last - first) * place
+        share = np.linspace(-1.0, 1.0, self.number)[1:-1]
+        share = 0.5 + 0.5 * np.sign(share) * np.abs(share) ** (1.0 / self.bias)
+        inside = first * (last / first) ** share if self.logarithmic else first + (last - first) * share
         return [float(point) for point in inside]

@@ -105,8 +105,8 @@ class NodalIndex:
 
     def find(self, nodes: IntArray, dof: int) -> IntArray:
         """Return positions (len(nodes),), -1 for nodes without the dof."""
-        found: IntArray = self._position[nodes, dof]
-        return found
+        positions: IntArray = self._position[nodes, dof]
+        return positions
 
     def components(self, variables: Iterable[str], nodes: IntArray, *, harmonic: bool = False) -> list[Component]:
         """Return the requested components that any of the nodes has, in order and without repetition.
@@ -114,7 +114,7 @@ class NodalIndex:
         Where the response is harmonic there are phase angles too.
         """
         present = np.flatnonzero((self._position[nodes] >= 0).any(axis=0))
-        found: dict[str, Component] = {}
+        components: dict[str, Component] = {}
         for variable in variables:
             phase = harmonic and not _known(variable) and variable.startswith(PHASE)
             bare = variable.removeprefix(PHASE) if phase else variable
@@ -122,8 +122,8 @@ class NodalIndex:
             for dof in dofs:
                 if dof in present:
                     name = PHASE * phase + (bare if bare in _CHARGES else _name(quantity, dof))
-                    found.setdefault(name, Component(name, quantity, dof, phase, -1 if bare in _CHARGES else 1))
-        return list(found.values())
+                    components.setdefault(name, Component(name, quantity, dof, phase, -1 if bare in _CHARGES else 1))
+        return list(components.values())
 
 
 def _name(quantity: str, dof: int) -> str:

@@ -165,7 +165,7 @@ class SteadyState(LinearPerturbation):
     def frequencies(self, natural: FloatArray) -> tuple[float, ...]:
         """Return the frequencies in cycles per time; natural (k,): the natural frequencies."""
         divides = natural if self.natural else np.zeros(0)
-        return tuple(frequency for given in self.ranges for frequency in given.points(divides))
+        return tuple(frequency for one in self.ranges for frequency in one.points(divides))
 
     @property
     def lflag(self) -> int:
@@ -179,13 +179,13 @@ class SteadyState(LinearPerturbation):
 
     def head(self) -> Iterator[HeadLine]:
         """Yield the frequencies."""
-        given = self.frequencies(np.zeros(0))
+        frequencies = self.frequencies(np.zeros(0))
         if self.natural:
             yield "THE FREQUENCY RANGES ARE DIVIDED BY THE EIGENFREQUENCIES"
         else:
-            yield "NUMBER OF FREQUENCIES", f"{len(given):>10}"
-        yield "LOWEST FREQUENCY (CYCLES/TIME)", min(given)
-        yield "HIGHEST FREQUENCY (CYCLES/TIME)", max(given)
+            yield "NUMBER OF FREQUENCIES", f"{len(frequencies):>10}"
+        yield "LOWEST FREQUENCY (CYCLES/TIME)", min(frequencies)
+        yield "HIGHEST FREQUENCY (CYCLES/TIME)", max(frequencies)
         if self.undamped:
             yield "DAMPING IS LEFT OUT"
 

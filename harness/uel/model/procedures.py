@@ -41,8 +41,8 @@ class Riks:
 class Stabilize:
     """STABILIZE: viscous forces, factor times the mass of built-in elements of unit density times velocity.
 
-    fraction  of the strain energy that the first increment would dissipate; sets the factor unless it is given
-    factor    0: not given
+    fraction  of the strain energy that the first increment would dissipate; sets the factor if that is 0
+    factor    0: set by `fraction`
     limit     ALLSDTOL: largest ratio of dissipated to strain energy before the factor is reduced; 0: no limit
     """
 
@@ -57,8 +57,8 @@ class Procedure(ABC):
 
     With `riks` these are arc lengths, the period is only their scale, and the step ends where `riks` says.
 
-    keyword       that gives the procedure
-    title         what .msg and .dat call it
+    keyword       keyword of the procedure
+    title         its name in .msg and .dat
     inertia       V and A go with U: elements need a mass, and loads work against it
     displacements, temperatures, concentrations  which of them have equations of their own
     linear        a linear perturbation of the state at the end of the last general step, without passage of time
@@ -70,7 +70,7 @@ class Procedure(ABC):
     buckles       the initial stress matrix of the elements and the load stiffness are asked for
     unsymmetric   matrices are stored and solved as unsymmetric ones, UNSYMM or not
     growth        name of the control D_M that bounds the growth from one increment to the next
-    energies      of the whole model in the history output; None: those that the step requests
+    energies      names of the energies of the whole model in the history output; None: those that the step requests
     """
 
     keyword: ClassVar[str]
@@ -224,7 +224,7 @@ class Dynamic(Procedure):
     alpha, beta, gamma    of Hilber, Hughes and Taylor; PARAMS of the calls
     initial_acceleration  computed at the start of the step from equilibrium; zero otherwise
     half_increment        tolerance of the half-increment residual as a multiple of the average force; inf: no check
-    half_force            the same as a force (HAFTOL); 0: not given
+    half_force            the same as a force (HAFTOL); 0: not used
     """
 
     keyword: ClassVar = "DYNAMIC"

@@ -84,7 +84,7 @@ class IterationDone:
     """One iteration with its checks; line_search holds the scale factors tried, if any.
 
     iteration  its number among severe discontinuity iterations, or among equilibrium iterations since the last of these
-    contact    what it changed in each contact pair: it is a severe discontinuity iteration if that is anything
+    contact    changes in each contact pair; any change makes it a severe discontinuity iteration
     """
 
     iteration: int
@@ -252,7 +252,7 @@ class Noted:
 class StateKept:
     """The state at the end of an increment, of which all else is written: an analysis can resume from it.
 
-    overlay   it takes the place of the last one of the step
+    overlay   it replaces the last one of the step
     analysis  arrays are those of the run: they are written before it goes on
     """
 
@@ -291,7 +291,7 @@ class PointVariables:
     aliases pairs of a name in Abaqus' output and the name here, where they differ ('S22', 'TN')
     sections section points of an integration point of a shell or beam, which follow each other; `points` counts all
     whole   shells and beams only: names of what is the same at all points of a section
-    numbers beams only: numbers of the section points with a line in tables, and their places among all, from 0
+    numbers beams only: numbers of the section points with a line in tables, and their positions among all, from 0
     """
 
     kind: str
@@ -307,9 +307,9 @@ class PointVariables:
 
     @property
     def sides(self) -> tuple[tuple[str, int, int], ...]:
-        """Section points with a line in tables: suffix in field output, number, place among all, from 0."""
+        """Section points with a line in tables: suffix in field output, number, position among all, from 0."""
         if self.numbers:
-            return tuple((f"_SP{number}", number, place) for number, place in self.numbers)
+            return tuple((f"_SP{number}", number, position) for number, position in self.numbers)
         return (("_SNEG", 1, 0), ("_SPOS", self.sections, self.sections - 1)) if self.sections > 1 else ()
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*RESTART: the increments after which a step keeps its state, the place where a run resumes, and the kept state."""
+"""*RESTART: increments after which a step keeps its state, the one from which a run resumes, and the kept state."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class RestartWrite:
     """*RESTART, WRITE: increments after which the state is kept, and always after the last one of the step.
 
     frequency  every k-th increment; 0 never
-    intervals  the first increment that ends in or after each of so many equal parts of the step, in place of frequency
+    intervals  the first increment that ends in or after each of so many equal parts of the step, instead of frequency
     overlay    only the last state of the step stays
     """
 
@@ -71,7 +71,7 @@ class DeckPart:
 
     path    absolute
     digest  of the deck and the files that it includes
-    given   values of parameters in place of those in the deck
+    given   values of parameters that replace those in the deck
     steps   number of steps of the decks before it that stay
     """
 

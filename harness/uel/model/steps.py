@@ -21,7 +21,7 @@ from uel.model.restart import RestartWrite
 class FieldControls:
     """*CONTROLS, PARAMETERS=FIELD; names and defaults of the Abaqus manual.
 
-    r_n residual, c_n correction, q_0 initial and q_u user-defined average flux (0: not given), r_p residual after
+    r_n residual, c_n correction, q_0 initial and q_u user-defined average flux (0: not set), r_p residual after
     i_p iterations, eps zero flux, c_eps correction at zero flux, r_l residual of a linear increment, c_f field
     conversion ratio, eps_l zero flux beside the time average of the largest one.
     """
@@ -236,7 +236,7 @@ class HeatLoadType:
     surface  its name, '' for none
     by_user  DFLUX or FILM gives the magnitudes
     area     of nodes, 0 for others
-    number   0, and 1, 2, ... of further exchanges that a step gives to the same place
+    number   0, and 1, 2, ... of further exchanges of a step on the same node or face
     """
 
     keyword: str
@@ -315,13 +315,13 @@ class VerticalStress:
         """
         (first, second), (low, high) = self.stress, self.elevation
         vertical = first + (second - first) * (elevation - low) / (high - low)
-        found = np.zeros((*elevation.shape, count))
+        stresses = np.zeros((*elevation.shape, count))
         upwards, other = (2, 1) if count == LARGEST_TENSOR else (1, 2)
-        found[..., 0] = self.lateral[0] * vertical
+        stresses[..., 0] = self.lateral[0] * vertical
         if count > PLANE_STRESS:
-            found[..., other] = self.lateral[1] * vertical
-        found[..., upwards] = vertical
-        return found
+            stresses[..., other] = self.lateral[1] * vertical
+        stresses[..., upwards] = vertical
+        return stresses
 
 
 @dataclass(frozen=True, slots=True)
@@ -329,7 +329,7 @@ class InitialStress:
     """One *INITIAL CONDITIONS, TYPE=STRESS: elements (positions in the model) and components in Abaqus' order.
 
     values   None: SIGINI gives them at each point (USER)
-    profile  with GEOSTATIC, in place of the components
+    profile  with GEOSTATIC, instead of the components
     ramped  the unbalanced part of the stresses takes effect gradually over the first step, else at once
     """
 
@@ -447,18 +447,18 @@ class Step:
     @property
     def amplitudes(self) -> tuple[Amplitude, ...]:
         """Amplitudes that its values, loads and fields name."""
-        given = [entry.amplitude for entry in self._entries]
-        given += [entry.film_amplitude for entry in self.heat_loads]
-        return tuple(amplitude for amplitude in given if amplitude is not None)
+        amplitudes = [entry.amplitude for entry in self._entries]
+        amplitudes += [entry.film_amplitude for entry in self.heat_loads]
+        return tuple(amplitude for amplitude in amplitudes if amplitude is not None)
 
     @property
     def varying(self) -> tuple[Source, ...]:
-        """Places of those that name an amplitude."""
+        """File and line of the entries that name an amplitude."""
         return tuple(entry.source for entry in self._entries if entry.amplitude is not None)
 
     @property
     def _entries(self) -> tuple[Boundary | Load | DistributedLoad | ElementLoad | HeatLoad, ...]:
-        found: list[Boundary | Load | DistributedLoad | ElementLoad | HeatLoad]
-        found = [*self.boundaries, *self.loads, *self.fields]
-        found += [*self.distributed, *self.element_loads, *self.surface_loads, *self.heat_loads]
-        return tuple(found)
+        entries: list[Boundary | Load | DistributedLoad | ElementLoad | HeatLoad]
+        entries = [*self.boundaries, *self.loads, *self.fields]
+        entries += [*self.distributed, *self.element_loads, *self.surface_loads, *self.heat_loads]
+        return tuple(entries)

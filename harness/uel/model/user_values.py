@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Values that a user routine gives in place of those of the deck."""
+"""Values of a user routine that replace those of the deck."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ class UserValues:
     routine  its name
     time     step and total time
     size     of the increment, for DISP
-    places   (n, 2) node number and dof for DISP, or number of the field for UTEMP and UFIELD, 0 for temperature;
+    numbers  (n, 2) node number and dof for DISP, or number of the field for UTEMP and UFIELD, 0 for temperature;
              (n, 3) element number, point and JLTYP for DLOAD
-    coords   (n, 3) of the places
-    given    (n,) values by magnitude and amplitude
+    coords   (n, 3) coordinates of the nodes or points
+    values   (n,) values by magnitude and amplitude
     temperatures  (n, 2) for UFIELD: at the end of the increment, and their change
     """
 
@@ -31,9 +31,9 @@ class UserValues:
     step: int
     increment: int
     time: tuple[float, float]
-    places: NDArray[np.int32]
+    numbers: NDArray[np.int32]
     coords: FloatArray
-    given: FloatArray
+    values: FloatArray
     temperatures: FloatArray | None = None
     size: float = 0.0
 
@@ -81,7 +81,7 @@ class GivesValues(Protocol):
     uamp: int | None
 
     def user_values(self, asked: UserValues) -> FloatArray:
-        """Return the values (n,) that the routine makes of the given ones."""
+        """Return the values (n,) that the routine makes of those of the deck."""
 
     def user_amplitude(self, asked: AskedAmplitude) -> GivenAmplitude:
         """Return the results of UAMP."""

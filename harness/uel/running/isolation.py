@@ -26,7 +26,7 @@ SAME_PROCESS: Final = "--same-process"
 """Option of `uel run` and `uel check`: no separate process."""
 
 _ENDED = 2
-"""Exit code with which the Fortran library ends a process; usage errors, which have it too, were found before."""
+"""Exit code with which the Fortran library ends a process; usage errors, which have it too, are reported before."""
 
 _GLANCE: Final = 0.2
 """Seconds between two looks at the process."""
@@ -54,7 +54,7 @@ class End:
     code         exit code, -n for signal n
     finished     whether it ended by itself
     reason       if it did not: why, as the end of a sentence
-    place        where in user code that was; '' if it was elsewhere
+    location     where in user code that was; '' if it was elsewhere
     interrupted  whether a signal asked for it
     token        by which the ranks of a job know it, '' without ranks
     """
@@ -62,7 +62,7 @@ class End:
     code: int
     finished: bool
     reason: str
-    place: str
+    location: str
     interrupted: bool = False
     token: str = ""
 
@@ -96,8 +96,8 @@ def supervise(
     )
     if launch and launch.rank and end.token:
         if not end.finished:
-            place = f", {end.place}" if end.place else ""
-            leave_word(stem, end.token, f"ended with {launch.name}, {end.reason}{place}")
+            location = f", {end.location}" if end.location else ""
+            leave_word(stem, end.token, f"ended with {launch.name}, {end.reason}{location}")
         await_end(stem, end.token)
         return end.code if end.finished else 1
     if end.finished:
@@ -105,7 +105,7 @@ def supervise(
         return end.code
     from uel.output.verdict import close_ended_run  # noqa: PLC0415 (numpy, after the process has begun)
 
-    reason = f"the run was {end.reason}" + (f", {end.place}" if end.place else "")
+    reason = f"the run was {end.reason}" + (f", {end.location}" if end.location else "")
     close_ended_run(stem, reason)
     tell_error(f"{reason}; the output written so far is readable", log)
     # the others wait for this before they end, and `mpiexec` with them
@@ -248,10 +248,10 @@ def describe_end(code: int) -> str:
         where = f"; it looks up files from the current folder, {Path.cwd()}" if who else ""
         return f"ended{who} (exit code {code}{where})"
     try:
-        found = signal.Signals(-code)
+        ending = signal.Signals(-code)
     except ValueError:
         return f"ended by signal {-code}"
-    return f"ended by {found.name}: {_REASONS.get(found, signal.strsignal(found))}"
+    return f"ended by {ending.name}: {_REASONS.get(ending, signal.strsignal(ending))}"
 
 
 def _take_all_stack() -> None:

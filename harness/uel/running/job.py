@@ -70,9 +70,9 @@ def run(
     output_dir
         Folder of the output files, created if missing; the current folder by default.
     parameters
-        Values of parameters in place of those in the deck's *PARAMETER.
+        Values of parameters that replace those of the deck's *PARAMETER.
     solver
-        How the equations are solved: by which linear solver, and what helps where Newton's method fails.
+        Options for solving the equations: the linear solver, and what helps if Newton's method fails.
     routines
         Compiling and calling user routines: number of threads, limit of a call, and checks.
     quiet
@@ -84,7 +84,7 @@ def run(
     Returns
     -------
     Result
-        What the job wrote: `.history`, `.field(name)`, `.interface()`, `.status`.
+        Access to the files of the job: `.history`, `.field(name)`, `.interface()`, `.status`.
 
     Raises
     ------

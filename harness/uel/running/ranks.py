@@ -52,7 +52,7 @@ def files_of_job(stem: Path, ranks: Ranks) -> Iterator[None]:
     LockedError
         Another process runs a job of this name.
     SilentError
-        On all ranks but 0 in place of an error, which rank 0 has too; or its supervisor tells it.
+        On all ranks but 0 instead of an error, which rank 0 has too; or its supervisor tells it.
     """
     with ExitStack() as stack:
 

@@ -17,7 +17,7 @@ from uel.solver.options import SolverOptions
 
 
 def find_state(
-    deck: Path, given: Mapping[str, float] | None, oldjob: Path, stem: Path
+    deck: Path, parameters: Mapping[str, float] | None, oldjob: Path, stem: Path
 ) -> tuple[Resumption, tuple[DeckPart, ...]]:
     """Find the state from which a deck resumes an old job.
 
@@ -25,8 +25,8 @@ def find_state(
 
     Parameters
     ----------
-    deck, given
-        The deck, and values of its parameters in place of its own.
+    deck, parameters
+        The deck, and values of parameters that replace its own.
     oldjob, stem
         Folder and name of the old job, and of the new one.
 
@@ -46,19 +46,19 @@ def find_state(
     """
     if oldjob.resolve() == stem.resolve():
         raise UsageError(f"--oldjob {oldjob}: the new job has the same name; give it another one, --job {stem.name}-2")
-    read = survey_restart(deck, given)
+    read = survey_restart(deck, parameters)
     state = read_state(oldjob) if read is None else read_state(oldjob, read.step, read.increment)
     last = state.decks[-1]
     if read is None and Path(last.path) != deck.resolve():
         message = f"{deck} has no *RESTART, READ, and is not the deck of that job, which is {last.path}"
         raise UsageError(f"--oldjob {oldjob}: {message}")
-    if read is None and given and dict(given) != last.given:
+    if read is None and parameters and dict(parameters) != last.given:
         raise UsageError(f"--oldjob {oldjob}: the deck goes on with the parameters of that job; give none")
     for part in state.decks:
         _check_unchanged(part, oldjob)
     if read is None:
         return Resumption(state.analysis, state.file), state.decks
-    return Resumption(state.analysis, state.file, read.end_step), (*state.decks, part_of(deck, given, state.step))
+    return Resumption(state.analysis, state.file, read.end_step), (*state.decks, part_of(deck, parameters, state.step))
 
 
 def _check_unchanged(part: DeckPart, oldjob: Path) -> None:
@@ -102,11 +102,11 @@ def goes_on(resumed: Resumption) -> bool:
     return not (resumed.analysis["finished"] or resumed.end_step)
 
 
-def decks_of(model: Model, given: Mapping[str, float] | None, parts: Sequence[DeckPart]) -> Sequence[DeckPart]:
+def decks_of(model: Model, parameters: Mapping[str, float] | None, parts: Sequence[DeckPart]) -> Sequence[DeckPart]:
     """Return the decks of a model, as its states name them; none if it keeps no states."""
     if parts or not any(step.restart for step in model.steps):
         return parts
-    return (part_of(model.deck, given),)
+    return (part_of(model.deck, parameters),)
 
 
 def refuse_on_ranks(oldjob: str | Path | None, ranks: Ranks) -> None:

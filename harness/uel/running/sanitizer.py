@@ -74,8 +74,8 @@ def _runtime() -> Path:
     """Find the shared library of the runtime."""
     compiler = next(filter(None, map(shutil.which, _COMPILERS)), "")
     asked = [compiler, f"-print-file-name={_LIBRARY}"]
-    found = subprocess.run(asked, capture_output=True, text=True, check=False).stdout.strip() if compiler else ""
-    file = Path(found)
+    answer = subprocess.run(asked, capture_output=True, text=True, check=False).stdout.strip() if compiler else ""
+    file = Path(answer)
     if file.is_absolute() and file.is_file():
         with file.open("rb") as stream:
             begin = stream.read(1000)

@@ -45,7 +45,7 @@ def define_hyperelastic(
 def set_networks(number: int, networks: Sequence[tuple[float, int, Sequence[float]]], statev: int) -> None:
     """Give a hyperelastic material networks that creep: ratio, law and constants of each, as the host has them."""
     ratios, laws, constants = zip(*networks, strict=True)
-    padded = np.array([[*given, *[0.0] * (5 - len(given))] for given in constants])
+    padded = np.array([[*row, *[0.0] * (5 - len(row))] for row in constants])
     host.host_set_networks(number, np.array(ratios), np.array(laws, np.int32), padded.T, statev)
 
 
@@ -53,14 +53,14 @@ def set_network_routine(
     number: int, network: int, address: int, name: str, constants: FloatArray, *, shifts: bool
 ) -> None:
     """Let UCREEPNETWORK give the creep of a network, from 1, or, if it shifts, UTRSNETWORK its reduced time."""
-    given = np.append(constants, 0.0)
-    host.host_set_network_routine(number, network, address, name, shifts, given, len(constants))
+    padded = np.append(constants, 0.0)
+    host.host_set_network_routine(number, network, address, name, shifts, padded, len(constants))
 
 
 def define_user_potential(uhyper: int, name: str, ntens: int, statev: int, constants: FloatArray) -> int:
-    """Add a hyperelastic material of UHYPER, whose address is given, to the host's library."""
-    given = np.append(constants, 0.0)
-    return int(host.host_define_user_potential(uhyper, name, ntens, statev, given, len(constants)))
+    """Add a hyperelastic material of UHYPER at an address to the host's library."""
+    padded = np.append(constants, 0.0)
+    return int(host.host_define_user_potential(uhyper, name, ntens, statev, padded, len(constants)))
 
 
 def define_anisotropic(ntens: int, directions: FloatArray, holzapfel: Sequence[float], compliance: float) -> int:
@@ -70,12 +70,12 @@ def define_anisotropic(ntens: int, directions: FloatArray, holzapfel: Sequence[f
     holzapfel   C10, k1, k2, kappa
     compliance  D
     """
-    given = np.vstack([directions, np.zeros((1, 3))]).T
-    return int(host.host_define_anisotropic(ntens, given, len(directions), holzapfel, compliance))
+    padded = np.vstack([directions, np.zeros((1, 3))]).T
+    return int(host.host_define_anisotropic(ntens, padded, len(directions), holzapfel, compliance))
 
 
 def set_user_invariants(number: int, uanisohyper: int, name: str, statev: int, constants: FloatArray) -> None:
-    """Let UANISOHYPER_INV, whose address is given, give the energy of a material of `define_anisotropic`."""
+    """Let UANISOHYPER_INV at an address give the energy of a material of `define_anisotropic`."""
     host.host_set_user_invariants(number, uanisohyper, name, statev, np.append(constants, 0.0), len(constants))
 
 
@@ -108,7 +108,7 @@ def set_backstresses(number: int, backstresses: FloatArray, growth: tuple[float,
 def set_user_hardening(
     number: int, uhard: int, name: str, constants: tuple[float, float], statev: int, properties: FloatArray
 ) -> None:
-    """Let UHARD, whose address is given, give the yield stress of an isotropic material.
+    """Let UHARD at an address give the yield stress of an isotropic material.
 
     constants: Young's modulus and Poisson's ratio; properties: PROPS.
     """
@@ -130,7 +130,7 @@ def set_creep(number: int, constants: tuple[float, float], law: tuple[float, flo
 
 
 def set_user_creep(number: int, creep: int, name: str, constants: tuple[float, float], statev: int) -> None:
-    """Let CREEP, whose address is given, give the creep law of an isotropic material.
+    """Let CREEP at an address give the creep law of an isotropic material.
 
     constants: Young's modulus and Poisson's ratio.
     """
@@ -169,7 +169,7 @@ def set_user_output(number: int, address: int, names: tuple[str, str], counts: t
 def define_user_material(
     umat: int, name: str, ntens: int, constants: FloatArray, hybrid: int, statev: int, room: int
 ) -> int:
-    """Add a material of UMAT, whose address is given, to the host's library.
+    """Add a material of UMAT at an address to the host's library.
 
     hybrid: 1 for the total formulation of hybrid elements, 2 for that of incompressible materials; statev, room: as
     set_user_field has them.
@@ -208,11 +208,11 @@ def set_diffusion(
     Parameters
     ----------
     number
-        Of the material.
+        Number of the material.
     fick
         Fick's law, else the general one.
     absolute_zero
-        On the scale of the temperatures.
+        Absolute zero on the scale of the temperatures.
     axes
         (3, 3) directions, in rows, in which fluxes are put out.
     diffusivity

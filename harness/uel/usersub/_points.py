@@ -73,8 +73,8 @@ def sigini(address: int, element_type: str, arrays: BlockArrays, sigma: FloatArr
     sigma (m, points, NTENS), contiguous, is what SIGINI leaves. Returns element and point at which it ended the
     analysis, 0 if it did not.
     """
-    given = arrays.labels, arrays.coords.T, sigma.T
-    left, element, point = host.host_sigini_pass(address, element_type, family, *given)
+    of_points = arrays.labels, arrays.coords.T, sigma.T
+    left, element, point = host.host_sigini_pass(address, element_type, family, *of_points)
     return (element, point) if left else (0, 0)
 
 
@@ -86,22 +86,22 @@ def orient(
     name is of the orientation, nodes (m, nnode) their numbers. Returns the directions (m, points, 3, 3), in rows, as
     ORIENT leaves them, then element and point at which it ended the analysis, 0 if it did not.
     """
-    found = np.zeros((len(nodes), points, 3, 3))
-    given = arrays.labels, nodes.T, arrays.coords.T
-    left, element, point = host.host_orient_pass(address, name, family, *given, found.T)
-    return (found, element, point) if left else (found, 0, 0)
+    axes = np.zeros((len(nodes), points, 3, 3))
+    of_points = arrays.labels, nodes.T, arrays.coords.T
+    left, element, point = host.host_orient_pass(address, name, family, *of_points, axes.T)
+    return (axes, element, point) if left else (axes, 0, 0)
 
 
 def user_values(address: int, asked: UserValues, values: FloatArray) -> int:
-    """Call a routine at all places; returns the number of the place, from 1, where it ended the analysis, else 0.
+    """Call a routine for all nodes or points; return the number, from 1, of the call that ended the analysis, else 0.
 
-    values (n,) are those given, and become those of the routine.
+    values (n,) are those of the deck, and become those of the routine.
     """
     moment = (asked.step, asked.increment), (*asked.time, asked.size)
     coords = np.ascontiguousarray(asked.coords)
     temperatures = np.zeros((len(values), 2)) if asked.temperatures is None else asked.temperatures
     routine = 1 + VALUE_ROUTINES.index(asked.routine)
-    left, last = host.host_value_pass(routine, address, *moment, asked.places.T, coords.T, temperatures.T, values)
+    left, last = host.host_value_pass(routine, address, *moment, asked.numbers.T, coords.T, temperatures.T, values)
     return last if left else 0
 
 
@@ -113,8 +113,8 @@ def user_amplitude(address: int, asked: AskedAmplitude) -> tuple[float, FloatArr
     # an array has one entry more than UAMP is told, because none may be empty
     properties, state = np.append(asked.properties, 0.0), np.append(asked.state, 0.0)
     sensors = np.array([*asked.sensors.values(), 0.0]), padded((*asked.sensors, ""))
-    given = asked.name, clock, properties, state, info, *sensors, counts
-    value, define, left = host.host_uamp_call(address, *given, np.nan)
+    arguments = asked.name, clock, properties, state, info, *sensors, counts
+    value, define, left = host.host_uamp_call(address, *arguments, np.nan)
     return float(value), state[: len(asked.state)], define, bool(left)
 
 
@@ -135,9 +135,9 @@ def traction_separation(
     Parameters
     ----------
     law
-        As `read_law` in fortran/host/materials/traction_separation.f90 has it.
+        Data of the law, in the order of `read_law` in fortran/host/materials/traction_separation.f90.
     time
-        Of the increment.
+        Length of the increment.
     separations
         (m, 3) normal and shear separations.
     old

@@ -35,7 +35,7 @@ def set_guard_values(values: Mapping[str, float]) -> FloatArray:
     Returns
     -------
     FloatArray
-        What they held, by ARRAYS and UNSET.
+        Their old values, in the order of ARRAYS, then UNSET.
 
     Raises
     ------
@@ -43,12 +43,12 @@ def set_guard_values(values: Mapping[str, float]) -> FloatArray:
         A name is unknown; all guards keep their values.
     """
     names = [*ARRAYS, UNSET]
-    places = {names.index(name): value for name, value in values.items()}
+    positions = {names.index(name): value for name, value in values.items()}
     # exchanging any value returns the present one
     held = np.zeros(len(names))
     _binding.exchange_guard_values(held)
     chosen = held.copy()
-    chosen[list(places)] = list(places.values())
+    chosen[list(positions)] = list(positions.values())
     _binding.exchange_guard_values(chosen)
     return held
 

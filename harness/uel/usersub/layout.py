@@ -34,7 +34,7 @@ class Item:
     unit      '' for an option
     permitted values of a property
     meaning   in words, with what 0 stands for and with `laws`
-    required  whether it is a property without a default
+    required  True for a property without a default
     laws      values of LAW that use it; () if all do
     """
 
@@ -137,15 +137,15 @@ def read_layouts(text: str) -> dict[int, ElementLayout]:
     return layouts
 
 
-def check_law_uses(jtype: int, given: Mapping[str, float], law: int) -> None:
-    """Raise UsageError for a property, given by name, that the law of a number ignores."""
+def check_law_uses(jtype: int, values: Mapping[str, float], law: int) -> None:
+    """Raise UsageError for a property that the law of a number ignores; values are by name."""
     layout = element_layouts()[jtype]
     for item in layout.reals:
         # 0 is the default, LAW 1
-        if item.laws and given.get(item.name) and (law or 1) not in item.laws:
+        if item.laws and values.get(item.name) and (law or 1) not in item.laws:
             others = " or ".join(map(str, item.laws))
             raise UsageError(f"{item.name}: LAW {law or 1} ignores it; LAW {others} has it")
-    if given.get("ETA") and given.get("POWER"):
+    if values.get("ETA") and values.get("POWER"):
         raise UsageError("POWER: ignored where ETA is not 0; give one of the two")
 
 

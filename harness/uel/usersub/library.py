@@ -46,7 +46,7 @@ class Library:
     sigini, orient, disp, dload, dflux, film, utemp, ufield, uamp, usdfld, uexternaldb   addresses, None without it
     name                      the file as the user named it, for messages
     file                      the shared library
-    entry_points              names of all user routines found
+    entry_points              names of all user routines in the files
     """
 
     def __init__(self, name: str, file: Path, handle: ctypes.CDLL, inbox: Inbox, *, sanitized: bool = False) -> None:
@@ -157,17 +157,17 @@ class Library:
         return "no user routine"
 
     def user_values(self, asked: UserValues) -> FloatArray:
-        """Return the values that DISP, DLOAD, UTEMP or UFIELD makes of those given.
+        """Return the values that DISP, DLOAD, UTEMP or UFIELD makes of those of the deck.
 
         Parameters
         ----------
         asked
-            What the routine is called for, once at each place. The job must have the routine.
+            Routine, and the nodes or points for each of which it is called once. The job must have the routine.
 
         Returns
         -------
         FloatArray
-            (n,) in the order of the places; the given value where the routine does not set one.
+            (n,) in the order of the calls; the value of the deck where the routine does not set one.
 
         Raises
         ------
@@ -177,13 +177,13 @@ class Library:
         routines = {"DISP": self.disp, "DLOAD": self.dload, "UTEMP": self.utemp, "UFIELD": self.ufield}
         address = routines[asked.routine]
         assert address is not None
-        made = np.array(asked.given)
+        made = np.array(asked.values)
         failed = _points.user_values(address, asked, made)
         if failed:
-            first, second = asked.places[failed - 1, :2].tolist()
-            place = f"element {first}" if asked.routine == "DLOAD" else f"node {first}"
-            place += f", dof {second}" if asked.routine == "DISP" else ""
-            raise UelError(f"{self.name}: {asked.routine} {self.stop_reason()} ({place}, step {asked.step})")
+            first, second = asked.numbers[failed - 1, :2].tolist()
+            location = f"element {first}" if asked.routine == "DLOAD" else f"node {first}"
+            location += f", dof {second}" if asked.routine == "DISP" else ""
+            raise UelError(f"{self.name}: {asked.routine} {self.stop_reason()} ({location}, step {asked.step})")
         return made
 
     def user_amplitude(self, asked: AskedAmplitude) -> GivenAmplitude:
@@ -207,13 +207,13 @@ class Library:
         """
         assert self.uamp is not None
         value, state, define, left = _points.user_amplitude(self.uamp, asked)
-        place = f"amplitude {asked.name}, step {asked.step}, increment {asked.increment}"
+        location = f"amplitude {asked.name}, step {asked.step}, increment {asked.increment}"
         if left:
-            raise UelError(f"{self.name}: UAMP {self.stop_reason()} ({place})")
+            raise UelError(f"{self.name}: UAMP {self.stop_reason()} ({location})")
         if define[_STOP_ANALYSIS]:
-            raise UelError(f"{self.name}: UAMP stopped the analysis by lFlagsDefine(5) ({place})")
+            raise UelError(f"{self.name}: UAMP stopped the analysis by lFlagsDefine(5) ({location})")
         if not np.isfinite(value):
-            raise UelError(f"{self.name}: UAMP does not set AmpValueNew, or sets it to NaN or infinity ({place})")
+            raise UelError(f"{self.name}: UAMP does not set AmpValueNew, or sets it to NaN or infinity ({location})")
         return GivenAmplitude(value, state, bool(define[_CONCLUDE_STEP]))
 
     def stop_reason(self) -> str:
@@ -226,12 +226,12 @@ class Library:
 
     def _with_place(self, text: str) -> str:
         """Add file and line, and the routine if it is another one, to a text about a signal: 'in UEL: what it was'."""
-        place = innermost(_binding.take_frames(), self._handle._name, self.file)
+        line = innermost(_binding.take_frames(), self._handle._name, self.file)
         head, colon, tail = text.partition(": ")
-        if place is None or not colon:
+        if line is None or not colon:
             return text
-        inside = "" if f"in {place.routine}" == head else f" ({place.routine})"
-        return f"{head}, {place.file} line {place.line}{inside}: {tail}"
+        inside = "" if f"in {line.routine}" == head else f" ({line.routine})"
+        return f"{head}, {line.file} line {line.line}{inside}: {tail}"
 
     def messages(self) -> list[Message]:
         """Take the texts of user routines since the last call: STDB_ABQERR, then what was printed to units 6 and 7."""

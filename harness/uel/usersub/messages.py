@@ -68,8 +68,8 @@ class Inbox:
         """Return all messages since the last call."""
         self._collect()
         self._print()
-        found, self._sent = self._sent, []
-        return sorted(found, key=lambda message: message.kind == "print")
+        messages, self._sent = self._sent, []
+        return sorted(messages, key=lambda message: message.kind == "print")
 
     def last_error(self) -> str:
         """Return the text of the latest error or fatal error not yet read; '' if there is none."""

@@ -22,22 +22,22 @@ _ZERO: Final = r"[-+]?(?:0+\.?0*|\.0+)(?:[de][-+]?\d+)?"
 _ZERO_ARGUMENT: Final = re.compile(rf"(?P<before>[\s(,]*)(?P<value>{_ZERO}|[a-z]\w*)(?=\s*[,)])", re.IGNORECASE)
 
 _ENOUGH: Final = 100
-"""Zeros in place of one: more than the coordinates of a point, for which codes pass it."""
+"""Zeros instead of one: more than the coordinates of a point, for which codes pass it."""
 
 
 def array_wanted(message: str) -> str | None:
     """Return the name of the array argument for which, by gfortran's message, a single value is passed."""
-    found = _RANK.search(message)
-    return found and found[1]
+    match = _RANK.search(message)
+    return match and match[1]
 
 
 def is_constant(text: str, line: int, column: int) -> bool:
     """Report whether a number, or the name of a PARAMETER, is at a line and column (from 1), or after it."""
     rows = text.splitlines()
-    found = _ARGUMENT.match(rows[line - 1], column - 1) if 1 <= line <= len(rows) else None
-    if found is None or found[1] is None:
-        return found is not None
-    named = re.compile(rf"^\s*[^!c*\n]*\bparameter\b[^!\n]*\b{found[1]}\s*=", re.IGNORECASE)
+    match = _ARGUMENT.match(rows[line - 1], column - 1) if 1 <= line <= len(rows) else None
+    if match is None or match[1] is None:
+        return match is not None
+    named = re.compile(rf"^\s*[^!c*\n]*\bparameter\b[^!\n]*\b{match[1]}\s*=", re.IGNORECASE)
     return any(map(named.match, rows))
 
 
@@ -72,10 +72,10 @@ def pass_zeros(text: str, line: int, column: int) -> str | None:
     """Replace the constant zero at a column, or after it, by an array of zeros; None if the argument is none."""
     lines = text.splitlines(keepends=True)
     row = lines[line - 1] if 1 <= line <= len(lines) else ""
-    found = _ZERO_ARGUMENT.match(row, column - 1)
-    if found is None or not _is_zero(found["value"], text):
+    match = _ZERO_ARGUMENT.match(row, column - 1)
+    if match is None or not _is_zero(match["value"], text):
         return None
-    changed = f"{row[: found.start('value')]}spread({found['value']},1,{_ENOUGH}){row[found.end() :]}"
+    changed = f"{row[: match.start('value')]}spread({match['value']},1,{_ENOUGH}){row[match.end() :]}"
     if len(changed.rstrip()) > LONGEST:
         return None
     lines[line - 1] = changed
@@ -86,6 +86,6 @@ def _is_zero(value: str, text: str) -> bool:
     """Report whether a number, or each PARAMETER of that name in the text, is zero."""
     if not value[0].isalpha():
         return True
-    given = re.compile(rf"^\s*[^!c*\n]*\bparameter\b[^!\n]*\b{value}\s*=\s*([^,)\n]*)", re.IGNORECASE | re.MULTILINE)
-    values = given.findall(text)
+    defined = re.compile(rf"^\s*[^!c*\n]*\bparameter\b[^!\n]*\b{value}\s*=\s*([^,)\n]*)", re.IGNORECASE | re.MULTILINE)
+    values = defined.findall(text)
     return bool(values) and all(re.fullmatch(_ZERO, each.strip(), re.IGNORECASE) for each in values)

@@ -3,7 +3,7 @@
 """Compiled user files in the user's cache folder, each with a list of what the compiler read for it.
 
 An entry is two files: the library, and a list in JSON with the library's hash, the notes on it, and the hash of every
-file read, by its place in the search folders. An entry is used only if all hashes agree; one that is damaged, or that
+file read, by its path in the search folders. An entry is used only if all hashes agree; one that is damaged, or that
 others could have written, is ignored. The list is written last, and its name is the hash of its content, so that
 simultaneous processes do not disturb each other.
 """
@@ -53,10 +53,10 @@ def cache_folder() -> Path | None:
         if not folder.is_absolute():
             return None
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        found = folder.stat()
+        status = folder.stat()
     except (OSError, RuntimeError):
         return None
-    private = found.st_uid == os.geteuid() and not found.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
+    private = status.st_uid == os.geteuid() and not status.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
     return folder if private else None
 
 
@@ -116,7 +116,11 @@ def keep(name: str, library: Path, notes: Sequence[str], read: Iterable[Path], f
 def _digest_of_own(entry: dict[str, Any]) -> str:
     """Return the digest of the files of an entry that are in the search folders, and of the modules there."""
     # one may be in several of them, by other names
-    own = {(Path(name).name, digest) for place, name, digest in entry["read"] if digest and place != _ABSOLUTE}
+    own = {
+        (Path(name).name, digest)
+        for folder_number, name, digest in entry["read"]
+        if digest and folder_number != _ABSOLUTE
+    }
     return hashlib.sha256(json.dumps([entry["modules"], sorted(own)]).encode()).hexdigest()
 
 
@@ -149,16 +153,16 @@ def _places(read: Iterable[Path], folders: Sequence[Path]) -> Iterator[tuple[int
         within = [(k, str(file.relative_to(folder))) for k, folder in enumerate(folders) if file.is_relative_to(folder)]
         if not within:
             yield _ABSOLUTE, str(file), _digest(file)
-        for place, name in within:
-            yield place, name, _digest(file)
+        for folder_number, name in within:
+            yield folder_number, name, _digest(file)
             for k, folder in enumerate(folders):
                 if not _digest(folder / name):
                     yield k, name, ""
 
 
 def _as_read(entry: dict[str, Any], folders: Sequence[Path]) -> bool:
-    for place, name, digest in entry["read"]:
-        file = Path(name) if place == _ABSOLUTE else folders[place] / name
+    for folder_number, name, digest in entry["read"]:
+        file = Path(name) if folder_number == _ABSOLUTE else folders[folder_number] / name
         if _digest(file) != digest:
             return False
     return True
@@ -174,8 +178,8 @@ def _digest(file: Path) -> str:
 
 def _modules(folders: Sequence[Path]) -> str:
     """Hash the module files that USE statements can find: compilers do not tell which of them they read."""
-    found = hashlib.sha256()
+    digest = hashlib.sha256()
     for number, folder in enumerate(folders):
         for file in sorted(file for pattern in _MODULES for file in folder.glob(pattern)):
-            found.update(f"{number}/{file.name}/{_digest(file)}\n".encode())
-    return found.hexdigest()
+            digest.update(f"{number}/{file.name}/{_digest(file)}\n".encode())
+    return digest.hexdigest()

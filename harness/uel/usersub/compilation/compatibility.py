@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Extensions of Abaqus' Fortran compiler that gfortran refuses, written in standard Fortran in a copy of the file.
 
-Only what has a single meaning is changed, at the places that the compiler names; the user's file stays as it is.
+Only what has a single meaning is changed, at the lines that the compiler names; the user's file stays as it is.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from typing import Final
 
 
 def _error(message: str) -> re.Pattern[str]:
-    """Compile the pattern of an error of gfortran, among warnings: the place, the lines that it shows, the message."""
-    place = r"^(?P<file>[^\n]+?):(?P<line>\d+):(?P<column>\d+):\n(?:(?!.*(?:Error|Warning):).*\n)*?"
-    return re.compile(f"{place}Error: {message}", re.MULTILINE)
+    """Compile the pattern of an error of gfortran, among warnings: location, lines that it shows, message."""
+    location = r"^(?P<file>[^\n]+?):(?P<line>\d+):(?P<column>\d+):\n(?:(?!.*(?:Error|Warning):).*\n)*?"
+    return re.compile(f"{location}Error: {message}", re.MULTILINE)
 
 
 _COMPARED_LOGICALS: Final = _error(
@@ -71,41 +71,41 @@ class Repair:
 
 def repairs(errors: str) -> Iterator[Repair]:
     """Yield repairs of what gfortran refuses in a file, from its messages."""
-    for found in _COMPARED_LOGICALS.finditer(errors):
-        line, operator = int(found["line"]), found["operator"]
-        change = partial(compare_logicals, line=line, column=int(found["column"]), operator=operator)
+    for match in _COMPARED_LOGICALS.finditer(errors):
+        line, operator = int(match["line"]), match["operator"]
+        change = partial(compare_logicals, line=line, column=int(match["column"]), operator=operator)
         note = f"logicals compared with {operator}; the copy has .eqv. or .neqv."
-        yield Repair(Path(found["file"]).name, line, change, note)
-    for found in _IMPORTED_TWICE.finditer(errors):
-        line, name, module = int(found["line"]), found["name"], found["module"]
+        yield Repair(Path(match["file"]).name, line, change, note)
+    for match in _IMPORTED_TWICE.finditer(errors):
+        line, name, module = int(match["line"]), match["name"], match["module"]
         change = partial(rename_import, line=line, module=module, name=name)
         note = f"{name} of module {module} has the name of the program unit that uses it; the copy renames it"
-        yield Repair(Path(found["file"]).name, line, change, note)
-    for found in _REAL_BOUND.finditer(errors):
-        line = int(found["line"])
+        yield Repair(Path(match["file"]).name, line, change, note)
+    for match in _REAL_BOUND.finditer(errors):
+        line = int(match["line"])
         change = partial(whole_bound, line=line)
         yield Repair(
-            Path(found["file"]).name, line, change, "a real number as an array bound; the copy has int() of it"
+            Path(match["file"]).name, line, change, "a real number as an array bound; the copy has int() of it"
         )
-    for found in _OWN_RESULT.finditer(errors):
-        line, name = int(found["line"]), found["name"]
+    for match in _OWN_RESULT.finditer(errors):
+        line, name = int(match["line"]), match["name"]
         note = f"the function {name} calls itself and has no RESULT; the copy has one"
-        yield Repair(Path(found["file"]).name, line, partial(name_result, line=line, name=name), note)
-    for found in _UNTYPED.finditer(errors):
-        line = int(found["line"])
-        yield Repair(Path(found["file"]).name, line, partial(type_constants, line=line), TYPED)
-    for found in _MIXED_SIGN.finditer(errors):
-        line = int(found["line"])
-        change = partial(sign_of_one_kind, line=line, column=int(found["column"]))
-        yield Repair(Path(found["file"]).name, line, change, "SIGN of two kinds of numbers; the copy has one kind")
-    for found in _CAPITAL_DIRECTIVE.finditer(errors):
-        line, name = int(found["line"]), found["name"]
+        yield Repair(Path(match["file"]).name, line, partial(name_result, line=line, name=name), note)
+    for match in _UNTYPED.finditer(errors):
+        line = int(match["line"])
+        yield Repair(Path(match["file"]).name, line, partial(type_constants, line=line), TYPED)
+    for match in _MIXED_SIGN.finditer(errors):
+        line = int(match["line"])
+        change = partial(sign_of_one_kind, line=line, column=int(match["column"]))
+        yield Repair(Path(match["file"]).name, line, change, "SIGN of two kinds of numbers; the copy has one kind")
+    for match in _CAPITAL_DIRECTIVE.finditer(errors):
+        line, name = int(match["line"]), match["name"]
         note = f"#{name} in capitals; the copy has #{name.lower()}"
-        yield Repair(Path(found["file"]).name, line, partial(lower_directive, line=line, name=name), note)
-    for found in _SINGLE_QUOTES.finditer(errors):
-        line = int(found["line"])
+        yield Repair(Path(match["file"]).name, line, partial(lower_directive, line=line, name=name), note)
+    for match in _SINGLE_QUOTES.finditer(errors):
+        line = int(match["line"])
         note = "#include with single quotes; the copy has double ones"
-        yield Repair(Path(found["file"]).name, line, partial(double_quotes, line=line), note)
+        yield Repair(Path(match["file"]).name, line, partial(double_quotes, line=line), note)
 
 
 def double_quotes(text: str, line: int) -> str | None:
@@ -123,7 +123,7 @@ def lower_directive(text: str, line: int, name: str) -> str | None:
     """Write the preprocessor's directive of this name in small letters; None without it in the line."""
     lines = text.splitlines(keepends=True)
     row = lines[line - 1] if 1 <= line <= len(lines) else ""
-    changed = re.sub(rf"^(\s*#\s*){name}\b", lambda found: found[1] + name.lower(), row)
+    changed = re.sub(rf"^(\s*#\s*){name}\b", lambda match: match[1] + name.lower(), row)
     if changed == row:
         return None
     lines[line - 1] = changed
@@ -164,7 +164,7 @@ def name_result(text: str, line: int, name: str) -> str | None:
     result = f"{name}_result"
     if first is None or result in text:
         return None
-    lines[first] = head.sub(lambda found: f"{found[0]} result({result})", lines[first])
+    lines[first] = head.sub(lambda match: f"{match[0]} result({result})", lines[first])
     for number in range(first + 1, len(lines)):
         if _END_OF_FUNCTION.match(lines[number].rstrip()):
             return "".join(lines)
@@ -179,12 +179,12 @@ def whole_bound(text: str, line: int) -> str | None:
         return None
     row, end = lines[line - 1], 0
     pieces: list[str] = []
-    for found in _DECLARED.finditer(row):
-        last = _unmatched(row, range(found.end() + 1, len(row)), ")", "(")
-        if found.end() < end or last is None:
+    for match in _DECLARED.finditer(row):
+        last = _unmatched(row, range(match.end() + 1, len(row)), ")", "(")
+        if match.end() < end or last is None:
             continue
-        bounds = row[found.end() + 1 : last]
-        pieces += [row[end : found.end() + 1], *map(_whole, _bounds(bounds))]
+        bounds = row[match.end() + 1 : last]
+        pieces += [row[end : match.end() + 1], *map(_whole, _bounds(bounds))]
         end = last
     changed = "".join(pieces) + row[end:]
     if changed == row:
@@ -196,10 +196,10 @@ def whole_bound(text: str, line: int) -> str | None:
 def _bounds(text: str) -> Iterator[str]:
     """Yield the bounds between parentheses, and the commas and colons that separate them."""
     start = 0
-    for place, character in enumerate(text):
-        if character in ",:" and _balanced(text[start:place]):
-            yield from (text[start:place], character)
-            start = place + 1
+    for column, character in enumerate(text):
+        if character in ",:" and _balanced(text[start:column]):
+            yield from (text[start:column], character)
+            start = column + 1
     yield text[start:]
 
 
@@ -252,11 +252,11 @@ def type_constants(text: str, line: int) -> str | None:
 
 def _bare_constants(row: str) -> list[tuple[str, str, str]] | None:
     """Return the name, type and constant of each entry of a PARAMETER without parentheses; None for any other line."""
-    found = _BARE_PARAMETER.match(row.partition("!")[0])
-    if found is None:
+    match = _BARE_PARAMETER.match(row.partition("!")[0])
+    if match is None:
         return None
     entries = []
-    for entry in found[2].split(","):
+    for entry in match[2].split(","):
         name, _, value = (part.strip() for part in entry.partition("="))
         constant = _CONSTANT.fullmatch(value)
         if constant is None or not value or constant.lastgroup is None or not re.fullmatch(r"[a-z]\w*", name.lower()):
@@ -292,25 +292,25 @@ def compare_logicals(text: str, line: int, column: int, operator: str) -> str | 
         return None
     row = lines[line - 1]
     pattern = "|".join(re.escape(spelling) for spelling in _SPELLINGS[operator.lower()])
-    found = re.compile(pattern, re.IGNORECASE).search(row, column - 1)
-    if found is None or _WEAKER.search(_alone(row, found.start(), found.end()) or ".and."):
+    match = re.compile(pattern, re.IGNORECASE).search(row, column - 1)
+    if match is None or _WEAKER.search(_alone(row, match.start(), match.end()) or ".and."):
         return None
-    standard = _STANDARD[found[0].lower()]
-    lines[line - 1] = f"{row[: found.start()]} {standard} {row[found.end() :].lstrip(' ')}"
+    standard = _STANDARD[match[0].lower()]
+    lines[line - 1] = f"{row[: match.start()]} {standard} {row[match.end() :].lstrip(' ')}"
     return "".join(lines)
 
 
 def _alone(row: str, start: int, end: int) -> str | None:
-    """Return the text between the parentheses around a place; None if they are not on the line."""
+    """Return the text between the parentheses around a column; None if they are not on the line."""
     first = _unmatched(row, range(start - 1, -1, -1), "(", ")")
     last = _unmatched(row, range(end, len(row)), ")", "(")
     return None if first is None or last is None else row[first + 1 : last]
 
 
-def _unmatched(row: str, places: range, wanted: str, other: str) -> int | None:
+def _unmatched(row: str, columns: range, wanted: str, other: str) -> int | None:
     depth = 0
-    for place in places:
-        depth += (row[place] == other) - (row[place] == wanted)
+    for column in columns:
+        depth += (row[column] == other) - (row[column] == wanted)
         if depth < 0:
-            return place
+            return column
     return None

@@ -69,11 +69,11 @@ def build(
     headers, texts, sources = _scan(files, folders)
     flags = {language: _flags(language, zero_locals, debug, sanitized) for language in LANGUAGES}
     forms = [str(is_free_form(file, _read(file))) for file in files]
-    given = [flag for more in flags.values() for flag in more]
-    name = f"{files[0].stem}-{_key(compilers.values(), [*given, *forms, *texts])}"
-    found = cache.find(name, folders)
-    if found is not None:
-        return found
+    options = [flag for more in flags.values() for flag in more]
+    name = f"{files[0].stem}-{_key(compilers.values(), [*options, *forms, *texts])}"
+    cached = cache.find(name, folders)
+    if cached is not None:
+        return cached
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder)
         library, notes = _compile(files, folders, headers, sources, work, flags, open_bounds=debug)
@@ -204,16 +204,16 @@ def _scan(
         text = _read(file)
         texts += [file.name, text]
         for name in _INCLUDE.findall(text):
-            found = next(_matches(name, [file.resolve().parent, *folders]), None)
-            if found is None:
+            included = next(_matches(name, [file.resolve().parent, *folders]), None)
+            if included is None:
                 _refuse_devices(file, name, [file.resolve().parent, *folders])
             header = HEADERS.get(name.replace("\\", "/").rpartition("/")[2].lower())
-            if found is not None:
-                pending.append(found)
+            if included is not None:
+                pending.append(included)
             # an absolute name needs no search, and the file is the user's
-            given = None if Path(name).is_absolute() else found or header
-            if given is not None:
-                supply[name] = given
+            supplied = None if Path(name).is_absolute() else included or header
+            if supplied is not None:
+                supply[name] = supplied
     named: dict[str, list[Path]] = {}
     for file in sorted(seen):
         named.setdefault(file.name, []).append(file)
@@ -234,11 +234,13 @@ def _matches(name: str, folders: Sequence[Path]) -> Iterator[Path]:
             yield folder / name
     parts = [part for part in name.lower().replace("\\", "/").split("/") if part not in ("", ".")]
     for folder in folders:
-        found = [folder]
+        entries = [folder]
         for part in parts:
-            within = [entry for entry in found if entry.is_dir()]
-            found = [entry / ".." for entry in within] if part == ".." else [p for e in within for p in _named(e, part)]
-        yield from (entry for entry in found if entry.is_file())
+            within = [entry for entry in entries if entry.is_dir()]
+            entries = (
+                [entry / ".." for entry in within] if part == ".." else [p for e in within for p in _named(e, part)]
+            )
+        yield from (entry for entry in entries if entry.is_file())
 
 
 def _named(folder: Path, name: str) -> list[Path]:
@@ -325,10 +327,10 @@ def _compile_opened(
         try:
             return _compile_one(command, file, sources, folder, {file.name: opened} if opened != text else None)
         except CompileError as error:
-            found = whole | {name.lower() for name in _WHOLE.findall(str(error))}
-            if found == whole:
+            declared = whole | {name.lower() for name in _WHOLE.findall(str(error))}
+            if declared == whole:
                 return _compile_one(command, file, sources, folder)
-            whole = found
+            whole = declared
 
 
 def _compile_one(
@@ -361,8 +363,8 @@ def _compile_one(
         if not compiled.returncode:
             # what the compiler says of the user's text counts
             said = said or errors
-        found = repairs(errors) if compiled.returncode else argument_ranks.zeros_for_arrays(errors)
-        changed = [_repair(repair, sources, copies, notes) for repair in found]
+        proposed = repairs(errors) if compiled.returncode else argument_ranks.zeros_for_arrays(errors)
+        changed = [_repair(repair, sources, copies, notes) for repair in proposed]
         if not compiled.returncode and not any(changed):
             return notes, said
         if not any(changed):

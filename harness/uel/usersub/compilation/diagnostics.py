@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Final
 
 _LOCATION = re.compile(r"^(?P<file>.+?):(?P<line>\d+):(?P<column>\d+):")
-# gfortran puts the place on its own line, then the source, then this
+# gfortran puts the location on its own line, then the source, then this
 _ERROR = re.compile(r"(?:Fatal )?Error: ")
 # gcc and g++ begin with all of it, and the source follows
 _C_ERROR = re.compile(r"^(?P<file>[^:\n]+):(?P<line>\d+):(?P<column>\d+): (?:fatal )?error: (?P<sentence>.*)$")
@@ -68,33 +68,35 @@ _FIXED_CONTINUATION: Final = re.compile(r"^ {5}[1-9&+]", re.MULTILINE)
 
 
 def first_error(output: str, texts: Mapping[str, str]) -> str:
-    """Return the compiler's first error: sentence, place, the source line with its column marked, and a hint.
+    """Return the compiler's first error: sentence, location, the source line with its column marked, and a hint.
 
     texts: contents of the user's files by bare name, for the hint.
     """
-    place: re.Match[str] | None = None
+    location: re.Match[str] | None = None
     context: list[str] = []
     lines = output.splitlines()
     for number, line in enumerate(lines):
-        if found := _C_ERROR.match(line):
+        if match := _C_ERROR.match(line):
             context = [text for text in lines[number + 1 : number + 3] if _C_CONTEXT.match(text)]
-            return _message(found["sentence"], found, context, texts)
-        if found := _ERROR.match(line):
-            return _message(line[found.end() :], place, context, texts)
-        location = _LOCATION.match(line)
-        place, context = (location, []) if location else (place, [*context, line] if line.strip() else context)
+            return _message(match["sentence"], match, context, texts)
+        if match := _ERROR.match(line):
+            return _message(line[match.end() :], location, context, texts)
+        if own := _LOCATION.match(line):
+            location, context = own, []
+        elif line.strip():
+            context = [*context, line]
     if twice := _TWICE.search(output):
         return f"{twice[2].removesuffix('_').upper()} is defined twice, in {twice[3]} and in {twice[1]}"
     return f"does not compile or link:\n{output.strip()}"
 
 
-def _message(sentence: str, place: re.Match[str] | None, context: list[str], texts: Mapping[str, str]) -> str:
+def _message(sentence: str, location: re.Match[str] | None, context: list[str], texts: Mapping[str, str]) -> str:
     head = f"does not compile: {sentence.replace(' at (1)', '')}"
-    if place is None:
+    if location is None:
         return head
-    name = Path(place["file"]).name
+    name = Path(location["file"]).name
     hint = _hint(sentence, name, texts)
-    where = f"{name}, line {place['line']}, column {place['column']}"
+    where = f"{name}, line {location['line']}, column {location['column']}"
     return "\n".join([f"{head} ({where})", *context, *([f"Hint: {hint}."] if hint else [])])
 
 
@@ -102,8 +104,8 @@ def _hint(sentence: str, name: str, texts: Mapping[str, str]) -> str:
     for pattern, hint in _HINTS:
         if re.search(pattern, sentence, re.IGNORECASE):
             return hint
-    if found := _NO_MODULE.search(sentence):
-        return _missing_module(found[1], name, texts)
+    if match := _NO_MODULE.search(sentence):
+        return _missing_module(match[1], name, texts)
     text, free = texts.get(name, ""), name.lower().endswith(".f90")
     if re.search(_OTHER_FORM, sentence):
         if not free and _looks_free(text):
@@ -138,21 +140,21 @@ def _looks_free(text: str) -> bool:
 
 def warnings_of(output: str) -> Iterator[tuple[str, int, int, str, str]]:
     """Yield the bare file name, line, column, text and option of each message of gfortran, gcc or g++."""
-    place: re.Match[str] | None = None
+    location: re.Match[str] | None = None
     for row in output.splitlines():
-        if found := _PLACE.match(row):
-            if said := _C_WARNING.match(found["rest"]):
-                yield (*_where(found), said["text"], said["option"] or "")
-            elif not found["rest"] and place is None:
-                # the first of several places is (1)
-                place = found
+        if match := _PLACE.match(row):
+            if said := _C_WARNING.match(match["rest"]):
+                yield (*_where(match), said["text"], said["option"] or "")
+            elif not match["rest"] and location is None:
+                # the first of several locations is (1)
+                location = match
         elif said := _WARNING.match(row):
-            if place is not None:
-                yield (*_where(place), said["text"], said["option"] or "")
-            place = None
+            if location is not None:
+                yield (*_where(location), said["text"], said["option"] or "")
+            location = None
         elif row.startswith("note: "):
-            place = None
+            location = None
 
 
-def _where(place: re.Match[str]) -> tuple[str, int, int]:
-    return Path(place["file"]).name, int(place["line"]), int(place["column"])
+def _where(location: re.Match[str]) -> tuple[str, int, int]:
+    return Path(location["file"]).name, int(location["line"]), int(location["column"])

@@ -35,11 +35,11 @@ class Language:
 
     def program(self, file: Path) -> str:
         """Return the path of the compiler; CompileError, with how to get it, where it is missing."""
-        found = shutil.which(self.compiler)
-        if found is None:
+        path = shutil.which(self.compiler)
+        if path is None:
             message = f"compiling it needs {self.compiler}, which is not installed ({self.install})"
             raise CompileError(file, message)
-        return found
+        return path
 
 
 # -g1: messages about the end of a call give its line

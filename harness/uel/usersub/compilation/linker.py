@@ -34,7 +34,7 @@ _PREFIX: Final = "scipy_"
 def lapack_flags(objects: Sequence[Path], compiler: str) -> list[str]:
     """Return the flags with which this compiler links the objects, which use plain names, with LAPACK and BLAS.
 
-    The system's libraries are used if they are found, else the OpenBLAS in scipy's wheel, whose names have a prefix:
+    The system's libraries are used if they exist, else the OpenBLAS in scipy's wheel, whose names have a prefix:
     the references in the objects are then renamed.
     """
     wanted = {name for file in objects for name in _symbols("-u", file)}
@@ -97,8 +97,8 @@ def _symbols(option: str, file: Path) -> Iterator[str]:
 
 def undefined_routine(message: str) -> str:
     """Put the dynamic linker's message in the user's terms."""
-    found = re.search(r"undefined symbol: (\w+)", message)
-    if found is None:
+    match = re.search(r"undefined symbol: (\w+)", message)
+    if match is None:
         return f"cannot be loaded: {message}"
-    name = found[1].removesuffix("_").upper()
+    name = match[1].removesuffix("_").upper()
     return f"refers to {name}, which neither the file nor Abaqus' utility routines define"

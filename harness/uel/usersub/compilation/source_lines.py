@@ -44,7 +44,7 @@ class Place:
 
 
 def innermost(addresses: Sequence[int], loaded: str, library: Path) -> Place | None:
-    """Return the place of the first address in a library, loaded from a copy; None if its line is not known."""
+    """Return the source line of the first address in a library, loaded from a copy; None if its line is not known."""
     offsets = _offsets(addresses, loaded)
     tool = shutil.which("addr2line")
     if not offsets or tool is None:
@@ -52,19 +52,19 @@ def innermost(addresses: Sequence[int], loaded: str, library: Path) -> Place | N
     command = [tool, "-e", str(library), "-f", "-i", *map(hex, offsets)]
     rows = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False).stdout.splitlines()
     for routine, where in zip(rows[::2], rows[1::2], strict=False):
-        if found := _LINE.match(where):
+        if match := _LINE.match(where):
             name = _MODULE.sub("", routine).removesuffix("_").upper()
-            return Place(name, Path(found["file"]).name, int(found["line"]))
+            return Place(name, Path(match["file"]).name, int(match["line"]))
     return None
 
 
 def _offsets(addresses: Sequence[int], loaded: str) -> list[int]:
     """Return the addresses in a loaded library, relative to its beginning."""
     look_up = getattr(ctypes.CDLL(None), "dladdr", None)
-    found = _Found()
+    symbol = _Found()
     offsets = []
     for address in addresses if look_up else ():
         assert look_up is not None
-        if look_up(ctypes.c_void_p(address), ctypes.byref(found)) and (found.file or b"").decode() == loaded:
-            offsets.append(address - found.base)
+        if look_up(ctypes.c_void_p(address), ctypes.byref(symbol)) and (symbol.file or b"").decode() == loaded:
+            offsets.append(address - symbol.base)
     return offsets

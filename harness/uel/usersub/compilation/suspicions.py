@@ -116,10 +116,10 @@ def suspicions(files: Sequence[Path], include: Sequence[Path] = ()) -> list[Susp
     """
     opinion = listen(files, include)
     told = _Told(opinion, _checked_lines(files, include))
-    found = dict.fromkeys([*told.warnings(), *told.misspelt(), *told.truncated(), *told.single_precision()])
+    suspicions = dict.fromkeys([*told.warnings(), *told.misspelt(), *told.truncated(), *told.single_precision()])
     names = [file.name for file in files]
-    place = {name: number for number, name in enumerate(names)}
-    return sorted(found, key=lambda one: (not one.certain, place.get(one.file, len(names)), one.line))
+    order = {name: number for number, name in enumerate(names)}
+    return sorted(suspicions, key=lambda one: (not one.certain, order.get(one.file, len(names)), one.line))
 
 
 def _checked_lines(files: Sequence[Path], include: Sequence[Path]) -> set[tuple[str, int]]:
@@ -151,18 +151,18 @@ class _Told:
     def misspelt(self) -> Iterator[Suspicion]:
         """Yield the names that are declared nowhere and occur once in their routine."""
         for file, line, _, text, _ in warnings_of(self._opinion.undeclared):
-            found = _UNDECLARED.search(text)
+            match = _UNDECLARED.search(text)
             unit = unit_at(self._units.get(file, []), line)
-            if found is None or unit is None or not unit.single(found[1]):
+            if match is None or unit is None or not unit.single(match[1]):
                 continue
-            name = found[1]
+            name = match[1]
             others = (unit.names.keys() | unit.dummies) - {name}
             near = get_close_matches(name, others, n=1, cutoff=_NEAR) if len(name) >= _LONG else []
             # a variable that is set and not used, or an unused argument, is no mistake by itself
             if name not in unit.read and not near:
                 continue
             meant = f" for '{near[0]}'" if near else ""
-            yield self._at(file, line, f"'{found[1]}' is declared nowhere and used once: misspelt{meant}?", "", False)
+            yield self._at(file, line, f"'{match[1]}' is declared nowhere and used once: misspelt{meant}?", "", False)
 
     def truncated(self) -> Iterator[Suspicion]:
         """Yield real values assigned to variables that are integers by their first letter, and used as real numbers."""
@@ -204,28 +204,32 @@ class _Told:
 
     def single_precision(self) -> Iterator[Suspicion]:
         """Yield constants that lose digits on their way into a variable of double precision: one message per file."""
-        found: dict[str, list[tuple[int, str, str]]] = {}
+        constants: dict[str, list[tuple[int, str, str]]] = {}
         for file, line, _, _, option in warnings_of(self._opinion.warnings):
             if option == "-Wconversion-extra":
                 for constant, better in _short(self._code(file, line)):
-                    if (line, constant, better) not in found.setdefault(file, []):
-                        found[file].append((line, constant, better))
-        for file, places in found.items():
-            if places:
-                line, constant, better = places[0]
+                    if (line, constant, better) not in constants.setdefault(file, []):
+                        constants[file].append((line, constant, better))
+        for file, lines in constants.items():
+            if lines:
+                line, constant, better = lines[0]
                 sentence = f"{constant} is a single-precision constant, with 7 digits"
-                others = f"; there are {len(places)} of them" if len(places) > 1 else ""
+                others = f"; there are {len(lines)} of them" if len(lines) > 1 else ""
                 yield self._at(file, line, sentence, f"write {better}{others}", False)
 
     def _judge(self, file: str, line: int, column: int, text: str, option: str) -> tuple[str, str, bool] | None:
         """Return the sentence, hint and whether the mistake is certain; None for style."""
-        if found := _BOUNDS.search(text):
-            return self._outside(file, line, column, found)
-        if found := _TYPES.search(text):
-            given, taken = f"{found[2]}({found[3]})", f"{found[4]}({found[5]})"
+        if match := _BOUNDS.search(text):
+            return self._outside(file, line, column, match)
+        if match := _TYPES.search(text):
+            actual, dummy = f"{match[2]}({match[3]})", f"{match[4]}({match[5]})"
             # a real array that a routine uses for integers is a work array, as in LAPACK
-            certain = found[3] != found[5] and found[4] == "REAL"
-            return f"{given} is passed for the argument '{found[1]}', which is {taken}", "use one type in both", certain
+            certain = match[3] != match[5] and match[4] == "REAL"
+            return (
+                f"{actual} is passed for the argument '{match[1]}', which is {dummy}",
+                "use one type in both",
+                certain,
+            )
         if argument := argument_ranks.array_wanted(text):
             constant = argument_ranks.is_constant(self._opinion.texts.get(file, ""), line, column)
             what = "a constant" if constant else "a single value"
@@ -233,7 +237,7 @@ class _Told:
         if option.endswith("uninitialized") and self._internal(file, text):
             return None
         if option == "-Wuninitialized":
-            name = found[0] if (found := re.match(r"'\w+'", text)) else "a local variable"
+            name = match[0] if (match := re.match(r"'\w+'", text)) else "a local variable"
             return f"{name} is used before it has a value", "", True
         hint = _OPTIONS.get(option) or next((hint for pattern, hint in _SENTENCES if re.search(pattern, text)), "")
         certain = hint == _COUNT or (option == "-Winteger-division" and self._of_reals(file, line, column))
@@ -241,9 +245,9 @@ class _Told:
 
     def _internal(self, file: str, text: str) -> bool:
         """Report whether a warning names a variable that the compiler made, such as bounds of an intermediate array."""
-        found = re.match(r"'(\w+)", text)
+        match = re.match(r"'(\w+)", text)
         known = self._opinion.texts.get(file, "")
-        return found is not None and re.search(rf"\b{found[1]}\b", known, re.IGNORECASE) is None
+        return match is not None and re.search(rf"\b{match[1]}\b", known, re.IGNORECASE) is None
 
     def _of_reals(self, file: str, line: int, column: int) -> bool:
         """Report whether a quotient of integers is part of a real variable's value, and of no index or argument."""
@@ -255,17 +259,17 @@ class _Told:
         if name[0] in "ijklmn" or (unit is not None and name in unit.integers):
             return False
         depth = 0
-        for place in range(column - 2, 6 + assigned.start(2) - 1, -1):
-            depth += (code[place] == ")") - (code[place] == "(")
+        for position in range(column - 2, 6 + assigned.start(2) - 1, -1):
+            depth += (code[position] == ")") - (code[position] == "(")
             if depth < 0:
-                before = re.search(r"([a-z]\w*)\s*$", code[:place], re.IGNORECASE)
+                before = re.search(r"([a-z]\w*)\s*$", code[:position], re.IGNORECASE)
                 if before and before[1].lower() not in _INTRINSIC:
                     return False
                 depth = 0
         return True
 
-    def _outside(self, file: str, line: int, column: int, found: re.Match[str]) -> tuple[str, str, bool] | None:
-        index, side, bound, dimension = found.groups()
+    def _outside(self, file: str, line: int, column: int, match: re.Match[str]) -> tuple[str, str, bool] | None:
+        index, side, bound, dimension = match.groups()
         name = self._array(file, line, column)
         unit = unit_at(self._units.get(file, []), line)
         dummy = unit is not None and name in unit.dummies
@@ -282,10 +286,10 @@ class _Told:
         """Return the name of the array whose index is at a column (from 1)."""
         row = self._row(file, line)[:column]
         depth = 0
-        for place in range(len(row) - 1, -1, -1):
-            depth += (row[place] == ")") - (row[place] == "(")
+        for position in range(len(row) - 1, -1, -1):
+            depth += (row[position] == ")") - (row[position] == "(")
             if depth < 0:
-                name = re.search(r"(\w+)\s*$", row[:place])
+                name = re.search(r"(\w+)\s*$", row[:position])
                 return name[1].lower() if name else ""
         return ""
 

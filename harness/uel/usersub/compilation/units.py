@@ -52,13 +52,13 @@ class Unit:
 
 def units(text: str, *, free: bool) -> list[Unit]:
     """Return the subroutines and functions in the order of the text; lines count from 1."""
-    found: list[Unit] = []
+    units: list[Unit] = []
     for lines, statement in statements(text, free=free):
         if head := _HEAD.match(statement):
             dummies = frozenset(name.strip().lower() for name in (head[1] or "").split(",") if name.strip())
-            found.append(Unit(lines[0], dummies))
-        elif found:
-            unit, names = found[-1], [name.lower() for name in _NAME.findall(statement)]
+            units.append(Unit(lines[0], dummies))
+        elif units:
+            unit, names = units[-1], [name.lower() for name in _NAME.findall(statement)]
             unit.names.update(names)
             if _SPECIFICATION.match(statement):
                 unit.declared.update(names)
@@ -66,12 +66,12 @@ def units(text: str, *, free: bool) -> list[Unit]:
                     unit.integers.update(names)
             elif not _CALL.match(statement):
                 unit.read.update(names[1:] if _ASSIGNMENT.match(statement) else names)
-    return found
+    return units
 
 
-def unit_at(found: list[Unit], line: int) -> Unit | None:
+def unit_at(units: list[Unit], line: int) -> Unit | None:
     """Return the unit that contains a line."""
-    return next((unit for unit in reversed(found) if unit.first <= line), None)
+    return next((unit for unit in reversed(units) if unit.first <= line), None)
 
 
 def with_open_bounds(text: str, *, free: bool, but: frozenset[str] = frozenset()) -> str:
@@ -91,8 +91,8 @@ def with_open_bounds(text: str, *, free: bool, but: frozenset[str] = frozenset()
 
 
 def _opened(row: str, names: frozenset[str]) -> str:
-    def change(found: re.Match[str]) -> str:
-        return f"{found[1]}*{found[3]}" if found[2].lower() in names else found[0]
+    def change(match: re.Match[str]) -> str:
+        return f"{match[1]}*{match[3]}" if match[2].lower() in names else match[0]
 
     return re.sub(r"((?<![\w*])([a-z]\w*)\s*\((?:[^()]*,)?\s*)1(\s*\))", change, row, flags=re.IGNORECASE)
 
