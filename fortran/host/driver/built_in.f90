@@ -1,8 +1,8 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The routines of built-in elements.
+!> The table of built-in elements.
 module host_built_in
-  use, intrinsic :: iso_c_binding, only: c_associated, c_funloc, c_funptr
+  use, intrinsic :: iso_c_binding, only: c_associated, c_funloc, c_funptr, c_null_funptr
   use host_beam, only: beam_uel, beam_uelmat
   use host_cohesive, only: cohesive_uel
   use host_conduction, only: heat_uelmat
@@ -12,38 +12,68 @@ module host_built_in
   use host_generalised, only: generalised_uelmat
   use host_heat_loads, only: heat_load_uel
   use host_mass_diffusion, only: mass_diffusion_uelmat
-  use host_membrane, only: membrane_uelmat
+  use host_membrane, only: membrane
   use host_piezoelectric, only: piezoelectric_uelmat
   use host_shell, only: shell_uelmat
   use host_solid, only: solid_uelmat
-  use host_truss, only: truss_uelmat
+  use host_truss, only: truss
   implicit none (type, external)
   private
-  public :: built_in_elements, is_built_in
+  public :: address_of, find_built_in
+
+  type :: row_t
+    character(len=16) :: name
+    type(c_funptr) :: address
+    logical :: one_argument = .true.   !< its routine has one argument (host_adapter), not those of UEL or UELMAT
+  end type row_t
 
 contains
 
-  !> Addresses of built-in elements: 1 continuum, 2 coupled temperature-displacement, 3 cohesive, 4 springs and masses, 5 heat
-  !> transfer, 6 heat that enters, 7 shells, 8 beams, 9 piezoelectric, 10 trusses, 11 generalised plane strain, 12 beams whose
-  !> material is integrated over the section, 13 membranes, 14 mass diffusion, 15 continuum shells.
-  function built_in_elements() result(addresses)
-    type(c_funptr) :: addresses(15)
-    addresses = [c_funloc(solid_uelmat), c_funloc(coupled_uelmat), c_funloc(cohesive_uel), c_funloc(discrete_uel), &
-                 c_funloc(heat_uelmat), c_funloc(heat_load_uel), c_funloc(shell_uelmat), c_funloc(beam_uel), &
-                 c_funloc(piezoelectric_uelmat), c_funloc(truss_uelmat), c_funloc(generalised_uelmat), c_funloc(beam_uelmat), &
-                 c_funloc(membrane_uelmat), c_funloc(mass_diffusion_uelmat), c_funloc(continuum_shell_uelmat)]
-  end function built_in_elements
+  !> All of them. A name is what harness/uel/usersub/_binding.py asks for.
+  function table() result(rows)
+    type(row_t), allocatable :: rows(:)
+    rows = [row_t('solid', c_funloc(solid_uelmat), .false.), &
+            row_t('coupled', c_funloc(coupled_uelmat), .false.), &
+            row_t('cohesive', c_funloc(cohesive_uel), .false.), &
+            row_t('discrete', c_funloc(discrete_uel), .false.), &
+            row_t('heat', c_funloc(heat_uelmat), .false.), &
+            row_t('heat load', c_funloc(heat_load_uel), .false.), &
+            row_t('shell', c_funloc(shell_uelmat), .false.), &
+            row_t('beam', c_funloc(beam_uel), .false.), &
+            row_t('piezoelectric', c_funloc(piezoelectric_uelmat), .false.), &
+            row_t('truss', c_funloc(truss)), &
+            row_t('generalised', c_funloc(generalised_uelmat), .false.), &
+            row_t('beam section', c_funloc(beam_uelmat), .false.), &
+            row_t('membrane', c_funloc(membrane)), &
+            row_t('mass diffusion', c_funloc(mass_diffusion_uelmat), .false.), &
+            row_t('continuum shell', c_funloc(continuum_shell_uelmat), .false.)]
+  end function table
 
-  !> True for the address of a built-in element.
-  function is_built_in(address) result(found)
-    type(c_funptr), intent(in) :: address
-    logical :: found
-    type(c_funptr) :: addresses(15)
+  !> Address of a built-in element's routine by its name, null if there is none.
+  type(c_funptr) function address_of(name)
+    character(len=*), intent(in) :: name
+    type(row_t), allocatable :: rows(:)
     integer :: k
-    addresses = built_in_elements()
-    found = .false.
-    do k = 1, size(addresses)
-      found = found .or. c_associated(addresses(k), address)
+    address_of = c_null_funptr
+    rows = table()
+    do k = 1, size(rows)
+      if (rows(k)%name == name) address_of = rows(k)%address
     end do
-  end function is_built_in
+  end function address_of
+
+  !> Whether an address is that of a built-in element, and whether its routine has one argument.
+  subroutine find_built_in(address, built_in, one_argument)
+    type(c_funptr), intent(in) :: address
+    logical, intent(out) :: built_in, one_argument
+    type(row_t), allocatable :: rows(:)
+    integer :: k
+    built_in = .false.
+    one_argument = .false.
+    rows = table()
+    do k = 1, size(rows)
+      if (.not. c_associated(rows(k)%address, address)) cycle
+      built_in = .true.
+      one_argument = rows(k)%one_argument
+    end do
+  end subroutine find_built_in
 end module host_built_in

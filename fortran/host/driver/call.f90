@@ -2,7 +2,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A call of a user element as calls.c makes it: where its arguments are, and where they come from.
 module host_call
-  use, intrinsic :: iso_c_binding, only: c_funptr, c_int32_t, c_int64_t, c_loc, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int32_t, c_int64_t, c_loc, c_null_ptr, c_ptr
+  use host_adapter, only: decode, element_t, evaluate
   use host_block, only: block_t, entries_zero, scalars_t
   use host_kinds, only: dp, i4, i8
   use host_workspace, only: i_a, i_amatrx, i_coords, i_du, i_energy, i_predef, i_props, i_rhs, i_svars, i_u, i_v, workspace_t
@@ -24,6 +25,7 @@ module host_call
     type(c_ptr) :: from_u, from_du, from_v, from_a   !< of the system
     type(c_ptr) :: from_scalars, from_jprops, from_props, from_svars, from_energy, from_coords, from_predef
     type(c_ptr) :: to_scalars, to_svars, to_energy
+    type(c_ptr) :: element                    !< of a built-in element, the only argument of its routine
     type(c_ptr) :: given(37)                  !< addresses of the arguments
   end type layout_t
 
@@ -39,6 +41,7 @@ module host_call
     real(dp) :: behind(spare) = 0
     integer(i4), allocatable :: jprops(:), jdltyp(:)   ! with spare entries
     real(dp), allocatable :: adlmag(:), ddlmag(:)      ! likewise
+    type(element_t) :: element   !< a built-in element, which has the same arrays
   end type arguments_t
 
   interface
@@ -66,8 +69,14 @@ contains
     allocate (arguments%jdltyp(1 - spare:last), source=0_i4)
     allocate (arguments%adlmag(1 - spare:last), arguments%ddlmag(1 - spare:last), source=0.0_dp)
     arguments%scalars = block%scalars
+    if (block%one_argument) call lay_out_element(block, work, arguments)
     associate (layout => arguments%layout, given => arguments%given)
       layout%routine = block%address
+      layout%element = c_null_ptr
+      if (block%one_argument) then
+        layout%routine = c_funloc(evaluate)
+        layout%element = c_loc(arguments%element)
+      end if
       layout%with_material = merge(1, 0, block%scalars%material > 0)
       layout%loaded = merge(1, 0, any(block%counts > 0))
       layout%moves = merge(1, 0, block%moves)
@@ -80,7 +89,7 @@ contains
       layout%predef = work%length(i_predef)
       layout%another = merge(layout%predef, 0_c_int64_t, size(block%predef, 2) > 1)
       layout%jprops = size(block%jprops)
-      layout%on_entry = merge(0_i8, work%unset, block%entries == entries_zero)
+      layout%on_entry = merge(0_i8, work%unset, block%entries == entries_zero .or. block%one_argument)
       layout%equations = c_loc(block%equations)
       layout%from_u = c_loc(block%u)
       layout%from_du = c_loc(block%du)
@@ -113,6 +122,43 @@ contains
       at = c_loc(work%memory(work%start(array)))
     end function at
   end subroutine lay_out_arguments
+
+  !> A built-in element with the arrays of the call.
+  subroutine lay_out_element(block, work, arguments)
+    type(block_t), intent(in) :: block
+    type(workspace_t), intent(in), target :: work
+    type(arguments_t), intent(inout), target :: arguments
+    call decode(arguments%element, block%address, block%scalars)
+    associate (element => arguments%element, of => block%scalars)
+      element%jelem => arguments%given%jelem
+      element%ndload => arguments%given%ndload
+      element%jprops => arguments%jprops(1:size(block%jprops))
+      element%jdltyp => arguments%jdltyp(1:size(block%kinds, 1))
+      element%adlmag => arguments%adlmag(1:size(block%kinds, 1))
+      element%ddlmag => arguments%ddlmag(1:size(block%kinds, 1))
+      element%rhs(1:of%ndofel, 1:of%nrhs) => array(i_rhs)
+      element%amatrx(1:of%ndofel, 1:of%ndofel) => array(i_amatrx)
+      element%svars => array(i_svars)
+      element%energy => array(i_energy)
+      element%props => array(i_props)
+      element%coords(1:of%mcrd, 1:of%nnode) => array(i_coords)
+      element%u => array(i_u)
+      element%added => array(i_du)
+      element%added => element%added(:of%ndofel)
+      element%du => element%added
+      if (element%of_stress) element%du => element%still
+      element%v => array(i_v)
+      element%a => array(i_a)
+      element%predef(1:2, 1:of%npredf, 1:of%nnode) => array(i_predef)
+    end associate
+  contains
+    !> An array in the workspace.
+    function array(number)
+      integer, intent(in) :: number
+      real(dp), pointer, contiguous :: array(:)
+      array => work%memory(work%start(number):work%start(number) + work%length(number) - 1)
+    end function array
+  end subroutine lay_out_element
 
   !> Distributed loads of an element. Their second column, of the other load case with NRHS = 2, is zero.
   subroutine set_loads(block, row, arguments)

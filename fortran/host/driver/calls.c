@@ -19,6 +19,9 @@ void uel_host_fill(int64_t n, int64_t bits, double *to);
 // One copy of the code for all who call it: inlined, it takes the room that is short.
 #define NOINLINE __attribute__((noinline))
 
+// host/elements/adapter.f90: evaluate
+typedef void built_in_t(void *);
+
 typedef double pair __attribute__((vector_size(16), aligned(8)));
 
 // As in host/driver/block.f90.
@@ -40,6 +43,7 @@ struct layout {
     const double *from_props, *from_svars, *from_energy, *from_coords, *from_predef;
     struct scalars *to_scalars;
     double *to_svars, *to_energy;
+    void *element;
     void *given[ARGUMENTS];
 };
 
@@ -113,7 +117,9 @@ void uel_host_call(const struct layout *layout, int64_t place, int32_t seat, int
         memset(given[ADLMAG], 0, 2 * sizeof(double));
         memset(given[DDLMAG], 0, 2 * sizeof(double));
     }
-    if (layout->with_material)
+    if (layout->element)
+        ((built_in_t *)layout->routine)(layout->element);
+    else if (layout->with_material)
         call_uelmat(layout);
     else
         call_uel(layout);

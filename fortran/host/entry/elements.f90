@@ -12,7 +12,7 @@ subroutine host_evaluate(address, material, jtype, tensor, labels, jprops, equat
                          mload, mfield)
   use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
   use host_block, only: block_t, keeps_state, scalars_t
-  use host_built_in, only: is_built_in
+  use host_built_in, only: find_built_in
   use host_context, only: initial_stresses
   use host_driver, only: run_block
   use host_kinds, only: dp, i4, i8
@@ -46,7 +46,7 @@ subroutine host_evaluate(address, material, jtype, tensor, labels, jprops, equat
   real(dp), target :: by_unknown(ndofel, 3)
   type(block_t), target :: block
   block%address = transfer(int(address, c_intptr_t), block%address)
-  block%built_in = is_built_in(block%address)
+  call find_built_in(block%address, block%built_in, block%one_argument)
   block%tensor = tensor
   block%symmetric = symmetric /= 0
   block%want_matrix = want_matrix /= 0
@@ -235,15 +235,13 @@ subroutine host_define_heat_load(law, address, surface, jltyp, absolute_zero, st
   number = define_heat_load(load)
 end subroutine host_define_heat_load
 
-!> Address of a built-in element by its number in `built_in_elements`.
-subroutine host_element_address(elements, address)
-  use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
-  use host_built_in, only: built_in_elements
-  use host_kinds, only: i4, i8
+!> Address of a built-in element by its name (host_built_in), 0 if there is none.
+subroutine host_element_address(name, address)
+  use, intrinsic :: iso_c_binding, only: c_intptr_t
+  use host_built_in, only: address_of
+  use host_kinds, only: i8
   implicit none (type, external)
-  integer(i4), intent(in) :: elements
+  character(len=16), intent(in) :: name
   integer(i8), intent(out) :: address
-  type(c_funptr) :: all(15)
-  all = built_in_elements()
-  address = int(transfer(all(elements), 1_c_intptr_t), i8)
+  address = int(transfer(address_of(name), 1_c_intptr_t), i8)
 end subroutine host_element_address

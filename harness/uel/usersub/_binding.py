@@ -8,7 +8,7 @@ Its materials are in `_materials`, what is called at points in `_points`.
 from __future__ import annotations
 
 import os
-from typing import Final, Literal
+from typing import Final
 
 import numpy as np
 
@@ -281,38 +281,15 @@ def slopes_at_nodes(family: int, nodes: int) -> FloatArray:
     return slopes.transpose(0, 2, 1)
 
 
-_ELEMENTS: Final = (
-    *("solid", "coupled", "cohesive", "discrete", "heat", "heat load", "shell", "beam", "piezoelectric", "truss"),
-    *("generalised", "beam section", "membrane", "mass diffusion", "continuum shell"),
-)
-"""Elements in the order of host_element_address."""
+def address_of(elements: str) -> int:
+    """Return the address of built-in elements by their name in fortran/host/driver/built_in.f90.
 
-
-def address_of(
-    elements: Literal[
-        "solid",
-        "coupled",
-        "cohesive",
-        "discrete",
-        "heat",
-        "heat load",
-        "shell",
-        "beam",
-        "piezoelectric",
-        "truss",
-        "generalised",
-        "beam section",
-        "membrane",
-        "mass diffusion",
-        "continuum shell",
-    ],
-) -> int:
-    """Return the address of built-in elements.
-
-    Cohesive ones, springs and masses, heat that enters and linear elastic beams are called like UEL, the others like
-    UELMAT.
+    Raises ValueError if the host has no such elements.
     """
-    return int(host.host_element_address(1 + _ELEMENTS.index(elements)))
+    address = int(host.host_element_address(elements))
+    if not address:
+        raise ValueError(f"the host has no elements called {elements!r}")
+    return address
 
 
 def take_messages() -> list[RawMessage]:

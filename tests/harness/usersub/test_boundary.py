@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from uel.usersub import _binding
 from uel.usersub._extension import host
 
 ROOT = Path(__file__).parents[3]
@@ -27,3 +28,8 @@ def test_compiled_host_has_what_the_types_say():
 def test_an_argument_that_is_missing_is_an_error():
     with pytest.raises(TypeError, match=r"missing required argument 'address'"):
         host.host_evaluate()  # type: ignore[call-arg]
+
+
+def test_elements_that_the_host_does_not_have():
+    with pytest.raises(ValueError, match="the host has no elements called 'trusses'"):
+        _binding.address_of("trusses")

@@ -1,81 +1,64 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in trusses (T2D2, T3D2) as a procedure with the arguments of UELMAT. harness/uel/elements/families/discrete.py gives
-!> what they need.
+!> Built-in trusses (T2D2, T3D2). harness/uel/elements/families/discrete.py gives what they need.
 !>
 !> PROPS hold area and density, JPROPS the family of the line (host_shape). SVARS hold strain, stress, plastic strain and
 !> equivalent plastic strain, in dynamic analyses then the forces of the last two increments; the material history, if there is
 !> one, STATEV, and of UMAT what host_umat says. With NLGEOM the strain is the logarithm of the stretch and the volume stays (Abaqus
 !> Theory Guide, Truss elements).
 module host_truss
+  use host_adapter, only: element_t, keep_forces
   use host_bar, only: bar_forces, bar_of, bar_t, initial_length
   use host_context, only: current
   use host_coupling, only: interpolate_fields
-  use host_inertia, only: respond
   use host_kinds, only: dp, i4
-  use host_materials, only: elastic_energy, find_material, has_fields, material_t, set_constants, stress_update
+  use host_materials, only: elastic_energy, has_fields, material_t, set_constants, stress_update
   use host_mises, only: mises_uniaxial
   use host_shape, only: rule_of
   use host_usdfld, only: call_usdfld
   implicit none (type, external)
   private
-  public :: truss_uelmat
+  public :: truss
 
   integer, parameter :: states = 4   !< values of SVARS of the point
 
 contains
 
-  subroutine truss_uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
-                          v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
-                          lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period, materiallib)
-    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
-                   lflags(*), mlvarx, mdload, jprops(*), njprop, materiallib
-    real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
-                params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
-    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2), pull, slope
-    type(material_t), pointer :: material
+  subroutine truss(element)
+    type(element_t), intent(inout) :: element
+    real(dp) :: pull, slope
     type(bar_t) :: bar
-    integer :: i, n
-    n = ndofel
-    rhs(1:n*nrhs) = 0
-    amatrx(1:n*n) = 0
-    mass = 0
-    do i = 1, n
-      mass(i, i) = 0.5_dp*props(1)*props(2)*initial_length(int(mcrd), coords)
-    end do
-    old = 0
-    if (nsvars > states) old = reshape(svars(states + 1:states + 2*n), [n, 2])
-    if (lflags(3) /= 3 .and. lflags(3) /= 4) then
-      material => find_material(materiallib)
-      bar = bar_of(int(mcrd), lflags(2) /= 0, coords, u)
-      if (has_fields(material)) then
-        call set_fields(material, int(jprops(1)), int(mcrd), bar, coords, u, int(npredf), predef, svars)
-      end if
-      call truss_force(material, props(1), bar, svars, pull, slope, energy)
-      if (allocated(current%fields)) deallocate (current%fields)
-      call bar_forces(int(mcrd), bar, lflags(3), pull, slope, du, rhs, amatrx)
-    end if
-    call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
-    if (nsvars > states) svars(states + 1:states + 2*n) = reshape(old, [2*n])
-  end subroutine truss_uelmat
+    integer :: i
+    call keep_forces(element, states + 1, size(element%svars) + 1)
+    associate (props => element%props)
+      do i = 1, merge(element%n, 0, element%has_mass)
+        element%mass(i, i) = 0.5_dp*props(1)*props(2)*initial_length(element%mcrd, element%coords)
+      end do
+      if (.not. element%has_forces) return
+      bar = bar_of(element%mcrd, element%finite, element%coords, element%u)
+      if (has_fields(element%material)) call set_fields(element, bar)
+      call truss_force(element%material, props(1), bar, element%svars, pull, slope, element%energy)
+    end associate
+    if (allocated(current%fields)) deallocate (current%fields)
+    call bar_forces(element%mcrd, bar, element%request, pull, slope, element%added, element%rhs, element%amatrx)
+  end subroutine truss
 
   !> Temperature and field variables of the point, as USDFLD leaves them, and the elastic constants at them.
-  subroutine set_fields(material, family, dim, bar, x, u, fields, predef, state)
-    type(material_t), intent(inout) :: material
-    integer, intent(in) :: family, dim, fields
+  subroutine set_fields(element, bar)
+    type(element_t), intent(inout) :: element
     type(bar_t), intent(in) :: bar
-    real(dp), intent(in) :: x(dim, 2), u(dim, 2), predef(2, fields, 2)
-    real(dp), intent(in), target :: state(states)
     real(dp), parameter :: no_directions(3, 3) = 0
-    current%length = bar%now
-    current%place = 0
-    current%place(:dim) = sum(x, 2)/2
-    if (bar%finite) current%place(:dim) = sum(x + u, 2)/2
-    call interpolate_fields(rule_of(family, 1), 1, fields, predef, material%variables)
-    if (allocated(material%user_field)) then
-      call call_usdfld(material%user_field, material%ntens, 1_i4, no_directions, no_directions, .true., state)
-    end if
-    if (allocated(material%dependence)) call set_constants(material, 1)
+    associate (material => element%material, dim => element%mcrd, x => element%coords)
+      current%length = bar%now
+      current%place = 0
+      current%place(:dim) = sum(x, 2)/2
+      if (bar%finite) current%place(:dim) = sum(x + reshape(element%u, [dim, 2]), 2)/2
+      call interpolate_fields(rule_of(int(element%jprops(1)), 1), 1, element%fields, element%predef, material%variables)
+      if (allocated(material%user_field)) then
+        call call_usdfld(material%user_field, material%ntens, 1_i4, no_directions, no_directions, .true., element%svars(:states))
+      end if
+      if (allocated(material%dependence)) call set_constants(material, 1)
+    end associate
   end subroutine set_fields
 
   !> Force of a truss and its derivative by the elongation; UMAT, or Mises plasticity in one direction where there is a table.

@@ -1,7 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in membranes (M3D3, M3D4, M3D4R, M3D6, M3D8, M3D8R) as a procedure with the arguments of UELMAT: surfaces in plane stress
-!> without any stiffness in bending.
+!> Built-in membranes (M3D3, M3D4, M3D4R, M3D6, M3D8, M3D8R): surfaces in plane stress without any stiffness in bending.
 !>
 !> JPROPS: family of the surface (host_shape), its integration points, those of the mass, 1 with *ORIENTATION. PROPS: thickness,
 !> density, hourglass stiffness parameter, Poisson's ratio of the section.
@@ -24,16 +23,15 @@
 !> SVARS hold, for each point, E11 E22 E12 S11 S22 S12 in its directions; in dynamic analyses then the forces of the last two
 !> increments; last the directions of each point, with *ORIENTATION (host_axes).
 module host_membrane
-  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
   use core_rotation, only: cross, surface_frame
   use core_small_matrix, only: invert
+  use host_adapter, only: element_t, keep_forces
   use host_axes, only: values_of_axes
-  use host_context, only: added_stress, current, initial_stresses, output_variables, stress_matrix
+  use host_context, only: added_stress, current, initial_stresses, output_variables
   use host_coupling, only: interpolate_fields
-  use host_inertia, only: respond
   use host_initial_stress, only: begin_point
   use host_kinds, only: dp, i4
-  use host_materials, only: elastic_energy, find_material, has_fields, material_t, set_constants, stress_update
+  use host_materials, only: elastic_energy, has_fields, material_t, set_constants, stress_update
   use host_messages, only: add_message
   use host_polar, only: complex_cross => cross, polar_axes, step
   use host_protect, only: escape
@@ -42,7 +40,7 @@ module host_membrane
   use host_uvarm, only: keep_uvar
   implicit none (type, external)
   private
-  public :: membrane_uelmat
+  public :: membrane
 
   integer, parameter :: values = 6        !< of SVARS for a point
   real(dp), parameter :: smallest_area = 1.0e-8_dp   !< over that before any displacement
@@ -67,46 +65,31 @@ module host_membrane
 
 contains
 
-  subroutine membrane_uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
-                             v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
-                             lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period, materiallib)
-    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
-                   lflags(*), mlvarx, mdload, jprops(*), njprop, materiallib
-    real(dp), target :: svars(*)
-    real(dp) :: rhs(*), amatrx(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
-                params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
+  subroutine membrane(element)
+    type(element_t), intent(inout), target :: element
     real(dp), pointer, contiguous :: axes(:, :, :, :), none(:, :, :, :)
-    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2), change(ndofel)
-    type(place_t) :: places(jprops(2)), full(jprops(3))
-    type(material_t), pointer :: material
-    integer :: n, first, behind
-    n = ndofel
-    material => find_material(materiallib)
-    first = jprops(2)*values + 1
-    behind = nsvars + 1
-    axes => null()
-    none => null()
-    if (jprops(4) /= 0) then
-      behind = behind - values_of_axes*jprops(2)
-      call c_f_pointer(c_loc(svars(behind)), axes, [3, 3, 2, int(jprops(2))])
-    end if
-    old = 0
-    if (behind > first) old = reshape(svars(first:behind - 1), [n, 2])
-    places = places_of(rule_of(int(jprops(1)), int(jprops(2))), coords, axes)
-    full = places_of(rule_of(int(jprops(1)), int(jprops(3))), coords, none)
-    call find_mass(rule_of(int(jprops(1)), int(jprops(3))), props(1)*props(2), full%area, mass)
-    rhs(1:n*nrhs) = 0
-    amatrx(1:n*n) = 0
-    if (lflags(3) /= 3 .and. lflags(3) /= 4) then
-      ! no time passes where the matrix of a stress is asked for: DU is a perturbation
-      change = du(:n)
-      if (stress_matrix(lflags(3))) change = 0
-      call integrate(rule_of(int(jprops(1)), int(jprops(2))), places, lflags(3), lflags(2) /= 0, material, &
-                     props, coords, int(npredf), predef, u, change, du, svars, rhs, amatrx, energy)
-    end if
-    call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
-    if (behind > first) svars(first:behind - 1) = reshape(old, [2*n])
-  end subroutine membrane_uelmat
+    type(place_t) :: places(element%jprops(2)), full(element%jprops(3))
+    integer :: points, behind
+    associate (jprops => element%jprops, props => element%props, x => element%coords)
+      points = jprops(2)
+      behind = size(element%svars) + 1
+      axes => null()
+      none => null()
+      if (jprops(4) /= 0) then
+        behind = behind - values_of_axes*points
+        axes(1:3, 1:3, 1:2, 1:points) => element%svars(behind:)
+      end if
+      call keep_forces(element, points*values + 1, behind)
+      places = places_of(rule_of(int(jprops(1)), points), x, axes)
+      full = places_of(rule_of(int(jprops(1)), int(jprops(3))), x, none)
+      if (element%has_mass) then
+        call find_mass(rule_of(int(jprops(1)), int(jprops(3))), props(1)*props(2), full%area, element%mass)
+      end if
+      if (element%has_forces) then
+        call integrate(rule_of(int(jprops(1)), points), places, element, element%svars, element%rhs, element%amatrx)
+      end if
+    end associate
+  end subroutine membrane
 
   !> All points of a rule. axes: those of *ORIENTATION, whose first one is projected. Leaves the pass if the surface is folded.
   function places_of(rule, x, axes) result(places)
@@ -182,39 +165,39 @@ contains
   end subroutine find_mass
 
   !> Force, tangent, state and energies, or the matrix of a stress.
-  subroutine integrate(rule, places, request, finite, material, props, x, fields, predef, u, du, added, svars, force, stiffness, &
-                       energy)
+  subroutine integrate(rule, places, element, svars, force, stiffness)
     type(rule_t), intent(in) :: rule
     type(place_t), intent(in) :: places(rule%points)
-    integer(i4), intent(in) :: request   !< LFLAGS(3)
-    logical, intent(in) :: finite
-    type(material_t), intent(inout) :: material
-    real(dp), intent(in) :: props(4)
-    integer, intent(in) :: fields
-    real(dp), intent(in) :: predef(2, fields, rule%nodes)
-    real(dp), dimension(3, rule%nodes), intent(in) :: x, u, du, added   !< added: the perturbation
+    type(element_t), intent(inout) :: element
     real(dp), intent(inout), target :: svars(values, rule%points)
-    real(dp), intent(inout) :: force(3, rule%nodes), stiffness(3, rule%nodes, 3, rule%nodes), energy(8)
+    real(dp), intent(inout) :: force(3, rule%nodes), stiffness(3, rule%nodes, 3, rule%nodes)
+    type(material_t), pointer :: material
+    real(dp), dimension(:, :), pointer, contiguous :: x, u, du, added
     type(response_t) :: at
     real(dp) :: linear(3, 6), strain(3), stress(3), f(3, 2), f_before(3, 2), nominal(3, 2), rate(3, 2, 3, 2)
     real(dp) :: volume, elastic, work, state(8)
     integer(i4) :: point
     integer :: p
     logical :: valid
-    current%finite = finite
-    current%deformed = finite .and. any(abs(u) > 0)
+    material => element%material
+    x => element%coords
+    u(1:3, 1:rule%nodes) => element%u
+    du(1:3, 1:rule%nodes) => element%du
+    added(1:3, 1:rule%nodes) => element%added
+    current%finite = element%finite
+    current%deformed = element%finite .and. any(abs(u) > 0)
     current%rotation = identity
     current%turn = identity
     current%length = sqrt(sum(places%area))*merge(0.5_dp, 1.0_dp, is_quadratic(rule))
-    at%thinning = props(4)/(1 - props(4))
+    at%thinning = element%props(4)/(1 - element%props(4))
     elastic = 0
-    work = energy(2) + energy(4)
+    work = element%energy(2) + element%energy(4)
     do p = 1, rule%points
       point = int(p, i4)
       associate (g => places(p)%gradient(:rule%nodes, :), frame => places(p)%frame)
-        at%volume = places(p)%area*props(1)
+        at%volume = places(p)%area*element%props(1)
         linear = strain_matrix(transpose(frame(:2, :)))
-        if (request == initial_stresses) then
+        if (element%request == initial_stresses) then
           ! as plane elements keep it, with E33 and S33
           state = 0
           state([5, 6, 8]) = svars(4:, p)
@@ -224,7 +207,7 @@ contains
         end if
         f = transpose(frame(:2, :))
         f_before = f
-        if (finite) then
+        if (element%finite) then
           f = f + matmul(u, g)
           f_before = f - matmul(du, g)
           call find_increment(point, f_before, f, at, volume)
@@ -235,10 +218,10 @@ contains
         end if
         if (has_fields(material)) then
           current%place = matmul(x, rule%n(:, p))
-          if (finite) current%place = matmul(x + u, rule%n(:, p))
-          call interpolate_fields(rule, p, fields, predef, material%variables)
+          if (element%finite) current%place = matmul(x + u, rule%n(:, p))
+          call interpolate_fields(rule, p, element%fields, element%predef, material%variables)
         end if
-        if (request == output_variables) then
+        if (element%request == output_variables) then
           call keep_uvar(material%user_output, 3, point, transpose(directions_of(f)), places(p)%basis, svars(:, p))
           cycle
         end if
@@ -252,11 +235,11 @@ contains
         work = work + volume*0.5_dp*dot_product(stress + svars(4:, p), strain - svars(:3, p))
         svars(:, p) = [strain, stress]
         at%stress = stress
-        if (stress_matrix(request)) then
-          if (request == added_stress) at%stress = matmul(at%modulus, strain_of(f, matmul(added, g)))
+        if (element%of_stress) then
+          if (element%request == added_stress) at%stress = matmul(at%modulus, strain_of(f, matmul(added, g)))
           nominal = 0
           rate = stress_rate(at, f)
-        else if (finite) then
+        else if (element%finite) then
           call find_forces(at, f, nominal, rate)
         else
           nominal = reshape(at%volume*matmul(stress, linear), [3, 2])
@@ -266,11 +249,12 @@ contains
       end associate
     end do
     if (allocated(current%fields)) deallocate (current%fields)
-    energy(2) = elastic
-    if (request == initial_stresses) return
-    energy(4) = work - elastic
-    if (rule%reduced .and. .not. stress_matrix(request)) then
-      call resist(places(1), props(1)*places(1)%area*props(3), finite, x, u, force, stiffness, energy(6))
+    element%energy(2) = elastic
+    if (element%request == initial_stresses) return
+    element%energy(4) = work - elastic
+    if (rule%reduced .and. .not. element%of_stress) then
+      call resist(places(1), element%props(1)*places(1)%area*element%props(3), element%finite, x, u, force, stiffness, &
+                  element%energy(6))
     end if
   end subroutine integrate
 
