@@ -3,18 +3,18 @@
 !> The table of built-in elements.
 module host_built_in
   use, intrinsic :: iso_c_binding, only: c_associated, c_funloc, c_funptr, c_null_funptr
-  use host_beam, only: beam_uel, beam_uelmat
-  use host_cohesive, only: cohesive_uel
-  use host_conduction, only: heat_uelmat
-  use host_continuum_shell, only: continuum_shell_uelmat
+  use host_beam, only: timoshenko_beam
+  use host_cohesive, only: cohesive
+  use host_conduction, only: heat_transfer
+  use host_continuum_shell, only: continuum_shell
   use host_coupled, only: coupled_uelmat
-  use host_discrete, only: discrete_uel
+  use host_discrete, only: discrete
   use host_generalised, only: generalised_uelmat
-  use host_heat_loads, only: heat_load_uel
-  use host_mass_diffusion, only: mass_diffusion_uelmat
+  use host_heat_loads, only: heat_load
+  use host_mass_diffusion, only: mass_diffusion
   use host_membrane, only: membrane
   use host_piezoelectric, only: piezoelectric_uelmat
-  use host_shell, only: shell_uelmat
+  use host_shell, only: shell
   use host_solid, only: solid_uelmat
   use host_truss, only: truss
   implicit none (type, external)
@@ -34,19 +34,18 @@ contains
     type(row_t), allocatable :: rows(:)
     rows = [row_t('solid', c_funloc(solid_uelmat), .false.), &
             row_t('coupled', c_funloc(coupled_uelmat), .false.), &
-            row_t('cohesive', c_funloc(cohesive_uel), .false.), &
-            row_t('discrete', c_funloc(discrete_uel), .false.), &
-            row_t('heat', c_funloc(heat_uelmat), .false.), &
-            row_t('heat load', c_funloc(heat_load_uel), .false.), &
-            row_t('shell', c_funloc(shell_uelmat), .false.), &
-            row_t('beam', c_funloc(beam_uel), .false.), &
+            row_t('cohesive', c_funloc(cohesive)), &
+            row_t('discrete', c_funloc(discrete)), &
+            row_t('heat', c_funloc(heat_transfer)), &
+            row_t('heat load', c_funloc(heat_load)), &
+            row_t('shell', c_funloc(shell)), &
+            row_t('beam', c_funloc(timoshenko_beam)), &
             row_t('piezoelectric', c_funloc(piezoelectric_uelmat), .false.), &
             row_t('truss', c_funloc(truss)), &
             row_t('generalised', c_funloc(generalised_uelmat), .false.), &
-            row_t('beam section', c_funloc(beam_uelmat), .false.), &
             row_t('membrane', c_funloc(membrane)), &
-            row_t('mass diffusion', c_funloc(mass_diffusion_uelmat), .false.), &
-            row_t('continuum shell', c_funloc(continuum_shell_uelmat), .false.)]
+            row_t('mass diffusion', c_funloc(mass_diffusion)), &
+            row_t('continuum shell', c_funloc(continuum_shell))]
   end function table
 
   !> Address of a built-in element's routine by its name, null if there is none.

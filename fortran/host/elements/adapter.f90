@@ -4,8 +4,8 @@
 !>
 !> A built-in element is a procedure with one argument, of type element_t. On entry RHS, AMATRX and the mass are zero. The element
 !> adds the internal force to RHS and the stiffness to AMATRX if has_forces, its mass if has_mass, updates SVARS and ENERGY, and
-!> says by `keep_forces` where SVARS have the forces of earlier increments. `evaluate` makes of that what LFLAGS ask for. In elements
-!> with temperatures or concentrations minus the flow that enters through the nodes stands for the force.
+!> says by `keep_forces` where SVARS have the forces of earlier increments. `evaluate` makes of that what LFLAGS ask for. In
+!> elements with temperatures or concentrations minus the flow that enters through the nodes stands for the force.
 module host_adapter
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funptr, c_ptr
   use host_block, only: scalars_t

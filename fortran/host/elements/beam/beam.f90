@@ -1,8 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in Timoshenko beams (B21, B22, B31, B32): of linear elastic sections as a procedure with the arguments of UEL, of sections
-!> whose material is integrated over the section points (host_beam_section) as one with those of UELMAT.
-!> harness/uel/elements/families/beam.py gives what they need.
+!> Built-in Timoshenko beams (B21, B22, B31, B32): of linear elastic sections or, with a material, of sections over whose points it
+!> is integrated (host_beam_section). harness/uel/elements/families/beam.py gives what they need.
 !>
 !> JPROPS: family of the axis (host_shape), its integration points, section points, integration points of the mass. PROPS: density;
 !> slenderness compensation of the shear along directions 2 and 1, over the squared length of the element; place of the centroid and
@@ -21,18 +20,18 @@
 !> the section, which are alone where there are no section points; in dynamic analyses then the forces of the last two increments;
 !> last the directions t, 1, 2 of the integration points, then of those of the mass.
 module host_beam
+  use host_adapter, only: element_t, keep_forces
   use host_beam_curved, only: add_curved_beam, curved_point, curved_strains
   use host_beam_section, only: energies_t, place_t, section_response, values_of_point
   use host_beam_turning, only: turning_beam, turning_strains
-  use host_context, only: added_stress, stress_matrix
-  use host_inertia, only: respond
-  use host_kinds, only: dp, i4
-  use host_materials, only: find_material, material_t
+  use host_context, only: added_stress
+  use host_kinds, only: dp
+  use host_materials, only: material_t
   use host_polar, only: step
   use host_shape, only: is_quadratic, rule_of, rule_t
   implicit none (type, external)
   private
-  public :: beam_uel, beam_uelmat
+  public :: timoshenko_beam
 
   integer, parameter :: head = 80                        !< values of PROPS before the section points
   integer, parameter :: planar(3) = [1, 2, 4]            !< strains of a beam in a plane
@@ -48,6 +47,9 @@ module host_beam
     real(dp) :: length = 0
     real(dp) :: centre(2, 2) = 0        !< places of the centroid and of the shear centre
     type(material_t), pointer :: material => null()   !< integrated over the section
+    real(dp), pointer, contiguous :: x(:, :) => null(), u(:, :) => null()   !< by nodes
+    real(dp), pointer, contiguous :: axes(:, :, :) => null()   !< (3, 3, points) columns t, 1, 2
+    real(dp), pointer, contiguous :: places(:, :) => null()    !< of the section points, in PROPS
   end type beam_t
 
   !> Forces of the section at the integration points, and their derivatives by its strains.
@@ -65,66 +67,52 @@ module host_beam
 
 contains
 
-  subroutine beam_uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
-                      v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
-                      lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period)
-    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
-                   lflags(*), mlvarx, mdload, jprops(*), njprop
-    real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
-                params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
-    call beam_uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
-                     v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
-                     lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period, 0_i4)
-  end subroutine beam_uel
-
-  !> materiallib: 0 of a linear elastic section.
-  subroutine beam_uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
-                         v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
-                         lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period, materiallib)
-    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
-                   lflags(*), mlvarx, mdload, jprops(*), njprop, materiallib
-    real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
-                params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
-    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2)
-    integer :: n, points, full, states, axes
+  subroutine timoshenko_beam(element)
+    type(element_t), intent(inout) :: element
+    integer :: points, full, states, first
     type(rule_t), pointer :: rule
     type(beam_t) :: beam
     type(resultants_t) :: resultants
-    n = ndofel
-    points = jprops(2)
-    full = jprops(4)
-    rule => rule_of(int(jprops(1)), full)
-    beam%n = n
-    beam%dim = mcrd
-    beam%each = merge(6, 3, mcrd == 3)
-    beam%sections = jprops(3)
-    beam%finite = lflags(2) /= 0
-    beam%length = length_of(rule, beam%dim, coords)
-    beam%centre = reshape(props(4:7), [2, 2])
-    beam%material => find_material(materiallib)
+    points = element%jprops(2)
+    full = element%jprops(4)
+    rule => rule_of(int(element%jprops(1)), full)
+    first = size(element%svars) - 9*(points + full) + 1
+    beam = beam_of(element, rule)
+    beam%axes(1:3, 1:3, 1:points) => element%svars(first:)
+    states = points*max(1, beam%sections)*beam%values
+    call keep_forces(element, states + 1, first)
+    if (element%has_mass) call find_mass(beam, rule, element%props, element%svars(first + 9*points:), element%mass)
+    if (.not. element%has_forces) return
+    rule => rule_of(int(element%jprops(1)), points)
+    call integrate(beam, rule, element, element%rhs, element%amatrx, element%svars, resultants)
+    if (element%of_stress) call turn_stress(beam, rule, element, resultants, element%amatrx)
+  end subroutine timoshenko_beam
+
+  !> The beam of an element, but for its directions.
+  function beam_of(element, rule) result(beam)
+    type(element_t), intent(in) :: element
+    type(rule_t), intent(in) :: rule
+    type(beam_t) :: beam
+    integer :: values
+    beam%n = element%n
+    beam%dim = element%mcrd
+    beam%each = merge(6, 3, element%mcrd == 3)
+    beam%sections = element%jprops(3)
+    beam%finite = element%finite
+    beam%length = length_of(rule, beam%dim, element%coords)
+    beam%centre = reshape(element%props(4:7), [2, 2])
+    beam%material => element%material
     beam%values = 2*beam%each
     if (associated(beam%material)) then
       beam%values = beam%values + values_of_point(beam%material)
     else if (beam%sections > 0) then
       beam%values = beam%values + 2
     end if
-    states = points*max(1, beam%sections)*beam%values
-    axes = nsvars - 9*(points + full) + 1
-    old = 0
-    if (axes > states + 1) old = reshape(svars(states + 1:axes - 1), [n, 2])
-    call find_mass(rule, beam%dim, beam%each, n, props, coords, svars(axes + 9*points), mass)
-    rhs(1:n*nrhs) = 0
-    amatrx(1:n*n) = 0
-    if (lflags(3) /= 3 .and. lflags(3) /= 4) then
-      call integrate(beam, rule_of(int(jprops(1)), points), props(:head), props(head + 1), coords, svars(axes), u, int(npredf), &
-                     predef, rhs, amatrx, svars, energy, resultants)
-      if (stress_matrix(lflags(3))) then
-        call turn_stress(beam, rule_of(int(jprops(1)), points), lflags(3), coords, svars(axes), u, du, resultants, amatrx)
-      end if
-    end if
-    call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
-    if (axes > states + 1) svars(states + 1:axes - 1) = reshape(old, [2*n])
-  end subroutine beam_uelmat
+    beam%x => element%coords
+    beam%u(1:beam%each, 1:element%nodes) => element%u
+    values = merge(4, 2, associated(beam%material))
+    beam%places(1:values, 1:beam%sections) => element%props(head + 1:)
+  end function beam_of
 
   !> Length of the element by the parent coordinate at a point. Nodes follow each other along the axis.
   pure real(dp) function stretch(rule, p, dim, x)
@@ -182,14 +170,11 @@ contains
   end function operator
 
   !> Forces, stiffness, state and energy.
-  subroutine integrate(beam, rule, props, section_points, x, axes, u, fields, predef, force, stiffness, svars, energy, resultants)
+  subroutine integrate(beam, rule, element, force, stiffness, svars, resultants)
     type(beam_t), intent(in) :: beam
     type(rule_t), intent(in) :: rule
-    integer, intent(in) :: fields
-    real(dp), intent(in) :: props(head), x(beam%dim, rule%nodes), u(beam%each, rule%nodes), predef(2, fields, rule%nodes)
-    real(dp), intent(in) :: section_points(merge(4, 2, associated(beam%material)), beam%sections)
-    real(dp), intent(in) :: axes(3, 3, rule%points)    !< columns t, 1, 2
-    real(dp), intent(inout) :: force(beam%n), stiffness(beam%n, beam%n), energy(8)
+    type(element_t), intent(inout) :: element
+    real(dp), intent(inout) :: force(beam%n), stiffness(beam%n, beam%n)
     real(dp), intent(inout) :: svars(beam%values, max(1, beam%sections), rule%points)
     type(resultants_t), intent(out) :: resultants
     real(dp) :: elastic(6, 6), section(6, 6), strain(6), forces(6), size, weight, stored, stored_before
@@ -201,29 +186,30 @@ contains
     rows = kept_of(beam%each, planar)
     unknowns = kept_of(beam%each, planar_unknowns)
     allocate (resultants%force(beam%each, rule%points), resultants%stiffness(beam%each, beam%each, rule%points))
-    elastic = reshape(props(9:44), [6, 6])
+    elastic = reshape(element%props(9:44), [6, 6])
     do k = 1, 2
-      elastic(k + 1, k + 1) = elastic(k + 1, k + 1)/(1 + props(k + 1)*beam%length**2)
+      elastic(k + 1, k + 1) = elastic(k + 1, k + 1)/(1 + element%props(k + 1)*beam%length**2)
     end do
     moved = 0
-    moved(:beam%dim, :) = x
-    if (beam%finite) moved(:beam%dim, :) = x + u(:beam%dim, :)
+    moved(:beam%dim, :) = beam%x
+    if (beam%finite) moved(:beam%dim, :) = beam%x + beam%u(:beam%dim, :)
     stored = 0
     stored_before = 0
     do p = 1, rule%points
-      size = stretch(rule, p, beam%dim, x)
+      size = stretch(rule, p, beam%dim, beam%x)
       weight = rule%weight(p)*size
-      place%axes = axes(:, :, p)
+      place%axes = beam%axes(:, :, p)
       if (beam%finite .and. beam%dim == 3) then
-        found = real(strains_in_space(beam, rule, p, x, axes(:, :, p), cmplx(u, kind=dp), place%axes), dp)
+        found = real(strains_in_space(beam, rule, p, cmplx(beam%u, kind=dp), place%axes), dp)
       else if (beam%finite) then
-        motion = plane_motion(rule, p, size, axes(:, :, p), beam%centre, u)
+        motion = plane_motion(rule, p, size, beam%axes(:, :, p), beam%centre, beam%u)
         found = motion%strain
         place%axes = motion%turned
         part = reshape(plane_operator(rule, p, size, motion, beam%centre), [beam%each, beam%n])
       else
-        part = reshape(along_unknowns(operator(rule, p, size, axes(:, :, p), beam%centre), rows, unknowns), [beam%each, beam%n])
-        found = matmul(part, reshape(u, [beam%n]))
+        part = reshape(along_unknowns(operator(rule, p, size, beam%axes(:, :, p), beam%centre), rows, unknowns), &
+                       [beam%each, beam%n])
+        found = matmul(part, element%u)
       end if
       strain = 0
       strain(rows) = found
@@ -242,18 +228,18 @@ contains
         place%length = beam%length
         forces = 0
         forces(rows) = resultant
-        call section_response(beam%material, rule, place, beam%sections, section_points, fields, of_family(rule, predef), strain, &
-                              forces, section, svars(:, :, p), energies)
+        call section_response(beam%material, rule, place, beam%sections, beam%places, element%fields, &
+                              of_family(rule, element%predef), strain, forces, section, svars(:, :, p), energies)
         chosen = section(rows, rows)
         resultant = forces(rows)
       else
-        call keep_stresses(beam%sections, section_points, beam%centre(:, 1), props(8), strain, svars(:, :, p))
+        call keep_stresses(beam%sections, beam%places, beam%centre(:, 1), element%props(8), strain, svars(:, :, p))
       end if
       resultants%force(:, p) = resultant
       resultants%stiffness(:, :, p) = chosen
       if (beam%finite .and. beam%dim == 3) then
-        call add_in_space(beam, rule, p, x, axes(:, :, p), chosen, &
-                          offset_of(associated(beam%material), chosen, found, resultant), u, force, stiffness)
+        call add_in_space(beam, rule, p, chosen, offset_of(associated(beam%material), chosen, found, resultant), beam%u, force, &
+                          stiffness)
       else
         if (beam%finite) call add_turning(rule%nodes, motion, weight, resultant, stiffness)
         force = force + weight*matmul(resultant, part)
@@ -263,43 +249,46 @@ contains
         svars(beam%values - 2*beam%each + 1:, k, p) = [resultant, found]
       end do
     end do
-    if (associated(beam%material)) then
-      ! what is not stored is dissipated
-      energy(4) = energy(2) + energy(4) - stored_before + energies%work - energies%elastic
-    end if
-    energy(2) = stored + energies%elastic
+    associate (energy => element%energy)
+      if (associated(beam%material)) then
+        ! what is not stored is dissipated
+        energy(4) = energy(2) + energy(4) - stored_before + energies%work - energies%elastic
+      end if
+      energy(2) = stored + energies%elastic
+    end associate
   end subroutine integrate
 
   !> The matrix of a stress (host_context): what the forces change by as the beam turns.
-  subroutine turn_stress(beam, rule, request, x, axes, u, du, resultants, stiffness)
+  subroutine turn_stress(beam, rule, element, resultants, stiffness)
     type(beam_t), intent(in) :: beam
     type(rule_t), intent(in) :: rule
-    integer(i4), intent(in) :: request
-    real(dp), intent(in) :: x(beam%dim, rule%nodes), axes(3, 3, rule%points), u(beam%each, rule%nodes), du(beam%each, rule%nodes)
+    type(element_t), intent(in) :: element
     type(resultants_t), intent(in) :: resultants
     real(dp), intent(out) :: stiffness(beam%n, beam%n)
     real(dp), parameter :: nothing(6, 6) = 0
-    real(dp) :: at(beam%each, rule%nodes), forces(beam%each), ignored(beam%n), turned(3, 3), size
+    real(dp), dimension(beam%each, rule%nodes) :: at, added
+    real(dp) :: forces(beam%each), ignored(beam%n), turned(3, 3), size
     type(plane_motion_t) :: motion
     integer :: p
+    added = reshape(element%added, shape(added))
     at = 0
-    if (beam%finite) at = u
+    if (beam%finite) at = beam%u
     ignored = 0
     stiffness = 0
     do p = 1, rule%points
-      size = stretch(rule, p, beam%dim, x)
+      size = stretch(rule, p, beam%dim, beam%x)
       forces = resultants%force(:, p)
       if (beam%dim == 3) then
-        if (request == added_stress) then
-          forces = aimag(strains_in_space(beam, rule, p, x, axes(:, :, p), cmplx(at, step*du, dp), turned))/step
+        if (element%request == added_stress) then
+          forces = aimag(strains_in_space(beam, rule, p, cmplx(at, step*added, dp), turned))/step
           forces = matmul(resultants%stiffness(:, :, p), forces)
         end if
-        call add_in_space(beam, rule, p, x, axes(:, :, p), nothing, forces, at, ignored, stiffness)
+        call add_in_space(beam, rule, p, nothing, forces, at, ignored, stiffness)
       else
-        motion = plane_motion(rule, p, size, axes(:, :, p), beam%centre, at)
-        if (request == added_stress) then
+        motion = plane_motion(rule, p, size, beam%axes(:, :, p), beam%centre, at)
+        if (element%request == added_stress) then
           associate (part => reshape(plane_operator(rule, p, size, motion, beam%centre), [beam%each, beam%n]))
-            forces = matmul(resultants%stiffness(:, :, p), matmul(part, reshape(du, [beam%n])))
+            forces = matmul(resultants%stiffness(:, :, p), matmul(part, element%added))
           end associate
         end if
         call add_turning(rule%nodes, motion, rule%weight(p)*size, forces, stiffness)
@@ -308,50 +297,48 @@ contains
   end subroutine turn_stress
 
   !> Strains of a beam in space in large displacements, and its directions now.
-  function strains_in_space(beam, rule, p, x, axes, u, turned) result(strain)
+  function strains_in_space(beam, rule, p, u, turned) result(strain)
     type(beam_t), intent(in) :: beam
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: p
-    real(dp), intent(in) :: x(3, rule%nodes), axes(3, 3)
     complex(dp), intent(in) :: u(6, rule%nodes)
     real(dp), intent(out) :: turned(3, 3)
     complex(dp) :: strain(6)
     if (is_quadratic(rule)) then
-      call curved_strains(point_of(beam, rule, p, x, axes), u, strain, turned)
+      call curved_strains(point_of(beam, rule, p), u, strain, turned)
     else
-      call turning_strains(x, axes, beam%centre, u, strain, turned)
+      call turning_strains(beam%x, beam%axes(:, :, p), beam%centre, u, strain, turned)
     end if
   end function strains_in_space
 
   !> Add its forces and stiffness, where the forces of the section are linear in its strains, but for an offset.
-  subroutine add_in_space(beam, rule, p, x, axes, section, offset, u, force, stiffness)
+  subroutine add_in_space(beam, rule, p, section, offset, u, force, stiffness)
     type(beam_t), intent(in) :: beam
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: p
-    real(dp), intent(in) :: x(3, rule%nodes), axes(3, 3), section(6, 6), offset(6), u(6, rule%nodes)
+    real(dp), intent(in) :: section(6, 6), offset(6), u(6, rule%nodes)
     real(dp), intent(inout) :: force(beam%n), stiffness(beam%n, beam%n)
     if (is_quadratic(rule)) then
-      call add_curved_beam(point_of(beam, rule, p, x, axes), section, offset, u, force, stiffness)
+      call add_curved_beam(point_of(beam, rule, p), section, offset, u, force, stiffness)
     else
       ! of its only point
-      call turning_beam(x, axes, beam%centre, section, offset, u, force, stiffness)
+      call turning_beam(beam%x, beam%axes(:, :, p), beam%centre, section, offset, u, force, stiffness)
     end if
   end subroutine add_in_space
 
   !> A point of a beam of three nodes.
-  pure function point_of(beam, rule, p, x, axes) result(point)
+  pure function point_of(beam, rule, p) result(point)
     type(beam_t), intent(in) :: beam
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: p
-    real(dp), intent(in) :: x(3, rule%nodes), axes(3, 3)
     type(curved_point) :: point
     real(dp) :: size
-    size = stretch(rule, p, 3, x)
+    size = stretch(rule, p, 3, beam%x)
     point%n = along_axis(rule, rule%n(:, p))
     point%slope = along_axis(rule, rule%dn(:, 1, p))/size
-    point%axes = axes
+    point%axes = beam%axes(:, :, p)
     point%centre = beam%centre
-    point%x = x
+    point%x = beam%x
     point%weight = rule%weight(p)*size
   end function point_of
 
@@ -463,22 +450,22 @@ contains
   end function kept_of
 
   !> Mass matrix: lumped with two nodes, consistent with three (Abaqus Theory Guide, Mass and inertia for Timoshenko beams).
-  pure subroutine find_mass(rule, dim, each, n, props, x, axes, mass)
+  pure subroutine find_mass(beam, rule, props, axes, mass)
+    type(beam_t), intent(in) :: beam
     type(rule_t), intent(in) :: rule
-    integer, intent(in) :: dim, each, n
-    real(dp), intent(in) :: props(head), x(dim, rule%nodes), axes(3, 3, rule%points)
-    real(dp), intent(out) :: mass(n, n)
+    real(dp), intent(in) :: props(head), axes(3, 3, rule%points)
+    real(dp), intent(inout) :: mass(beam%n, beam%n)
     real(dp) :: of_section(6, 6), turn(6, 6), at(rule%nodes), weight
-    integer :: i, j, k, p, unknowns(each)
+    integer :: i, j, k, p, each, unknowns(beam%each)
+    each = beam%each
     unknowns = kept_of(each, planar_unknowns)
-    mass = 0
     do p = 1, rule%points
       turn = 0
       turn(:3, :3) = axes(:, :, p)
       turn(4:, 4:) = axes(:, :, p)
       of_section = matmul(turn, matmul(reshape(props(45:80), [6, 6]), transpose(turn)))
       at = along_axis(rule, rule%n(:, p))
-      weight = props(1)*rule%weight(p)*stretch(rule, p, dim, x)
+      weight = props(1)*rule%weight(p)*stretch(rule, p, beam%dim, beam%x)
       do k = 1, rule%nodes
         do j = 1, rule%nodes
           if (j /= k .and. .not. is_quadratic(rule)) cycle

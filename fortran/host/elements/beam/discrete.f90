@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in springs, dashpots, masses and loads that follow their faces, as a procedure with the arguments of UEL. JTYPE:
+!> Built-in springs, dashpots, masses and loads that follow their faces. JTYPE:
 !>
 !> 2  SPRINGA: PROPS hold force and elongation in turn, ascending; SVARS elongation, force.
 !> 3  SPRING1, SPRING2: the same between the first unknown and the second, or the ground; SVARS as SPRINGA.
@@ -15,8 +15,8 @@
 !>
 !> In dynamic analyses SVARS go on with the forces of the last two increments, those of loads on faces always.
 module host_discrete
+  use host_adapter, only: element_t, keep_forces
   use host_bar, only: bar_forces, bar_of, bar_t
-  use host_inertia, only: is_dynamic, respond
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_followers, only: add_pressure, add_traction
@@ -24,139 +24,137 @@ module host_discrete
   use host_shape, only: rule_of, rule_t
   implicit none (type, external)
   private
-  public :: discrete_uel
+  public :: discrete
 
   integer(i4), parameter :: axial_spring = 2, spring = 3, mass_point = 4, face = 5, axial_dashpot = 6, dashpot = 7
   integer, parameter :: at_points = 3   !< JPROPS(5): a pressure at each point of the face
 
 contains
 
-  subroutine discrete_uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
-                          v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
-                          lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period)
-    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
-                   lflags(*), mlvarx, mdload, jprops(*), njprop
-    real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
-                params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
-    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2)
-    real(dp) :: pull, slope, rates(ndofel), by_change, damping(ndofel**2)
+  subroutine discrete(element)
+    type(element_t), intent(inout) :: element
+    real(dp) :: pull, slope, rates(element%n), by_change
     type(bar_t) :: bar
-    integer :: i, n, states
-    logical :: resists
-    n = ndofel
-    states = merge(0, 2, jtype == face)
-    rhs(1:n*nrhs) = 0
-    amatrx(1:n*n) = 0
-    mass = 0
-    do i = 1, n
-      if (jtype == mass_point) mass(i, i) = props(1)
-    end do
-    old = 0
-    if (nsvars >= states + 2*n) old = reshape(svars(states + 1:states + 2*n), [n, 2])
-    if (lflags(3) /= 3 .and. lflags(3) /= 4) then
-      select case (jtype)
+    integer :: i
+    call keep_forces(element, merge(1, 3, element%jtype == face), size(element%svars) + 1)
+    if (element%has_mass .and. element%jtype == mass_point) then
+      do i = 1, element%n
+        element%mass(i, i) = element%props(1)
+      end do
+    end if
+    if (element%has_damping .and. any(element%jtype == [axial_dashpot, dashpot])) then
+      rates = 0
+      call resist(element, rates, 1.0_dp)
+    end if
+    if (.not. element%has_forces) return
+    associate (n => element%n, u => element%u, svars => element%svars, energy => element%energy)
+      select case (element%jtype)
       case (axial_spring)
-        bar = bar_of(int(mcrd), lflags(2) /= 0, coords, u)
-        call look_up(int(nprops), props, bar%elongation, pull, slope)
+        bar = bar_of(element%mcrd, element%finite, element%coords, u)
+        call look_up(element%props, bar%elongation, pull, slope)
         call keep_state(bar%elongation, pull, svars, energy(2))
-        call bar_forces(int(mcrd), bar, lflags(3), pull, slope, du, rhs, amatrx)
+        call bar_forces(element%mcrd, bar, element%request, pull, slope, element%added, element%rhs, element%amatrx)
       case (spring)
-        call look_up(int(nprops), props, difference(n, u), pull, slope)
+        call look_up(element%props, difference(n, u), pull, slope)
         call keep_state(difference(n, u), pull, svars, energy(2))
-        call dof_forces(n, pull, slope, rhs, amatrx)
+        call dof_forces(n, pull, slope, element%rhs, element%amatrx)
       case (axial_dashpot, dashpot)
-        call rates_of(n, lflags, params, dtime, v, du, rates, by_change)
-        call resist(by_change)
+        call rates_of(element, rates, by_change)
+        call resist(element, rates, by_change)
       case (face)
-        call load_face(rule_of(int(jprops(1)), int(jprops(2))), n, lflags(2) /= 0, jprops(3) /= 0, int(jprops(4:5)), &
-                       props(1:1 + mcrd), adlmag(1:ndload), coords, u, rhs, amatrx)
-        if (nrhs == 2) then
-          call load_face(rule_of(int(jprops(1)), int(jprops(2))), n, lflags(2) /= 0, jprops(3) /= 0, int(jprops(4:5)), &
-                         props(1:1 + mcrd), ddlmag(1:ndload), coords, u, rhs(n + 1), mass)
-          ! the driver takes what holds a load, which `respond` turns around, for column 1 alone
-          rhs(n + 1:2*n) = -rhs(n + 1:2*n)
-          mass = 0
-        end if
-        energy(8) = -0.5_dp*dot_product(rhs(1:n) + old(:, 1), du(1:n))
+        call follow(element)
       case (mass_point)   ! has no force of its own
       case default
         call add_message(-3_i4, 'discrete elements of this kind are not known to the host')
         call escape()
       end select
-    end if
-    resists = any(jtype == [axial_dashpot, dashpot]) .and. lflags(3) == 3
-    if (resists) resists = lflags(7) == 1
-    if (resists) then
-      rates = 0
-      call resist(1.0_dp)
-      damping = amatrx(1:n**2)
-    end if
-    call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
-    if (resists) amatrx(1:n**2) = damping
-    if (nsvars >= states + 2*n) svars(states + 1:states + 2*n) = reshape(old, [2*n])
-  contains
+    end associate
+  end subroutine discrete
 
-    !> Forces of a dashpot at its rates, and their derivatives: by_change is that of a rate.
-    subroutine resist(by_change)
-      real(dp), intent(in) :: by_change
-      if (jtype == axial_dashpot) then
-        bar = bar_of(int(mcrd), lflags(2) /= 0, coords, u)
-        call look_up(int(nprops), props, dot_product(bar%along(:mcrd), rates(mcrd + 1:) - rates(:mcrd)), pull, slope)
-        call keep_state(bar%elongation, pull, svars, energy(5))
-        call bar_forces(int(mcrd), bar, lflags(3), pull, slope*by_change, du, rhs, amatrx)
+  !> Forces of a dashpot at its rates, and their derivatives: by_change is that of a rate.
+  subroutine resist(element, rates, by_change)
+    type(element_t), intent(inout) :: element
+    real(dp), intent(in) :: rates(element%n), by_change
+    real(dp) :: pull, slope
+    type(bar_t) :: bar
+    associate (n => element%n, dim => element%mcrd, energy => element%energy)
+      if (element%jtype == axial_dashpot) then
+        bar = bar_of(dim, element%finite, element%coords, element%u)
+        call look_up(element%props, dot_product(bar%along(:dim), rates(dim + 1:) - rates(:dim)), pull, slope)
+        call keep_state(bar%elongation, pull, element%svars, energy(5))
+        call bar_forces(dim, bar, element%request, pull, slope*by_change, element%added, element%rhs, element%amatrx)
       else
-        call look_up(int(nprops), props, difference(n, rates), pull, slope)
-        call keep_state(difference(n, u), pull, svars, energy(5))
-        call dof_forces(n, pull, slope*by_change, rhs, amatrx)
+        call look_up(element%props, difference(n, rates), pull, slope)
+        call keep_state(difference(n, element%u), pull, element%svars, energy(5))
+        call dof_forces(n, pull, slope*by_change, element%rhs, element%amatrx)
       end if
-    end subroutine resist
-  end subroutine discrete_uel
+    end associate
+  end subroutine resist
+
+  !> Forces of a load on a face, and of its increment.
+  subroutine follow(element)
+    type(element_t), intent(inout) :: element
+    real(dp) :: unused(element%n, element%n)
+    type(rule_t), pointer :: rule
+    associate (rhs => element%rhs, loads => element%ndload)
+      rule => rule_of(int(element%jprops(1)), int(element%jprops(2)))
+      call load_face(rule, element, element%adlmag(:loads), rhs(:, 1), element%amatrx)
+      if (size(rhs, 2) == 2) then
+        call load_face(rule, element, element%ddlmag(:loads), rhs(:, 2), unused)
+        ! the driver takes what holds a load, which `respond` turns around, for column 1 alone
+        rhs(:, 2) = -rhs(:, 2)
+      end if
+      element%energy(8) = -0.5_dp*dot_product(rhs(:, 1) + element%old(:, 1), element%added)
+    end associate
+  end subroutine follow
 
   !> Rates of the unknowns, and their derivative by these.
-  pure subroutine rates_of(n, lflags, params, dtime, v, du, rates, by_change)
-    integer, intent(in) :: n
-    integer(i4), intent(in) :: lflags(4)
-    real(dp), intent(in) :: params(3), dtime, v(n), du(n)
-    real(dp), intent(out) :: rates(n), by_change
+  pure subroutine rates_of(element, rates, by_change)
+    type(element_t), intent(in) :: element
+    real(dp), intent(out) :: rates(element%n), by_change
     rates = 0
     by_change = 0
-    if (lflags(4) /= 0) return
-    if (is_dynamic(lflags(1))) then
-      rates = v
-      if (dtime > 0) by_change = params(3)/(params(2)*dtime)
-    else if (dtime > 0) then
-      rates = du/dtime
-      by_change = 1/dtime
+    if (element%perturbation) return
+    if (element%dynamic) then
+      rates = element%v
+      if (element%dtime > 0) by_change = element%params(3)/(element%params(2)*element%dtime)
+    else if (element%dtime > 0) then
+      rates = element%du/element%dtime
+      by_change = 1/element%dtime
     end if
   end subroutine rates_of
 
   !> Force and stiffness of a load on a face: in small displacements on the initial one.
-  pure subroutine load_face(rule, n, finite, axisymmetric, kind, props, magnitudes, start, u, force, stiffness)
+  pure subroutine load_face(rule, element, magnitudes, force, stiffness)
     type(rule_t), intent(in) :: rule
-    integer, intent(in) :: n, kind(2)     !< n: number of displacements
-    logical, intent(in) :: finite, axisymmetric
-    real(dp), intent(in) :: props(:), magnitudes(:), start(n), u(n)
-    real(dp), intent(inout) :: force(n), stiffness(n, n)
-    real(dp) :: x(n), pressures(rule%points)
+    type(element_t), intent(in) :: element
+    real(dp), intent(in) :: magnitudes(:)
+    real(dp), intent(inout) :: force(element%n), stiffness(element%n, element%n)
+    real(dp) :: start(element%n), x(element%n), pressures(rule%points)
+    logical :: axisymmetric
+    start = reshape(element%coords, [element%n])
     x = start
-    if (finite) x = start + u
-    pressures = sum(magnitudes)
-    if (kind(2) == at_points .and. size(magnitudes) > 0) pressures = magnitudes
-    if (kind(2) == 0 .or. kind(2) == at_points) then
-      call add_pressure(rule, axisymmetric, kind(1), props(1), pressures, x, force, stiffness)
-    else
-      call add_traction(rule, axisymmetric, kind(2) == 2, props(1), sum(magnitudes), props(2:), start, x, force, stiffness)
-    end if
-    if (.not. finite) stiffness = 0
+    if (element%finite) x = start + element%u
+    axisymmetric = element%jprops(3) /= 0
+    associate (outward => int(element%jprops(4)), kind => element%jprops(5), props => element%props)
+      pressures = sum(magnitudes)
+      if (kind == at_points .and. size(magnitudes) > 0) pressures = magnitudes
+      if (kind == 0 .or. kind == at_points) then
+        call add_pressure(rule, axisymmetric, outward, props(1), pressures, x, force, stiffness)
+      else
+        call add_traction(rule, axisymmetric, kind == 2, props(1), sum(magnitudes), props(2:), start, x, force, stiffness)
+      end if
+    end associate
+    if (.not. element%finite) stiffness = 0
   end subroutine load_face
 
   !> Force and its derivative by the elongation, or the rate: proportional where PROPS is one number, else along the table of force
   !> and elongation, constant outside it.
-  pure subroutine look_up(n, props, elongation, pull, slope)
-    integer, intent(in) :: n
-    real(dp), intent(in) :: props(n), elongation
+  pure subroutine look_up(props, elongation, pull, slope)
+    real(dp), intent(in) :: props(:), elongation
     real(dp), intent(out) :: pull, slope
-    integer :: k
+    integer :: k, n
+    n = size(props)
     slope = 0
     if (n == 1) then
       slope = props(1)

@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in cohesive elements COH2D4 and COH3D8 with traction-separation response, as a procedure with the arguments of UEL.
+!> Built-in cohesive elements COH2D4 and COH3D8 with traction-separation response.
 !>
 !> Nodes of the bottom face, then of the top face: 1 2 and 4 3, or 1 2 3 4 and 5 6 7 8. Integration points lie at the corners of the
 !> mid-surface, so the separation of a point is that of one pair of nodes. The normal points from bottom to top; s is the tangent
@@ -23,7 +23,7 @@
 !> initiation criterion, status; in dynamic analyses then the forces of the last two increments.
 module host_cohesive
   use core_rotation, only: line_frame, surface_frame, turned_frame
-  use host_inertia, only: is_dynamic, respond
+  use host_adapter, only: element_t, keep_forces
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_protect, only: escape
@@ -31,7 +31,7 @@ module host_cohesive
   use host_traction_separation, only: cohesive_law, cohesive_point, fine, n_law_integers, read_law, update_point
   implicit none (type, external)
   private
-  public :: cohesive_uel
+  public :: cohesive
 
   integer, parameter :: p_thickness = 1, p_width = 2, p_density = 3, p_law = 4
   integer, parameter :: j_family = 1, j_deletion = 2, j_law = 3
@@ -41,37 +41,19 @@ module host_cohesive
 
 contains
 
-  subroutine cohesive_uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
-                          v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
-                          lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period)
-    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
-                   lflags(*), mlvarx, mdload, jprops(*), njprop
-    real(dp) :: rhs(*), amatrx(*), svars(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
-                params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
+  subroutine cohesive(element)
+    type(element_t), intent(inout) :: element
     integer, parameter :: forces_wanted(4) = [1, 2, 5, 6]
-    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2)
-    integer :: points, n, states
-    type(cohesive_law) :: law
-    rhs(1:ndofel*nrhs) = 0
-    amatrx(1:ndofel*ndofel) = 0
-    points = nnode/2
-    n = ndofel
-    states = points*values_of_point(int(mcrd))
-    mass = 0
-    if (is_dynamic(lflags(1)) .or. any(lflags(3) == [4, 6])) then
-      call lump_mass(int(jprops(j_family)), int(mcrd), points, props(p_thickness), props(p_width)*props(p_density), coords, mass)
-    end if
-    old = 0
-    if (nsvars > states) old = reshape(svars(states + 1:states + 2*n), [n, 2])
-    if (any(lflags(3) == forces_wanted)) then
-      law = read_law(props(p_law:nprops), jprops(j_law:j_law + n_law_integers - 1))
-      call integrate(int(jprops(j_family)), int(mcrd), points, values_of_point(int(mcrd)), law, props(p_thickness), &
-                     props(p_width), jprops(j_deletion) /= 0, lflags(2) /= 0, dtime, coords, u, rhs, amatrx, svars, energy)
-    end if
-    rhs(1:n) = -rhs(1:n)
-    call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
-    if (nsvars > states) svars(states + 1:states + 2*n) = reshape(old, [2*n])
-  end subroutine cohesive_uel
+    integer :: points
+    points = element%nodes/2
+    call keep_forces(element, points*values_of_point(element%mcrd) + 1, size(element%svars) + 1)
+    if (element%has_mass) call lump_mass(element, points, element%coords, element%mass)
+    if (.not. any(element%request == forces_wanted)) return
+    associate (props => element%props, jprops => element%jprops, dim => element%mcrd)
+      call integrate(element, read_law(props(p_law:), jprops(j_law:j_law + n_law_integers - 1)), dim, points, element%coords, &
+                     element%u, element%rhs, element%amatrx, element%svars)
+    end associate
+  end subroutine cohesive
 
   !> SVARS of a point.
   pure integer function values_of_point(dim)
@@ -79,33 +61,32 @@ contains
     values_of_point = 5*dim + 5
   end function values_of_point
 
-  !> Residual, tangent, state and energies.
-  subroutine integrate(family, n, points, per_point, law, thickness, width, deletion, finite, dtime, x, u, rhs, stiffness, &
-                       svars, energy)
-    integer, intent(in) :: family        !< of the faces (host_shape)
-    integer, intent(in) :: n, points, per_point
+  !> Force, tangent, state and energies.
+  subroutine integrate(element, law, n, points, x, u, rhs, stiffness, svars)
+    type(element_t), intent(inout) :: element
     type(cohesive_law), intent(in) :: law
-    real(dp), intent(in) :: thickness, width, dtime, x(n, 2*points), u(n, 2*points)
-    logical, intent(in) :: deletion, finite
-    real(dp), intent(inout) :: rhs(n, 2*points), stiffness(n, 2*points, n, 2*points), svars(per_point, points), energy(8)
+    integer, intent(in) :: n, points
+    real(dp), intent(in) :: x(n, 2*points), u(n, 2*points)
+    real(dp), intent(inout) :: rhs(n, 2*points), stiffness(n, 2*points, n, 2*points), svars(5*n + 5, points)
     type(cohesive_point) :: old, new
     real(dp) :: frame(3, n), area, separation(3), tangent(3, 3), force(n), block(n, n), distance, fault
     real(dp) :: present_frame(3, n), turning(3, n, n, points), apart(n), change(n)
-    integer :: p, bottom, top, status, i, k, q, node
+    integer :: p, bottom, top, status, i, k, q, node, family
     logical :: removed, failed
+    family = element%jprops(j_family)
     removed = is_removed(n, svars(:, 1))
-    failed = deletion
+    failed = element%jprops(j_deletion) /= 0
     ! deletion counts the energy that is still stored as lost by damage
-    if (removed) energy(4) = energy(4) + energy(2)
-    energy(2) = 0
-    if (.not. removed) energy(3:4) = 0
+    if (removed) element%energy(4) = element%energy(4) + element%energy(2)
+    element%energy(2) = 0
+    if (.not. removed) element%energy(3:4) = 0
     do p = 1, points
       bottom = p
       top = opposite(family, points, p)
       call measure(family, n, points, p, x, frame, area)
-      distance = thickness_at(n, points, x, thickness, frame, bottom, top)
+      distance = thickness_at(n, points, x, element%props(p_thickness), frame, bottom, top)
       separation = matmul(frame, u(:, top) - u(:, bottom))
-      if (finite) then
+      if (element%finite) then
         call turn_frame(family, n, points, p, x, x + u, frame, present_frame, turning)
         apart = x(:, top) + u(:, top) - x(:, bottom) - u(:, bottom)
         separation = matmul(present_frame, apart) - matmul(frame, x(:, top) - x(:, bottom))
@@ -117,19 +98,19 @@ contains
         new%separation = separation
         new%traction = 0
       else
-        call update_point(law, distance, dtime, separation, old, new, tangent, status, fault)
+        call update_point(law, distance, element%dtime, separation, old, new, tangent, status, fault)
         if (status /= fine) call stop_with('*DAMAGE EVOLUTION: the fracture energy at the mode mix must exceed the elastic ' &
                                            //'energy at the onset of damage, and falls short by', fault, p)
-        area = width*area
+        area = element%props(p_width)*area
         force = area*matmul(new%traction, frame)
-        rhs(:, bottom) = rhs(:, bottom) + force
-        rhs(:, top) = rhs(:, top) - force
+        rhs(:, bottom) = rhs(:, bottom) - force
+        rhs(:, top) = rhs(:, top) + force
         block = area*matmul(transpose(frame), matmul(tangent, frame))
         stiffness(:, bottom, :, bottom) = stiffness(:, bottom, :, bottom) + block
         stiffness(:, top, :, top) = stiffness(:, top, :, top) + block
         stiffness(:, bottom, :, top) = stiffness(:, bottom, :, top) - block
         stiffness(:, top, :, bottom) = stiffness(:, top, :, bottom) - block
-        if (finite) then
+        if (element%finite) then
           do q = 1, points
             do i = 1, n
               ! a node of the mid-surface moves by half of what each of its two nodes does
@@ -143,27 +124,30 @@ contains
             end do
           end do
         end if
-        energy(2) = energy(2) + 0.5_dp*area*dot_product(new%traction, separation)
-        energy(3) = energy(3) + area*new%viscous
-        energy(4) = energy(4) + area*sum(new%dissipated)
+        element%energy(2:4) = element%energy(2:4) &
+                              + area*[0.5_dp*dot_product(new%traction, separation), new%viscous, sum(new%dissipated)]
         failed = failed .and. new%damage >= law%most .and. separation(1) >= 0
       end if
       call put_point(n, 0.5_dp*(x(:, bottom) + x(:, top)), new, distance, svars(:, p))
     end do
-    svars(per_point, :) = merge(0, 1, removed .or. failed)
+    svars(5*n + 5, :) = merge(0, 1, removed .or. failed)
   end subroutine integrate
 
   !> Lumped mass matrix.
-  subroutine lump_mass(family, n, points, thickness, density, x, mass)
-    integer, intent(in) :: family, n, points
-    real(dp), intent(in) :: thickness, density, x(n, 2*points)
-    real(dp), intent(inout) :: mass(n, 2*points, n, 2*points)
-    real(dp) :: frame(3, n), area, half
-    integer :: p, i, top
+  subroutine lump_mass(element, points, x, mass)
+    type(element_t), intent(in) :: element
+    integer, intent(in) :: points
+    real(dp), intent(in) :: x(element%mcrd, 2*points)
+    real(dp), intent(inout) :: mass(element%mcrd, 2*points, element%mcrd, 2*points)
+    real(dp) :: frame(3, element%mcrd), area, half
+    integer :: p, i, top, n, family
+    n = element%mcrd
+    family = element%jprops(j_family)
     do p = 1, points
       top = opposite(family, points, p)
       call measure(family, n, points, p, x, frame, area)
-      half = 0.5_dp*density*area*thickness_at(n, points, x, thickness, frame, p, top)
+      half = 0.5_dp*(element%props(p_width)*element%props(p_density))*area &
+             *thickness_at(n, points, x, element%props(p_thickness), frame, p, top)
       do i = 1, n
         mass(i, p, i, p) = half
         mass(i, top, i, top) = half

@@ -1,7 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Conduction and storage of heat in continuum elements, and heat transfer elements (DC2D4, DCAX4, DC3D8, ...), as a procedure
-!> with the arguments of UELMAT.
+!> Conduction and storage of heat in continuum elements, and heat transfer elements (DC2D4, DCAX4, DC3D8, ...).
 !>
 !> The equations are those of Abaqus' Theory Guide (Uncoupled heat transfer analysis): the internal energy changes over time by
 !> backward differences, with the mass before any displacement; heat flows through the present shape. Elements with straight edges
@@ -14,17 +13,18 @@
 !> SVARS the heat flux of each point, then the energies per mass of UMATHT.
 module host_conduction
   use core_small_matrix, only: invert
+  use host_adapter, only: element_t
   use host_context, only: current, heat_t, initial_stresses
   use host_coupling, only: interpolate_fields
   use host_kinds, only: dp, i4
   use host_kinematics, only: gradients, point_position, size_of
-  use host_materials, only: find_material, material_t
+  use host_materials, only: material_t
   use host_shape, only: is_quadratic, rule_of, rule_t
   use host_usdfld, only: call_usdfld
   use host_thermal, only: call_hetval, call_umatht, conductivity_at, energy_taken, flow_t
   implicit none (type, external)
   private
-  public :: body_t, conduct, heat_uelmat, is_steady, add_flow, add_product, unit
+  public :: body_t, conduct, heat_transfer, is_steady, add_flow, add_product, unit
 
   !> An element whose corners, or nodes, have temperatures.
   type :: body_t
@@ -41,33 +41,27 @@ module host_conduction
 
 contains
 
-  subroutine heat_uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
-                         v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
-                         lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period, materiallib)
-    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
-                   lflags(*), mlvarx, mdload, jprops(*), njprop, materiallib
-    real(dp) :: rhs(ndofel), amatrx(ndofel, ndofel), svars(nsvars), energy(*), props(nprops), coords(mcrd, nnode), u(ndofel), &
-                du(ndofel), v(*), a(*), time(*), dtime, params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
-    type(material_t), pointer :: material
+  subroutine heat_transfer(element)
+    type(element_t), intent(inout) :: element
     type(body_t) :: body
-    integer :: points
-    rhs = 0
-    amatrx = 0
-    if (any(lflags(3) == [3_i4, 4_i4, initial_stresses])) return
-    material => find_material(materiallib)
-    body%geometry => rule_of(int(jprops(1)), int(jprops(2)))
-    body%field => body%geometry
-    body%direct = jprops(3)
-    body%depth = merge(props(1), 1.0_dp, mcrd == 2)
-    body%dtime = merge(0.0_dp, dtime, is_steady(lflags(1)))
-    body%generates = .true.
-    body%modified = .true.
-    points = body%geometry%points
-    body%states = points
-    current%deformed = .false.
-    call conduct(body, material, coords, coords, int(npredf), predef, u, du, svars(:mcrd*points), svars(mcrd*points + 1:), rhs, &
-                 amatrx)
-  end subroutine heat_uelmat
+    integer :: fluxes
+    if (.not. element%has_forces .or. element%request == initial_stresses) return
+    associate (jprops => element%jprops, dim => element%mcrd)
+      body%geometry => rule_of(int(jprops(1)), int(jprops(2)))
+      body%field => body%geometry
+      body%direct = jprops(3)
+      body%depth = merge(element%props(1), 1.0_dp, dim == 2)
+      body%dtime = merge(0.0_dp, element%dtime, is_steady(element%procedure_code))
+      body%generates = .true.
+      body%modified = .true.
+      body%states = body%geometry%points
+      fluxes = dim*body%geometry%points
+      current%deformed = .false.
+      call conduct(body, element%material, element%coords, element%coords, element%fields, element%predef, element%u, element%du, &
+                   element%svars(:fluxes), element%svars(fluxes + 1:), element%rhs, element%amatrx)
+      element%rhs = -element%rhs
+    end associate
+  end subroutine heat_transfer
 
   !> LFLAGS(1) of a step without storage of heat, or of a diffusing material.
   elemental logical function is_steady(procedure_code)

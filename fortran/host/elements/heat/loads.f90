@@ -1,8 +1,8 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Heat that enters through faces, into volumes and at nodes, as a procedure with the arguments of UEL: fluxes, by the deck or by
-!> DFLUX, films, by the deck or by FILM (User Subroutines Guide, DFLUX, FILM), and radiation (Analysis User's Guide, Thermal loads).
-!> In mass diffusion solute enters as heat does.
+!> Heat that enters through faces, into volumes and at nodes: fluxes, by the deck or by DFLUX, films, by the deck or by FILM (User
+!> Subroutines Guide, DFLUX, FILM), and radiation (Analysis User's Guide, Thermal loads). In mass diffusion solute enters as heat
+!> does.
 !>
 !> JTYPE: 1 a face, 2 a volume, 3 a node. JPROPS: family and integration points of the shape, family of the temperatures, 1 about an
 !> axis, number of the load (define_heat_load), 1 in mass diffusion (host_mass_diffusion). PROPS(1): thickness or 2 pi, at a node
@@ -17,13 +17,14 @@ module host_heat_loads
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
   use core_rotation, only: cross
   use core_small_matrix, only: determinant
+  use host_adapter, only: element_t
   use host_context, only: current
   use host_guarded, only: guarded_t, lay_out_guarded, warn_of_no_numbers, warn_of_writes
   use host_kinds, only: dp, i4
   use host_shape, only: radius_of, rule_of, rule_t
   implicit none (type, external)
   private
-  public :: define_heat_load, heat_load_uel, heat_load_t
+  public :: define_heat_load, heat_load, heat_load_t
 
   integer(i4), parameter :: volume = 2, node = 3   !< JTYPE
 
@@ -73,53 +74,51 @@ contains
     number = size(loads, kind=i4)
   end function define_heat_load
 
-  subroutine heat_load_uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
-                           v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
-                           lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period)
-    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
-                   lflags(*), mlvarx, mdload, jprops(*), njprop
-    real(dp) :: rhs(ndofel, nrhs), amatrx(ndofel, ndofel), svars(*), energy(*), props(*), coords(mcrd, nnode), u(ndofel), du(*), &
-                v(*), a(*), time(2), dtime, params(*), adlmag(*), predef(2, npredf, nnode), ddlmag(*), pnewdt, period
+  subroutine heat_load(element)
+    type(element_t), intent(inout) :: element
     type(rule_t), pointer :: shape, field
-    logical :: corners
+    logical :: corners, axisymmetric
     integer :: p, points
-    real(dp) :: n(nnode), of_field(ndofel), weight, given(2), driving(2), heat, slope
-    rhs = 0
-    amatrx = 0
-    if (ndload == 0 .or. any(lflags(3) == [3_i4, 4_i4])) return
+    real(dp) :: n(element%nodes), of_field(element%n), weight, given(2), driving(2), heat, slope
+    if (.not. element%has_forces .or. element%ndload == 0) return
     given = 0
-    do p = 1, ndload
-      given(jdltyp(p)) = adlmag(p)
+    do p = 1, element%ndload
+      given(element%jdltyp(p)) = element%adlmag(p)
     end do
     points = 1
     corners = .false.
-    if (jtype /= node) then
-      shape => rule_of(int(jprops(1)), int(jprops(2)))
-      field => rule_of(int(jprops(3)), int(jprops(2)))
-      corners = jtype /= volume .and. shape%nodes == shape%corners
-      points = merge(shape%nodes, shape%points, corners)
-    end if
-    do p = 1, points
-      if (jtype == node .or. corners) then
-        n = 0
-        n(p) = 1
-        of_field = n(:ndofel)
-        weight = props(1)
-        if (corners) weight = weight*corner_area(shape, p, jprops(4) /= 0, coords)
-      else
-        n = shape%n(:, p)
-        of_field = field%n(:, p)
-        weight = props(1)*shape%weight(p)*area(matmul(coords, shape%dn(:, :, p)))*radius_of(shape, p, jprops(4) /= 0, coords)
+    associate (jprops => element%jprops, jtype => element%jtype, props => element%props, x => element%coords, &
+               fields => element%fields, predef => element%predef)
+      axisymmetric = jprops(4) /= 0
+      if (jtype /= node) then
+        shape => rule_of(int(jprops(1)), int(jprops(2)))
+        field => rule_of(int(jprops(3)), int(jprops(2)))
+        corners = jtype /= volume .and. shape%nodes == shape%corners
+        points = merge(shape%nodes, shape%points, corners)
       end if
-      driving = 0
-      if (jprops(6) /= 0) driving(1) = dot_product(predef(1, 1, :), n)
-      if (jprops(6) /= 0 .and. npredf > 2) driving(2) = dot_product(predef(1, npredf - 1, :), n)
-      call heat_at(loads(jprops(5)), int(p, i4), merge(jelem, 0_i4, jtype == node), matmul(coords, n), dot_product(u, of_field), &
-                   time, weight, given, matmul(predef(1, 2:npredf - 1, :), n), driving, heat, slope)
-      rhs(:, 1) = rhs(:, 1) + weight*heat*of_field
-      amatrx = amatrx - weight*slope*spread(of_field, 2, int(ndofel))*spread(of_field, 1, int(ndofel))
-    end do
-  end subroutine heat_load_uel
+      do p = 1, points
+        if (jtype == node .or. corners) then
+          n = 0
+          n(p) = 1
+          of_field = n(:element%n)
+          weight = props(1)
+          if (corners) weight = weight*corner_area(shape, p, axisymmetric, x)
+        else
+          n = shape%n(:, p)
+          of_field = field%n(:, p)
+          weight = props(1)*shape%weight(p)*area(matmul(x, shape%dn(:, :, p)))*radius_of(shape, p, axisymmetric, x)
+        end if
+        driving = 0
+        if (jprops(6) /= 0) driving(1) = dot_product(predef(1, 1, :), n)
+        if (jprops(6) /= 0 .and. fields > 2) driving(2) = dot_product(predef(1, fields - 1, :), n)
+        call heat_at(loads(jprops(5)), int(p, i4), merge(element%jelem, 0_i4, jtype == node), matmul(x, n), &
+                     dot_product(element%u, of_field), element%time, weight, given, matmul(predef(1, 2:fields - 1, :), n), &
+                     driving, heat, slope)
+        element%rhs(:, 1) = element%rhs(:, 1) - weight*heat*of_field
+        element%amatrx = element%amatrx - weight*slope*spread(of_field, 2, element%n)*spread(of_field, 1, element%n)
+      end do
+    end associate
+  end subroutine heat_load
 
   !> Area, length or volume per parent one.
   pure real(dp) function area(along)

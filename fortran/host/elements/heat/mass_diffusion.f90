@@ -1,7 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Heat transfer elements (DC2D4, DCAX4, DC3D8, ...) in *MASS DIFFUSION, as a procedure with the arguments of UELMAT: their unknowns
-!> are normalized concentrations.
+!> Heat transfer elements (DC2D4, DCAX4, DC3D8, ...) in *MASS DIFFUSION: their unknowns are normalized concentrations.
 !>
 !> The concentration of the diffusing material changes over time by backward differences; elements with straight edges store it at
 !> their corners, others at their integration points, as heat is (host_conduction). Predefined fields: the first is the temperature,
@@ -10,43 +9,36 @@
 !> JPROPS family, integration points, direct strains (host_kinematics); PROPS(1) thickness or 2 pi; SVARS of each point the
 !> flux of the concentration, the concentration, the amount of solute and the volume.
 module host_mass_diffusion
+  use host_adapter, only: element_t
   use host_conduction, only: add_flow, add_product, is_steady, unit
   use host_context, only: current, initial_stresses
   use host_diffusion, only: diffusion_t, diffusive_flow, driven_t, solubility_at
   use host_kinds, only: dp, i4
   use host_kinematics, only: gradients
-  use host_materials, only: find_material, material_t
   use host_messages, only: add_message
   use host_protect, only: escape
   use host_shape, only: is_quadratic, rule_of, rule_t
   use host_thermal, only: flow_t
   implicit none (type, external)
   private
-  public :: mass_diffusion_uelmat
+  public :: mass_diffusion
 
 contains
 
-  subroutine mass_diffusion_uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
-                                   v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
-                                   lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period, materiallib)
-    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
-                   lflags(*), mlvarx, mdload, jprops(*), njprop, materiallib
-    real(dp) :: rhs(ndofel), amatrx(ndofel, ndofel), svars(nsvars), energy(*), props(nprops), coords(mcrd, nnode), u(ndofel), &
-                du(ndofel), v(*), a(*), time(*), dtime, params(*), adlmag(*), predef(2, npredf, nnode), ddlmag(*), pnewdt, period
-    type(material_t), pointer :: material
+  subroutine mass_diffusion(element)
+    type(element_t), intent(inout) :: element
     type(rule_t), pointer :: rule
-    real(dp) :: pressure(nnode)
-    rhs = 0
-    amatrx = 0
-    if (any(lflags(3) == [3_i4, 4_i4, initial_stresses])) return
-    material => find_material(materiallib)
-    rule => rule_of(int(jprops(1)), int(jprops(2)))
+    real(dp) :: pressure(element%nodes)
+    if (.not. element%has_forces .or. element%request == initial_stresses) return
+    rule => rule_of(int(element%jprops(1)), int(element%jprops(2)))
     pressure = 0
-    if (npredf > 2) pressure = predef(1, npredf - 1, :)
+    if (element%fields > 2) pressure = element%predef(1, element%fields - 1, :)
     current%deformed = .false.
-    call diffuse(rule, int(jprops(3)), material%diffusion, merge(props(1), 1.0_dp, mcrd == 2), &
-                 merge(0.0_dp, dtime, is_steady(lflags(1))), coords, predef(:, 1, :), pressure, u, du, svars, rhs, amatrx)
-  end subroutine mass_diffusion_uelmat
+    call diffuse(rule, int(element%jprops(3)), element%material%diffusion, merge(element%props(1), 1.0_dp, element%mcrd == 2), &
+                 merge(0.0_dp, element%dtime, is_steady(element%procedure_code)), element%coords, element%predef(:, 1, :), &
+                 pressure, element%u, element%du, element%svars, element%rhs, element%amatrx)
+    element%rhs = -element%rhs
+  end subroutine mass_diffusion
 
   !> Add the solute that flows into the nodes, and minus its derivative by their normalized concentrations.
   subroutine diffuse(rule, direct, law, depth, dtime, x, temperature, pressure, phi, dphi, state, inflow, tangent)

@@ -1,7 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in continuum shells (SC6R, SC8R) as a procedure with the arguments of UELMAT.
-!> harness/uel/elements/families/continuum_shell.py gives what they need.
+!> Built-in continuum shells (SC6R, SC8R). harness/uel/elements/families/continuum_shell.py gives what they need.
 !>
 !> JPROPS: family of the element (host_shape), that of its surface, section points, 1 with *ORIENTATION, 1 if the transverse shear
 !> stiffness goes with the thickness; then those of host_shell_section. PROPS are there; values of the element are the thickness
@@ -34,12 +33,12 @@
 !> SVARS hold the values of the section points; in dynamic analyses then the forces of the last two increments; then the directions
 !> of the integration point, with *ORIENTATION (host_axes); last the stack direction.
 module host_continuum_shell
-  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
   use core_small_matrix, only: invert
   use core_solid_rotation, only: find_turn, solid_turn
+  use host_adapter, only: element_t, keep_forces
   use host_axes, only: values_of_axes
-  use host_context, only: added_stress, current, stress_matrix
-  use host_inertia, only: mass_matrix, respond
+  use host_context, only: added_stress, current
+  use host_inertia, only: mass_matrix
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_protect, only: escape
@@ -50,7 +49,7 @@ module host_continuum_shell
   use host_shell_strains, only: assumed_shear, enhance, shell_middle, shell_place, shell_point
   implicit none (type, external)
   private
-  public :: continuum_shell_uelmat
+  public :: continuum_shell
 
   integer, parameter :: across = 9     !< place of the strain across among those of a point
 
@@ -77,124 +76,103 @@ module host_continuum_shell
 
 contains
 
-  subroutine continuum_shell_uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
-                                    v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
-                                    lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period, materiallib)
-    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
-                   lflags(*), mlvarx, mdload, jprops(*), njprop, materiallib
-    real(dp), target :: svars(*)
-    real(dp) :: rhs(*), amatrx(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
-                params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
+  subroutine continuum_shell(element)
+    type(element_t), intent(inout) :: element
     real(dp), pointer, contiguous :: axes(:, :, :, :)
-    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2)
-    integer :: n, first, behind
-    n = ndofel
-    first = jprops(3)*values_of_section_point + 1
-    behind = nsvars
+    integer :: behind
+    behind = size(element%svars)
     axes => null()
-    if (jprops(4) /= 0) then
+    if (element%jprops(4) /= 0) then
       behind = behind - values_of_axes
-      call c_f_pointer(c_loc(svars(behind)), axes, [3, 3, 2, 1])
+      axes(1:3, 1:3, 1:2, 1:1) => element%svars(behind:)
     end if
-    old = 0
-    if (behind > first) old = reshape(svars(first:behind - 1), [n, 2])
-    call mass_matrix(rule_of(int(jprops(1)), int(nnode)), .false., props(2), coords, mass)
-    rhs(1:n*nrhs) = 0
-    amatrx(1:n*n) = 0
-    if (lflags(3) /= 3 .and. lflags(3) /= 4) then
-      call integrate(int(nnode), n, jprops, props, lflags, coords, nint(svars(nsvars)), axes, int(npredf), predef, u, du, rhs, &
-                     amatrx, svars, energy)
+    call keep_forces(element, element%jprops(3)*values_of_section_point + 1, behind)
+    if (element%has_mass) then
+      call mass_matrix(rule_of(int(element%jprops(1)), element%nodes), .false., element%props(2), element%coords, element%mass)
     end if
-    call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
-    if (behind > first) svars(first:behind - 1) = reshape(old, [2*n])
-  end subroutine continuum_shell_uelmat
+    if (element%has_forces) call integrate(element, axes)
+  end subroutine continuum_shell
 
   !> Force, tangent, state and energies; or the matrix of a stress (host_context).
-  subroutine integrate(nodes, n, jprops, props, lflags, x, stack, axes, fields, predef, u, du, force, stiffness, svars, energy)
-    integer, intent(in) :: nodes, n, stack, fields
-    integer(i4), intent(in) :: jprops(*), lflags(3)
-    real(dp), intent(in) :: props(*), x(3, nodes), predef(2, fields, nodes), u(n), du(n)
+  subroutine integrate(element, axes)
+    type(element_t), intent(inout) :: element
     real(dp), intent(in), pointer, contiguous :: axes(:, :, :, :)
-    real(dp), intent(inout) :: force(n), stiffness(n, n), svars(*), energy(8)
-    real(dp) :: elastic(6, 6), section(3, jprops(3)), ratio, change(n), k_shear(2, 2)
+    real(dp) :: elastic(6, 6), section(3, element%jprops(3)), ratio, k_shear(2, 2)
+    integer(i4), pointer, contiguous :: of_section(:, :)
     type(pairs_t) :: pairs
     type(forms_t) :: middle, full
     type(motion_t) :: motion
     type(shell_stress) :: stress
     type(elastic_t) :: linear(2)
-    logical :: large
     integer :: k
-    large = lflags(2) /= 0
-    pairs = pairs_of(nodes, x, stack)
-    ratio = pairs%height/props(1)
-    elastic = elastic_section(props)
-    elastic(:3, :3) = ratio*elastic(:3, :3)
-    elastic(4:, :3) = ratio**2*elastic(4:, :3)
-    elastic(:3, 4:) = ratio**2*elastic(:3, 4:)
-    elastic(4:, 4:) = ratio**3*elastic(4:, 4:)
-    section = reshape(props(section_head + 1:section_head + size(section)), shape(section))
-    section(:2, :) = ratio*section(:2, :)
-    call find_forms(rule_of(int(jprops(2)), 1), pairs, nodes, axes, elastic, middle)
-    call find_forms(rule_of(int(jprops(2)), nodes/2), pairs, nodes, axes, elastic, full)
-    k_shear = shear_stiffness(props, sum(full%point%weight)/ratio**2)
-    if (jprops(5) /= 0) k_shear = ratio*k_shear
-    linear(1) = shear_and_across(nodes, full, k_shear, pairs%height*props(3), props(8))
-    linear(2) = hourglass_of(nodes, full, elastic)
+    associate (nodes => element%nodes, n => element%n, jprops => element%jprops, props => element%props, energy => element%energy, &
+               x => element%coords, u => element%u, du => element%du, large => element%finite)
+      pairs = pairs_of(nodes, x, nint(element%svars(size(element%svars))))
+      ratio = pairs%height/props(1)
+      elastic = elastic_section(props)
+      elastic(:3, :3) = ratio*elastic(:3, :3)
+      elastic(4:, :3) = ratio**2*elastic(4:, :3)
+      elastic(:3, 4:) = ratio**2*elastic(:3, 4:)
+      elastic(4:, 4:) = ratio**3*elastic(4:, 4:)
+      of_section(1:3, 1:jprops(3)) => jprops(6:)
+      section = reshape(props(section_head + 1:section_head + size(section)), shape(section))
+      section(:2, :) = ratio*section(:2, :)
+      call find_forms(rule_of(int(jprops(2)), 1), pairs, nodes, axes, elastic, middle)
+      call find_forms(rule_of(int(jprops(2)), nodes/2), pairs, nodes, axes, elastic, full)
+      k_shear = shear_stiffness(props, sum(full%point%weight)/ratio**2)
+      if (jprops(5) /= 0) k_shear = ratio*k_shear
+      linear(1) = shear_and_across(nodes, full, k_shear, pairs%height*props(3), props(8))
+      linear(2) = hourglass_of(nodes, full, elastic)
 
-    ! no time passes where the matrix of a stress is asked for: DU is a perturbation
-    change = du
-    if (stress_matrix(lflags(3))) change = 0
-    call find_motion(nodes, x, pairs, middle, u, change, large, motion)
-    force = 0
-    stiffness = 0
-    energy(2) = energy(2) - stored_by(nodes, linear(1), x, u - change, large)
-    call integrate_section(rule_of(int(jprops(1)), 1), int(jprops(3)), jprops(6), section, k_shear, middle, fields, predef, &
-                           motion, stress, svars, energy, sqrt(sum(full%point%weight)))
-    energy(2) = energy(2) + stored_by(nodes, linear(1), x, u, large)
-    energy(6) = stored_by(nodes, linear(2), x, u, large)
-    if (stress_matrix(lflags(3))) then
-      call add_stress(nodes, lflags, x, middle, linear, stress, u, du, force, stiffness)
-      return
-    end if
-    middle%b(:, :, 1) = gradient_of(nodes, middle%form(:, :, 1), motion%x)
-    call add_section_points(n, middle, stress, force, stiffness)
-    if (large) call add_forms(nodes, middle%point(1)%weight*stress%force(:6, 1), middle%form(:6, :, 1), stiffness)
-    do k = 1, 2
-      call add_elastic(nodes, linear(k), x, u, large, force, stiffness)
-    end do
+      call find_motion(nodes, x, pairs, middle, u, du, large, motion)
+      energy(2) = energy(2) - stored_by(nodes, linear(1), x, u - du, large)
+      call integrate_section(element, rule_of(int(jprops(1)), 1), of_section, section, k_shear, middle, motion, stress, &
+                             element%svars, sqrt(sum(full%point%weight)))
+      energy(2) = energy(2) + stored_by(nodes, linear(1), x, u, large)
+      energy(6) = stored_by(nodes, linear(2), x, u, large)
+      if (element%of_stress) then
+        call add_stress(element, middle, linear, stress, element%rhs, element%amatrx)
+        return
+      end if
+      middle%b(:, :, 1) = gradient_of(nodes, middle%form(:, :, 1), motion%x)
+      call add_section_points(n, middle, stress, element%rhs, element%amatrx)
+      if (large) call add_forms(nodes, middle%point(1)%weight*stress%force(:6, 1), middle%form(:6, :, 1), element%amatrx)
+      do k = 1, 2
+        call add_elastic(nodes, linear(k), x, u, large, element%rhs, element%amatrx)
+      end do
+    end associate
   end subroutine integrate
 
   !> The stress matrix of the initial stress, or of that of a perturbation: that of all forms.
-  subroutine add_stress(nodes, lflags, x, middle, linear, stress, u, du, force, stiffness)
-    integer, intent(in) :: nodes
-    integer(i4), intent(in) :: lflags(3)
-    real(dp), intent(in) :: x(3, nodes), u(3*nodes), du(3*nodes)
+  subroutine add_stress(element, middle, linear, stress, force, stiffness)
+    type(element_t), intent(in) :: element
     type(forms_t), intent(in) :: middle
     type(elastic_t), intent(in) :: linear(2)
     type(shell_stress), intent(in) :: stress
-    real(dp), intent(inout) :: force(3*nodes), stiffness(3*nodes, 3*nodes)
-    real(dp) :: at(3, nodes), resultant(6)
-    logical :: added, large
-    integer :: k
-    large = lflags(2) /= 0
-    added = lflags(3) == added_stress
-    at = x
-    if (large) at = x + reshape(u, [3, nodes])
+    real(dp), intent(inout) :: force(element%n), stiffness(element%n, element%n)
+    real(dp) :: at(3, element%nodes), resultant(6)
+    logical :: added
+    integer :: k, nodes
+    nodes = element%nodes
+    added = element%request == added_stress
+    at = element%coords
+    if (element%finite) at = at + reshape(element%u, [3, nodes])
     resultant = stress%force(:6, 1)
     associate (b => gradient_of(nodes, middle%form(:6, :, 1), at), weight => middle%point(1)%weight)
-      if (added) resultant = matmul(stress%modulus(:6, :6, 1), matmul(b, du))
+      if (added) resultant = matmul(stress%modulus(:6, :6, 1), matmul(b, element%added))
       force = force + weight*matmul(resultant, b)
       call add_forms(nodes, weight*resultant, middle%form(:6, :, 1), stiffness)
     end associate
     do k = 1, 2
       associate (b => gradient_of(nodes, linear(k)%form, at))
         if (added) then
-          associate (change => matmul(linear(k)%modulus, matmul(b, du)))
+          associate (change => matmul(linear(k)%modulus, matmul(b, element%added)))
             force = force + matmul(change, b)
             call add_forms(nodes, change, linear(k)%form, stiffness)
           end associate
         else
-          associate (now => matmul(linear(k)%modulus, strains_of(nodes, linear(k)%form, x, u, large)))
+          associate (now => matmul(linear(k)%modulus, &
+                                   strains_of(nodes, linear(k)%form, element%coords, element%u, element%finite)))
             force = force + matmul(now, b)
             call add_forms(nodes, now, linear(k)%form, stiffness)
           end associate

@@ -10,6 +10,7 @@
 !> SVARS hold, for each section point of each integration point, E11 E22 E12 S11 S22 S12 in the directions of its layer, and SF1 to
 !> SF5, SM1 to SM3 of the section.
 module host_shell_section
+  use host_adapter, only: element_t
   use host_context, only: current, output_variables
   use host_coupling, only: interpolate_fields
   use host_kinds, only: dp, i4
@@ -189,29 +190,28 @@ contains
     end do
   end subroutine add_section_points
 
-  !> Stress and state of all section points, and what they make along the axes of the integration points.
-  !> length: of the element, for user routines.
-  subroutine integrate_section(rule, sections, of_section, section, k_shear, at, fields, predef, motion, found, svars, energy, &
-                               length)
+  !> Stress and state of all section points, and what they make along the axes of the integration points. of_section, section: what
+  !> JPROPS and PROPS have of the section points. length: of the element, for user routines.
+  subroutine integrate_section(element, rule, of_section, section, k_shear, at, motion, found, svars, length)
+    type(element_t), intent(inout) :: element
     type(rule_t), intent(in) :: rule
-    integer, intent(in) :: sections, fields
-    integer(i4), intent(in) :: of_section(3, sections)
-    real(dp), intent(in) :: section(3, sections), k_shear(2, 2), predef(2, fields, rule%nodes), length
+    integer(i4), intent(in) :: of_section(:, :)
+    real(dp), intent(in) :: section(:, :), k_shear(2, 2), length
     class(operators_t), intent(in) :: at
     class(motion_t), intent(in) :: motion
     type(shell_stress), intent(inout) :: found
-    real(dp), intent(inout), target :: svars(values_of_section_point, sections, rule%points)
-    real(dp), intent(inout) :: energy(8)
+    real(dp), intent(inout), target :: svars(values_of_section_point, size(section, 2), rule%points)
     type(material_t), pointer :: material
     real(dp) :: axes(8, 8), strain(8), resultant(8), tangent(8, 8), turn(3, 3), layer(3), stress(3), modulus(3, 3)
     real(dp) :: directions(3, 3), basis(3, 3), elastic, work, volume, z
     integer(i4) :: column
-    integer :: k, p
+    integer :: k, p, sections
     logical :: valid
+    sections = size(section, 2)
     current%finite = .false.
     current%deformed = .false.
     elastic = 0
-    work = energy(2) + energy(4)
+    work = element%energy(2) + element%energy(4)
     allocate (found%force(8, rule%points), found%modulus(8, 8, rule%points))
     do p = 1, rule%points
       axes = section_turn(at, p)
@@ -225,7 +225,7 @@ contains
         if (has_fields(material)) then
           current%length = length
           current%place = matmul(motion%x, at%point(p)%n(:rule%nodes)) + z*motion%normal(:, p)
-          call interpolate_fields(rule, p, fields, predef, material%variables)
+          call interpolate_fields(rule, p, element%fields, element%predef, material%variables)
         end if
         current%npt = int(p, i4)
         current%layer = of_section(2, k)
@@ -268,8 +268,8 @@ contains
       found%modulus(:, :, p) = matmul(transpose(axes), matmul(tangent, axes))
     end do
     if (allocated(current%fields)) deallocate (current%fields)
-    energy(2) = elastic
-    energy(4) = work - elastic
+    element%energy(2) = elastic
+    element%energy(4) = work - elastic
   end subroutine integrate_section
 
   !> Directions (rows) turned by an angle about the third.

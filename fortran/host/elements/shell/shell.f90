@@ -1,7 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in conventional shells (S3, S3R, S4, S4R, S8R) as a procedure with the arguments of UELMAT.
-!> harness/uel/elements/families/shell.py gives what they need.
+!> Built-in conventional shells (S3, S3R, S4, S4R, S8R). harness/uel/elements/families/shell.py gives what they need.
 !>
 !> JPROPS: family of the surface (host_shape), its integration points, section points, 1 with *ORIENTATION; then those of
 !> host_shell_section. PROPS are there; values of the element are the stiffness against drilling and the place of the middle
@@ -20,11 +19,10 @@
 !> SVARS hold the values of the section points; in dynamic analyses then the forces of the last two increments; then the directions
 !> of each integration point, with *ORIENTATION (host_axes); last the director of each node.
 module host_shell
-  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
+  use host_adapter, only: element_t, keep_forces
   use host_axes, only: values_of_axes
-  use host_context, only: added_stress, stress_matrix
+  use host_context, only: added_stress
   use host_corotation, only: corotation_t, local_motion, turn_back
-  use host_inertia, only: respond
   use host_kinds, only: dp, i4
   use host_polar, only: polar_axes, step
   use host_shape, only: parent_place, rule_of, rule_t
@@ -36,7 +34,7 @@ module host_shell
   use host_shell_strains, only: by_rotations, drilling_strain, enhance, shell_middle, shell_point, shell_strains
   implicit none (type, external)
   private
-  public :: shell_uelmat
+  public :: shell
 
   !> Motion of an element.
   type, extends(motion_t) :: shell_motion
@@ -47,73 +45,70 @@ module host_shell
 
 contains
 
-  subroutine shell_uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, &
-                          v, a, jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, &
-                          lflags, mlvarx, ddlmag, mdload, pnewdt, jprops, njprop, period, materiallib)
-    integer(i4) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, jdltyp(*), npredf, &
-                   lflags(*), mlvarx, mdload, jprops(*), njprop, materiallib
-    real(dp), target :: svars(*)
-    real(dp) :: rhs(*), amatrx(*), energy(*), props(*), coords(*), u(*), du(*), v(*), a(*), time(*), dtime, &
-                params(*), adlmag(*), predef(*), ddlmag(*), pnewdt, period
-    real(dp), pointer, contiguous :: axes(:, :, :, :)
-    real(dp) :: mass(ndofel, ndofel), old(ndofel, 2), change(ndofel), shear(2, 2), stored(2)
-    integer :: n, first, behind
-    logical :: directors
+  subroutine shell(element)
+    type(element_t), intent(inout) :: element
+    real(dp), pointer, contiguous :: axes(:, :, :, :), v(:, :)
     type(operators_t) :: at_points, full
+    integer :: points, behind
+    associate (nodes => element%nodes, props => element%props)
+      points = element%jprops(2)
+      behind = size(element%svars) + 1 - 3*nodes
+      v(1:3, 1:nodes) => element%svars(behind:)
+      axes => null()
+      if (element%jprops(4) /= 0) then
+        behind = behind - values_of_axes*points
+        axes(1:3, 1:3, 1:2, 1:points) => element%svars(behind:)
+      end if
+      call keep_forces(element, points*element%jprops(3)*values_of_section_point + 1, behind)
+      call prepare(element, v, axes, at_points, full)
+      if (element%has_mass) call add_mass(nodes, props(1), props(2), props(8), full%point, element%mass)
+      if (element%has_forces) call add_forces(element, v, at_points, full)
+    end associate
+  end subroutine shell
+
+  !> Force, tangent, state and energies, or the matrix of a stress (host_context).
+  subroutine add_forces(element, v, at_points, full)
+    type(element_t), intent(inout) :: element
+    real(dp), intent(in) :: v(3, element%nodes)
+    type(operators_t), intent(in) :: at_points, full
+    integer(i4), pointer, contiguous :: of_section(:, :)
+    real(dp), pointer, contiguous :: section(:, :)
+    real(dp) :: shear(2, 2), stored(2)
     type(shell_motion) :: motion
     type(shell_stress) :: stress
-    n = ndofel
-    first = jprops(2)*jprops(3)*values_of_section_point + 1
-    behind = nsvars + 1 - 3*nnode
-    axes => null()
-    if (jprops(4) /= 0) then
-      behind = behind - values_of_axes*jprops(2)
-      call c_f_pointer(c_loc(svars(behind)), axes, [3, 3, 2, int(jprops(2))])
-    end if
-    old = 0
-    if (behind > first) old = reshape(svars(first:behind - 1), [n, 2])
-    call prepare(int(jprops(:4)), int(nnode), n, coords, svars(nsvars - 3*nnode + 1), props, axes, at_points, full)
-    mass = 0
-    call add_mass(int(nnode), props(1), props(2), props(8), full%point, mass)
-    rhs(1:n*nrhs) = 0
-    amatrx(1:n*n) = 0
-    if (lflags(3) /= 3 .and. lflags(3) /= 4) then
-      ! no time passes where the matrix of a stress is asked for: DU is a perturbation
-      change = du(:n)
-      if (stress_matrix(lflags(3))) change = 0
+    logical :: directors
+    associate (nodes => element%nodes, n => element%n, x => element%coords, props => element%props, energy => element%energy)
+      of_section(1:3, 1:element%jprops(3)) => element%jprops(5:)
+      section(1:3, 1:element%jprops(3)) => element%props(section_head + 1:)
       shear = shear_stiffness(props, sum(full%point%weight))
-      directors = nnode == 8 .and. lflags(2) /= 0
+      directors = nodes == 8 .and. element%finite
       if (directors) then
-        motion = motion_of_directors(int(nnode), coords, svars(nsvars - 3*nnode + 1), at_points, full%point, u, change)
+        motion = motion_of_directors(nodes, x, v, at_points, full%point, element%u, element%du)
         stored = [shear_energy(at_points, shear, motion%before), shear_energy(at_points, shear, motion%strain)]
         energy(6) = 0.5_dp*props(3)*sum(full%point%weight*motion%drill**2)
       else
-        motion = motion_of(int(nnode), n, coords, at_points, u, change, lflags(2) /= 0)
-        call add_elastic(int(nnode), n, coords, svars(nsvars - 3*nnode + 1), props, props(nprops - 1), shear, at_points, full, &
-                         motion, rhs, amatrx, stored, energy(6))
+        motion = motion_of(nodes, n, x, at_points, element%u, element%du, element%finite)
+        call add_elastic(element, v, shear, at_points, full, motion, stored)
       end if
       energy(2) = energy(2) - stored(1)
-      call integrate_section(rule_of(int(jprops(1)), int(jprops(2))), int(jprops(3)), jprops(5), props(section_head + 1), shear, &
-                             at_points, int(npredf), predef, motion, stress, svars, energy, &
-                             sqrt(sum(full%point%weight))*merge(0.5_dp, 1.0_dp, nnode == 8))
+      call integrate_section(element, rule_of(int(element%jprops(1)), int(element%jprops(2))), of_section, section, shear, &
+                             at_points, motion, stress, element%svars, &
+                             sqrt(sum(full%point%weight))*merge(0.5_dp, 1.0_dp, nodes == 8))
       energy(2) = energy(2) + stored(2)
       stress%drilling = props(3)
       if (directors) stress%drill = props(3)*motion%drill
-      if (directors .or. (nnode == 8 .and. stress_matrix(lflags(3)))) then
-        call turn_directors(int(nnode), n, lflags, coords, svars(nsvars - 3*nnode + 1), at_points%point, full%point, u, du, &
-                            stress, rhs, amatrx)
+      if (directors .or. (nodes == 8 .and. element%of_stress)) then
+        call turn_directors(element, v, at_points%point, full%point, stress)
       else
-        call add_section_points(n, at_points, stress, rhs, amatrx)
-        if (stress_matrix(lflags(3))) then
-          call turn_stress(int(nnode), n, lflags, coords, motion%middle, u, du, rhs, amatrx)
-        else if (lflags(2) /= 0) then
-          call turn_back(int(nnode), coords, motion%middle%frame, motion%middle%gradient(:nnode, :), u, rhs, amatrx)
+        call add_section_points(n, at_points, stress, element%rhs, element%amatrx)
+        if (element%of_stress) then
+          call turn_stress(element, motion%middle)
+        else if (element%finite) then
+          call turn_back(nodes, x, motion%middle%frame, motion%middle%gradient(:nodes, :), element%u, element%rhs, element%amatrx)
         end if
       end if
-    end if
-    call respond(n, lflags, params, dtime, v, a, mass, old, rhs, amatrx, energy(1))
-    if (behind > first) svars(first:behind - 1) = reshape(old, [2*n])
-  end subroutine shell_uelmat
+    end associate
+  end subroutine add_forces
 
   !> Displacements and rotations, with NLGEOM without the rotation of the element, and their strains.
   pure function motion_of(nodes, n, x, at, u, du, large) result(found)
@@ -176,71 +171,70 @@ contains
 
   !> The matrix of a stress (host_context), from the forces and the stiffness by the motion of an element: what its forces change by
   !> as it turns.
-  pure subroutine turn_stress(nodes, n, lflags, x, middle, u, du, force, stiffness)
-    integer, intent(in) :: nodes, n
-    integer(i4), intent(in) :: lflags(3)
-    real(dp), intent(in) :: x(3, nodes), u(n), du(n)
+  pure subroutine turn_stress(element, middle)
+    type(element_t), intent(inout) :: element
     type(shell_point), intent(in) :: middle
-    real(dp), intent(inout) :: force(n), stiffness(n, n)
-    complex(dp) :: moved(n)
-    real(dp) :: at(n), gradient(nodes, 2)
+    real(dp) :: at(element%n), gradient(element%nodes, 2)
     type(corotation_t) :: now
-    gradient = middle%gradient(:nodes, :)
-    at = 0
-    if (lflags(2) /= 0) at = u
-    if (lflags(3) == added_stress) then
-      moved = cmplx(at, step*du, dp)
-      now = local_motion(nodes, x, middle%frame, gradient, reshape(moved, [6, nodes]))
-      force = matmul(stiffness, reshape(aimag(now%local), [n]))/step
-    end if
-    stiffness = 0
-    call turn_back(nodes, x, middle%frame, gradient, at, force, stiffness)
+    associate (nodes => element%nodes, n => element%n, x => element%coords)
+      gradient = middle%gradient(:nodes, :)
+      at = 0
+      if (element%finite) at = element%u
+      if (element%request == added_stress) then
+        now = local_motion(nodes, x, middle%frame, gradient, reshape(cmplx(at, step*element%added, dp), [6, nodes]))
+        element%rhs(:, 1) = matmul(element%amatrx, reshape(aimag(now%local), [n]))/step
+      end if
+      element%amatrx = 0
+      call turn_back(nodes, x, middle%frame, gradient, at, element%rhs, element%amatrx)
+    end associate
   end subroutine turn_stress
 
   !> Forces and stiffness of a shell whose directors turn, or the matrix of its stress.
-  pure subroutine turn_directors(nodes, n, lflags, x, v, points, full, u, du, stress, force, stiffness)
-    integer, intent(in) :: nodes, n
-    integer(i4), intent(in) :: lflags(3)
-    real(dp), intent(in) :: x(3, nodes), v(3, nodes), u(n), du(n)
+  pure subroutine turn_directors(element, v, points, full, stress)
+    type(element_t), intent(inout) :: element
+    real(dp), intent(in) :: v(3, element%nodes)
     type(shell_point), intent(in) :: points(:), full(:)
     type(shell_stress), intent(inout) :: stress
-    real(dp), intent(out) :: force(n), stiffness(n, n)
-    complex(dp) :: moved(6, nodes), strains(8, size(points)), drill(size(full))
-    real(dp) :: at(n)
+    complex(dp) :: moved(6, element%nodes), strains(8, size(points)), drill(size(full))
+    real(dp) :: at(element%n)
     integer :: p
-    at = 0
-    if (lflags(2) /= 0) at = u
-    if (stress_matrix(lflags(3))) then
-      if (lflags(3) == added_stress) then
-        moved = reshape(cmplx(at, step*du, dp), [6, nodes])
-        call director_strains(nodes, x, v, points, full, moved, strains, drill)
-        do p = 1, size(points)
-          stress%force(:, p) = matmul(stress%modulus(:, :, p), aimag(strains(:, p)))/step
-        end do
-        stress%drill = stress%drilling*aimag(drill)/step
-      else if (lflags(2) == 0) then
-        call director_strains(nodes, x, v, points, full, reshape(cmplx(at, step*u, dp), [6, nodes]), strains, drill)
-        stress%drill = stress%drilling*aimag(drill)/step
+    associate (nodes => element%nodes, x => element%coords)
+      at = 0
+      if (element%finite) at = element%u
+      if (element%of_stress) then
+        if (element%request == added_stress) then
+          moved = reshape(cmplx(at, step*element%added, dp), [6, nodes])
+          call director_strains(nodes, x, v, points, full, moved, strains, drill)
+          do p = 1, size(points)
+            stress%force(:, p) = matmul(stress%modulus(:, :, p), aimag(strains(:, p)))/step
+          end do
+          stress%drill = stress%drilling*aimag(drill)/step
+        else if (.not. element%finite) then
+          moved = reshape(cmplx(at, step*element%u, dp), [6, nodes])
+          call director_strains(nodes, x, v, points, full, moved, strains, drill)
+          stress%drill = stress%drilling*aimag(drill)/step
+        end if
+        stress%modulus = 0
+        stress%drilling = 0
       end if
-      stress%modulus = 0
-      stress%drilling = 0
-    end if
-    call director_stiffness(nodes, x, v, points, full, reshape(at, [6, nodes]), stress, force, stiffness)
+      call director_stiffness(nodes, x, v, points, full, reshape(at, [6, nodes]), stress, element%rhs, element%amatrx)
+    end associate
   end subroutine turn_directors
 
   !> Operators at the integration points, and at those of full integration. Leaves the pass if the surface is folded.
-  subroutine prepare(kind, nodes, n, x, v, props, axes, at_points, full)
-    integer, intent(in) :: kind(4), nodes, n
-    real(dp), intent(in) :: x(3, nodes), v(3, nodes), props(section_head)
+  subroutine prepare(element, v, axes, at_points, full)
+    type(element_t), intent(in) :: element
+    real(dp), intent(in) :: v(3, element%nodes)
     real(dp), intent(in), pointer, contiguous :: axes(:, :, :, :)
     type(operators_t), intent(out) :: at_points, full
-    integer :: points
-    call find_operators(rule_of(kind(1), kind(2)), n, x, v, props, axes, at_points)
-    points = merge(9, nodes, nodes == 8)
-    if (kind(2) == points) then
+    integer :: family, points
+    family = element%jprops(1)
+    points = merge(9, element%nodes, element%nodes == 8)
+    call find_operators(rule_of(family, int(element%jprops(2))), element%n, element%coords, v, element%props, axes, at_points)
+    if (element%jprops(2) == points) then
       full = at_points
     else
-      call find_operators(rule_of(kind(1), points), n, x, v, props, axes, full)
+      call find_operators(rule_of(family, points), element%n, element%coords, v, element%props, axes, full)
     end if
   end subroutine prepare
 
@@ -292,45 +286,46 @@ contains
   end subroutine add_mass
 
   !> What is linear: transverse shear, drilling, and hourglass modes of four nodes with one point.
-  subroutine add_elastic(nodes, n, x, v, props, moduli, k, at_points, full, motion, force, stiffness, stored, spurious)
-    integer, intent(in) :: nodes, n
-    real(dp), intent(in) :: x(3, nodes), v(3, nodes), props(section_head), k(2, 2)
-    real(dp), intent(in) :: moduli(2)      !< of the hourglass control
+  subroutine add_elastic(element, v, k, at_points, full, motion, stored)
+    type(element_t), intent(inout) :: element
+    real(dp), intent(in) :: v(3, element%nodes), k(2, 2)
     type(operators_t), intent(in) :: at_points, full
     type(shell_motion), intent(in) :: motion
-    real(dp), intent(inout) :: force(n), stiffness(n, n)
     real(dp), intent(out) :: stored(2)     !< energy of the shear, before and now
-    real(dp), intent(out) :: spurious      !< energy of drilling and hourglass modes
-    real(dp) :: shear(n, n), artificial(n, n), drill(n), area
+    real(dp), dimension(element%n, element%n) :: shear, artificial
+    real(dp) :: drill(element%n), area, moduli(2)
     logical :: reduced
-    integer :: p
+    integer :: n, p
+    n = element%n
     artificial = 0
-    reduced = nodes == 4 .and. size(at_points%point) == 1
-    if (nodes == 8 .or. (reduced .and. any(moduli > 0))) then
+    reduced = element%nodes == 4 .and. size(at_points%point) == 1
+    ! of the hourglass control
+    moduli = element%props(size(element%props) - 1:)
+    if (element%nodes == 8 .or. (reduced .and. any(moduli > 0))) then
       shear = shear_matrix(at_points, n, k)
     else
       shear = shear_matrix(full, n, k)
     end if
     if (reduced) then
       area = sum(full%point%weight)
-      artificial = drilling_of_corners(x, motion%middle, area, props(1), props(3))
+      artificial = drilling_of_corners(element%coords, motion%middle, area, element%props(1), element%props(3))
       if (any(moduli > 0)) then
-        artificial = artificial + hourglass_of_shell(x, v, motion%middle, area, moduli, 0.5_dp*(k(1, 1) + k(2, 2)), &
+        artificial = artificial + hourglass_of_shell(element%coords, v, motion%middle, area, moduli, 0.5_dp*(k(1, 1) + k(2, 2)), &
                                                      at_points%b(7:8, :, 1))
       else
-        artificial = artificial + hourglass_stiffness(n, elastic_section(props), at_points, full)
+        artificial = artificial + hourglass_stiffness(n, elastic_section(element%props), at_points, full)
       end if
     else
       do p = 1, size(full%point)
-        drill = reshape(drilling_strain(nodes, full%point(p)), [n])
-        artificial = artificial + full%point(p)%weight*props(3)*spread(drill, 2, n)*spread(drill, 1, n)
+        drill = reshape(drilling_strain(element%nodes, full%point(p)), [n])
+        artificial = artificial + full%point(p)%weight*element%props(3)*spread(drill, 2, n)*spread(drill, 1, n)
       end do
     end if
-    stiffness = stiffness + shear + artificial
+    element%amatrx = element%amatrx + shear + artificial
     associate (u => motion%u, old => motion%old)
-      force = force + matmul(shear + artificial, u)
+      element%rhs(:, 1) = element%rhs(:, 1) + matmul(shear + artificial, u)
       stored = 0.5_dp*[dot_product(old, matmul(shear, old)), dot_product(u, matmul(shear, u))]
-      spurious = 0.5_dp*dot_product(u, matmul(artificial, u))
+      element%energy(6) = 0.5_dp*dot_product(u, matmul(artificial, u))
     end associate
   end subroutine add_elastic
 

@@ -64,7 +64,7 @@ def beam_routine(model: Model, group: ElementGroup, kind: BeamType, section: Bea
         by_points = [0, 3, 4, 5] if section_tensor(section, kind.dimension) is Tensor.TORSION else [0, 3, 4]
         stiffness[np.ix_(by_points, by_points)] = 0.0
     found = Routine(
-        address=_binding.address_of("beam" if points is None else "beam section"),
+        address=_binding.address_of("beam"),
         jtype=kind.nodes,
         mcrd=kind.dimension,
         svars=states + hidden,
