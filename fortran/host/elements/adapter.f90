@@ -13,6 +13,8 @@ module host_adapter
   use host_inertia, only: is_dynamic, respond
   use host_kinds, only: dp, i4
   use host_materials, only: find_material, material_t
+  use host_messages, only: add_message
+  use host_protect, only: escape
   implicit none (type, external)
   private
   public :: element_t, decode, evaluate, keep_forces
@@ -35,6 +37,7 @@ module host_adapter
     integer :: n = 0                      !< unknowns
     real(dp) :: dtime = 0, time(2) = 0, params(3) = 0
     type(material_t), pointer :: material => null()
+    logical :: lost = .false.             !< the material is no longer in the library
     integer(i4), pointer :: jelem => null(), ndload => null()
     integer(i4), pointer, contiguous :: jprops(:) => null(), jdltyp(:) => null()
     real(dp), pointer, contiguous :: props(:) => null(), adlmag(:) => null(), ddlmag(:) => null()
@@ -86,6 +89,7 @@ contains
     element%time = scalars%time
     element%params = scalars%params
     element%material => find_material(scalars%material)
+    element%lost = scalars%material > 0 .and. .not. associated(element%material)
     if (allocated(element%mass)) deallocate (element%mass, element%none, element%still)
     allocate (element%mass(element%n, element%n), element%none(element%n, 2), element%still(element%n), source=0.0_dp)
   end subroutine decode
@@ -98,11 +102,18 @@ contains
     element%none = 0
     element%old => element%none
     if (element%has_mass) element%mass = 0
+    if (element%lost) call report_lost()
     call element%routine(element)
     if (element%request == damping) return
     call respond(element%n, [element%procedure_code, 0_i4, element%request], element%params, element%dtime, element%v, element%a, &
                  element%mass, element%old, element%rhs, element%amatrx, element%energy(1))
   end subroutine evaluate
+
+  !> Leave the pass.
+  subroutine report_lost()
+    call add_message(-3_i4, 'the material of these elements was that of a job that has ended')
+    call escape()
+  end subroutine report_lost
 
   !> Let SVARS from one place to the one before another hold the forces of the last two increments, if there are any.
   subroutine keep_forces(element, first, behind)

@@ -122,20 +122,24 @@ subroutine host_take_message(level, place, text)
   text = message%text
 end subroutine host_take_message
 
-!> Name and folder of the job, for GETJOBNAME and GETOUTDIR; units 6 and 7 go to the two named files, shared arrays are dropped.
-subroutine host_open_job(name, directory, file6, file7, status)
+!> Name and folder of the job, for GETJOBNAME and GETOUTDIR; units 6 and 7 go to the two named files, shared arrays are dropped, and
+!> the materials of earlier jobs if no other one is open.
+subroutine host_open_job(name, directory, file6, file7, alone, status)
   use host_context, only: job_name, names_cut, output_directory
   use host_kinds, only: i4
+  use host_materials, only: empty_library
   use host_protect, only: clear_arrays
   use host_units, only: connect_units
   implicit none (type, external)
   character(len=4096), intent(in) :: name, directory
   character(len=2048), intent(in) :: file6, file7
+  integer(i4), intent(in) :: alone            !< 1: no other job of this process is open
   integer(i4), intent(out) :: status          !< of connect_units
   job_name = name
   output_directory = directory
   names_cut = .false.
   call clear_arrays()
+  if (alone /= 0) call empty_library()
   call connect_units(file6, file7, status)
 end subroutine host_open_job
 

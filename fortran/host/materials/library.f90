@@ -31,8 +31,8 @@ module host_materials
   use host_uvarm, only: user_output_t
   implicit none (type, external)
   private
-  public :: material_t, define, find_material, stress_update, not_solved, elastic_bulk_modulus, elastic_energy, thickness_strain, &
-            history_values, has_fields, has_heat_terms, is_viscous, needs_deformation, set_constants
+  public :: material_t, define, find_material, empty_library, stress_update, not_solved, elastic_bulk_modulus, elastic_energy, &
+            thickness_strain, history_values, has_fields, has_heat_terms, is_viscous, needs_deformation, set_constants
 
   !> Values of the history of a point of a plastic or prestressed material: stress-free strain (6), which is the plastic strain
   !> minus the elastic strain of the initial stress, and equivalent plastic strain. Backstresses follow (host_backstress).
@@ -79,6 +79,7 @@ module host_materials
 
   type(shelf_t), allocatable, save :: library(:)   !< with room behind the last material
   integer(i4), save :: materials = 0               !< in the library
+  integer(i4), save :: emptied = 0                 !< materials that were in it before; their numbers are not used again
 
 contains
 
@@ -96,15 +97,25 @@ contains
     end if
     materials = materials + 1_i4
     allocate (library(materials)%material, source=material)
-    number = materials
+    number = emptied + materials
   end function define
+
+  !> Take all materials out of the library.
+  subroutine empty_library()
+    integer :: k
+    do k = 1, int(materials)
+      deallocate (library(k)%material)
+    end do
+    emptied = emptied + materials
+    materials = 0
+  end subroutine empty_library
 
   !> The material with that number, null if there is none.
   function find_material(number) result(material)
     integer(i4), intent(in) :: number
     type(material_t), pointer :: material
     material => null()
-    if (number >= 1 .and. number <= materials) material => library(number)%material
+    if (number > emptied .and. number - emptied <= materials) material => library(number - emptied)%material
   end function find_material
 
   !> Whether it depends on temperature and field variables, or on the place of its points.

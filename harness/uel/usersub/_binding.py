@@ -302,13 +302,14 @@ def take_messages() -> list[RawMessage]:
         found.append(RawMessage(level, int(element), int(step), int(increment), text.decode(errors="replace").rstrip()))
 
 
-def open_job(name: str, directory: str, file6: str, file7: str) -> int:
+def open_job(name: str, directory: str, file6: str, file7: str, *, alone: bool) -> int:
     """Set the job for GETJOBNAME and GETOUTDIR and connect units 6 and 7.
 
+    alone: no other job of this process is open, so the materials of earlier ones are dropped.
     Returns 0, the number of an error, or -1 if an abandoned call of an earlier job has them locked inside a WRITE.
     """
     encode = os.fsencode
-    return int(host.host_open_job(encode(name), encode(directory), encode(file6), encode(file7)))
+    return int(host.host_open_job(encode(name), encode(directory), encode(file6), encode(file7), alone))
 
 
 def set_threads(number: int) -> None:

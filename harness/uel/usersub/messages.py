@@ -8,6 +8,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar, Final
+from weakref import WeakSet
 
 from uel.errors import UelError
 from uel.usersub import _binding
@@ -49,6 +50,9 @@ class Inbox:
     _current: ClassVar[Inbox | None] = None
     """The job that owns the units, of which the process has one set."""
 
+    _open: ClassVar[WeakSet[Inbox]] = WeakSet()
+    """Those of the jobs of this process that have not ended: the host keeps their materials."""
+
     def __init__(self, job: str, directory: Path, rank: int = 0) -> None:
         directory.mkdir(parents=True, exist_ok=True)
         own = f".{rank}" if rank else ""
@@ -56,8 +60,10 @@ class Inbox:
         self._read = dict.fromkeys(self._files, 0)
         self._sent: list[Message] = []
         folder = str(directory.resolve())
+        alone = not Inbox._open
+        Inbox._open.add(self)
         Inbox._current = self
-        failed = _binding.open_job(job, folder, *(str(f.resolve()) for f in self._files.values()))
+        failed = _binding.open_job(job, folder, *(str(f.resolve()) for f in self._files.values()), alone=alone)
         if failed > 0:
             raise UelError(f"cannot write {self._files['.dat']} and {self._files['.msg']}: {os.strerror(failed)}")
         self._lost = failed < 0
@@ -89,6 +95,7 @@ class Inbox:
 
     def close(self) -> None:
         """Disconnect the units; remove their files unless they hold text that nobody has read."""
+        Inbox._open.discard(self)
         if Inbox._current is self:
             _binding.flush_units(close=True)
             Inbox._current = None
