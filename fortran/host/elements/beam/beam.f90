@@ -77,7 +77,7 @@ contains
     full = element%jprops(4)
     rule => rule_of(int(element%jprops(1)), full)
     first = size(element%svars) - 9*(points + full) + 1
-    beam = beam_of(element, rule)
+    call describe(element, rule, beam)
     beam%axes(1:3, 1:3, 1:points) => element%svars(first:)
     states = points*max(1, beam%sections)*beam%values
     call keep_forces(element, states + 1, first)
@@ -88,11 +88,11 @@ contains
     if (element%of_stress) call turn_stress(beam, rule, element, resultants, element%amatrx)
   end subroutine timoshenko_beam
 
-  !> The beam of an element, but for its directions.
-  function beam_of(element, rule) result(beam)
+  !> Describe the beam of an element, but for its directions.
+  subroutine describe(element, rule, beam)
     type(element_t), intent(in) :: element
     type(rule_t), intent(in) :: rule
-    type(beam_t) :: beam
+    type(beam_t), intent(inout) :: beam
     integer :: values
     beam%n = element%n
     beam%dim = element%mcrd
@@ -112,7 +112,7 @@ contains
     beam%u(1:beam%each, 1:element%nodes) => element%u
     values = merge(4, 2, associated(beam%material))
     beam%places(1:values, 1:beam%sections) => element%props(head + 1:)
-  end function beam_of
+  end subroutine describe
 
   !> Length of the element by the parent coordinate at a point. Nodes follow each other along the axis.
   pure real(dp) function stretch(rule, p, dim, x)
@@ -242,8 +242,12 @@ contains
                           stiffness)
       else
         if (beam%finite) call add_turning(rule%nodes, motion, weight, resultant, stiffness)
-        force = force + weight*matmul(resultant, part)
-        stiffness = stiffness + weight*matmul(transpose(part), matmul(chosen, part))
+        ! a compiler makes more of loops whose length it knows
+        if (beam%each == 6) then
+          call add_section(6, beam%n, part, weight, resultant, chosen, force, stiffness)
+        else
+          call add_section(3, beam%n, part, weight, resultant, chosen, force, stiffness)
+        end if
       end if
       do k = 1, max(1, beam%sections)
         svars(beam%values - 2*beam%each + 1:, k, p) = [resultant, found]
@@ -257,6 +261,16 @@ contains
       energy(2) = stored + energies%elastic
     end associate
   end subroutine integrate
+
+  !> Add force and stiffness of a section whose strains are linear in the unknowns.
+  pure subroutine add_section(each, n, part, weight, resultant, modulus, force, stiffness)
+    integer, value :: each
+    integer, intent(in) :: n
+    real(dp), intent(in) :: part(each, n), weight, resultant(each), modulus(each, each)
+    real(dp), intent(inout) :: force(n), stiffness(n, n)
+    force = force + weight*matmul(resultant, part)
+    stiffness = stiffness + weight*matmul(transpose(part), matmul(modulus, part))
+  end subroutine add_section
 
   !> The matrix of a stress (host_context): what the forces change by as the beam turns.
   subroutine turn_stress(beam, rule, element, resultants, stiffness)
@@ -455,7 +469,7 @@ contains
     type(rule_t), intent(in) :: rule
     real(dp), intent(in) :: props(head), axes(3, 3, rule%points)
     real(dp), intent(inout) :: mass(beam%n, beam%n)
-    real(dp) :: of_section(6, 6), turn(6, 6), at(rule%nodes), weight
+    real(dp) :: of_section(6, 6), turn(6, 6), kept(beam%each, beam%each), at(rule%nodes), weight
     integer :: i, j, k, p, each, unknowns(beam%each)
     each = beam%each
     unknowns = kept_of(each, planar_unknowns)
@@ -464,6 +478,7 @@ contains
       turn(:3, :3) = axes(:, :, p)
       turn(4:, 4:) = axes(:, :, p)
       of_section = matmul(turn, matmul(reshape(props(45:80), [6, 6]), transpose(turn)))
+      kept = of_section(unknowns, unknowns)
       at = along_axis(rule, rule%n(:, p))
       weight = props(1)*rule%weight(p)*stretch(rule, p, beam%dim, beam%x)
       do k = 1, rule%nodes
@@ -471,7 +486,7 @@ contains
           if (j /= k .and. .not. is_quadratic(rule)) cycle
           i = each*(j - 1)
           mass(i + 1:i + each, each*(k - 1) + 1:each*k) = mass(i + 1:i + each, each*(k - 1) + 1:each*k) &
-            + weight*merge(at(j)*at(k), at(k), is_quadratic(rule))*of_section(unknowns, unknowns)
+            + weight*merge(at(j)*at(k), at(k), is_quadratic(rule))*kept
         end do
       end do
     end do
