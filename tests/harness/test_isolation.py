@@ -264,10 +264,10 @@ def test_program_goes_on_after_a_call_was_left_inside_a_write(tmp_path: Path) ->
     )
 
 
-@pytest.mark.parametrize(("routine", "place"), [(b"UMAT", "in UMAT for element 7"), (b"element", "in element 7")])
-def test_place_of_the_last_call(routine: bytes, place: str) -> None:
+@pytest.mark.parametrize(("routine", "location"), [(b"UMAT", "in UMAT for element 7"), (b"element", "in element 7")])
+def test_location_of_the_last_call(routine: bytes, location: str) -> None:
     """A built-in element, which is not called by the name of a user routine."""
     _, slate = new_slate()
     assert slate.where() == ""
-    slate.within, slate.routine, slate.place[:] = Within.CALL, routine, (7, 1, 2, 3)
-    assert slate.where() == f"{place}, step 1, increment 2, iteration 3"
+    slate.within, slate.routine, slate.location[:] = Within.CALL, routine, (7, 1, 2, 3)
+    assert slate.where() == f"{location}, step 1, increment 2, iteration 3"
