@@ -51,8 +51,8 @@ class BuckleStep(PerturbationStep):
         shapes = (vectors / self._largest(vectors)).T if len(values) else vectors.T
         records: list[Record] = [*self._remarks, BucklingFactors(step.number, self._state.total_time, values)]
         for mode, (factor, shape) in enumerate(zip(values.tolist(), shapes, strict=True), start=1):
-            found = self._solution(shape, {"EIGVAL": factor})
-            records.append(BucklingMode(step.number, mode, 1, 0, factor, factor, procedure.period, found))
+            solution = self._solution(shape, {"EIGVAL": factor})
+            records.append(BucklingMode(step.number, mode, 1, 0, factor, factor, procedure.period, solution))
         return records
 
     def _buckle(self) -> tuple[FloatArray, FloatArray]:
@@ -87,6 +87,6 @@ class BuckleStep(PerturbationStep):
         flags = replace(call.flags, nlgeom=True)
         for block in system.contributors.followers:
             time = self._step_time, self._state.total_time
-            given = self._state.loads.on_faces(block, step, self._user, self._increment, time, self._state.displacement)
-            block.evaluate(replace(call, flags=flags, distributed=given), still, still, still.copy(), data)
+            loads = self._state.loads.on_faces(block, step, self._user, self._increment, time, self._state.displacement)
+            block.evaluate(replace(call, flags=flags, distributed=loads), still, still, still.copy(), data)
         return data

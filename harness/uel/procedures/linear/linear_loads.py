@@ -12,7 +12,7 @@ from uel.model.steps import Boundary, ElementLoad, Load, Step
 Entry = TypeVar("Entry", Boundary, Load, ElementLoad)
 
 
-def given_at(step: Step, at: tuple[float, float], *, imaginary: bool = False, without: float = 1.0) -> Step:
+def step_at(step: Step, at: tuple[float, float], *, imaginary: bool = False, without: float = 1.0) -> Step:
     """Return the step with the real or the imaginary part of its loads and prescribed values.
 
     at       arguments of the amplitudes: step and total time, or the frequency twice

@@ -20,7 +20,7 @@ from uel.errors import DeckError
 from uel.model.arrays import FloatArray
 from uel.model.perturbations import ModalDynamic
 from uel.model.records import AttemptStarted, IncrementDone, Noted, Record, Solution, StepDone
-from uel.procedures.linear.linear_loads import given_at
+from uel.procedures.linear.linear_loads import step_at
 from uel.procedures.linear.perturbation import PerturbationStep
 from uel.procedures.step_setting import Setting
 
@@ -33,7 +33,7 @@ class ModalStep(PerturbationStep):
         if modes is None:
             message = f"*{setting.step.procedure.keyword} by modes needs a *FREQUENCY step before it in the same job"
             raise DeckError(setting.step.source, message)
-        self._found, self._superposition = modes, setting.step.procedure.superposition
+        self._all_modes, self._superposition = modes, setting.step.procedure.superposition
         super().__init__(setting)
         self._numbers = self._superposition.modes(modes.frequencies)
         if not len(self._numbers):
@@ -42,18 +42,20 @@ class ModalStep(PerturbationStep):
         self._modes = modes.chosen(self._numbers)
 
     def _constrain(self, setting: Setting) -> Constraints:
-        """Return the modes of *FREQUENCY. Raises DeckError where the step has others."""
-        found, step = self._found.constraints, setting.step
-        given = setting.state.boundaries.in_perturbation(replace(step, new_boundary=True))
-        same = np.array_equal(given, found.prescribed) if step.new_boundary else np.isin(given, found.prescribed).all()
-        if not same:
-            message = f"*BOUNDARY holds other dofs than the step of the modes, {self._found.step}"
+        """Return the constraints of the modes. Raises DeckError if the step has others."""
+        constraints, step = self._all_modes.constraints, setting.step
+        prescribed = setting.state.boundaries.in_perturbation(replace(step, new_boundary=True))
+        held = constraints.prescribed
+        if not (np.array_equal(prescribed, held) if step.new_boundary else np.isin(prescribed, held).all()):
+            message = f"*BOUNDARY holds other dofs than the step of the modes, {self._all_modes.step}"
             raise DeckError(step.source, message)
-        return found
+        return constraints
 
     def run(self) -> Generator[Record, None, None]:
         """Run the step and yield its records. Raises KernelError, DeckError."""
-        yield Noted(f"{len(self._numbers)} OF {len(self._found.values)} MODES OF STEP {self._found.step} RESPOND")
+        yield Noted(
+            f"{len(self._numbers)} OF {len(self._all_modes.values)} MODES OF STEP {self._all_modes.step} RESPOND"
+        )
         yield from self._increments()
         yield StepDone(self._step.number, self._increment, 0, self._increment)
 
@@ -87,9 +89,9 @@ class ModalDynamicStep(ModalStep):
             step_time = end
             before, (forces, load) = forces, self._forces(end)
             self._advance(size, self._modes.shapes @ before, self._modes.shapes @ forces)
-            found = self._superposed(forces, load)
+            solution = self._superposed(forces, load)
             following = self._procedure.times[increment] - end if end < self._procedure.period else 0.0
-            yield IncrementDone(number, increment, 1, 1, end, begin + end, size, found, following)
+            yield IncrementDone(number, increment, 1, 1, end, begin + end, size, solution, following)
             self._user.external_database(2, 0, (end, begin + end), size, number, increment)
 
     def _advance(self, size: float, before: FloatArray, after: FloatArray) -> None:
@@ -104,7 +106,7 @@ class ModalDynamicStep(ModalStep):
         """Return forces (n,) at a time: all of them, and loads alone."""
         at = step_time, self._state.total_time + step_time
         ramp = step_time / self._procedure.period if self._step.amplitude == "RAMP" else 1.0
-        load = self._loads(given_at(self._step, at, without=ramp))
+        load = self._loads(step_at(self._step, at, without=ramp))
         moved = [motion.value(*at) * self._modes.rigid[motion.dof - 1] for motion in self._superposition.base]
         return load - sum(moved), load
 

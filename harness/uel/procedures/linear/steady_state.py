@@ -29,7 +29,7 @@ from uel.model.modal import Motion
 from uel.model.perturbations import ModalSteadyState, SteadyState, SubspaceSteadyState
 from uel.model.records import HarmonicResponse, Record, Solution
 from uel.model.steps import Step
-from uel.procedures.linear.linear_loads import given_at
+from uel.procedures.linear.linear_loads import step_at
 from uel.procedures.linear.modal import ModalStep
 from uel.procedures.linear.perturbation import PerturbationStep
 from uel.procedures.step_setting import Setting
@@ -141,7 +141,7 @@ class HarmonicStep(PerturbationStep, ABC):
     def _given(self, read: Callable[[Step], FloatArray]) -> ComplexArray:
         """Return loads or prescribed values (n,) at the frequency."""
         at = self._frequency, self._frequency
-        return read(given_at(self._step, at)) + 1j * read(given_at(self._step, at, imaginary=True))
+        return read(step_at(self._step, at)) + 1j * read(step_at(self._step, at, imaginary=True))
 
     def _part(
         self,

@@ -54,13 +54,13 @@ class _ShellTerms:
 
     def at(self, magnitudes: FloatArray, floor: float) -> BlockReport:
         """Return their report at magnitudes (slots,); floor: below which forces are left out of the average."""
-        found = abs(self.forces.data) * np.abs(np.repeat(magnitudes, np.diff(self.forces.indptr)))
+        forces = abs(self.forces.data) * np.abs(np.repeat(magnitudes, np.diff(self.forces.indptr)))
         here = np.repeat(self.terms > 0, np.diff(self.forces.indptr))
-        counted = here & (found > floor)
+        counted = here & (forces > floor)
         values, field = np.zeros(len(FIELD_NAMES)), FIELD_NAMES.index("force")
         count = np.zeros(len(FIELD_NAMES), dtype=np.int64)
         flux, largest, entries, above = values.copy(), values.copy(), count.copy(), count.copy()
-        flux[field], largest[field] = found[counted].sum(), found[here].max(initial=0.0)
+        flux[field], largest[field] = forces[counted].sum(), forces[here].max(initial=0.0)
         above[field] = SHELL_PRESSURE * np.count_nonzero(counted)
         entries[field] = self.terms.sum()
         return BlockReport(flux, above, np.inf, np.zeros(8), 0.0, largest, entries)
@@ -71,7 +71,7 @@ class StepLoads:
     """Loads of one step; `increment` is the one for which they are needed.
 
     shape   of vectors of all unknowns
-    nlgeom  DLOAD gets the present places of its points
+    nlgeom  DLOAD gets the present coordinates of its points
     """
 
     step: int
@@ -127,19 +127,21 @@ class StepLoads:
         values = np.zeros(self.shape)
         for load in self.distributed:
             if len(load.chosen):
-                found = np.zeros(len(load.points.slot))
+                magnitudes = np.zeros(len(load.points.slot))
                 asked = load.points.asked(load.chosen, u if self.nlgeom else None)
-                found[load.chosen] = self._given(time, *asked, load.reference[load.points.slot[load.chosen]])
-                values += load.points.forces @ found
+                magnitudes[load.chosen] = self._magnitudes_of_dload(
+                    time, *asked, load.reference[load.points.slot[load.chosen]]
+                )
+                values += load.points.forces @ magnitudes
         return values
 
-    def _given(
-        self, time: tuple[float, float], places: NDArray[np.int32], coords: FloatArray, given: FloatArray
+    def _magnitudes_of_dload(
+        self, time: tuple[float, float], numbers: NDArray[np.int32], coords: FloatArray, reference: FloatArray
     ) -> FloatArray:
         """Return the magnitudes (k,) of DLOAD."""
         # calls before the first increment belong to it
         moment = self.step, max(self.increment, 1), time
-        return self.user.user_values(UserValues("DLOAD", *moment, places, coords, given))
+        return self.user.user_values(UserValues("DLOAD", *moment, numbers, coords, reference))
 
     def with_faces(
         self,
@@ -151,7 +153,7 @@ class StepLoads:
     ) -> Distributed | None:
         """Return the loads of an increment between these step and total times: on elements, on faces they follow, heat.
 
-        u (n,) are the displacements at which DLOAD is asked. factor: what it gets in place of step times; only then
+        u (n,) are the displacements at which DLOAD is asked. factor: what it gets instead of step times; only then
         changes of its loads in the increment are known.
         """
         by_user = self.system.agree(lambda: self._on_faces_of_user(end, u, factor)) if self.by_user else None
@@ -168,34 +170,36 @@ class StepLoads:
     def _on_faces(self, start: tuple[float, float], end: tuple[float, float]) -> Distributed | None:
         if not any(len(load.faces) for load in self.distributed):
             return None
-        places = np.concatenate([load.faces for load in self.distributed])
+        faces = np.concatenate([load.faces for load in self.distributed])
         after = np.concatenate([load.magnitudes.at(*end)[load.slots] for load in self.distributed])
         before = np.concatenate([load.magnitudes.at(*start)[load.slots] for load in self.distributed])
-        order = np.argsort(places)
-        return Distributed(places[order], np.ones_like(places), after[order], (after - before)[order])
+        order = np.argsort(faces)
+        return Distributed(faces[order], np.ones_like(faces), after[order], (after - before)[order])
 
     def _on_faces_of_user(
         self, end: tuple[float, float], u: FloatArray, factor: FactorTimes | None
     ) -> Distributed | None:
         """Return a load for each point of the faces whose pressure DLOAD gives."""
-        found = []
+        parts = []
         for load in self.distributed:
             for faces in load.user_faces:
                 asked = faces.asked(u if self.nlgeom else np.zeros_like(u))
                 change = np.zeros(len(faces.reference))
                 if factor is None:
-                    after = self._given(end, *asked, faces.reference)
+                    after = self._magnitudes_of_dload(end, *asked, faces.reference)
                 else:
-                    nearby = self._given((factor.end - factor.difference, end[1]), *asked, faces.reference)
-                    after = self._given((factor.end, end[1]), *asked, faces.reference)
+                    nearby = self._magnitudes_of_dload(
+                        (factor.end - factor.difference, end[1]), *asked, faces.reference
+                    )
+                    after = self._magnitudes_of_dload((factor.end, end[1]), *asked, faces.reference)
                     change = factor.change / factor.difference * (after - nearby)
-                found.append(faces.distributed(after, change))
-        if not found:
+                parts.append(faces.distributed(after, change))
+        if not parts:
             return None
-        order = np.argsort(np.concatenate([part.elements for part in found]), kind="stable")
+        order = np.argsort(np.concatenate([part.elements for part in parts]), kind="stable")
         return Distributed(
             *(
-                np.concatenate([getattr(part, name) for part in found])[order]
+                np.concatenate([getattr(part, name) for part in parts])[order]
                 for name in ("elements", "kinds", "end", "increment")
             )
         )
@@ -221,8 +225,8 @@ class _UserFaces:
     def distributed(self, end: FloatArray, increment: FloatArray) -> Distributed:
         """Return a load for each point, of these magnitudes (k * points,)."""
         count = self.block.points_of_face
-        places = np.repeat(self.block.first + self.block.rows[self.rows], count)
-        return Distributed(places, np.tile(np.arange(1, count + 1), len(self.rows)), end, increment)
+        elements = np.repeat(self.block.first + self.block.rows[self.rows], count)
+        return Distributed(elements, np.tile(np.arange(1, count + 1), len(self.rows)), end, increment)
 
 
 def _numbered(labels: IntArray, points: int, load: LoadType) -> NDArray[np.int32]:
@@ -278,10 +282,10 @@ class AllLoads:
             self._elements.start_step(step.element_loads, step.new_distributed, step, total_time),
             self._surfaces.start_step(step.surface_loads, step.new_surface_loads, step, total_time),
         )
-        found = tuple(load for load in distributed if load is not None)
+        on_elements = tuple(load for load in distributed if load is not None)
         heat = self._heat.start_step(step, total_time)
         concentrated = self._concentrated.start_step(step, total_time)
-        return StepLoads(step.number, self._shape, step.nlgeom, concentrated, found, user, heat, self._system)
+        return StepLoads(step.number, self._shape, step.nlgeom, concentrated, on_elements, user, heat, self._system)
 
     def in_perturbation(
         self, step: Step, user: GivesValues, increment: int, time: tuple[float, float], u: FloatArray
@@ -295,10 +299,10 @@ class AllLoads:
         forces += self._elements.unlasting(step.element_loads) + self._surfaces.unlasting(step.surface_loads)
         for entry in step.element_loads:
             if entry.type.jltyp:
-                places, coords, add = self._elements.nonuniform(entry, u if step.nlgeom else None)
-                given = np.full(len(coords), entry.magnitude)
+                numbers, coords, add = self._elements.nonuniform(entry, u if step.nlgeom else None)
+                reference = np.full(len(coords), entry.magnitude)
                 forces += add(
-                    user.user_values(UserValues("DLOAD", step.number, increment, time, places, coords, given))
+                    user.user_values(UserValues("DLOAD", step.number, increment, time, numbers, coords, reference))
                 )
         return forces
 
@@ -320,8 +324,8 @@ class AllLoads:
                 loaded[rows] = True
         rows = np.flatnonzero(loaded)
         if not block.load.jltyp:
-            places = block.first + block.rows[rows]
-            return Distributed(places, np.ones_like(places), magnitudes[rows], magnitudes[rows])
+            elements = block.first + block.rows[rows]
+            return Distributed(elements, np.ones_like(elements), magnitudes[rows], magnitudes[rows])
         faces = _UserFaces(block, rows, np.repeat(magnitudes[rows], block.points_of_face))
         asked = faces.asked(u if step.nlgeom else np.zeros_like(u))
         values = user.user_values(UserValues("DLOAD", step.number, increment, time, *asked, faces.reference))
@@ -341,23 +345,23 @@ class _Points:
     forces  (n, points) nodal forces for magnitudes of one
     moved   (3 points, n) their displacements from those of the nodes
     slot    (points,) number of the magnitude, jltyp (points,) as LoadType has it
-    places  (points, 3) element number, point, JLTYP; coords (points, 3), at the start of the analysis
+    numbers  (points, 3) element number, point, JLTYP; coords (points, 3), at the start of the analysis
     terms   (points,) of the average force that the load of the point is
     """
 
     forces: sparse.csr_array
     moved: sparse.csr_array
     slot: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
-    places: NDArray[np.int32] = field(default_factory=lambda: np.zeros((0, 3), dtype=np.int32))
+    numbers: NDArray[np.int32] = field(default_factory=lambda: np.zeros((0, 3), dtype=np.int32))
     coords: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
     terms: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
     def asked(self, chosen: IntArray, u: FloatArray | None) -> tuple[NDArray[np.int32], FloatArray]:
-        """Return places (k, 3) of chosen points, and coordinates at displacements u (n,) or in the initial shape."""
+        """Return numbers (k, 3) of chosen points, and coordinates at displacements u (n,) or in the initial shape."""
         coords = self.coords[chosen]
         if u is not None:
             coords = coords + (self.moved @ u).reshape(-1, 3)[chosen]
-        return self.places[chosen], coords
+        return self.numbers[chosen], coords
 
 
 def _check_dload(step: Step, user: GivesValues) -> None:
@@ -398,7 +402,7 @@ class _ElementLoads:
                 sparse.csr_array(sparse.hstack([part.forces for part in parts], format="csr")),
                 sparse.csr_array(sparse.vstack([part.moved for part in parts], format="csr")),
                 np.concatenate([part.slot for part in parts]),
-                np.concatenate([part.places for part in parts]),
+                np.concatenate([part.numbers for part in parts]),
                 np.concatenate([part.coords for part in parts]),
                 np.concatenate([part.terms for part in parts]),
             )
@@ -421,13 +425,13 @@ class _ElementLoads:
         for entry in entries:
             self._active[self._slots.find(entry.elements, self._types.index(entry.type))] = True
         self._refer(entries)
-        chosen = np.flatnonzero((self._points.places[:, 2] > 0) & self._active[self._points.slot])
+        chosen = np.flatnonzero((self._points.numbers[:, 2] > 0) & self._active[self._points.slot])
         varying = self.loads.take(self._as_loads(entries), new, step, total_time)
         by_user = [k for k, kind in enumerate(self._types) if kind.jltyp]
         turning, of_user = (self._has(kinds) for kinds in (self._turning, by_user))
-        given = turning, of_user, chosen, self._reference.copy(), self._faces_of_user()
+        of_step = turning, of_user, chosen, self._reference.copy(), self._faces_of_user()
         shells = _ShellTerms(self._of_shells, np.where(self._active, self._shell_terms, 0))
-        return _StepElementLoads(self._points, varying, *given, self._faces, self._face_slots, shells)
+        return _StepElementLoads(self._points, varying, *of_step, self._faces, self._face_slots, shells)
 
     def _has(self, kinds: list[int]) -> bool:
         """Report whether the step has loads of some types."""
@@ -435,31 +439,31 @@ class _ElementLoads:
 
     def _refer(self, entries: Sequence[ElementLoad]) -> None:
         """Take over the magnitudes that DLOAD gets; those of several entries of a step add up."""
-        given = [(self._slots.find(e.elements, self._types.index(e.type)), e) for e in entries if e.type.jltyp]
-        for slots, _ in given:
+        by_user = [(self._slots.find(e.elements, self._types.index(e.type)), e) for e in entries if e.type.jltyp]
+        for slots, _ in by_user:
             self._reference[slots] = 0.0
-        for slots, entry in given:
+        for slots, entry in by_user:
             self._reference[slots] += entry.magnitude
 
     def _faces_of_user(self) -> tuple[_UserFaces, ...]:
         """Return the faces here that have a load of DLOAD in the step."""
-        found = []
+        user_faces = []
         for block in self._user_faces:
             slots = self._slots.find(block.elements, self._types.index(block.load))
             rows = np.flatnonzero(self._active[slots])
             if len(rows):
                 reference = np.repeat(self._reference[slots[rows]], block.points_of_face)
-                found.append(_UserFaces(block, rows, reference))
-        return tuple(found)
+                user_faces.append(_UserFaces(block, rows, reference))
+        return tuple(user_faces)
 
     def nonuniform(
         self, entry: ElementLoad, u: FloatArray | None
     ) -> tuple[NDArray[np.int32], FloatArray, Callable[[FloatArray], FloatArray]]:
         """Return the points of DLOAD in a perturbation step, and a function from its answers to forces (n,)."""
         slots = self._slots.find(entry.elements, self._types.index(entry.type))
-        chosen = np.flatnonzero(np.isin(self._points.slot, slots) & (self._points.places[:, 2] > 0))
+        chosen = np.flatnonzero(np.isin(self._points.slot, slots) & (self._points.numbers[:, 2] > 0))
         forces = self._points.forces[:, chosen]
-        return (*self._points.asked(chosen, u), lambda found: np.asarray(forces @ found))
+        return (*self._points.asked(chosen, u), lambda magnitudes: np.asarray(forces @ magnitudes))
 
     def unlasting(self, entries: Sequence[ElementLoad]) -> FloatArray:
         """Return the forces (n,) of entries of a perturbation step."""
@@ -474,12 +478,12 @@ class _ElementLoads:
     def _points_of(self, system: System, entry: ElementLoad) -> list[_Points]:
         """Return the points of the elements that have loads of the entry's type, block by block."""
         chosen = np.flatnonzero(self._slots.kinds == self._types.index(entry.type))
-        found = []
+        points_of_blocks = []
         for block in system.blocks:
-            mine = chosen[block.holds(self._slots.places[chosen])]
+            mine = chosen[block.holds(self._slots.owners[chosen])]
             if not len(mine):
                 continue
-            rows = block.places_of(self._slots.places[mine])
+            rows = block.places_of(self._slots.owners[mine])
             forces, coords, shapes = unit_forces(block.group, rows, entry, system.dofs.mesh.coordinates)
             elements, points, _, dimension = forces.shape
             local = list(entry.type.face) or list(range(block.group.nodes.shape[1]))
@@ -488,13 +492,15 @@ class _ElementLoads:
             columns = np.arange(elements * points).reshape(elements, points, 1, 1)
             where = np.broadcast_to(unknowns, forces.shape).ravel(), np.broadcast_to(columns, forces.shape).ravel()
             matrix = sparse.csr_array((forces.ravel(), where), shape=(len(system), elements * points))
-            places = _numbered(block.group.labels[rows], points, entry.type)
+            numbers = _numbered(block.group.labels[rows], points, entry.type)
             # only DLOAD needs to know where the points are
             moved = _moved(system, nodes, shapes if entry.type.jltyp else 0.0 * shapes)
             counts = isinstance(block.group.built_in, ShellType) and entry.type.kind is LoadKind.PRESSURE
             terms = np.full(elements * points, counts * SHELL_PRESSURE * 3 * block.group.nodes.shape[1])
-            found.append(_Points(matrix, moved, np.repeat(mine, points), places, coords.reshape(-1, 3), terms))
-        return found
+            points_of_blocks.append(
+                _Points(matrix, moved, np.repeat(mine, points), numbers, coords.reshape(-1, 3), terms)
+            )
+        return points_of_blocks
 
 
 def _moved(system: System, nodes: IntArray, shapes: FloatArray) -> sparse.csr_array:

@@ -65,8 +65,8 @@ class HeatLoads:
         """Take over a step's entries; total_time is that at the end of the previous step."""
         variations = []
         for keyword, loads in zip(self._keywords, self._all, strict=True):
-            given = [entry for entry in step.heat_loads if entry.type.keyword == keyword]
-            variations.append(loads.take(given, keyword in step.new_heat_loads, step, total_time))
+            of_keyword = [entry for entry in step.heat_loads if entry.type.keyword == keyword]
+            variations.append(loads.take(of_keyword, keyword in step.new_heat_loads, step, total_time))
         first = np.cumsum([0, *(len(loads.slots) for loads in self._all)])
         elements, values, coefficients = [], [], []
         for block in self._blocks:
@@ -93,7 +93,7 @@ class HeatLoads:
 
 
 class _OfKeyword:
-    """Loads of one keyword: a magnitude for each place and type, two where heat is exchanged."""
+    """Loads of one keyword: a magnitude for each node or face and type, two where heat is exchanged."""
 
     def __init__(self, entries: Sequence[HeatLoad]) -> None:
         self._types = list(dict.fromkeys(entry.type for entry in entries))
@@ -105,10 +105,10 @@ class _OfKeyword:
     def _kind(self, load: HeatLoadType, part: int) -> int:
         return 2 * self._types.index(load) + part
 
-    def find(self, places: IntArray, load: HeatLoadType, part: int) -> tuple[IntArray, IntArray]:
-        """Return the numbers of the magnitudes at places, and whether each is active."""
-        found = self.slots.find(places, self._kind(load, part))
-        return found, self._active[found]
+    def find(self, owners: IntArray, load: HeatLoadType, part: int) -> tuple[IntArray, IntArray]:
+        """Return the numbers of the magnitudes on nodes or faces, and whether each is active."""
+        slots = self.slots.find(owners, self._kind(load, part))
+        return slots, self._active[slots]
 
     def take(self, entries: Sequence[HeatLoad], new: bool, step: Step, total_time: float) -> Variation:
         """Take over entries of a step; new: those of earlier steps are removed."""
@@ -123,21 +123,21 @@ class _OfKeyword:
         return self._at_once(varying, entries)
 
     def _replaced(self, entries: Sequence[HeatLoad]) -> Iterator[Load]:
-        """End further exchanges that an earlier step gave to the places of these entries; their loads are zero."""
+        """End further exchanges of earlier steps on the nodes or faces of these entries: their loads are zero."""
         for entry in entries:
             for load in self._types if entry.type.exchanges else ():
                 if load.number and replace(load, number=0) == replace(entry.type, number=0):
                     slots = self.slots.find_some(entry.places, self._kind(load, 0))
                     slots = slots[self._active[slots]]
-                    places = self.slots.places[slots]
+                    owners = self.slots.owners[slots]
                     for part in range(2):
                         kind = self._kind(load, part)
-                        self._active[self.slots.find(places, kind)] = False
-                        yield Load(places, kind, 0.0, None, entry.source)
+                        self._active[self.slots.find(owners, kind)] = False
+                        yield Load(owners, kind, 0.0, None, entry.source)
 
     def _coefficients(self, entries: Sequence[HeatLoad]) -> list[Load]:
-        given = [entry for entry in entries if entry.type.exchanges]
-        return [Load(e.places, self._kind(e.type, 1), e.coefficient, e.film_amplitude, e.source) for e in given]
+        exchanges = [entry for entry in entries if entry.type.exchanges]
+        return [Load(e.places, self._kind(e.type, 1), e.coefficient, e.film_amplitude, e.source) for e in exchanges]
 
     def _at_once(self, varying: Variation, entries: Sequence[HeatLoad]) -> Variation:
         """Apply coefficients without an amplitude at once: they do not ramp."""

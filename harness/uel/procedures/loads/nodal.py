@@ -293,7 +293,7 @@ class Loads:
 class Slots:
     """Numbers of pairs (element or node, load type or field), as `Loads` asks for them.
 
-    places, kinds  of each pair
+    owners, kinds  elements or nodes, and kinds, of the pairs
     """
 
     def __init__(self, pairs: Sequence[tuple[IntArray, int]]) -> None:
@@ -301,25 +301,25 @@ class Slots:
         # JDLTYP of a nonuniform load is negative
         self._least = min((kind for _, kind in pairs), default=0)
         self._kinds = 1 + max((kind for _, kind in pairs), default=0) - self._least
-        keys = [np.zeros(0, dtype=np.int64), *(self._keys(places, kind) for places, kind in pairs)]
+        keys = [np.zeros(0, dtype=np.int64), *(self._keys(owners, kind) for owners, kind in pairs)]
         self._sorted = np.unique(np.concatenate(keys))
-        self.places, self.kinds = self._sorted // self._kinds, self._sorted % self._kinds + self._least
+        self.owners, self.kinds = self._sorted // self._kinds, self._sorted % self._kinds + self._least
 
     def __len__(self) -> int:
         return len(self._sorted)
 
-    def _keys(self, places: IntArray | int, kind: IntArray | int) -> IntArray:
-        return np.atleast_1d(places).astype(np.int64) * self._kinds + int(kind) - self._least
+    def _keys(self, owners: IntArray | int, kind: IntArray | int) -> IntArray:
+        return np.atleast_1d(owners).astype(np.int64) * self._kinds + int(kind) - self._least
 
-    def find(self, places: IntArray | int, kind: IntArray | int) -> IntArray:
+    def find(self, owners: IntArray | int, kind: IntArray | int) -> IntArray:
         """Return the numbers of the pairs, which must exist."""
-        return np.searchsorted(self._sorted, self._keys(places, kind))
+        return np.searchsorted(self._sorted, self._keys(owners, kind))
 
-    def find_some(self, places: IntArray, kind: int) -> IntArray:
+    def find_some(self, owners: IntArray, kind: int) -> IntArray:
         """Return the numbers of the pairs that exist."""
-        numbers = self.find(places, kind)
+        numbers = self.find(owners, kind)
         known = numbers < len(self)
-        numbers, keys = numbers[known], self._keys(places, kind)[known]
+        numbers, keys = numbers[known], self._keys(owners, kind)[known]
         return np.asarray(numbers[self._sorted[numbers] == keys])
 
 

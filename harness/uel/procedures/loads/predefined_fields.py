@@ -74,7 +74,7 @@ class Conditions:
         for field in fields:
             self._by_user[self._nodes.find(field.nodes, field.dof)] = field.user
         return StepConditions(
-            self._slots.places[self._active],
+            self._slots.owners[self._active],
             self._slots.kinds[self._active],
             np.flatnonzero(self._active),
             self._loads.take(_as_loads(step), step.new_distributed, step, total_time),
@@ -91,7 +91,7 @@ class Conditions:
         for entry in step.distributed:
             active[self._slots.find(entry.elements, entry.kind)] = True
         base, added = self._loads.reached(total_time), self._loads.in_perturbation(_as_loads(step))
-        return _distributed(self._slots.places[active], self._slots.kinds[active], base[active], added[active])
+        return _distributed(self._slots.owners[active], self._slots.kinds[active], base[active], added[active])
 
     def initial(self) -> Predefined | None:
         """Return the fields before the first step; None if the model has none."""
