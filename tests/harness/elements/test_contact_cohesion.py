@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from contact_decks import YOUNG, Box, plane, step, total, two_boxes
 from contact_points import SOURCE, Points
-from test_contact_sliding import pair_of as nodes_pair
-from test_contact_surfaces import pair_of as surfaces_pair
+from test_contact_finite_sliding import pair_of as nodes_pair
+from test_contact_surface_to_surface import pair_of as surfaces_pair
 
 from uel.errors import DeckError
 from uel.model.contact import Cohesion

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The host's library of materials holds as many as a graded mesh has sections, and those of open jobs alone."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -63,10 +64,9 @@ def _pull(system: System) -> float:
 PROGRAM_OF_JOBS = """
 import sys
 from pathlib import Path
-sys.path.insert(0, sys.argv[1])
-from test_library import _pull, _truss
+from test_material_library import _pull, _truss
 from uel.errors import UelError
-folder = Path(sys.argv[2])
+folder = Path(sys.argv[1])
 first, one = _truss(folder, "one")
 second, two = _truss(folder, "two")
 print(_pull(first), _pull(second))
@@ -86,8 +86,10 @@ except UelError as error:
 
 def test_materials_of_jobs_that_have_ended(tmp_path):
     """In a process of its own, where no other job is open."""
-    command = [sys.executable, "-c", PROGRAM_OF_JOBS, str(Path(__file__).parent), str(tmp_path)]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    path = [str(Path(__file__).parent), *filter(None, [os.environ.get("PYTHONPATH")])]
+    variables = os.environ | {"PYTHONPATH": os.pathsep.join(path)}
+    command = [sys.executable, "-c", PROGRAM_OF_JOBS, str(tmp_path)]
+    done = subprocess.run(command, env=variables, capture_output=True, text=True, check=True)
     *pulls, lost = done.stdout.splitlines()
     assert pulls == ["20.0 20.0", "20.0 20.0", "20.0"]
     assert "the material of these elements was that of a job that has ended" in lost

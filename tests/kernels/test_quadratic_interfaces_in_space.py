@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Interfaces of quadratic elements in space: U11 between faces of eight nodes, U12 with its own bricks of 20 nodes.
 
-What they share with U7 and U8 is in test_space.py.
+What they share with U7 and U8 is in test_interfaces_in_space.py.
 """
 
 import numpy as np
