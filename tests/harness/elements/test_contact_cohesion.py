@@ -71,8 +71,8 @@ def bricks():
     ("boxes", "element_type", "pair"),
     [
         (lambda: plane(lower=4, upper=4, width=4.0), "COH2D4", "SMALL SLIDING"),
-        (lambda: plane(lower=4, upper=4, width=4.0), "COH2D4", "SMALL SLIDING, TYPE=SURFACE TO SURFACE"),
-        (lambda: plane(lower=4, upper=4, width=4.0), "COH2D4", "TYPE=SURFACE TO SURFACE"),
+        (lambda: plane(lower=8, upper=8, width=4.0), "COH2D4", "SMALL SLIDING, TYPE=SURFACE TO SURFACE"),
+        (lambda: plane(lower=8, upper=8, width=4.0), "COH2D4", "TYPE=SURFACE TO SURFACE"),
         (bricks, "COH3D8", "SMALL SLIDING"),
     ],
     ids=["plane", "plane-surfaces", "plane-sliding", "space"],
@@ -81,7 +81,7 @@ def test_peeled_as_cohesive_elements_are(run_deck, boxes, element_type, pair):
     """One end is pulled and drawn: mixed mode, partly failed. Under pressure both have the stiffness of the law.
 
     The points of cohesive elements are the nodes, as those of node to surface. Surface to surface has means over the
-    faces around a node, four along the interface: they spread what differs from node to node.
+    faces around a node, eight along the interface: they spread what differs from node to node.
     """
     lower, upper = boxes()
     normal = 2 if element_type == "COH2D4" else 3

@@ -163,13 +163,13 @@ LOST = "at integration point 1; the run goes on, but what is written there is lo
         (3, 17, 36, "", "DDSDDE: entry 17 of 16 (NTENS x NTENS)"),
     ],
 )
-def test_a_write_outside_an_array_is_told_once(run_strip, tmp_path, array, first, last, depvar, message):
+def test_a_write_outside_an_array_is_told_once(run_strip, array, first, last, depvar, message):
     """With its element and point; all else is as without it."""
     sound = run_strip("*ELASTIC\n1000., 0.")
     wrong = run_strip(BEYOND.format(array, first, last) + depvar, user=HERE / "beyond.f")
     np.testing.assert_allclose(wrong.field("U"), sound.field("U"), rtol=1e-9, atol=1e-12)
     np.testing.assert_allclose(wrong.field("S11"), sound.field("S11"), rtol=1e-9, atol=1e-9)
-    text = " ".join((tmp_path / "deck.msg").read_text().split())
+    text = " ".join(wrong.file(".msg").read_text().split())
     assert f"***WARNING: element 1: UMAT writes outside {message} {LOST}" in text
     assert text.count("writes outside") == 1
 

@@ -43,7 +43,7 @@ BAR = f"""*NODE, NSET=ALL
 
 @pytest.fixture
 def buckle(run_deck):
-    def buckle(model, loads, *, numbers="2", how="", before="", name="deck", step=STEP):
+    def buckle(model, loads, *, numbers="2", how="", before="", name=None, step=STEP):
         return run_deck(model + before + step.format(how=how, numbers=numbers, loads=loads), name=name)
 
     return buckle

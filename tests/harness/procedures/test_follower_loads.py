@@ -3,7 +3,6 @@
 """Pressures and tractions with NLGEOM: they act on the present faces, with their stiffness, and do work."""
 
 from dataclasses import replace
-from itertools import count
 
 import numpy as np
 import pytest
@@ -68,11 +67,8 @@ DLOAD = """      SUBROUTINE DLOAD(F,KSTEP,KINC,TIME,NOEL,NPT,LAYER,KSPT,
 
 @pytest.fixture
 def press(run_deck):
-    """Run a deck, each as a job of its own: results are read from its files when they are asked for."""
-    numbers = count(1)
-
     def press(text, user=None, **options):
-        return run_deck(text, user and DLOAD.format(user), name=f"press{next(numbers)}", **options)
+        return run_deck(text, user and DLOAD.format(user), **options)
 
     return press
 
@@ -285,10 +281,10 @@ def test_energy_control_refuses_loads_on_elements(press, load):
 @pytest.mark.parametrize(
     ("steps", "message"),
     [
-        ([static("*DSLOAD\nSIDE, TRSHR, 1., 1.")], r"press1.inp:\d+: TRSHR: the direction is normal to the surface"),
+        ([static("*DSLOAD\nSIDE, TRSHR, 1., 1.")], r"deck.inp:\d+: TRSHR: the direction is normal to the surface"),
         (
             [static("*DLOAD\nBODY, P2, 1."), "*STEP\n*FREQUENCY\n1"],
-            r"load type P follows .* beside a perturbation step \(.*press1.inp:\d+\)",
+            r"load type P follows .* beside a perturbation step \(.*deck.inp:\d+\)",
         ),
     ],
 )
