@@ -193,7 +193,7 @@ def _analyse(
         def put(record: Record, output: JobOutput) -> None:
             output.write(record)
             if isinstance(record, IncrementDone):
-                for warning in long_elements.warnings(record):
+                for warning in long_elements.warnings(record, output.warnings):
                     output.user_text(".dat", "warning", warning)
 
         with one_blas_thread(), guard_values({}):
@@ -207,7 +207,7 @@ def _analyse(
                         output.write(record)
         with held():
             if output is not None:
-                for warning in long_elements.unsaid:
+                for warning in long_elements.waiting(output.warnings):
                     output.user_text(".dat", "warning", warning)
             write(methodcaller("close", None))
             ranks.ended(None)

@@ -16,12 +16,14 @@ have the ratio sqrt(E_t/E_n) follows from G. C. Sih, P. C. Paris and G. R. Irwin
 Mechanics 1 (1965) 189-203. In mixed mode, 1/l is the mean of 1/l_I and 1/l_II with the energies that the failing point
 has dissipated as weights, which has these limits; there is no formula of the literature for it.
 
-The project's elements with solids of their own know the moduli, and send the message themselves where the zone in a
-large body is too short (fortran/elements/process_zone.f90); the arms are left to the warning from here.
+The project's elements with solids of their own know the moduli, but not the arms. They send a message themselves, in
+Abaqus too, in the increment after the one in which a point fails (fortran/elements/process_zone.f90). The warning of
+their groups waits until then, and is not given if they have spoken.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -49,13 +51,17 @@ _FLAT: Final = 0.999
 """Length of the mean of unit normals above which an interface counts as flat: within 3 degrees or so."""
 
 
+TOLD: Final = "the process zone at most"
+"""Words of the message that elements send themselves, once in a job (fortran/abaqus/long_elements.f90)."""
+
+
 @dataclass(frozen=True, slots=True)
 class _Law:
-    """Strengths and fracture energies of modes I and II; whether the elements say themselves that they are too long."""
+    """Strengths and fracture energies of modes I and II; speaks: the elements may send the message themselves."""
 
     strengths: tuple[float, float]
     energies: tuple[float, float]
-    tells: bool = False
+    speaks: bool = False
 
     @property
     def valid(self) -> bool:
@@ -68,20 +74,18 @@ class _Long:
     """Elements of a group that are too long in one mode at least.
 
     rows, lengths, zones  (k,) in the group, (k,) and of both modes (2, k)
-    large                 zones in a large body (2, k)
     law                   of the group
     """
 
     rows: IntArray
     lengths: FloatArray
     zones: FloatArray
-    large: FloatArray
     law: _Law
 
     def without(self, some: NDArray[np.bool_]) -> _Long:
         """Return the elements except some (k,)."""
         kept = ~some
-        return _Long(self.rows[kept], self.lengths[kept], self.zones[:, kept], self.large[:, kept], self.law)
+        return _Long(self.rows[kept], self.lengths[kept], self.zones[:, kept], self.law)
 
 
 class LongElements:
@@ -92,17 +96,12 @@ class LongElements:
     model, library
         The deck and the user routines; without the project's own interface elements, and cohesive ones, and without an
         elastic material beside them, nothing is watched.
-
-    Attributes
-    ----------
-    unsaid
-        What elements begin to say themselves in the next increment: if the job ends before it, nobody has said it.
     """
 
     def __init__(self, model: Model, library: Library) -> None:
         self._model = model
         self._watched: dict[int, _Long] = {}
-        self.unsaid: list[str] = []
+        self._waiting: list[str] = []
         plies: _Plies | None = None
         for index, group in enumerate(model.groups):
             law, faces = _law(group, library), _faces(group, library)
@@ -113,13 +112,18 @@ class LongElements:
             if len(long.rows):
                 self._watched[index] = long
 
-    def warnings(self, record: IncrementDone) -> list[str]:
-        """Return the warnings after an increment: once for each group, when the first of its long elements fails.
-
-        Nothing of a group whose elements say it themselves.
+    def waiting(self, given: Sequence[str]) -> list[str]:
+        """Return the warnings that have waited for elements to speak, none if `given`, those of the job so far, has
+        their message.
         """
-        found: list[str] = []
-        self.unsaid = []
+        waited, self._waiting = self._waiting, []
+        return [] if any(TOLD in text for text in given) else waited
+
+    def warnings(self, record: IncrementDone, given: Sequence[str]) -> list[str]:
+        """Return the warnings after an increment: once for each group, when the first of its long elements fails, or
+        one increment later; given: as in `waiting`.
+        """
+        found = self.waiting(given)
         for index, long in list(self._watched.items()):
             state = record.solution.elements[index]
             assert state.variables is not None  # of elements that we know
@@ -137,13 +141,12 @@ class LongElements:
                 continue
             mix = np.clip(second / np.where(first + second > 0.0, first + second, 1.0), 0.0, 1.0)
             mix = np.where(first + second > 0.0, mix, long.zones.argmin(axis=0))
-            zones, large = (1.0 / ((1.0 - mix) / modes[0] + mix / modes[1]) for modes in (long.zones, long.large))
+            zones = 1.0 / ((1.0 - mix) / long.zones[0] + mix / long.zones[1])
             short = np.flatnonzero(failed & (ELEMENTS * long.lengths > zones))
             if len(short):
                 k = int(short[0])
                 del self._watched[index]
-                told = long.law.tells and (failed & (ELEMENTS * long.lengths > large)).any()
-                texts = self.unsaid if told else found
+                texts = self._waiting if long.law.speaks else found
                 texts.append(_message(self._model.groups[index], long, k, float(zones[k]), float(mix[k])))
             else:
                 self._watched[index] = long.without(failed)
@@ -172,7 +175,7 @@ def _law(group: ElementGroup, library: Library) -> _Law | None:
         # the elements themselves say what is missing
         return None
     values = {item.name: float(section.values[item.position - 1]) for item in layout.reals}
-    return _Law((values["SIGMAMAX"], values["TAUMAX"]), (values["GIC"], values["GIIC"]), tells=bool(layout.own))
+    return _Law((values["SIGMAMAX"], values["TAUMAX"]), (values["GIC"], values["GIIC"]), speaks=bool(layout.own))
 
 
 def _built_in_law(section: CohesiveSection) -> _Law | None:
@@ -267,10 +270,10 @@ def _long_elements(
     sides = [side[:, 0] for side in nodes]
     across, axial = (np.minimum(*(plies.modulus(side, direction) for side in sides)) for direction in (normal, along))
     height = _arm_height(place[plies.nodes], middle.reshape(-1, 3), normal)
-    zones, large = _zones(law, across, axial, height), _zones(law, across, axial, np.inf)
+    zones = _zones(law, across, axial, height)
     zone = zones.min(axis=0)
     found = np.flatnonzero(np.isfinite(zone) & (ELEMENTS * length > zone))
-    return _Long(found, length[found], zones[:, found], large[:, found], law)
+    return _Long(found, length[found], zones[:, found], law)
 
 
 def _normals(middle: FloatArray) -> FloatArray:
