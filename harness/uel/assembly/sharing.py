@@ -47,6 +47,10 @@ class Sharing:
         """Sum an array over the ranks, the same to the bit on all of them; not a copy in one process."""
         return self.ranks.sum(values)
 
+    def largest(self, value: float) -> float:
+        """Return the largest of the values that the ranks have."""
+        return float(self.ranks.largest(np.array([value]))[0])
+
     def evaluate(self, act: Callable[[], Evaluation], unknowns: int, nrhs: int) -> Evaluation:
         """Sum the evaluations of all ranks; act: returns that of this one. The matrix stays distributed.
 

@@ -225,9 +225,7 @@ class System:
 
     def viscous_change(self) -> float:
         """Return the largest change of a viscous strain rate in the increment times its length, by the last pass."""
-        return float(
-            self.ranks.largest(np.array([max((block.viscous_change for block in self.blocks), default=0.0)]))[0]
-        )
+        return self.sharing.largest(max((block.viscous_change for block in self.blocks), default=0.0))
 
     def states(self) -> States:
         """Return the committed states of all elements.
