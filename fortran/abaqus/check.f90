@@ -5,11 +5,11 @@ module abaqus_check
   use core_kinds, only: dp
   use core_status, only: status_type, sentence, too_brittle, zero_length, faces_apart, small_beta, &
     too_brittle_mixed, late_secant, no_root
-  use abaqus_layout, only: elements, faces, reals, integers, expectations, every_continuum, with_solids, &
+  use abaqus_layout, only: elements, faces, reals, integers, expectations, every_continuum, with_solids, next_to_solids, &
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
     p_betan, p_betat, p_shapen, p_shapet, p_friction, j_law, j_closure
   use abaqus_properties, only: unknowns_of, variables_of, real_position, integer_position, unpack, recommend, &
-    by_eigenvalues, by_equation_21, consistent_closure
+    by_eigenvalues, by_equation_21, consistent_closure, complete_closure
   use cohesive_parameters, only: ppr_law
   use abaqus_report, only: fatal
   implicit none(type, external)
@@ -146,7 +146,13 @@ contains
     logical :: consistent, infinite
     integer :: i
 
-    consistent = options(j_closure) == consistent_closure
+    consistent = any(options(j_closure) == [consistent_closure, complete_closure])
+    good = options(j_closure) /= complete_closure .or. iand(elements(jtype)%family, next_to_solids) == 0
+    if (.not. good) then
+      call fatal(jtype, jelem, 'JPROPS(%I) CLOSURE = 3, the complete form, requires an element that has the nodes of its ' // &
+        'solids; expected 1 or 2', [integer_position(jtype, j_closure)], [real(dp) ::])
+      return
+    end if
     infinite = consistent .and. .not. maxval(values(alphas)) > 0.0_dp
     good = .not. (any_is(by_eigenvalues) .and. any_is(by_equation_21))
     if (.not. good) then
@@ -159,12 +165,12 @@ contains
       good = infinite .or. values(alphas(i)) > 0.0_dp
       if (good) cycle
       call refuse_real(jtype, jelem, alphas(i), values(alphas(i)), ': expected a positive value; 0, an infinite ' // &
-        'stiffness, requires the consistent law (CLOSURE = 1) and 0 in both directions')
+        'stiffness, requires the consistent law (CLOSURE = 1 or 3) and 0 in both directions')
       return
     end do
     good = consistent .or. .not. values(p_friction) > 0.0_dp
     if (.not. good) call refuse_real(jtype, jelem, p_friction, values(p_friction), &
-      ': without the consistent law (CLOSURE = 1), expected 0')
+      ': without the consistent law (CLOSURE = 1 or 3), expected 0')
     if (.not. good .or. .not. consistent .or. options(j_law) /= ppr_law) return
     do i = 1, 2
       good = values(shapes(i)) >= 2.0_dp .or. .not. values(shapes(i)) > 0.0_dp

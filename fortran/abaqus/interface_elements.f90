@@ -22,7 +22,8 @@ module abaqus_interface_elements
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
     v_maxn, v_maxt, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, w_dissi, w_dissii, w_sn, w_st, w_dmax, &
     w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt
-  use abaqus_properties, only: face_nodes, nodes_of_face, real_position, variables_of_points, by_eigenvalues, consistent_closure
+  use abaqus_properties, only: face_nodes, nodes_of_face, real_position, variables_of_points, by_eigenvalues, complete_closure, &
+    paper_closure
   use abaqus_check, only: report_status
   use abaqus_long_elements, only: warn_if_long
   use abaqus_raised_beta, only: warn_if_raised
@@ -49,7 +50,8 @@ module abaqus_interface_elements
 contains
 
   !> Evaluates every type but U1 and U9; `good` is false after a message. SVARS and ENERGY come back with their end values:
-  !> ENERGY(2) is T.g/2, ENERGY(4) what damage and friction have dissipated, ENERGY(5) what the viscous overstress has.
+  !> ENERGY(2) is what the law and, in the
+  !> complete form, the gap store, ENERGY(4) what damage and friction have dissipated, ENERGY(5) what the viscous overstress has.
   subroutine evaluate_interface(jtype, jelem, values, options, coords, u, dtime, finite, with_tangent, svars, energy, residual, &
     tangent, good)
     integer, intent(in) :: jtype, jelem
@@ -81,8 +83,7 @@ contains
       return
     end if
     choice = chosen(values, options, finite)
-    stabilisation = stabilisation_type(max(0.0_dp, values([p_betat, p_betan])), values([p_gammabot, p_gammabot]), &
-      any(abs(values([p_betat, p_betan]) - by_eigenvalues) <= 0.0_dp), given=values([p_betat, p_betan]) > 0.0_dp)
+    stabilisation = stabilisation_of(values, choice%complete)
     dim = elements(jtype)%dimension
     original = coords(1:dim, :)
     thickness = thickness_of(jtype, values)
@@ -138,11 +139,29 @@ contains
     real(dp), intent(in) :: svars(*)
     real(dp), intent(out) :: residual(:)
     logical, intent(out) :: good
+    type(interface_options) :: choice
+    type(stabilisation_type) :: stabilisation
     type(status_type) :: status
+    real(dp), dimension(3*(elements(jtype)%dimension - 1), 3*(elements(jtype)%dimension - 1), 2) :: stiffness
+    real(dp) :: original(elements(jtype)%dimension, size(coords, 2))
+    integer :: nodes(nodes_of_face(jtype), 2)
 
-    associate (dim => elements(jtype)%dimension, points => elements(jtype)%points)
-      call interface_forces(dim, points, face_nodes(jtype), chosen(values, options, finite), thickness_of(jtype, values), &
-        coords(1:dim, :), u, points_from(svars, points, dim), residual, status)
+    choice = chosen(values, options, finite)
+    stabilisation = stabilisation_of(values, choice%complete)
+    nodes = face_nodes(jtype)
+    associate (dim => elements(jtype)%dimension, points => elements(jtype)%points, n => variables_of_points(jtype))
+      original = coords(1:dim, :)
+      good = .true.
+      if (choice%complete) then
+        call elasticity_of_solids(jtype, jelem, materials_of_solids(values), options(j_plane), original(:, nodes(:, 1)), &
+          original(:, nodes(:, 2)), stiffness, good)
+        if (good) call recall(svars(n + 1:n + own_variables), stabilisation)
+        ! before the first increment that is kept there are neither tractions nor displacements
+        choice%complete = stabilisation%known
+      end if
+      if (.not. good) return
+      call interface_forces(dim, points, nodes, faces(jtype)%solid, choice, thickness_of(jtype, values), original, u, &
+        points_from(svars, points, dim), residual, status, stabilisation, stiffness)
     end associate
     good = status%code == ok
     if (.not. good) call report_status(jtype, jelem, status)
@@ -155,9 +174,20 @@ contains
     logical, intent(in) :: finite
     type(interface_options) :: choice
 
-    choice = interface_options(options(j_integration), options(j_sampling), options(j_closure) == consistent_closure, &
-      merge(1.0_dp, values(p_blend), options(j_tangent) == 1), finite)
+    choice = interface_options(options(j_integration), options(j_sampling), options(j_closure) /= paper_closure, &
+      options(j_closure) == complete_closure, merge(1.0_dp, values(p_blend), options(j_tangent) == 1), finite)
   end function chosen
+
+  !> Beta and gamma as the deck has them.
+  pure function stabilisation_of(values, complete) result(stabilisation)
+    real(dp), intent(in) :: values(:)
+    logical, intent(in) :: complete
+    type(stabilisation_type) :: stabilisation
+    integer, parameter :: betas(2) = [p_betat, p_betan]
+
+    stabilisation = stabilisation_type(max(0.0_dp, values(betas)), values([p_gammabot, p_gammabot]), &
+      any(abs(values(betas) - by_eigenvalues) <= 0.0_dp), complete, given=values(betas) > 0.0_dp)
+  end function stabilisation_of
 
   !> Thickness out of the plane; 1 in space.
   pure function thickness_of(jtype, values) result(thickness)

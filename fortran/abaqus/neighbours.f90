@@ -56,7 +56,7 @@ contains
     do side = 1, 2
       bounds(:, side) = records(slot(side))%norm*sum(places%area)/records(slot(side))%measure
     end do
-    stabilisation = nitsche_parameters(stabilisation, bounds)
+    stabilisation = nitsche_parameters(stabilisation, bounds, 1.0_dp)
     do side = 1, 2
       weight = merge(stabilisation%gamma_bottom(1), 1.0_dp - stabilisation%gamma_bottom(1), side == 1)
       do k = 1, points

@@ -17,6 +17,7 @@ module abaqus_properties
   real(dp), parameter, public :: by_equation_21 = -2.0_dp
   integer, parameter, public :: consistent_closure = 1      ! CLOSURE
   integer, parameter, public :: paper_closure = 2
+  integer, parameter, public :: complete_closure = 3
 
 contains
 

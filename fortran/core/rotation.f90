@@ -6,7 +6,8 @@ module core_rotation
   use core_small_matrix, only: invert
   implicit none(type, external)
   private
-  public :: about_mean, cross, line_frame, surface_frame, ply_axes, turned_frame, polar_rotation, traction_operator, strain_rotation
+  public :: about_mean, cross, line_frame, surface_frame, ply_axes, turned_frame, frame_curvature
+  public :: polar_rotation, traction_operator, strain_rotation
 
   real(dp), parameter :: degree = acos(-1.0_dp)/180.0_dp
 
@@ -123,6 +124,79 @@ contains
       end do
     end do
   end subroutine turned_frame
+
+  !> Second derivative, by the nodes, of the sum of moments*F over the entries of the frame F of `turned_frame`.
+  pure function frame_curvature(dim, nodes, start, now, frame, by_node, turned, turning, moments) result(curvature)
+    integer, intent(in) :: dim, nodes
+    real(dp), intent(in) :: start(dim, dim - 1), now(dim, dim - 1), frame(3, 3), by_node(nodes, dim - 1)   !< as there
+    real(dp), intent(in) :: turned(3, 3), turning(3, dim, dim*nodes)   !< its results; the nodes one after the other
+    real(dp), intent(in) :: moments(3, 3)            !< row of the frame, component
+    real(dp) :: curvature(dim*nodes, dim*nodes)
+    real(dp) :: plane(3, 2), gram(2, 2), inverse(2, 2), determinant, share(2), length, measure, rest(3)
+    real(dp), dimension(dim*nodes) :: stretch, stretch_of_normal
+    real(dp), dimension(3, dim*nodes) :: of_line, of_normal
+    integer :: i, j, q, p, row, column
+
+    of_line = 0.0_dp
+    of_line(1:dim, :) = turning(1, :, :)
+    if (dim == 2) then
+      measure = norm2(now(:, 1))
+      do q = 1, nodes
+        stretch(2*q - 1:2*q) = (by_node(q, 1)/measure)*turned(1, 1:2)
+      end do
+      ! the normal is the line, turned by 90 degrees
+      curvature = unit_curvature(turned(1, :), of_line, stretch, moments(1, :) + [moments(2, 2), -moments(2, 1), 0.0_dp])
+      return
+    end if
+    of_normal = turning(2, :, :)
+    plane = now
+    gram = matmul(transpose(start), start)
+    call invert(2, gram, inverse, determinant)
+    share = matmul(inverse, matmul(frame(1, :), start))
+    length = norm2(matmul(plane, share))
+    measure = norm2(cross(plane(:, 1), plane(:, 2)))
+    do q = 1, nodes
+      stretch(3*q - 2:3*q) = (dot_product(share, by_node(q, :))/length)*turned(1, :)
+      stretch_of_normal(3*q - 2:3*q) = (by_node(q, 1)*cross(plane(:, 2), turned(2, :)) &
+        + by_node(q, 2)*cross(turned(2, :), plane(:, 1)))/measure
+    end do
+    ! the third row is the cross product of normal and line
+    rest = moments(2, :) + cross(turned(1, :), moments(3, :))
+    curvature = unit_curvature(turned(1, :), of_line, stretch, moments(1, :) + cross(moments(3, :), turned(2, :))) &
+      + unit_curvature(turned(2, :), of_normal, stretch_of_normal, rest)
+    rest = (rest - dot_product(rest, turned(2, :))*turned(2, :))/measure
+    do column = 1, 3*nodes
+      p = (column + 2)/3
+      j = column - 3*(p - 1)
+      do row = 1, 3*nodes
+        q = (row + 2)/3
+        i = row - 3*(q - 1)
+        curvature(row, column) = curvature(row, column) &
+          + dot_product(moments(3, :), cross(of_normal(:, row), of_line(:, column)) + cross(of_normal(:, column), of_line(:, row)))
+        if (i == j) cycle
+        ! unit vectors i and j have the third one, or its opposite, as their cross product
+        curvature(row, column) = curvature(row, column) + (by_node(q, 1)*by_node(p, 2) - by_node(p, 1)*by_node(q, 2)) &
+          *merge(rest(6 - i - j), -rest(6 - i - j), mod(j - i + 3, 3) == 1)
+      end do
+    end do
+  end function frame_curvature
+
+  !> Second derivative of force.unit, where unit = L/|L| and L is linear in some unknowns.
+  pure function unit_curvature(unit, turning, stretch, force) result(curvature)
+    real(dp), intent(in) :: unit(3)
+    real(dp), intent(in) :: turning(:, :)   !< (3, unknowns) derivative of unit
+    real(dp), intent(in) :: stretch(:)      !< that of log |L|
+    real(dp), intent(in) :: force(3)
+    real(dp) :: curvature(size(stretch), size(stretch))
+    real(dp) :: along(size(stretch))
+    integer :: j
+
+    along = matmul(force, turning)
+    curvature = -dot_product(unit, force)*matmul(transpose(turning), turning)
+    do j = 1, size(stretch)
+      curvature(:, j) = curvature(:, j) - stretch*along(j) - along*stretch(j)
+    end do
+  end function unit_curvature
 
   !> Rotation of the polar decomposition of a deformation gradient, by Newton's method for the square root (N.J. Higham,
   !> Functions of Matrices, 2008, 8.3).

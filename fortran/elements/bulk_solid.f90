@@ -83,33 +83,38 @@ contains
     area = 0.5_dp*(diagonal_13(1)*diagonal_24(2) - diagonal_13(2)*diagonal_24(1))
   end function quad_area
 
-  !> lambda of the face whose last parent coordinate is `side`, see elements_face_eigenvalue; with as many points along each
-  !> direction as an edge has nodes.
-  pure subroutine solid_face_eigenvalue(dim, nodes, coordinates, side, points, parents, frames, areas, stiffness, lambda, status)
+  !> lambda of a face, see elements_face_eigenvalue; with as many points along each direction as an edge has nodes. The traction of
+  !> a point is that of the samples in the element that stand for it.
+  pure subroutine solid_face_eigenvalue(dim, nodes, coordinates, points, samples, shares, frames, areas, stiffness, lambda, &
+    joint, status)
     integer, intent(in) :: dim, nodes
     real(dp), intent(in) :: coordinates(dim, nodes)
-    real(dp), intent(in) :: side                      !< -1 or 1
     integer, intent(in) :: points                     !< of the face
-    real(dp), intent(in) :: parents(2, points)        !< Gauss points of the face
+    real(dp), intent(in) :: samples(:, :, :)          !< (dim, samples, points) parent coordinates
+    real(dp), intent(in) :: shares(:, :)              !< (samples, points) of the samples
     real(dp), intent(in) :: frames(3, 3, points)
     real(dp), intent(in) :: areas(points)             !< of the face that each of them stands for
     real(dp), intent(in) :: stiffness(3*(dim - 1), 3*(dim - 1))   !< D, stress
     real(dp), intent(out) :: lambda(2)                !< of shear and normal traction, stress/length
+    real(dp), intent(out) :: joint                    !< of both, see there
     type(status_type), intent(out) :: status          !< inside_out with the Jacobian
-    real(dp) :: energy(dim*nodes, dim*nodes), traction(dim*points, dim*nodes), part(dim, dim*nodes), point(dim)
-    integer :: k
+    real(dp) :: energy(dim*nodes, dim*nodes), traction(dim*points, dim*nodes), part(dim, dim*nodes)
+    integer :: i, k
 
     lambda = 0.0_dp
+    joint = 2.0_dp
     call strain_energy(dim, nodes, coordinates, stiffness, energy, status)
     if (status%code /= ok) return
+    traction = 0.0_dp
     do k = 1, points
-      point(1:dim - 1) = parents(1:dim - 1, k)
-      point(dim) = side
-      call solid_traction(dim, nodes, coordinates, point, frames(:, :, k), stiffness, part, status)
-      if (status%code /= ok) return
-      traction(dim*(k - 1) + 1:dim*k, :) = sqrt(areas(k))*part
+      do i = 1, size(shares, 1)
+        if (.not. abs(shares(i, k)) > 0.0_dp) cycle
+        call solid_traction(dim, nodes, coordinates, samples(:, i, k), frames(:, :, k), stiffness, part, status)
+        if (status%code /= ok) return
+        traction(dim*(k - 1) + 1:dim*k, :) = traction(dim*(k - 1) + 1:dim*k, :) + (sqrt(areas(k))*shares(i, k))*part
+      end do
     end do
-    call face_eigenvalue(coordinates, energy, traction, lambda, status)
+    call face_eigenvalue(coordinates, energy, traction, lambda, joint, status)
   end subroutine solid_face_eigenvalue
 
   !> Stiffness matrix, in the plane for thickness 1.

@@ -6,6 +6,9 @@
 !> lambda is the largest value of (integral of |t|^2 over the face)/(integral of eps:D:eps over the element) over all
 !> displacements except rigid motions, where t is the shear or the normal component of sigma.n. For a constant strain it is
 !> |D| meas(Gamma)/meas(Omega) at most, which makes equation (21) of 2 (gamma_1^2 lambda_1 + gamma_2^2 lambda_2).
+!>
+!> Both modes draw on one energy: the sum of (integral of |t|^2)/lambda over the modes is at most `joint` times the energy, where
+!> joint is from 1 to 2.
 module elements_face_eigenvalue
   use core_kinds, only: dp
   use core_status, only: status_type, ok, no_root, not_positive_definite
@@ -22,15 +25,17 @@ contains
   !> Neither matrix sees the rigid displacements R, so energy may be replaced by energy + c R transpose(R), which is
   !> positive definite; with L its Cholesky factor and W = inverse(L) transpose(t), lambda is the largest
   !> eigenvalue of transpose(W) W, which only has the size of the face.
-  pure subroutine face_eigenvalue(coordinates, energy, traction, lambda, status)
+  pure subroutine face_eigenvalue(coordinates, energy, traction, lambda, joint, status)
     real(dp), intent(in) :: coordinates(:, :)   !< (2 or 3, nodes), length
     real(dp), intent(in) :: energy(:, :)        !< stiffness matrix of the element
     real(dp), intent(in) :: traction(:, :)      !< (dim*points, unknowns) sigma.n sqrt(weight) of the points of the face;
                                                 !< the second one of each point is normal
     real(dp), intent(out) :: lambda(2)          !< (tau, n)
+    real(dp), intent(out) :: joint              !< of both
     type(status_type), intent(out) :: status    !< not_positive_definite, or no_root
     real(dp) :: rigid(size(energy, 1), 3*(size(coordinates, 1) - 1)), shifted(size(energy, 1), size(energy, 1)), shift
     real(dp) :: w(size(energy, 1), size(traction, 1)), gram(size(traction, 1), size(traction, 1))
+    real(dp) :: scale(size(traction, 1))
     integer :: i, n, dim, rows(size(traction, 1))
     logical :: normal(size(traction, 1))
     logical :: good
@@ -47,6 +52,7 @@ contains
       shifted = shifted + shift*matmul(rigid(:, i:i), transpose(rigid(:, i:i)))
     end do
     lambda = 0.0_dp
+    joint = 2.0_dp
     status = status_type(not_positive_definite, 0, 0.0_dp, 0.0_dp)
     call lower_factor(shifted, good)
     if (.not. good) return
@@ -62,6 +68,13 @@ contains
       call largest_eigenvalue(gram, pack(rows, normal .eqv. (i == 2)), lambda(i), good)
       if (.not. good) exit
     end do
+    if (good .and. minval(lambda) > 0.0_dp) then
+      scale = 1.0_dp/sqrt(merge(lambda(2), lambda(1), normal))
+      do i = 1, size(rows)
+        gram(:, i) = gram(:, i)*scale(i)*scale
+      end do
+      call largest_eigenvalue(gram, rows, joint, good)
+    end if
     status = status_type(merge(ok, no_root, good), 0, 0.0_dp, 0.0_dp)
   end subroutine face_eigenvalue
 

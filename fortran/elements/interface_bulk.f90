@@ -35,6 +35,7 @@ module elements_interface_bulk
     real(dp) :: beta(2)           !< stress/length
     real(dp) :: gamma_bottom(2)   !< weight of the bottom stress; that of the top is 1 - gamma_bottom
     logical :: local              !< bounds of the local eigenvalue problem
+    logical :: complete = .false. !< of the complete form
     logical :: known = .false.    !< nothing is left to compute
     logical :: given(2) = .false.      !< this beta is a value of the deck and may not change
     real(dp) :: estimate(2) = 0.0_dp   !< beta that was too small for the law and has been raised to `beta`; 0 where none was
@@ -48,21 +49,24 @@ contains
   !>     beta = 2 meas(Gamma) (|D_1| gamma_1**2/meas(Omega_1) + |D_2| gamma_2**2/meas(Omega_2)).
   !>
   !> The bound lambda of the local eigenvalue problem takes the place of |D| meas(Gamma)/meas(Omega), for each mode. The gamma are
-  !> those for which the least beta is the smallest.
-  pure function nitsche_parameters(given, bounds) result(used)
+  !> those for which the least beta is the smallest. The complete form needs `joint` times this beta: see fortran/README.md.
+  pure function nitsche_parameters(given, bounds, joint) result(used)
     type(stabilisation_type), intent(in) :: given
     real(dp), intent(in) :: bounds(2, 2)   !< lambda, or |D| meas(Gamma)/meas(Omega): (tau, n) of bottom and top, stress/length
+    real(dp), intent(in) :: joint          !< of both modes, the larger one of bottom and top
     type(stabilisation_type) :: used
 
     used = given
     where (.not. given%gamma_bottom > 0.0_dp) used%gamma_bottom = bounds(:, 2)/(bounds(:, 1) + bounds(:, 2))
-    where (.not. given%beta > 0.0_dp) used%beta = 2.0_dp &
+    where (.not. given%beta > 0.0_dp) used%beta = 2.0_dp*joint &
       *(used%gamma_bottom**2*bounds(:, 1) + (1.0_dp - used%gamma_bottom)**2*bounds(:, 2))
   end function nitsche_parameters
 
   !> Beta and gamma of an interface that knows the elements on both sides, the bottom one first among the nodes.
-  pure subroutine stabilise(given, dim, nodes, points, faces, coordinates, stiffness, used, status)
+  !> The complete form takes the bound of the traction that acts too, where that is greater than on the face itself.
+  pure subroutine stabilise(given, sampling, dim, nodes, points, faces, coordinates, stiffness, used, status)
     type(stabilisation_type), intent(in) :: given
+    integer, intent(in) :: sampling
     integer, intent(in) :: dim
     integer, intent(in) :: nodes                        !< of the element on a side
     integer, intent(in) :: points                       !< integration points
@@ -72,22 +76,33 @@ contains
     type(stabilisation_type), intent(out) :: used
     type(status_type), intent(out) :: status            !< inside_out: item 1 for the bottom element, 2 for the top one
     type(interface_place) :: places(points)
-    real(dp) :: bounds(2, 2), parents(2, points), frames(3, 3, points), solid(dim, nodes), measure
-    integer :: side, k
+    real(dp) :: samples(dim, most_samples, points), shares(most_samples, points), frames(3, 3, points), solid(dim, nodes), measure
+    real(dp) :: bounds(2, 2), bound(2), joint, greatest
+    integer :: side, k, i
 
     used = given
     call measure_interface(dim, size(faces, 1), points, coordinates(:, faces(:, 1)), coordinates(:, faces(:, 2)), gauss_rule, &
       places, status)
     if (status%code /= ok) return
     do k = 1, points
-      parents(:, k) = places(k)%parent
       frames(:, :, k) = places(k)%frame
     end do
+    bounds = 0.0_dp
+    greatest = 1.0_dp
     do side = 1, 2
       solid = coordinates(:, (side - 1)*nodes + 1:side*nodes)
       if (given%local) then
-        call solid_face_eigenvalue(dim, nodes, solid, face_of_side(side), points, parents, frames, places%area, &
-          stiffness(:, :, side), bounds(:, side), status)
+        do i = 1, merge(2, 1, given%complete .and. sampling /= sample_face)
+          do k = 1, points
+            call sample(merge(sample_face, sampling, i == 1), dim, nodes, places(k)%parent, face_of_side(side), samples(:, :, k), &
+              shares(:, k))
+          end do
+          call solid_face_eigenvalue(dim, nodes, solid, points, samples, shares, frames, places%area, stiffness(:, :, side), &
+            bound, joint, status)
+          if (status%code /= ok) exit
+          bounds(:, side) = max(bounds(:, side), bound)
+          if (given%complete) greatest = max(greatest, joint)
+        end do
       else
         call solid_size(dim, nodes, solid, measure, status)
         if (status%code == ok) bounds(:, side) = spectral_norm(stiffness(:, :, side))*sum(places%area)/measure
@@ -97,7 +112,7 @@ contains
         return
       end if
     end do
-    used = nitsche_parameters(given, bounds)
+    used = nitsche_parameters(given, bounds, greatest)
   end subroutine stabilise
 
   !> B: the matrix that takes the displacements of both elements to <sigma>.n = gamma_1 sigma_1.n + gamma_2 sigma_2.n of (18)

@@ -3,10 +3,15 @@
 !> Every interface element: a sum over points. With the area w of a point, its jump operator N (g = N u) and, in the
 !> stabilised element, its bulk-traction operator B (<sigma>.n = B u),
 !>
-!>     residual = -sum w N^T T,    tangent = -d(residual)/du = sum w N^T (dT/dg N + dT/d(<sigma>.n) B),
+!>     residual = -sum w N^T T,    tangent = -d(residual)/du = sum w N^T X,    X = dT/dg N + dT/d(<sigma>.n) B,
 !>
 !> in the components (s, n, t) of `cohesive_shear`, in the plane (tau, n). The elements differ in their points, N and B: (14) and
-!> (15) without B, (16) to (22) with it.
+!> (15) without B, (16) to (22) with it. The complete form of the stabilised element also has the virtual work of the gap
+!> e = (T - <sigma>.n)/beta, by which the jump is more than the separation of the law, on the stress of the solids:
+!>
+!>     residual = -sum w (N^T T + B^T e),    tangent = sum w (N^T X + B^T beta^-1 (X - B)),
+!>
+!> the derivatives of an energy (`point_energies`), so that no work is gained or lost and the tangent is symmetric where dT/dp is.
 module elements_interface_kernel
   use core_kinds, only: dp
   use core_rotation, only: about_mean
@@ -14,7 +19,8 @@ module elements_interface_kernel
   use cohesive_parameters, only: law_parameters
   use cohesive_law, only: check_law, check_beta, raise_beta
   use elements_interface_bulk, only: stabilisation_type, stabilise, bulk_operator
-  use elements_interface_faces, only: interface_place, measure_interface, jump_operator, separation_at, face_shape
+  use cohesive_shear, only: mode_of
+  use elements_interface_faces, only: interface_place, measure_interface, jump_operator, separation_at
   use elements_interface_point, only: interface_options, interface_point, point_response, standard_point, &
     stabilised_point, point_energies
   use elements_interface_rotation, only: turn_place, co_rotated, by_displacements, add_turning
@@ -58,11 +64,10 @@ contains
     type(point_response) :: response
     type(interface_place) :: here
     real(dp), dimension(dim, size(u)) :: jump, bulk, by_displacement
-    real(dp) :: spread(dim, size(u))             ! of tractions to the nodes
-    real(dp), dimension(size(u)) :: moved, original, shifted
-    real(dp) :: turning(3, dim, dim, size(faces, 1)), bulk_traction(3), separation(3), area
+    real(dp), dimension(size(u)) :: moved, original, shifted, force
+    real(dp) :: turning(3, dim, dim, size(faces, 1)), bulk_traction(3), gap(3), separation(3), area
     real(dp), dimension(dim, size(faces, 1)) :: bottom, top
-    integer :: k, nodes
+    integer :: i, k, nodes
 
     residual = 0.0_dp
     tangent = 0.0_dp
@@ -81,7 +86,7 @@ contains
     if (status%code /= ok) return
     if (present(stabilisation)) then
       if (present(stiffness) .and. .not. stabilisation%known) then
-        call stabilise(stabilisation, dim, solid, points, faces, coordinates, stiffness, used, status)
+        call stabilise(stabilisation, options%sampling, dim, solid, points, faces, coordinates, stiffness, used, status)
         if (status%code /= ok) return
         stabilisation = used
       end if
@@ -99,6 +104,8 @@ contains
         moved = co_rotated(dim, places(k)%frame, here%frame, original, shifted)
       end if
       separation = separation_at(dim, places(k), nodes, faces, moved)
+      jump = jump_operator(dim, places(k), nodes, faces, size(u))
+      gap = 0.0_dp
       if (present(stabilisation)) then
         if (present(stiffness)) then
           call bulk_operator(options%sampling, dim, places(k), stabilisation%gamma_bottom, solid, stiffness, coordinates, bulk, &
@@ -113,31 +120,42 @@ contains
           status%item = k
           return
         end if
+        if (options%complete) gap = (new(k)%traction - bulk_traction)/stabilisation%beta(mode_of)
       else
         call standard_point(law, options, dtime, separation, old(k), new(k), response)
       end if
       area = places(k)%area*thickness
       energies = energies + point_energies(area, new(k))
-      jump = jump_operator(dim, places(k), nodes, faces, size(u))
-      spread = jump
-      if (options%finite) spread = jump_operator(dim, here, nodes, faces, size(u))
-      residual = residual - area*matmul(new(k)%traction(1:dim), spread)
+      if (options%finite) then
+        force = matmul(new(k)%traction(1:dim), jump)
+        jump = by_displacements(dim, nodes, faces, places(k)%frame, here%frame, turning, shifted, jump)
+        if (present(stiffness)) then
+          if (options%complete) force = force + matmul(gap(1:dim), bulk)
+          bulk = by_displacements(dim, nodes, faces, places(k)%frame, here%frame, turning, shifted, bulk)
+        end if
+        if (with_tangent) call add_turning(area, dim, nodes, faces, places(k), here, turning, original, shifted, force, tangent)
+      end if
+      residual = residual - area*matmul(new(k)%traction(1:dim), jump)
+      if (options%complete) residual = residual - area*matmul(gap(1:dim), bulk)
       if (.not. with_tangent) cycle
       by_displacement = matmul(response%by_jump(1:dim, 1:dim), jump)
       if (present(stiffness)) by_displacement = by_displacement + matmul(response%by_bulk(1:dim, 1:dim), bulk)
-      if (options%finite) then
-        by_displacement = by_displacements(dim, nodes, faces, places(k)%frame, here%frame, turning, shifted, by_displacement)
-        call add_turning(area, dim, nodes, faces, face_shape(dim, nodes, places(k)%parent), new(k)%traction, turning, tangent)
-      end if
-      call add_product(area, spread, by_displacement, tangent)
+      call add_product(area, jump, by_displacement, tangent)
+      if (.not. options%complete) cycle
+      do i = 1, dim
+        by_displacement(i, :) = (by_displacement(i, :) - bulk(i, :))/stabilisation%beta(mode_of(i))
+      end do
+      call add_product(area, bulk, by_displacement, tangent)
     end do
   end subroutine integrate_interface
 
   !> Residual of tractions that are known, such as those at the start of an increment, at the displacements that they belong to.
-  pure subroutine interface_forces(dim, points, faces, options, thickness, coordinates, u, known, residual, status)
+  pure subroutine interface_forces(dim, points, faces, solid, options, thickness, coordinates, u, known, residual, status, &
+    stabilisation, stiffness)
     integer, intent(in) :: dim                                !< 2 or 3
     integer, intent(in) :: points                             !< integration points
     integer, intent(in) :: faces(:, :)                        !< nodes of the bottom and the top face, a column each
+    integer, intent(in) :: solid                              !< nodes of each of its own elements
     type(interface_options), intent(in) :: options
     real(dp), intent(in) :: thickness                         !< out of the plane, length; 1 in space
     real(dp), intent(in) :: u(:)                              !< displacements, length
@@ -145,8 +163,12 @@ contains
     type(interface_point), intent(in) :: known(points)        !< their tractions count
     real(dp), intent(out) :: residual(size(u))                !< force
     type(status_type), intent(out) :: status
-    type(interface_place) :: places(points)
-    real(dp) :: turning(3, dim, dim, size(faces, 1)), spread(dim, size(u)), original(size(u))
+    type(stabilisation_type), intent(in), optional :: stabilisation   !< of the complete form: beta and gamma that acted
+    real(dp), intent(in), optional :: stiffness(:, :, :)              !< of the complete form: D of bottom and top, stress
+    type(interface_place) :: places(points), here
+    real(dp) :: turning(3, dim, dim, size(faces, 1)), gap(3), area
+    real(dp), dimension(size(u)) :: original, shifted, moved
+    real(dp), dimension(dim, size(u)) :: jump, bulk
     real(dp), dimension(dim, size(faces, 1)) :: bottom, top
     integer :: k, nodes
 
@@ -157,11 +179,25 @@ contains
     call measure_interface(dim, nodes, points, bottom, top, options%rule, places, status)
     if (status%code /= ok) return
     original = about_mean(dim, reshape(coordinates, [size(u)]))
+    shifted = about_mean(dim, reshape(coordinates, [size(u)]) + u)
     do k = 1, points
-      if (options%finite) call turn_place(dim, nodes, faces, original, original + u, places(k), turning, status)
+      here = places(k)
+      moved = u
+      if (options%finite) then
+        call turn_place(dim, nodes, faces, original, shifted, here, turning, status)
+        if (status%code /= ok) return
+        moved = co_rotated(dim, places(k)%frame, here%frame, original, shifted)
+      end if
+      area = places(k)%area*thickness
+      jump = jump_operator(dim, places(k), nodes, faces, size(u))
+      if (options%finite) jump = by_displacements(dim, nodes, faces, places(k)%frame, here%frame, turning, shifted, jump)
+      residual = residual - area*matmul(known(k)%traction(1:dim), jump)
+      if (.not. options%complete) cycle
+      call bulk_operator(options%sampling, dim, places(k), stabilisation%gamma_bottom, solid, stiffness, coordinates, bulk, status)
       if (status%code /= ok) return
-      spread = jump_operator(dim, places(k), nodes, faces, size(u))
-      residual = residual - (places(k)%area*thickness)*matmul(known(k)%traction(1:dim), spread)
+      gap(1:dim) = (known(k)%traction(1:dim) - matmul(bulk, moved))/stabilisation%beta(mode_of(1:dim))
+      if (options%finite) bulk = by_displacements(dim, nodes, faces, places(k)%frame, here%frame, turning, shifted, bulk)
+      residual = residual - area*matmul(gap(1:dim), bulk)
     end do
   end subroutine interface_forces
 

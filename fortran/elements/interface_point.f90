@@ -21,6 +21,7 @@ module elements_interface_point
     integer :: rule                 !< gauss_rule or newton_cotes_rule
     integer :: sampling             !< of the bulk stress; the standard element ignores it
     logical :: consistent_law   !< the law has its own separation; the standard element ignores it
+    logical :: complete         !< the gap between jump and separation works on the stress of the element's own solids
     real(dp) :: secant_share        !< of the matrix at fixed damage in the tangent, from 0 to 1
     logical :: finite = .false.     !< large rotations
   end type interface_options
@@ -31,7 +32,7 @@ module elements_interface_point
     real(dp) :: traction(3) = 0.0_dp        !< T, stress, tension positive
     real(dp) :: stabilisation(2) = 0.0_dp   !< S of shear and opening
     real(dp) :: jump(3) = 0.0_dp            !< displacement jump g, opening positive
-    real(dp) :: stored = 0.0_dp             !< recoverable energy, energy/area
+    real(dp) :: stored = 0.0_dp             !< recoverable energy, in the complete form that of its gap too, energy/area
     type(point_history) :: history
   end type interface_point
 
@@ -89,6 +90,8 @@ contains
         response%by_jump(:, i) = beta(mode_of(i))*solution%by_trial(:, i)
       end do
       call store_solution(law, old, jump, solution, new)
+      ! of the springs beta between the jump and the separation, and of the stress that works on their gap
+      if (options%complete) new%stored = new%stored + 0.5_dp*sum((new%traction**2 - bulk**2)/beta(mode_of))
     else
       call evolve_damage(law, old%history, resultant(jump), dtime, state)
       state%slope = (1.0_dp - options%secant_share)*state%slope

@@ -5,11 +5,12 @@
 !>
 !>     v = transpose(Q) x - X,    g = N v,    <sigma>.n = B v,
 !>
-!> with the operators of the original configuration, and the nodal forces of the point turn with Q. Tractions are per original
-!> area; the strain of the bulk is small: the nominal traction P N is Q sigma N to its first order.
+!> with the operators of the original configuration. Nodal forces are the derivatives of the same work by the displacements, so that
+!> they have no resultant moment, and the tangent is symmetric where the law is. Tractions are per original area; the strain of the
+!> bulk is small: the nominal traction P N is Q sigma N to its first order.
 module elements_interface_rotation
   use core_kinds, only: dp
-  use core_rotation, only: turned_frame
+  use core_rotation, only: turned_frame, frame_curvature
   use core_status, only: status_type, zero_length, ok
   use elements_interface_faces, only: interface_place, face_slope
   implicit none(type, external)
@@ -95,26 +96,41 @@ contains
     end do
   end function by_displacements
 
-  !> Adds to the tangent how the nodal forces of a point turn with the frame of its traction.
-  pure subroutine add_turning(area, dim, nodes, faces, shape, traction, turning, tangent)
+  !> Adds to the tangent how the forces of a point on the co-rotated displacements turn with its frame: the second derivative of
+  !> force.v at constant force.
+  pure subroutine add_turning(area, dim, nodes, faces, place, turned, turning, original, present, force, tangent)
     real(dp), intent(in) :: area
     integer, intent(in) :: dim, nodes, faces(nodes, 2)
-    real(dp), intent(in) :: shape(nodes), traction(3)
-    real(dp), intent(in) :: turning(3, dim, dim, nodes)      !< row of the frame, component, direction, node
+    type(interface_place), intent(in) :: place, turned       !< with the original and the present frame
+    real(dp), intent(in) :: turning(3, dim, dim, nodes)      !< row of the present frame, component, direction, node
+    real(dp), intent(in) :: original(:), present(:)          !< coordinates about their means
+    real(dp), intent(in) :: force(size(present))             !< in the original directions, per area
     real(dp), intent(inout) :: tangent(:, :)
-    real(dp) :: part(dim)
-    integer :: q, i, a, side, column, row
+    real(dp) :: by_node(nodes, dim - 1), rows(dim, size(present)/dim), moments(3, 3), curvature(dim*nodes, dim*nodes), part(dim)
+    integer :: q, i, a, side, other, column, row, p
 
+    rows = matmul(place%frame(1:dim, 1:dim), reshape(force, shape(rows)))
+    moments = 0.0_dp
+    moments(1:dim, 1:dim) = matmul(rows, transpose(reshape(present, shape(rows))))
+    by_node = face_slope(dim, nodes, place%parent)
+    curvature = frame_curvature(dim, nodes, matmul(middle_of(dim, nodes, faces, original), by_node), &
+      matmul(middle_of(dim, nodes, faces, present), by_node), place%frame, by_node, turned%frame, turning, moments)
     do q = 1, nodes
       do i = 1, dim
-        do a = 1, nodes
-          part = (0.5_dp*area*shape(a))*matmul(traction, turning(:, :, i, q))
-          do side = 1, 2
-            column = dim*(faces(q, side) - 1) + i
-            row = dim*(faces(a, 1) - 1)
-            tangent(row + 1:row + dim, column) = tangent(row + 1:row + dim, column) - part
-            row = dim*(faces(a, 2) - 1)
+        do side = 1, 2
+          column = dim*(faces(q, side) - 1) + i
+          do a = 1, size(rows, 2)
+            part = (0.5_dp*area)*matmul(rows(:, a), turning(1:dim, :, i, q))
+            row = dim*(a - 1)
             tangent(row + 1:row + dim, column) = tangent(row + 1:row + dim, column) + part
+            tangent(column, row + 1:row + dim) = tangent(column, row + 1:row + dim) + part
+          end do
+          do other = 1, 2
+            do p = 1, nodes
+              row = dim*(faces(p, other) - 1)
+              tangent(row + 1:row + dim, column) = tangent(row + 1:row + dim, column) &
+                + (0.25_dp*area)*curvature(dim*(p - 1) + 1:dim*p, dim*(q - 1) + i)
+            end do
           end do
         end do
       end do
