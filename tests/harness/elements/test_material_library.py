@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from uel import usersub
-from uel.assembly import System
+from uel.assembly import System, system_of
 from uel.deck import read_deck
-from uel.elements import Call, Flags, build_blocks
+from uel.elements import Call, Flags
 
 PROGRAM = """
 import numpy as np
@@ -52,7 +52,7 @@ def _truss(folder: Path, job: str) -> tuple[System, usersub.Library]:
     deck.write_text(TRUSS)
     model = read_deck(deck)
     library = usersub.load(None, job=job, output_dir=folder, deck=deck)
-    return System(model.mesh, build_blocks(model, library), model.equations), library
+    return system_of(model, library), library
 
 
 def _pull(system: System) -> float:

@@ -36,7 +36,8 @@ from uel.solver.options import SolverOptions  # noqa: E402
 FILES: Final = (".sta", "_history.csv", ".vtu", ".dat", ".msg")
 """Endings of the files that hold results."""
 PASSING: Final = re.compile(
-    rb"^.*(?:DATE|Date|INPUT FILE|TIME \(SEC\)|MEMORY).*\n|^ \*\*\*(?:WARNING|NOTE).*\n(?: {13}.*\n)*|\S+\.inp",
+    rb"^.*(?:DATE|Date|INPUT FILE|TIME \(SEC\)|MEMORY).*\n"
+    rb"|^ \*\*\*(?:WARNING|NOTE).*\n(?: {10,}\S.*\n)*|\S+\.inp",
     re.MULTILINE,
 )
 """Parts of .sta, .dat and .msg that two runs do not share: when, how long, and where; remarks name folders."""
