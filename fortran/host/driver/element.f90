@@ -36,7 +36,7 @@ contains
     length(i_predef) = size(block%predef, 1)
     call lay_out(work, length)
     call lay_out_arguments(block, work, arguments)
-    nullify (current%history, current%history_trial)
+    nullify (current%history, current%history_trial, current%visible%values)
     if (associated(block%history)) then
       if (allocated(discarded)) deallocate (discarded)
       allocate (discarded(size(block%history, 1), size(block%history, 2)))
@@ -45,8 +45,6 @@ contains
     current%increment = block%scalars%kinc
     current%iteration = block%iteration
     current%tensor = block%tensor
-    current%finite = .false.
-    current%hybrid = .false.
     current%deformed = .false.
     current%distorted = 0
     current%routine = merge('UELMAT', 'UEL   ', block%scalars%material > 0)
@@ -73,9 +71,6 @@ contains
     type(arguments_t), intent(inout) :: arguments
     type(call_context), intent(inout) :: now
     now%element = block%labels(e)
-    now%npt = 0
-    now%layer = 1
-    now%kspt = 1
     now%pnewdt = untouched
     if (associated(block%history)) call offer_history(block, e, now)
     if (arguments%layout%loaded /= 0) call set_loads(block, min(e, size(block%counts)), arguments)

@@ -15,6 +15,7 @@ module host_axes
   use host_context, only: current
   use host_kinds, only: dp, i4
   use host_kinematics, only: rotated
+  use host_point, only: heat_t, point_t
   use host_protect, only: escape
   implicit none (type, external)
   private
@@ -27,21 +28,21 @@ module host_axes
 
 contains
 
-  !> Directions at the end and in the middle of an increment, as rows; those at its end are kept. The context gets the components
-  !> of the deformation gradients along the directions of their time, and no rotation. Leaves the pass if the point is inside out.
+  !> Directions at the end and in the middle of an increment, as rows; those at its end are kept. The point gets the components of
+  !> the deformation gradients along the directions of their time, and no rotation. Leaves the pass if it is inside out.
   subroutine carry_axes(point, deformation, axes, middle)
-    integer, intent(in) :: point                     !< from 1
+    type(point_t), intent(inout) :: point
     real(dp), intent(in) :: deformation(3, 3, 2)     !< gradients at both ends of the increment
     real(dp), intent(inout) :: axes(3, 3)            !< at the start of the increment, then at its end
     real(dp), intent(out) :: middle(3, 3)
     real(dp) :: step(3, 3), inverse(3, 3), determinant
     call invert(3, deformation(:, :, 1), inverse, determinant)
     step = matmul(deformation(:, :, 2), inverse)
-    middle = turned_axes(point, 0.5_dp*(identity + step), axes)
-    current%deformation(:, :, 1) = matmul(axes, matmul(deformation(:, :, 1), transpose(axes)))
-    axes = turned_axes(point, step, axes)
-    current%deformation(:, :, 2) = matmul(axes, matmul(deformation(:, :, 2), transpose(axes)))
-    current%rotation = identity
+    middle = turned_axes(int(point%number), 0.5_dp*(identity + step), axes)
+    point%deformation(:, :, 1) = matmul(axes, matmul(deformation(:, :, 1), transpose(axes)))
+    axes = turned_axes(int(point%number), step, axes)
+    point%deformation(:, :, 2) = matmul(axes, matmul(deformation(:, :, 2), transpose(axes)))
+    point%rotation = identity
   end subroutine carry_axes
 
   !> Directions turned with a deformation.
@@ -72,14 +73,13 @@ contains
   end function turn_matrix
 
   !> Derivatives of the heat terms of UMAT, from its directions to global ones.
-  subroutine turn_heat(n, axes)
+  subroutine turn_heat(n, axes, heat)
     integer, intent(in) :: n                !< stress components
     real(dp), intent(in) :: axes(3, 3)
+    type(heat_t), intent(inout) :: heat
     real(dp) :: back(n, n)
     back = transpose(turn_matrix(n, axes))
-    associate (heat => current%heat)
-      heat%stress_by_temperature(:n) = matmul(back, heat%stress_by_temperature(:n))
-      heat%source_by_strain(:n) = matmul(back, heat%source_by_strain(:n))
-    end associate
+    heat%stress_by_temperature(:n) = matmul(back, heat%stress_by_temperature(:n))
+    heat%source_by_strain(:n) = matmul(back, heat%source_by_strain(:n))
   end subroutine turn_heat
 end module host_axes

@@ -14,7 +14,8 @@
 !> HOLZAPFEL (T.C. Gasser, R.W. Ogden, G.A. Holzapfel, Journal of the Royal Society Interface 3 (2006) 15): constants C10, k1, k2
 !> and kappa; the energy of the volume is that of host_hyperelastic.
 module host_anisotropic
-  use host_kinds, only: dp, i4
+  use host_kinds, only: dp
+  use host_point, only: point_t
   use host_uanisohyper, only: call_uanisohyper, user_invariants_t
   implicit none (type, external)
   private
@@ -33,19 +34,17 @@ module host_anisotropic
 
 contains
 
-  !> Cauchy stress, tangent, and strain energy per volume now. u: energy of the volume and its derivatives by J; if `own` is true
-  !> those of the law take its place. good is false if the energy is too large for numbers.
-  subroutine anisotropic_stress(law, n, point, f, j, turn, own, statev, u, stress, tangent, energy, good)
+  !> Cauchy stress, tangent, and the strain energy of the point. u: energy of the volume and its derivatives by J; those of the
+  !> user's law take its place, unless the mean stress is given. good is false if the energy is too large for numbers.
+  subroutine anisotropic_stress(law, n, point, j, statev, u, stress, tangent, good)
     type(anisotropic_t), intent(in) :: law
     integer, intent(in) :: n                      !< 4 or 6
-    integer(i4), intent(in) :: point              !< from 1
-    real(dp), intent(in) :: f(3, 3), j            !< j: its determinant, above zero
-    real(dp), intent(in) :: turn(3, 3)            !< from the axes of the material at the start to those of F
-    logical, intent(in) :: own
+    type(point_t), intent(inout) :: point
+    real(dp), intent(in) :: j                     !< determinant of F, above zero
     real(dp), intent(inout) :: statev(:)          !< of UANISOHYPER_INV
     real(dp), intent(inout) :: u(0:2)
     real(dp), intent(out) :: stress(n)            !< 11, 22, 33, 12, 13, 23 or the first four of them
-    real(dp), intent(out) :: tangent(n, n), energy
+    real(dp), intent(out) :: tangent(n, n)
     logical, intent(out) :: good
     real(dp) :: g(3, 3), b(3, 3), total(3, 3), d(3, 3), change(3, 3), trace, w
     real(dp) :: a(3, size(law%directions, 2)), cosines(size(a, 2)*(size(a, 2) - 1)/2)
@@ -54,11 +53,11 @@ contains
     integer :: c, k
     stress = 0
     tangent = 0
-    energy = 0
+    point%energy = 0
     good = .true.
-    g = f/j**(1.0_dp/3)
+    g = point%deformation(:, :, 2)/j**(1.0_dp/3)
     b = matmul(g, transpose(g))
-    a = matmul(g, matmul(turn, law%directions))
+    a = matmul(g, matmul(point%turn, law%directions))
     call find_invariants(j, a, b, law%directions, invariants, t, cosines)
     if (allocated(law%user)) then
       call call_uanisohyper(law%user, point, invariants, cosines, statev, w, first, second)
@@ -67,7 +66,7 @@ contains
       if (.not. good) return
     end if
     mixed = 0
-    if (own .and. allocated(law%user)) then
+    if (allocated(law%user) .and. .not. point%hybrid) then
       u = [0.0_dp, first(3), second(3, 3)]
       mixed = second(:, 3)
       mixed(3) = 0
@@ -75,7 +74,7 @@ contains
     first(3) = 0
     second(:, 3) = 0
     second(3, :) = 0
-    energy = (w + u(0))/j
+    point%energy = (w + u(0))/j
     total = 0
     do k = 1, size(first)
       total = total + first(k)*t(:, :, k)

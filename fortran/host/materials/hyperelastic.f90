@@ -11,7 +11,8 @@ module host_hyperelastic
   use core_small_matrix, only: determinant
   use core_symmetric, only: eigenvalues
   use host_anisotropic, only: anisotropic_stress, anisotropic_t
-  use host_kinds, only: dp, i4
+  use host_kinds, only: dp
+  use host_point, only: point_t
   use host_uhyper, only: call_uhyper, user_potential_t
   implicit none (type, external)
   private
@@ -57,37 +58,33 @@ contains
     end if
   end function state_variables
 
-  !> Cauchy stress, tangent, and strain energy per volume now. good is false if the stretches have no stress. Hybrid elements give
+  !> Cauchy stress, tangent, and the strain energy of the point. good is false if the stretches have no stress. Hybrid elements give
   !> the mean stress, and take the tangent at that mean stress.
-  subroutine hyperelastic_stress(law, n, point, f, turn, statev, stress, tangent, energy, good, mean_stress)
+  subroutine hyperelastic_stress(law, n, point, statev, stress, tangent, good)
     type(hyperelastic_t), intent(in) :: law
     integer, intent(in) :: n                      !< 4 or 6
-    integer(i4), intent(in) :: point              !< from 1
-    real(dp), intent(in) :: f(3, 3)
-    real(dp), intent(in) :: turn(3, 3)            !< from the axes of the material at the start to those of F
+    type(point_t), intent(inout) :: point
     real(dp), intent(inout) :: statev(:)          !< of UHYPER or UANISOHYPER_INV
     real(dp), intent(out) :: stress(n)            !< 11, 22, 33, 12, 13, 23 or the first four of them
-    real(dp), intent(out) :: tangent(n, n), energy
+    real(dp), intent(out) :: tangent(n, n)
     logical, intent(out) :: good
-    real(dp), intent(in), optional :: mean_stress
     real(dp) :: e(3), directions(3, 3), j, w, h(3), hh(3, 3), kirchhoff(3), slope(3, 3), u(0:2), mixed(3)
     stress = 0
     tangent = 0
-    energy = 0
+    point%energy = 0
     if (allocated(law%anisotropic)) then
-      j = determinant(f)
+      j = determinant(point%deformation(:, :, 2))
       good = j > 0
       if (.not. good) return
-      if (present(mean_stress)) then
-        u = [energy_at(law, mean_stress), mean_stress, 0.0_dp]
+      if (point%hybrid) then
+        u = [energy_at(law, point%mean_stress), point%mean_stress, 0.0_dp]
       else
         u = volume_energy(law, j)
       end if
-      call anisotropic_stress(law%anisotropic, n, point, f, j, turn, .not. present(mean_stress), statev, u, stress, tangent, &
-                              energy, good)
+      call anisotropic_stress(law%anisotropic, n, point, j, statev, u, stress, tangent, good)
       return
     end if
-    call principal(law, f, e, directions, j, good)
+    call principal(law, point%deformation(:, :, 2), e, directions, j, good)
     if (.not. good) return
     mixed = 0
     if (allocated(law%user)) then
@@ -96,11 +93,11 @@ contains
       call shape_energy(law, e - sum(e)/3, w, h, hh)
       u = volume_energy(law, j)
     end if
-    if (present(mean_stress)) then
-      u = [energy_at(law, mean_stress), mean_stress, 0.0_dp]
+    if (point%hybrid) then
+      u = [energy_at(law, point%mean_stress), point%mean_stress, 0.0_dp]
       mixed = 0
     end if
-    energy = (w + u(0))/j
+    point%energy = (w + u(0))/j
     kirchhoff = h - sum(h)/3 + j*u(1)
     mixed = j*(mixed - sum(mixed)/3)
     ! P H P, of the symmetric H
@@ -192,7 +189,7 @@ contains
   !> The energy of UHYPER, all of it in w, with its derivatives by the logarithmic stretches e, whose sum is zero, and by J.
   subroutine user_energy(potential, point, e, j, statev, w, h, hh, u, mixed)
     type(user_potential_t), intent(in) :: potential
-    integer(i4), intent(in) :: point
+    type(point_t), intent(inout) :: point
     real(dp), intent(in) :: e(3), j
     real(dp), intent(inout) :: statev(:)
     real(dp), intent(out) :: w, h(3), hh(3, 3), u(0:2)

@@ -3,10 +3,10 @@
 !> Initial stresses of the built-in continuum elements (*INITIAL CONDITIONS, TYPE=STRESS), in a pass of the host's own before
 !> the analysis. UMAT gets them in STRESS; built-in materials get the stress-free strain.
 module host_initial_stress
-  use host_context, only: current
-  use host_kinds, only: dp, i4
+  use host_kinds, only: dp
   use host_kinematics, only: components, rotated
   use host_materials, only: elastic_energy, material_t
+  use host_point, only: point_t
   use host_umat, only: stress_place
   implicit none (type, external)
   private
@@ -18,7 +18,7 @@ contains
   !> the strains of the element, in global directions, and adds the elastic energy.
   subroutine begin_point(material, point, volume, state, stress, elastic)
     type(material_t), intent(in) :: material
-    integer(i4), intent(in) :: point
+    type(point_t), intent(in) :: point
     real(dp), intent(in) :: volume, state(:)      !< state: strain, then stress, in the directions of the material
     real(dp), intent(out) :: stress(:)
     real(dp), intent(inout) :: elastic
@@ -29,7 +29,7 @@ contains
     if (material%turned) all = rotated(n, all, transpose(material%axes), 1.0_dp)
     place = components(material%ntens, n)
     t = all(place)
-    associate (history => current%history_trial(:, point))
+    associate (history => point%history_trial)
       if (allocated(material%user)) then
         history(stress_place:stress_place + material%ntens - 1) = t
       else if (material%prestressed) then

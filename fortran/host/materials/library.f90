@@ -19,6 +19,7 @@ module host_materials
   use host_messages, only: add_message
   use host_mises, only: mises_beam, mises_plane_stress, mises_solid
   use host_networks, only: calls_routine, network_stress, networks_t
+  use host_point, only: npt_of, point_t
   use host_prony, only: prony_solid, prony_t, prony_values
   use host_protect, only: escape
   use host_expansion, only: expansion_t
@@ -32,7 +33,8 @@ module host_materials
   implicit none (type, external)
   private
   public :: material_t, define, find_material, empty_library, stress_update, not_solved, elastic_bulk_modulus, elastic_energy, &
-            thickness_strain, history_values, has_fields, has_heat_terms, is_viscous, needs_deformation, set_constants
+            thickness_strain, history_values, has_fields, has_heat_terms, is_viscous, needs_deformation, needs_history, &
+            set_constants
 
   !> Values of the history of a point of a plastic or prestressed material: stress-free strain (6), which is the plastic strain
   !> minus the elastic strain of the initial stress, and equivalent plastic strain. Backstresses follow (host_backstress).
@@ -147,47 +149,50 @@ contains
     is_plastic = allocated(material%yield) .or. allocated(material%hardening)
   end function is_plastic
 
-  !> Whether stresses take the deformation gradients in current%deformation.
+  !> Whether stresses take the deformation gradients of the point.
   pure logical function needs_deformation(material)
     type(material_t), intent(in) :: material
     needs_deformation = allocated(material%user) .or. allocated(material%hyperelastic)
   end function needs_deformation
 
-  !> Elastic constants for the temperature and field variables in current%fields at the end of the increment. Leaves the pass if
-  !> they are not positive definite.
+  !> Whether stresses take the history of the point. Those of hyperelastic materials with STATEV do as well.
+  pure logical function needs_history(material)
+    type(material_t), intent(in) :: material
+    needs_history = is_plastic(material) .or. allocated(material%user) .or. material%prestressed .or. is_viscous(material)
+  end function needs_history
+
+  !> Elastic constants for the temperature and field variables of the point at the end of the increment. Leaves the pass if they are
+  !> not positive definite.
   subroutine set_constants(material, point)
     type(material_t), intent(inout) :: material
-    integer, intent(in) :: point                 !< from 1, for the message
+    type(point_t), intent(in) :: point
     real(dp) :: constants(material%dependence%constants)
     logical :: definite
     character(len=160) :: text
     integer :: n
     n = material%ntens
-    call elastic_matrices(material%dependence, n, current%fields(:, 1) + current%fields(:, 2), material%stiffness(:n, :n), &
+    call elastic_matrices(material%dependence, n, point%fields(:, 1) + point%fields(:, 2), material%stiffness(:n, :n), &
                           material%compliance(:n, :n), material%thickness, constants, definite)
     material%young = constants(1)
     material%poisson = constants(2)
     if (definite) return
-    write (text, '(a,i0,a)') '*ELASTIC: the constants at integration point ', point, &
+    write (text, '(a,i0,a)') '*ELASTIC: the constants at integration point ', npt_of(point), &
       ', interpolated from the table, are not positive definite'
     call add_message(-3_i4, text)
     call escape()
   end subroutine set_constants
 
   !> Stress and tangent at the end of the increment; the history of the point goes from committed to trial.
-  !> valid is false if the point has no place in the history.
-  subroutine stress_update(material, point, strain, stress, tangent, valid)
+  subroutine stress_update(material, point, strain, stress, tangent)
     type(material_t), intent(in) :: material
-    integer(i4), intent(in) :: point                                        !< from 1
+    type(point_t), intent(inout) :: point
     real(dp), intent(in) :: strain(material%ntens)                          !< total, at the end of the increment
     real(dp), intent(out) :: stress(material%ntens)
     real(dp), intent(out) :: tangent(material%ntens, material%ntens)
-    logical, intent(out) :: valid
     real(dp) :: old(most_values)
     integer :: n, k, first, last
     logical :: solved
     character(len=120) :: text
-    valid = .true.
     n = material%ntens
     if (allocated(material%networks)) then
       call networks(material%networks, material%hyperelastic, allocated(material%user_field), n, point, stress, tangent)
@@ -197,31 +202,28 @@ contains
       call hyperelastic(material%hyperelastic, allocated(material%user_field), n, point, stress, tangent)
       return
     end if
-    if (.not. (is_plastic(material) .or. allocated(material%user) .or. material%prestressed .or. is_viscous(material))) then
+    if (.not. needs_history(material)) then
       call linear(material, strain, stress, tangent)
-      if (current%hybrid) call add_mean_stress(n, stress, tangent)
+      if (point%hybrid) call add_mean_stress(point, n, stress, tangent)
       return
     end if
-    valid = associated(current%history)
-    if (valid) valid = point >= 1 .and. point <= size(current%history, 2)
-    if (.not. valid) return
     if (allocated(material%user)) then
-      if (.not. allocated(material%user_field)) current%history_trial(:, point) = current%history(:, point)
-      call call_umat(material%user, n, point, strain, current%history(:, point), stress, tangent, current%history_trial(:, point))
-      call hybrid_response(material%user, n, stress, tangent)
+      if (.not. allocated(material%user_field)) point%history_trial = point%history
+      call call_umat(material%user, n, point, strain, stress, tangent)
+      call hybrid_response(material%user, point, n, stress, tangent)
       return
     end if
     call places_of_tensors(material, first, last)
-    old(:last) = current%history(:last, point)
-    if (current%finite) then
+    old(:last) = point%history(:last)
+    if (point%finite) then
       ! strains and stresses of the history rotate with the material
-      old(:6) = rotated(6, old(:6), current%rotation, 2.0_dp)
+      old(:6) = rotated(6, old(:6), point%rotation, 2.0_dp)
       do k = first, last, 6
-        old(k:k + 5) = rotated(6, old(k:k + 5), current%rotation, 1.0_dp)
+        old(k:k + 5) = rotated(6, old(k:k + 5), point%rotation, 1.0_dp)
       end do
     end if
     solved = .true.
-    associate (new => current%history_trial(:, point))
+    associate (new => point%history_trial)
       if (is_viscous(material) .or. allocated(material%backstress) .or. allocated(material%hardening)) then
         call inelastic(material, point, n, strain, old(:last), stress, tangent, new(:last), solved)
       else if (.not. allocated(material%yield)) then
@@ -237,9 +239,9 @@ contains
     end associate
     if (solved) return
     if (is_viscous(material)) then
-      write (text, '(a,i0)') '*CREEP or *VISCOELASTIC: the stress is not found at integration point ', point
+      write (text, '(a,i0)') '*CREEP or *VISCOELASTIC: the stress is not found at integration point ', point%number
     else
-      write (text, '(a,i0)') '*PLASTIC: the return to the yield surface does not converge at integration point ', point
+      write (text, '(a,i0)') '*PLASTIC: the return to the yield surface does not converge at integration point ', point%number
     end if
     call not_solved(text)
   end subroutine stress_update
@@ -267,7 +269,7 @@ contains
   !> Laws that are written for plane strain and three dimensions; in plane stress the strain 33 is sought that needs no stress 33.
   subroutine inelastic(material, point, n, strain, old, stress, tangent, new, solved)
     type(material_t), intent(in) :: material
-    integer(i4), intent(in) :: point
+    type(point_t), intent(inout) :: point
     integer, intent(in) :: n
     real(dp), intent(in) :: strain(n), old(:)
     real(dp), intent(out) :: stress(n), tangent(n, n), new(:)
@@ -295,7 +297,7 @@ contains
     stress = reduced_stress(solid)
     tangent = reduced_tangent(modulus)
     if (allocated(material%hardening)) then
-      associate (by_temperature => current%heat%stress_by_temperature)
+      associate (by_temperature => point%heat%stress_by_temperature)
         by_temperature(:3) = reduced_change(by_temperature(:4), modulus)
       end associate
     end if
@@ -304,21 +306,21 @@ contains
   !> STATEV of UHARD or CREEP at the start of the increment, or as USDFLD has left them.
   function states_of_law(material, point) result(statev)
     type(material_t), intent(in) :: material
-    integer(i4), intent(in) :: point
+    type(point_t), intent(in) :: point
     real(dp), allocatable :: statev(:)
     integer :: count, first
     count = 0
     if (allocated(material%hardening)) count = material%hardening%statev
     if (allocated(material%user_creep)) count = material%user_creep%statev
-    first = size(current%history, 1) - count + 1
-    statev = current%history(first:, point)
-    if (allocated(material%user_field)) statev = current%history_trial(first:, point)
+    first = size(point%history) - count + 1
+    statev = point%history(first:)
+    if (allocated(material%user_field)) statev = point%history_trial(first:)
   end function states_of_law
 
   !> Plane strain (n = 4) and three dimensions (n = 6).
   subroutine solid_law(material, point, statev, n, strain, old, stress, tangent, new, solved)
     type(material_t), intent(in) :: material
-    integer(i4), intent(in) :: point
+    type(point_t), intent(inout) :: point
     real(dp), intent(in) :: statev(:)      !< of UHARD or CREEP
     integer, intent(in) :: n
     real(dp), intent(in) :: strain(n), old(:)
@@ -358,27 +360,21 @@ contains
     type(hyperelastic_t), intent(in) :: law
     logical, intent(in) :: had_them
     integer, intent(in) :: n
-    integer(i4), intent(in) :: point
+    type(point_t), intent(inout) :: point
     real(dp), intent(out) :: stress(n), tangent(n, n)
     real(dp) :: statev(items%statev)
     logical :: solved
     integer :: last
     character(len=120) :: text
-    last = size(current%history, 1) - items%statev
-    associate (old => current%history(:, point), new => current%history_trial(:, point))
+    last = size(point%history) - items%statev
+    associate (old => point%history, new => point%history_trial)
       statev = old(last + 1:)
       if (had_them) statev = new(last + 1:)
-      if (current%hybrid) then
-        call network_stress(items, law, n, point, current%deformation(:, :, 2), current%turn, viscous_time(), old(:last), statev, &
-                            stress, tangent, current%energy, current%dissipated, new(:last), solved, current%mean_stress)
-      else
-        call network_stress(items, law, n, point, current%deformation(:, :, 2), current%turn, viscous_time(), old(:last), statev, &
-                            stress, tangent, current%energy, current%dissipated, new(:last), solved)
-      end if
+      call network_stress(items, law, n, point, viscous_time(), old(:last), statev, stress, tangent, new(:last), solved)
       new(last + 1:) = statev
     end associate
     if (solved) return
-    write (text, '(a,i0)') '*VISCOELASTIC, NONLINEAR: the stress is not found at integration point ', point
+    write (text, '(a,i0)') '*VISCOELASTIC, NONLINEAR: the stress is not found at integration point ', point%number
     call not_solved(text)
   end subroutine networks
 
@@ -387,51 +383,47 @@ contains
     type(hyperelastic_t), intent(in) :: law
     logical, intent(in) :: had_them
     integer, intent(in) :: n
-    integer(i4), intent(in) :: point
+    type(point_t), intent(inout) :: point
     real(dp), intent(out) :: stress(n), tangent(n, n)
     real(dp) :: statev(state_variables(law))
     logical :: solved
     integer :: first
     character(len=120) :: text
     if (size(statev) > 0) then
-      first = size(current%history, 1) - size(statev) + 1
-      if (.not. had_them) current%history_trial(:, point) = current%history(:, point)
-      statev = current%history_trial(first:, point)
+      first = size(point%history) - size(statev) + 1
+      if (.not. had_them) point%history_trial = point%history
+      statev = point%history_trial(first:)
     end if
-    if (current%hybrid) then
-      call hyperelastic_stress(law, n, point, current%deformation(:, :, 2), current%turn, statev, stress, tangent, current%energy, &
-                               solved, current%mean_stress)
-    else
-      call hyperelastic_stress(law, n, point, current%deformation(:, :, 2), current%turn, statev, stress, tangent, current%energy, &
-                               solved)
-    end if
-    if (size(statev) > 0) current%history_trial(first:, point) = statev
+    call hyperelastic_stress(law, n, point, statev, stress, tangent, solved)
+    if (size(statev) > 0) point%history_trial(first:) = statev
     if (solved) return
-    write (text, '(a,i0)') '*HYPERELASTIC: the stretches are too large for numbers at integration point ', point
+    write (text, '(a,i0)') '*HYPERELASTIC: the stretches are too large for numbers at integration point ', point%number
     call not_solved(text)
   end subroutine hyperelastic
 
   !> What hybrid elements make of the stress and the tangent of UMAT, by its formulation.
-  pure subroutine hybrid_response(user, n, stress, tangent)
+  pure subroutine hybrid_response(user, point, n, stress, tangent)
     type(user_material_t), intent(in) :: user
+    type(point_t), intent(in) :: point
     integer, intent(in) :: n
     real(dp), intent(inout) :: stress(n), tangent(n, n)
     if (user%hybrid == total) then
       ! what the rate of the stress times the volume has of the mean stress
-      if (current%finite) tangent(:3, :3) = tangent(:3, :3) + sum(stress(:3))/3
+      if (point%finite) tangent(:3, :3) = tangent(:3, :3) + sum(stress(:3))/3
     else if (user%hybrid == incompressible) then
       stress(:3) = stress(:3) - sum(stress(:3))/3
-      call add_mean_stress(n, stress, tangent)
+      call add_mean_stress(point, n, stress, tangent)
     end if
   end subroutine hybrid_response
 
   !> Add the mean stress that the element gives to the stress of an incompressible elastic point, and what its forces change by as
   !> the volume changes.
-  pure subroutine add_mean_stress(n, stress, tangent)
+  pure subroutine add_mean_stress(point, n, stress, tangent)
+    type(point_t), intent(in) :: point
     integer, intent(in) :: n
     real(dp), intent(inout) :: stress(n), tangent(n, n)
-    stress(:3) = stress(:3) + current%mean_stress
-    if (current%finite) tangent(:3, :3) = tangent(:3, :3) + current%mean_stress
+    stress(:3) = stress(:3) + point%mean_stress
+    if (point%finite) tangent(:3, :3) = tangent(:3, :3) + point%mean_stress
   end subroutine add_mean_stress
 
   !> Warn that a local solve has not come to its end, and ask for a smaller increment.
@@ -459,20 +451,20 @@ contains
   !> Elastic strain energy per volume, after stress_update of the point.
   real(dp) function elastic_energy(material, point, stress)
     type(material_t), intent(in) :: material
-    integer(i4), intent(in) :: point
+    type(point_t), intent(in) :: point
     real(dp), intent(in) :: stress(material%ntens)
     integer :: i, j
     elastic_energy = 0
     if (allocated(material%hyperelastic)) then
-      elastic_energy = current%energy
+      elastic_energy = point%energy
       return
     end if
     if (allocated(material%user)) then
-      elastic_energy = current%history_trial(strain_energy, point)
+      elastic_energy = point%history_trial(strain_energy)
       return
     end if
     if (allocated(material%prony)) then
-      elastic_energy = current%history_trial(7, point)
+      elastic_energy = point%history_trial(7)
       return
     end if
     do j = 1, material%ntens
@@ -494,13 +486,13 @@ contains
   !> Strain 33 in plane stress, after stress_update of the point; zero with UMAT, which does not give it.
   real(dp) function thickness_strain(material, point, stress)
     type(material_t), intent(in) :: material
-    integer(i4), intent(in) :: point
+    type(point_t), intent(in) :: point
     real(dp), intent(in) :: stress(3)
     thickness_strain = 0
     ! with viscoelasticity the history has the whole strain
     if (.not. allocated(material%prony)) thickness_strain = dot_product(material%thickness, stress)
     if (is_plastic(material) .or. material%prestressed .or. is_viscous(material)) then
-      thickness_strain = thickness_strain + current%history_trial(3, point)
+      thickness_strain = thickness_strain + point%history_trial(3)
     end if
   end function thickness_strain
 end module host_materials

@@ -25,6 +25,7 @@ module host_networks
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_network_routines, only: call_network_routine, network_routine_t
+  use host_point, only: point_t
   use host_protect, only: escape
   implicit none (type, external)
   private
@@ -57,7 +58,6 @@ module host_networks
 
   !> Constants of an increment at a point.
   type :: increment_t
-    integer(i4) :: point
     real(dp) :: creep_time            !< at its end
     real(dp) :: length                !< its reduced time
     type(arguments_t) :: start
@@ -91,54 +91,50 @@ contains
                           k=1, size(networks%items))])
   end function calls_routine
 
-  !> Cauchy stress, tangent as that of hyperelastic_stress, strain energy and what the increment dissipates per volume now.
-  subroutine network_stress(networks, law, n, point, f, turn, elapsed, old, statev, stress, tangent, energy, dissipated, new, &
-                            good, mean_stress)
+  !> Cauchy stress, tangent as that of hyperelastic_stress, strain energy of the point and what it dissipates in the increment.
+  subroutine network_stress(networks, law, n, point, elapsed, old, statev, stress, tangent, new, good)
     type(networks_t), intent(in) :: networks
     type(hyperelastic_t), intent(in) :: law
     integer, intent(in) :: n                      !< 4 or 6
-    integer(i4), intent(in) :: point              !< from 1
-    real(dp), intent(in) :: f(3, 3)
-    real(dp), intent(in) :: turn(3, 3)            !< from the axes of the material at the start of the job to those of F
+    type(point_t), intent(inout) :: point
     real(dp), intent(in) :: elapsed               !< time in which networks creep; 0: none does
     real(dp), intent(in) :: old(:)
     real(dp), intent(inout) :: statev(:)
-    real(dp), intent(out) :: stress(n), tangent(n, n), energy, dissipated, new(:)
+    real(dp), intent(out) :: stress(n), tangent(n, n), new(:)
     logical, intent(out) :: good
-    real(dp), intent(in), optional :: mean_stress !< of hybrid elements, which take the tangent at it
-    real(dp) :: j, bar(3, 3), b(3, 3), u(0:2), e(3), directions(3, 3), w, h(3), hh(3, 3), s(3), ss(3, 3), part, by_pressures(6)
+    real(dp) :: j, bar(3, 3), b(3, 3), u(0:2), e(3), directions(3, 3), w, h(3), hh(3, 3), s(3), ss(3, 3), by_pressures(6)
     type(arguments_t) :: now
     type(increment_t) :: step
     integer :: k, first
     stress = 0
     tangent = 0
-    energy = 0
-    dissipated = 0
+    point%energy = 0
+    point%dissipated = 0
     new = old
-    j = determinant(f)
+    j = determinant(point%deformation(:, :, 2))
     good = j > 0
     if (.not. good) return
-    bar = f/j**(1.0_dp/3)
+    bar = point%deformation(:, :, 2)/j**(1.0_dp/3)
     b = matmul(bar, transpose(bar))
-    if (present(mean_stress)) then
-      u = [energy_at(law, mean_stress), mean_stress, 0.0_dp]
+    if (point%hybrid) then
+      ! the tangent at the given mean stress
+      u = [energy_at(law, point%mean_stress), point%mean_stress, 0.0_dp]
     else
       u = volume_energy(law, j)
     end if
     stress(:3) = u(1)
     tangent(:3, :3) = u(1) + j*u(2)
-    energy = u(0)/j
-    call principal(law, f, e, directions, w, good)
+    point%energy = u(0)/j
+    call principal(law, point%deformation(:, :, 2), e, directions, w, good)
     if (.not. good) return
     call shape_energy(law, e - sum(e)/3, w, h, hh)
     call deviators(networks%equilibrium, h, hh, s, ss)
     call add_principal(n, j, e, directions, s, ss, stress, tangent)
-    energy = energy + networks%equilibrium*w/j
+    point%energy = point%energy + networks%equilibrium*w/j
     now%i1 = b(1, 1) + b(2, 2) + b(3, 3)
     now%i2 = (now%i1**2 - sum(b*b))/2
     now%j = j
     new(:5) = [old(1) + elapsed, now%i1 - 3, now%i2 - 3, j - 1, 0.0_dp]
-    step%point = point
     step%creep_time = new(1)
     do k = 1, size(networks%items)
       first = common_values + network_values*(k - 1) + 1
@@ -146,45 +142,44 @@ contains
                  after => new(first:first + network_values - 1))
         step%start = arguments_t(before(7), before(8), before(9) + 3, old(2) + 3, old(3) + 3, old(4) + 1, before(10))
         step%length = 0
-        if (elapsed > 0) step%length = reduced_time(item, step, elapsed, statev)
+        if (elapsed > 0) step%length = reduced_time(item, point, step, elapsed, statev)
         now%pressure = -item%ratio*j*u(1)
         ! along the volume
         by_pressures = 0
         by_pressures(:3) = -item%ratio*(j*u(1) + j**2*u(2))
-        call one_network(item, law, step, elapsed > 0, n, f, bar, b, turn, now, by_pressures, before, statev, stress, tangent, &
-                         energy, part, after, new(5), good)
-        dissipated = dissipated + part
+        call one_network(item, law, point, step, elapsed > 0, n, bar, b, now, by_pressures, before, statev, stress, tangent, &
+                         after, new(5), good)
       end associate
       if (.not. good) return
     end do
   end subroutine network_stress
 
   !> Add what one network gives.
-  subroutine one_network(item, law, step, flows, n, f, bar, b, turn, now, by_pressures, old, statev, stress, tangent, energy, &
-                         dissipated, new, change, good)
+  subroutine one_network(item, law, point, step, flows, n, bar, b, now, by_pressures, old, statev, stress, tangent, new, change, &
+                         good)
     type(network_t), intent(in) :: item
     type(hyperelastic_t), intent(in) :: law
+    type(point_t), intent(inout) :: point
     type(increment_t), intent(in) :: step
     logical, intent(in) :: flows
     integer, intent(in) :: n
-    real(dp), intent(in) :: f(3, 3), bar(3, 3), b(3, 3), turn(3, 3)   !< b: of bar, F without its change of volume
+    real(dp), intent(in) :: bar(3, 3), b(3, 3)    !< b: of bar, F without its change of volume
     type(arguments_t), intent(inout) :: now
     real(dp), intent(in) :: by_pressures(6)       !< derivatives of the Kirchhoff pressure by the strains
     real(dp), intent(in) :: old(network_values)
-    real(dp), intent(inout) :: statev(:), stress(:), tangent(:, :), energy, change
-    real(dp), intent(out) :: dissipated, new(network_values)
+    real(dp), intent(inout) :: statev(:), stress(:), tangent(:, :), change
+    real(dp), intent(out) :: new(network_values)
     logical, intent(out) :: good
     type(state_t) :: state
     real(dp) :: inverse_creep(3, 3), lower(3, 3), t(3), directions(3, 3), j, flow, at_end(8), at_start(8), left(size(statev))
     real(dp) :: stretch(3, 3), back(3, 3), w, h(3), hh(3, 3)
     integer :: a
-    inverse_creep = matmul(turn, matmul(full(old(:6)) + identity, transpose(turn)))
+    inverse_creep = matmul(point%turn, matmul(full(old(:6)) + identity, transpose(point%turn)))
     lower = inverse_creep
-    dissipated = 0
     new = old
     call lower_factor(lower, good)
     if (.not. good) return
-    call principal(law, matmul(f, lower), t, directions, j, good)
+    call principal(law, matmul(point%deformation(:, :, 2), lower), t, directions, j, good)
     if (.not. good) return
     t = t - sum(t)/3
     stretch = matmul(directions, matmul(b, transpose(directions)))
@@ -192,8 +187,8 @@ contains
     at_end = 0
     if (flows) then
       left = statev
-      call creep(item, step, 0_i4, step%start, left, at_start)
-      call find_flow(item, law, step, t, [(stretch(a, a), a=1, 3)], now, statev, flow, state, at_end, good)
+      call creep(item, point, step, 0_i4, step%start, left, at_start)
+      call find_flow(item, law, point, step, t, [(stretch(a, a), a=1, 3)], now, statev, flow, state, at_end, good)
       if (.not. good) return
       change = max(change, abs(at_end(increment) - at_start(increment)))
     else
@@ -202,8 +197,8 @@ contains
     end if
     call add_network(n, now%j, b, stretch, t, directions, flow, state, at_end, by_pressures, now%i1, stress, tangent)
     call shape_energy(law, state%e, w, h, hh)
-    energy = energy + item%ratio*w/now%j
-    dissipated = flow*state%q**2/now%j
+    point%energy = point%energy + item%ratio*w/now%j
+    point%dissipated = point%dissipated + flow*state%q**2/now%j
     if (flow > 0) then
       call invert(3, bar, back, j)
       lower = 0
@@ -211,15 +206,16 @@ contains
         lower = lower + exp(2*state%e(a))*outer(directions(a, :), directions(a, :))
       end do
       inverse_creep = matmul(back, matmul(lower, transpose(back)))
-      new(:6) = packed(matmul(transpose(turn), matmul(inverse_creep, turn)) - identity)
+      new(:6) = packed(matmul(transpose(point%turn), matmul(inverse_creep, point%turn)) - identity)
     end if
     new(7:) = [old(7) + flow*state%q, state%q, state%i1_creep - 3, now%pressure]
   end subroutine one_network
 
   !> Length of the increment in the reduced time of a network: the logarithm of the shift changes linearly (Abaqus Theory Guide,
   !> Viscoelasticity). Leaves the pass if the shift is no positive number.
-  real(dp) function reduced_time(item, step, elapsed, statev)
+  real(dp) function reduced_time(item, point, step, elapsed, statev)
     type(network_t), intent(in) :: item
+    type(point_t), intent(inout) :: point
     type(increment_t), intent(in) :: step
     real(dp), intent(in) :: elapsed
     real(dp), intent(inout) :: statev(:)
@@ -229,7 +225,7 @@ contains
     character(len=120) :: text
     reduced_time = elapsed
     if (.not. allocated(item%shift)) return
-    call call_network_routine(item%shift, step%point, none, [step%creep_time, elapsed], nothing, statev, shift)
+    call call_network_routine(item%shift, point, none, [step%creep_time, elapsed], nothing, statev, shift)
     if (.not. (minval(shift) > 0 .and. maxval(shift) <= huge(shift))) then
       write (text, '(a,es10.3,a,es10.3)') 'UTRSNETWORK gives the shifts ', shift(1), ' and ', shift(2)
       call add_message(-3_i4, trim(text)//'; expected positive numbers')
@@ -245,9 +241,10 @@ contains
   end function reduced_time
 
   !> The flow f, and the state with it.
-  subroutine find_flow(item, law, step, t, stretch, now, statev, flow, state, output, good)
+  subroutine find_flow(item, law, point, step, t, stretch, now, statev, flow, state, output, good)
     type(network_t), intent(in) :: item
     type(hyperelastic_t), intent(in) :: law
+    type(point_t), intent(inout) :: point
     type(increment_t), intent(in) :: step
     real(dp), intent(in) :: t(3), stretch(3)
     type(arguments_t), intent(inout) :: now
@@ -292,7 +289,7 @@ contains
       now%q = state%q
       now%i1_creep = state%i1_creep
       statev = start
-      call creep(item, step, 1_i4, now, statev, output)
+      call creep(item, point, step, 1_i4, now, statev, output)
       e = -1.5_dp*matmul(state%inverse, state%s)
       by_flow = dot_product(state%by_e, e)
       value = x*state%q - output(increment)
@@ -377,8 +374,9 @@ contains
   end subroutine add_network
 
   !> Increment of the equivalent creep strain and its derivatives.
-  subroutine creep(item, step, lend, of, statev, output)
+  subroutine creep(item, point, step, lend, of, statev, output)
     type(network_t), intent(in) :: item
+    type(point_t), intent(inout) :: point
     type(increment_t), intent(in) :: step
     integer(i4), intent(in) :: lend               !< 1: at the end of the increment, 0: at its start
     type(arguments_t), intent(in) :: of
@@ -389,7 +387,7 @@ contains
     associate (c => item%constants)
       select case (item%law)
       case (by_user)
-        call call_network_routine(item%user, step%point, [lend], [step%creep_time, step%length], &
+        call call_network_routine(item%user, point, [lend], [step%creep_time, step%length], &
                                   [of%creep, of%q, of%i1_creep, of%i1, of%i2, of%j, of%pressure], statev, output)
       case (hyperbolic)
         limit = largest/max(c(3), 1.0_dp)

@@ -11,6 +11,7 @@ module host_thermal
   use host_context, only: current
   use host_guarded, only: guarded_t, lay_out_guarded, warn_of_no_numbers, warn_of_writes
   use host_kinds, only: dp, i4
+  use host_point, only: point_t
   implicit none (type, external)
   private
   public :: thermal_t, user_thermal_t, flow_t, call_hetval, call_umatht, conductivity_at, energy_taken, heat_outputs, flow_outputs
@@ -124,49 +125,49 @@ contains
     molten = min(max((temperature - solidus)/(liquidus - solidus), 0.0_dp), 1.0_dp)
   end function molten
 
-  !> Add the heat that HETVAL generates at a point, whose temperature and fields are in current%fields, to current%heat. Its TIME
-  !> is that at the end of the increment; TEMP and PREDEF are values at the end, and increments.
+  !> Add the heat that HETVAL generates to that of the point. Its TIME is that at the end of the increment; TEMP and PREDEF are
+  !> values at the end, and increments.
   subroutine call_hetval(user, point)
     type(user_thermal_t), intent(in) :: user
-    integer(i4), intent(in) :: point                !< from 1
+    type(point_t), intent(inout) :: point
     procedure(hetval_procedure), pointer :: hetval
     real(dp) :: temp(2), time(2), dtime
-    real(dp) :: predef(max(size(current%fields, 1) - 1, 1)), dpred(max(size(current%fields, 1) - 1, 1))
+    real(dp) :: predef(max(size(point%fields, 1) - 1, 1)), dpred(max(size(point%fields, 1) - 1, 1))
     character(len=80) :: cmname
     character(len=len(current%routine)) :: routine
     call c_f_procpointer(user%address, hetval)
     call lay_out_guarded(heat_work, [2, user%statev])
-    temp = [sum(current%fields(1, :)), current%fields(1, 2)]
+    temp = [sum(point%fields(1, :)), point%fields(1, 2)]
     time = current%time + current%dtime
     dtime = current%dtime
-    call fields_of_point(.true., predef, dpred)
+    call fields_of_point(point, .true., predef, dpred)
     cmname = user%material
     routine = current%routine
     current%routine = 'HETVAL'
-    current%point = point
+    current%point = point%number
     associate (x => heat_work%memory, s => heat_work%start)
       x(s(1):s(1) + 1) = 0
-      call take_statev(user%statev, point, x(s(2):s(2) + user%statev - 1))
+      call take_statev(point, user%statev, x(s(2):s(2) + user%statev - 1))
       call hetval(cmname, temp, time, dtime, x(s(2)), x(s(1)), predef, dpred)
-      call warn_of_writes(heat_work, heat_names, heat_sizes, point, user%reported)
-      call warn_of_no_numbers(heat_work, heat_names, point, user%spoilt)
-      current%heat%source = current%heat%source + x(s(1))
-      current%heat%source_by_temperature = current%heat%source_by_temperature + x(s(1) + 1)
-      call keep_statev(user%statev, point, x(s(2):s(2) + user%statev - 1))
+      call warn_of_writes(heat_work, heat_names, heat_sizes, point%number, user%reported)
+      call warn_of_no_numbers(heat_work, heat_names, point%number, user%spoilt)
+      point%heat%source = point%heat%source + x(s(1))
+      point%heat%source_by_temperature = point%heat%source_by_temperature + x(s(1) + 1)
+      call keep_statev(point, user%statev, x(s(2):s(2) + user%statev - 1))
     end associate
     current%routine = routine
   end subroutine call_hetval
 
-  !> Energy and heat flux that UMATHT gives at a point, whose temperature, fields and place are in the context. Its TIME is that at
-  !> the end of the increment; TEMP and PREDEF are values at its start.
-  subroutine call_umatht(user, point, state, gradient, flow)
+  !> Energy and heat flux that UMATHT gives at a point. Its TIME is that at the end of the increment; TEMP and PREDEF
+  !> are values at its start.
+  subroutine call_umatht(user, point, gradient, flow)
     type(user_thermal_t), intent(in) :: user
-    integer(i4), intent(in) :: point, state         !< from 1; state: the point that has the STATEV
+    type(point_t), intent(in) :: point
     real(dp), intent(in) :: gradient(:)             !< of the temperature, at the end of the increment
     type(flow_t), intent(inout) :: flow
     procedure(umatht_procedure), pointer :: umatht
     real(dp) :: u, dudt, temp, dtemp, dtemdx(size(gradient)), time(2), dtime, constants(size(user%constants)), coords(3), pnewdt
-    real(dp) :: predef(max(size(current%fields, 1) - 1, 1)), dpred(max(size(current%fields, 1) - 1, 1))
+    real(dp) :: predef(max(size(point%fields, 1) - 1, 1)), dpred(max(size(point%fields, 1) - 1, 1))
     character(len=80) :: cmname
     character(len=len(current%routine)) :: routine
     integer(i4) :: ntgrd, nstatv, nprops, noel, npt, layer, kspt, kstep, kinc
@@ -176,84 +177,85 @@ contains
     call lay_out_guarded(flow_work, [n, n, n, n**2, user%statev])
     u = flow%energy
     dudt = 0
-    temp = current%fields(1, 1)
-    dtemp = current%fields(1, 2)
+    temp = point%fields(1, 1)
+    dtemp = point%fields(1, 2)
     dtemdx = gradient
     time = current%time + current%dtime
     dtime = current%dtime
-    call fields_of_point(.false., predef, dpred)
+    call fields_of_point(point, .false., predef, dpred)
     cmname = user%material
     ntgrd = int(n, i4)
     nstatv = int(user%statev, i4)
     constants = user%constants
     nprops = size(constants, kind=i4)
-    coords = current%place
+    coords = point%place
     pnewdt = current%pnewdt
     noel = current%element
-    npt = point
+    npt = point%number
     layer = 1
     kspt = 1
     kstep = current%step
     kinc = current%increment
     routine = current%routine
     current%routine = 'UMATHT'
-    current%point = point
+    current%point = point%number
     associate (x => flow_work%memory, s => flow_work%start)
       x(s(1):s(1) + n - 1) = 0
       x(s(2):s(2) + n - 1) = flow%flux(:n)
       x(s(3):s(3) + n - 1) = 0
       x(s(4):s(4) + n**2 - 1) = 0
-      call take_statev(user%statev, state, x(s(5):s(5) + user%statev - 1))
+      call take_statev(point, user%statev, x(s(5):s(5) + user%statev - 1))
       call umatht(u, dudt, x(s(1)), x(s(2)), x(s(3)), x(s(4)), x(s(5)), temp, dtemp, dtemdx, time, dtime, predef, dpred, cmname, &
                   ntgrd, nstatv, constants, nprops, coords, pnewdt, noel, npt, layer, kspt, kstep, kinc)
-      call warn_of_writes(flow_work, flow_names, flow_sizes, point, user%reported)
-      call warn_of_no_numbers(flow_work, flow_names, point, user%spoilt)
+      call warn_of_writes(flow_work, flow_names, flow_sizes, point%number, user%reported)
+      call warn_of_no_numbers(flow_work, flow_names, point%number, user%spoilt)
       flow%energy = u
       flow%energy_by_temperature = dudt
       flow%energy_by_gradient(:n) = x(s(1):s(1) + n - 1)
       flow%flux(:n) = x(s(2):s(2) + n - 1)
       flow%flux_by_temperature(:n) = x(s(3):s(3) + n - 1)
       flow%flux_by_gradient(:n, :n) = reshape(x(s(4):s(4) + n**2 - 1), [n, n])
-      call keep_statev(user%statev, state, x(s(5):s(5) + user%statev - 1))
+      call keep_statev(point, user%statev, x(s(5):s(5) + user%statev - 1))
     end associate
     current%routine = routine
     current%pnewdt = min(current%pnewdt, pnewdt)
   end subroutine call_umatht
 
   !> PREDEF, at the end of the increment or at its start, and DPRED of the point; at least one entry, which may be zero.
-  subroutine fields_of_point(at_end, predef, dpred)
+  subroutine fields_of_point(point, at_end, predef, dpred)
+    type(point_t), intent(in) :: point
     logical, intent(in) :: at_end
     real(dp), intent(out) :: predef(:), dpred(:)
     integer :: k, n
     predef = 0
     dpred = 0
-    n = size(current%fields, 1) - 1
+    n = size(point%fields, 1) - 1
     do k = 1, n
-      predef(k) = current%fields(k + 1, 1)
-      dpred(k) = current%fields(k + 1, 2)
+      predef(k) = point%fields(k + 1, 1)
+      dpred(k) = point%fields(k + 1, 2)
     end do
     if (at_end) predef = predef + dpred
   end subroutine fields_of_point
 
   !> STATEV of a point, as the last routine has left them.
-  subroutine take_statev(n, point, statev)
+  subroutine take_statev(point, n, statev)
+    type(point_t), intent(in) :: point
     integer, intent(in) :: n
-    integer(i4), intent(in) :: point
     real(dp), intent(out) :: statev(n)
     integer :: first
     if (n == 0) return
-    first = size(current%history_trial, 1) - n + 1
-    statev = current%history_trial(first:, point)
+    first = size(point%history_trial) - n + 1
+    statev = point%history_trial(first:)
   end subroutine take_statev
 
   !> Keep them for the next routine and for the end of the increment.
-  subroutine keep_statev(n, point, statev)
+  subroutine keep_statev(point, n, statev)
+    type(point_t), intent(in) :: point
     integer, intent(in) :: n
-    integer(i4), intent(in) :: point
     real(dp), intent(in) :: statev(n)
     integer :: first
     if (n == 0) return
-    first = size(current%history_trial, 1) - n + 1
-    current%history_trial(first:, point) = statev
+    first = size(point%history_trial) - n + 1
+    point%history_trial(first:) = statev
   end subroutine keep_statev
 end module host_thermal

@@ -20,48 +20,50 @@ subroutine getvrm(var, array, jarray, flgray, jrcd, jmac, jmatyp, matlayo, laccf
   real(dp) :: strain(6), stress(6)
   integer, allocatable :: place(:)
   jrcd = 1
-  if (.not. associated(current%values)) return
+  if (.not. associated(current%visible%values)) return
   array = 0
   jarray = 0
   flgray = 'YES'
-  place = places(size(current%values), current%tensor)
-  n = size(place)
-  if (n == 0 .and. var /= 'SDV' .and. var /= 'TEMP') return
-  strain = 0
-  strain(place) = current%values(:n)
-  stress = 0
-  stress(place) = current%values(n + 1:2*n)
-  jrcd = 0
-  select case (var)
-  case ('E', 'LE')
-    call give(strain)
-  case ('S')
-    call give(stress)
-  case ('SINV')
-    array(:4) = invariants(stress)
-  case ('PE')
-    if (.not. current%plastic) then
+  associate (visible => current%visible, values => current%visible%values)
+    place = places(size(values), current%tensor)
+    n = size(place)
+    if (n == 0 .and. var /= 'SDV' .and. var /= 'TEMP') return
+    strain = 0
+    strain(place) = values(:n)
+    stress = 0
+    stress(place) = values(n + 1:2*n)
+    jrcd = 0
+    select case (var)
+    case ('E', 'LE')
+      call give(strain)
+    case ('S')
+      call give(stress)
+    case ('SINV')
+      array(:4) = invariants(stress)
+    case ('PE')
+      if (.not. visible%plastic) then
+        jrcd = 1
+      else if (n == 1 .and. size(values) > 2) then
+        array([1, 7]) = values(3:4)
+      else
+        array(:6) = rotated(6, visible%history(:6), visible%axes, 2.0_dp)
+        array(7) = visible%history(7)
+      end if
+    case ('SDV')
+      shown = min(visible%statev, 15)
+      if (shown > 0) array(:shown) = visible%history(visible%first:visible%first + shown - 1)
+      if (shown == 0) jrcd = 1
+    case ('TEMP')
+      ! that at the start of the increment
+      if (associated(visible%fields)) then
+        array(1) = visible%fields(1, 1)
+      else
+        jrcd = 1
+      end if
+    case default
       jrcd = 1
-    else if (n == 1 .and. size(current%values) > 2) then
-      array([1, 7]) = current%values(3:4)
-    else
-      array(:6) = rotated(6, current%history(:6, current%column), current%axes, 2.0_dp)
-      array(7) = current%history(7, current%column)
-    end if
-  case ('SDV')
-    shown = min(current%statev, 15)
-    if (shown > 0) array(:shown) = current%history(current%first:current%first + shown - 1, current%column)
-    if (shown == 0) jrcd = 1
-  case ('TEMP')
-    ! that at the start of the increment
-    if (allocated(current%fields)) then
-      array(1) = current%fields(1, 1)
-    else
-      jrcd = 1
-    end if
-  case default
-    jrcd = 1
-  end select
+    end select
+  end associate
 
 contains
 

@@ -6,10 +6,10 @@
 !> used, nor is any predefined field.
 subroutine material_lib_mech(materiallib, stress, ddsdde, stran, dstran, npt, dvdv0, dvmat, dfgrd, predef, dpredef, npredf, &
                              celent, coords)
-  use host_context, only: current
   use host_kinds, only: dp, i4
-  use host_materials, only: find_material, material_t, stress_update
+  use host_materials, only: find_material, material_t, needs_history, stress_update
   use host_messages, only: add_message
+  use host_point, only: move_to, point_t
   use host_protect, only: escape
   implicit none (type, external)
   integer(i4), intent(in) :: materiallib             !< as UELMAT got it
@@ -20,19 +20,21 @@ subroutine material_lib_mech(materiallib, stress, ddsdde, stran, dstran, npt, dv
   real(dp), intent(in) :: dvdv0, dvmat, dfgrd(3, 3), predef(*), dpredef(*), celent, coords(3)
   integer(i4), intent(in) :: npredf
   type(material_t), pointer :: material
+  type(point_t) :: point
   character(len=128) :: text
-  logical :: valid
   integer :: n
   material => find_material(materiallib)
   if (.not. associated(material)) then
     call add_message(-3_i4, 'MATERIAL_LIB_MECH: the first argument is not the MATERIALLIB that was passed to UELMAT')
     call escape()
   end if
+  call move_to(point, int(npt))
+  if (needs_history(material) .and. .not. associated(point%history)) then
+    write (text, '(a,i0,a)') 'MATERIAL_LIB_MECH: NPT = ', npt, ' is outside the points that INTEGRATION= declares'
+    call add_message(-3_i4, trim(text))
+    call escape()
+  end if
+  point%place = coords
   n = material%ntens
-  current%place = coords
-  call stress_update(material, npt, stran(1:n) + dstran(1:n), stress(1:n), ddsdde(1:n*n), valid)
-  if (valid) return
-  write (text, '(a,i0,a)') 'MATERIAL_LIB_MECH: NPT = ', npt, ' is outside the points that INTEGRATION= declares'
-  call add_message(-3_i4, trim(text))
-  call escape()
+  call stress_update(material, point, stran(1:n) + dstran(1:n), stress(1:n), ddsdde(1:n*n))
 end subroutine material_lib_mech

@@ -4,9 +4,10 @@
 !> but for the entries of their arrays.
 module host_network_routines
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
-  use host_context, only: current, fields_at_end
+  use host_context, only: current
   use host_guarded, only: guarded_t, lay_out_guarded, warn_of_no_numbers, warn_of_writes
   use host_kinds, only: dp, i4
+  use host_point, only: fields_at_end, point_t
   implicit none (type, external)
   private
   public :: network_routine_t, call_network_routine, outputs
@@ -43,7 +44,7 @@ contains
   !> integers and reals: what follows KSTEP, KINC, NOEL, NPT, LAYER, KSPT in I_ARRAY and the time increment in R_ARRAY.
   subroutine call_network_routine(this, point, integers, times, reals, statev, output)
     type(network_routine_t), intent(in) :: this
-    integer(i4), intent(in) :: point               !< from 1
+    type(point_t), intent(inout) :: point
     integer(i4), intent(in) :: integers(:)
     real(dp), intent(in) :: times(2)               !< creep time at the end of the increment, length of the increment
     real(dp), intent(in) :: reals(:)
@@ -60,12 +61,12 @@ contains
     nstatv = size(statev, kind=i4)
     call lay_out_guarded(work, [int(noutput), int(nstatv)])
     networkid = this%network
-    coords = current%place
-    call fields_at_end(temp, dtemp, predef, dpred)
+    coords = point%place
+    call fields_at_end(point, temp, dtemp, predef, dpred)
     nfield = size(predef, kind=i4)
     constants = this%constants
     nprops = size(constants, kind=i4)
-    i_array = [current%step, current%increment, current%element, point, 1_i4, 1_i4, integers]
+    i_array = [current%step, current%increment, current%element, point%number, 1_i4, 1_i4, integers]
     niarray = size(i_array, kind=i4)
     r_array = [current%time + current%dtime, times, reals]
     nrarray = size(r_array, kind=i4)
@@ -73,14 +74,14 @@ contains
     ncarray = 1
     caller = current%routine
     current%routine = this%routine
-    current%point = point
+    current%point = point%number
     associate (x => work%memory, s => work%start)
       x(s(1):s(1) + noutput - 1) = 0
       x(s(2):s(2) + nstatv - 1) = statev
       call routine(x(s(1)), x(s(2)), noutput, nstatv, networkid, coords, temp, dtemp, nfield, predef, dpred, nprops, constants, &
                    i_array, niarray, r_array, nrarray, c_array, ncarray)
-      call warn_of_writes(work, names, sizes, point, this%reported)
-      call warn_of_no_numbers(work, names, point, this%spoilt)
+      call warn_of_writes(work, names, sizes, point%number, this%reported)
+      call warn_of_no_numbers(work, names, point%number, this%spoilt)
       output = x(s(1):s(1) + noutput - 1)
       statev = x(s(2):s(2) + nstatv - 1)
     end associate

@@ -3,9 +3,10 @@
 !> UANISOHYPER_INV at a material point, with the arguments of Abaqus (User Subroutines Guide, UANISOHYPER_INV).
 module host_uanisohyper
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
-  use host_context, only: current, fields_at_end
+  use host_context, only: current
   use host_guarded, only: guarded_t, lay_out_guarded, warn_of_no_numbers, warn_of_writes
   use host_kinds, only: dp, i4
+  use host_point, only: fields_at_end, point_t
   implicit none (type, external)
   private
   public :: user_invariants_t, call_uanisohyper, outputs
@@ -42,7 +43,7 @@ contains
   !> Strain energy per initial volume and its derivatives by the invariants.
   subroutine call_uanisohyper(potential, point, invariants, cosines, statev, energy, first, second)
     type(user_invariants_t), intent(in) :: potential
-    integer(i4), intent(in) :: point                          !< from 1
+    type(point_t), intent(inout) :: point
     real(dp), intent(in) :: invariants(:), cosines(:)         !< AINV and ZETA
     real(dp), intent(inout) :: statev(:)                      !< STATEV at the start of the increment, then at its end
     real(dp), intent(out) :: energy, first(size(invariants)), second(size(invariants), size(invariants))
@@ -64,18 +65,18 @@ contains
     call lay_out_guarded(work, [2, int(ninv), pairs, pairs, int(numstatev)])
     ainv = invariants
     zeta = cosines
-    call fields_at_end(temp, unused, fieldv, fieldvinc)
+    call fields_at_end(point, temp, unused, fieldv, fieldvinc)
     numfieldv = size(fieldv, kind=i4)
     constants = potential%constants
     numprops = size(constants, kind=i4)
     noel = current%element
     cmname = potential%name
     ! then a hybrid element gives the mean stress
-    incmpflag = merge(1_i4, 0_i4, current%hybrid)
+    incmpflag = merge(1_i4, 0_i4, point%hybrid)
     ihybflag = incmpflag
     routine = current%routine
     current%routine = 'UANISOHYPER_INV'
-    current%point = point
+    current%point = point%number
     associate (x => work%memory, s => work%start)
       do k = 1, outputs - 1
         x(s(k):s(k) + work%length(k) - 1) = 0
@@ -83,8 +84,8 @@ contains
       x(s(5):s(5) + numstatev - 1) = statev
       call uanisohyper(ainv, x(s(1)), zeta, nfibers, ninv, x(s(2)), x(s(3)), x(s(4)), temp, noel, cmname, incmpflag, ihybflag, &
                        numstatev, x(s(5)), numfieldv, fieldv, fieldvinc, numprops, constants)
-      call warn_of_writes(work, names, sizes, point, potential%reported)
-      call warn_of_no_numbers(work, names, point, potential%spoilt)
+      call warn_of_writes(work, names, sizes, point%number, potential%reported)
+      call warn_of_no_numbers(work, names, point%number, potential%spoilt)
       energy = x(s(1))
       first = x(s(2):s(2) + ninv - 1)
       ! UI2(i + k (k - 1)/2) with i <= k

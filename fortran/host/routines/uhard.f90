@@ -11,6 +11,7 @@ module host_uhard
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_mises, only: returned_solid, trial_mises
+  use host_point, only: point_t
   use host_protect, only: escape
   implicit none (type, external)
   private
@@ -43,11 +44,11 @@ module host_uhard
 
 contains
 
-  !> Plane strain (n = 4) and three dimensions (n = 6); STATEV that the last call has left go to current%history_trial.
+  !> Plane strain (n = 4) and three dimensions (n = 6); STATEV that the last call has left go to the trial history of the point.
   subroutine user_solid(law, young, poisson, point, statev, n, old, strain, stress, tangent, new, solved)
     type(user_hardening_t), intent(in) :: law
     real(dp), intent(in) :: young, poisson, statev(:), old(7)   !< statev: at the start of the increment
-    integer(i4), intent(in) :: point                            !< from 1
+    type(point_t), intent(inout) :: point
     integer, intent(in) :: n
     real(dp), intent(in) :: strain(n)
     real(dp), intent(out) :: stress(n), tangent(n, n), new(7)
@@ -58,7 +59,7 @@ contains
     q = trial_mises(young, poisson, n, old, strain)
     multiplier = 0
     slope = 0
-    current%heat%stress_by_temperature = 0
+    point%heat%stress_by_temperature = 0
     solved = .true.
     call call_uhard(law, point, statev, old(7), 0.0_dp, flow, slope, softening)
     ! nothing flows in no time, as in the calls for initial accelerations, though a yield stress by the rate may be less than q
@@ -75,7 +76,7 @@ contains
     call returned_solid(young, poisson, n, old, strain, multiplier, slope, stress, tangent, new)
     if (multiplier > 0) then
       ! the yield surface shrinks with the temperature, and the plastic strain grows
-      associate (by_temperature => current%heat%stress_by_temperature)
+      associate (by_temperature => point%heat%stress_by_temperature)
         by_temperature(:n) = stress/(q - stiffness*multiplier)*softening*stiffness/(stiffness + slope)
         by_temperature(:3) = by_temperature(:3) - sum(by_temperature(:3))/3
       end associate
@@ -86,7 +87,7 @@ contains
   !> pass if the yield stress is no positive number.
   subroutine call_uhard(law, point, start, plastic, increment, flow, slope, softening)
     type(user_hardening_t), intent(in) :: law
-    integer(i4), intent(in) :: point
+    type(point_t), intent(inout) :: point
     real(dp), intent(in) :: start(:), plastic, increment
     real(dp), intent(out) :: flow, slope, softening
     procedure(uhard_procedure), pointer :: uhard
@@ -106,11 +107,11 @@ contains
     if (increment > 0) eqplasrt = increment/dtime
     temp = 0
     dtemp = 0
-    if (allocated(current%fields)) then
-      temp = current%fields(1, 1)
-      dtemp = current%fields(1, 2)
-      predef = current%fields(2:, 1)
-      dpred = current%fields(2:, 2)
+    if (associated(point%fields)) then
+      temp = point%fields(1, 1)
+      dtemp = point%fields(1, 2)
+      predef = point%fields(2:, 1)
+      dpred = point%fields(2:, 2)
     else
       allocate (predef(0), dpred(0))
     end if
@@ -118,7 +119,7 @@ contains
     constants = law%constants
     numprops = size(constants, kind=i4)
     noel = current%element
-    npt = point
+    npt = point%number
     layer = 1
     kspt = 1
     kstep = current%step
@@ -126,19 +127,19 @@ contains
     cmname = law%name
     routine = current%routine
     current%routine = 'UHARD'
-    current%point = point
+    current%point = point%number
     associate (x => work%memory, s => work%start)
       x(s(1)) = 0
       x(s(2):s(2) + 2) = 0
       x(s(3):s(3) + nstatv - 1) = start
       call uhard(x(s(1)), x(s(2)), eqplas, eqplasrt, time, dtime, temp, dtemp, noel, npt, layer, kspt, kstep, kinc, cmname, &
                  nstatv, x(s(3)), numfieldv, predef, dpred, numprops, constants)
-      call warn_of_writes(work, names, sizes, point, law%reported)
+      call warn_of_writes(work, names, sizes, point%number, law%reported)
       flow = x(s(1))
       slope = x(s(2))
       if (dtime > 0) slope = slope + x(s(2) + 1)/dtime
       softening = x(s(2) + 2)
-      if (nstatv > 0) current%history_trial(size(current%history_trial, 1) - nstatv + 1:, point) = x(s(3):s(3) + nstatv - 1)
+      if (nstatv > 0) point%history_trial(size(point%history_trial) - nstatv + 1:) = x(s(3):s(3) + nstatv - 1)
     end associate
     if (.not. (flow > 0 .and. flow <= huge(flow) .and. max(abs(slope), abs(softening)) <= huge(slope))) then
       write (text, '(a,es10.3,a,es10.3)') 'UHARD gives SYIELD = ', flow, ' at EQPLAS = ', plastic + increment

@@ -3,9 +3,10 @@
 !> UHYPER at a material point, with the arguments of Abaqus (User Subroutines Guide, UHYPER).
 module host_uhyper
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
-  use host_context, only: current, fields_at_end
+  use host_context, only: current
   use host_guarded, only: guarded_t, lay_out_guarded, warn_of_no_numbers, warn_of_writes
   use host_kinds, only: dp, i4
+  use host_point, only: fields_at_end, point_t
   implicit none (type, external)
   private
   public :: user_potential_t, call_uhyper, outputs
@@ -41,7 +42,7 @@ contains
   !> Strain energy per initial volume and its derivatives by I1 and I2, both without the change of volume, and J.
   subroutine call_uhyper(potential, point, i1, i2, j, statev, energy, first, second)
     type(user_potential_t), intent(in) :: potential
-    integer(i4), intent(in) :: point               !< from 1
+    type(point_t), intent(inout) :: point
     real(dp), intent(in) :: i1, i2, j
     real(dp), intent(inout) :: statev(:)           !< STATEV at the start of the increment, then at its end
     real(dp), intent(out) :: energy, first(3), second(3, 3)
@@ -55,17 +56,17 @@ contains
     numstatev = size(statev, kind=i4)
     call lay_out_guarded(work, [2, 3, 6, 6, int(numstatev)])
     invariants = [i1, i2, j]
-    call fields_at_end(temp, unused, fieldv, fieldvinc)
+    call fields_at_end(point, temp, unused, fieldv, fieldvinc)
     numfieldv = size(fieldv, kind=i4)
     constants = potential%constants
     numprops = size(constants, kind=i4)
     noel = current%element
     cmname = potential%name
     ! then a hybrid element gives the mean stress
-    incmpflag = merge(1_i4, 0_i4, current%hybrid)
+    incmpflag = merge(1_i4, 0_i4, point%hybrid)
     routine = current%routine
     current%routine = 'UHYPER'
-    current%point = point
+    current%point = point%number
     associate (x => work%memory, s => work%start)
       x(s(1):s(1) + 1) = 0
       x(s(2):s(2) + 2) = 0
@@ -74,8 +75,8 @@ contains
       x(s(5):s(5) + numstatev - 1) = statev
       call uhyper(invariants(1), invariants(2), invariants(3), x(s(1)), x(s(2)), x(s(3)), x(s(4)), temp, noel, cmname, incmpflag, &
                   numstatev, x(s(5)), numfieldv, fieldv, fieldvinc, numprops, constants)
-      call warn_of_writes(work, names, sizes, point, potential%reported)
-      call warn_of_no_numbers(work, names, point, potential%spoilt)
+      call warn_of_writes(work, names, sizes, point%number, potential%reported)
+      call warn_of_no_numbers(work, names, point%number, potential%spoilt)
       energy = x(s(1))
       first = x(s(2):s(2) + 2)
       associate (second_of => x(s(3):s(3) + 5))

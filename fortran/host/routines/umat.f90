@@ -11,10 +11,11 @@
 module host_umat
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
   use core_small_matrix, only: determinant
-  use host_context, only: current, heat_t
+  use host_context, only: current
   use host_guarded, only: guarded_t, lay_out_guarded, warn_of_no_numbers, warn_of_writes
   use host_kinds, only: dp, i4
   use host_kinematics, only: rotated
+  use host_point, only: heat_t, npt_of, point_t
   implicit none (type, external)
   private
   public :: user_material_t, total, incompressible, call_umat, direct_components, head, outputs, strain_energy, stress_place
@@ -67,43 +68,42 @@ contains
   end function direct_components
 
   !> Number of field variables besides temperature.
-  pure integer function field_variables()
+  pure integer function field_variables(point)
+    type(point_t), intent(in) :: point
     field_variables = 0
-    if (allocated(current%fields)) field_variables = size(current%fields, 1) - 1
+    if (associated(point%fields)) field_variables = size(point%fields, 1) - 1
   end function field_variables
 
-  !> Stress and tangent at the end of the increment; the history goes from old to new, in which STATEV holds the start values. The
-  !> heat terms of UMAT are in current%heat.
-  subroutine call_umat(material, ntens, point, strain, old, stress, tangent, new)
+  !> Stress and tangent at the end of the increment, and the heat terms of the point; its trial history, in which STATEV holds the
+  !> start values, is that of the end.
+  subroutine call_umat(material, ntens, point, strain, stress, tangent)
     type(user_material_t), intent(in) :: material
     integer, intent(in) :: ntens
-    integer(i4), intent(in) :: point                     !< from 1
+    type(point_t), intent(inout) :: point
     real(dp), intent(in) :: strain(ntens)                !< total, at the end of the increment
-    real(dp), intent(in) :: old(:)
     real(dp), intent(out) :: stress(ntens), tangent(ntens, ntens)
-    real(dp), intent(inout) :: new(:)
     procedure(umat_procedure), pointer :: umat
     real(dp) :: stran(ntens), dstran(ntens), time(2), dtime, constants(size(material%constants))
     real(dp) :: rpl, drpldt, temp, dtemp, coords(3), drot(3, 3), dfgrd0(3, 3), dfgrd1(3, 3), celent, pnewdt
-    real(dp) :: predef(max(field_variables(), 1)), dpred(max(field_variables(), 1))
+    real(dp) :: predef(max(field_variables(point), 1)), dpred(max(field_variables(point), 1))
     real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
     integer(i4) :: ndi, nshr, components, nstatv, nprops, noel, npt, layer, kspt, jstep(4), kinc
     character(len=80) :: cmname
     character(len=len(current%routine)) :: routine
     integer :: extra, first
     call c_f_procpointer(material%umat, umat)
-    first = size(new) - material%room + 1
-    stran = old(:ntens)
-    stress = old(stress_place:stress_place + ntens - 1)
+    first = size(point%history) - material%room + 1
+    stran = point%history(:ntens)
+    stress = point%history(stress_place:stress_place + ntens - 1)
     extra = merge(3, 0, material%hybrid == total)
     call lay_out_guarded(work, [ntens + extra, ntens**2, ntens, ntens, material%statev])
     drot = identity
     dfgrd0 = identity
     dfgrd1 = identity
-    if (current%finite) then
-      drot = current%rotation
-      dfgrd0 = current%deformation(:, :, 1)
-      dfgrd1 = current%deformation(:, :, 2)
+    if (point%finite) then
+      drot = point%rotation
+      dfgrd0 = point%deformation(:, :, 1)
+      dfgrd1 = point%deformation(:, :, 2)
       stran = rotated(ntens, stran, drot, 2.0_dp)
       stress = rotated(ntens, stress, drot, 1.0_dp)
     end if
@@ -116,14 +116,14 @@ contains
     dtemp = 0
     predef = 0
     dpred = 0
-    if (allocated(current%fields)) then
-      temp = current%fields(1, 1)
-      dtemp = current%fields(1, 2)
-      predef(:field_variables()) = current%fields(2:, 1)
-      dpred(:field_variables()) = current%fields(2:, 2)
+    if (associated(point%fields)) then
+      temp = point%fields(1, 1)
+      dtemp = point%fields(1, 2)
+      predef(:field_variables(point)) = point%fields(2:, 1)
+      dpred(:field_variables(point)) = point%fields(2:, 2)
     end if
-    coords = current%place
-    celent = current%length
+    coords = point%place
+    celent = point%length
     pnewdt = current%pnewdt
     constants = material%constants
     components = int(ntens, i4)
@@ -132,9 +132,9 @@ contains
     nstatv = int(material%statev, i4)
     nprops = size(constants, kind=i4)
     noel = current%element
-    npt = merge(current%npt, point, current%npt > 0)
-    layer = current%layer
-    kspt = current%kspt
+    npt = npt_of(point)
+    layer = point%layer
+    kspt = point%kspt
     ! procedure type, NLGEOM, linear perturbation
     jstep = [current%step, current%flags([1, 2, 4])]
     kinc = current%increment
@@ -142,7 +142,7 @@ contains
     routine = current%routine
     current%routine = 'UMAT'
     current%point = npt
-    associate (x => work%memory, s => work%start)
+    associate (x => work%memory, s => work%start, new => point%history_trial)
       x(s(1):s(1) + ntens - 1) = stress
       if (extra > 0) x(s(1) + ntens:s(1) + ntens + 2) = [determinant(dfgrd1), 0.0_dp, 0.0_dp]
       x(s(2):s(2) + ntens**2 - 1) = 0
@@ -156,14 +156,14 @@ contains
       call warn_of_no_numbers(work, names, current%point, material%spoilt)
       stress = x(s(1):s(1) + ntens - 1)
       tangent = reshape(x(s(2):s(2) + ntens**2 - 1), [ntens, ntens])
-      current%heat = heat_t(source=rpl, source_by_temperature=drpldt)
-      current%heat%stress_by_temperature(:ntens) = x(s(3):s(3) + ntens - 1)
-      current%heat%source_by_strain(:ntens) = x(s(4):s(4) + ntens - 1)
+      point%heat = heat_t(source=rpl, source_by_temperature=drpldt)
+      point%heat%stress_by_temperature(:ntens) = x(s(3):s(3) + ntens - 1)
+      point%heat%source_by_strain(:ntens) = x(s(4):s(4) + ntens - 1)
       new(first:first + material%statev - 1) = x(s(5):s(5) + material%statev - 1)
+      new(:ntens) = strain
+      new(stress_place:stress_place + ntens - 1) = stress
     end associate
     current%routine = routine
     current%pnewdt = min(current%pnewdt, pnewdt)
-    new(:ntens) = strain
-    new(stress_place:stress_place + ntens - 1) = stress
   end subroutine call_umat
 end module host_umat

@@ -4,9 +4,10 @@
 !> of the increment, in each call of the element.
 module host_usdfld
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
-  use host_context, only: current
+  use host_context, only: current, visible_t
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
+  use host_point, only: npt_of, point_t
   use host_protect, only: escape
   use host_umat, only: direct_components
   implicit none (type, external)
@@ -33,17 +34,17 @@ module host_usdfld
 
 contains
 
-  !> Set the fields of current%fields, and STATEV of the point in current%history_trial.
+  !> Set the fields of the point, and STATEV in its trial history.
   subroutine call_usdfld(user, ntens, point, axes, basis, local, values)
     type(user_field_t), intent(in) :: user
     integer, intent(in) :: ntens
-    integer(i4), intent(in) :: point                  !< from 1
+    type(point_t), intent(inout) :: point
     real(dp), intent(in) :: axes(3, 3)                !< rows: directions of the material
     real(dp), intent(in) :: basis(3, 3)               !< the same along the directions of the element
     logical, intent(in) :: local                      !< the history is in them
     real(dp), intent(in), target :: values(:)         !< strain and stress at the start of the increment; none of heat
     procedure(usdfld_procedure), pointer :: usdfld
-    real(dp) :: field(size(current%fields, 1) - 1), statev(max(user%statev, 1)), direct(3, 3), t(3, 3), time(2), dtime, pnewdt, &
+    real(dp) :: field(size(point%fields, 1) - 1), statev(max(user%statev, 1)), direct(3, 3), t(3, 3), time(2), dtime, pnewdt, &
                 celent, coord(3)
     character(len=80) :: cmname, orname
     character(len=len(current%routine)) :: routine
@@ -51,28 +52,28 @@ contains
     integer :: first
     first = 0
     call c_f_procpointer(user%address, usdfld)
-    field = current%fields(2:, 1) + current%fields(2:, 2)
+    field = point%fields(2:, 1) + point%fields(2:, 2)
     statev = 0
     ! without STATEV, a material need not have a history
     if (user%statev > 0) then
-      first = size(current%history, 1) - user%room + 1
-      statev(:user%statev) = current%history(first:first + user%statev - 1, point)
+      first = size(point%history) - user%room + 1
+      statev(:user%statev) = point%history(first:first + user%statev - 1)
     end if
     direct = transpose(axes)
     t = transpose(basis)
     time = current%time
     dtime = current%dtime
     pnewdt = current%pnewdt
-    celent = current%length
-    coord = current%place
+    celent = point%length
+    coord = point%place
     cmname = user%material
     orname = user%orientation
     nfield = size(field, kind=i4)
     nstatv = int(user%statev, i4)
     noel = current%element
-    npt = merge(current%npt, point, current%npt > 0)
-    layer = current%layer
-    kspt = current%kspt
+    npt = npt_of(point)
+    layer = point%layer
+    kspt = point%kspt
     kstep = current%step
     kinc = current%increment
     ndi = direct_components(ntens)
@@ -84,23 +85,18 @@ contains
     routine = current%routine
     current%routine = 'USDFLD'
     current%point = npt
-    current%column = point
-    current%first = first
-    current%statev = user%statev
-    current%plastic = user%plastic
-    current%values => values
-    current%axes = axes
-    if (local) current%axes = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
+    current%visible = visible_t(values, axes, point%history, point%fields, first, user%statev, user%plastic)
+    if (local) current%visible%axes = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
     call usdfld(field, statev, pnewdt, direct, t, celent, time, dtime, cmname, orname, nfield, nstatv, noel, npt, layer, kspt, &
                 kstep, kinc, ndi, nshr, coord, jmac, jmatyp, matlayo, laccfla)
-    nullify (current%values)
+    nullify (current%visible%values)
     if (.not. all(abs(field) <= huge(field))) then
       call add_message(-3_i4, 'USDFLD sets a field variable to NaN or infinity')
       call escape()
     end if
     current%routine = routine
     current%pnewdt = min(current%pnewdt, pnewdt)
-    current%fields(2:, 2) = field - current%fields(2:, 1)
-    if (user%statev > 0) current%history_trial(first:first + user%statev - 1, point) = statev
+    point%fields(2:, 2) = field - point%fields(2:, 1)
+    if (user%statev > 0) point%history_trial(first:first + user%statev - 1) = statev
   end subroutine call_usdfld
 end module host_usdfld

@@ -5,11 +5,12 @@
 module host_user_creep
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
   use core_root, only: advance, root_search, search_between, searching
-  use host_context, only: current, fields_at_end
+  use host_context, only: current
   use host_creep, only: creep_values, crept_t, relax, trial_of, trial_t
   use host_guarded, only: guarded_t, lay_out_guarded, warn_of_writes
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
+  use host_point, only: fields_at_end, npt_of, point_t
   use host_protect, only: escape
   implicit none (type, external)
   private
@@ -51,12 +52,12 @@ module host_user_creep
 
 contains
 
-  !> Plane strain (n = 4) and three dimensions (n = 6); STATEV that the last call has left go to current%history_trial.
+  !> Plane strain (n = 4) and three dimensions (n = 6); STATEV that the last call has left go to the trial history of the point.
   subroutine user_creep_solid(law, young, poisson, elapsed, point, statev, n, old, strain, stress, tangent, new, solved)
     type(user_creep_t), intent(in) :: law
     real(dp), intent(in) :: young, poisson
     real(dp), intent(in) :: elapsed               !< zero: no creep
-    integer(i4), intent(in) :: point              !< from 1
+    type(point_t), intent(inout) :: point
     real(dp), intent(in) :: statev(:)             !< at the start of the increment
     integer, intent(in) :: n
     real(dp), intent(in) :: old(:), strain(n)
@@ -99,7 +100,7 @@ contains
   !> relaxed yet.
   subroutine call_creep(law, point, start, old, increment, mises, pressure, lend, found)
     type(user_creep_t), intent(in) :: law
-    integer(i4), intent(in) :: point
+    type(point_t), intent(inout) :: point
     real(dp), intent(in) :: start(:), old(:), increment, mises, pressure
     integer(i4), intent(in) :: lend               !< 0: the values are those of the start of the increment, 1: of its end
     type(law_t), intent(out) :: found
@@ -119,17 +120,17 @@ contains
     esw = 0
     p = pressure
     qtild = mises
-    call fields_at_end(temp, dtemp, predef, dpred)
+    call fields_at_end(point, temp, dtemp, predef, dpred)
     dtime = current%dtime
     ! all at the end of the increment, the last one in steps where materials creep
     time = [current%time, old(10)] + dtime
     leximp = 1
     at_end = lend
-    coords = current%place
+    coords = point%place
     noel = current%element
-    npt = merge(current%npt, point, current%npt > 0)
-    layer = current%layer
-    kspt = current%kspt
+    npt = npt_of(point)
+    layer = point%layer
+    kspt = point%kspt
     kstep = current%step
     kinc = current%increment
     cmname = law%name
@@ -147,7 +148,7 @@ contains
       good = all(abs(x(s(1):s(1) + 4)) <= huge(p))
       if (good .and. lend == 1 .and. .not. increment > 0) good = found%increment >= 0
       swells = any(abs(x(s(2):s(2) + 4)) > 0)
-      if (nstatv > 0) current%history_trial(size(current%history_trial, 1) - nstatv + 1:, point) = x(s(3):s(3) + nstatv - 1)
+      if (nstatv > 0) point%history_trial(size(point%history_trial) - nstatv + 1:) = x(s(3):s(3) + nstatv - 1)
     end associate
     if (swells .and. .not. law%reported(outputs + 1)) then
       law%reported(outputs + 1) = .true.

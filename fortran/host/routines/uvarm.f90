@@ -3,8 +3,9 @@
 !> UVARM (User Subroutines Guide) at a material point of built-in elements, at the end of an increment.
 module host_uvarm
   use, intrinsic :: iso_c_binding, only: c_f_procpointer, c_funptr
-  use host_context, only: current
+  use host_context, only: current, visible_t
   use host_kinds, only: dp, i4
+  use host_point, only: npt_of, point_t
   use host_umat, only: direct_components
   implicit none (type, external)
   private
@@ -32,11 +33,11 @@ module host_uvarm
 
 contains
 
-  !> UVAR of a point, with GETVRM for the values of the history; current has the place and the point of the section.
+  !> UVAR of a point, with GETVRM for the values of the history.
   subroutine call_uvarm(user, ntens, point, axes, basis, local, values, uvar)
     type(user_output_t), intent(in) :: user
     integer, intent(in) :: ntens
-    integer(i4), intent(in) :: point                  !< from 1
+    type(point_t), intent(inout) :: point
     real(dp), intent(in) :: axes(3, 3)                !< rows: directions of the material
     real(dp), intent(in) :: basis(3, 3)               !< the same along the directions of the element
     logical, intent(in) :: local                      !< the history is in them
@@ -52,14 +53,14 @@ contains
     t = transpose(basis)
     time = current%time
     dtime = current%dtime
-    coord = current%place
+    coord = point%place
     cmname = user%material
     orname = user%orientation
     nuvarm = size(uvar, kind=i4)
     noel = current%element
-    npt = merge(current%npt, point, current%npt > 0)
-    layer = current%layer
-    kspt = current%kspt
+    npt = npt_of(point)
+    layer = point%layer
+    kspt = point%kspt
     kstep = current%step
     kinc = current%increment
     ndi = direct_components(ntens)
@@ -71,16 +72,12 @@ contains
     routine = current%routine
     current%routine = 'UVARM'
     current%point = npt
-    current%column = point
-    current%first = size(current%history, 1) - user%room + 1
-    current%statev = user%statev
-    current%plastic = user%plastic
-    current%values => values
-    current%axes = axes
-    if (local) current%axes = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
+    current%visible = visible_t(values, axes, point%history, point%fields, size(point%history) - user%room + 1, user%statev, &
+                                user%plastic)
+    if (local) current%visible%axes = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
     call uvarm(uvar, direct, t, time, dtime, cmname, orname, nuvarm, noel, npt, layer, kspt, kstep, kinc, ndi, nshr, coord, jmac, &
                jmatyp, matlayo, laccfla)
-    nullify (current%values)
+    nullify (current%visible%values)
     current%routine = routine
   end subroutine call_uvarm
 
@@ -88,11 +85,11 @@ contains
   subroutine keep_uvar(user, ntens, point, axes, basis, values)
     type(user_output_t), intent(in) :: user
     integer, intent(in) :: ntens
-    integer(i4), intent(in) :: point
+    type(point_t), intent(inout) :: point
     real(dp), intent(in) :: axes(3, 3), basis(3, 3)
     real(dp), intent(in), target :: values(:)
-    associate (first => size(current%history_trial, 1) - user%room - user%width + 1)
-      call call_uvarm(user, ntens, point, axes, basis, .true., values, current%history_trial(first:first + user%count - 1, point))
+    associate (first => size(point%history_trial) - user%room - user%width + 1)
+      call call_uvarm(user, ntens, point, axes, basis, .true., values, point%history_trial(first:first + user%count - 1))
     end associate
   end subroutine keep_uvar
 end module host_uvarm

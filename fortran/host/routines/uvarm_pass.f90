@@ -8,6 +8,7 @@ module host_uvarm_pass
   use host_kinds, only: dp, i4
   use host_protect, only: begin_call, protect
   use host_kinematics, only: point_position
+  use host_point, only: point_t
   use host_shape, only: rule_of
   use host_uvarm, only: call_uvarm, user_output_t
   implicit none (type, external)
@@ -40,31 +41,29 @@ contains
     current%time = pass%time
     current%dtime = pass%dtime
     current%tensor = pass%tensor
-    current%npt = 0
-    current%layer = 1
-    current%kspt = 1
     left = int(protect(c_funloc(all_points), c_loc(pass)), i4)
-    nullify (current%values, current%history)
+    nullify (current%visible%values)
     if (left == 0) current%element = 0
   end subroutine run_uvarm
 
   subroutine all_points(context) bind(c, name='uel_host_uvarm_points')
     type(c_ptr), value :: context
     type(uvarm_pass_t), pointer :: pass
-    integer(i4) :: e, point
+    type(point_t) :: point
+    integer(i4) :: e, k
     integer :: values
     call c_f_pointer(context, pass)
     ! a point for heat has neither strain nor stress
     values = merge(size(pass%svars, 1), 0, pass%tensor > 0)
     do e = 1, size(pass%labels, kind=i4)
       current%element = pass%labels(e)
-      current%history => pass%history(:, :, e)
-      do point = 1, size(pass%uvar, 2, kind=i4)
+      do k = 1, size(pass%uvar, 2, kind=i4)
         call begin_call(0_i4, current%element)
-        current%place = point_position(rule_of(pass%family, size(pass%uvar, 2)), int(point), pass%coords(:, :, e))
-        associate (axes => pass%axes(:, :, min(int(point), size(pass%axes, 3)), min(int(e), size(pass%axes, 4))))
-          call call_uvarm(pass%user, int(pass%tensor), point, axes, axes, pass%local, pass%svars(:values, point, e), &
-                          pass%uvar(:, point, e))
+        point%number = k
+        point%history => pass%history(:, k, e)
+        point%place = point_position(rule_of(pass%family, size(pass%uvar, 2)), int(k), pass%coords(:, :, e))
+        associate (axes => pass%axes(:, :, min(int(k), size(pass%axes, 3)), min(int(e), size(pass%axes, 4))))
+          call call_uvarm(pass%user, int(pass%tensor), point, axes, axes, pass%local, pass%svars(:values, k, e), pass%uvar(:, k, e))
         end associate
       end do
     end do

@@ -11,6 +11,7 @@ module host_beam_section
   use host_coupling, only: interpolate_fields, thermal_strain
   use host_kinds, only: dp, i4
   use host_materials, only: elastic_energy, has_fields, material_t, set_constants, stress_update
+  use host_point, only: move_to, point_t
   use host_shape, only: rule_t
   use host_usdfld, only: call_usdfld
   use host_uvarm, only: keep_uvar
@@ -58,13 +59,10 @@ contains
     type(energies_t), intent(inout) :: energies
     real(dp) :: b(material%ntens, 6), total(material%ntens), stress(material%ntens), tangent(material%ntens, material%ntens)
     real(dp) :: thermal(6, 2), rate(6), volume, arm(2)
-    integer(i4) :: column
+    type(point_t) :: point
     integer :: k, n
-    logical :: valid
     n = material%ntens
-    current%finite = .false.
-    current%deformed = .false.
-    current%npt = int(place%point, i4)
+    point%npt = int(place%point, i4)
     thermal = 0
     if (allocated(material%expansion)) then
       thermal = thermal_strain(rule, place%point, fields, material%expansion, predef, .true., rate)
@@ -75,25 +73,25 @@ contains
       b(1, [1, 4, 5]) = [1.0_dp, arm(2), -arm(1)]
       b(n, 6) = merge(points(4, k), 0.0_dp, n == 2)
       total = matmul(b, strain)
-      current%kspt = int(k, i4)
-      column = int((place%point - 1)*sections + k, i4)
+      point%kspt = int(k, i4)
+      call move_to(point, (place%point - 1)*sections + k)
       if (has_fields(material)) then
-        current%length = place%length
-        current%place = place%line + matmul(place%axes(:, 2:), points(:2, k))
-        call interpolate_fields(rule, place%point, fields, predef, material%variables)
+        point%length = place%length
+        point%place = place%line + matmul(place%axes(:, 2:), points(:2, k))
+        call interpolate_fields(rule, place%point, fields, predef, material%variables, point)
       end if
       if (current%flags(3) == output_variables) then
-        call keep_uvar(material%user_output, n, column, transpose(place%axes), identity, state(:2*n, k))
+        call keep_uvar(material%user_output, n, point, transpose(place%axes), identity, state(:2*n, k))
         cycle
       end if
       if (allocated(material%user_field)) then
-        call call_usdfld(material%user_field, n, column, transpose(place%axes), identity, .true., state(:2*n, k))
+        call call_usdfld(material%user_field, n, point, transpose(place%axes), identity, .true., state(:2*n, k))
       end if
-      if (allocated(material%dependence)) call set_constants(material, place%point)
+      if (allocated(material%dependence)) call set_constants(material, point)
       total(1) = total(1) - thermal(1, 2)
-      call stress_update(material, column, total, stress, tangent, valid)
+      call stress_update(material, point, total, stress, tangent)
       volume = place%weight*points(3, k)
-      energies%elastic = energies%elastic + volume*elastic_energy(material, column, stress)
+      energies%elastic = energies%elastic + volume*elastic_energy(material, point, stress)
       total(1) = total(1) + thermal(1, 2)
       associate (old => state(:n, k), before => state(n + 1:2*n, k))
         ! trapezoidal rule, exact where the response is linear
@@ -103,13 +101,12 @@ contains
         before = stress
       end associate
       if (allocated(material%yield)) then
-        state(2*n + 1, k) = current%history_trial(1, column)
-        if (n == 2) state(2*n + 2, k) = current%history_trial(4, column)
-        state(3*n + 1, k) = current%history_trial(7, column)
+        state(2*n + 1, k) = point%history_trial(1)
+        if (n == 2) state(2*n + 2, k) = point%history_trial(4)
+        state(3*n + 1, k) = point%history_trial(7)
       end if
       force = force + points(3, k)*matmul(stress, b)
       stiffness = stiffness + points(3, k)*matmul(transpose(b), matmul(tangent, b))
     end do
-    if (allocated(current%fields)) deallocate (current%fields)
   end subroutine section_response
 end module host_beam_section

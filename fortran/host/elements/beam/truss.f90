@@ -9,11 +9,11 @@
 module host_truss
   use host_adapter, only: element_t, keep_forces
   use host_bar, only: bar_forces, bar_of, bar_t, initial_length
-  use host_context, only: current
   use host_coupling, only: interpolate_fields
   use host_kinds, only: dp, i4
   use host_materials, only: elastic_energy, has_fields, material_t, set_constants, stress_update
   use host_mises, only: mises_uniaxial
+  use host_point, only: move_to, point_t
   use host_shape, only: rule_of
   use host_usdfld, only: call_usdfld
   implicit none (type, external)
@@ -28,6 +28,7 @@ contains
     type(element_t), intent(inout) :: element
     real(dp) :: pull, slope
     type(bar_t) :: bar
+    type(point_t) :: point
     integer :: i
     call keep_forces(element, states + 1, size(element%svars) + 1)
     associate (props => element%props)
@@ -36,51 +37,51 @@ contains
       end do
       if (.not. element%has_forces) return
       bar = bar_of(element%mcrd, element%finite, element%coords, element%u)
-      if (has_fields(element%material)) call set_fields(element, bar)
-      call truss_force(element%material, props(1), bar, element%svars, pull, slope, element%energy)
+      call move_to(point, 1)
+      if (has_fields(element%material)) call set_fields(element, bar, point)
+      call truss_force(element%material, point, props(1), bar, element%svars, pull, slope, element%energy)
     end associate
-    if (allocated(current%fields)) deallocate (current%fields)
     call bar_forces(element%mcrd, bar, element%request, pull, slope, element%added, element%rhs, element%amatrx)
   end subroutine truss
 
   !> Temperature and field variables of the point, as USDFLD leaves them, and the elastic constants at them.
-  subroutine set_fields(element, bar)
+  subroutine set_fields(element, bar, point)
     type(element_t), intent(inout) :: element
     type(bar_t), intent(in) :: bar
+    type(point_t), intent(inout) :: point
     real(dp), parameter :: no_directions(3, 3) = 0
     associate (material => element%material, dim => element%mcrd, x => element%coords)
-      current%length = bar%now
-      current%place = 0
-      current%place(:dim) = sum(x, 2)/2
-      if (bar%finite) current%place(:dim) = sum(x + reshape(element%u, [dim, 2]), 2)/2
-      call interpolate_fields(rule_of(int(element%jprops(1)), 1), 1, element%fields, element%predef, material%variables)
+      point%length = bar%now
+      point%place = 0
+      point%place(:dim) = sum(x, 2)/2
+      if (bar%finite) point%place(:dim) = sum(x + reshape(element%u, [dim, 2]), 2)/2
+      call interpolate_fields(rule_of(int(element%jprops(1)), 1), 1, element%fields, element%predef, material%variables, point)
       if (allocated(material%user_field)) then
-        call call_usdfld(material%user_field, material%ntens, 1_i4, no_directions, no_directions, .true., element%svars(:states))
+        call call_usdfld(material%user_field, material%ntens, point, no_directions, no_directions, .true., element%svars(:states))
       end if
-      if (allocated(material%dependence)) call set_constants(material, 1)
+      if (allocated(material%dependence)) call set_constants(material, point)
     end associate
   end subroutine set_fields
 
   !> Force of a truss and its derivative by the elongation; UMAT, or Mises plasticity in one direction where there is a table.
-  subroutine truss_force(material, area, bar, state, pull, slope, energy)
+  subroutine truss_force(material, point, area, bar, state, pull, slope, energy)
     type(material_t), intent(in) :: material
+    type(point_t), intent(inout) :: point
     real(dp), intent(in) :: area
     type(bar_t), intent(in) :: bar
     real(dp), intent(inout) :: state(states), energy(8)
     real(dp), intent(out) :: pull, slope
     real(dp) :: strain, stress, modulus, volume, work, elastic, found(1), tangent(1, 1)
-    logical :: valid
     associate (young => material%young, length => bar%length, now => bar%now)
       volume = area*length
       strain = bar%elongation/length
       if (bar%finite) strain = log(now/length)
       if (allocated(material%user)) then
         ! without deformation gradients (User Subroutines Guide, UMAT), and nothing turns along the line
-        current%finite = .false.
-        call stress_update(material, 1_i4, [strain], found, tangent, valid)
+        call stress_update(material, point, [strain], found, tangent)
         stress = found(1)
         modulus = tangent(1, 1)
-        elastic = elastic_energy(material, 1_i4, found)
+        elastic = elastic_energy(material, point, found)
       else
         stress = young*strain
         modulus = young

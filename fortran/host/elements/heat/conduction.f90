@@ -14,11 +14,12 @@
 module host_conduction
   use core_small_matrix, only: invert
   use host_adapter, only: element_t
-  use host_context, only: current, heat_t, initial_stresses
+  use host_context, only: initial_stresses
   use host_coupling, only: interpolate_fields
   use host_kinds, only: dp, i4
   use host_kinematics, only: gradients, point_position, size_of
   use host_materials, only: material_t
+  use host_point, only: heat_t, move_to, point_t
   use host_shape, only: is_quadratic, rule_of, rule_t
   use host_usdfld, only: call_usdfld
   use host_thermal, only: call_hetval, call_umatht, conductivity_at, energy_taken, flow_t
@@ -56,7 +57,6 @@ contains
       body%modified = .true.
       body%states = body%geometry%points
       fluxes = dim*body%geometry%points
-      current%deformed = .false.
       call conduct(body, element%material, element%coords, element%coords, element%fields, element%predef, element%u, element%du, &
                    element%svars(:fluxes), element%svars(fluxes + 1:), element%rhs, element%amatrx)
       element%rhs = -element%rhs
@@ -84,34 +84,37 @@ contains
                 gradient(body%geometry%dim), inverse(body%geometry%dim, body%geometry%dim), determinant, volume, start_volume, old
     real(dp), target :: nothing(0)     ! strain and stress
     type(flow_t) :: flow
+    type(point_t) :: point
     integer :: dim, p
     dim = body%geometry%dim
     mass = 0
     do p = 1, body%geometry%points
       associate (n => body%field%n(:, p))
+        call move_to(point, state_of(body, p))
+        point%number = int(p, i4)
         call gradients(body%geometry, body%direct, p, x, unused, volume)
         call invert(dim, matmul(x, body%geometry%dn(:, :, p)), inverse, determinant)
         g = matmul(body%field%dn(:, :, p), inverse)
         gradient = matmul(t, g)
         if (allocated(material%thermal%flow) .or. body%generates .and. asks(material)) then
-          current%place = point_position(body%geometry, p, x)
-          call interpolate_fields(body%geometry, p, fields, predef, material%variables)
-          current%fields(1, 2) = dot_product(dt, n)
-          current%fields(1, 1) = dot_product(t, n) - current%fields(1, 2)
+          point%place = point_position(body%geometry, p, x)
+          call interpolate_fields(body%geometry, p, fields, predef, material%variables, point)
+          point%fields(1, 2) = dot_product(dt, n)
+          point%fields(1, 1) = dot_product(t, n) - point%fields(1, 2)
           if (body%generates .and. allocated(material%user_field)) then
-            current%length = length_of(body%geometry, body%direct, x)
-            call call_usdfld(material%user_field, 0, int(p, i4), material%axes, material%axes, .false., nothing)
+            point%length = length_of(body%geometry, body%direct, x)
+            call call_usdfld(material%user_field, 0, point, material%axes, material%axes, .false., nothing)
           end if
         end if
         old = energy(p)
-        call flow_at(material, p, state_of(body, p), dot_product(t, n), gradient, flux(:, p), energy(p), flow)
+        call flow_at(material, point, dot_product(t, n), gradient, flux(:, p), energy(p), flow)
         if (body%modified .and. .not. allocated(material%thermal%flow)) flow%flux_by_temperature = 0
         call add_flow(body%depth*volume, n, g, flow, heat, tangent)
         if (body%generates .and. allocated(material%thermal%source)) then
-          current%heat = heat_t()
-          call call_hetval(material%thermal%source, int(p, i4))
-          heat = heat + body%depth*volume*current%heat%source*n
-          call add_product(-body%depth*volume*current%heat%source_by_temperature, n, n, tangent)
+          point%heat = heat_t()
+          call call_hetval(material%thermal%source, point)
+          heat = heat + body%depth*volume*point%heat%source*n
+          call add_product(-body%depth*volume*point%heat%source_by_temperature, n, n, tangent)
         end if
         if (body%dtime > 0) then
           call gradients(body%geometry, body%direct, p, x_start, unused, start_volume)
@@ -129,7 +132,6 @@ contains
         end if
       end associate
     end do
-    if (allocated(current%fields)) deallocate (current%fields)
     do p = 1, merge(body%field%nodes, 0, any(mass > 0))
       call store(body, material, mass(p), t(p) - dt(p), t(p), unit(p, body%field%nodes), heat, tangent)
     end do
@@ -162,9 +164,9 @@ contains
   end function state_of
 
   !> Heat flux of a point by the tables of the material or by UMATHT, and the energy that UMATHT gives; both are kept.
-  subroutine flow_at(material, point, state, temperature, gradient, flux, energy, flow)
+  subroutine flow_at(material, point, temperature, gradient, flux, energy, flow)
     type(material_t), intent(in) :: material
-    integer, intent(in) :: point, state      !< state: the point that has the STATEV
+    type(point_t), intent(in) :: point
     real(dp), intent(in) :: temperature, gradient(:)
     real(dp), intent(inout) :: flux(:), energy
     type(flow_t), intent(out) :: flow
@@ -174,7 +176,7 @@ contains
     if (allocated(material%thermal%flow)) then
       flow%energy = energy
       flow%flux(:n) = flux
-      call call_umatht(material%thermal%flow, int(point, i4), int(state, i4), gradient, flow)
+      call call_umatht(material%thermal%flow, point, gradient, flow)
       energy = flow%energy
     else
       call conductivity_at(material%thermal, temperature, conductivity, slope)

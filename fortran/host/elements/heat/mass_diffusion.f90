@@ -11,7 +11,7 @@
 module host_mass_diffusion
   use host_adapter, only: element_t
   use host_conduction, only: add_flow, add_product, is_steady, unit
-  use host_context, only: current, initial_stresses
+  use host_context, only: initial_stresses
   use host_diffusion, only: diffusion_t, diffusive_flow, driven_t, solubility_at
   use host_kinds, only: dp, i4
   use host_kinematics, only: gradients
@@ -33,7 +33,6 @@ contains
     rule => rule_of(int(element%jprops(1)), int(element%jprops(2)))
     pressure = 0
     if (element%fields > 2) pressure = element%predef(1, element%fields - 1, :)
-    current%deformed = .false.
     call diffuse(rule, int(element%jprops(3)), element%material%diffusion, merge(element%props(1), 1.0_dp, element%mcrd == 2), &
                  merge(0.0_dp, element%dtime, is_steady(element%procedure_code)), element%coords, element%predef(:, 1, :), &
                  pressure, element%u, element%du, element%svars, element%rhs, element%amatrx)

@@ -277,7 +277,6 @@ contains
     real(dp) :: rotation(3, 3), moved(n)
     type(solid_turn) :: turn
     logical :: good
-    current%deformed = .false.
     call find_turn(3, n/3, gradient, x, u, turn, moved, good)
     if (.not. good) then
       current%distorted = 1

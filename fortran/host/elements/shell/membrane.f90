@@ -33,6 +33,7 @@ module host_membrane
   use host_kinds, only: dp, i4
   use host_materials, only: elastic_energy, has_fields, material_t, set_constants, stress_update
   use host_messages, only: add_message
+  use host_point, only: move_to, point_t
   use host_polar, only: complex_cross => cross, polar_axes, step
   use host_protect, only: escape
   use host_shape, only: hourglass_shapes, is_quadratic, rule_of, rule_t
@@ -174,26 +175,25 @@ contains
     type(material_t), pointer :: material
     real(dp), dimension(:, :), pointer, contiguous :: x, u, du, added
     type(response_t) :: at
+    type(point_t) :: point
     real(dp) :: linear(3, 6), strain(3), stress(3), f(3, 2), f_before(3, 2), nominal(3, 2), rate(3, 2, 3, 2)
     real(dp) :: volume, elastic, work, state(8)
-    integer(i4) :: point
     integer :: p
-    logical :: valid
     material => element%material
     x => element%coords
     u(1:3, 1:rule%nodes) => element%u
     du(1:3, 1:rule%nodes) => element%du
     added(1:3, 1:rule%nodes) => element%added
-    current%finite = element%finite
+    point%finite = element%finite
     current%deformed = element%finite .and. any(abs(u) > 0)
-    current%rotation = identity
-    current%turn = identity
-    current%length = sqrt(sum(places%area))*merge(0.5_dp, 1.0_dp, is_quadratic(rule))
+    point%rotation = identity
+    point%turn = identity
+    point%length = sqrt(sum(places%area))*merge(0.5_dp, 1.0_dp, is_quadratic(rule))
     at%thinning = element%props(4)/(1 - element%props(4))
     elastic = 0
     work = element%energy(2) + element%energy(4)
     do p = 1, rule%points
-      point = int(p, i4)
+      call move_to(point, p)
       associate (g => places(p)%gradient(:rule%nodes, :), frame => places(p)%frame)
         at%volume = places(p)%area*element%props(1)
         linear = strain_matrix(transpose(frame(:2, :)))
@@ -217,9 +217,9 @@ contains
           strain = matmul(linear, reshape(matmul(u, g), [6]))
         end if
         if (has_fields(material)) then
-          current%place = matmul(x, rule%n(:, p))
-          if (element%finite) current%place = matmul(x + u, rule%n(:, p))
-          call interpolate_fields(rule, p, element%fields, element%predef, material%variables)
+          point%place = matmul(x, rule%n(:, p))
+          if (element%finite) point%place = matmul(x + u, rule%n(:, p))
+          call interpolate_fields(rule, p, element%fields, element%predef, material%variables, point)
         end if
         if (element%request == output_variables) then
           call keep_uvar(material%user_output, 3, point, transpose(directions_of(f)), places(p)%basis, svars(:, p))
@@ -228,8 +228,8 @@ contains
         if (allocated(material%user_field)) then
           call call_usdfld(material%user_field, 3, point, transpose(directions_of(f_before)), places(p)%basis, .true., svars(:, p))
         end if
-        if (allocated(material%dependence)) call set_constants(material, p)
-        call stress_update(material, point, strain, stress, at%modulus, valid)
+        if (allocated(material%dependence)) call set_constants(material, point)
+        call stress_update(material, point, strain, stress, at%modulus)
         elastic = elastic + volume*elastic_energy(material, point, stress)
         ! trapezoidal rule, exact where the response is linear
         work = work + volume*0.5_dp*dot_product(stress + svars(4:, p), strain - svars(:3, p))
@@ -248,7 +248,6 @@ contains
         call scatter(rule%nodes, g, nominal, rate, force, stiffness)
       end associate
     end do
-    if (allocated(current%fields)) deallocate (current%fields)
     element%energy(2) = elastic
     if (element%request == initial_stresses) return
     element%energy(4) = work - elastic
@@ -261,24 +260,24 @@ contains
   !> Strain of an increment, stretches and thickness at both ends for UMAT, and the volume at its end. Leaves the pass if the
   !> surface has no area.
   subroutine find_increment(point, before, f, at, volume)
-    integer(i4), intent(in) :: point
+    type(point_t), intent(inout) :: point
     real(dp), intent(in) :: before(3, 2), f(3, 2)
     type(response_t), intent(inout) :: at
     real(dp), intent(out) :: volume
     real(dp) :: stretch(2, 2)
     ! of a surface without area there are no stretches
     if (.not. (norm2(cross(f(:, 1), f(:, 2))) > smallest_area .and. norm2(cross(before(:, 1), before(:, 2))) > smallest_area)) then
-      current%distorted = int(point)
+      current%distorted = int(point%number)
       call escape()
     end if
     at%before = real(stretch_of(cmplx(before, kind=dp)), dp)
     stretch = real(stretch_of(cmplx(f, kind=dp)), dp)
     at%increment = real(increment_of(at%before, cmplx(stretch, kind=dp)), dp)
     volume = at%volume*determinant(stretch)**(1 - at%thinning)
-    current%deformation = 0
-    current%deformation(:2, :2, 1) = at%before
-    current%deformation(:2, :2, 2) = stretch
-    current%deformation(3, 3, :) = [determinant(at%before), determinant(stretch)]**(-at%thinning)
+    point%deformation = 0
+    point%deformation(:2, :2, 1) = at%before
+    point%deformation(:2, :2, 2) = stretch
+    point%deformation(3, 3, :) = [determinant(at%before), determinant(stretch)]**(-at%thinning)
   end subroutine find_increment
 
   !> Forces N times the volume by the deformation, and their derivatives.

@@ -17,6 +17,7 @@ module host_shell_section
   use host_materials, only: elastic_energy, find_material, has_fields, material_t, set_constants, stress_update
   use host_messages, only: add_message
   use host_protect, only: escape
+  use host_point, only: move_to, point_t
   use host_shape, only: rule_t
   use host_shell_directors, only: shell_stress
   use host_shell_strains, only: shell_point, tensor_turn
@@ -204,12 +205,9 @@ contains
     type(material_t), pointer :: material
     real(dp) :: axes(8, 8), strain(8), resultant(8), tangent(8, 8), turn(3, 3), layer(3), stress(3), modulus(3, 3)
     real(dp) :: directions(3, 3), basis(3, 3), elastic, work, volume, z
-    integer(i4) :: column
+    type(point_t) :: point
     integer :: k, p, sections
-    logical :: valid
     sections = size(section, 2)
-    current%finite = .false.
-    current%deformed = .false.
     elastic = 0
     work = element%energy(2) + element%energy(4)
     allocate (found%force(8, rule%points), found%modulus(8, 8, rule%points))
@@ -223,31 +221,31 @@ contains
         material => find_material(of_section(1, k))
         z = section(1, k)
         if (has_fields(material)) then
-          current%length = length
-          current%place = matmul(motion%x, at%point(p)%n(:rule%nodes)) + z*motion%normal(:, p)
-          call interpolate_fields(rule, p, element%fields, element%predef, material%variables)
+          point%length = length
+          point%place = matmul(motion%x, at%point(p)%n(:rule%nodes)) + z*motion%normal(:, p)
+          call interpolate_fields(rule, p, element%fields, element%predef, material%variables, point)
         end if
-        current%npt = int(p, i4)
-        current%layer = of_section(2, k)
-        current%kspt = of_section(3, k)
-        column = int((p - 1)*sections + k, i4)
+        point%npt = int(p, i4)
+        point%layer = of_section(2, k)
+        point%kspt = of_section(3, k)
+        call move_to(point, (p - 1)*sections + k)
         directions = turned(at%angle(p) + section(3, k), motion%frame(:, :, p))
         basis = turned(at%angle(p) - at%default(p) + section(3, k), identity)
         if (current%flags(3) == output_variables) then
           if (allocated(material%user_output)) then
-            call keep_uvar(material%user_output, 3, column, directions, basis, svars(:6, k, p))
+            call keep_uvar(material%user_output, 3, point, directions, basis, svars(:6, k, p))
           end if
           cycle
         end if
         if (allocated(material%user_field)) then
-          call call_usdfld(material%user_field, 3, column, directions, basis, .true., svars(:6, k, p))
+          call call_usdfld(material%user_field, 3, point, directions, basis, .true., svars(:6, k, p))
         end if
-        if (allocated(material%dependence)) call set_constants(material, p)
+        if (allocated(material%dependence)) call set_constants(material, point)
         turn = tensor_turn(section(3, k))
         layer = matmul(turn, strain(:3) + z*strain(4:6))
-        call stress_update(material, column, layer, stress, modulus, valid)
+        call stress_update(material, point, layer, stress, modulus)
         volume = at%point(p)%weight*section(2, k)
-        elastic = elastic + volume*elastic_energy(material, column, stress)
+        elastic = elastic + volume*elastic_energy(material, point, stress)
         associate (state => svars(:6, k, p))
           ! trapezoidal rule, exact where the response is linear
           work = work + volume*0.5_dp*dot_product(stress + state(4:), layer - state(:3))
@@ -267,7 +265,6 @@ contains
       found%force(:, p) = matmul(resultant, axes)
       found%modulus(:, :, p) = matmul(transpose(axes), matmul(tangent, axes))
     end do
-    if (allocated(current%fields)) deallocate (current%fields)
     element%energy(2) = elastic
     element%energy(4) = work - elastic
   end subroutine integrate_section

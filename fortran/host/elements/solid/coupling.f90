@@ -9,10 +9,10 @@
 !>
 !> And what temperatures that are given make at a point of any element: its temperature, and its thermal strain.
 module host_coupling
-  use host_context, only: current
   use host_expansion, only: expansion_t, free_strain, free_strain_rate
   use host_kinds, only: dp
   use host_kinematics, only: gradients
+  use host_point, only: heat_t, point_t, prepare_fields
   use host_shape, only: is_quadratic, rule_t
   implicit none (type, external)
   private
@@ -34,16 +34,16 @@ module host_coupling
 contains
 
   !> Temperature and field variables of a point; of the latter as many as the material has, at least.
-  subroutine interpolate_fields(rule, point, fields, predef, least)
+  subroutine interpolate_fields(rule, p, fields, predef, least, point)
     type(rule_t), intent(in) :: rule
-    integer, intent(in) :: point, fields, least
+    integer, intent(in) :: p, fields, least       !< p: integration point
     real(dp), intent(in) :: predef(2, fields, rule%nodes)
+    type(point_t), intent(inout) :: point
     integer :: k
-    if (allocated(current%fields)) deallocate (current%fields)
-    allocate (current%fields(max(fields - 1, least + 1), 2), source=0.0_dp)
+    call prepare_fields(point, max(fields - 1, least + 1))
     do k = 1, fields - 1
-      current%fields(k, 2) = dot_product(predef(2, k, :), rule%n(:, point))
-      current%fields(k, 1) = dot_product(predef(1, k, :), rule%n(:, point)) - current%fields(k, 2)
+      point%fields(k, 2) = dot_product(predef(2, k, :), rule%n(:, p))
+      point%fields(k, 1) = dot_product(predef(1, k, :), rule%n(:, p)) - point%fields(k, 2)
     end do
   end subroutine interpolate_fields
 
@@ -112,18 +112,20 @@ contains
   end subroutine find_shape
 
   !> Give UMAT the temperature of a point, at the start of the increment and its change.
-  subroutine set_temperature(coupling)
+  subroutine set_temperature(coupling, point)
     type(coupling_t), intent(in) :: coupling
+    type(point_t), intent(inout) :: point
     integer :: corners
     corners = size(coupling%temperature)
-    current%fields(1, 2) = dot_product(coupling%increment, coupling%shape(:corners))
-    current%fields(1, 1) = dot_product(coupling%temperature, coupling%shape(:corners)) - current%fields(1, 2)
+    point%fields(1, 2) = dot_product(coupling%increment, coupling%shape(:corners))
+    point%fields(1, 1) = dot_product(coupling%temperature, coupling%shape(:corners)) - point%fields(1, 2)
   end subroutine set_temperature
 
   !> Add what thermal strain does to the tangent: the mechanical strain of a point falls by `rate` with its temperature, in which
   !> the corners have these shares.
-  subroutine add_thermal_strain(coupling, volume, b, stress_by_temperature, rate, shares)
+  subroutine add_thermal_strain(coupling, volume, b, heat, stress_by_temperature, rate, shares)
     type(coupling_t), intent(inout) :: coupling
+    type(heat_t), intent(in) :: heat          !< terms of UMAT
     real(dp), intent(in) :: volume
     real(dp), intent(in) :: b(:, :)           !< (displacements, strains)
     real(dp), intent(in) :: stress_by_temperature(:), shares(:)
@@ -132,7 +134,7 @@ contains
     integer :: j, n
     n = size(b, 1)
     force = matmul(b, stress_by_temperature)
-    source = dot_product(current%heat%source_by_strain(:size(rate)), rate)
+    source = dot_product(heat%source_by_strain(:size(rate)), rate)
     associate (shape => coupling%shape(:size(shares)), k => coupling%tangent)
       do j = 1, size(shares)
         k(:n, n + j) = k(:n, n + j) + volume*shares(j)*force
@@ -142,15 +144,16 @@ contains
   end subroutine add_thermal_strain
 
   !> Add the heat source of a point, as UMAT and HETVAL left it.
-  subroutine add_heat_source(coupling, volume, b, component)
+  subroutine add_heat_source(coupling, volume, b, heat, component)
     type(coupling_t), intent(inout) :: coupling
+    type(heat_t), intent(in) :: heat
     real(dp), intent(in) :: volume
     real(dp), intent(in) :: b(:, :)           !< (displacements, strains)
     integer, intent(in) :: component(:)       !< of the stresses of UMAT, that of each strain
     integer :: i, j, n, corners
     n = size(b, 1)
     corners = size(coupling%heat)
-    associate (heat => current%heat, shape => coupling%shape, k => coupling%tangent)
+    associate (shape => coupling%shape, k => coupling%tangent)
       coupling%heat = coupling%heat + volume*heat%source*shape(:corners)
       do j = 1, corners
         do i = 1, corners

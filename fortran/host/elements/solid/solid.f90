@@ -40,7 +40,7 @@ module host_solid
   use core_small_matrix, only: invert_general
   use core_strains, only: condense
   use host_axes, only: carry_axes, turn_heat, turn_matrix, values_of_axes
-  use host_context, only: added_stress, current, heat_t, initial_stresses, stress_matrix
+  use host_context, only: added_stress, current, initial_stresses, stress_matrix
   use host_coupling, only: add_heat_source, add_thermal_strain, coupling_t, find_shape, interpolate_fields, set_temperature, &
                            shares, thermal_strain
   use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point, add_stress_matrix, by_volume
@@ -56,10 +56,10 @@ module host_solid
   use host_kinds, only: dp, i4
   use host_kinematics, only: components, gradients, mean_gradients, point_position, rotated, rotation_of, size_of
   use host_mean_volume, only: add_curvature, add_mean_volume, add_uniform_volume
-  use host_protect, only: escape
   use host_planes, only: add_curvature_of_fibres, add_stress_of_fibres, planes, planes_t
   use host_materials, only: elastic_bulk_modulus, elastic_energy, find_material, has_fields, has_heat_terms, is_viscous, &
                             material_t, needs_deformation, not_solved, set_constants, stress_update, thickness_strain
+  use host_point, only: heat_t, move_to, point_t
   use host_shape, only: is_multilinear, rule_of, rule_t
   use host_thermal, only: call_hetval
   use host_usdfld, only: call_usdfld
@@ -317,6 +317,7 @@ contains
     logical :: averaged, begins, of_stress, smoothed
     type(smoothing_t) :: smoothing
     type(mean_response_t) :: mean
+    type(point_t) :: point
     integer :: dim, nodes, n, flat, p, dissipated
     dim = rule%dim
     nodes = rule%nodes
@@ -373,8 +374,8 @@ contains
     flowed = 0
     dissipated = merge(3, 4, is_viscous(material))
     work = energy(2) + energy(dissipated)
-    if (has_fields(material) .or. present(layers)) current%length = size_of(rule, flat, now, volume)
-    current%finite = finite
+    if (has_fields(material) .or. present(layers)) point%length = size_of(rule, flat, now, volume)
+    point%finite = finite
     if (finite .and. .not. present(modes) .and. &
         (needs_deformation(material) .or. material%local .or. smoothed .or. present(pressure))) then
       call find_deformation(rule, flat, averaged, x, u, du, deformation, volume_before, bounds)
@@ -384,7 +385,7 @@ contains
     if (smoothed) call begin_smoothing(smoothing, rule, functions, x, volume_before, size(force))
     if (present(pressure)) then
       call begin_pressure(pressure, rule, x, volume_before*merge(thickness, 1.0_dp, dim == 2))
-      current%hybrid = .true.
+      point%hybrid = .true.
     end if
     ! the points share the change of the whole volume, so that forces are derivatives of the strain energy
     if (finite .and. averaged .and. allocated(material%hyperelastic)) then
@@ -393,24 +394,25 @@ contains
     here => material
     tangent = 0
     do p = 1, rule%points
+      call move_to(point, p)
       if (present(layers)) then
         here => find_material(layers(1, p))
-        current%npt = layers(2, p)
-        current%layer = layers(3, p)
-        current%kspt = layers(4, p)
+        point%npt = layers(2, p)
+        point%layer = layers(3, p)
+        point%kspt = layers(4, p)
       end if
       if (present(coupling)) call find_shape(coupling, direct, rule%points, p, now)
       if (has_fields(here)) then
-        current%place = point_position(rule, p, now)
-        call interpolate_fields(rule, p, fields, predef, here%variables)
-        if (present(coupling)) call set_temperature(coupling)
+        point%place = point_position(rule, p, now)
+        call interpolate_fields(rule, p, fields, predef, here%variables, point)
+        if (present(coupling)) call set_temperature(coupling, point)
       end if
       if (allocated(here%user_field) .and. .not. begins) then
         now_axes = here%axes
         if (present(axes)) now_axes = axes(:, :, 2, p)
-        call call_usdfld(here%user_field, here%ntens, int(p, i4), now_axes, now_axes, here%local, svars(:, p))
+        call call_usdfld(here%user_field, here%ntens, point, now_axes, now_axes, here%local, svars(:, p))
       end if
-      if (allocated(here%dependence)) call set_constants(here, p)
+      if (allocated(here%dependence)) call set_constants(here, point)
       thermal = 0
       rate = 0
       if (allocated(here%expansion)) then
@@ -430,14 +432,14 @@ contains
           gradient = gradient_of(dim, direct, nodes, du, g_mid(:, :, p))
           call find_strain(n, strains, b_mid(:, :, p), du, strain)
         end if
-        current%rotation = rotation_of(gradient)
+        point%rotation = rotation_of(gradient)
         if (present(bounds)) strain(3) = strain(3) + dot_product(bounds%dw, by_planes_mid(:, p))
         if (present(axes)) then
-          call carry_axes(p, deformation(:, :, :, p), axes(:, :, 2, p), middle)
-          current%turn = matmul(axes(:, :, 2, p), transpose(axes(:, :, 1, p)))
+          call carry_axes(point, deformation(:, :, :, p), axes(:, :, 2, p), middle)
+          point%turn = matmul(axes(:, :, 2, p), transpose(axes(:, :, 1, p)))
         else if (needs_deformation(here)) then
-          current%deformation = deformation(:, :, :, p)
-          current%turn = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
+          point%deformation = deformation(:, :, :, p)
+          point%turn = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
         end if
       else
         if (present(axes)) then
@@ -452,43 +454,43 @@ contains
       if (present(pressure)) then
         expanded = 1
         if (allocated(here%hyperelastic)) expanded = (1 + thermal(1, 2))**3
-        current%mean_stress = mean_stress(pressure, p)*expanded
-        call compare_volumes(pressure, p, direct, strains, here, finite, weight, &
+        point%mean_stress = mean_stress(pressure, p)*expanded
+        call compare_volumes(pressure, p, point%mean_stress, direct, strains, here, finite, weight, &
                              volume_before(p)*merge(thickness, 1.0_dp, dim == 2), expanded, strain, b(:, :, p))
       end if
       if (begins) then
-        call begin_point(here, int(p, i4), weight, svars(:, p), stress, elastic)
+        call begin_point(here, point, weight, svars(:, p), stress, elastic)
         if (present(axes)) stress = rotated(strains, stress, transpose(axes(:, :, 2, p)), 1.0_dp)
         modulus = 0
         work = elastic
       else
         if (present(axes)) call turn_strain(dim, strains, middle, strain)
-        if (present(coupling)) current%heat = heat_t()
-        call point_update(dim, strains, here, int(p, i4), weight, finite, strain, thermal, rate, svars(:, p), stress, modulus, &
+        if (present(coupling)) point%heat = heat_t()
+        call point_update(dim, strains, here, point, weight, finite, strain, thermal, rate, svars(:, p), stress, modulus, &
                           by_temperature, elastic, work, mean)
-        if (allocated(here%networks)) flowed = flowed + weight*current%dissipated
+        if (allocated(here%networks)) flowed = flowed + weight*point%dissipated
         if (rule%reduced) tangent = tangent + volume(p)/sum(volume)*modulus
         if (present(axes)) then
-          call turn_response(here, strains, axes(:, :, 2, p), stress, modulus)
+          call turn_response(here, point, strains, axes(:, :, 2, p), stress, modulus)
           call turn_mean(strains, axes(:, :, 2, p), mean)
         end if
       end if
       if (finite .and. here%ntens == 3) weight = weight*exp(svars(3, p))
       if (present(coupling) .and. .not. begins) then
         if (has_heat_terms(here)) then
-          if (allocated(here%thermal%source)) call call_hetval(here%thermal%source, int(p, i4))
-          call add_heat_source(coupling, weight, b(:, :, p), components(strains, here%ntens))
+          if (allocated(here%thermal%source)) call call_hetval(here%thermal%source, point)
+          call add_heat_source(coupling, weight, b(:, :, p), point%heat, components(strains, here%ntens))
         end if
         if (allocated(here%expansion)) then
           if (present(axes)) then
             rate = rotated(6, rate, transpose(axes(:, :, 2, p)), 2.0_dp)
             by_temperature(:strains) = rotated(strains, by_temperature(:strains), transpose(axes(:, :, 2, p)), 1.0_dp)
           end if
-          call add_thermal_strain(coupling, weight, b(:, :, p), by_temperature(:strains), rate(components(here%ntens, 6)), &
-                                  shares(rule, p, .false., coupling))
+          call add_thermal_strain(coupling, weight, b(:, :, p), point%heat, by_temperature(:strains), &
+                                  rate(components(here%ntens, 6)), shares(rule, p, .false., coupling))
         end if
         if (smoothed) then
-          by_corners = coupling%shape(:size(coupling%heat))*sum(current%heat%stress_by_temperature(:3))/3
+          by_corners = coupling%shape(:size(coupling%heat))*sum(point%heat%stress_by_temperature(:3))/3
           if (allocated(here%expansion)) by_corners = by_corners + shares(rule, p, .false., coupling)*by_temperature(strains + 1)
           call keep_temperature(smoothing, p, by_corners)
         end if
@@ -550,8 +552,6 @@ contains
           call add_stress_matrix(dim, direct, strains, nodes, g(:, :, p), b(:, :, p), stresses(:, p), weights(p), stiffness)
         end if
       end do
-      if (allocated(current%fields)) deallocate (current%fields)
-      current%hybrid = .false.
       return
     end if
     if (finite .and. averaged .and. allocated(material%hyperelastic)) then
@@ -585,8 +585,6 @@ contains
         end associate
       end do
     end if
-    if (allocated(current%fields)) deallocate (current%fields)
-    current%hybrid = .false.
     ! its networks alone dissipate, and the trapezoidal rule is not exact
     if (allocated(material%hyperelastic)) work = elastic + energy(dissipated) + flowed
     energy(2) = elastic
@@ -644,16 +642,17 @@ contains
   end function of_planes
 
   !> Adds a point to the residual of the pressure: the change of its volume now, by the displacements less that of the material.
-  subroutine compare_volumes(pressure, point, direct, m, material, finite, now, before, expanded, strain, b)
+  subroutine compare_volumes(pressure, point, mean_stress, direct, m, material, finite, now, before, expanded, strain, b)
     type(pressure_t), intent(inout) :: pressure
     integer, intent(in) :: point, direct, m
     type(material_t), intent(in) :: material
     logical, intent(in) :: finite
+    real(dp), intent(in) :: mean_stress
     !> Volumes, the change of that of a hyperelastic material by free expansion, and the strain if it is small.
     real(dp), intent(in) :: now, before, expanded, strain(m), b(:, :)
     real(dp) :: of_material(2), difference
     of_material = [1, 0]
-    if (allocated(material%hyperelastic)) of_material = volume_of(material%hyperelastic, current%mean_stress)
+    if (allocated(material%hyperelastic)) of_material = volume_of(material%hyperelastic, mean_stress)
     difference = before*sum(strain(:direct))
     if (finite) difference = now - before*expanded*of_material(1)
     call add_compatibility(pressure, point, difference, now*sum(b(:, :direct), 2), before*expanded**2*of_material(2))
@@ -744,8 +743,9 @@ contains
   end subroutine turn_strain
 
   !> Stress and tangent of a point, and the heat terms of UMAT and UHARD, from the directions of axes (rows) to global ones.
-  subroutine turn_response(material, m, axes, stress, modulus)
+  subroutine turn_response(material, point, m, axes, stress, modulus)
     type(material_t), intent(in) :: material
+    type(point_t), intent(inout) :: point
     integer, intent(in) :: m
     real(dp), intent(in) :: axes(3, 3)
     real(dp), intent(inout) :: stress(m), modulus(m, m)
@@ -753,7 +753,7 @@ contains
     turn = turn_matrix(m, axes)
     stress = matmul(transpose(turn), stress)
     modulus = matmul(transpose(turn), matmul(modulus, turn))
-    if (has_heat_terms(material)) call turn_heat(material%ntens, axes)
+    if (has_heat_terms(material)) call turn_heat(material%ntens, axes, point%heat)
   end subroutine turn_response
 
   !> Mean stress of a point, from the directions of axes (rows) to global ones.
@@ -774,7 +774,7 @@ contains
                           by_temperature, elastic, work, mean)
     integer, intent(in) :: dim, m     !< m: number of strains
     type(material_t), intent(in) :: material
-    integer(i4), intent(in) :: point
+    type(point_t), intent(inout) :: point
     logical, intent(in) :: finite
     real(dp), intent(in) :: volume, strain(m), thermal(6, 2), rate(6)
     real(dp), intent(inout) :: state(values_of_point(dim)), elastic, work
@@ -787,15 +787,14 @@ contains
                 t_new(values_of_point(dim)/2), free(values_of_point(dim)/2), unit_state(values_of_point(dim)/2)
     real(dp) :: unit(material%ntens)
     real(dp) :: stretch(2)            ! of the free expansion of a hyperelastic material, at the start and the end
-    logical :: valid
     n = values_of_point(dim)/2
     of_state = components(m, 2*dim)
     of_material = components(m, material%ntens)
     e_old = state(:n)
     t_old = state(n + 1:)
     if (finite) then
-      e_old = rotated(n, e_old, current%rotation, 2.0_dp)
-      t_old = rotated(n, t_old, current%rotation, 1.0_dp)
+      e_old = rotated(n, e_old, point%rotation, 2.0_dp)
+      t_old = rotated(n, t_old, point%rotation, 1.0_dp)
     end if
     total = 0
     do k = 1, m
@@ -807,17 +806,17 @@ contains
     if (allocated(material%hyperelastic)) then
       stretch = 1 + thermal(1, :)
       do k = 1, 2
-        current%deformation(:, :, k) = current%deformation(:, :, k)/stretch(k)
+        point%deformation(:, :, k) = point%deformation(:, :, k)/stretch(k)
       end do
     end if
     if (allocated(material%expansion)) total = total - thermal(components(material%ntens, 6), 2)
-    call stress_update(material, point, total, t, tangent, valid)
+    call stress_update(material, point, total, t, tangent)
     if (allocated(material%expansion)) total = total + thermal(components(material%ntens, 6), 2)
     if (allocated(material%hyperelastic)) then
       ! its energy is that of the volume before the expansion
       t = t/stretch(2)**3
       tangent = tangent/stretch(2)**3
-      current%energy = current%energy/stretch(2)**3
+      point%energy = point%energy/stretch(2)**3
     end if
     e_new = 0
     t_new = 0
