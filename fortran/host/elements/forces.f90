@@ -5,12 +5,26 @@ module host_forces
   use host_kinds, only: dp
   implicit none (type, external)
   private
-  public :: add_plane_point, add_axisymmetric_point, add_space_point, add_geometric, add_stress_matrix, by_volume
+  public :: add_geometric, add_point, by_volume
 
 contains
 
-  !> Force and tangent of a point in the plane; its volume is in stress and modulus. Sizes known at compile time make this and the
-  !> next two, which do most of the work, fast.
+  !> Add force and tangent of a point with m strains; its volume is in stress and modulus.
+  pure subroutine add_point(n, m, b, stress, modulus, force, stiffness)
+    integer, intent(in) :: n, m
+    real(dp), intent(in) :: b(n, m), stress(m), modulus(m, m)
+    real(dp), intent(inout) :: force(n), stiffness(n, n)
+    select case (m)
+    case (3)
+      call add_plane_point(n, b, stress, modulus, force, stiffness)
+    case (4)
+      call add_axisymmetric_point(n, b, stress, modulus, force, stiffness)
+    case default
+      call add_space_point(n, b, stress, modulus, force, stiffness)
+    end select
+  end subroutine add_point
+
+  !> The same in the plane. Sizes known at compile time make this and the next two, which do most of the work, fast.
   pure subroutine add_plane_point(n, b, stress, modulus, force, stiffness)
     integer, intent(in) :: n
     real(dp), intent(in) :: b(n, 3), stress(3), modulus(3, 3)
@@ -110,15 +124,4 @@ contains
       modulus(i, :) = modulus(i, :) + 0.5_dp*stress
     end do
   end function by_volume
-
-  !> Matrix of the stress alone of a point: the same terms.
-  pure subroutine add_stress_matrix(dim, direct, m, nodes, g, b, stress, volume, stiffness)
-    integer, intent(in) :: dim, direct, m, nodes
-    real(dp), intent(in) :: g(nodes, direct), b(dim*nodes, m), stress(m), volume
-    real(dp), intent(inout) :: stiffness(dim*nodes, dim*nodes)
-    real(dp) :: modulus(m, m)
-    modulus = 0
-    call add_geometric(dim, direct, m, nodes, g, stress, volume, modulus, stiffness)
-    stiffness = stiffness + volume*matmul(b, matmul(modulus, transpose(b)))
-  end subroutine add_stress_matrix
 end module host_forces

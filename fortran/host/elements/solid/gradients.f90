@@ -6,48 +6,44 @@ module host_gradients
   use core_strains, only: mean_volume_strain, set_volume_strain, strain_matrix
   use host_kinds, only: dp
   use host_kinematics, only: gradients, mean_gradients
-  use host_planes, only: find_fibre, planes, planes_t
   use host_shape, only: rule_t
   implicit none (type, external)
   private
-  public :: all_gradients, carry, find_deformation, gradient_of, gradients_of_points
+  public :: all_gradients, average_volume_strain, carry, find_deformation, gradient_of, gradients_of_points
 
   real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
 
 contains
 
-  !> Gradients, strain matrices and volumes of all points. Between two planes, with their unknowns w: relative lengths of the
-  !> fibres, and derivatives of their logarithms by w; those by the nodes are in b.
-  subroutine all_gradients(rule, direct, strains, averaged, x, g, b, volume, bounds, w, ratio, by_planes)
+  !> Gradients, strain matrices and volumes of all points.
+  subroutine all_gradients(rule, direct, strains, averaged, x, g, b, volume)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: direct, strains
-    logical, intent(in) :: averaged
+    logical, intent(in) :: averaged    !< the volume strain of the points is its mean
     real(dp), intent(in) :: x(rule%dim, rule%nodes)
     real(dp), intent(out) :: g(rule%nodes, direct, rule%points), b(rule%dim*rule%nodes, strains, rule%points)
     real(dp), intent(out) :: volume(rule%points)
-    type(planes_t), intent(in), optional :: bounds
-    real(dp), intent(in), optional :: w(planes)
-    real(dp), intent(out), optional :: ratio(rule%points), by_planes(planes, rule%points)
-    real(dp) :: mean(rule%dim*rule%nodes), by_nodes(rule%dim, rule%nodes), fibre
-    integer :: p, flat
-    flat = merge(rule%dim, direct, present(bounds))
-    g(:, flat + 1:, :) = 0
-    call gradients_of_points(rule, flat, x, g(:, :flat, :), volume)
+    integer :: p
+    call gradients_of_points(rule, direct, x, g, volume)
     do p = 1, rule%points
       call strain_matrix(rule%dim, direct, rule%nodes, g(:, :, p), b(:, :, p))
-      if (.not. present(bounds)) cycle
-      call find_fibre(bounds, rule, p, x, w, fibre, by_nodes, by_planes(:, p))
-      b(:, 3, p) = reshape(by_nodes, [size(by_nodes)])
-      volume(p) = volume(p)*fibre
-      if (present(ratio)) ratio(p) = fibre
     end do
-    if (.not. averaged) return
-    ! fibres of elements with straight edges have one strain
-    mean = mean_volume_strain(flat, rule%dim*rule%nodes, strains, rule%points, volume, b)
-    do p = 1, rule%points
-      call set_volume_strain(flat, rule%dim*rule%nodes, strains, mean, b(:, :, p))
-    end do
+    if (averaged) call average_volume_strain(rule, direct, strains, volume, b)
   end subroutine all_gradients
+
+  !> Give all points the mean volume strain of the first direct strains.
+  pure subroutine average_volume_strain(rule, direct, strains, volume, b)
+    type(rule_t), intent(in) :: rule
+    integer, intent(in) :: direct, strains
+    real(dp), intent(in) :: volume(rule%points)
+    real(dp), intent(inout) :: b(rule%dim*rule%nodes, strains, rule%points)
+    real(dp) :: mean(rule%dim*rule%nodes)
+    integer :: p
+    mean = mean_volume_strain(direct, rule%dim*rule%nodes, strains, rule%points, volume, b)
+    do p = 1, rule%points
+      call set_volume_strain(direct, rule%dim*rule%nodes, strains, mean, b(:, :, p))
+    end do
+  end subroutine average_volume_strain
 
   !> Gradients and volumes of all points. Where one stands for all of a quadrilateral or hexahedron they are the mean ones; those of
   !> section points of layers differ from the mean as they do at the points, so that their own mean is that of the element.
@@ -110,15 +106,14 @@ contains
 
   !> Deformation gradients of all points at both ends of the increment; with the mean change of volume where it
   !> is averaged.
-  subroutine find_deformation(rule, direct, averaged, x, u, du, f, initial, bounds)
+  subroutine find_deformation(rule, direct, averaged, x, u, du, f, initial)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: direct
     logical, intent(in) :: averaged
     real(dp), dimension(rule%dim, rule%nodes), intent(in) :: x, u, du
     real(dp), intent(out) :: f(3, 3, 2, rule%points)
     real(dp), intent(out) :: initial(rule%points)   !< volumes of the points before any displacement
-    type(planes_t), intent(in), optional :: bounds
-    real(dp) :: g(rule%nodes, direct, rule%points), total, swept(2), by_nodes(rule%dim, rule%nodes), by_planes(planes)
+    real(dp) :: g(rule%nodes, direct, rule%points), total, swept(2)
     integer :: p, k
     total = 0
     swept = 0
@@ -135,11 +130,6 @@ contains
       do k = 1, 2
         f(:direct, :direct, k, p) = f(:direct, :direct, k, p)*(swept(k)/total/determinant(f(:, :, k, p)))**(1.0_dp/direct)
       end do
-    end do
-    if (.not. present(bounds)) return
-    do p = 1, rule%points
-      call find_fibre(bounds, rule, p, x + u - du, bounds%w - bounds%dw, f(3, 3, 1, p), by_nodes, by_planes)
-      call find_fibre(bounds, rule, p, x + u, bounds%w, f(3, 3, 2, p), by_nodes, by_planes)
     end do
   end subroutine find_deformation
 

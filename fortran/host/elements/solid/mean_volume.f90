@@ -6,13 +6,13 @@
 !> displacements, so that its tangent has the second derivatives: they are those of the points' own volume strains.
 module host_mean_volume
   use core_strains, only: strain_matrix
-  use host_forces, only: add_axisymmetric_point, add_geometric, add_plane_point, add_space_point, by_volume
+  use host_forces, only: add_geometric, add_point, by_volume
   use host_kinds, only: dp
   use host_kinematics, only: gradients
   use host_shape, only: rule_of, rule_t
   implicit none (type, external)
   private
-  public :: add_curvature, add_mean_volume, add_uniform_volume
+  public :: add_mean_volume, add_uniform_volume
 
 contains
 
@@ -87,14 +87,7 @@ contains
     none = 0
     no_force = 0
     call add_geometric(dim, direct, m, nodes, g, stress, volume, turning, stiffness)
-    select case (m)
-    case (3)
-      call add_plane_point(2*nodes, b, none, volume*turning, no_force, stiffness)
-    case (4)
-      call add_axisymmetric_point(2*nodes, b, none, volume*turning, no_force, stiffness)
-    case default
-      call add_space_point(3*nodes, b, none, volume*turning, no_force, stiffness)
-    end select
+    call add_point(dim*nodes, m, b, none, volume*turning, no_force, stiffness)
   end subroutine add_tangent
 
   pure subroutine add_square(vector, factor, stiffness)

@@ -17,7 +17,8 @@ module host_piezoelectric
   use host_kinematics, only: components, rotated
   use host_materials, only: find_material, material_t
   use host_shape, only: is_multilinear, rule_of, rule_t
-  use host_solid, only: solid_element, values_of_point
+  use host_solid, only: solid_element
+  use host_solid_element, only: values_of_point
   implicit none (type, external)
   private
   public :: piezoelectric_uelmat
