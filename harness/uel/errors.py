@@ -120,6 +120,12 @@ class DeckError(UelError):
         self.source = source
 
 
+def unsupported(source: Source, what: str, where: str = "", *, reason: str = "", instead: str = "") -> DeckError:
+    """Make the error for what is not supported: what it is, where it is not, why, and what is supported instead."""
+    parts = f" for {where}" if where else "", f": {reason}" if reason else "", f"; {instead}" if instead else ""
+    return DeckError(source, f"{what} is not supported{''.join(parts)}")
+
+
 _LONGEST: Final = 1000
 
 

@@ -35,16 +35,15 @@ from uel.elements.families.piezoelectric import piezoelectric_routine, piezoelec
 from uel.elements.families.shell import check_normals, directors, shell_routine, shell_variables
 from uel.elements.families.solid import history_of, solid_routine, solid_variables
 from uel.elements.fields import REFERENCE
+from uel.elements.formulations import check_support, formulation_of
 from uel.elements.materials.hybrid import has_unsymmetric_pressure, pressure_unknowns
 from uel.elements.materials.library import (
     define_material,
     has_unsymmetric_tangent,
     linearity,
-    refuse_fields,
-    refuse_hyperelastic,
 )
 from uel.elements.routine import Linearity, Routine
-from uel.errors import DeckError, all_of
+from uel.errors import DeckError, all_of, unsupported
 from uel.model.arrays import flat_rows
 from uel.model.dofs import CONCENTRATION, POTENTIAL, PRESSURE, TEMPERATURE
 from uel.model.element_types import (
@@ -131,22 +130,6 @@ def build_blocks(
     return blocks
 
 
-def _check_buckling(model: Model, group: ElementGroup) -> None:
-    """Raise DeckError if *BUCKLE needs an initial stress matrix that the elements do not have."""
-    step = next((step for step in model.steps if step.procedure.buckles), None)
-    if step is None:
-        return
-    kind = group.built_in
-    reason = ""
-    if group.definition is not None:
-        reason = "no call asks user elements for it"
-    elif isinstance(kind, HeatType) or (isinstance(kind, ContinuumType) and kind.coupled):
-        reason = "they have temperatures"
-    if reason:
-        message = f"elements of type {group.type} have no initial stress matrix for *BUCKLE ({step.source}): {reason}"
-        raise DeckError(group.source, message)
-
-
 def _too_large(group: ElementGroup) -> DeckError:
     given = group.definition
     source, cause = (given.source, f" (VARIABLES={given.variables})") if given else (group.source, "")
@@ -157,12 +140,13 @@ def _block_of(
     model: Model, group: ElementGroup, library: Library, *, strict: bool, zeros: bool, linear: Collection[str]
 ) -> ElementBlock:
     kind = group.built_in
-    expands = isinstance(kind, HeatType | ContinuumType | BeamType) and not isinstance(kind, ContinuumShellType)
-    material = next((material for material in materials_of(group.section) if material.expansion), None)
-    if material is not None and not expands:
-        message = f"*EXPANSION (material {material.name}) is not supported for elements of type {group.type}"
-        raise DeckError(group.section.source, message)
-    _check_buckling(model, group)
+    formulation = formulation_of(model, group)
+    if formulation is None:
+        near = get_close_matches(group.type.upper(), BUILT_IN, n=1)
+        raise unsupported(
+            group.source, f"element type {group.type}", instead=f"did you mean {near[0]}?" if near else ""
+        )
+    check_support(model, group, formulation)
     if group.definition is not None:
         assumed = group.type.upper() in linear
         return _user_block(model, group, group.definition, library, strict=strict, zeros=zeros, assumed=assumed)
@@ -177,9 +161,7 @@ def _block_of(
             return _cohesive_block(model, group, kind, library)
         case DiscreteType() | RigidType():
             return _discrete_block(model, group, library)
-    near = get_close_matches(group.type.upper(), BUILT_IN, n=1)
-    hint = f"; did you mean {near[0]}?" if near else ""
-    raise DeckError(group.source, f"element type {group.type} is not supported{hint}")
+    raise AssertionError
 
 
 def _user_block(
@@ -203,11 +185,6 @@ def _user_block(
     forces = Linearity.ASSUMED if assumed else Linearity.UNKNOWN
     free: tuple[int, ...] = ()
     if section.material is not None:
-        refuse_fields(section.material, "user elements")
-        refuse_hyperelastic(section.material, "user elements")
-        if section.orientation is not None and section.orientation.system is not None:
-            message = f"*ORIENTATION, NAME={section.orientation.name}: directions that differ from point to point"
-            raise DeckError(section.source, f"{message} are not supported for user elements")
         tensor = _tensor(definition, section)
         material = define_material(section.material, section.orientation, tensor, section.source, library)
         history = history_of(section.material, definition.integration or MOST_POINTS)

@@ -10,12 +10,43 @@ points in fortran/host/elements/shape.f90, which knows families by their numbers
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from enum import IntEnum
+from enum import IntEnum, StrEnum
 from typing import Final
 
 from uel.model.dofs import POTENTIAL, TEMPERATURE
 
 Face = tuple[int, ...]
+
+
+class Formulation(StrEnum):
+    """Element types that support the same: a column of the table in harness/uel/elements/formulations.py."""
+
+    SOLID = "continuum elements"
+    PLANE_STRESS = "continuum elements in plane stress"
+    HYBRID = "hybrid elements"
+    HYBRID_MODES = "hybrid elements with incompatible modes"
+    COUPLED = "coupled elements"
+    COUPLED_PLANE_STRESS = "coupled elements in plane stress"
+    COUPLED_HYBRID = "hybrid coupled elements"
+    GENERALISED = "elements in generalised plane strain"
+    GENERALISED_HYBRID = "hybrid elements in generalised plane strain"
+    PIEZOELECTRIC = "piezoelectric elements"
+    LAYERED = "elements with layers"
+    HEAT = "heat transfer elements"
+    DIFFUSION = "heat transfer elements in *MASS DIFFUSION"
+    COHESIVE = "cohesive elements"
+    SHELL = "shells"
+    CONTINUUM_SHELL = "continuum shells"
+    MEMBRANE = "membranes"
+    PLANE_BEAM = "beams in a plane"
+    BEAM = "beams in space"
+    TRUSS = "trusses"
+    SPRING = "springs"
+    DASHPOT = "dashpots"
+    MASS = "masses"
+    RIGID = "rigid elements"
+    USER = "user elements"
+
 
 PLANES: Final = (3, 4, 5)
 """Dofs of the reference node of generalised plane strain: change of the length of its fibre, rotations of planes."""
@@ -175,6 +206,11 @@ class HeatType(SolidType):
     """A heat transfer element: temperatures at all nodes, and no displacements."""
 
     @property
+    def formulation(self) -> Formulation:
+        """Its column of the table of formulations."""
+        return Formulation.HEAT
+
+    @property
     def components(self) -> tuple[str, ...]:
         """Components of the heat flux in the output."""
         return ("1", "2", "3")[: self.dimension]
@@ -205,6 +241,21 @@ class ContinuumType(SolidType):
     modified: bool = False
     electrical: bool = False
     generalised: bool = False
+
+    @property
+    def formulation(self) -> Formulation:
+        """Its column of the table of formulations."""
+        plane, hybrid = self.tensor is Tensor.PLANE_STRESS, self.pressures > 0
+        if self.electrical:
+            return Formulation.PIEZOELECTRIC
+        if self.generalised:
+            return Formulation.GENERALISED_HYBRID if hybrid else Formulation.GENERALISED
+        if self.coupled:
+            kinds = Formulation.COUPLED_PLANE_STRESS, Formulation.COUPLED_HYBRID, Formulation.COUPLED
+        else:
+            of_hybrid = Formulation.HYBRID_MODES if self.incompatible else Formulation.HYBRID
+            kinds = Formulation.PLANE_STRESS, of_hybrid, Formulation.SOLID
+        return kinds[0] if plane else kinds[1] if hybrid else kinds[2]
 
     @property
     def components(self) -> tuple[str, ...]:
@@ -265,6 +316,11 @@ class ContinuumShellType(ContinuumType):
     """
 
     @property
+    def formulation(self) -> Formulation:
+        """Its column of the table of formulations."""
+        return Formulation.CONTINUUM_SHELL
+
+    @property
     def section(self) -> str:
         """Keyword that gives its properties."""
         return "SHELL SECTION"
@@ -291,6 +347,11 @@ class CohesiveType:
     face: Family
     bottom: Face
     top: Face
+
+    @property
+    def formulation(self) -> Formulation:
+        """Its column of the table of formulations."""
+        return Formulation.COHESIVE
 
     @property
     def section(self) -> str:
@@ -374,6 +435,11 @@ class ShellType(SurfaceType):
     """A conventional shell: displacements and rotations at each node."""
 
     @property
+    def formulation(self) -> Formulation:
+        """Its column of the table of formulations."""
+        return Formulation.SHELL
+
+    @property
     def section(self) -> str:
         """Keyword that gives its properties."""
         return "SHELL SECTION"
@@ -392,6 +458,11 @@ class ShellType(SurfaceType):
 @dataclass(frozen=True, slots=True)
 class MembraneType(SurfaceType):
     """A membrane: a surface in plane stress, with displacements at each node."""
+
+    @property
+    def formulation(self) -> Formulation:
+        """Its column of the table of formulations."""
+        return Formulation.MEMBRANE
 
     @property
     def section(self) -> str:
@@ -417,6 +488,11 @@ class BeamType:
     family: Family
     points: int
     dimension: int
+
+    @property
+    def formulation(self) -> Formulation:
+        """Its column of the table of formulations."""
+        return Formulation.BEAM if self.dimension == 3 else Formulation.PLANE_BEAM
 
     @property
     def section(self) -> str:
@@ -468,6 +544,11 @@ class RigidType:
     family: Family
     dimension: int
     axisymmetric: bool = False
+
+    @property
+    def formulation(self) -> Formulation:
+        """Its column of the table of formulations."""
+        return Formulation.RIGID
 
     @property
     def section(self) -> str:
@@ -523,11 +604,25 @@ class DiscreteType:
     dimension: int
     section: str
 
+    @property
+    def formulation(self) -> Formulation:
+        """Its column of the table of formulations."""
+        return _DISCRETE[self.kind]
+
     def dofs(self, node: int) -> tuple[int, ...]:
         """Return the dofs of a local node, from 0."""
         del node
         return tuple(range(1, self.dimension + 1))
 
+
+_DISCRETE: Final = {
+    DiscreteKind.TRUSS: Formulation.TRUSS,
+    DiscreteKind.AXIAL_SPRING: Formulation.SPRING,
+    DiscreteKind.SPRING: Formulation.SPRING,
+    DiscreteKind.MASS: Formulation.MASS,
+    DiscreteKind.AXIAL_DASHPOT: Formulation.DASHPOT,
+    DiscreteKind.DASHPOT: Formulation.DASHPOT,
+}
 
 BuiltInType = ContinuumType | HeatType | CohesiveType | ShellType | MembraneType | BeamType | RigidType | DiscreteType
 

@@ -116,6 +116,10 @@ class CreepLaw(IntEnum):
     USER = 4
 
 
+SRATIO_ROUNDING: Final = 1e-9
+"""Tolerance of a sum of stiffness ratios about one."""
+
+
 @dataclass(frozen=True, slots=True)
 class Network:
     """*VISCOELASTIC, NONLINEAR: a viscoelastic network.

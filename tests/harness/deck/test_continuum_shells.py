@@ -104,7 +104,7 @@ def test_wrong_options(deck, options, message):
         ),
         (
             {"material": "*ELASTIC\n100., 0.3\n*EXPANSION\n1e-5"},
-            r"\*EXPANSION \(material M\) is not supported for elements of type SC8R",
+            r"\*EXPANSION is not supported for elements of type SC8R \(material M",
         ),
         ({"load": "GRAV, 1., 0., 0., 1."}, r"shell\.inp:31: GRAV needs \*DENSITY, which material M does not have"),
     ],

@@ -293,7 +293,6 @@ STRUCTURE = {
     "density": ("7.8e-09,", "0.,", r"72: \*DENSITY: density 0 must be positive"),
     "densities": ("7.8e-09,", "7.8e-09, 20.", r"71: \*DENSITY: needs one data line with the density"),
     "thickness": ("20.,\n", "-20.,\n", r"27: \*SOLID SECTION: thickness -20 must be positive"),
-    "no elasticity": ("*Elastic\n210000., 0.3\n", "", r"26: \*SOLID SECTION: material STEEL has no \*ELASTIC"),
     "material twice": (
         "*Boundary\n",
         "*Material, name=Steel\n*Boundary\n",

@@ -133,10 +133,6 @@ COMPOSITE = "*SHELL SECTION, ELSET=ALL, COMPOSITE\n"
         (COMPOSITE + "1., 3, X", "unknown material X"),
         (COMPOSITE + "1., 3", "material is missing"),
         ("*SHELL SECTION, ELSET=ALL, MATERIAL=M, OFFSET=TOP\n1.", "OFFSET=TOP: expected a number, SPOS or SNEG"),
-        (
-            "*SHELL SECTION, ELSET=ALL, MATERIAL=M, ORIENTATION=USER\n1.",
-            r"\*ORIENTATION, NAME=USER: SYSTEM=USER is not supported for shells",
-        ),
         ("*SHELL SECTION, ELSET=ALL, MATERIAL=M, NODAL THICKNESS\n1.", "NODAL THICKNESS"),
         ("*SHELL SECTION, ELSET=ALL, MATERIAL=M, DENSITY=1.\n1.", "DENSITY"),
         (HOMOGENEOUS + "\n*TRANSVERSE SHEAR STIFFNESS", "needs a data line with K11, K22, K12"),
@@ -164,13 +160,13 @@ def test_mistakes(deck, section, message):
 @pytest.mark.parametrize(
     ("material", "message"),
     [
-        ("*DENSITY\n1.", r"material M has no \*ELASTIC or \*USER MATERIAL"),
-        ("*ELASTIC, TYPE=TRACTION\n1., 1., 1.", r"material M .* has \*ELASTIC, TYPE=TRACTION, which needs \*COHESIVE"),
+        ("*DENSITY\n1.", r"material M has no \*ELASTIC or \*USER MATERIAL, which elements of type S4R need"),
+        ("*ELASTIC, TYPE=TRACTION\n1., 1., 1.", r"\*ELASTIC, TYPE=TRACTION is not .* S4R .*; supported: cohesive"),
     ],
 )
-def test_materials_that_shells_do_not_take(deck, material, message):
+def test_materials_that_shells_do_not_take(deck, material, message, tmp_path):
     with pytest.raises(DeckError, match=message):
-        read_deck(deck(material=material))
+        uel.run(deck(material=material), output_dir=tmp_path)
 
 
 UMAT = "      subroutine umat\n      end\n"
@@ -183,7 +179,11 @@ SHEAR = HOMOGENEOUS + "\n*TRANSVERSE SHEAR STIFFNESS\n1., 1."
     [
         (
             {"step": ", NLGEOM", "procedure": "DYNAMIC", "material": "*ELASTIC\n1., 0.3\n*DENSITY\n1."},
-            r"shell\.inp:\d+: \*DYNAMIC with NLGEOM is not supported for elements of type S4R, whose inertia",
+            r"shell\.inp:\d+: \*DYNAMIC with NLGEOM is not supported for elements of type S4R: their inertia",
+        ),
+        (
+            {"section": "*SHELL SECTION, ELSET=ALL, MATERIAL=M, ORIENTATION=USER\n1."},
+            r"shell\.inp:\d+: \*ORIENTATION, SYSTEM=USER is not supported for elements of type S4R \(section at .*\)",
         ),
         ({"material": USER}, r"S4R with \*USER MATERIAL need \*TRANSVERSE SHEAR STIFFNESS after \*SHELL SECTION"),
         (
@@ -192,7 +192,7 @@ SHEAR = HOMOGENEOUS + "\n*TRANSVERSE SHEAR STIFFNESS\n1., 1."
         ),
         (
             {"material": "*ELASTIC\n1., 0.3\n*EXPANSION\n1e-5"},
-            r"\*EXPANSION \(material M\) is not supported for elements of type S4R",
+            r"\*EXPANSION is not supported for elements of type S4R \(material M",
         ),
         (
             {"material": "*ELASTIC\n1., 0.3\n*VISCOELASTIC, TIME=PRONY\n0.5, 0., 1."},
@@ -200,7 +200,7 @@ SHEAR = HOMOGENEOUS + "\n*TRANSVERSE SHEAR STIFFNESS\n1., 1."
         ),
         (
             {"procedure": "DYNAMIC", "data": "0.1, 1.\n"},
-            r"\*DYNAMIC with elements of type S4R needs \*DENSITY, which material M does not have",
+            r"material M has no \*DENSITY, which elements of type S4R need in \*DYNAMIC",
         ),
         (
             {"data": "1., 1.\n*DLOAD\nALL, GRAV, 1., 0., 0., -1.\n"},

@@ -217,10 +217,22 @@ def test_arguments(run_deck):
         (TISSUE.replace("0.8", "-1."), {}, "k1 = -1 must not be negative"),
         (TISSUE.replace("0.1", "0.4"), {}, "kappa = 0.4 must be from 0 to 1/3"),
         (TISSUE + ", 20., 1.", {}, "7 values, expected C10, D, k1, k2, kappa; dependence on temperature"),
-        (TISSUE.replace("0.4", "0."), {}, "D = 0 is an incompressible material, which needs hybrid elements"),
-        (USER.replace("TYPE=COMPRESSIBLE, ", "") + "1.", {}, "USER without TYPE=COMPRESSIBLE is an incompressible"),
-        (TISSUE, {"step": "*STEP"}, r"\*ANISOTROPIC HYPERELASTIC \(material TISSUE, .*\) needs NLGEOM"),
-        (TISSUE, {"more": "*ELASTIC\n1., 0.3"}, r"has \*ANISOTROPIC HYPERELASTIC and \*ELASTIC"),
+        (
+            TISSUE.replace("0.4", "0."),
+            {},
+            "with D = 0 is not supported for elements of type C3D8 .*; supported: hybrid elements",
+        ),
+        (
+            USER.replace("TYPE=COMPRESSIBLE, ", "") + "1.",
+            {},
+            "USER without TYPE=COMPRESSIBLE is not supported for .* C3D8 ",
+        ),
+        (TISSUE, {"step": "*STEP"}, r"material TISSUE with \*ANISOTROPIC HYPERELASTIC .*; supported with NLGEOM"),
+        (
+            TISSUE,
+            {"more": "*ELASTIC\n1., 0.3"},
+            r"\*ANISOTROPIC HYPERELASTIC beside \*ELASTIC, TYPE=ISOTROPIC is not supported",
+        ),
         (
             TISSUE,
             {"element_type": "C3D8IH"},

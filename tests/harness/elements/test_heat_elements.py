@@ -394,14 +394,14 @@ def one(element_type="DC2D4", material=CONDUCTIVITY, **options):
         (
             one(material=f"{FLOWS}1., 0., 0., 0.\n*HEAT GENERATION"),
             "flows.f",
-            r"\*HEAT GENERATION cannot be used with \*USER MATERIAL, TYPE=THERMAL \(.*deck.inp:\d+\)",
+            r"\*HEAT GENERATION beside \*USER MATERIAL, TYPE=THERMAL is not supported",
         ),
-        (one(material="*DENSITY\n1."), None, r"material M has no \*CONDUCTIVITY, which elements of type DC2D4 need"),
+        (one(material="*DENSITY\n1."), None, r"material M has no \*CONDUCTIVITY or .*, which .* DC2D4 need"),
         (one(procedure=TRANSIENT), None, r"material M has no \*DENSITY, which elements of type DC2D4 need"),
         (
             one(procedure="*STATIC\n1., 1."),
             None,
-            r"DC2D4 are supported in \*HEAT TRANSFER, \*COUPLED TEMPERATURE-DISPLACEMENT and \*MASS DIFFUSION steps",
+            r"DC2D4.*supported: \*HEAT TRANSFER, \*COUPLED TEMPERATURE-DISPLACEMENT, \*MASS DIFFUSION",
         ),
     ],
 )

@@ -363,13 +363,17 @@ ERRORS = [
     ("*HYPERELASTIC, OGDEN, N=7\n1.", {}, r"N=7: expected a number from 1 to 6"),
     ("*HYPERELASTIC", {}, r"needs a data line with the coefficients"),
     ("*HYPERELASTIC, NEO HOOKE\n1., 2., 20.\n1., 2., 30.", {}, r"11 values, but NEO HOOKE, N=1 has 2; dependence on"),
-    ("*HYPERELASTIC, NEO HOOKE\n1.", {}, r"D1 = 0 is an incompressible material, which needs hybrid elements"),
+    ("*HYPERELASTIC, NEO HOOKE\n1.", {}, r"D1 = 0 is not supported .*; supported: hybrid elements"),
     ("*HYPERELASTIC, NEO HOOKE\n1., -1.", {}, r"D = -1 must not be negative"),
     ("*HYPERELASTIC, NEO HOOKE\n-1., 1.", {}, r"the initial shear modulus -2 must be positive"),
     ("*HYPERELASTIC, OGDEN\n1., 0., 1.", {}, r"alpha = 0: expected another number"),
     ("*HYPERELASTIC, ARRUDA-BOYCE\n1., 0., 1.", {}, r"lambda_m = 0 must be positive"),
     ("*HYPERELASTIC, MARLOW", {}, r"option MARLOW is not supported"),
-    (RUBBER, {"step": "*STEP"}, r"\*STEP: \*HYPERELASTIC \(material M, .*\) needs NLGEOM"),
+    (
+        RUBBER,
+        {"step": "*STEP"},
+        r"\*STATIC is not supported for material M with \*HYPERELASTIC .*; supported with NLGEOM",
+    ),
     (RUBBER, {"element_type": "CPS4"}, r"\*HYPERELASTIC is not supported for elements of type CPS4"),
     (
         RUBBER,
@@ -380,18 +384,22 @@ ERRORS = [
     (
         RUBBER,
         {"more": "*INITIAL CONDITIONS, TYPE=STRESS\nBODY, 1., 0., 0., 0., 0., 0."},
-        r"TYPE=STRESS is not supported with \*HYPERELASTIC \(material M\)",
+        r"TYPE=STRESS beside \*HYPERELASTIC is not supported .*\(material M",
     ),
-    (RUBBER, {"more": "*ELASTIC\n1., 0."}, r"has \*HYPERELASTIC and \*ELASTIC, at .*; expected only one of them"),
+    (
+        RUBBER,
+        {"more": "*ELASTIC\n1., 0."},
+        r"\*HYPERELASTIC beside \*ELASTIC.* is not supported .*; expected only one of them",
+    ),
     (
         RUBBER,
         {"more": "*EXPANSION, TYPE=ORTHO\n1e-5, 0., 0."},
-        r"has \*HYPERELASTIC and \*EXPANSION, .*expected TYPE=ISO",
+        r"\*HYPERELASTIC beside \*EXPANSION .*expected TYPE=ISO",
     ),
     (
         RUBBER,
         {"more": "*VISCOELASTIC, NONLINEAR, NETWORKID=1, SRATIO=0.5, LAW=STRAIN\n0.1, 1., 0.\n*EXPANSION\n1e-5"},
-        r"has \*VISCOELASTIC and \*EXPANSION, which is not supported",
+        r"\*VISCOELASTIC, NONLINEAR beside \*EXPANSION is not supported",
     ),
 ]
 

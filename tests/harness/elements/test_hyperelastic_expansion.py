@@ -102,12 +102,12 @@ def test_uhyper_is_the_law_of_the_deck(run_deck):
 @pytest.mark.parametrize(
     ("law", "what"),
     [
-        (NEO_HOOKE, r"laws of \*HYPERELASTIC by coefficients"),
-        (f"*HYPERELASTIC\n{C10}, 0., 0.", "incompressible materials"),
+        (NEO_HOOKE, r"\*HYPERELASTIC"),
+        (f"*HYPERELASTIC\n{C10}, 0., 0.", r"\*HYPERELASTIC with D1 = 0"),
     ],
 )
 def test_hybrid_elements_with_temperatures_have_no_pressure_of_their_own(run_deck, law, what):
-    message = rf"deck\.inp:\d+: {what} \(material M\) are not supported for elements of type C3D8HT"
+    message = rf"deck\.inp:\d+: {what} is not supported for elements of type C3D8HT \(material M"
     with pytest.raises(DeckError, match=message):
         run_deck(deck("C3D8HT", "1, 1, 3", law=law))
 

@@ -342,5 +342,7 @@ def test_what_usdfld_changes_has_no_initial_stress(run_bar, tmp_path):
         "      subroutine usdfld(field,statev,pnewdt,direct,t,celent,time,dtime,cmname,orname,nfield,nstatv,noel,\n"
         "     1 npt,layer,kspt,kstep,kinc,ndi,nshr,coord,jmac,jmatyp,matlayo,laccfla)\n      end\n"
     )
-    with pytest.raises(DeckError, match=r"deck\.inp:18: .*is not supported if the constants of .* USDFLD gives"):
+    with pytest.raises(
+        DeckError, match=r"deck\.inp:18: .*TYPE=STRESS beside .* fields beside \*USER DEFINED FIELD is not supported"
+    ):
         run_bar(material=table, user=user)

@@ -143,7 +143,7 @@ def test_young_modulus_alone(point):
             ElasticType.ISOTROPIC,
             (1.0, 0.5),
             "PSTRAIN",
-            "nu = 0.5 needs hybrid elements, as C3D8H; expected nu < 0.5 for others",
+            "nu = 0.5 is not supported for user elements .*; supported: hybrid elements",
         ),
         (ElasticType.ISOTROPIC, (1.0, 0.3, 5.0), "THREED", "TYPE=ISOTROPIC needs 2 constants, found 3"),
         (ElasticType.LAMINA, (1.0, 1.0, 0.3, 1.0, 1.0, 1.0), "PSTRAIN", "TYPE=LAMINA is for plane stress only"),
@@ -187,12 +187,12 @@ def test_bad_constants_name_the_line(point, elastic_type, constants, tensor, mes
 
 
 def test_material_without_elasticity(point):
-    with pytest.raises(DeckError, match=r"test\.inp:7: material M \(deck\.inp:10\) has no \*ELASTIC"):
+    with pytest.raises(DeckError, match=r"deck\.inp:10: material M has no \*ELASTIC .*\(section at test\.inp:7\)"):
         point(None, "PSTRESS")
 
 
 def test_plasticity_needs_isotropic_elasticity(point):
-    with pytest.raises(DeckError, match=r"deck\.inp:15: \*PLASTIC is supported with \*ELASTIC, TYPE=ISOTROPIC only"):
+    with pytest.raises(DeckError, match=r"deck\.inp:15: \*PLASTIC beside .*; expected \*ELASTIC, TYPE=ISOTROPIC"):
         point(PLY, "PSTRESS", table=TABLE)
 
 

@@ -85,7 +85,9 @@ def test_user_elements_have_one_orientation_of_built_in_materials(build, user_gr
     elastic = Material("M", Source("test.inp", 3), Elastic(ElasticType.ISOTROPIC, (1.0, 0.3), Source("test.inp", 4)))
     around = replace(TURNED, system=LocalSystem(SystemKind.CYLINDRICAL, np.eye(3)))
     group = user_group(NODES, SPRING, material=elastic, orientation=around, tensor="PSTRESS", integration=1)
-    message = r"test.inp:7: \*ORIENTATION, NAME=TURNED: directions that differ from point to point are not supported"
+    message = (
+        r"test.inp:5: \*ORIENTATION with directions that differ from point to point is not supported for user elements"
+    )
     with pytest.raises(DeckError, match=message):
         build(group, "point.f")
     umat = Material("M", Source("test.inp", 3), user=UserMaterial(np.zeros(1), False, Source("test.inp", 4)))
@@ -127,7 +129,7 @@ def test_sections_of_the_wrong_kind(build, solid_group, user_group):
         build(replace(solid, section=user.section))
     with pytest.raises(DeckError, match=r"user elements \(U1\) need \*UEL PROPERTY"):
         build(replace(user, section=solid.section))
-    cohesive = replace(solid, type="COH2D4", nodes=np.array([[0, 1, 2, 0]]))
+    cohesive = replace(user, type="COH2D4", nodes=np.array([[0, 1, 2, 0]]), definition=None)
     with pytest.raises(DeckError, match=r"elements of type COH2D4 need \*COHESIVE SECTION"):
         build(cohesive)
 

@@ -325,7 +325,7 @@ def test_uhard_ends_the_analysis(run_deck, body, message):
         ),
         (
             deck("C3D8", BY_USER) + "*STEP, PERTURBATION\n*STATIC\n*END STEP\n",
-            r"a linear perturbation is not supported with material STUFF, which has UHARD",
+            r"\*STATIC, PERTURBATION is not supported for material STUFF with \*PLASTIC, HARDENING=USER",
         ),
     ],
 )

@@ -83,14 +83,14 @@ def test_increments_are_fixed_without_a_tolerance(run_deck):
 
 
 ERRORS = [
-    (PRONY, {"more": "*PLASTIC\n1."}, r"has \*VISCOELASTIC and \*PLASTIC, at .*, which are not supported together"),
-    (NORTON, {"more": "*PLASTIC\n1."}, r"has \*CREEP and \*PLASTIC, at .*, which are not supported together"),
-    (PRONY, {"more": "*CREEP\n1., 2."}, r"has \*VISCOELASTIC and \*CREEP, at .*, which are not supported together"),
-    ("*CREEP\n1., 2.", {}, r"material M has \*CREEP, at .*deck\.inp:\d+, but no \*ELASTIC"),
+    (PRONY, {"more": "*PLASTIC\n1."}, r"\*VISCOELASTIC beside \*PLASTIC is not supported"),
+    (NORTON, {"more": "*PLASTIC\n1."}, r"\*CREEP beside \*PLASTIC is not supported"),
+    (PRONY, {"more": "*CREEP\n1., 2."}, r"\*VISCOELASTIC beside \*CREEP is not supported"),
+    ("*CREEP\n1., 2.", {}, r"material M has no \*ELASTIC, \*HYPERELASTIC"),
     (
         PRONY,
         {"more": "*INITIAL CONDITIONS, TYPE=STRESS\nBODY, 1., 0., 0., 0., 0., 0."},
-        r"TYPE=STRESS is not supported with \*VISCOELASTIC \(material M\)",
+        r"TYPE=STRESS beside \*VISCOELASTIC is not supported .*\(material M",
     ),
 ]
 
@@ -115,7 +115,5 @@ def test_coupled_elements_are_refused(run_deck):
 
 
 def test_linear_perturbations_are_refused(run_deck):
-    with pytest.raises(
-        DeckError, match=r"deck\.inp:\d+: \*STEP: a linear perturbation is not supported with material M"
-    ):
+    with pytest.raises(DeckError, match=r"deck\.inp:\d+: \*FREQUENCY is not supported for material M"):
         run_deck(deck(NORTON, "*FREQUENCY\n1", more="*DENSITY\n1."))

@@ -16,7 +16,6 @@ from uel.deck.language.blocks import Block, Row
 from uel.deck.language.table import Keyword, Where, one_of, refused
 from uel.deck.materials.heat import read_by_temperature
 from uel.model.dofs import CONCENTRATION, TEMPERATURE
-from uel.model.element_types import HEAT, HeatType
 from uel.model.model import Equation, Model
 from uel.model.properties import Diffusivity, Material
 from uel.model.steps import PRESSURE_STRESS, Boundary, Step
@@ -118,11 +117,6 @@ def _check(model: Model, problems: Problems) -> None:
         for heat in step.heat_loads:
             if heat.type.exchanges:
                 problems.add(heat.source, f"*{heat.type.keyword} exchanges heat, which *MASS DIFFUSION has none of")
-    for group in model.groups:
-        if not isinstance(group.built_in, HeatType):
-            what = "user elements" if group.definition is not None else f"elements of type {group.type}"
-            expected = ", ".join(HEAT)
-            problems.add(group.source, f"{what} are not supported in *MASS DIFFUSION; expected {expected}")
 
 
 def _in_step(step: Step) -> Step:

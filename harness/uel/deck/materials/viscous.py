@@ -12,7 +12,7 @@ from uel.deck.error_report import Problems
 from uel.deck.language.blocks import Block, Row
 from uel.deck.language.table import Keyword, Kind, Option, Where, one_of, refused
 from uel.deck.materials.user_constants import read_constants
-from uel.model.properties import Creep, CreepLaw, Hyperelastic, Material, Network, Viscoelastic
+from uel.model.properties import SRATIO_ROUNDING, Creep, CreepLaw, Material, Network, Viscoelastic
 
 
 def extend_viscous(material: Material, block: Block, problems: Problems) -> Material:
@@ -78,7 +78,7 @@ def _extend_networks(material: Material, block: Block, problems: Problems) -> Ma
     if not 0 < ratio <= 1:
         raise block.error(f"SRATIO={ratio:g}: expected 0 < SRATIO <= 1")
     total = ratio + sum(network.ratio for network in material.networks)
-    if total > 1 + ROUNDING:
+    if total > 1 + SRATIO_ROUNDING:
         raise block.error(f"the sum of SRATIO is {total:g}, expected at most 1")
     if law is CreepLaw.USER:
         network = Network(ratio, law, (), block.source, user=read_constants(block, "PROPERTIES", problems))
@@ -93,20 +93,6 @@ def _extend_shift(material: Material, block: Block, problems: Problems) -> Mater
         raise block.error("expected *VISCOELASTIC, NONLINEAR before it; other materials with it are not supported")
     *others, last = material.networks
     return replace(material, networks=(*others, replace(last, shift=read_constants(block, "PROPERTIES", problems))))
-
-
-def check_networks(block: Block, material: Material) -> None:
-    """Raise DeckError if the material of a section has networks without what they need."""
-    if not material.networks:
-        return
-    place = material.networks[0].source
-    law = material.hyperelastic
-    if not isinstance(law, Hyperelastic):
-        message = f"material {material.name} has *VISCOELASTIC, NONLINEAR, at {place}; expected *HYPERELASTIC"
-        raise block.error(f"{message} by coefficients")
-    if material.equilibrium <= ROUNDING and not law.instantaneous:
-        message = "the sum of SRATIO is 1, so that there is no long-term elasticity; expected MODULI=INSTANTANEOUS"
-        raise block.error(f"material {material.name}: {message} of *HYPERELASTIC, at {law.source}")
 
 
 def _law(block: Block) -> CreepLaw:
@@ -163,9 +149,6 @@ def _check_law(row: Row, law: str, of: dict[str, float]) -> None:
 
 
 LAWS = ("BERGSTROM-BOYCE", "HYPERB", "POWER LAW", "STRAIN", "USER")
-ROUNDING = 1e-9
-"""Tolerance by which a sum of stiffness ratios may exceed one."""
-
 
 MOST_TERMS = 20
 """Largest number of terms; fortran/host/materials/library.f90 has room for them."""

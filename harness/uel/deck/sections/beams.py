@@ -11,8 +11,7 @@ from uel.deck.error_report import look_up
 from uel.deck.language.blocks import Block, Row
 from uel.deck.language.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from uel.elements.families.beam_points import DEFAULT_POINTS
-from uel.elements.materials.library import refuse_hyperelastic, refuse_user_hardening, refuse_viscous, shear_modulus
-from uel.errors import DeckError
+from uel.elements.materials.library import shear_modulus
 from uel.model.element_types import Tensor
 from uel.model.properties import BeamSection, ElasticType, Material
 
@@ -48,9 +47,9 @@ def read_beam_section(block: Block, materials: Mapping[str, Material], dimension
         if density < 0:
             raise block.error(f"DENSITY={density:g} must not be negative")
     else:
-        material = _material(block, materials)
+        material = look_up(materials, options.text("MATERIAL"), "material", block.source)
         young, shear = 0.0, 0.0
-        if material.elastic is not None:
+        if material.elastic is not None and material.elastic.type is ElasticType.ISOTROPIC:
             young, shear = material.elastic.constants[0], shear_modulus(material.elastic, Tensor.SOLID)
         density = material.density
         if len(rows) > 2:
@@ -115,26 +114,6 @@ def _check_points(row: Row, profile: str, dimension: int) -> None:
     if given != default:
         expected = ", ".join(map(str, default))
         raise row.error(f"only the default numbers of section points are supported ({expected})")
-
-
-def _material(block: Block, materials: Mapping[str, Material]) -> Material:
-    """Return a material that beams support. Raises DeckError."""
-    material = look_up(materials, block.options.text("MATERIAL"), "material", block.source)
-    refuse_hyperelastic(material, "beams")
-    refuse_viscous(material, "beams")
-    refuse_user_hardening(material, "beams")
-    if material.damage is not None:
-        raise block.error(
-            f"material {material.name} has *DAMAGE INITIATION, at {material.damage.source}, not for beams"
-        )
-    if material.plastic is not None and len(material.plastic.backstresses):
-        message = f"beams support isotropic hardening only (material {material.name})"
-        raise DeckError(material.plastic.source, f"*PLASTIC: {message}")
-    if material.user is not None:
-        return material
-    if material.elastic is None or material.elastic.type is not ElasticType.ISOTROPIC:
-        raise block.error(f"material {material.name} needs *ELASTIC, TYPE=ISOTROPIC")
-    return material
 
 
 def read_beam_shear(block: Block) -> tuple[tuple[float, ...], float | None]:

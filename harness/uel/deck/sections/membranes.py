@@ -28,8 +28,6 @@ def read_membrane_section(
     material = surface_material(block, block.options.text("MATERIAL"), materials)
     name = block.options.text("ORIENTATION")
     orientation = look_up(orientations, name, "orientation", block.source) if name else None
-    if orientation is not None and orientation.system is not None and orientation.system.kind == "USER":
-        raise block.error(f"*ORIENTATION, NAME={orientation.name}: SYSTEM=USER is not supported for membranes")
     poisson = block.options.real("POISSON", _INCOMPRESSIBLE)
     if not -1 <= poisson <= _INCOMPRESSIBLE:
         raise block.error(f"POISSON={poisson:g}: expected a number from -1 to {_INCOMPRESSIBLE:g}")

@@ -12,7 +12,7 @@ from uel.deck.error_report import look_up
 from uel.deck.language.blocks import Block, Row
 from uel.deck.language.numbers import read_real
 from uel.deck.language.table import Keyword, Kind, Option, Where, ignored, one_of, refused
-from uel.model.properties import ElasticType, Material, Orientation, SectionControls, ShellLayer, ShellSection
+from uel.model.properties import Material, Orientation, SectionControls, ShellLayer, ShellSection
 
 SHELL_KEYWORDS: Final = ("SHELL SECTION", "SHELL GENERAL SECTION")
 
@@ -36,8 +36,6 @@ def read_shell_section(
     composite = options.flag("COMPOSITE")
     name = options.text("ORIENTATION")
     orientation = look_up(orientations, name, "orientation", block.source) if name else None
-    if orientation is not None and orientation.system is not None and orientation.system.kind == "USER":
-        raise block.error(f"*ORIENTATION, NAME={orientation.name}: SYSTEM=USER is not supported for shells")
     if composite == options.given("MATERIAL"):
         more = "; a stiffness matrix is not supported" if block.name == "SHELL GENERAL SECTION" else ""
         raise block.error(f"expected either MATERIAL= or COMPOSITE, with the material of each layer on its line{more}")
@@ -131,22 +129,13 @@ def _read_layer(block: Block, row: Row, materials: Mapping[str, Material], defau
 
 
 def surface_material(block: Block, name: str, materials: Mapping[str, Material]) -> Material:
-    """Return a material of shells or membranes: with elasticity or of UMAT. Raises DeckError."""
+    """Return a material of shells or membranes; in *SHELL GENERAL SECTION it is linear elastic. Raises DeckError."""
     material = look_up(materials, name, "material", block.source)
     depends = material.user_field or (material.elastic is not None and material.elastic.table is not None)
     if block.name == "SHELL GENERAL SECTION" and (material.user or material.plastic or depends):
         what = "depends on temperature or fields" if depends else "is not linear elastic"
         message = f"material {material.name} {what}, but the section is linear elastic with constants"
         raise block.error(f"{message}; *SHELL SECTION takes it")
-    if material.user is not None:
-        return material
-    if material.elastic is None:
-        raise block.error(f"material {material.name} has no *ELASTIC or *USER MATERIAL")
-    if material.elastic.type is ElasticType.TRACTION:
-        place = material.elastic.source
-        raise block.error(
-            f"material {material.name} ({place}) has *ELASTIC, TYPE=TRACTION, which needs *COHESIVE SECTION"
-        )
     return material
 
 

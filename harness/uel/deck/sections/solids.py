@@ -16,18 +16,16 @@ import numpy as np
 from uel.deck.error_report import Problems, look_up
 from uel.deck.language.blocks import Block, Row
 from uel.deck.language.table import Keyword, Kind, Option, Where, ignored, one_of, refused
-from uel.deck.materials.viscous import check_networks
 from uel.deck.sections.beams import BEAM_KEYWORDS, read_beam_section
 from uel.deck.sections.membranes import MEMBRANE_KEYWORD, read_membrane_section
 from uel.deck.sections.shells import MOST_POINTS, SHELL_KEYWORDS, read_shell_section
 from uel.deck.sections.user_elements import LARGEST_DOF, ElementType, read_user_property
 from uel.errors import DeckError, Source
 from uel.model.arrays import IntArray
-from uel.model.element_types import BEAM, DISCRETE, GENERALISED, HEAT, LAYERED, DiscreteKind
+from uel.model.element_types import BEAM, DISCRETE, GENERALISED, LAYERED, DiscreteKind
 from uel.model.properties import (
     CohesiveSection,
     CompositeSection,
-    ElasticType,
     MassSection,
     Material,
     Orientation,
@@ -63,8 +61,6 @@ def make_section(
         return read(block, materials, orientations, _controls(block, controls))
     name = options.text("MATERIAL")
     material = look_up(materials, name, "material", block.source) if name else None
-    if material is not None and kind.name not in HEAT:
-        _check_material(block, material)
     if block.name == "COHESIVE SECTION":
         assert material is not None
         return _cohesive_section(block, material, controls)
@@ -139,7 +135,6 @@ def _solid_layer(
     if not 1 <= points <= MOST_POINTS or points % 2 == 0:
         raise row.error(f"{points} section points: expected an odd number from 1 to {MOST_POINTS - 1}")
     material = look_up(materials, row.name(2, "material"), "material", row.source)
-    _check_material(block, material)
     if row.blank(3):
         return SolidLayer(thickness, points, material, of_section)
     try:
@@ -218,83 +213,6 @@ def _spring(block: Block, kind: ElementType) -> SpringSection:
         # a frequency would follow
         rows[1].at_most(1)
     return SpringSection(block.options.text("ELSET"), dofs, np.array(table), block.source)
-
-
-def _check_material(block: Block, material: Material) -> None:
-    """Raise DeckError unless the elasticity is of the kind for this section
-    and the material has nothing unsupported.
-    """
-    cohesive = block.name == "COHESIVE SECTION"
-    _check_viscous(block, material, cohesive=cohesive)
-    check_networks(block, material)
-    if material.hyperelastic is not None:
-        _check_hyperelastic(block, material)
-        return
-    if material.elastic is None:
-        if block.name == "SOLID SECTION" and material.user is None:
-            raise block.error(f"material {material.name} has no *ELASTIC, *HYPERELASTIC or *USER MATERIAL")
-        if cohesive and material.user is not None:
-            message = (
-                f"material {material.name} has *USER MATERIAL ({material.user.source}), for which Abaqus calls UMAT"
-            )
-            raise block.error(
-                f"{message} with separations and tractions; that is not supported in cohesive elements: expected "
-                "*ELASTIC, TYPE=TRACTION with *DAMAGE INITIATION and *DAMAGE EVOLUTION, or a user element instead"
-            )
-        if cohesive:
-            raise block.error(f"material {material.name} has no *ELASTIC, TYPE=TRACTION")
-        return
-    if cohesive != (material.elastic.type is ElasticType.TRACTION):
-        message = f"material {material.name} ({material.elastic.source}) has *ELASTIC, TYPE={material.elastic.type}"
-        raise block.error(f"{message}; TYPE=TRACTION goes with *COHESIVE SECTION, and with nothing else")
-    for keyword, other in (("PLASTIC", material.plastic), ("USER MATERIAL", material.user)):
-        if cohesive and other is not None:
-            raise block.error(f"material {material.name} has *{keyword}, at {other.source}, which is not supported")
-    if not cohesive and material.damage is not None:
-        place = material.damage.source
-        raise block.error(f"material {material.name} has *DAMAGE INITIATION, at {place}, which needs *COHESIVE SECTION")
-
-
-def _check_viscous(block: Block, material: Material, *, cohesive: bool) -> None:
-    """Raise DeckError if a material with *VISCOELASTIC or *CREEP has another law for stresses than *ELASTIC."""
-    for keyword, viscous in (("VISCOELASTIC", material.viscoelastic), ("CREEP", material.creep)):
-        if viscous is None:
-            continue
-        if cohesive:
-            raise block.error(f"material {material.name} has *{keyword}, at {viscous.source}, which is not supported")
-        for name, other in (
-            ("CREEP", material.creep if viscous is material.viscoelastic else None),
-            ("PLASTIC", material.plastic),
-            ("HYPERELASTIC", material.hyperelastic),
-            ("USER MATERIAL", material.user),
-        ):
-            if other is not None:
-                message = f"material {material.name} has *{keyword} and *{name}, at {other.source}"
-                raise block.error(f"{message}, which are not supported together")
-        if material.elastic is None:
-            raise block.error(f"material {material.name} has *{keyword}, at {viscous.source}, but no *ELASTIC")
-
-
-def _check_hyperelastic(block: Block, material: Material) -> None:
-    """Raise DeckError if a hyperelastic material has another law for stresses or strains."""
-    law = material.hyperelastic
-    assert law is not None
-    if block.name == "COHESIVE SECTION":
-        raise block.error(f"material {material.name} has *{law.keyword}; expected *ELASTIC, TYPE=TRACTION")
-    for keyword, other in (
-        ("ELASTIC", material.elastic),
-        ("PLASTIC", material.plastic),
-        ("USER MATERIAL", material.user),
-        ("DAMAGE INITIATION", material.damage),
-    ):
-        if other is not None:
-            message = f"material {material.name} has *{law.keyword} and *{keyword}, at {other.source}"
-            raise block.error(f"{message}; expected only one of them")
-    if material.expansion and not material.expansion.isotropic:
-        message = f"material {material.name} has *{law.keyword} and *EXPANSION, at {material.expansion.source}"
-        raise block.error(f"{message}; expected TYPE=ISO there")
-    if material.expansion and material.networks:
-        raise block.error(f"material {material.name} has *VISCOELASTIC and *EXPANSION, which is not supported")
 
 
 def _thickness(rows: list[Row], index: int, what: str) -> float:

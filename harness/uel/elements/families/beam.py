@@ -23,7 +23,7 @@ from uel.elements.materials.library import (
 )
 from uel.elements.node_normals import mean_normals
 from uel.elements.routine import PARALLEL, Linearity, Routine
-from uel.errors import DeckError, Source
+from uel.errors import DeckError, Source, unsupported
 from uel.model.arrays import FloatArray, flat_rows
 from uel.model.element_types import LINE2, BeamType, Tensor
 from uel.model.mesh import ElementGroup, Mesh
@@ -324,13 +324,11 @@ def _check(model: Model, group: ElementGroup, kind: BeamType, section: BeamSecti
     nonlinear = next((step for step in model.steps if step.nlgeom), None)
     dynamic = any(step.procedure.inertia for step in model.steps)
     profile = profile_of(section, kind.dimension)
-    _check_material(model, group, kind, section)
-    if nonlinear is not None and kind.dimension == 3 and dynamic:
-        message = f"elements of type {group.type}, whose inertia is that of small rotations"
-        raise DeckError(nonlinear.source, f"*DYNAMIC with NLGEOM is not supported for {message}")
+    _check_material(group, kind, section)
     if nonlinear is not None and dynamic and any(profile.centroid) and not section.isotropic:
-        message = f"*DYNAMIC with NLGEOM and elements of type {group.type} whose centroid is beside their nodes"
-        raise DeckError(nonlinear.source, f"{message} is not supported; ROTARY INERTIA=ISOTROPIC leaves the offset out")
+        where = f"elements of type {group.type} whose centroid is beside their nodes"
+        instead = "ROTARY INERTIA=ISOTROPIC leaves the offset out"
+        raise unsupported(nonlinear.source, "*DYNAMIC with NLGEOM", where, instead=instead)
     if nonlinear is not None and section.poisson and group is next(g for g in model.groups if g.section is section):
         message = f"POISSON={section.poisson:g}: the area of beams does not change with their strain"
         library.warn(f"{section.source}: {message}")
@@ -342,22 +340,18 @@ def _check(model: Model, group: ElementGroup, kind: BeamType, section: BeamSecti
         raise DeckError(section.source, message)
 
 
-def _check_material(model: Model, group: ElementGroup, kind: BeamType, section: BeamSection) -> None:
-    """Raise DeckError for what beams do not support where their material is integrated over the section."""
-    if not section.integrated:
+def _check_material(group: ElementGroup, kind: BeamType, section: BeamSection) -> None:
+    """Raise DeckError for what beams of UMAT do not support."""
+    if not section.integrated or section.material is None or section.material.user is None:
         return
-    assert section.material is not None
     elements = f"elements of type {group.type}"
-    if section.material.user is not None:
-        if not section.shear:
-            message = f"{elements} with *USER MATERIAL need *TRANSVERSE SHEAR STIFFNESS after *BEAM SECTION"
-            raise DeckError(section.source, message)
-        if kind.dimension == 3 and section_tensor(section, 3) is Tensor.UNIAXIAL:
-            message = f"*USER MATERIAL is not supported for {elements} with SECTION={section.profile}"
-            raise DeckError(section.source, f"{message}: their torsion needs the shear modulus of *ELASTIC")
-    initial = next((entry for entry in model.initial_solutions if entry.elements is None), None)
-    if initial is not None and state_variables(section.material):
-        raise DeckError(initial.source, f"SDVINI is not supported for {elements}")
+    if not section.shear:
+        message = f"{elements} with *USER MATERIAL need *TRANSVERSE SHEAR STIFFNESS after *BEAM SECTION"
+        raise DeckError(section.source, message)
+    if kind.dimension == 3 and section_tensor(section, 3) is Tensor.UNIAXIAL:
+        where = f"{elements} with SECTION={section.profile}"
+        reason = "their torsion needs the shear modulus of *ELASTIC"
+        raise unsupported(section.source, "*USER MATERIAL", where, reason=reason)
 
 
 def _error(group: ElementGroup, row: int, source: Source, message: str) -> DeckError:

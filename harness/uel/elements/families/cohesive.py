@@ -8,7 +8,6 @@ from typing import Final
 
 import numpy as np
 
-from uel.elements.materials.library import refuse_fields
 from uel.elements.routine import Routine
 from uel.errors import DeckError
 from uel.model.damage import Damage, DamageEvolution
@@ -78,7 +77,6 @@ def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[
     """
     material, controls = section.material, section.controls
     elastic, damage = material.elastic, material.damage
-    refuse_fields(material, "cohesive elements")
     assert elastic is not None
     moduli = directions(elastic.constants, dimension)
     if min(moduli) <= 0:

@@ -16,7 +16,7 @@ from typing import Final
 
 import numpy as np
 
-from uel.elements.directions import first_element, is_user, undefined
+from uel.elements.directions import first_element, undefined
 from uel.elements.families.solid import (
     HOURGLASS_FRACTION,
     OF_FIRST_TANGENT,
@@ -26,23 +26,18 @@ from uel.elements.families.solid import (
     section_depth,
     warn_of_enhanced,
 )
-from uel.elements.loads.vectors import check_density
 from uel.elements.materials.library import (
     define_expansion,
     define_fields,
     define_material,
     history_values,
     linearity,
-    refuse_hyperelastic,
-    refuse_output_variables,
-    refuse_user_hardening,
-    refuse_viscous,
     shear_modulus,
     state_variables,
 )
 from uel.elements.routine import VALUES_OF_AXES, Linearity, PointAxes, Routine
 from uel.elements.simpson import simpson
-from uel.errors import DeckError
+from uel.errors import DeckError, unsupported
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.element_types import ContinuumType
 from uel.model.local_systems import UndefinedDirectionsError
@@ -98,7 +93,7 @@ def composite_routine(
     model: Model, group: ElementGroup, kind: ContinuumType, section: CompositeSection, library: Library
 ) -> Routine:
     """Build the routine of a group of bricks with layers. Raises DeckError."""
-    _check(model, group, kind, section)
+    _check(group, section)
     reduced, dynamic = kind.hourglass_control, any(step.procedure.inertia for step in model.steps)
     hourglass, enhanced = _hourglass_stiffness(group, kind, section), reduced and is_enhanced(section)
     warn_of_enhanced(model, group, kind, library, "tangents of the layers")
@@ -276,23 +271,7 @@ def _define(kind: ContinuumType, section: CompositeSection, layer: SolidLayer, l
     return number
 
 
-def _check(model: Model, group: ElementGroup, kind: ContinuumType, section: CompositeSection) -> None:
-    """Raise DeckError for what layers do not support."""
-    elements = f"elements of type {group.type} with layers"
-    if any(step.procedure.inertia for step in model.steps):
-        check_density(materials_of(section), section.source, f"*DYNAMIC with {elements}")
+def _check(group: ElementGroup, section: CompositeSection) -> None:
+    """Raise DeckError for layers of different density."""
     if len({material.density for material in materials_of(section)}) > 1:
-        raise DeckError(
-            section.source, f"layers of different *DENSITY are not supported for elements of type {group.type}"
-        )
-    initial = next((entry for entry in model.initial_solutions if entry.elements is None), None)
-    if initial is not None and any(map(state_variables, materials_of(section))):
-        raise DeckError(initial.source, f"SDVINI is not supported for {elements}")
-    for layer in section.layers:
-        if layer.orientation is not None and is_user(layer.orientation):
-            message = f"*ORIENTATION, NAME={layer.orientation.name}: SYSTEM=USER is not supported for {elements}"
-            raise DeckError(section.source, message)
-        refuse_hyperelastic(layer.material, elements)
-        refuse_viscous(layer.material, elements)
-        refuse_user_hardening(layer.material, elements)
-        refuse_output_variables(layer.material, elements, section.source)
+        raise unsupported(section.source, "*DENSITY that differs from layer to layer", f"elements of type {group.type}")

@@ -20,7 +20,6 @@ from uel.elements.families.shell import (
     section_stiffness,
     shear_stiffness,
 )
-from uel.elements.loads.vectors import check_density
 from uel.elements.materials.library import shear_modulus
 from uel.elements.routine import VALUES_OF_AXES, PointAxes, Routine
 from uel.errors import DeckError
@@ -28,7 +27,7 @@ from uel.model.arrays import FloatArray
 from uel.model.element_types import WEDGE6, ContinuumShellType, Tensor
 from uel.model.mesh import ElementGroup
 from uel.model.model import Model
-from uel.model.properties import ElasticType, ShellSection, materials_of
+from uel.model.properties import ElasticType, ShellSection
 from uel.usersub import Library, _binding
 
 POISSON: Final = 0.5
@@ -39,10 +38,8 @@ def continuum_shell_routine(
     model: Model, group: ElementGroup, kind: ContinuumShellType, section: ShellSection, library: Library
 ) -> Routine:
     """Build the routine of a group of continuum shells. Raises DeckError."""
-    check_section(model, group, section)
+    check_section(group, section)
     dynamic = any(step.procedure.inertia for step in model.steps)
-    if dynamic:
-        check_density(materials_of(section), section.source, f"*DYNAMIC with elements of type {group.type}")
     # nodes are on both faces
     section = replace(section, offset=0.0)
     points = section_points(section)

@@ -36,14 +36,6 @@ from uel.usersub import Library, _binding, _materials
 def coupled_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
     """Build the routine of a group of solids with temperatures. Raises DeckError."""
     material = section.material
-    if material.user_field is not None and material.user_thermal is not None:
-        # its points are others than those of the stresses, where USDFLD is called
-        message = f"with UMATHT is not supported for elements of type {group.type}"
-        raise DeckError(material.user_field, f"*USER DEFINED FIELD {message}")
-    for step in model.steps:
-        if not (step.procedure.temperatures and step.procedure.displacements):
-            message = f"elements of type {group.type} are supported in *COUPLED TEMPERATURE-DISPLACEMENT steps only"
-            raise DeckError(step.source, message)
     _check_thermal(model, group, material)
     kind = solid_of(group)
     if material.user_thermal is not None and kind.points != kind.thermal_points:
@@ -81,10 +73,6 @@ def _warn_of_reduced(model: Model, group: ElementGroup, library: Library) -> Non
 def heat_routine(model: Model, group: ElementGroup, kind: HeatType, section: SolidSection, library: Library) -> Routine:
     """Build the routine of a group of heat transfer elements. Raises DeckError."""
     material = section.material
-    for step in model.steps:
-        if not step.procedure.temperatures:
-            steps = "*HEAT TRANSFER, *COUPLED TEMPERATURE-DISPLACEMENT and *MASS DIFFUSION steps"
-            raise DeckError(step.source, f"elements of type {group.type} are supported in {steps} only")
     if kind.axisymmetric:
         check_radii(model, group)
     _check_thermal(model, group, material)
@@ -131,16 +119,11 @@ def is_unsymmetric(material: Material) -> bool:
 
 
 def _check_thermal(model: Model, group: ElementGroup, material: Material) -> None:
-    """Raise DeckError if the material lacks what elements with temperatures need, or has too much."""
-    if material.user_thermal is not None and material.heat_generation is not None:
-        message = f"*HEAT GENERATION cannot be used with *USER MATERIAL, TYPE=THERMAL ({material.user_thermal.source})"
-        raise DeckError(material.heat_generation, message)
-    transient = any(step.procedure.stores_heat for step in model.steps)
-    needed: list[tuple[str, bool]] = [("*DENSITY", bool(material.density))] if transient else []
-    if material.user_thermal is None:
-        needed.insert(0, ("*CONDUCTIVITY", bool(len(material.conductivity))))
-        needed += [("*SPECIFIC HEAT", bool(len(material.specific_heat)))] if transient else []
-    for keyword, given in needed:
+    """Raise DeckError if the material lacks what elements with temperatures need to store heat."""
+    if not any(step.procedure.stores_heat for step in model.steps):
+        return
+    stores = material.user_thermal is not None or bool(len(material.specific_heat))
+    for keyword, given in (("*DENSITY", bool(material.density)), ("*SPECIFIC HEAT", stores)):
         if not given:
             message = f"material {material.name} has no {keyword}, which elements of type {group.type} need"
             raise DeckError(material.source, message)

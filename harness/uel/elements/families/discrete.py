@@ -16,8 +16,6 @@ from uel.elements.families.solid import numbered, output_variables
 from uel.elements.materials.library import (
     define_truss_material,
     history_values,
-    refuse_user_hardening,
-    refuse_viscous,
     state_variables,
 )
 from uel.elements.routine import OutputVariables, Routine
@@ -25,7 +23,7 @@ from uel.errors import DeckError
 from uel.model.element_types import DISCRETE, LINE2, DiscreteKind, RigidType, Tensor
 from uel.model.mesh import ElementGroup, is_in_space
 from uel.model.model import Model
-from uel.model.properties import ElasticType, MassSection, RigidSection, SolidSection, SpringSection
+from uel.model.properties import MassSection, RigidSection, SolidSection, SpringSection
 from uel.model.records import PointVariables
 from uel.usersub import Library, _binding
 
@@ -34,7 +32,6 @@ _TRUSS_STATES: Final = 4
 _STATES: Final = 2
 """SVARS of another element."""
 _AXIAL: Final = (DiscreteKind.AXIAL_SPRING, DiscreteKind.AXIAL_DASHPOT)
-_DASHPOTS: Final = (DiscreteKind.DASHPOT, DiscreteKind.AXIAL_DASHPOT)
 
 
 def discrete_unknowns(model: Model, group: ElementGroup) -> tuple[tuple[int, int], ...]:
@@ -59,13 +56,9 @@ def discrete_routine(model: Model, group: ElementGroup, unknowns: int, library: 
     dynamic = any(step.procedure.inertia for step in model.steps)
     hidden = 2 * unknowns if dynamic else 0
     if kind is DiscreteKind.TRUSS:
-        return _truss_routine(group, unknowns, hidden, library, dynamic=dynamic)
+        return _truss_routine(group, unknowns, hidden, library)
     section = group.section
     assert isinstance(section, MassSection | RigidSection | SpringSection)
-    along = next((step for step in model.steps if step.procedure.riks), None)
-    if kind in _DASHPOTS and along is not None:
-        message = f"elements of type {group.type} are not supported with RIKS, where no time passes"
-        raise DeckError(along.source, message)
     mass = section.mass if isinstance(section, MassSection) else 0.0
     return Routine(
         address=_binding.address_of("discrete"),
@@ -87,12 +80,11 @@ def _kind_of(group: ElementGroup) -> DiscreteKind:
     return DISCRETE[group.type].kind if group.type in DISCRETE else DiscreteKind.MASS
 
 
-def _truss_routine(group: ElementGroup, unknowns: int, hidden: int, library: Library, *, dynamic: bool) -> Routine:
+def _truss_routine(group: ElementGroup, unknowns: int, hidden: int, library: Library) -> Routine:
     section = group.section
     if not isinstance(section, SolidSection):
         raise DeckError(section.source, f"elements of type {group.type} need *SOLID SECTION")
     material = section.material
-    _check_truss(group, section, dynamic=dynamic)
     statev = state_variables(material)
     return Routine(
         address=_binding.address_of("truss"),
@@ -128,19 +120,3 @@ def discrete_variables(group: ElementGroup, routine: Routine) -> PointVariables 
         return None
     outputs = () if routine.uvarm is None else numbered("UVARM", routine.uvarm.count)
     return PointVariables("continuum", ("E11", "S11", "PE11", "PEEQ", *numbered("SDV", routine.statev), *outputs), 1)
-
-
-def _check_truss(group: ElementGroup, section: SolidSection, *, dynamic: bool) -> None:
-    """Raise DeckError for what trusses do not support."""
-    material = section.material
-    refuse_viscous(material, f"elements of type {group.type}")
-    refuse_user_hardening(material, f"elements of type {group.type}")
-    if material.user is None and (material.elastic is None or material.elastic.type is not ElasticType.ISOTROPIC):
-        message = f"elements of type {group.type} need *ELASTIC, TYPE=ISOTROPIC, or UMAT (material {material.name})"
-        raise DeckError(section.source, message)
-    if dynamic and not material.density:
-        message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
-        raise DeckError(material.source, message)
-    if material.plastic is not None and len(material.plastic.backstresses):
-        message = f"elements of type {group.type} support isotropic hardening only (material {material.name})"
-        raise DeckError(material.plastic.source, f"*PLASTIC: {message}")

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from uel.elements.families.solid import check_radii, section_depth
-from uel.elements.materials.library import directions, refuse_fields
+from uel.elements.materials.library import directions
 from uel.elements.routine import PARALLEL, Routine
 from uel.errors import DeckError
 from uel.model.element_types import HeatType
@@ -26,7 +26,6 @@ def mass_diffusion_routine(model: Model, group: ElementGroup, kind: HeatType, se
     if kind.axisymmetric:
         check_radii(model, group)
     material = section.material
-    refuse_fields(material, f"elements of type {group.type}")
     law = _checked(group, material, section.orientation, kind)
     axes, _ = directions(section.orientation)
     tensors = axes.T @ law.tensors @ axes
@@ -73,19 +72,13 @@ def depends_on_concentration(material: Material) -> bool:
 
 
 def _checked(group: ElementGroup, material: Material, orientation: Orientation | None, kind: HeatType) -> Diffusivity:
-    """Return the diffusivity if the material is complete and fits. Raises DeckError."""
+    """Return the diffusivity if it fits the directions. Raises DeckError."""
     law = material.diffusivity
-    if law is None or not len(material.solubility):
-        keyword = "*DIFFUSIVITY" if law is None else "*SOLUBILITY"
-        message = f"material {material.name} has no {keyword}, which elements of type {group.type} need"
-        raise DeckError(material.source, f"{message} in *MASS DIFFUSION")
+    assert law is not None
     if orientation is None:
         if not law.isotropic:
             message = "*DIFFUSIVITY that is not isotropic needs ORIENTATION on *SOLID SECTION"
             raise DeckError(law.source, f"{message} ({group.section.source})")
-    elif orientation.system is not None:
-        message = f"*ORIENTATION, NAME={orientation.name}: directions that differ from point to point"
-        raise DeckError(group.section.source, f"{message} are not supported for elements of type {group.type}")
     elif kind.dimension == 2 and abs(orientation.axes[2, 2]) < 1 - PARALLEL:
         message = f"*ORIENTATION, NAME={orientation.name}: direction 3 must be normal to the plane of the elements"
         raise DeckError(orientation.source, message)

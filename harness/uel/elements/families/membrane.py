@@ -9,15 +9,11 @@ from typing import Final
 import numpy as np
 
 from uel.elements.families.solid import HOURGLASS_FRACTION, history_names, history_of, is_prestressed
-from uel.elements.loads.vectors import check_density
 from uel.elements.materials.library import (
     define_fields,
     define_material,
     define_user_output,
     linearity,
-    refuse_hyperelastic,
-    refuse_user_hardening,
-    refuse_viscous,
     shear_modulus,
     state_variables,
     user_outputs,
@@ -39,7 +35,6 @@ def membrane_routine(
     model: Model, group: ElementGroup, kind: MembraneType, section: MembraneSection, library: Library
 ) -> Routine:
     """Build the routine of a membrane group. Raises DeckError."""
-    _check(model, group, section)
     material, orientation = section.material, section.orientation
     dynamic = any(step.procedure.inertia for step in model.steps)
     hourglass = _hourglass_stiffness(kind, section)
@@ -93,22 +88,9 @@ def _hourglass_stiffness(kind: MembraneType, section: MembraneSection) -> float:
     if not kind.hourglass_control:
         return 0.0
     controls, elastic = section.controls, section.material.elastic
-    if controls.enhanced:
-        message = f"*SECTION CONTROLS, HOURGLASS=ENHANCED is not supported for elements of type {kind.name}"
-        raise DeckError(section.source, message)
     if section.hourglass:
         return section.hourglass
     if elastic is None:
         message = f"elements of type {kind.name} with *USER MATERIAL need *HOURGLASS STIFFNESS after *MEMBRANE SECTION"
         raise DeckError(section.source, message)
     return controls.hourglass * HOURGLASS_FRACTION * shear_modulus(elastic, Tensor.PLANE_STRESS)
-
-
-def _check(model: Model, group: ElementGroup, section: MembraneSection) -> None:
-    """Raise DeckError for what membranes do not support."""
-    elements, material = f"elements of type {group.type}", section.material
-    if any(step.procedure.inertia for step in model.steps):
-        check_density((material,), section.source, f"*DYNAMIC with {elements}")
-    refuse_hyperelastic(material, elements)
-    refuse_viscous(material, elements)
-    refuse_user_hardening(material, elements)

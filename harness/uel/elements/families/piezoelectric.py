@@ -9,9 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from uel.elements.families.solid import solid_of, solid_routine
-from uel.elements.materials.library import directions, global_compliance, history_values, refuse_fields
+from uel.elements.materials.library import directions, global_compliance
 from uel.elements.routine import Routine
-from uel.errors import DeckError
 from uel.model.arrays import FloatArray
 from uel.model.element_types import Tensor
 from uel.model.mesh import ElementGroup
@@ -26,21 +25,6 @@ _PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 def piezoelectric_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
     """Build the routine of a group of piezoelectric solids. Raises DeckError."""
     kind, material = solid_of(group), section.material
-    elements = f"elements of type {group.type}"
-    for step in model.steps:
-        procedure = step.procedure
-        if step.nlgeom or procedure.inertia or procedure.temperatures or procedure.buckles or procedure.riks:
-            message = "are supported in *STATIC, *FREQUENCY, *STEADY STATE DYNAMICS and *MODAL DYNAMIC steps"
-            raise DeckError(step.source, f"{elements} {message} with small displacements only")
-    refuse_fields(material, elements)
-    if material.elastic is None or history_values(material) > 1 or material.expansion or material.user:
-        message = f"{elements} need a material with *ELASTIC alone, beside *PIEZOELECTRIC and *DIELECTRIC"
-        raise DeckError(section.source, f"{message} (material {material.name})")
-    if material.dielectric is None:
-        raise DeckError(material.source, f"material {material.name} has no *DIELECTRIC, which {elements} need")
-    if section.orientation is not None and section.orientation.system is not None:
-        message = f"*ORIENTATION, NAME={section.orientation.name}: directions that differ from point to point"
-        raise DeckError(section.source, f"{message} are not supported for {elements}")
     solid = solid_routine(model, group, section, library)
     coupling, dielectric = _constants(material, section, kind.tensor)
     chosen = slice(kind.dimension)

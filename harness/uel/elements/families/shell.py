@@ -13,7 +13,6 @@ from typing import Final
 import numpy as np
 
 from uel.elements.families.solid import HOURGLASS_FRACTION, history_names
-from uel.elements.loads.vectors import check_density
 from uel.elements.materials.library import (
     define_fields,
     define_material,
@@ -21,9 +20,6 @@ from uel.elements.materials.library import (
     global_compliance,
     history_values,
     linearity,
-    refuse_hyperelastic,
-    refuse_user_hardening,
-    refuse_viscous,
     shear_modulus,
     state_variables,
     user_outputs,
@@ -36,7 +32,7 @@ from uel.model.arrays import FloatArray, IntArray
 from uel.model.element_types import ContinuumShellType, ShellType, Tensor
 from uel.model.mesh import ElementGroup, full_name
 from uel.model.model import Model
-from uel.model.properties import ShellLayer, ShellSection, materials_of
+from uel.model.properties import ShellLayer, ShellSection
 from uel.model.records import PointVariables
 from uel.usersub import Library, _binding
 
@@ -73,8 +69,7 @@ def shell_routine(
     model: Model, group: ElementGroup, kind: ShellType, section: ShellSection, library: Library
 ) -> Routine:
     """Build the routine of a shell group. Raises DeckError."""
-    check_section(model, group, section)
-    _check_inertia(model, group, section)
+    check_section(group, section)
     dynamic = any(step.procedure.inertia for step in model.steps)
     points = section_points(section)
     forces = 12 * kind.nodes if dynamic else 0
@@ -356,30 +351,10 @@ def _strain_turn(degrees: float) -> FloatArray:
     return np.array([[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]])
 
 
-def _check_inertia(model: Model, group: ElementGroup, section: ShellSection) -> None:
-    """Raise DeckError for steps whose inertia is not supported."""
-    if not any(step.procedure.inertia for step in model.steps):
-        return
-    elements = f"elements of type {group.type}"
-    nonlinear = next((step for step in model.steps if step.nlgeom), None)
-    if nonlinear is not None:
-        message = f"*DYNAMIC with NLGEOM is not supported for {elements}, whose inertia is that of small rotations"
-        raise DeckError(nonlinear.source, message)
-    check_density(materials_of(section), section.source, f"*DYNAMIC with {elements}")
-
-
-def check_section(model: Model, group: ElementGroup, section: ShellSection) -> None:
-    """Raise DeckError for what sections of shells do not support."""
-    elements = f"elements of type {group.type}"
-    initial = next((entry for entry in model.initial_solutions if entry.elements is None), None)
-    if initial is not None and any(state_variables(layer.material) for layer in section.layers):
-        raise DeckError(initial.source, f"SDVINI is not supported for {elements}")
-    user = [layer.material.user is not None for layer in section.layers]
-    if any(user) and not section.shear:
-        message = f"{elements} with *USER MATERIAL need *TRANSVERSE SHEAR STIFFNESS after *SHELL SECTION"
+def check_section(group: ElementGroup, section: ShellSection) -> None:
+    """Raise DeckError if layers of UMAT leave the transverse shear stiffness unknown."""
+    if any(layer.material.user is not None for layer in section.layers) and not section.shear:
+        message = (
+            f"elements of type {group.type} with *USER MATERIAL need *TRANSVERSE SHEAR STIFFNESS after *SHELL SECTION"
+        )
         raise DeckError(section.source, message)
-    for layer in section.layers:
-        material = layer.material
-        refuse_hyperelastic(material, elements)
-        refuse_viscous(material, elements)
-        refuse_user_hardening(material, elements)

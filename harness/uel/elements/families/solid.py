@@ -10,17 +10,14 @@ from typing import Final
 import numpy as np
 
 from uel.elements.directions import first_element
-from uel.elements.materials.hybrid import check_hybrid, pressure_unknowns
+from uel.elements.materials.hybrid import pressure_unknowns
 from uel.elements.materials.library import (
     define_expansion,
     define_fields,
     define_material,
     directions,
     history_values,
-    is_incompressible,
     linearity,
-    refuse_hyperelastic,
-    refuse_viscous,
     shear_modulus,
     state_variables,
     viscous_change,
@@ -74,14 +71,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     kind, material = solid_of(group), section.material
     if kind.axisymmetric:
         check_radii(model, group)
-    dynamic = next((step for step in model.steps if step.procedure.inertia), None)
-    if dynamic is not None and not material.density:
-        message = f"material {material.name} has no *DENSITY, which elements of type {group.type} need in *DYNAMIC"
-        raise DeckError(material.source, message)
-    _check_hyperelastic(model, group, kind, material)
-    _check_viscous(model, group, kind, material)
-    _check_user_hardening(model, material)
-    check_hybrid(group.type, kind, material)
+    dynamic = any(step.procedure.inertia for step in model.steps)
     orientation, local = section.orientation, _local_orientation(model, section)
     if local is not None:
         # the material is in the directions of the points
@@ -101,7 +91,7 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     enhanced = _enhanced_moduli(kind, section)
     pressures = pressure_unknowns(kind, material)
     unknowns = kind.dimension * kind.nodes + pressures
-    forces = 2 * unknowns if dynamic is not None else 0
+    forces = 2 * unknowns if dynamic else 0
     of_points = kind.points * 2 * len(kind.components)
     axes = PointAxes(of_points + forces, kind.points, kind.dimension == 2, local) if local is not None else None
     moduli = 2 if enhanced == OF_FIRST_TANGENT else 0
@@ -138,42 +128,6 @@ def solid_routine(model: Model, group: ElementGroup, section: SolidSection, libr
     )
 
 
-def _check_hyperelastic(model: Model, group: ElementGroup, kind: ContinuumType, material: Material) -> None:
-    """Raise DeckError if the material is hyperelastic, and the elements or the steps are not for it."""
-    if material.hyperelastic is None:
-        return
-    if kind.tensor is Tensor.PLANE_STRESS:
-        refuse_hyperelastic(material, f"elements of type {group.type}")
-    small = next((step for step in model.steps if not step.nlgeom), None)
-    if small is not None:
-        law = material.hyperelastic
-        message = f"*{law.keyword} (material {material.name}, {law.source}) needs NLGEOM"
-        raise DeckError(small.source, f"*STEP: {message}; small displacements are not supported")
-
-
-def _check_viscous(model: Model, group: ElementGroup, kind: ContinuumType, material: Material) -> None:
-    """Raise DeckError if stresses depend on time, and the elements or the steps are not for that."""
-    if material.viscous is None:
-        return
-    if kind.coupled or (kind.pressures and not material.networks):
-        refuse_viscous(material, f"elements of type {group.type}")
-    perturbation = next((step for step in model.steps if step.procedure.linear), None)
-    if perturbation is not None:
-        message = f"a linear perturbation is not supported with material {material.name}, whose stresses depend on time"
-        raise DeckError(perturbation.source, f"*STEP: {message} ({material.viscous.source})")
-
-
-def _check_user_hardening(model: Model, material: Material) -> None:
-    """Raise DeckError if UHARD gives the yield stress, and the steps are not for that."""
-    if material.plastic is None or material.plastic.user is None:
-        return
-    perturbation = next((step for step in model.steps if step.procedure.linear), None)
-    if perturbation is not None:
-        # a yield stress that depends on the rate would let the stress of the base state relax
-        message = f"a linear perturbation is not supported with material {material.name}, which has UHARD"
-        raise DeckError(perturbation.source, f"*STEP: {message} ({material.plastic.source})")
-
-
 def _places_of_stress(kind: ContinuumType) -> tuple[int, ...]:
     """Return the places of the components in Abaqus' element library: 11, 22, 12 in plane stress, which has no 33."""
     names = kind.components
@@ -183,26 +137,11 @@ def _places_of_stress(kind: ContinuumType) -> tuple[int, ...]:
 
 
 def is_prestressed(model: Model, group: ElementGroup, material: Material) -> bool:
-    """Return whether the group has an initial stress that a built-in material must store. Raises DeckError."""
+    """Return whether the group has an initial stress that a built-in material must store."""
     first = first_element(model, group)
     last = first + len(group.labels)
-    entries = model.initial_stresses
-    found = next((e for e in entries if ((e.elements >= first) & (e.elements < last)).any()), None)
-    if found is None:
-        return False
-    if material.hyperelastic is not None or is_incompressible(material):
-        what = "an incompressible material" if material.hyperelastic is None else f"*{material.hyperelastic.keyword}"
-        message = f"is not supported with {what} (material {material.name})"
-        raise DeckError(found.source, f"*INITIAL CONDITIONS, TYPE=STRESS {message}")
-    if material.user is not None:
-        return False
-    if material.viscoelastic is not None:
-        message = f"is not supported with *VISCOELASTIC (material {material.name})"
-        raise DeckError(found.source, f"*INITIAL CONDITIONS, TYPE=STRESS {message}")
-    if material.user_field is not None and material.elastic is not None and material.elastic.table is not None:
-        message = "is not supported if the constants of *ELASTIC depend on fields that USDFLD gives"
-        raise DeckError(found.source, f"*INITIAL CONDITIONS, TYPE=STRESS {message} (material {material.name})")
-    return True
+    given = (entry.elements for entry in model.initial_stresses)
+    return material.user is None and any(((elements >= first) & (elements < last)).any() for elements in given)
 
 
 def _local_orientation(model: Model, section: SolidSection) -> Orientation | None:

@@ -12,15 +12,9 @@ from uel.model.properties import Holzapfel, Orientation, UserPotential
 from uel.usersub import _materials
 
 
-def define_holzapfel(law: Holzapfel, orientation: Orientation | None, ntens: int, *, hybrid: bool) -> int:
-    """Define a material of Holzapfel, Gasser and Ogden in the host, and return its number.
-
-    hybrid: its elements are, so that it may be incompressible. Raises DeckError.
-    """
+def define_holzapfel(law: Holzapfel, orientation: Orientation | None, ntens: int) -> int:
+    """Define a material of Holzapfel, Gasser and Ogden in the host, and return its number. Raises DeckError."""
     c10, compliance, *fibres = law.coefficients
-    if compliance == 0 and not hybrid:
-        message = "D = 0 is an incompressible material, which needs hybrid elements, as C3D8H"
-        raise DeckError(law.source, f"*{law.keyword}: {message}")
     return _materials.define_anisotropic(ntens, _directions(law, orientation), (c10, *fibres), compliance)
 
 

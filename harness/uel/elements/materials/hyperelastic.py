@@ -30,13 +30,11 @@ def define_hyperelastic(
 ) -> int:
     """Define a hyperelastic material in the host, and return its number. Raises DeckError.
 
-    hybrid: its elements are, so that it may be incompressible; long_term: the energy of the coefficients over the
+    hybrid: its elements are; long_term: the energy of the coefficients over the
     instantaneous one.
     """
     polynomial, ogden = _polynomial(law) / long_term, _ogden(law) / (long_term, 1.0)
     shear, bulk = initial_moduli(law)
-    if bulk == inf and not hybrid:
-        raise _error(law, "D1 = 0 is an incompressible material, which needs hybrid elements, as C3D8H")
     if not shear > 0:
         raise _error(law, f"the initial shear modulus {shear:g} must be positive")
     if bulk > MOST_BULK * shear and not hybrid:

@@ -19,6 +19,7 @@ from uel.errors import DeckError, Source
 from uel.model.arrays import FloatArray
 from uel.model.element_types import Tensor
 from uel.model.properties import (
+    SRATIO_ROUNDING,
     CreepLaw,
     Elastic,
     ElasticType,
@@ -108,15 +109,6 @@ def state_variables(material: Material) -> int:
     return material.state_variables if used else 0
 
 
-def refuse_fields(material: Material, elements: str) -> None:
-    """Raise DeckError if a material of these elements depends on field variables that they do not have."""
-    if material.user_field is not None:
-        raise DeckError(material.user_field, f"*USER DEFINED FIELD is not supported for {elements}")
-    if material.elastic is not None and material.elastic.table is not None:
-        message = f"*ELASTIC: dependence on temperature and fields is not supported for {elements}"
-        raise DeckError(material.elastic.source, message)
-
-
 def has_unsymmetric_tangent(material: Material) -> bool:
     """Return whether the derivatives of the stresses by the strains are unsymmetric."""
     if material.user is not None:
@@ -130,32 +122,6 @@ def _creeps_by_more(network: Network) -> bool:
     """Return whether the creep of a network depends on other stretches than those of its stress."""
     depends_on_pressure = network.law is CreepLaw.POWER and network.constants[3] > 0
     return network.law in (CreepLaw.BERGSTROM_BOYCE, CreepLaw.USER) or depends_on_pressure
-
-
-def refuse_viscous(material: Material, elements: str) -> None:
-    """Raise DeckError if stresses of the material of these elements depend on time."""
-    if material.viscous is not None:
-        raise DeckError(material.viscous.source, f"{_viscous_keyword(material)} is not supported for {elements}")
-
-
-def refuse_user_hardening(material: Material, elements: str) -> None:
-    """Raise DeckError if UHARD gives the yield stress of the material of these elements."""
-    if material.plastic is not None and material.plastic.user is not None:
-        raise DeckError(material.plastic.source, f"*PLASTIC, HARDENING=USER is not supported for {elements}")
-
-
-def refuse_output_variables(material: Material, elements: str, section: Source) -> None:
-    """Raise DeckError if UVARM gives output of the material of these elements."""
-    if material.output_variables:
-        message = f"*USER OUTPUT VARIABLES (material {material.name}) is not supported for {elements}"
-        raise DeckError(section, message)
-
-
-def refuse_hyperelastic(material: Material, elements: str) -> None:
-    """Raise DeckError if the material of these elements is hyperelastic."""
-    if material.hyperelastic is not None:
-        law = material.hyperelastic
-        raise DeckError(law.source, f"*{law.keyword} is not supported for {elements}")
 
 
 def is_global(orientation: Orientation) -> bool:
@@ -264,7 +230,6 @@ def define_material(
     else:
         stiffness = _inverse(compliance, elastic)[np.ix_(components, components)]
         reduced = _inverse(stiffness, elastic)
-    _check_laws(elastic, material)
     constants, table = (0.0, 0.0), np.zeros((1, 2))
     plastic = material.plastic
     if plastic is not None and plastic.user is None:
@@ -300,20 +265,6 @@ def _axes(orientation: Orientation | None, tensor: Tensor) -> FloatArray:
     return orientation.axes
 
 
-def _check_laws(elastic: Elastic, material: Material) -> None:
-    """Raise DeckError if what is beside *ELASTIC needs it otherwise."""
-    isotropic = elastic.type is ElasticType.ISOTROPIC
-    if material.plastic is not None and not isotropic:
-        raise DeckError(material.plastic.source, "*PLASTIC is supported with *ELASTIC, TYPE=ISOTROPIC only")
-    if material.viscous is not None and not (isotropic and elastic.table is None):
-        message = "is supported with *ELASTIC, TYPE=ISOTROPIC with constant values only"
-        raise DeckError(material.viscous.source, f"{_viscous_keyword(material)} {message}")
-
-
-def _viscous_keyword(material: Material) -> str:
-    return "*CREEP" if material.creep is not None else "*VISCOELASTIC"
-
-
 def _moduli(elastic: Elastic, viscoelastic: Viscoelastic) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return long-term Young's modulus and Poisson's ratio, and instantaneous shear and bulk modulus."""
     young, nu = _isotropic_constants(elastic)
@@ -341,12 +292,13 @@ def _define_hyperelastic(
     ntens = int(tensor)
     match material.hyperelastic:
         case Hyperelastic() as law:
+            _check_long_term(material, law)
             long_term = 1.0 if law.instantaneous else material.equilibrium
             number = define_hyperelastic(law, ntens, library, hybrid=hybrid, long_term=long_term)
             _define_networks(number, material, library)
             return number
         case Holzapfel() as law:
-            return define_holzapfel(law, orientation, ntens, hybrid=hybrid)
+            return define_holzapfel(law, orientation, ntens)
         case UserPotential() as law:
             known = library.uhyper if law.directions is None else library.uanisohyper_inv
             address = _needed(known, law.routine, material, f"*{law.keyword}, USER", law.source, library)
@@ -355,6 +307,14 @@ def _define_hyperelastic(
                 return _materials.define_user_potential(address, material.name, ntens, statev, law.constants)
             return define_user_invariants(law, orientation, material.name, ntens, statev, address)
     raise AssertionError
+
+
+def _check_long_term(material: Material, law: Hyperelastic) -> None:
+    """Raise DeckError if networks leave no long-term elasticity, and the coefficients are its moduli."""
+    if material.equilibrium <= SRATIO_ROUNDING and not law.instantaneous:
+        message = "the sum of SRATIO is 1, so that there is no long-term elasticity; expected MODULI=INSTANTANEOUS"
+        message += f" of *{law.keyword}, at {law.source}"
+        raise DeckError(material.networks[0].source, f"material {material.name}: {message}")
 
 
 def _define_networks(number: int, material: Material, library: Library) -> None:
