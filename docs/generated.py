@@ -17,6 +17,7 @@ from guide import continued, prepare, replay
 from pygments.lexer import RegexLexer
 from pygments.token import Comment, Keyword, Number, Text
 from sphinx.application import Sphinx
+from support import support
 
 from uel.cli import build_parser
 from uel.paper.gallery import EXAMPLES, PICTURE
@@ -121,7 +122,7 @@ def write(*_: object) -> None:
     PAGES.mkdir(exist_ok=True)
     for tutorial in sorted(ROOT.glob("docs/*.md")):
         draw(tutorial)
-    for name, text in {"commands": commands(), "verification": gallery()}.items():
+    for name, text in {"commands": commands(), "support": support(), "verification": gallery()}.items():
         file = PAGES / f"{name}.md"
         if not file.exists() or file.read_text("utf-8") != text:
             file.write_text(text, encoding="utf-8")

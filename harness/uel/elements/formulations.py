@@ -12,7 +12,22 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Final, NamedTuple
 
+from uel.elements.block import ElementBlock
+from uel.elements.building import Building
 from uel.elements.directions import first_element, is_user
+from uel.elements.families.beam import beam_block
+from uel.elements.families.cohesive import cohesive_block
+from uel.elements.families.composite import composite_block
+from uel.elements.families.continuum_shell import continuum_shell_block
+from uel.elements.families.coupled import coupled_block, heat_block
+from uel.elements.families.discrete import discrete_block
+from uel.elements.families.generalised import generalised_block
+from uel.elements.families.mass_diffusion import mass_diffusion_block
+from uel.elements.families.membrane import membrane_block
+from uel.elements.families.piezoelectric import piezoelectric_block
+from uel.elements.families.shell import shell_block
+from uel.elements.families.solid import solid_block
+from uel.elements.families.user import user_block
 from uel.elements.materials.laws import Law, laws_of
 from uel.elements.materials.library import state_variables
 from uel.errors import DeckError, Source, unsupported
@@ -30,7 +45,22 @@ from uel.model.procedures import (
     Static,
     Visco,
 )
-from uel.model.properties import CompositeSection, Material, Orientation, Section, materials_of
+from uel.model.properties import (
+    BeamSection,
+    CohesiveSection,
+    CompositeSection,
+    MassSection,
+    Material,
+    MembraneSection,
+    Orientation,
+    RigidSection,
+    Section,
+    ShellSection,
+    SolidSection,
+    SpringSection,
+    UserProperty,
+    materials_of,
+)
 from uel.model.steps import Step
 
 
@@ -62,6 +92,8 @@ class Apart(NamedTuple):
 class Support:
     """A column of the table: what elements of a formulation support.
 
+    section   the class of their section
+    build     the builder of a block of them
     laws      what their material may have
     idle      what it may have without effect: the laws of fields that they do not have
     needs     of each of these it has at least one, besides a law for stresses if there is one among its laws
@@ -73,6 +105,8 @@ class Support:
     reasons   why they do not support a law
     """
 
+    section: type
+    build: Callable[[Building, ElementGroup], ElementBlock]
     laws: frozenset[Law] = frozenset()
     idle: frozenset[Law] = frozenset()
     needs: tuple[frozenset[Law], ...] = ()
@@ -112,7 +146,7 @@ _RUBBER: Final = _laws(_COEFFICIENTS, Law.UHYPER, Law.INVARIANTS)
 _INCOMPRESSIBLE: Final = _laws(Law.HYPERELASTIC_0, Law.UHYPER_0, Law.HOLZAPFEL_0, Law.INVARIANTS_0)
 _USER: Final = _laws(Law.UMAT, Law.UMAT_0)
 _STRESSES: Final = _laws(_ELASTIC, _RUBBER, _INCOMPRESSIBLE, _USER)
-_HEAT: Final = _laws(Law.CONDUCTIVITY, Law.SPECIFIC_HEAT, Law.LATENT_HEAT, Law.HETVAL, Law.UMATHT)
+OF_HEAT: Final = _laws(Law.CONDUCTIVITY, Law.SPECIFIC_HEAT, Law.LATENT_HEAT, Law.HETVAL, Law.UMATHT)
 _DIFFUSION: Final = _laws(Law.DIFFUSIVITY, Law.SOLUBILITY)
 _ELECTRIC: Final = _laws(Law.PIEZOELECTRIC, Law.DIELECTRIC)
 _MECHANICAL: Final = _laws(
@@ -166,6 +200,7 @@ _NO_TIME: Final = Limit(lambda step: step.procedure.riks is not None, "no time p
 _HEAT_STEPS: Final = Limit(
     lambda step: not (step.procedure.temperatures or step.procedure.concentrations), "they have no displacements"
 )
+_DIFFUSION_STEPS: Final = Limit(lambda step: not step.procedure.concentrations, "their dof 11 is a concentration")
 _COUPLED_STEPS: Final = Limit(
     lambda step: not (step.procedure.temperatures and step.procedure.displacements),
     "they have displacements and temperatures",
@@ -181,8 +216,10 @@ LIMITS_OF_LAWS: Final[Mapping[Law, tuple[Limit, ...]]] = {
 """Steps that materials do not support, whatever their elements are."""
 
 _ALL: Final = frozenset(Feature)
-_IDLE: Final = _laws(_HEAT, _DIFFUSION, _ELECTRIC)
+_IDLE: Final = _laws(OF_HEAT, _DIFFUSION, _ELECTRIC)
 _SOLID: Final = Support(
+    SolidSection,
+    solid_block,
     _laws(_DIRECTED, _FIELDS, _PLASTIC, _VISCOUS, _RUBBER, Law.NETWORKS, Law.UMAT, _EXPANSION, Law.UVARM),
     idle=_IDLE,
     apart=(*_LAWS_APART, *_STRESS_APART),
@@ -198,7 +235,8 @@ _HYBRID: Final = replace(
 )
 _COUPLED: Final = replace(
     _SOLID,
-    laws=_laws(_SOLID.laws - _VISCOUS - {Law.NETWORKS}, _HEAT),
+    build=coupled_block,
+    laws=_laws(_SOLID.laws - _VISCOUS - {Law.NETWORKS}, OF_HEAT),
     idle=_laws(_DIFFUSION, _ELECTRIC),
     needs=(_laws(Law.CONDUCTIVITY, Law.UMATHT),),
     # points of UMATHT are others than those of the stresses, where USDFLD is called
@@ -206,9 +244,15 @@ _COUPLED: Final = replace(
     limits=(_COUPLED_STEPS,),
 )
 _PLANES: Final = replace(
-    _SOLID, laws=_SOLID.laws - _RUBBER - {Law.NETWORKS}, limits=(_NO_DIFFUSION, _NO_MASS), massive=False
+    _SOLID,
+    build=generalised_block,
+    laws=_SOLID.laws - _RUBBER - {Law.NETWORKS},
+    limits=(_NO_DIFFUSION, _NO_MASS),
+    massive=False,
 )
 _SURFACE: Final = Support(
+    ShellSection,
+    shell_block,
     _laws(_DIRECTED, Law.LAMINA, _FIELDS, _HARDENING, Law.UMAT, Law.UVARM),
     idle=_IDLE,
     apart=_LAWS_APART,
@@ -217,13 +261,15 @@ _SURFACE: Final = Support(
     massive=True,
 )
 _LINE: Final = Support(
+    SolidSection,
+    discrete_block,
     _laws(Law.ISOTROPIC, Law.HALF, _FIELDS, Law.PLASTIC, Law.UMAT, Law.UVARM),
     idle=_IDLE,
     apart=_LAWS_APART,
     limits=(_NO_DIFFUSION,),
 )
-_BEAM: Final = replace(_LINE, laws=_laws(_LINE.laws, _EXPANSION))
-_WITHOUT_MATERIAL: Final = Support(limits=(_NO_DIFFUSION,))
+_BEAM: Final = replace(_LINE, section=BeamSection, build=beam_block, laws=_laws(_LINE.laws, _EXPANSION))
+_WITHOUT_MATERIAL: Final = Support(SpringSection, discrete_block, limits=(_NO_DIFFUSION,))
 
 FORMULATIONS: Final[Mapping[Formulation, Support]] = {
     Formulation.SOLID: _SOLID,
@@ -237,12 +283,16 @@ FORMULATIONS: Final[Mapping[Formulation, Support]] = {
     Formulation.GENERALISED: _PLANES,
     Formulation.GENERALISED_HYBRID: replace(_PLANES, laws=_PLANES.laws - _VISCOUS),
     Formulation.PIEZOELECTRIC: Support(
+        SolidSection,
+        piezoelectric_block,
         _laws(_DIRECTED, Law.LAMINA, _ELECTRIC),
-        idle=_laws(_HEAT, _DIFFUSION),
+        idle=_laws(OF_HEAT, _DIFFUSION),
         needs=(_laws(Law.DIELECTRIC),),
         limits=(_NO_DIFFUSION, _SMALL_STATICS),
     ),
     Formulation.LAYERED: Support(
+        CompositeSection,
+        composite_block,
         _laws(_DIRECTED, _FIELDS, _HARDENING, Law.UMAT, _EXPANSION),
         idle=_IDLE,
         apart=_LAWS_APART,
@@ -251,7 +301,9 @@ FORMULATIONS: Final[Mapping[Formulation, Support]] = {
         massive=True,
     ),
     Formulation.HEAT: Support(
-        _laws(_HEAT, Law.USDFLD, Law.UVARM),
+        SolidSection,
+        heat_block,
+        _laws(OF_HEAT, Law.USDFLD, Law.UVARM),
         idle=_laws(_MECHANICAL, _DIFFUSION, _ELECTRIC),
         needs=(_laws(Law.CONDUCTIVITY, Law.UMATHT),),
         apart=_HEAT_APART,
@@ -260,14 +312,18 @@ FORMULATIONS: Final[Mapping[Formulation, Support]] = {
         features=frozenset({Feature.VARYING, Feature.ORIENT, Feature.SDVINI}),
     ),
     Formulation.DIFFUSION: Support(
+        SolidSection,
+        mass_diffusion_block,
         _DIFFUSION,
-        idle=_laws(_MECHANICAL, _HEAT, _ELECTRIC),
+        idle=_laws(_MECHANICAL, OF_HEAT, _ELECTRIC),
         needs=(_laws(Law.DIFFUSIVITY), _laws(Law.SOLUBILITY)),
-        limits=(_HEAT_STEPS,),
+        limits=(_DIFFUSION_STEPS,),
         rests=False,
         features=frozenset({Feature.SDVINI}),
     ),
     Formulation.COHESIVE: Support(
+        CohesiveSection,
+        cohesive_block,
         _laws(Law.TRACTION, Law.DAMAGE),
         idle=_IDLE,
         limits=(_NO_DIFFUSION,),
@@ -277,9 +333,11 @@ FORMULATIONS: Final[Mapping[Formulation, Support]] = {
         },
     ),
     Formulation.SHELL: replace(_SURFACE, limits=(_NO_DIFFUSION, _SMALL_ROTATIONS)),
-    Formulation.CONTINUUM_SHELL: _SURFACE,
+    Formulation.CONTINUUM_SHELL: replace(_SURFACE, build=continuum_shell_block),
     Formulation.MEMBRANE: replace(
         _SURFACE,
+        section=MembraneSection,
+        build=membrane_block,
         apart=(*_LAWS_APART, *_STRESS_APART),
         features=frozenset({Feature.VARYING, Feature.STRESS, Feature.SDVINI}),
     ),
@@ -290,9 +348,11 @@ FORMULATIONS: Final[Mapping[Formulation, Support]] = {
     ),
     Formulation.SPRING: _WITHOUT_MATERIAL,
     Formulation.DASHPOT: replace(_WITHOUT_MATERIAL, limits=(_NO_DIFFUSION, _NO_TIME)),
-    Formulation.MASS: _WITHOUT_MATERIAL,
-    Formulation.RIGID: _WITHOUT_MATERIAL,
+    Formulation.MASS: replace(_WITHOUT_MATERIAL, section=MassSection),
+    Formulation.RIGID: replace(_WITHOUT_MATERIAL, section=RigidSection),
     Formulation.USER: Support(
+        UserProperty,
+        user_block,
         _laws(_DIRECTED, Law.LAMINA, _PLASTIC, _VISCOUS, Law.UMAT),
         idle=_IDLE,
         apart=_LAWS_APART,
@@ -358,9 +418,9 @@ def elements_of(group: ElementGroup) -> str:
     return f"elements of type {group.type}{' with layers' if isinstance(group.section, CompositeSection) else ''}"
 
 
-def check_support(model: Model, group: ElementGroup, formulation: Formulation) -> None:
+def check_support(model: Model, group: ElementGroup, support: Support) -> None:
     """Raise DeckError for what a group has and elements of its formulation do not support."""
-    support, elements = FORMULATIONS[formulation], elements_of(group)
+    elements = elements_of(group)
     stressed = bool(support.stresses) and group.definition is None
     features = dict(_features(model, group, stressed=stressed))
     for material in {material.name: material for material in materials_of(group.section)}.values():

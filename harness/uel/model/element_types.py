@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from enum import IntEnum, StrEnum
-from typing import Final
+from typing import ClassVar, Final
 
 from uel.model.dofs import POTENTIAL, TEMPERATURE
 
@@ -161,15 +161,12 @@ class SolidType:
     axisymmetric  direction 1 is the radius, 2 the axis
     """
 
+    section: ClassVar = "SOLID SECTION"
+
     name: str
     family: Family
     points: int
     axisymmetric: bool = field(default=False, kw_only=True)
-
-    @property
-    def section(self) -> str:
-        """Keyword that gives its properties."""
-        return "SOLID SECTION"
 
     @property
     def nodes(self) -> int:
@@ -205,10 +202,7 @@ class SolidType:
 class HeatType(SolidType):
     """A heat transfer element: temperatures at all nodes, and no displacements."""
 
-    @property
-    def formulation(self) -> Formulation:
-        """Its column of the table of formulations."""
-        return Formulation.HEAT
+    formulation: ClassVar = Formulation.HEAT
 
     @property
     def components(self) -> tuple[str, ...]:
@@ -315,15 +309,8 @@ class ContinuumShellType(ContinuumType):
     points        integration points of its surface
     """
 
-    @property
-    def formulation(self) -> Formulation:
-        """Its column of the table of formulations."""
-        return Formulation.CONTINUUM_SHELL
-
-    @property
-    def section(self) -> str:
-        """Keyword that gives its properties."""
-        return "SHELL SECTION"
+    section: ClassVar = "SHELL SECTION"
+    formulation: ClassVar = Formulation.CONTINUUM_SHELL
 
     @property
     def surface(self) -> Family:
@@ -343,20 +330,13 @@ class CohesiveType:
     bottom, top  local nodes of the faces, from 0; opposite ones have the same place
     """
 
+    section: ClassVar = "COHESIVE SECTION"
+    formulation: ClassVar = Formulation.COHESIVE
+
     name: str
     face: Family
     bottom: Face
     top: Face
-
-    @property
-    def formulation(self) -> Formulation:
-        """Its column of the table of formulations."""
-        return Formulation.COHESIVE
-
-    @property
-    def section(self) -> str:
-        """Keyword that gives its properties."""
-        return "COHESIVE SECTION"
 
     @property
     def nodes(self) -> int:
@@ -434,15 +414,8 @@ class SurfaceType:
 class ShellType(SurfaceType):
     """A conventional shell: displacements and rotations at each node."""
 
-    @property
-    def formulation(self) -> Formulation:
-        """Its column of the table of formulations."""
-        return Formulation.SHELL
-
-    @property
-    def section(self) -> str:
-        """Keyword that gives its properties."""
-        return "SHELL SECTION"
+    section: ClassVar = "SHELL SECTION"
+    formulation: ClassVar = Formulation.SHELL
 
     @property
     def edges(self) -> dict[str, Face]:
@@ -459,15 +432,8 @@ class ShellType(SurfaceType):
 class MembraneType(SurfaceType):
     """A membrane: a surface in plane stress, with displacements at each node."""
 
-    @property
-    def formulation(self) -> Formulation:
-        """Its column of the table of formulations."""
-        return Formulation.MEMBRANE
-
-    @property
-    def section(self) -> str:
-        """Keyword that gives its properties."""
-        return "MEMBRANE SECTION"
+    section: ClassVar = "MEMBRANE SECTION"
+    formulation: ClassVar = Formulation.MEMBRANE
 
     def dofs(self, node: int) -> tuple[int, ...]:
         """Return the dofs of a local node, from 0."""
@@ -484,6 +450,8 @@ class BeamType:
     dimension  2 in a plane, 3 in space
     """
 
+    section: ClassVar = "BEAM SECTION"
+
     name: str
     family: Family
     points: int
@@ -493,11 +461,6 @@ class BeamType:
     def formulation(self) -> Formulation:
         """Its column of the table of formulations."""
         return Formulation.BEAM if self.dimension == 3 else Formulation.PLANE_BEAM
-
-    @property
-    def section(self) -> str:
-        """Keyword that gives its properties."""
-        return "BEAM SECTION"
 
     @property
     def nodes(self) -> int:
@@ -540,20 +503,13 @@ class RigidType:
     axisymmetric  direction 1 is the radius, 2 the axis
     """
 
+    section: ClassVar = "RIGID BODY"
+    formulation: ClassVar = Formulation.RIGID
+
     name: str
     family: Family
     dimension: int
     axisymmetric: bool = False
-
-    @property
-    def formulation(self) -> Formulation:
-        """Its column of the table of formulations."""
-        return Formulation.RIGID
-
-    @property
-    def section(self) -> str:
-        """Keyword that says with which node it moves."""
-        return "RIGID BODY"
 
     @property
     def nodes(self) -> int:

@@ -9,6 +9,8 @@ from typing import Final
 
 import numpy as np
 
+from uel.elements.block import ElementBlock
+from uel.elements.building import Building, nodal_block
 from uel.elements.families.beam_points import SectionPoints, section_points, section_tensor
 from uel.elements.families.beam_profiles import SHEAR_FACTORS, Profile, profile_of
 from uel.elements.families.solid import history_names, history_of
@@ -356,3 +358,16 @@ def _check_material(group: ElementGroup, kind: BeamType, section: BeamSection) -
 
 def _error(group: ElementGroup, row: int, source: Source, message: str) -> DeckError:
     return DeckError(source, f"element {group.labels[row]} (type {group.type}) {message}")
+
+
+def beam_block(building: Building, group: ElementGroup) -> ElementBlock:
+    """Build the block of a group of beams. Raises DeckError."""
+    model, kind, section = building.model, group.built_in, group.section
+    assert isinstance(kind, BeamType)
+    assert isinstance(section, BeamSection)
+    routine = beam_routine(model, group, kind, section, building.library)
+    # moments in space are no derivatives by the rotation vector
+    turns = kind.dimension == 3 and any(step.nlgeom for step in model.steps)
+    block = nodal_block(building, group, kind, routine, beam_variables(section, kind, routine), unsymmetric=turns)
+    block.initial.set_last(start_directions(model, group, kind, section))
+    return block

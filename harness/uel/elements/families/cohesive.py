@@ -8,6 +8,8 @@ from typing import Final
 
 import numpy as np
 
+from uel.elements.block import ElementBlock
+from uel.elements.building import Building, nodal_block
 from uel.elements.routine import Routine
 from uel.errors import DeckError
 from uel.model.damage import Damage, DamageEvolution
@@ -180,3 +182,12 @@ def _check_toughness(
                 f"energy at the onset of damage, {stored:g}"
             )
             raise DeckError(evolution.source, message)
+
+
+def cohesive_block(building: Building, group: ElementGroup) -> ElementBlock:
+    """Build the block of a group of cohesive elements. Raises DeckError."""
+    kind, section = COHESIVE[group.type], group.section
+    assert isinstance(section, CohesiveSection)
+    routine, variables = cohesive_routine(building.model, group, section), cohesive_variables(section, kind)
+    # damage that depends on the mode mix
+    return nodal_block(building, group, kind, routine, variables, unsymmetric=True)

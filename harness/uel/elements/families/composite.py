@@ -16,6 +16,8 @@ from typing import Final
 
 import numpy as np
 
+from uel.elements.block import ElementBlock
+from uel.elements.building import Building, nodal_block
 from uel.elements.directions import first_element, undefined
 from uel.elements.families.solid import (
     HOURGLASS_FRACTION,
@@ -24,6 +26,7 @@ from uel.elements.families.solid import (
     is_enhanced,
     numbered,
     section_depth,
+    solid_of,
     warn_of_enhanced,
 )
 from uel.elements.materials.library import (
@@ -275,3 +278,13 @@ def _check(group: ElementGroup, section: CompositeSection) -> None:
     """Raise DeckError for layers of different density."""
     if len({material.density for material in materials_of(section)}) > 1:
         raise unsupported(section.source, "*DENSITY that differs from layer to layer", f"elements of type {group.type}")
+
+
+def composite_block(building: Building, group: ElementGroup) -> ElementBlock:
+    """Build the block of a group of bricks with layers. Raises DeckError."""
+    kind, section = solid_of(group), group.section
+    assert isinstance(section, CompositeSection)
+    routine = composite_routine(building.model, group, kind, section, building.library)
+    block = nodal_block(building, group, kind, routine, composite_variables(kind, section, routine))
+    block.initial.begin_axes(layer_axes(building.model, group, kind, section, routine.family))
+    return block

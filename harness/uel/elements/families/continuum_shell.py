@@ -9,6 +9,8 @@ from typing import Final
 
 import numpy as np
 
+from uel.elements.block import ElementBlock
+from uel.elements.building import Building, begin_surface_axes, nodal_block
 from uel.elements.directions import start_axes
 from uel.elements.families.shell import (
     NAMES,
@@ -19,6 +21,7 @@ from uel.elements.families.shell import (
     section_properties,
     section_stiffness,
     shear_stiffness,
+    shell_variables,
 )
 from uel.elements.materials.library import shear_modulus
 from uel.elements.routine import VALUES_OF_AXES, PointAxes, Routine
@@ -130,3 +133,15 @@ def _poisson(group: ElementGroup, section: ShellSection) -> float:
         message = f"POISSON=ELASTIC of elements of type {group.type} is supported for one isotropic *ELASTIC"
         raise DeckError(section.source, f"*SHELL SECTION: {message}; expected a number")
     return ratios.pop()
+
+
+def continuum_shell_block(building: Building, group: ElementGroup) -> ElementBlock:
+    """Build the block of a group of continuum shells. Raises DeckError."""
+    model, kind, section = building.model, group.built_in, group.section
+    assert isinstance(kind, ContinuumShellType)
+    assert isinstance(section, ShellSection)
+    routine = continuum_shell_routine(model, group, kind, section, building.library)
+    block = nodal_block(building, group, kind, routine, shell_variables(section, kind, routine))
+    block.initial.set_last(stack_directions(model, group, kind, section, building.library))
+    begin_surface_axes(building, group, kind, block, routine)
+    return block

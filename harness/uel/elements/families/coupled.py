@@ -11,14 +11,18 @@ from dataclasses import replace
 
 import numpy as np
 
+from uel.elements.block import ElementBlock
+from uel.elements.building import Building
 from uel.elements.families.solid import (
     check_radii,
+    continuum_block,
     history_of,
     numbered,
     output_variables,
     section_depth,
     solid_of,
     solid_routine,
+    solid_section,
 )
 from uel.elements.materials.library import define_thermal, define_user_field, directions, state_variables
 from uel.elements.routine import Routine
@@ -28,22 +32,22 @@ from uel.model.dofs import TEMPERATURE
 from uel.model.element_types import HeatType
 from uel.model.mesh import ElementGroup
 from uel.model.model import Model
-from uel.model.properties import Material, SolidSection
+from uel.model.properties import Material
 from uel.model.records import PointVariables
 from uel.usersub import Library, _binding, _materials
 
 
-def coupled_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
-    """Build the routine of a group of solids with temperatures. Raises DeckError."""
-    material = section.material
+def coupled_block(building: Building, group: ElementGroup) -> ElementBlock:
+    """Build the block of a group of solids with temperatures. Raises DeckError."""
+    model, library, kind = building.model, building.library, solid_of(group)
+    material = solid_section(group).material
     _check_thermal(model, group, material)
-    kind = solid_of(group)
     if material.user_thermal is not None and kind.points != kind.thermal_points:
         _warn_of_reduced(model, group, library)
-    solid = solid_routine(model, group, section, library)
+    solid = solid_routine(model, group, library)
     define_thermal(solid.material, material, library)
     hidden = (kind.dimension + 1) * kind.thermal_points
-    return replace(
+    routine = replace(
         solid,
         address=_binding.address_of("coupled"),
         svars=solid.svars + hidden,
@@ -51,6 +55,11 @@ def coupled_routine(model: Model, group: ElementGroup, section: SolidSection, li
         jprops=np.concatenate([solid.jprops, [kind.thermal_points, kind.family.linear.number]]),
         initial_temperatures=_initial_temperatures(model) if material.expansion is not None else None,
     )
+    # Abaqus stores the matrix of coupled steps as unsymmetric, UNSYMM or not (Analysis User's Guide, Fully coupled
+    # thermal-stress analysis), as thermal expansion and the heat terms of UMAT need
+    unsymmetric = material.user is not None or material.expansion is not None or _is_unsymmetric(material)
+    temperatures = tuple((node, TEMPERATURE) for node in range(kind.corners))
+    return continuum_block(building, group, routine, temperatures, unsymmetric=unsymmetric)
 
 
 def _initial_temperatures(model: Model) -> FloatArray:
@@ -70,8 +79,10 @@ def _warn_of_reduced(model: Model, group: ElementGroup, library: Library) -> Non
         library.warn(f"{group.source}: {message}; {advice}")
 
 
-def heat_routine(model: Model, group: ElementGroup, kind: HeatType, section: SolidSection, library: Library) -> Routine:
-    """Build the routine of a group of heat transfer elements. Raises DeckError."""
+def heat_block(building: Building, group: ElementGroup) -> ElementBlock:
+    """Build the block of a group of heat transfer elements. Raises DeckError."""
+    model, library, kind, section = building.model, building.library, group.built_in, solid_section(group)
+    assert isinstance(kind, HeatType)
     material = section.material
     if kind.axisymmetric:
         check_radii(model, group)
@@ -79,7 +90,7 @@ def heat_routine(model: Model, group: ElementGroup, kind: HeatType, section: Sol
     number = _materials.define_empty_material()
     define_thermal(number, material, library)
     define_user_field(number, material, directions(section.orientation), library)
-    return Routine(
+    routine = Routine(
         address=_binding.address_of("heat"),
         jtype=kind.nodes,
         mcrd=kind.dimension,
@@ -93,10 +104,18 @@ def heat_routine(model: Model, group: ElementGroup, kind: HeatType, section: Sol
         statev=state_variables(material),
         uvarm=output_variables(section, kind.points, library),
     )
+    return ElementBlock(
+        group,
+        model.mesh.coordinates,
+        tuple((node, TEMPERATURE) for node in range(kind.nodes)),
+        routine,
+        library,
+        unsymmetric=_has_unsymmetric_flow(material),
+        variables=_variables(kind, routine),
+    )
 
 
-def heat_variables(kind: HeatType, routine: Routine) -> PointVariables:
-    """Describe the state variables of a group of heat transfer elements."""
+def _variables(kind: HeatType, routine: Routine) -> PointVariables:
     names = tuple(f"HFL{component}" for component in kind.components)
     names = *names, *numbered("SDV", routine.statev)
     if routine.uvarm is not None:
@@ -104,18 +123,18 @@ def heat_variables(kind: HeatType, routine: Routine) -> PointVariables:
     return PointVariables("continuum", names, kind.points)
 
 
-def has_unsymmetric_flow(material: Material) -> bool:
+def _has_unsymmetric_flow(material: Material) -> bool:
     """Return whether UMATHT gives an unsymmetric matrix; that of *CONDUCTIVITY
     leaves out its slope without displacements.
     """
     return material.user_thermal is not None and material.user_thermal.unsymmetric
 
 
-def is_unsymmetric(material: Material) -> bool:
+def _is_unsymmetric(material: Material) -> bool:
     """Return whether heat conduction beside displacements has an unsymmetric matrix,
     as it depends on the temperature.
     """
-    return has_unsymmetric_flow(material) or (material.user_thermal is None and len(material.conductivity) > 1)
+    return _has_unsymmetric_flow(material) or (material.user_thermal is None and len(material.conductivity) > 1)
 
 
 def _check_thermal(model: Model, group: ElementGroup, material: Material) -> None:

@@ -12,6 +12,8 @@ from typing import Final
 
 import numpy as np
 
+from uel.elements.block import ElementBlock
+from uel.elements.building import Building
 from uel.elements.families.solid import numbered, output_variables
 from uel.elements.materials.library import (
     define_truss_material,
@@ -19,7 +21,6 @@ from uel.elements.materials.library import (
     state_variables,
 )
 from uel.elements.routine import OutputVariables, Routine
-from uel.errors import DeckError
 from uel.model.element_types import DISCRETE, LINE2, DiscreteKind, RigidType, Tensor
 from uel.model.mesh import ElementGroup, is_in_space
 from uel.model.model import Model
@@ -82,8 +83,7 @@ def _kind_of(group: ElementGroup) -> DiscreteKind:
 
 def _truss_routine(group: ElementGroup, unknowns: int, hidden: int, library: Library) -> Routine:
     section = group.section
-    if not isinstance(section, SolidSection):
-        raise DeckError(section.source, f"elements of type {group.type} need *SOLID SECTION")
+    assert isinstance(section, SolidSection)
     material = section.material
     statev = state_variables(material)
     return Routine(
@@ -120,3 +120,14 @@ def discrete_variables(group: ElementGroup, routine: Routine) -> PointVariables 
         return None
     outputs = () if routine.uvarm is None else numbered("UVARM", routine.uvarm.count)
     return PointVariables("continuum", ("E11", "S11", "PE11", "PEEQ", *numbered("SDV", routine.statev), *outputs), 1)
+
+
+def discrete_block(building: Building, group: ElementGroup) -> ElementBlock:
+    """Build the block of a group of trusses, springs, dashpots, masses or rigid elements. Raises DeckError."""
+    model, library = building.model, building.library
+    unknowns = discrete_unknowns(model, group)
+    routine = discrete_routine(model, group, len(unknowns), library)
+    variables = discrete_variables(group, routine)
+    return ElementBlock(
+        group, model.mesh.coordinates, unknowns, routine, library, unsymmetric=False, variables=variables
+    )

@@ -8,17 +8,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from uel.elements.families.solid import solid_of, solid_routine
-from uel.elements.routine import Routine
+from uel.elements.block import ElementBlock
+from uel.elements.building import Building
+from uel.elements.families.solid import continuum_block, solid_of, solid_routine, solid_section
+from uel.elements.fields import REFERENCE
+from uel.model.element_types import PLANES
 from uel.model.mesh import ElementGroup
-from uel.model.model import Model
-from uel.model.properties import SolidSection
-from uel.usersub import Library, _binding
+from uel.usersub import _binding
 
 
-def generalised_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
-    """Build the routine of a group of elements in generalised plane strain. Raises DeckError."""
-    kind = solid_of(group)
-    solid = solid_routine(model, group, section, library)
-    origin = model.mesh.coordinates[section.reference, : kind.dimension]
-    return replace(solid, address=_binding.address_of("generalised"), props=np.concatenate([solid.props, origin]))
+def generalised_block(building: Building, group: ElementGroup) -> ElementBlock:
+    """Build the block of a group of elements in generalised plane strain. Raises DeckError."""
+    solid = solid_routine(building.model, group, building.library)
+    reference, dimension = solid_section(group).reference, solid_of(group).dimension
+    props = np.concatenate([solid.props, building.model.mesh.coordinates[reference, :dimension]])
+    routine = replace(solid, address=_binding.address_of("generalised"), props=props)
+    return continuum_block(building, group, routine, tuple((REFERENCE, dof) for dof in PLANES))

@@ -6,14 +6,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from uel.elements.families.solid import check_radii, section_depth
+from uel.elements.block import ElementBlock
+from uel.elements.building import Building
+from uel.elements.families.solid import check_radii, section_depth, solid_section
 from uel.elements.materials.library import directions
 from uel.elements.routine import PARALLEL, Routine
 from uel.errors import DeckError
+from uel.model.dofs import CONCENTRATION
 from uel.model.element_types import HeatType
 from uel.model.mesh import ElementGroup
-from uel.model.model import Model
-from uel.model.properties import Diffusivity, Material, Orientation, SolidSection
+from uel.model.properties import Diffusivity, Material, Orientation
 from uel.model.records import PointVariables
 from uel.usersub import _binding, _materials
 
@@ -21,8 +23,10 @@ _ROWS, _COLUMNS = (0, 0, 1, 0, 1, 2), (0, 1, 1, 2, 2, 2)
 """Rows and columns of D11, D12, D22, D13, D23, D33."""
 
 
-def mass_diffusion_routine(model: Model, group: ElementGroup, kind: HeatType, section: SolidSection) -> Routine:
-    """Build the routine of a group of heat transfer elements in *MASS DIFFUSION. Raises DeckError."""
+def mass_diffusion_block(building: Building, group: ElementGroup) -> ElementBlock:
+    """Build the block of a group of heat transfer elements in *MASS DIFFUSION. Raises DeckError."""
+    model, kind, section = building.model, group.built_in, solid_section(group)
+    assert isinstance(kind, HeatType)
     if kind.axisymmetric:
         check_radii(model, group)
     material = section.material
@@ -40,7 +44,7 @@ def mass_diffusion_routine(model: Model, group: ElementGroup, kind: HeatType, se
         soret=law.soret,
         pressure=law.pressure,
     )
-    return Routine(
+    routine = Routine(
         address=_binding.address_of("mass diffusion"),
         jtype=kind.nodes,
         mcrd=kind.dimension,
@@ -50,18 +54,22 @@ def mass_diffusion_routine(model: Model, group: ElementGroup, kind: HeatType, se
         family=kind.family.number,
         material=number,
     )
-
-
-def mass_diffusion_variables(kind: HeatType) -> PointVariables:
-    """Describe the state variables of these elements."""
-    return PointVariables("continuum", _names(kind), kind.points)
+    return ElementBlock(
+        group,
+        model.mesh.coordinates,
+        tuple((node, CONCENTRATION) for node in range(kind.nodes)),
+        routine,
+        building.library,
+        unsymmetric=_depends_on_concentration(material),
+        variables=PointVariables("continuum", _names(kind), kind.points),
+    )
 
 
 def _names(kind: HeatType) -> tuple[str, ...]:
     return (*(f"MFL{component}" for component in kind.components), "CONC", "ISOL", "IVOL")
 
 
-def depends_on_concentration(material: Material) -> bool:
+def _depends_on_concentration(material: Material) -> bool:
     """Return whether the flux depends on the concentration besides its gradient: then the matrix is unsymmetric."""
     law = material.diffusivity
     if law is None:

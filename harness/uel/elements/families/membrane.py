@@ -8,6 +8,8 @@ from typing import Final
 
 import numpy as np
 
+from uel.elements.block import ElementBlock
+from uel.elements.building import Building, begin_surface_axes, nodal_block
 from uel.elements.families.solid import HOURGLASS_FRACTION, history_names, history_of, is_prestressed
 from uel.elements.materials.library import (
     define_fields,
@@ -94,3 +96,14 @@ def _hourglass_stiffness(kind: MembraneType, section: MembraneSection) -> float:
         message = f"elements of type {kind.name} with *USER MATERIAL need *HOURGLASS STIFFNESS after *MEMBRANE SECTION"
         raise DeckError(section.source, message)
     return controls.hourglass * HOURGLASS_FRACTION * shear_modulus(elastic, Tensor.PLANE_STRESS)
+
+
+def membrane_block(building: Building, group: ElementGroup) -> ElementBlock:
+    """Build the block of a group of membranes. Raises DeckError."""
+    kind, section = group.built_in, group.section
+    assert isinstance(kind, MembraneType)
+    assert isinstance(section, MembraneSection)
+    routine = membrane_routine(building.model, group, kind, section, building.library)
+    block = nodal_block(building, group, kind, routine, membrane_variables(kind, routine))
+    begin_surface_axes(building, group, kind, block, routine)
+    return block

@@ -8,30 +8,32 @@ from dataclasses import replace
 
 import numpy as np
 
-from uel.elements.families.solid import solid_of, solid_routine
+from uel.elements.block import ElementBlock
+from uel.elements.building import Building
+from uel.elements.families.solid import continuum_block, solid_of, solid_routine, solid_section
 from uel.elements.materials.library import directions, global_compliance
-from uel.elements.routine import Routine
 from uel.model.arrays import FloatArray
-from uel.model.element_types import Tensor
+from uel.model.dofs import POTENTIAL
+from uel.model.element_types import ContinuumType, Tensor
 from uel.model.mesh import ElementGroup
-from uel.model.model import Model
 from uel.model.properties import Material, SolidSection
 from uel.model.records import PointVariables
-from uel.usersub import Library, _binding
+from uel.usersub import _binding
 
 _PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
 
-def piezoelectric_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
-    """Build the routine of a group of piezoelectric solids. Raises DeckError."""
-    kind, material = solid_of(group), section.material
-    solid = solid_routine(model, group, section, library)
+def piezoelectric_block(building: Building, group: ElementGroup) -> ElementBlock:
+    """Build the block of a group of piezoelectric solids. Raises DeckError."""
+    kind, section = solid_of(group), solid_section(group)
+    material = section.material
+    solid = solid_routine(building.model, group, building.library)
     coupling, dielectric = _constants(material, section, kind.tensor)
     chosen = slice(kind.dimension)
     components = 2 * kind.dimension
     constants = np.hstack([coupling[chosen, :components], dielectric[chosen, chosen]])
     averaged = kind.tensor is not Tensor.PLANE_STRESS
-    return replace(
+    routine = replace(
         solid,
         address=_binding.address_of("piezoelectric"),
         svars=kind.points * (2 * components + 2 * kind.dimension),
@@ -43,11 +45,11 @@ def piezoelectric_routine(model: Model, group: ElementGroup, section: SolidSecti
         stress=(),
         turns=False,
     )
+    potentials = tuple((node, POTENTIAL) for node in range(kind.nodes))
+    return continuum_block(building, group, routine, potentials, variables=_variables(kind))
 
 
-def piezoelectric_variables(group: ElementGroup) -> PointVariables:
-    """Describe the state variables of a group of piezoelectric solids."""
-    kind = solid_of(group)
+def _variables(kind: ContinuumType) -> PointVariables:
     names = [f"{letter}{component}" for letter in "ES" for component in kind.components]
     names += [f"{name}{k + 1}" for name in ("EPG", "EFLX") for k in range(kind.dimension)]
     return PointVariables("continuum", tuple(names), kind.points)

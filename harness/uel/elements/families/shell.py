@@ -12,6 +12,8 @@ from typing import Final
 
 import numpy as np
 
+from uel.elements.block import ElementBlock
+from uel.elements.building import Building, begin_surface_axes, nodal_block
 from uel.elements.families.solid import HOURGLASS_FRACTION, history_names
 from uel.elements.materials.library import (
     define_fields,
@@ -28,7 +30,7 @@ from uel.elements.node_normals import LARGEST_ANGLE, mean_normals
 from uel.elements.routine import VALUES_OF_AXES, Linearity, PointAxes, Routine
 from uel.elements.simpson import simpson
 from uel.errors import DeckError
-from uel.model.arrays import FloatArray, IntArray
+from uel.model.arrays import FloatArray, IntArray, flat_rows
 from uel.model.element_types import ContinuumShellType, ShellType, Tensor
 from uel.model.mesh import ElementGroup, full_name
 from uel.model.model import Model
@@ -358,3 +360,18 @@ def check_section(group: ElementGroup, section: ShellSection) -> None:
             f"elements of type {group.type} with *USER MATERIAL need *TRANSVERSE SHEAR STIFFNESS after *SHELL SECTION"
         )
         raise DeckError(section.source, message)
+
+
+def shell_block(building: Building, group: ElementGroup) -> ElementBlock:
+    """Build the block of a group of shells. Raises DeckError."""
+    model, kind, section = building.model, group.built_in, group.section
+    assert isinstance(kind, ShellType)
+    assert isinstance(section, ShellSection)
+    routine = shell_routine(model, group, kind, section, building.library)
+    # moments are no derivatives by rotation vectors
+    turns = any(step.nlgeom for step in model.steps)
+    block = nodal_block(building, group, kind, routine, shell_variables(section, kind, routine), unsymmetric=turns)
+    check_normals(model, group, kind, building.library)
+    block.initial.set_last(flat_rows(directors(model, group)))
+    begin_surface_axes(building, group, kind, block, routine)
+    return block

@@ -9,13 +9,16 @@ from typing import Final
 
 import numpy as np
 
-from uel.elements.directions import first_element
-from uel.elements.materials.hybrid import pressure_unknowns
+from uel.elements.block import ElementBlock
+from uel.elements.building import Building
+from uel.elements.directions import first_element, start_axes
+from uel.elements.materials.hybrid import has_unsymmetric_pressure, pressure_unknowns
 from uel.elements.materials.library import (
     define_expansion,
     define_fields,
     define_material,
     directions,
+    has_unsymmetric_tangent,
     history_values,
     linearity,
     shear_modulus,
@@ -24,6 +27,7 @@ from uel.elements.materials.library import (
 )
 from uel.elements.routine import VALUES_OF_AXES, OutputVariables, PointAxes, Routine
 from uel.errors import DeckError
+from uel.model.dofs import PRESSURE
 from uel.model.element_types import HYBRID, ContinuumType, SolidType, Tensor
 from uel.model.mesh import ElementGroup
 from uel.model.model import Model
@@ -50,6 +54,12 @@ SMALLEST_RADIUS: Final = 1e-9
 """Radius, over the largest one of a group, below which a node lies on the axis."""
 
 
+def solid_section(group: ElementGroup) -> SolidSection:
+    """Return the section of a group of solids or heat transfer elements."""
+    assert isinstance(group.section, SolidSection)
+    return group.section
+
+
 def solid_of(group: ElementGroup) -> ContinuumType:
     """Return the type of a group of continuum elements, with temperatures or without."""
     kind = group.built_in
@@ -66,9 +76,10 @@ def section_depth(kind: SolidType, section: SolidSection | CompositeSection | Sh
     return section.thickness if isinstance(section, SolidSection) and kind.dimension == 2 else 1.0
 
 
-def solid_routine(model: Model, group: ElementGroup, section: SolidSection, library: Library) -> Routine:
+def solid_routine(model: Model, group: ElementGroup, library: Library) -> Routine:
     """Build the routine of a group of solids. Raises DeckError."""
-    kind, material = solid_of(group), section.material
+    kind, section = solid_of(group), solid_section(group)
+    material = section.material
     if kind.axisymmetric:
         check_radii(model, group)
     dynamic = any(step.procedure.inertia for step in model.steps)
@@ -306,3 +317,40 @@ def history_names(routine: Routine) -> tuple[str, ...]:
 def numbered(name: str, count: int) -> tuple[str, ...]:
     """Return this many names of variables, numbered from 1."""
     return tuple(f"{name}{number}" for number in range(1, count + 1))
+
+
+def solid_block(building: Building, group: ElementGroup) -> ElementBlock:
+    """Build the block of a group of continuum elements. Raises DeckError."""
+    return continuum_block(building, group, solid_routine(building.model, group, building.library))
+
+
+def continuum_block(
+    building: Building,
+    group: ElementGroup,
+    routine: Routine,
+    more: tuple[tuple[int, int], ...] = (),
+    *,
+    unsymmetric: bool = False,
+    variables: PointVariables | None = None,
+) -> ElementBlock:
+    """Build the block of a routine of continuum elements: displacements, then further unknowns, then pressures.
+
+    unsymmetric: their matrix is, even if that of the material is not; variables: other ones than those of solids.
+    """
+    kind, section = solid_of(group), solid_section(group)
+    material = section.material
+    unknowns = tuple((node, dof) for node in range(kind.nodes) for dof in range(1, kind.dimension + 1)) + more
+    unknowns += tuple((kind.nodes, PRESSURE + k) for k in range(pressure_unknowns(kind, material)))
+    block = ElementBlock(
+        group,
+        building.model.mesh.coordinates,
+        unknowns,
+        routine,
+        building.library,
+        unsymmetric=unsymmetric or has_unsymmetric_tangent(material) or has_unsymmetric_pressure(kind, material),
+        variables=variables or solid_variables(group, routine),
+    )
+    if routine.axes is not None:
+        axes = start_axes(building.model, group, kind, routine.axes.orientation, building.library)
+        block.initial.begin_axes(axes)
+    return block

@@ -30,7 +30,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uel.elements.build import TENSORS
+from uel.elements.families.user import TENSORS
 from uel.elements.materials.library import global_compliance
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.element_types import CohesiveType, ContinuumType, Tensor
