@@ -81,6 +81,11 @@ class InitialState:
         except ValueError as error:
             raise ValueError(f"elements of type {self._group.type} {error}") from None
 
+    @property
+    def takes_stress(self) -> bool:
+        """Whether the elements take an initial stress."""
+        return bool(self._routine.stress)
+
     def call_sigini(self, address: int) -> None:
         """Call SIGINI for the initial stress at all points; `ElementBlock.begin_stressed` passes it to the material.
 
@@ -91,15 +96,10 @@ class InitialState:
 
         Raises
         ------
-        ValueError
-            The elements take no stress.
         KernelError
             It ends the analysis.
         """
-        try:
-            states, places = self._routine.stress_of(self._arrays.svars)
-        except ValueError as error:
-            raise ValueError(f"elements of type {self._group.type} {error}") from None
+        states, places = self._routine.stress_of(self._arrays.svars)
         sigma = np.zeros((*states.shape[:2], len(places)))
         element, point = _points.sigini(address, self._group.type, self._arrays, sigma, self._routine.family)
         self._check(element, at_point("SIGINI", point))

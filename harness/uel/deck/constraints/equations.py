@@ -36,6 +36,9 @@ TERM_FIELDS = 3
 Terms = tuple[tuple[int, int, float], ...]
 
 
+_MPC_TYPES = ("TIE", "PIN", "LINEAR", "BEAM")
+
+
 class ConstraintReader:
     """Reader of constraints, which turns them into equations. Each equation eliminates a dof of the dependent node."""
 
@@ -139,8 +142,8 @@ class ConstraintReader:
     def _mpc(self, block: Block, owner: Owner) -> Iterator[Equation]:
         for row in block.rows():
             kind = row.name(0, "type")
-            if kind not in ("TIE", "PIN", "LINEAR", "BEAM"):
-                raise row.error(f"type {kind} is not supported (supported: TIE, PIN, LINEAR, BEAM)")
+            if kind not in _MPC_TYPES:
+                raise row.unsupported(f"type {kind}", _MPC_TYPES)
             wanted = 3 if kind == "LINEAR" else 2
             if len(row) != wanted + 1:
                 raise row.error(f"{kind} takes {wanted} nodes or node sets, found {len(row) - 1}")

@@ -236,7 +236,7 @@ def _lines(block: Block) -> Iterator[_Line]:
         second = first if row.blank(1) else row.name(1, "second surface")
         value = "" if domain else row.name(2, "what is assigned")
         if block.name == FORMULATION and value not in (*MAIN, *SECONDARY):
-            raise row.error(f"role {value} is not supported (supported: {', '.join((*MAIN, *SECONDARY))})")
+            raise row.unsupported(f"role {value}", (*MAIN, *SECONDARY))
         yield _Line(first, second, value, row.source)
 
 

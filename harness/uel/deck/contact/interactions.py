@@ -79,7 +79,7 @@ class Interactions:
 def _refuse(block: Block, *names: str) -> None:
     for name in names:
         if block.options.given(name):
-            raise block.error(f"option {name} is not supported")
+            raise block.unsupported(f"option {name}")
 
 
 def _read_behavior(found: ContactProperty, block: Block, problems: Problems) -> ContactProperty:
@@ -87,7 +87,7 @@ def _read_behavior(found: ContactProperty, block: Block, problems: Problems) -> 
     _refuse(block, "AUGMENTED LAGRANGE", "NO SEPARATION")
     kind, row = options.text("PRESSURE-OVERCLOSURE"), block.only_row()
     if kind not in ("HARD", "LINEAR"):
-        raise block.error(f"PRESSURE-OVERCLOSURE={kind} is not supported (supported: HARD, LINEAR)")
+        raise block.unsupported(f"PRESSURE-OVERCLOSURE={kind}", ("HARD", "LINEAR"))
     if kind == "HARD" and not options.given("PENALTY"):
         return replace(found, stiffness=None)
     if options.given("DIRECT"):
@@ -129,7 +129,7 @@ def _read_friction(found: ContactProperty, block: Block) -> ContactProperty:
     if not rows:
         raise block.error("expected the friction coefficient on the data line")
     if len(rows) > 1 or len(rows[0]) > 1:
-        raise rows[-1].error("a coefficient that depends on slip rate, pressure or fields is not supported")
+        raise rows[-1].unsupported("a coefficient that depends on slip rate, pressure or fields")
     coefficient = rows[0].real(0, "friction coefficient")
     tolerance = options.real("SLIP TOLERANCE", SLIP_TOLERANCE)
     elastic = options.real("ELASTIC SLIP", 0.0)
@@ -150,7 +150,7 @@ def _read_cohesion(block: Block) -> Cohesion:
             "elements in a way that it does not describe"
         )
     if len(row) not in (2, 3):
-        raise row.error(f"{len(row)} values, expected 2 or 3; dependence on temperature is not supported")
+        raise row.dependent(f"{len(row)} values, expected 2 or 3")
     values = tuple(row.real(k, "stiffness") for k in range(len(row)))
     if min(values) <= 0:
         raise row.error(f"stiffness {min(values):g} must be positive")

@@ -81,7 +81,7 @@ def _read(block: Block, placement: Placement) -> list[_Way]:
     for row in rows[1:]:
         kind, end = row.name(0, "LINE or CIRCL"), _point(row, 1, placement)
         if kind not in ("LINE", "CIRCL"):
-            raise row.error(f"segment {kind} is not supported (supported: LINE, CIRCL)")
+            raise row.unsupported(f"segment {kind}", ("LINE", "CIRCL"))
         row.at_most(3 if kind == "LINE" else 5)
         if np.array_equal(last, end):
             raise row.error("the segment has no length")
@@ -113,7 +113,7 @@ def _filleted(ways: list[_Way], radius: float, block: Block) -> list[_Way]:
         if abs(turn) > CLOSE:
             cut = radius * np.tan(0.5 * abs(turn))
             if before.centre is not None or way.centre is not None:
-                raise block.error("FILLET RADIUS beside an arc that meets its neighbour at an angle is not supported")
+                raise block.unsupported("FILLET RADIUS beside an arc that meets its neighbour at an angle")
             if not cut < min(np.linalg.norm(one.end - one.start) for one in (before, way)):
                 raise block.error(f"an arc of FILLET RADIUS={radius:g} does not fit between two of its lines")
             start, end = before.end - cut * into, way.start + cut * out

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import bisect
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Final, TypeVar
 
@@ -17,8 +17,27 @@ from uel.errors import DeckError, Source
 ValueT = TypeVar("ValueT", int, float)
 
 
+class Place:
+    """A keyword or a data line, with errors about it."""
+
+    __slots__ = ()
+
+    def error(self, message: str) -> DeckError:
+        """Make an error at this place."""
+        raise NotImplementedError
+
+    def unsupported(self, what: str, supported: Iterable[str] = ()) -> DeckError:
+        """Make the error for what is not supported; it names what is."""
+        listed = ", ".join(supported)
+        return self.error(f"{what} is not supported{f' (supported: {listed})' if listed else ''}")
+
+    def dependent(self, message: str) -> DeckError:
+        """Make the error for values beyond the constants, where Abaqus has temperatures."""
+        return self.error(f"{message}; dependence on temperature is not supported")
+
+
 @dataclass(frozen=True, slots=True)
-class Row:
+class Row(Place):
     """One data line: its fields without those that are empty at its end.
 
     What reads a field takes its position, from 0, and what it is, for the message of the DeckError that it raises.
@@ -84,7 +103,7 @@ PER_LINE: Final = 8
 
 
 @dataclass(slots=True)
-class Block:
+class Block(Place):
     """One keyword with its options and data lines; line numbers are kept beside.
 
     comments  lines between them, where the keyword has names in comments, without the asterisks

@@ -102,7 +102,7 @@ def _read_table(block: Block) -> tuple[float, ...]:
 def _only_row(block: Block) -> Row:
     rows = list(block.rows())
     if len(rows) != 1:
-        raise block.error("needs one data line; dependence on temperature is not supported")
+        raise block.dependent("needs one data line")
     return rows[0]
 
 
@@ -111,8 +111,7 @@ def _values(block: Block, least: int, most: int, what: str) -> tuple[float, ...]
     row = _only_row(block)
     if not least <= len(row) <= most:
         expected = str(most) if least == most else f"{least} or {most}"
-        message = f"{len(row)} values, expected {expected}; dependence on temperature is not supported"
-        raise row.error(message)
+        raise row.dependent(f"{len(row)} values, expected {expected}")
     return tuple(row.real(index, what, 0.0) for index in range(most))
 
 

@@ -47,8 +47,7 @@ def _read_isotropic(block: Block, problems: Problems) -> Hyperelastic | UserPote
     if not values:
         raise block.error("needs a data line with the coefficients")
     if len(values) > count + order + 1:
-        message = f"{len(values)} values, but {potential}, N={order} has {count + order}"
-        raise block.error(f"{message}; dependence on temperature is not supported")
+        raise block.dependent(f"{len(values)} values, but {potential}, N={order} has {count + order}")
     # entries that are not given are zero; a temperature after the only set of coefficients is not a dependence
     values += [0.0] * (count + order - len(values))
     return Hyperelastic(
@@ -76,8 +75,7 @@ def _read_anisotropic(block: Block, problems: Problems) -> Holzapfel | UserPoten
         raise block.error("HOLZAPFEL needs LOCAL DIRECTIONS, the number of fiber families")
     values = [row.real(index, "coefficient", 0.0) for row, index in block.entries(problems.warn)]
     if not 1 <= len(values) <= 6:
-        message = f"{len(values)} values, expected C10, D, k1, k2, kappa"
-        raise block.error(f"{message}; dependence on temperature is not supported")
+        raise block.dependent(f"{len(values)} values, expected C10, D, k1, k2, kappa")
     c10, d, k1, k2, kappa = (*values, 0.0, 0.0, 0.0, 0.0)[:5]
     for name, value in (("D", d), ("k1", k1), ("k2", k2)):
         if value < 0:

@@ -137,7 +137,7 @@ def _read_constant(block: Block, what: str) -> float:
     """Read the only positive number of a material option. Raises DeckError."""
     rows = list(block.rows())
     if len(rows) != 1 or len(rows[0]) != 1:
-        raise block.error(f"needs one data line with the {what}; a temperature is not supported")
+        raise block.dependent(f"needs one data line with the {what}")
     value = rows[0].real(0, what)
     if value <= 0:
         raise rows[0].error(f"{what} {value:g} must be positive")

@@ -89,8 +89,9 @@ def _read_combined(block: Block, problems: Problems) -> Plastic:
         raise block.error(f"NUMBER BACKSTRESSES={count}: expected a number from 1 to {MOST_BACKSTRESSES}")
     entries = block.entries(problems.warn)
     if len(entries) > 2 * count + 1:
-        message = f"{len(entries)} values, but yield stress and C, gamma of {count} backstresses are {2 * count + 1}"
-        raise block.error(f"{message}; dependence on temperature is not supported")
+        raise block.dependent(
+            f"{len(entries)} values, but yield stress and C, gamma of {count} backstresses are {2 * count + 1}"
+        )
     if not entries:
         raise block.error("needs a data line")
     size = entries[0][0].real(0, "yield stress")
@@ -110,7 +111,7 @@ def _read_table(block: Block, what: str) -> FloatArray:
     table: list[tuple[float, float]] = []
     for row in block.rows():
         if len(row) > 2:
-            raise row.error(f"expected only {what} and plastic strain; dependence on temperature is not supported")
+            raise row.dependent(f"expected only {what} and plastic strain")
         table.append((row.real(0, what), row.real(1, "plastic strain", 0.0)))
         if table[-1][0] <= 0:
             raise row.error(f"{what} {table[-1][0]:g} must be positive")

@@ -24,6 +24,5 @@ def read_constants(block: Block, option: str, problems: Problems) -> FloatArray:
         # a temperature after the only set of constants is not a dependence
         values.pop()
     if len(values) > count:
-        message = f"{len(values)} values, but {option}={count}; dependence on temperature is not supported"
-        raise block.error(message)
+        raise block.dependent(f"{len(values)} values, but {option}={count}")
     return np.array(values + [0.0] * (count - len(values)))

@@ -60,7 +60,7 @@ def _read_creep(block: Block) -> Creep:
     if row is None:
         raise block.error("needs a data line with A, n and m")
     if len(row) > 3:
-        raise row.error("expected only A, n and m; dependence on temperature is not supported")
+        raise row.dependent("expected only A, n and m")
     factor, power, of_time = row.real(0, "A"), row.real(1, "n"), row.real(2, "m", 0.0)
     if min(factor, power) <= 0 or not -1 < of_time <= 0:
         raise row.error(f"A = {factor:g}, n = {power:g}, m = {of_time:g}: expected A > 0, n > 0 and -1 < m <= 0")
@@ -122,7 +122,7 @@ def _read_law(block: Block) -> tuple[float, ...]:
     if row is None:
         raise block.error(f"needs a data line with {', '.join(names)}")
     if len(row) > len(names):
-        raise row.error(f"expected only {', '.join(names)}; dependence on temperature is not supported")
+        raise row.dependent(f"expected only {', '.join(names)}")
     values = tuple(row.real(k, name, 0.0) for k, name in enumerate(names))
     _check_law(row, law, dict(zip(names, values, strict=True)))
     if law == "STRAIN":

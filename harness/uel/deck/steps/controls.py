@@ -87,7 +87,7 @@ def _update(group: Group, lines: tuple[tuple[str, ...], ...], block: Block) -> G
     for number, row in enumerate(block.all_rows()):
         if number >= len(lines):
             if len(row):
-                raise row.error(f"data line {number + 1} is not supported")
+                raise row.unsupported(f"data line {number + 1}")
             continue
         row.at_most(len(lines[number]))
         for index, name in enumerate(lines[number]):

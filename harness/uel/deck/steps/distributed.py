@@ -133,7 +133,7 @@ def read_surface_loads(block: Block, prescription: Prescription) -> list[Element
     for row in block.rows():
         label = row.name(1, "load type")
         if label not in (*_SURFACE, *ON_EDGES):
-            raise row.error(f"load type {label} is not supported (supported: {', '.join((*_SURFACE, *ON_EDGES))})")
+            raise row.unsupported(f"load type {label}", (*_SURFACE, *ON_EDGES))
         kind = LoadKind(label)
         directed = kind in (LoadKind.TRACTION, LoadKind.SHEAR, LoadKind.EDGE)
         row.at_most(6 if directed else 3)

@@ -114,7 +114,7 @@ class Prescription:
             # a named type holds of its dofs those that exist
             return [dof for dof in NAMED_DOFS[named] if dof in self.active_dofs]
         if named in REFUSED_TYPES:
-            raise row.error(f"boundary type {named} is not supported")
+            raise row.unsupported(f"boundary type {named}")
         if named[:1].isalpha():
             raise row.error(f"unknown boundary type {named}{nearest(named, NAMED_DOFS)}")
         first = read_dof(row, 1)

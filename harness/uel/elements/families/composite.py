@@ -20,9 +20,8 @@ from uel.elements.block import ElementBlock
 from uel.elements.building import Building, nodal_block
 from uel.elements.directions import first_element, undefined
 from uel.elements.families.solid import (
-    HOURGLASS_FRACTION,
     OF_FIRST_TANGENT,
-    check_one_control,
+    hourglass_stiffness,
     is_enhanced,
     numbered,
     section_depth,
@@ -35,7 +34,6 @@ from uel.elements.materials.library import (
     define_material,
     history_values,
     linearity,
-    shear_modulus,
     state_variables,
 )
 from uel.elements.routine import VALUES_OF_AXES, Linearity, PointAxes, Routine
@@ -98,7 +96,8 @@ def composite_routine(
     """Build the routine of a group of bricks with layers. Raises DeckError."""
     _check(group, section)
     reduced, dynamic = kind.hourglass_control, any(step.procedure.inertia for step in model.steps)
-    hourglass, enhanced = _hourglass_stiffness(group, kind, section), reduced and is_enhanced(section)
+    hourglass = hourglass_stiffness(kind, section, kind.tensor) if reduced else 0.0
+    enhanced = reduced and is_enhanced(section)
     warn_of_enhanced(model, group, kind, library, "tangents of the layers")
     materials = materials_of(section)
     statev = max(map(state_variables, materials))
@@ -137,23 +136,6 @@ def composite_routine(
         free=(1, 2, 3),
         axes=axes,
     )
-
-
-def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: CompositeSection) -> float:
-    """Return the total stiffness parameter, by default from the mean shear modulus; 0 for none. Raises DeckError."""
-    if not kind.hourglass_control:
-        return 0.0
-    check_one_control(section)
-    if section.controls.enhanced or section.hourglass:
-        return section.hourglass
-    moduli = []
-    for layer in section.layers:
-        if layer.material.elastic is None:
-            what = f"elements of type {group.type} with *USER MATERIAL"
-            raise DeckError(section.source, f"{what} need *HOURGLASS STIFFNESS after *SOLID SECTION")
-        moduli.append(shear_modulus(layer.material.elastic, kind.tensor))
-    mean = np.average(moduli, weights=[layer.thickness for layer in section.layers])
-    return float(section.controls.hourglass * HOURGLASS_FRACTION * mean)
 
 
 def composite_variables(kind: ContinuumType, section: CompositeSection, routine: Routine) -> PointVariables:

@@ -10,18 +10,16 @@ import numpy as np
 
 from uel.elements.block import ElementBlock
 from uel.elements.building import Building, begin_surface_axes, nodal_block
-from uel.elements.families.solid import HOURGLASS_FRACTION, history_names, history_of, is_prestressed
+from uel.elements.families.solid import history_names, history_of, hourglass_stiffness, is_prestressed
 from uel.elements.materials.library import (
     define_fields,
     define_material,
     define_user_output,
     linearity,
-    shear_modulus,
     state_variables,
     user_outputs,
 )
 from uel.elements.routine import VALUES_OF_AXES, PointAxes, Routine
-from uel.errors import DeckError
 from uel.model.element_types import MembraneType, Tensor
 from uel.model.mesh import ElementGroup
 from uel.model.model import Model
@@ -39,7 +37,7 @@ def membrane_routine(
     """Build the routine of a membrane group. Raises DeckError."""
     material, orientation = section.material, section.orientation
     dynamic = any(step.procedure.inertia for step in model.steps)
-    hourglass = _hourglass_stiffness(kind, section)
+    hourglass = hourglass_stiffness(kind, section, Tensor.PLANE_STRESS) if kind.hourglass_control else 0.0
     number = define_material(material, None, Tensor.PLANE_STRESS, section.source, library)
     # the axes are those of each point
     name = orientation.name if orientation else ""
@@ -83,19 +81,6 @@ def membrane_routine(
 def membrane_variables(kind: MembraneType, routine: Routine) -> PointVariables:
     """Describe the state variables of a membrane group."""
     return PointVariables("continuum", (*NAMES, *history_names(routine)), kind.points)
-
-
-def _hourglass_stiffness(kind: MembraneType, section: MembraneSection) -> float:
-    """Return the total stiffness parameter; 0 without hourglass control. Raises DeckError."""
-    if not kind.hourglass_control:
-        return 0.0
-    controls, elastic = section.controls, section.material.elastic
-    if section.hourglass:
-        return section.hourglass
-    if elastic is None:
-        message = f"elements of type {kind.name} with *USER MATERIAL need *HOURGLASS STIFFNESS after *MEMBRANE SECTION"
-        raise DeckError(section.source, message)
-    return controls.hourglass * HOURGLASS_FRACTION * shear_modulus(elastic, Tensor.PLANE_STRESS)
 
 
 def membrane_block(building: Building, group: ElementGroup) -> ElementBlock:

@@ -28,7 +28,7 @@ from uel.elements.materials.library import (
 from uel.elements.routine import VALUES_OF_AXES, OutputVariables, PointAxes, Routine
 from uel.errors import DeckError
 from uel.model.dofs import PRESSURE
-from uel.model.element_types import HYBRID, ContinuumType, SolidType, Tensor
+from uel.model.element_types import HYBRID, ContinuumType, MembraneType, SolidType, Tensor
 from uel.model.mesh import ElementGroup
 from uel.model.model import Model
 from uel.model.properties import (
@@ -36,9 +36,11 @@ from uel.model.properties import (
     ElasticType,
     Hyperelastic,
     Material,
+    MembraneSection,
     Orientation,
     ShellSection,
     SolidSection,
+    materials_of,
 )
 from uel.model.records import PointVariables
 from uel.usersub import Library, _binding, _materials
@@ -49,6 +51,8 @@ HOURGLASS_FRACTION: Final = 0.005
 OF_MATERIAL: Final = 1
 OF_FIRST_TANGENT: Final = 2
 """JPROPS(4): source of the moduli of the enhanced hourglass control."""
+
+_TOO_SOFT: Final = "; the stiffness of small strains is too soft for large ones"
 
 SMALLEST_RADIUS: Final = 1e-9
 """Radius, over the largest one of a group, below which a node lies on the axis."""
@@ -87,7 +91,11 @@ def solid_routine(model: Model, group: ElementGroup, library: Library) -> Routin
     if local is not None:
         # the material is in the directions of the points
         orientation = replace(local, axes=np.eye(3), system=None)
-    hourglass = _hourglass_stiffness(group, kind, section)
+    hourglass = 0.0
+    if kind.hourglass_control:
+        hourglass = hourglass_stiffness(kind, section, kind.tensor)
+        if is_enhanced(section):
+            _check_enhanced(kind, section)
     tangent = f"DDSDDE of UMAT (material {material.name})" if _of_tangent(kind, section) else ""
     warn_of_enhanced(model, group, kind, library, tangent)
     _warn_of_unpublished(model, group, kind, library)
@@ -199,30 +207,32 @@ def history_of(material: Material, points: int, *, prestressed: bool = False, ou
     return values, points if values > 1 else 1
 
 
-def _hourglass_stiffness(group: ElementGroup, kind: ContinuumType, section: SolidSection) -> float:
-    """Return the total stiffness parameter; 0 if the control is not of total stiffness. Raises DeckError."""
-    controls, elastic = section.controls, section.material.elastic
-    if not kind.hourglass_control:
-        return 0.0
+def hourglass_stiffness(
+    kind: ContinuumType | MembraneType, section: SolidSection | CompositeSection | MembraneSection, tensor: Tensor
+) -> float:
+    """Return the total stiffness parameter, by default from the mean shear modulus of the layers; 0 if the hourglass
+    control is not of total stiffness. Raises DeckError.
+    """
     check_one_control(section)
-    if is_enhanced(section):
-        _check_enhanced(kind, section)
-        return 0.0
-    if section.hourglass:
+    if section.hourglass or is_enhanced(section):
         return section.hourglass
-    if section.material.hyperelastic is not None:
-        law = section.material.hyperelastic
-        message = f"elements of type {group.type} with *{law.keyword} need *HOURGLASS STIFFNESS after *SOLID SECTION"
-        if isinstance(law, Hyperelastic):
-            message = message.replace("need", "need HOURGLASS=ENHANCED of *SECTION CONTROLS, or")
-        raise DeckError(section.source, f"{message}; the stiffness of small strains is too soft for large ones")
-    if elastic is None:
-        message = f"elements of type {group.type} with *USER MATERIAL need *HOURGLASS STIFFNESS after *SOLID SECTION"
-        raise DeckError(section.source, message)
-    return controls.hourglass * HOURGLASS_FRACTION * shear_modulus(elastic, kind.tensor)
+    moduli = []
+    for material in materials_of(section):
+        what = "*USER MATERIAL" if material.hyperelastic is None else f"*{material.hyperelastic.keyword}"
+        if material.elastic is None:
+            enhanced = isinstance(material.hyperelastic, Hyperelastic)
+            need = "need HOURGLASS=ENHANCED of *SECTION CONTROLS, or" if enhanced else "need"
+            reason = "" if material.hyperelastic is None else _TOO_SOFT
+            message = (
+                f"elements of type {kind.name} with {what} {need} *HOURGLASS STIFFNESS after *{kind.section}{reason}"
+            )
+            raise DeckError(section.source, message)
+        moduli.append(shear_modulus(material.elastic, tensor))
+    weights = [layer.thickness for layer in section.layers] if isinstance(section, CompositeSection) else None
+    return float(section.controls.hourglass * HOURGLASS_FRACTION * np.average(moduli, weights=weights))
 
 
-def is_enhanced(section: SolidSection | CompositeSection) -> bool:
+def is_enhanced(section: SolidSection | CompositeSection | MembraneSection) -> bool:
     """Return whether the hourglass control is ENHANCED, the default with *HYPERELASTIC (Keywords Guide,
     *SECTION CONTROLS).
     """
@@ -232,7 +242,7 @@ def is_enhanced(section: SolidSection | CompositeSection) -> bool:
     return by_default and not section.hourglass
 
 
-def check_one_control(section: SolidSection | CompositeSection) -> None:
+def check_one_control(section: SolidSection | CompositeSection | MembraneSection) -> None:
     """Raise DeckError if two keywords give the hourglass control."""
     controls = section.controls
     if section.hourglass and (controls.enhanced or controls.hourglass != 1):

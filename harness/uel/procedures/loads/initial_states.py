@@ -14,8 +14,6 @@ from uel.assembly import System
 from uel.elements import Call, ElementBlock, Flags
 from uel.errors import DeckError
 from uel.model.arrays import FloatArray
-from uel.model.element_types import BUILT_IN, CohesiveType, ContinuumType, DiscreteKind, DiscreteType, SurfaceType
-from uel.model.mesh import ElementGroup
 from uel.model.model import Model
 from uel.model.records import Warned
 from uel.model.steps import InitialStress
@@ -119,18 +117,7 @@ def _stresses_by_user(system: System, entry: InitialStress, user: InitialRoutine
     if user.sigini is None:
         message = "*INITIAL CONDITIONS, TYPE=STRESS, USER needs SIGINI, which the job does not have"
         raise DeckError(entry.source, message)
-    blocks = {block.first: block for block in system.blocks if _has_stress(block.group)}
+    blocks = {block.first: block for block in system.blocks if block.initial.takes_stress}
     for block in blocks.values():
-        try:
-            block.initial.call_sigini(user.sigini)
-        except ValueError as error:
-            raise DeckError(entry.source, f"*INITIAL CONDITIONS, TYPE=STRESS, USER: {error}") from None
+        block.initial.call_sigini(user.sigini)
     return blocks
-
-
-def _has_stress(group: ElementGroup) -> bool:
-    """Report whether the elements are built-in ones with material points."""
-    kind = BUILT_IN.get(group.type)
-    if isinstance(kind, DiscreteType):
-        return kind.kind is DiscreteKind.TRUSS
-    return isinstance(kind, ContinuumType | CohesiveType | SurfaceType)
