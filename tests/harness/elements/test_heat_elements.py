@@ -197,6 +197,8 @@ def given_to(run_deck, element_type, procedure, material, user):
     start = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\n"
     start += "".join(f"{k + 1}, {2 + 3 * x}\n" for k, x in enumerate(along))
     start += "*INITIAL CONDITIONS, TYPE=FIELD, VARIABLE=1\nALL, 3.\n"
+    # which generates.f reads
+    start += "*INITIAL CONDITIONS, TYPE=FIELD, VARIABLE=2\nALL, 0.\n"
     field = "*FIELD, VARIABLE=1, AMPLITUDE=RISES\nALL, 3.\n"
     # from the initial temperature to the one at the end
     ramp = "*AMPLITUDE, NAME=LEFT\n0., 2., 1., 3.\n*AMPLITUDE, NAME=RIGHT\n0., 5., 1., 11.\n"
