@@ -10,7 +10,7 @@ module host_truss
   use host_adapter, only: element_t, keep_forces
   use host_bar, only: bar_forces, bar_of, bar_t, initial_length
   use host_coupling, only: interpolate_fields
-  use host_kinds, only: dp, i4
+  use host_kinds, only: dp
   use host_materials, only: elastic_energy, has_fields, material_t, set_constants, stress_update
   use host_mises, only: mises_uniaxial
   use host_point, only: move_to, point_t
