@@ -9,8 +9,8 @@ from dataclasses import replace
 from functools import partial
 from typing import Any, Final
 
-from uel.elements.formulations import FORMULATIONS, LIMITS_OF_LAWS, OF_HEAT, STEPS, Feature, Support
 from uel.elements.materials.laws import Law
+from uel.elements.support import FORMULATIONS, LIMITS_OF_LAWS, OF_HEAT, STEPS, Feature, Support
 from uel.model.element_types import BUILT_IN, LAYERED, Formulation
 from uel.model.steps import Step
 

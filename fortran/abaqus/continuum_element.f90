@@ -10,7 +10,7 @@
 !> material takes two passes.
 module abaqus_continuum_element
   use core_kinds, only: dp
-  use core_mode_search, only: mode_search, find_modes, most_passes
+  use core_incompatible_mode_search, only: mode_search, find_modes, most_passes
   use core_rotation, only: ply_axes, strain_rotation
   use core_solid_rotation, only: solid_turn, find_turn, turn_forces, turn_stiffness
   use core_status, only: status_type, ok, inside_out

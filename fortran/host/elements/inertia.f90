@@ -1,6 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What built-in elements return for each LFLAGS(3), from their forces, stiffness and mass.
+!> Consistent mass of continuum elements, and what every built-in element returns for each LFLAGS(3) from its forces, stiffness and
+!> mass. Shells and beams form their own mass, in shell.f90 and beam.f90.
 !>
 !> In dynamic steps the operator of Hilber, Hughes and Taylor needs the forces of the last two increments: they are kept as state
 !> variables, as in the UEL example of the Abaqus User Subroutines Guide.

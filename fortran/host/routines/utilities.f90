@@ -3,7 +3,7 @@
 !> Ways out of a user routine, and messages: the routines of Abaqus that a user's file calls by name. None of them may be in a
 !> module, since the file uses the plain external names.
 
-!> End the analysis; the block driver's caller gets control back.
+!> End the analysis; the block driver's caller gets control back (guards/protect.c).
 subroutine xit()
   use host_protect, only: escape
   implicit none (type, external)

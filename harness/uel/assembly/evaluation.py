@@ -18,7 +18,7 @@ from uel.model.couplings import CouplingErrors
 
 @dataclass(frozen=True, slots=True)
 class Evaluation:
-    """Outcome of one pass over all elements.
+    """Outcome of one pass over all elements: sums over all ranks, but the matrix is that of this rank's elements.
 
     residual    (n,) sum of RHS: external minus internal force
     data        (nnz,) CSR values of the matrix, None if not asked for; overwritten by the next pass that asks for it
@@ -26,8 +26,7 @@ class Evaluation:
                 of the average flux
     flux_count  (fields,) number of terms in it, those above the call's floor
     pnewdt      smallest PNEWDT an element returned
-    energy      (8,) sum of ENERGY; that of linear elements that were not called is added by `System.commit`
-                The residual and all sums are those of all ranks, the matrix is the part of this rank's elements.
+    energy      (8,) sum of ENERGY, without linear elements that were not called, whose energy `LinearShortcut` adds
     load        (n,) sum of column 2 of RHS, increments of the loads that elements apply; None unless NRHS = 2
     damage      dissipated by the damage of built-in elements
     largest     (fields,) largest |element nodal force|

@@ -9,7 +9,7 @@ from difflib import get_close_matches
 
 from uel.elements.block import ElementBlock
 from uel.elements.building import Building
-from uel.elements.formulations import FORMULATIONS, check_support, elements_of, formulation_of
+from uel.elements.support import FORMULATIONS, check_support, elements_of, formulation_of
 from uel.errors import DeckError, all_of, unsupported
 from uel.model.element_types import BUILT_IN
 from uel.model.mesh import ElementGroup

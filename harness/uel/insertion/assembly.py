@@ -25,7 +25,7 @@ from uel.deck.mesh.groups import node_indices
 from uel.deck.mesh.local_mesh import ElementRun
 from uel.deck.sections.solids import SECTION_KEYWORDS
 from uel.errors import DeckError, Source, UsageError
-from uel.insertion.topology import Cells, Solids
+from uel.insertion.cut import Cells, Solids
 from uel.model.arrays import IntArray
 from uel.model.element_types import BUILT_IN, FAMILIES, ContinuumType, Family
 from uel.model.mesh import full_name

@@ -25,6 +25,7 @@ from uel.insertion.connectivity import (
     interface_types,
     known_types,
 )
+from uel.insertion.cut import NONE, Cells, Cut, cut
 from uel.insertion.meshes import is_mesh, read_mesh
 from uel.insertion.neighbours import check_neighbours
 from uel.insertion.properties import (
@@ -38,7 +39,6 @@ from uel.insertion.properties import (
 from uel.insertion.rewriting import Rewriting, quoted
 from uel.insertion.sections import Faces, Sections
 from uel.insertion.selection import Selection, Wanted, select
-from uel.insertion.topology import NONE, Cells, Cut, cut
 from uel.model.arrays import IntArray
 from uel.model.element_types import BUILT_IN, DISCRETE, FAMILIES, ContinuumType, Family
 

@@ -15,7 +15,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from uel.insertion.topology import NONE, Cells, Solids
+from uel.insertion.cut import NONE, Cells, Solids
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.element_types import COHESIVE, FAMILIES, TRI3, Face, Family
 from uel.usersub.layout import element_layouts

@@ -30,7 +30,7 @@ from uel.deck.mesh.generation import KEYWORDS as GENERATING
 from uel.deck.sections.user_elements import find_type
 from uel.delamination.keywords import PER_LINE, keyword, wrapped
 from uel.insertion.assembly import Deck
-from uel.insertion.topology import Cut
+from uel.insertion.cut import Cut
 from uel.model.arrays import IntArray
 from uel.model.mesh import full_name
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from uel.errors import UsageError
 from uel.insertion.assembly import Deck
-from uel.insertion.topology import NONE
+from uel.insertion.cut import NONE
 from uel.model.arrays import IntArray
 
 Mask = NDArray[np.bool_]

@@ -19,7 +19,7 @@ Face = tuple[int, ...]
 
 
 class Formulation(StrEnum):
-    """Element types that support the same: a column of the table in harness/uel/elements/formulations.py."""
+    """Element types that support the same: a column of the table in harness/uel/elements/support.py."""
 
     SOLID = "continuum elements"
     PLANE_STRESS = "continuum elements in plane stress"

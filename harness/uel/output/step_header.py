@@ -6,9 +6,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from uel.model.controls import Controls, FieldControls
 from uel.model.procedures import HeadLine
 from uel.model.records import BucklingMode, HarmonicResponse, IncrementDone, ModeShape
-from uel.model.steps import Controls, FieldControls, Step
+from uel.model.steps import Step
 from uel.output.field_terms import FIELDS, FieldTerms
 from uel.output.formats import general
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The state that increments and steps pass on."""
+"""State that increments and steps pass on: displacements, forces, energies of the whole model (ALLSE, ALLWK, ...)."""
 
 from __future__ import annotations
 

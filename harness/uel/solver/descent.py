@@ -44,7 +44,7 @@ import numpy as np
 from uel.assembly import Constraints, System
 from uel.errors import SingularMatrixError
 from uel.model.arrays import FloatArray
-from uel.model.steps import LineSearchControls
+from uel.model.controls import LineSearchControls
 from uel.solver.linesearch import descend
 from uel.solver.newton import Factoriser, Increment, Iterate, Newton
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from uel.model.steps import LineSearchControls
+from uel.model.controls import LineSearchControls
 
 
 def search(

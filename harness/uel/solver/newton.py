@@ -24,7 +24,7 @@ import numpy as np
 from uel.assembly import Constraints, Evaluation, System
 from uel.elements import Call, Distributed, Motion, Request
 from uel.model.arrays import FloatArray
-from uel.model.steps import LineSearchControls
+from uel.model.controls import LineSearchControls
 from uel.solver.linesearch import search
 
 ROUNDING = 16 * float(np.finfo(float).eps)

@@ -10,9 +10,10 @@ from pathlib import Path
 import pytest
 
 from uel.errors import DeckError
+from uel.model.controls import Controls, FieldControls, LineSearchControls, TimeControls
 from uel.model.model import Model
 from uel.model.procedures import Riks, Static
-from uel.model.steps import Controls, FieldControls, LineSearchControls, Position, Step, TimeControls
+from uel.model.steps import Position, Step
 
 Read = Callable[[str], Model]
 FLAT = Path(__file__).with_name("flat.inp").read_text()

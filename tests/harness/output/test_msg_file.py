@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from uel.model.controls import Controls, FieldControls, LineSearchControls, TimeControls
 from uel.model.mesh import ElementGroup, Mesh
 from uel.model.model import Model
 from uel.model.procedures import Static
@@ -24,7 +25,6 @@ from uel.model.records import (
     SearchHelped,
     StepStarted,
 )
-from uel.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
 from uel.output.files.msg_file import MessageFile
 
 Records = Callable[..., Iterator[Record]]

@@ -6,8 +6,8 @@ import pytest
 
 from uel.assembly import system_of
 from uel.deck import read_deck
+from uel.model.controls import FieldControls
 from uel.model.records import IterationDone
-from uel.model.steps import FieldControls
 from uel.procedures import run_steps
 from uel.procedures.general.convergence import FluxHistory
 from uel.usersub import load

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from uel.model.controls import FieldControls
 from uel.model.records import Convergence
-from uel.model.steps import FieldControls
 from uel.procedures.general.convergence import FieldMeasures, FluxHistory, judge, residual_tolerance
 
 DATA = Path(__file__).parents[2] / "data"

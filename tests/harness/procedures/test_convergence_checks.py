@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from uel.assembly import Evaluation
+from uel.model.controls import Controls, FieldControls, TimeControls
 from uel.model.records import Convergence, Largest
-from uel.model.steps import Controls, FieldControls, TimeControls
 from uel.procedures.general import incrementation
 from uel.procedures.general.convergence import FluxHistory
 from uel.procedures.general.convergence_checks import Checker

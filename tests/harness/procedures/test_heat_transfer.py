@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from uel.model.controls import Controls, TimeControls
 from uel.model.procedures import CoupledTemperatureDisplacement, HeatTransfer, Visco
 from uel.model.records import Convergence
-from uel.model.steps import Controls, TimeControls
 from uel.running.job import run
 
 G, C = 2.0, 0.5

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from uel.model.controls import TimeControls
 from uel.model.procedures import HeatTransfer, Static, Visco
-from uel.model.steps import TimeControls
 from uel.procedures.general import incrementation
 from uel.procedures.general.incrementation import (
     Accuracy,

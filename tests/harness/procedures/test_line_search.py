@@ -4,7 +4,7 @@
 
 import pytest
 
-from uel.model.steps import LineSearchControls
+from uel.model.controls import LineSearchControls
 from uel.solver.linesearch import REFINEMENTS, descend, search
 
 

@@ -7,9 +7,9 @@ import pytest
 
 from uel.errors import ConvergenceError, KernelError, SingularMatrixError, Source
 from uel.model.amplitude import Amplitude, AmplitudeType
+from uel.model.controls import Controls, FieldControls, LineSearchControls, TimeControls
 from uel.model.procedures import Static
 from uel.model.records import AttemptStarted, Convergence, IterationDone, StepDone, StepStarted, Warned
-from uel.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
 from uel.procedures.general.extrapolation import Extrapolation
 
 SOURCE = Source("springs.inp", 1)

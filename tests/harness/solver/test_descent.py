@@ -8,7 +8,7 @@ import pytest
 from uel.assembly import Evaluation
 from uel.elements import Call, Flags
 from uel.errors import SingularMatrixError
-from uel.model.steps import LineSearchControls
+from uel.model.controls import LineSearchControls
 from uel.solver import descent
 from uel.solver.descent import Descent, Majoriser
 from uel.solver.newton import Increment

@@ -2,7 +2,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Beams of two nodes in space in large rotations: the strains of J.C. Simo, Computer Methods in Applied Mechanics and Engineering
 !> 49 (1985) 55, at the middle. Unknowns and moments are those of host_corotation: rotation vectors, and moments about the global
-!> axes, whose derivative is that by a complex step, not symmetric where rotations are large.
+!> axes, whose derivative is that by a complex step, not symmetric where rotations are large. The vectors of
+!> the nodes are total rotations: Newton adds its corrections to them.
 !>
 !> The nodes turn by Q1 and Q2. The section in the middle turns by R = Q1 exp(h), Q2 = R exp(h): its curvature and twist are 2 h
 !> over the length, whatever turn both nodes have in common.

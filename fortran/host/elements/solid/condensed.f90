@@ -3,7 +3,7 @@
 !> Continuum elements with incompatible modes (host_incompatible): these are sought at the displacements of the nodes, and leave the
 !> equations.
 module host_condensed_modes
-  use core_mode_search, only: find_modes, mode_search, most_passes
+  use core_incompatible_mode_search, only: find_modes, mode_search, most_passes
   use core_rotation, only: about_mean
   use core_small_matrix, only: invert_general
   use core_strains, only: condense

@@ -5,7 +5,8 @@
 TYPE=NODE TO SURFACE: a node follows the point of the main surface that is nearest to it, by the shape functions of the
 face. SURFACE TO SURFACE, the default: it follows means over its own faces (`tie_weights`), where these are covered by
 main faces, and the nearest point elsewhere. A main surface of nodes is followed node by node. Nodes farther from the
-main surface than the position tolerance stay untied. ADJUST moves tied nodes onto the main surface.
+main surface than the position tolerance stay untied. ADJUST moves tied nodes onto the main surface. The projection onto
+a face is that of contact, `harness/uel/contact/face_surface.py`.
 
 With CYCLIC SYMMETRY the main surface is that of the next sector of the model: turned by 360/N degrees about the axis,
 displacements and rotations with it. Nodes of both surfaces lie on the axis, along which they move.

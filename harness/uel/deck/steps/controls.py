@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from uel.deck.language.blocks import Block, Row
 from uel.deck.language.table import Keyword, Option, Where, one_of, refused
-from uel.model.steps import Controls, FieldControls, LineSearchControls, TimeControls
+from uel.model.controls import Controls, FieldControls, LineSearchControls, TimeControls
 
 EPS_D, DEFAULT_EPS_D = "eps_d", 1e-8
 """Displacement increments that count as zero, over the characteristic element length; here none does."""

@@ -6,7 +6,8 @@ Columns are step, increment, time (total time), `LPF` if the load factor is part
 OUTPUT and *ENERGY OUTPUT of the steps request, in order: `U2[LOAD]` for a set of one node, `RF2[LOAD:17]` for each node
 of a larger set, `ALLSE` for an energy of the whole model, `ALLSE[TOP]` for that of an element set. A mode of *FREQUENCY
 has a row, with its frequency as time. So does a frequency of *STEADY STATE DYNAMICS, with amplitudes and, in further
-columns `PU2[LOAD]`, phase angles in degrees. A column that a step does not request is empty there.
+columns `PU2[LOAD]`, phase angles in degrees. A column that a step does not request is empty there. The energies of the
+whole model are summed in `harness/uel/procedures/state.py`.
 """
 
 from __future__ import annotations

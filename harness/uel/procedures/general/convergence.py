@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from uel.model.controls import FieldControls
 from uel.model.records import Convergence
-from uel.model.steps import FieldControls
 
 INITIAL_FLUX = 1e-2
 """Time average flux of Abaqus before any flux was seen in the first step (*CONTROLS, q_0)."""

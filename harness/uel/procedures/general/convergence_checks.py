@@ -15,12 +15,12 @@ from uel.assembly import Constraints, DofMap, System
 from uel.elements import FIELD_NAMES, VOLUME
 from uel.model.arrays import FloatArray, IntArray, first_largest
 from uel.model.contact import CONTACT
+from uel.model.controls import Controls, FieldControls
 from uel.model.couplings import COUPLING, CouplingErrors
 from uel.model.dofs import ROTATIONS, dof_in_deck
 from uel.model.mesh import Mesh
 from uel.model.records import Convergence, FieldCheck, Largest
 from uel.model.restart import Saved
-from uel.model.steps import Controls, FieldControls
 from uel.procedures.general.convergence import FieldMeasures, FluxHistory, estimated_correction, judge
 from uel.procedures.general.incrementation import Cutback, judge_rate, out_of_iterations
 from uel.solver.newton import Iterate

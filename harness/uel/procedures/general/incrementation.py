@@ -11,9 +11,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from uel.model.controls import TimeControls
 from uel.model.procedures import Procedure
 from uel.model.restart import Saved
-from uel.model.steps import TimeControls
 
 DIVERGING = "THE SOLUTION APPEARS TO BE DIVERGING. CONVERGENCE IS JUDGED UNLIKELY."
 TOO_SLOW = "THE RATE OF CONVERGENCE IS VERY SLOW. CONVERGENCE IS JUDGED UNLIKELY."

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from solid_grids import grid
 
 from uel.insertion.connectivity import element_nodes, face_nodes, face_normals, fitting, interface_types
-from uel.insertion.topology import Cells, Solids, cut
+from uel.insertion.cut import Cells, Solids, cut
 from uel.model.element_types import CONTINUUM, FAMILIES
 
 KINDS = ("CPS3", "CPS4", "CPS6", "CPS8", "C3D4", "C3D6", "C3D8", "C3D10", "C3D15", "C3D20")

@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The search for incompatible modes that leave no force: Newton's method, with a line search where a material yields on the way.
-module core_mode_search
+module core_incompatible_mode_search
   use core_kinds, only: dp
   use core_small_matrix, only: invert_general
   implicit none(type, external)
@@ -61,4 +61,4 @@ contains
     modes = this%start(:n) + this%share*this%change(:n)
   end subroutine find_modes
 
-end module core_mode_search
+end module core_incompatible_mode_search

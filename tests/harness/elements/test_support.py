@@ -17,9 +17,9 @@ from uel import usersub
 from uel.deck import read_deck
 from uel.elements import build_blocks
 from uel.elements.building import nodal_block
-from uel.elements.formulations import FORMULATIONS, STEPS, Feature, Support, name_of
 from uel.elements.materials.laws import Law, laws_of
 from uel.elements.routine import Routine
+from uel.elements.support import FORMULATIONS, STEPS, Feature, Support, name_of
 from uel.errors import DeckError, Source
 from uel.model import perturbations, procedures
 from uel.model.element_types import BUILT_IN, CONTINUUM, DiscreteKind, Formulation
