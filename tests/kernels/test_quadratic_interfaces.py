@@ -257,7 +257,7 @@ def test_names():
         (5, {"ALPHAN": 0.0, "ALPHAT": 0.0}, r"U5 element 42: .* ALPHAN = 0.*expected a positive"),
         (5, {"GIC": 0.0225}, r"U5 element 42: PROPS\(6\) GIC = .*too brittle"),
         (6, {"BETAN": -3.0}, r"U6 element 42: .* BETAN = -3.*, or -1 in a self-contained element"),
-        (6, {"CLOSURE": 3}, r"U6 element 42: JPROPS\(2\) CLOSURE = 3: expected 0 to 2"),
+        (6, {"CLOSURE": 4}, r"U6 element 42: JPROPS\(2\) CLOSURE = 4: expected 0 to 3"),
         (6, {"GIC": 0.0225}, r"U6 element 42: PROPS\(6\) GIC = .*too brittle"),
         (6, {"CLOSURE": 1, "BETAN": 1.0, "BETAT": 1.0}, r"U6 element 42: .*: beta = 1.0.*, too small"),
         (6, {"NU12 TOP": 4.0}, r"U6 element 42: .* NU12 TOP = 4.*not positive definite"),

@@ -219,11 +219,11 @@ def test_geometry(element, jtype, change, message, estimate):
         (11, {"ALPHAN": 0.0, "ALPHAT": 0.0}, r"U11 element 42: .* ALPHAN = 0.*expected a positive"),
         (11, {"GIC": 0.0225}, r"U11 element 42: PROPS\(5\) GIC = .*too brittle"),
         (12, {"BETAN": -3.0}, r"U12 element 42: .* BETAN = -3.*, or -1 in a self-contained element"),
-        (12, {"CLOSURE": 3}, r"U12 element 42: JPROPS\(2\) CLOSURE = 3: expected 0 to 2"),
+        (12, {"CLOSURE": 4}, r"U12 element 42: JPROPS\(2\) CLOSURE = 4: expected 0 to 3"),
         (
             12,
             {"FRICTION": 0.1},
-            r"U12 element 42: .* FRICTION = 0.1.*: without the consistent law .CLOSURE = 1., expected 0",
+            r"U12 element 42: .* FRICTION = 0.1.*: without the consistent law .CLOSURE = 1 or 3., expected 0",
         ),
         (12, {"CLOSURE": 1, "BETAN": 1.0, "BETAT": 1.0}, r"U12 element 42: .*: beta = 1.0.*, too small"),
         (12, {"NU12 TOP": 4.0}, r"U12 element 42: PROPS\(30\) NU12 TOP = 4.*not positive definite"),

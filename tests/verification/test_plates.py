@@ -203,12 +203,12 @@ def test_the_front_releases_the_fracture_energy(kind: str, tmp_path: Path) -> No
     last = [front for front in fronts(result) if front.time == result.frames[-1].time]
     assert len(last) == 1
     # it has left the first, slanted edge
-    assert last[0].places[:, 0].min() > 9.5
-    assert np.ptp(last[0].places[:, 0]) < size
+    assert last[0].coordinates[:, 0].min() > 9.5
+    assert np.ptp(last[0].coordinates[:, 0]) < size
     # across the specimen; a mesh line has 0.34
     assert abs(np.mean(last[0].ahead[:, 1])) < 0.1
     # the first and the last lines leave the surface on their way
-    assert last[0].releases[:, 0] == pytest.approx(np.full(len(last[0].places), toughness), rel=0.1)
+    assert last[0].releases[:, 0] == pytest.approx(np.full(len(last[0].coordinates), toughness), rel=0.1)
     assert np.abs(last[0].releases[:, 1:]).max() < 0.02 * toughness
     # the command gives the same
     assert main(["front", str(tmp_path / kind)]) == 0
@@ -234,7 +234,7 @@ def test_a_sliding_front_releases_the_shear_toughness(kind: str, tmp_path: Path)
     )
     deck.write_text(text(lines))
     last = fronts(run(deck, output_dir=tmp_path, solver=SolverOptions(fallback=True)))[-1]
-    assert last.places[:, 0].min() > 26.0
+    assert last.coordinates[:, 0].min() > 26.0
     # the process zone is 14 elements long
-    assert last.releases[:, 1] == pytest.approx(np.full(len(last.places), toughness), rel=0.03)
+    assert last.releases[:, 1] == pytest.approx(np.full(len(last.coordinates), toughness), rel=0.03)
     assert np.abs(last.releases[:, [0, 2]]).max() < 0.01 * toughness

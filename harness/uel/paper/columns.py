@@ -86,6 +86,7 @@ class Column:
 COLUMNS = {
     "u4_zeros": Column("zeros: the recommended element", 4),
     "u4_paper": Column("the paper's law, beta by equation (21)", 4, values=PAPER),
+    "u4_complete": Column("complete form", 4, values={"CLOSURE": 3}),
     "u4_exponential": Column("exponential law", 4, values={"LAW": 3, "ETA": 2.0}, moved=(0.0, 0.08)),
     "u4_ppr": Column("PPR law", 4, values={"LAW": 4, "SHAPEN": 3.0, "SHAPET": 3.0}),
     "u4_secant": Column("secant matrix", 4, values={"LAW": 1, "TANGENT": 1}),
