@@ -46,14 +46,14 @@ import json, sys
 from pathlib import Path
 import numpy as np
 from uel import usersub
-from uel.assembly import System
+from uel.assembly import system_of
 from uel.deck import read_deck
-from uel.elements import Call, Flags, build_blocks
+from uel.elements import Call, Flags
 
 deck = Path(sys.argv[1])
 model = read_deck(deck)
 library = usersub.load(None, job="job", output_dir=deck.parent, deck=deck)
-system = System(model.mesh, build_blocks(model, library), model.equations)
+system = system_of(model, library)
 u = np.array(json.loads(sys.argv[2]))
 found = system.evaluate(Call(Flags(1), 1, 1, 1.0, 1.0, 1.0, 1.0), u, u)
 print(json.dumps(found.residual.tolist()))
