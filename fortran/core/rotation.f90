@@ -68,8 +68,9 @@ contains
     axes(3, :) = frame(2, :)
   end function ply_axes
 
-  !> Frame of a line or surface that has moved, and its derivative by the nodes that it depends on. In the surface, s is along the
-  !> material line that was along s before.
+  !> Frame of a line or surface that has moved, and its derivative by the nodes that it depends on. In the surface the frame turns by
+  !> the rotation of the polar decomposition of its deformation, whatever direction s has: with the images p1 and p2 of s and t, s is
+  !> along p1 + p2 x n.
   pure subroutine turned_frame(dim, nodes, start, now, frame, by_node, turned, turning, measure)
     integer, intent(in) :: dim, nodes
     real(dp), intent(in) :: start(dim, dim - 1)       !< vectors in it at the start
@@ -79,7 +80,7 @@ contains
     real(dp), intent(out) :: turned(3, 3)             !< rows as in `frame`
     real(dp), intent(out) :: turning(3, dim, dim, nodes)   !< derivative: row, component, direction, node
     real(dp), intent(out) :: measure                  !< length or area of the vectors now; without one the rest is zero
-    real(dp) :: gram(2, 2), inverse(2, 2), determinant, share(2), line(3), normal(3), unit(3), length, slope(3, 3)
+    real(dp) :: shares(2, 2), second(3), line(3), normal(3), unit(3), length, slope(3, 3)
     integer :: i, q
 
     turned = 0.0_dp
@@ -102,10 +103,9 @@ contains
     measure = norm2(normal)
     if (.not. measure > 0.0_dp) return
     normal = normal/measure
-    gram = matmul(transpose(start), start)
-    call invert(2, gram, inverse, determinant)
-    share = matmul(inverse, matmul(frame(1, :), start))
-    line = matmul(now, share)
+    shares = shares_of_axes(start, frame)
+    second = matmul(now, shares(:, 2))
+    line = matmul(now, shares(:, 1)) + cross(second, normal)
     length = norm2(line)
     line = line/length
     turned(1, :) = line
@@ -117,13 +117,26 @@ contains
         unit(i) = 1.0_dp
         slope(2, :) = (by_node(q, 1)*cross(unit, now(:, 2)) + by_node(q, 2)*cross(now(:, 1), unit))/measure
         slope(2, :) = slope(2, :) - dot_product(slope(2, :), normal)*normal
-        slope(1, :) = (dot_product(share, by_node(q, :))/length)*unit
+        slope(1, :) = (dot_product(shares(:, 1), by_node(q, :))*unit &
+          + dot_product(shares(:, 2), by_node(q, :))*cross(unit, normal) + cross(second, slope(2, :)))/length
         slope(1, :) = slope(1, :) - dot_product(slope(1, :), line)*line
         slope(3, :) = cross(slope(2, :), line) + cross(normal, slope(1, :))
         turning(:, :, i, q) = slope
       end do
     end do
   end subroutine turned_frame
+
+  !> Shares of two vectors in a surface in its axes s and t, a column each.
+  pure function shares_of_axes(start, frame) result(shares)
+    real(dp), intent(in) :: start(3, 2)     !< the vectors
+    real(dp), intent(in) :: frame(3, 3)     !< rows s, n and t
+    real(dp) :: shares(2, 2)
+    real(dp) :: gram(2, 2), inverse(2, 2), determinant
+
+    gram = matmul(transpose(start), start)
+    call invert(2, gram, inverse, determinant)
+    shares = matmul(inverse, matmul(transpose(start), transpose(frame([1, 3], :))))
+  end function shares_of_axes
 
   !> Second derivative, by the nodes, of the sum of moments*F over the entries of the frame F of `turned_frame`.
   pure function frame_curvature(dim, nodes, start, now, frame, by_node, turned, turning, moments) result(curvature)
@@ -132,9 +145,10 @@ contains
     real(dp), intent(in) :: turned(3, 3), turning(3, dim, dim*nodes)   !< its results; the nodes one after the other
     real(dp), intent(in) :: moments(3, 3)            !< row of the frame, component
     real(dp) :: curvature(dim*nodes, dim*nodes)
-    real(dp) :: plane(3, 2), gram(2, 2), inverse(2, 2), determinant, share(2), length, measure, rest(3)
+    real(dp) :: plane(3, 2), shares(2, 2), second_by_node(nodes), length, measure
+    real(dp), dimension(3) :: line, normal, second, along, across, rest, change
     real(dp), dimension(dim*nodes) :: stretch, stretch_of_normal
-    real(dp), dimension(3, dim*nodes) :: of_line, of_normal
+    real(dp), dimension(3, dim*nodes) :: of_line, of_normal, crossed
     integer :: i, j, q, p, row, column
 
     of_line = 0.0_dp
@@ -150,29 +164,42 @@ contains
     end if
     of_normal = turning(2, :, :)
     plane = now
-    gram = matmul(transpose(start), start)
-    call invert(2, gram, inverse, determinant)
-    share = matmul(inverse, matmul(frame(1, :), start))
-    length = norm2(matmul(plane, share))
+    line = turned(1, :)
+    normal = turned(2, :)
+    shares = shares_of_axes(start, frame)
+    second = matmul(plane, shares(:, 2))
+    second_by_node = matmul(by_node, shares(:, 2))
+    length = norm2(matmul(plane, shares(:, 1)) + cross(second, normal))
     measure = norm2(cross(plane(:, 1), plane(:, 2)))
     do q = 1, nodes
-      stretch(3*q - 2:3*q) = (dot_product(share, by_node(q, :))/length)*turned(1, :)
-      stretch_of_normal(3*q - 2:3*q) = (by_node(q, 1)*cross(plane(:, 2), turned(2, :)) &
-        + by_node(q, 2)*cross(turned(2, :), plane(:, 1)))/measure
+      do i = 1, 3
+        row = 3*(q - 1) + i
+        change = second_by_node(q)*cross(unit_vector(i), normal) + cross(second, of_normal(:, row))
+        change(i) = change(i) + dot_product(shares(:, 1), by_node(q, :))
+        stretch(row) = dot_product(line, change)/length
+      end do
+      stretch_of_normal(3*q - 2:3*q) = (by_node(q, 1)*cross(plane(:, 2), normal) + by_node(q, 2)*cross(normal, plane(:, 1))) &
+        /measure
     end do
-    ! the third row is the cross product of normal and line
-    rest = moments(2, :) + cross(turned(1, :), moments(3, :))
-    curvature = unit_curvature(turned(1, :), of_line, stretch, moments(1, :) + cross(moments(3, :), turned(2, :))) &
-      + unit_curvature(turned(2, :), of_normal, stretch_of_normal, rest)
-    rest = (rest - dot_product(rest, turned(2, :))*turned(2, :))/measure
+    ! the third row is the cross product of normal and line; `across` works on the second derivative of p1 + p2 x n
+    along = moments(1, :) + cross(moments(3, :), normal)
+    across = (along - dot_product(along, line)*line)/length
+    rest = moments(2, :) + cross(line, moments(3, :)) + cross(across, second)
+    curvature = unit_curvature(line, of_line, stretch, along) + unit_curvature(normal, of_normal, stretch_of_normal, rest)
+    rest = (rest - dot_product(rest, normal)*normal)/measure
+    do column = 1, 3*nodes
+      crossed(:, column) = cross(of_line(:, column), moments(3, :))
+    end do
     do column = 1, 3*nodes
       p = (column + 2)/3
       j = column - 3*(p - 1)
       do row = 1, 3*nodes
         q = (row + 2)/3
         i = row - 3*(q - 1)
-        curvature(row, column) = curvature(row, column) &
-          + dot_product(moments(3, :), cross(of_normal(:, row), of_line(:, column)) + cross(of_normal(:, column), of_line(:, row)))
+        curvature(row, column) = curvature(row, column) + dot_product(of_normal(:, row), crossed(:, column)) &
+          + dot_product(of_normal(:, column), crossed(:, row)) &
+          + dot_product(across, second_by_node(q)*cross(unit_vector(i), of_normal(:, column)) &
+          + second_by_node(p)*cross(unit_vector(j), of_normal(:, row)))
         if (i == j) cycle
         ! unit vectors i and j have the third one, or its opposite, as their cross product
         curvature(row, column) = curvature(row, column) + (by_node(q, 1)*by_node(p, 2) - by_node(p, 1)*by_node(q, 2)) &
@@ -181,7 +208,16 @@ contains
     end do
   end function frame_curvature
 
-  !> Second derivative of force.unit, where unit = L/|L| and L is linear in some unknowns.
+  !> Unit vector along a global axis.
+  pure function unit_vector(axis) result(vector)
+    integer, intent(in) :: axis
+    real(dp) :: vector(3)
+
+    vector = 0.0_dp
+    vector(axis) = 1.0_dp
+  end function unit_vector
+
+  !> Second derivative of force.unit, where unit = L/|L|, less that of L itself.
   pure function unit_curvature(unit, turning, stretch, force) result(curvature)
     real(dp), intent(in) :: unit(3)
     real(dp), intent(in) :: turning(:, :)   !< (3, unknowns) derivative of unit
