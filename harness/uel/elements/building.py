@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the builders of blocks share: what they build from, and blocks whose unknowns are dofs of their nodes."""
+"""Parts that builders of blocks share: their sources, and blocks whose unknowns are dofs of their nodes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from uel.usersub import Library
 
 @dataclass(frozen=True, slots=True)
 class Building:
-    """What blocks are built from.
+    """Sources of a block.
 
     model    the whole deck
     library  the loaded user routines

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a block does about mistakes of its elements: errors, or warnings after which the run goes on."""
+"""Answers of a block to mistakes of its elements: errors, or warnings after which the run goes on."""
 
 from __future__ import annotations
 

@@ -65,7 +65,7 @@ from uel.model.steps import Step
 
 
 class Feature(StrEnum):
-    """What a section or the start of the analysis may have; values are its name in messages and in the manual."""
+    """Options of a section or of the start of an analysis; values are their names in messages and in the manual."""
 
     VARYING = "*ORIENTATION with directions that differ from point to point"
     ORIENT = "*ORIENTATION, SYSTEM=USER"
@@ -361,7 +361,7 @@ FORMULATIONS: Final[Mapping[Formulation, Support]] = {
         features=frozenset({Feature.SDVINI}),
     ),
 }
-"""What elements of each formulation support."""
+"""Support of each formulation."""
 
 _STEPS: Final = tuple(
     Step(1, "", procedure, Source("", 0))

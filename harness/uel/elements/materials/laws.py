@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a material may have, in the words of the deck: rows of the table of formulations."""
+"""Parts of a material in the words of the deck: rows of the table of formulations."""
 
 from __future__ import annotations
 
