@@ -7,8 +7,8 @@
 !> from 1 to 2 in the plane, and otherwise the projection of the global 1-axis on the mid-surface (of the 3-axis where the 1-axis is
 !> within 0.1 degrees of the normal), t = n x s.
 !>
-!> With large displacements the frame goes with the mid-surface of the present shape, s with the material line that it was at
-!> the start; separations are those of the present positions in this frame, less those at the start, and tractions are per
+!> With large displacements the frame turns with the mid-surface of the present shape, by the rotation of the polar decomposition of
+!> its deformation; separations are those of the present positions in this frame, less those at the start, and tractions are per
 !> initial area.
 !>
 !> Mass per area is density times constitutive thickness, by halves at the two nodes of each point (Analysis User's Guide, Defining
