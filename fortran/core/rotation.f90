@@ -68,9 +68,9 @@ contains
     axes(3, :) = frame(2, :)
   end function ply_axes
 
-  !> Frame of a line or surface that has moved, and its derivative by the nodes that it depends on. In the surface the frame turns by
-  !> the rotation of the polar decomposition of its deformation, whatever direction s has: with the images p1 and p2 of s and t, s is
-  !> along p1 + p2 x n.
+  !> Frame of a line or surface that has moved, and its derivative by the nodes that it depends on. In the surface the frame
+  !> turns by the rotation of the polar decomposition of its deformation, whatever direction s has: with the images p1 and p2
+  !> of s and t, s is along p1 + p2 x n.
   pure subroutine turned_frame(dim, nodes, start, now, frame, by_node, turned, turning, measure)
     integer, intent(in) :: dim, nodes
     real(dp), intent(in) :: start(dim, dim - 1)       !< vectors in it at the start
