@@ -13,7 +13,7 @@ import numpy as np
 from uel.assembly.contributors import Contributors
 from uel.assembly.evaluation import Evaluation
 from uel.assembly.system import System
-from uel.elements import BlockReport, Call, Contributor, ElementBlock, Motion, Request
+from uel.elements import BlockReport, Call, Contributor, CurrentPass, ElementBlock, Request
 from uel.elements.linear_forces import has_forces_of, largest_deviation
 from uel.errors import ElementError
 from uel.model.arrays import FloatArray
@@ -98,17 +98,9 @@ class LinearShortcut(System):
             self._last = evaluation
         return evaluation
 
-    def _contribute(
-        self,
-        call: Call,
-        u: FloatArray,
-        du: FloatArray,
-        columns: FloatArray,
-        data: FloatArray | None,
-        motion: Motion | None,
-    ) -> list[BlockReport]:
+    def _contribute(self, now: CurrentPass) -> list[BlockReport]:
         """Run one pass, with the matrices in place of linear elements if they are known and apply to it."""
-        applies = self._applies(call, motion, len(columns))
+        call, data, applies = now.call, now.data, self._applies(now)
         spared = applies and self._known
         if not spared:
             self._bring_up()
@@ -118,27 +110,26 @@ class LinearShortcut(System):
         for block in self.blocks:
             matrices = self._matrices.get(block)
             if spared and matrices is not None:
-                report = block.linear_pass(matrices, call, u, columns[0])
+                report = block.linear_pass(matrices, call, now.u, now.columns[0])
             elif applies and data is not None and block in self._matrices:
-                report = self._learn(block, call, u, du, columns[0], data)
+                report = self._learn(block, now)
             else:
-                report = block.contribute(call, u, du, columns, data, motion)
+                report = block.contribute(now)
             reports.append(report)
-        others = self.contributors.others
-        reports += [contributor.contribute(call, u, du, columns, data, motion) for contributor in others]
+        reports += [contributor.contribute(now) for contributor in self.contributors.others]
         if call.flags.request is Request.NORMAL:
-            self._behind = Behind(call, u.copy(), du.copy()) if spared else None
+            self._behind = Behind(call, now.u.copy(), now.du.copy()) if spared else None
         return reports
 
-    def _applies(self, call: Call, motion: Motion | None, nrhs: int) -> bool:
+    def _applies(self, now: CurrentPass) -> bool:
         """Return whether a pass may use the matrices in place of the elements, once they are known."""
-        flags = call.flags
+        call, flags = now.call, now.call.flags
         return (
             bool(self._matrices)
             and flags.procedure in STATIC
             and not (flags.nlgeom or flags.linear)
-            and flags.request in (Request.NORMAL, Request.RESIDUAL)
-            and (motion is None and nrhs == 1 and call.predefined is None)
+            and now.has_forces
+            and (now.motion is None and len(now.columns) == 1 and call.predefined is None)
             and not any(block.is_loaded(call.distributed) for block in self._matrices)
         )
 
@@ -147,14 +138,12 @@ class LinearShortcut(System):
         """Whether all matrices are known."""
         return all(matrices is not None for matrices in self._matrices.values())
 
-    def _learn(
-        self, block: ElementBlock, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, data: FloatArray
-    ) -> BlockReport:
-        """Run a normal pass over a block, and keep its matrices if its forces are linear;
-        arguments and result as in `ElementBlock.evaluate`.
-        """
-        report, matrices = block.evaluate_apart(call, u, du, residual)
-        block.add_matrices(matrices, data)
+    def _learn(self, block: ElementBlock, now: CurrentPass) -> BlockReport:
+        """Run a normal pass over a block, and keep its matrices if its forces are linear."""
+        call = now.call
+        report, matrices = block.evaluate_apart(call, now.u, now.du, now.columns[0])
+        if now.data is not None:
+            block.add_matrices(matrices, now.data)
         if self._matrices[block] is not None:
             return report
         # the user's elements are not called again: they are verified at the end of each increment
@@ -236,11 +225,10 @@ class LinearShortcut(System):
         """Compute the matrices in the state at the end of an increment, if the system had them when `saved` was kept
         and they apply to the call; states stay. Raises KernelError.
         """
-        if not (saved["linear"] and self._applies(call, None, 1)):
-            return
-        for block in list(self._matrices):
-            zero = np.zeros_like(u)
-            self._learn(block, call, u, zero, zero.copy(), np.zeros_like(self._known_data))
+        now = CurrentPass(call, u, np.zeros_like(u), np.zeros((1, len(u))), None)
+        if saved["linear"] and self._applies(now):
+            for block in list(self._matrices):
+                self._learn(block, now)
 
 
 def _verify(block: ElementBlock, matrices: FloatArray, behind: Behind, called: FloatArray) -> None:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import TypeVar
 
@@ -18,7 +19,7 @@ from uel.assembly.element_states import States
 from uel.assembly.evaluation import Evaluation
 from uel.assembly.sharing import Sharing
 from uel.contact import nodal_fields
-from uel.elements import BlockReport, Call, Contributor, Motion, Request
+from uel.elements import BlockReport, Call, Contributor, CurrentPass, Motion, Request
 from uel.model.arrays import ComplexArray, FloatArray
 from uel.model.mesh import Mesh
 from uel.model.model import Equation, Model
@@ -132,34 +133,23 @@ class System:
         CallLimitError
             A call does not return within its limit.
         """
-        own = partial(self._evaluate_own, call, u, du, matrix=matrix, nrhs=nrhs, motion=motion)
-        return self.sharing.evaluate(own, len(self), nrhs)
+        now = CurrentPass(call, u, du, np.zeros((nrhs, len(self))), self._data if matrix else None, motion)
+        return self.sharing.evaluate(partial(self._evaluate_own, now), len(self), nrhs)
 
-    def _evaluate_own(
-        self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool, nrhs: int, motion: Motion | None
-    ) -> Evaluation:
-        """Sum over the elements of this rank; arguments and errors as in `evaluate`."""
-        columns = np.zeros((nrhs, len(self.dofs)))
-        tracked = [contributor.track(call, u, du, matrix=matrix) for contributor in self.contributors]
+    def _evaluate_own(self, now: CurrentPass) -> Evaluation:
+        """Sum over the contributors of this rank; errors as in `evaluate`."""
+        tracked = [contributor.track(now) for contributor in self.contributors]
         if not all(tracked):
             self._bind()
-        data = self._data if matrix else None
-        if data is not None:
-            data.fill(0.0)
-        reports = self._contribute(call, u, du, columns, data, motion)
-        return Evaluation.of([*call.load_terms, *reports], columns, data)
+            now = replace(now, data=self._data)
+        if now.data is not None:
+            now.data.fill(0.0)
+        reports = self._contribute(now)
+        return Evaluation.of([*now.call.load_terms, *reports], now.columns, now.data)
 
-    def _contribute(
-        self,
-        call: Call,
-        u: FloatArray,
-        du: FloatArray,
-        columns: FloatArray,
-        data: FloatArray | None,
-        motion: Motion | None,
-    ) -> list[BlockReport]:
-        """Run one pass over all contributors; arguments as in `Contributor.contribute`, data is zero."""
-        return [contributor.contribute(call, u, du, columns, data, motion) for contributor in self.contributors]
+    def _contribute(self, now: CurrentPass) -> list[BlockReport]:
+        """Run one pass, whose matrix is zero so far, over all contributors."""
+        return [contributor.contribute(now) for contributor in self.contributors]
 
     def artificial_mass(self, call: Call) -> FloatArray:
         """Return the mass of the built-in elements that have an artificial one, for unit density.

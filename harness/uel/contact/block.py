@@ -20,8 +20,7 @@ from uel.contact.finite_sliding import FiniteSliding
 from uel.contact.friction import Friction
 from uel.contact.kinematics import Clearances, Motion, Slips, SmallSliding
 from uel.contact.surface_finite_sliding import SurfaceSliding
-from uel.elements.call import NOTHING, BlockReport, Call
-from uel.elements.call import Motion as NodalMotion
+from uel.elements.call import NOTHING, BlockReport, Call, CurrentPass
 from uel.elements.contributor import Contributor, Find
 from uel.elements.lflags import Request
 from uel.elements.multipliers import scale_of_multipliers
@@ -94,25 +93,20 @@ class ContactBlock(Contributor):
         self._find, self._multipliers = find, equations[:, -1]
         self._equations = self._equations_of(self.rows, self._motion.nodes)
 
-    def track(self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool) -> bool:
+    def track(self, now: CurrentPass) -> bool:
         """Find, before a pass, the point of the main surface opposite each contact point. Return whether the matrix has
         entries for them, if it is wanted.
-
-        Parameters
-        ----------
-        call, u, du, matrix
-            As in `System.evaluate`.
         """
         assert self._find is not None
-        if call.flags.request not in (Request.NORMAL, Request.RESIDUAL):
+        if not now.has_forces:
             return True
         nodes = self._motion.nodes
-        self._motion.track(u, du, self._find, first=call.iteration == 0)
+        self._motion.track(now.u, now.du, self._find, first=now.call.iteration == 0)
         if self._motion.nodes is not nodes:
             self._equations = self._equations_of(self.rows, self._motion.nodes)
             if self._motion.known:
                 self.locate(*self._pattern)
-        if self._motion.known or not matrix:
+        if self._motion.known or now.data is None:
             return True
         self._motion.reach()
         return False
@@ -133,52 +127,29 @@ class ContactBlock(Contributor):
         own = np.concatenate([self._equations[:, : self.pair.dimension], self._equations[:, -1:]], axis=1)
         self._own_places = _binding.scatter_map(own, indptr, indices)
 
-    def contribute(
-        self,
-        call: Call,
-        u: FloatArray,
-        du: FloatArray,
-        columns: FloatArray,
-        data: FloatArray | None,
-        motion: NodalMotion | None = None,
-    ) -> BlockReport:
-        """Run one pass, see `evaluate`, and report its changes and the energies of bonds."""
-        del motion
-        self.evaluate(call, u, du, columns[0], data)
+    def contribute(self, now: CurrentPass) -> BlockReport:
+        """Run one pass, and report its changes and the energies of bonds."""
+        if now.has_forces and len(self.rows):
+            self._respond(now)
         energy, damage = (np.zeros(8), 0.0) if self._bonds is None else self._bonds.energies
         return NOTHING._replace(energy=energy, damage=damage, contact=self._changes())
 
-    def evaluate(
-        self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, data: FloatArray | None
-    ) -> None:
-        """Run one pass: add the contact forces to residual and their derivatives to the matrix.
+    def _respond(self, now: CurrentPass) -> None:
+        """Add the contact forces and their derivatives.
 
         The status of the points changes in passes that follow a solve, but never twice in an iteration: it depends on
         the status at the end of the one before.
-
-        Parameters
-        ----------
-        call
-            Of the pass; those that ask for mass or damping do nothing.
-        u, du
-            (n,) estimate of the end of the increment, and the increment.
-        residual
-            (n,), changed in place.
-        data
-            (nnz,) CSR values that hold the matrices of all elements, changed in place; None: no matrix is wanted.
         """
-        request = call.flags.request
-        if request not in (Request.NORMAL, Request.RESIDUAL) or not len(self.rows):
-            return
+        call, residual, data = now.call, now.columns[0], now.data
         if data is not None and not self._scale:
             self._scale = scale_of_multipliers(data, self._own_places, self.pair.dimension)
         count = self._equations.shape[1] - self.direct
-        moved, change = u[self._equations[:, :count]], du[self._equations[:, :count]]
+        moved, change = now.u[self._equations[:, :count]], now.du[self._equations[:, :count]]
         found = self._motion.clearances(moved, nlgeom=call.flags.nlgeom)
         clearance, before = found.value, self._status_before(call)
         small = ROUNDING * float(np.abs(moved).max()) + 8.0 * found.rounding
         if self.direct:
-            multiplier = u[self._equations[:, count]] * self._scale
+            multiplier = now.u[self._equations[:, count]] * self._scale
             closed = self._closed(before, clearance, multiplier, small)
         else:
             multiplier, self._stiffness = self._penalty(clearance)
@@ -198,7 +169,7 @@ class ContactBlock(Contributor):
             bonding = self._bonds.respond(call.time_increment, clearance, since, self._motion.areas, pulled)
             self._add_bonds(residual, data, found, bonding)
             normal, shear = normal - bonding.normal, shear + bonding.shear
-        if request is Request.NORMAL:
+        if call.flags.request is Request.NORMAL:
             after = np.where(closed, np.where(friction.slips, SLIPPING, STICKING), OPEN)
             self._status_trial = before if call.iteration == 0 else after
             self._slip_trial, self._force = friction.elastic, multiplier

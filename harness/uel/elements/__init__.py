@@ -4,7 +4,7 @@
 
 from uel.elements.block import ElementBlock
 from uel.elements.build import build_blocks
-from uel.elements.call import BlockReport, Call, Distributed, Motion, Predefined
+from uel.elements.call import BlockReport, Call, CurrentPass, Distributed, Motion, Predefined
 from uel.elements.contributor import Contributor
 from uel.elements.distributing import DistributingBlock
 from uel.elements.fields import FIELD_NAMES, REFERENCE, VOLUME, field_of
@@ -21,6 +21,7 @@ __all__ = [
     "BlockReport",
     "Call",
     "Contributor",
+    "CurrentPass",
     "Damping",
     "Distributed",
     "DistributingBlock",

@@ -10,8 +10,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uel.elements.call import NOTHING, BlockReport, Call, Distributed, Motion
-from uel.elements.contributor import Contributor, Find
+from uel.elements.call import NOTHING, BlockReport, Call, CurrentPass, Distributed, Motion
+from uel.elements.contributor import Contributor
 from uel.elements.driver_arrays import NO_LOADS, fields_of, loads_of
 from uel.elements.fields import FIELD_NAMES, field_of
 from uel.elements.finite_values import Watch
@@ -195,18 +195,9 @@ class ElementBlock(Contributor):
         if self._uvar is not None:
             self._uvar.keep(rows)
 
-    def number(self, find: Find, equations: NDArray[np.int32]) -> None:
-        """Set the numbers of the unknowns; arguments as in `Contributor.number`."""
-        del find
-        self._numbers = equations
-
-    def couplings(self) -> NDArray[np.int32]:
-        """Return the numbers (m, unknowns) of the unknowns of each element."""
-        return self._numbers
-
     def locate(self, indptr: NDArray[np.int32], indices: NDArray[np.int32]) -> None:
         """Locate the entries of the element matrices in a CSR pattern."""
-        self.bind(self._numbers, _binding.scatter_map(self._numbers, indptr, indices))
+        self.bind(self._equations, _binding.scatter_map(self._equations, indptr, indices))
 
     def bind(self, equations: NDArray[np.int32], scatter: NDArray[np.int32]) -> None:
         """Bind the block to the unknowns of the system.
@@ -264,18 +255,10 @@ class ElementBlock(Contributor):
             getattr(part._arrays, name)[:] = getattr(self._arrays, name)[places]
         return part
 
-    def contribute(
-        self,
-        call: Call,
-        u: FloatArray,
-        du: FloatArray,
-        columns: FloatArray,
-        data: FloatArray | None,
-        motion: Motion | None,
-    ) -> BlockReport:
+    def contribute(self, now: CurrentPass) -> BlockReport:
         """Run one pass; in a linear step without RHS of built-in elements, whose loads are added elsewhere."""
-        added = columns if self.group.definition or not call.flags.linear else np.zeros_like(columns)
-        return self.evaluate(call, u, du, added, data, motion)
+        added = now.columns if self.group.definition or not now.call.flags.linear else np.zeros_like(now.columns)
+        return self.evaluate(now.call, now.u, now.du, added, now.data, now.motion)
 
     def evaluate(
         self,

@@ -122,6 +122,30 @@ class Motion:
         return Motion(self.velocity[unknowns], self.acceleration[unknowns])
 
 
+@dataclass(frozen=True, slots=True)
+class CurrentPass:
+    """The pass that is made: its arguments, and the arrays to which contributors add.
+
+    call     arguments common to all elements
+    u, du    (n,) estimate of the end of the increment, and the increment; both include prescribed values
+    columns  (NRHS, n) residuals: external minus internal force, and increments of loads
+    data     (nnz,) CSR values, which hold the matrices of the contributors so far; None: no matrix is wanted
+    motion   V and A of all unknowns; None: the model is at rest
+    """
+
+    call: Call
+    u: FloatArray
+    du: FloatArray
+    columns: FloatArray
+    data: FloatArray | None
+    motion: Motion | None = None
+
+    @property
+    def has_forces(self) -> bool:
+        """Whether it asks for forces: not for a mass, a damping or an initial stress matrix alone."""
+        return self.call.flags.request in (Request.NORMAL, Request.RESIDUAL)
+
+
 class BlockReport(NamedTuple):
     """Sums of one pass over one block; a tuple as `Outcome` is.
 

@@ -10,8 +10,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from uel.elements.call import BlockReport, Call, Motion
-from uel.model.arrays import FloatArray, IntArray
+from uel.elements.call import BlockReport, CurrentPass
+from uel.model.arrays import IntArray
 from uel.model.restart import Saved
 
 Find = Callable[[IntArray, IntArray | int], IntArray]
@@ -31,6 +31,7 @@ class Contributor(ABC):
     unknowns: tuple[tuple[int, int], ...]
     first: int
     rows: IntArray
+    _equations: NDArray[np.int32]
 
     @property
     @abstractmethod
@@ -47,7 +48,6 @@ class Contributor(ABC):
         """Index of the node that REFERENCE stands for, -1 without one."""
         return -1
 
-    @abstractmethod
     def number(self, find: Find, equations: NDArray[np.int32]) -> None:
         """Set the numbers of the unknowns in the system, from 0.
 
@@ -58,41 +58,25 @@ class Contributor(ABC):
         equations
             (m, unknowns) numbers of those of the items.
         """
+        del find
+        self._equations = equations
 
-    @abstractmethod
     def couplings(self) -> NDArray[np.int32]:
         """Return (r, k) numbers of the unknowns that have common entries in the matrix, row by row."""
+        return self._equations
 
     @abstractmethod
     def locate(self, indptr: NDArray[np.int32], indices: NDArray[np.int32]) -> None:
         """Locate the entries of `couplings` in a CSR pattern that has them."""
 
-    def track(self, call: Call, u: FloatArray, du: FloatArray, *, matrix: bool) -> bool:
-        """Prepare for a pass; arguments as in `System.evaluate`. Return whether the pattern has its `couplings`."""
-        del call, u, du, matrix
+    def track(self, now: CurrentPass) -> bool:
+        """Prepare for a pass. Return whether the pattern has its `couplings`, if a matrix is wanted."""
+        del now
         return True
 
     @abstractmethod
-    def contribute(
-        self,
-        call: Call,
-        u: FloatArray,
-        du: FloatArray,
-        columns: FloatArray,
-        data: FloatArray | None,
-        motion: Motion | None,
-    ) -> BlockReport:
-        """Add forces and matrices to the system in one pass; the state it leads to is kept for `commit`.
-
-        Parameters
-        ----------
-        call, u, du, motion
-            As in `System.evaluate`.
-        columns
-            (NRHS, n) residuals, changed in place: external minus internal force, and increments of loads.
-        data
-            (nnz,) CSR values, changed in place, which hold the matrices of the contributors before this one; None: no
-            matrix is wanted.
+    def contribute(self, now: CurrentPass) -> BlockReport:
+        """Add forces and matrices to the arrays of a pass; the state it leads to is kept for `commit`.
 
         Returns
         -------

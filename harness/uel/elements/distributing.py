@@ -21,8 +21,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from uel.elements.call import NOTHING, BlockReport, Call, Motion
-from uel.elements.contributor import Contributor, Find
+from uel.elements.call import NOTHING, BlockReport, CurrentPass
+from uel.elements.contributor import Contributor
 from uel.elements.lflags import Request
 from uel.elements.multipliers import scale_of_multipliers
 from uel.elements.rotations import PERMUTATION, cross_matrices, rotation_matrices, spin_matrices
@@ -79,65 +79,45 @@ class DistributingBlock(Contributor):
         """Names (m,) of the reference nodes."""
         return [self._mesh.name(node) for node in self._nodes[:, 1].tolist()]
 
-    def number(self, find: Find, equations: NDArray[np.int32]) -> None:
-        """Set the numbers (m, unknowns) of the unknowns of the pairs."""
-        del find
-        self._equations = equations
-
-    def couplings(self) -> NDArray[np.int32]:
-        """Return the numbers (m, unknowns) of the unknowns of the pairs."""
-        return self._equations
-
     def locate(self, indptr: NDArray[np.int32], indices: NDArray[np.int32]) -> None:
         """Locate the matrices of the pairs in a CSR pattern."""
         self._scatter = _binding.scatter_map(self._equations, indptr, indices)
 
-    def contribute(
-        self,
-        call: Call,
-        u: FloatArray,
-        du: FloatArray,
-        columns: FloatArray,
-        data: FloatArray | None,
-        motion: Motion | None,
-    ) -> BlockReport:
-        """Run one pass, see `evaluate`, and report the errors of the couplings."""
-        del motion
-        self.evaluate(call, u, du, columns[0], data)
+    def contribute(self, now: CurrentPass) -> BlockReport:
+        """Run one pass, and report the errors of the couplings."""
+        if now.has_forces:
+            self._add(now)
         return NOTHING._replace(coupling=self._last)
 
-    def evaluate(
-        self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray, data: FloatArray | None
-    ) -> None:
-        """Add the forces (n,) of the couplings and their derivatives (nnz,); nothing if neither is asked for."""
-        if call.flags.request not in (Request.NORMAL, Request.RESIDUAL):
-            return
+    def _add(self, now: CurrentPass) -> None:
+        """Add the forces of the couplings and their derivatives."""
+        call, data = now.call, now.data
         if data is not None and not self._scale:
             self._scale = scale_of_multipliers(data, self._scatter, self._dimension)
-        now, change = (self._values(values) for values in (u, du))
+        end, change = (self._values(values) for values in (now.u, now.du))
         nlgeom, apart = call.flags.nlgeom, self._apart
-        turned, by_turn = _increment(now[self._starts, _TURN], change[self._starts, _TURN], nlgeom=nlgeom)
+        turned, by_turn = _increment(end[self._starts, _TURN], change[self._starts, _TURN], nlgeom=nlgeom)
         turned, by_turn = turned[self.rows], by_turn[self.rows]
         moved = change[:, _OWN] - change[:, _FAR]
         middle = apart
         if nlgeom:
-            apart = apart + now[:, _OWN] - now[:, _FAR]
+            apart = apart + end[:, _OWN] - end[:, _FAR]
             middle = apart - 0.5 * moved
         missing = moved - np.cross(turned, middle)
         length = self._length[self.rows][:, None]
         share = self._scale * self._weights
-        force = share * (now[:, _A] + np.cross(now[:, _B], apart) / length)
+        force = share * (end[:, _A] + np.cross(end[:, _B], apart) / length)
         rows = np.concatenate(
             [force, -force, -np.cross(apart, force), share * missing, share * np.cross(middle, missing) / length],
             axis=1,
         )
-        np.add.at(residual, self._equations, rows[:, self._chosen])
+        np.add.at(now.columns[0], self._equations, rows[:, self._chosen])
         if call.flags.request is Request.NORMAL:
             self._last = self._errors(middle, missing)
         if data is None:
             return
         share, length = share[:, None], length[:, None]
-        at, between, along = (cross_matrices(vectors) for vectors in (apart, middle, now[:, _B]))
+        at, between, along = (cross_matrices(vectors) for vectors in (apart, middle, end[:, _B]))
         force_by = np.zeros((len(rows), 3, _COUNT))
         force_by[:, :, _A], force_by[:, :, _B] = share * np.eye(3), -share * at / length
         missing_by = np.zeros_like(force_by)

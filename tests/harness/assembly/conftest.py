@@ -36,23 +36,17 @@ class LinearBlock(Contributor):
     def nodes(self):
         return self.group.nodes
 
-    def number(self, find, equations):
-        self.equations = equations
-
-    def couplings(self):
-        return self.equations
-
     def locate(self, indptr, indices):
-        self.scatter = scatter_map(self.equations, indptr, indices)
+        self.scatter = scatter_map(self.couplings(), indptr, indices)
 
-    def contribute(self, call, u, du, columns, data, motion):
-        forces = -np.einsum("eij,ej->ei", self.matrices, u[self.equations])
-        np.add.at(columns[0], self.equations, forces)
-        if data is not None:
-            np.add.at(data, self.scatter, self.matrices)
+    def contribute(self, now):
+        forces = -np.einsum("eij,ej->ei", self.matrices, now.u[self.couplings()])
+        np.add.at(now.columns[0], self.couplings(), forces)
+        if now.data is not None:
+            np.add.at(now.data, self.scatter, self.matrices)
         flux, count = np.zeros(len(FIELD_NAMES)), np.zeros(len(FIELD_NAMES), dtype=np.int64)
         flux[0], count[0] = np.abs(forces).sum(), forces.size
-        return BlockReport(flux, count, 0.5 + 0.1 * len(self.equations), np.arange(8.0))
+        return BlockReport(flux, count, 0.5 + 0.1 * len(self.rows), np.arange(8.0))
 
     def commit(self):
         self.commits += 1

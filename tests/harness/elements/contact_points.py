@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from uel.contact import ContactBlock
-from uel.elements import Flags, Request
+from uel.elements import CurrentPass, Flags, Request
 from uel.errors import Source
 from uel.model.mesh import ElementGroup, Mesh
 from uel.model.model import Model
@@ -44,20 +44,21 @@ class Points:
 
     def evaluate(self, call, u, du):
         """Residual and matrix of a pass."""
-        residual, data = np.zeros(len(u)), np.zeros(len(u) ** 2)
+        data = np.zeros(len(u) ** 2)
         data[:: len(u) + 1] = 7.0
-        if not self.block.track(call, u, du, matrix=True):
+        now = CurrentPass(call, u, du, np.zeros((1, len(u))), data)
+        if not self.block.track(now):
             self._bind()
-        self.block.evaluate(call, u, du, residual, data)
+        self.block.contribute(now)
         data[:: len(u) + 1] -= 7.0
-        return residual, data.reshape(len(u), len(u))
+        return now.columns[0], data.reshape(len(u), len(u))
 
     def forces(self, u, du):
         """Residual of a trial pass."""
-        residual, call = np.zeros(len(u)), self.second.asking(Request.RESIDUAL)
-        self.block.track(call, u, du, matrix=False)
-        self.block.evaluate(call, u, du, residual, None)
-        return residual
+        now = CurrentPass(self.second.asking(Request.RESIDUAL), u, du, np.zeros((1, len(u))), None)
+        self.block.track(now)
+        self.block.contribute(now)
+        return now.columns[0]
 
     def check_matrix(self, start, du):
         """The matrix by differences, after an increment to `start` that leaves an elastic slip; returns it."""

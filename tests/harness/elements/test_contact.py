@@ -14,7 +14,7 @@ from contact_decks import YOUNG, Box, plane, step, total, two_boxes
 from uel.contact import ContactBlock
 from uel.contact.block import OPEN, SLIPPING, STICKING
 from uel.deck import read_deck
-from uel.elements import Flags, Request
+from uel.elements import CurrentPass, Flags, Request
 from uel.errors import ConvergenceError, DeckError, Source, UsageError
 from uel.model.contact import Cohesion, ContactPair, ContactProperty
 from uel.model.damage import Damage, DamageEvolution
@@ -489,15 +489,15 @@ def test_matrix_by_differences(call, dimension, stiffness, friction, moved, nlge
         asked = second.asking(Request.RESIDUAL)
         matrix = np.zeros(n * n)
         matrix[:: n + 1] = 7.0
-        block.evaluate(first, 0 * u, 0 * u, np.zeros(n), matrix.copy())
+        block.contribute(CurrentPass(first, 0 * u, 0 * u, np.zeros((1, n)), matrix.copy()))
         given = matrix.copy()
-        block.evaluate(second, u, u, np.zeros(n), given)
+        block.contribute(CurrentPass(second, u, u, np.zeros((1, n)), given))
         found = (given - matrix).reshape(n, n)
 
         def forces(x, block=block, asked=asked):
-            residual = np.zeros(len(x))
-            block.evaluate(asked, x, x, residual, None)
-            return residual
+            now = CurrentPass(asked, x, x, np.zeros((1, len(x))), None)
+            block.contribute(now)
+            return now.columns[0]
 
         step_size = 1e-6 * moved
         wanted = np.stack(
@@ -520,12 +520,12 @@ def test_points_that_do_not_move_on_stick_after_an_increment_with_slip(call, dim
         first, second = (replace(call, iteration=k, flags=Flags(1, nlgeom)) for k in range(2))
         u = rng.normal(size=n)
         for at, change in ((first, 0 * u), (second, u)):
-            block.evaluate(at, change, change, np.zeros(n), np.zeros(n * n))
+            block.contribute(CurrentPass(at, change, change, np.zeros((1, n)), np.zeros(n * n)))
         block.commit()
         slipping = block.kept()["status"] == SLIPPING
         slipped += np.count_nonzero(slipping)
         for at in (first, second):
-            block.evaluate(at, u, 0 * u, np.zeros(n), np.zeros(n * n))
+            block.contribute(CurrentPass(at, u, 0 * u, np.zeros((1, n)), np.zeros(n * n)))
         block.commit()
         assert (block.kept()["status"][slipping] == STICKING).all()
     assert slipped > 30
@@ -567,17 +567,20 @@ def test_status_is_that_of_the_increment_until_it_is_committed(call):
     zero = np.zeros(n)
     data = np.zeros(n * n)
     data[:: n + 1] = 1.0
-    block.evaluate(replace(call, iteration=0), zero, zero, zero.copy(), data.copy())
+
+    def changes(iteration, u):
+        now = CurrentPass(replace(call, iteration=iteration), u, u, np.zeros((1, n)), data.copy())
+        return block.contribute(now).contact
+
+    changes(0, zero)
     np.testing.assert_array_equal(block.kept()["status"], [OPEN, STICKING])
     pulled = zero.copy()
     pulled[n - 1] = -1.0  # the multiplier of the second point: tension
-    changes = block.contribute(replace(call, iteration=1), pulled, pulled, np.zeros((1, n)), data.copy(), None).contact
-    assert changes.opened == 1
-    assert changes.force[0] == -1.0
-    assert not block.contribute(
-        replace(call, iteration=0), zero, zero, np.zeros((1, n)), data.copy(), None
-    ).contact.count
-    block.evaluate(replace(call, iteration=1), pulled, pulled, zero.copy(), data.copy())
+    opening = changes(1, pulled)
+    assert opening.opened == 1
+    assert opening.force[0] == -1.0
+    assert not changes(0, zero).count
+    changes(1, pulled)
     block.commit()
     kept = block.kept()
     np.testing.assert_array_equal(kept["status"], [OPEN, OPEN])

@@ -7,26 +7,18 @@ from __future__ import annotations
 from abc import abstractmethod
 
 from uel.elements.block import ElementBlock
-from uel.elements.call import NOTHING, BlockReport, Call, Distributed, Motion
-from uel.model.arrays import FloatArray
+from uel.elements.call import NOTHING, BlockReport, CurrentPass, Distributed
 
 
 class LoadBlock(ElementBlock):
     """Items under loads of one type, which are no elements of the model."""
 
-    def contribute(
-        self,
-        call: Call,
-        u: FloatArray,
-        du: FloatArray,
-        columns: FloatArray,
-        data: FloatArray | None,
-        motion: Motion | None,
-    ) -> BlockReport:
+    def contribute(self, now: CurrentPass) -> BlockReport:
         """Run one pass, if there are distributed loads."""
-        if call.distributed is None:
+        if now.call.distributed is None:
             return NOTHING
-        return self._as_terms(self.evaluate(call, u, du, columns, data, motion), call.distributed)
+        report = self.evaluate(now.call, now.u, now.du, now.columns, now.data, now.motion)
+        return self._as_terms(report, now.call.distributed)
 
     @abstractmethod
     def _as_terms(self, report: BlockReport, distributed: Distributed) -> BlockReport:
