@@ -244,6 +244,11 @@ class System:
         """Return contact variables (nodes,), see `uel.contact.nodal_fields`."""
         return nodal_fields(self.contributors.contacts, len(self.dofs.mesh.labels))
 
+    @property
+    def obstacle(self) -> str:
+        """Reason why states cannot be kept; '' if they can."""
+        return "several processes run the job" if self.ranks.size > 1 else ""
+
     def kept(self) -> Saved:
         """Return the committed states of all elements and of loads on their faces, not copied. Raises KernelError."""
         contributors = self.contributors

@@ -16,10 +16,10 @@ from uel.model.arrays import FloatArray, IntArray
 from uel.model.dofs import dof_in_deck
 from uel.model.user_values import UserValues
 from uel.procedures.general.convergence_checks import Checker, length_of_moments
-from uel.procedures.general.unconstrained import UnconstrainedSolver, tolerate
-from uel.procedures.step_setting import Setting, SolverTimes, choose_rank_solver, choose_solver, displaced_coordinates
-from uel.solver.linear import LinearSolver, RankSolver
-from uel.solver.newton import DependentLoads, Factoriser
+from uel.procedures.general.unconstrained import UnconstrainedSolver
+from uel.procedures.step_setting import Setting, SolverTimes, choose_solver, choose_step_solver, displaced_coordinates
+from uel.solver.linear import LinearSolver, StepSolver
+from uel.solver.newton import DependentLoads
 
 
 class StepContext:
@@ -35,7 +35,7 @@ class StepContext:
     """
 
     constraints: Constraints
-    solver: Factoriser
+    solver: StepSolver
 
     def __init__(self, setting: Setting, *, fallback: bool = False) -> None:
         """Take over the step's prescribed values and loads; symbolic work is repeated only if they differ.
@@ -63,8 +63,7 @@ class StepContext:
         self.checker = Checker(
             system.dofs, self.constraints, step.controls, state.flux, length, convert=step.convert_sdi
         )
-        if isinstance(self.solver, UnconstrainedSolver | RankSolver):
-            self.solver.negligible = self.checker.negligible_force
+        self.solver.negligible = self.checker.negligible_force
         self.start, self.step_time, self.increment = state.total_time, 0.0, 0
 
     def _constrain(self, setting: Setting, *, fallback: bool) -> None:
@@ -75,15 +74,14 @@ class StepContext:
         if constraints is None or solver is None or not constraints.matches(self.unknowns, equations, arms, start):
             arguments = self.system, self.unknowns, equations, state.boundaries.sources
             constraints = TurningConstraints(*arguments, arms, start) if arms else Constraints(*arguments)
-            chooser = choose_solver if self.system.ranks.size == 1 else choose_rank_solver
-            choose = partial(chooser, setting.solver.linear_solver, constraints, state.effort)
-            if isinstance(solver, RankSolver):
+            choose = partial(choose_step_solver, setting.solver.linear_solver, constraints, state.effort)
+            if solver is not None:
                 solver.release()
-            chosen = choose()
+            tolerant = partial(UnconstrainedSolver, renew=_renewing(setting, constraints))
             # the search handles a singular matrix itself
-            solver = chosen if fallback else tolerate(chosen, _renewing(setting, constraints))
-            self.advice = "" if isinstance(chosen, RankSolver) else chosen.advice
-            self.choice = f"LINEAR SOLVER {chosen.name.upper()}: {chosen.reason}"
+            solver = choose() if fallback else choose(tolerant)
+            self.advice = solver.advice
+            self.choice = f"LINEAR SOLVER {solver.name.upper()}: {solver.reason}"
             state.majoriser.use(self.system, constraints, choose)
         self.constraints, self.solver = constraints, solver
         state.use(constraints, solver)

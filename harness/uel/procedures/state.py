@@ -27,8 +27,8 @@ from uel.procedures.loads.nodal import Boundaries, Variation, fading_forces, ini
 from uel.procedures.loads.predefined_fields import Conditions, StepConditions
 from uel.procedures.loads.user_amplitudes import StepAmplitudes, UserAmplitudes
 from uel.solver.descent import Majoriser
-from uel.solver.linear import Effort
-from uel.solver.newton import Factoriser, Iterate
+from uel.solver.linear import Effort, StepSolver
+from uel.solver.newton import Iterate
 
 ARRAYS: Final = ("displacement", "reaction", "load", "external", "velocity", "acceleration", "unbalanced", "energy")
 _NUMBERS = ("total_time", "work", "damage", "stabilization")
@@ -90,7 +90,7 @@ class ConvergedState:
     acceleration: FloatArray
     unbalanced: FloatArray
     constraints: Constraints | None = None
-    solver: Factoriser | None = None
+    solver: StepSolver | None = None
     effort: Effort = field(default_factory=Effort)
     majoriser: Majoriser = field(default_factory=Majoriser)
     total_time: float = 0.0
@@ -137,7 +137,7 @@ class ConvergedState:
         self.unbalanced = np.zeros_like(self.unbalanced)
         return BegunActions(values, loads, conditions, amplitudes, released)
 
-    def use(self, constraints: Constraints, solver: Factoriser) -> None:
+    def use(self, constraints: Constraints, solver: StepSolver) -> None:
         """Take constraints and linear solver of the step that begins; the next one reuses them if its own are alike."""
         self.constraints, self.solver = constraints, solver
 

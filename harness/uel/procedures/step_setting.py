@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -18,7 +18,7 @@ from uel.model.steps import Step
 from uel.model.user_values import GivesValues
 from uel.procedures.linear.modes import Modes
 from uel.procedures.state import ConvergedState
-from uel.solver.linear import Effort, LinearSolver, Pattern, RankSolver, choose
+from uel.solver.linear import Effort, LinearSolver, Pattern, RankSolver, StepSolver, choose
 from uel.solver.options import SolverOptions
 
 
@@ -83,11 +83,18 @@ def choose_solver(name: str, constraints: Constraints, effort: Effort) -> Linear
     return solver
 
 
-def choose_rank_solver(name: str, constraints: Constraints, effort: Effort) -> RankSolver:
-    """Choose the solver as `choose_solver` does, on several ranks."""
+def choose_step_solver(
+    name: str,
+    constraints: Constraints,
+    effort: Effort,
+    wrap: Callable[[LinearSolver], StepSolver] = lambda chosen: chosen,
+) -> StepSolver:
+    """Choose the solver of a general step as `choose_solver` does; wrap: makes it from that linear solver."""
+    if constraints.ranks.size == 1:
+        return wrap(choose_solver(name, constraints, effort))
     indptr, indices = constraints.reduced_indptr, constraints.reduced_indices
     pattern = Pattern(indptr, indices, constraints.coordinates, constraints.dofs)
-    return RankSolver(constraints.ranks, name, pattern, constraints.name_of, effort)
+    return RankSolver(constraints.ranks, name, pattern, constraints.name_of, effort, wrap)
 
 
 def displaced_coordinates(dofs: DofMap, nodes: IntArray, displacement: FloatArray | None) -> FloatArray:

@@ -109,7 +109,7 @@ class ImplicitIntegration(Part):
         reduced = constraints.reduce_vector(missing)
         indptr, indices = constraints.reduced_indptr, constraints.reduced_indices
         row = np.repeat(np.arange(len(reduced)), np.diff(indptr))
-        weightless = constraints.ranks.sum(np.bincount(row, np.abs(mass), len(reduced)).astype(np.float64)) == 0.0
+        weightless = context.system.sum(np.bincount(row, np.abs(mass), len(reduced)).astype(np.float64)) == 0.0
         mass[(row == indices) & weightless[row]] = 1.0
         reduced[weightless] = 0.0
         context.solver.factorise(mass)
@@ -136,7 +136,7 @@ class ImplicitIntegration(Part):
         context, velocity = self._context, begun.velocity
         system = context.system
         data = self._stiffness(begun)
-        rows = ~system.dofs.of_nodes & (system.ranks.sum(system.matrix(data).diagonal()) == 0.0)
+        rows = ~system.dofs.of_nodes & (system.sum(system.matrix(data).diagonal()) == 0.0)
         if not rows.any():
             return None
         row = np.repeat(np.arange(len(system)), np.diff(system.indptr))

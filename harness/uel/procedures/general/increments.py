@@ -39,9 +39,8 @@ from uel.procedures.general.largest_load import PASSED, LimitLoad
 from uel.procedures.general.overconstraints import warn_overconstrained
 from uel.procedures.general.path import Path
 from uel.procedures.general.step_parts import Part
-from uel.procedures.general.unconstrained import UNLOADED, UnconstrainedSolver
+from uel.procedures.general.unconstrained import UNLOADED
 from uel.solver.descent import ITERATIONS, SINGULAR
-from uel.solver.linear import RankSolver
 from uel.solver.newton import Iterate
 
 SEARCH_TOO_LONG = f"THE DESCENT SEARCH HAS NOT CONVERGED IN {ITERATIONS} ITERATIONS."
@@ -169,11 +168,8 @@ class GeneralStep:
     @property
     def _obstacle(self) -> str:
         """Reason why states cannot be kept; '' if they can."""
-        if self._system.ranks.size > 1:
-            return "several processes run the job"
-        if self._state.amplitudes.exist:
-            return "UAMP gives amplitudes"
-        return self._path.obstacle
+        amplitudes = "UAMP gives amplitudes" if self._state.amplitudes.exist else ""
+        return self._system.obstacle or amplitudes or self._path.obstacle
 
     def _is_due(self, size: float) -> bool:
         """Report whether *RESTART, WRITE keeps the state of the increment of this size that has converged."""
@@ -277,10 +273,10 @@ class GeneralStep:
 
     def _warn_unconstrained(self) -> Iterator[Warned]:
         """Warn once in the step that a part of the model moves freely."""
-        solver = self._context.solver
-        if isinstance(solver, UnconstrainedSolver | RankSolver) and solver.free is not None and not self._warned:
+        free = self._context.solver.free
+        if free is not None and not self._warned:
             self._warned = True
-            yield Warned(UNLOADED.format(solver.free))
+            yield Warned(UNLOADED.format(free))
 
     def _small_flux(self, checks: Sequence[FieldCheck]) -> Iterator[Noted]:
         """Say once in the step that unbalanced forces count as zero only because of Abaqus' default."""

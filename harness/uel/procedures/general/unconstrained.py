@@ -17,7 +17,7 @@ from scipy import sparse
 
 from uel.errors import SingularMatrixError
 from uel.model.arrays import FloatArray
-from uel.solver.linear import LinearSolver, RankSolver
+from uel.solver.linear import LinearSolver, StepSolver
 
 SHIFT = 1e-10
 """Stiffness that is added where there is none, as a fraction of the largest entry of each row."""
@@ -33,41 +33,20 @@ Renew = Callable[[], LinearSolver | None]
 UNLOADED = "{}. NO FORCE ACTS ON THE FREE PART, WHICH GETS SMALL DISPLACEMENTS"
 
 
-def tolerate(solver: LinearSolver | RankSolver, renew: Renew | None = None) -> UnconstrainedSolver | RankSolver:
-    """Let a linear solver accept singular matrices where the right-hand side has a solution all the same.
+class UnconstrainedSolver(StepSolver):
+    """A linear solver that accepts singular matrices if the right-hand side has a solution all the same."""
 
-    renew: gives another solver where the pattern of the matrices has changed, else None.
-    """
-    if isinstance(solver, RankSolver):
-
-        def negligible() -> float:
-            # that of the present step, which the solver may outlive
-            return solver.negligible()
-
-        solver.wrap = lambda chosen: UnconstrainedSolver(chosen, negligible=negligible)
-        return solver
-    return UnconstrainedSolver(solver, renew)
-
-
-class UnconstrainedSolver:
-    """A linear solver that accepts singular matrices if the right-hand side has a solution all the same.
-
-    free        error of the last matrix, None if it is regular
-    negligible  gives the force that counts as zero
-    """
-
-    def __init__(
-        self, solver: LinearSolver, renew: Renew | None = None, negligible: Callable[[], float] = float
-    ) -> None:
-        """Prepare the solver; arguments as in `tolerate`."""
-        self._solver, self._renew, self.negligible = solver, renew, negligible
-        self.free: SingularMatrixError | None = None
+    def __init__(self, solver: LinearSolver, renew: Renew | None = None) -> None:
+        """Prepare the solver; renew: gives another one where the pattern of the matrices has changed, else None."""
+        self._solver, self._renew = solver, renew
+        self.name, self.reason, self.advice = solver.name, solver.reason, solver.advice
+        self._singular: SingularMatrixError | None = None
         self._matrix = sparse.csr_array((0, 0))
         self._stand_ins: Iterator[FloatArray] = iter(())
 
     def factorise(self, data: FloatArray) -> None:
         """Take the CSR values of the reduced matrix. Raises SingularMatrixError if it has no stiffness at all."""
-        self.free = None
+        self._singular = self.free = None
         if self._renew is not None:
             self._solver = self._renew() or self._solver
         self._matrix = self._solver.pattern.matrix(data)
@@ -90,7 +69,7 @@ class UnconstrainedSolver:
             except SingularMatrixError as error:
                 # some solvers notice only now
                 self._shift(error)
-        if self.free is None:
+        if self._singular is None:
             return solution
         small = self.negligible()
         if np.abs(rhs).max() <= small:
@@ -100,11 +79,12 @@ class UnconstrainedSolver:
             if np.linalg.norm(r) <= LOADED * np.linalg.norm(rhs) or np.abs(r).max() <= small:
                 return solution
             solution += self._solver.solve(r)
-        raise self.free
+        raise self._singular
 
     def _shift(self, error: SingularMatrixError) -> None:
         """Factorise with the first stiffness that makes the matrix regular."""
-        self.free = self.free or error
+        self._singular = self._singular or error
+        self.free = str(self._singular)
         for stiffness in self._stand_ins:
             shifted = self._matrix.data.copy()
             shifted[self._solver.pattern.diagonal] += stiffness

@@ -3,7 +3,17 @@
 """Linear solvers: LAPACK's band solver, PARDISO, MUMPS, SuperLU; several ranks together."""
 
 from uel.solver.linear.choice import Availability, available, choose
-from uel.solver.linear.linear_solver import Effort, LinearSolver, Pattern
+from uel.solver.linear.linear_solver import Effort, LinearSolver, Pattern, StepSolver
 from uel.solver.linear.ranks import RankSolver, with_ranks
 
-__all__ = ["Availability", "Effort", "LinearSolver", "Pattern", "RankSolver", "available", "choose", "with_ranks"]
+__all__ = [
+    "Availability",
+    "Effort",
+    "LinearSolver",
+    "Pattern",
+    "RankSolver",
+    "StepSolver",
+    "available",
+    "choose",
+    "with_ranks",
+]

@@ -11,7 +11,7 @@ band matrix of the same width. The cuts move when something outside the middle c
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import ClassVar, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,7 +38,7 @@ Positions = NDArray[np.integer]
 class BandSolver(LinearSolver):
     """dgbtrf and dgbtrs (LU with partial pivoting) on renumbered unknowns, in parts where few of them change."""
 
-    name: ClassVar[str] = "band"
+    name = "band"
 
     def __init__(
         self,

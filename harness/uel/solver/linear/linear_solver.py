@@ -167,18 +167,45 @@ def is_accurate(residual: FloatArray, rhs: FloatArray, terms: Callable[[], Float
     return not (error > ACCURATE * (terms() + np.abs(rhs))).any()
 
 
-class LinearSolver(ABC):
-    """Solver that factorises matrices of one pattern.
+class StepSolver(ABC):
+    """Linear solver of a general step: in one process or on all ranks, and it may accept singular matrices.
 
     name         name by which a user requests the solver
-    module, distribution  what the solver imports, and what provides it
-    widest_band  half bandwidths, in the plane and in space, up to which the band solver beats it, see `choice`
     reason       reason why this solver was chosen, a phrase for the message file
     advice       a faster solver, as a sentence; '' if there is none
+    free         message of a part of the model that moves freely, if the solver accepts that; None without one
+    negligible   gives the force on such a part that counts as zero in the present step
+    """
+
+    name: str
+    reason: str = "requested"
+    advice: str = ""
+    free: str | None = None
+    negligible: Callable[[], float] = float
+
+    @abstractmethod
+    def factorise(self, data: FloatArray) -> None:
+        """Factorise the matrix with these CSR values. Raises SingularMatrixError."""
+
+    @abstractmethod
+    def solve(self, rhs: FloatArray) -> FloatArray:
+        """Solve for one right-hand side (n,). Raises SingularMatrixError."""
+
+    def forget(self) -> None:  # noqa: B027
+        """Forget earlier matrices, but for the symbolic work: later solutions do not depend on them, to the bit."""
+
+    def release(self) -> None:  # noqa: B027
+        """Give back the memory of the factors, unless it goes with the solver."""
+
+
+class LinearSolver(StepSolver):
+    """Solver that factorises matrices of one pattern.
+
+    module, distribution  what the solver imports, and what provides it
+    widest_band  half bandwidths, in the plane and in space, up to which the band solver beats it, see `choice`
     effort       counts and times of its work so far
     """
 
-    name: ClassVar[str]
     module: ClassVar[str] = "scipy"
     distribution: ClassVar[str] = "scipy"
     widest_band: ClassVar[tuple[int, int]] = (0, 0)
@@ -195,7 +222,6 @@ class LinearSolver(ABC):
             number of the unknown.
         """
         self.pattern = pattern
-        self.reason, self.advice = "requested", ""
         self.effort = Effort()
         self._name_of = name_of or (lambda unknown: (f"of unknown {unknown}", 0))
         self._scale = 0.0

@@ -23,7 +23,7 @@ class MumpsSolver(LinearSolver):
     Matrices are taken as symmetric until one comes that is not.
     """
 
-    name: ClassVar[str] = "mumps"
+    name = "mumps"
     module: ClassVar[str] = "mumps"
     distribution: ClassVar[str] = "python-mumps"
     widest_band: ClassVar[tuple[int, int]] = (120, 600)

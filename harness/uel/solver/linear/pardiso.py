@@ -88,7 +88,7 @@ class PardisoSolver(LinearSolver):
     needs it.
     """
 
-    name: ClassVar[str] = "pardiso"
+    name = "pardiso"
     module: ClassVar[str] = "pypardiso"
     distribution: ClassVar[str] = "pypardiso"
     widest_band: ClassVar[tuple[int, int]] = (40, 300)

@@ -12,7 +12,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from importlib.util import find_spec
-from typing import Final, Protocol
+from typing import Final
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from uel.solver.linear import cluster, petsc, substructures
 from uel.solver.linear.choice import Availability, choose
 from uel.solver.linear.cluster import Cluster, ClusterError, obstacle, version
 from uel.solver.linear.distributed_rows import DistributedRows
-from uel.solver.linear.linear_solver import SUSPICIOUS, Effort, LinearSolver, Pattern, is_accurate
+from uel.solver.linear.linear_solver import SUSPICIOUS, Effort, LinearSolver, Pattern, StepSolver, is_accurate
 from uel.solver.linear.petsc import Petsc
 from uel.solver.linear.singular import refuse_singular
 from uel.solver.linear.substructures import MOST_SHARED, Substructures
@@ -52,23 +52,21 @@ _TOGETHER: Final = (substructures.NAME, cluster.NAME, petsc.NAME)
 """Solvers of all ranks."""
 
 
-class _Factoriser(Protocol):
-    def factorise(self, data: FloatArray) -> None: ...
-
-    def solve(self, rhs: FloatArray) -> FloatArray: ...
-
-
-class RankSolver:
+class RankSolver(StepSolver):
     """Solver for matrices of one pattern, of which each rank has a part, on all ranks or on rank 0.
 
-    name, reason  for the message file
     effort        counts and times of rank 0
-    wrap          wrapper of the linear solver of a gathered matrix, on rank 0
-    negligible    gives the force that counts as zero for `wrap`
-    free          message of the part of the model that moves freely, where `wrap` tolerates that; None without one
     """
 
-    def __init__(self, ranks: Ranks, name: str, pattern: Pattern, name_of: NameOf, effort: Effort) -> None:
+    def __init__(
+        self,
+        ranks: Ranks,
+        name: str,
+        pattern: Pattern,
+        name_of: NameOf,
+        effort: Effort,
+        wrap: Callable[[LinearSolver], StepSolver] = lambda chosen: chosen,
+    ) -> None:
         """Do the symbolic work.
 
         Parameters
@@ -83,6 +81,8 @@ class RankSolver:
             Returns node name and dof of an unknown.
         effort
             The effort of this solver is added to it.
+        wrap
+            Makes the solver of a gathered matrix, on rank 0, from the linear solver chosen there.
 
         Raises
         ------
@@ -92,12 +92,10 @@ class RankSolver:
         self._ranks, self._pattern, self._name_of = ranks, pattern, name_of
         self._wanted = "auto" if name in _TOGETHER else name
         self.effort = effort
-        self.wrap: Callable[[LinearSolver], _Factoriser] | None = None
-        self.negligible: Callable[[], float] = float
-        self.free: str | None = None
+        self._wrap = wrap
         self._whole: DistributedRows | None = None
         self._chosen: LinearSolver | None = None
-        self._inner: _Factoriser | None = None
+        self._inner: StepSolver | None = None
         self._singular: SingularMatrixError | None = None
         self._data: FloatArray | None = None
         self._symmetric, self._probed, self._unverified = True, False, False
@@ -134,9 +132,6 @@ class RankSolver:
         elif new:
             self._data[:] = data
         return bool(any_new)
-
-    def forget(self) -> None:
-        """Do nothing: on several ranks no states are kept."""
 
     def solve(self, rhs: FloatArray) -> FloatArray:
         """Solve for one right-hand side (n,); all ranks get the same. Raises SingularMatrixError."""
@@ -266,7 +261,9 @@ class RankSolver:
         if self._chosen is None:
             return
         if self._inner is None:
-            self._inner = self.wrap(self._chosen) if self.wrap else self._chosen
+            self._inner = self._wrap(self._chosen)
+            # that of the present step, which the solver may outlive
+            self._inner.negligible = lambda: self.negligible()  # noqa: PLW0108
         try:
             self._inner.factorise(values)
         except SingularMatrixError as error:
@@ -279,8 +276,7 @@ class RankSolver:
             if self._singular is not None:
                 raise self._singular
             solution = self._inner.solve(rhs)
-            free = getattr(self._inner, "free", None)
-            return solution, None if free is None else str(free)
+            return solution, self._inner.free
 
         solution, self.free = self._ranks.tell(work)
         return solution

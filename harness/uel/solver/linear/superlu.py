@@ -48,7 +48,7 @@ class SuperLUSolver(LinearSolver):
     change, and precondition GMRES on the new matrix. If it does not converge, the matrix is factorised.
     """
 
-    name: ClassVar[str] = "superlu"
+    name = "superlu"
     widest_band: ClassVar[tuple[int, int]] = (200, 600)
 
     def __init__(self, pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None = None) -> None:
