@@ -16,7 +16,7 @@ from uel.assembly.constraints import Constraints, products, reduced_pattern
 from uel.assembly.kinematic_couplings import Arms
 from uel.assembly.prescribed_followers import COLUMNS
 from uel.assembly.system import System
-from uel.errors import DeckError, Source
+from uel.errors import Source
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.model import Arm, Equation
 
@@ -45,8 +45,6 @@ class TurningConstraints(Constraints):
         """
         n = len(system)
         start = np.zeros(n) if start is None else start
-        if system.ranks.size > 1:
-            raise DeckError(arms[0].source, "a constraint with rotations is not supported with NLGEOM on several ranks")
         self._turning = turning = Arms(system.dofs, arms, prescribed, start, system.of_elements)
         super().__init__(system, prescribed, turning.replace_held(equations), places)
         self._equations, self.arms = tuple(equations), tuple(arms)

@@ -59,7 +59,7 @@ def use_threads(blocks: Iterable[ElementBlock], library: Library, number: int, s
 
 def refuse_shared_stress(model: Model, library: Library, ranks: int) -> None:
     """Raise UsageError where elements read what others have stored, who may be on another rank."""
-    for group in model.groups:
+    for group in model.groups if ranks > 1 else ():
         if group.definition is None or not isinstance(group.section, UserProperty):
             continue
         if library.shares_stress(group.definition.number, group.section.integers):

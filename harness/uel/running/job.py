@@ -32,11 +32,11 @@ from uel.parallel.ranks import ALONE, Ranks
 from uel.procedures import run_steps
 from uel.procedures.general.incrementation import FIXED_TOO_LARGE, TOO_MANY_ATTEMPTS, TOO_MANY_INCREMENTS
 from uel.running.options import RoutineOptions
-from uel.running.ranks import files_of_job, messages_of, refuse_unshared
+from uel.running.ranks import SharedOutput, files_of_job, refuse_unshared
 from uel.running.restart import decks_of, find_state, goes_on, refuse_nothing_left, refuse_on_ranks, refuse_options
 from uel.solver.options import SolverOptions
 from uel.solver.threads import one_blas_thread
-from uel.usersub import Library, Message, guard_values
+from uel.usersub import Library, guard_values
 from uel.usersub.layout import without_user
 
 
@@ -112,8 +112,7 @@ def run(
         refuse_nothing_left(model, resumed, oldjob)
         refuse_options(resumed, oldjob, solver)
         decks = ranks.agree(lambda: decks_of(model, parameters, parts))
-        if ranks.size > 1:
-            refuse_unshared(model, ranks)
+        refuse_unshared(model, ranks)
         _refuse_with_multipliers(model, solver)
         routines = routines.for_model(model)
         debug = routines.debug
@@ -126,11 +125,10 @@ def run(
         trapping = usersub.trap(True) if debug else None
         usersub.set_threads(routines.cpus)
         try:
-            output = ranks.agree(
-                lambda: None if ranks.rank else JobOutput(model, job, folder, decks=decks, quiet=quiet)
-            )
-            assemble = partial(_assemble, model, library, routines, ranks)
-            _analyse(assemble, model, library, output, solver, ranks, resumed)
+            files_of = partial(JobOutput, model, job, folder, decks=decks, quiet=quiet)
+            output = SharedOutput(files_of, library, ranks)
+            assemble = partial(ranks.agree, partial(_assemble, model, library, routines, ranks))
+            _analyse(assemble, model, library, output, solver, resumed)
         except ElementError as error:
             if not debug and _debug_helps(sources, str(error)):
                 error.add_note("run again with --debug to see file and line")
@@ -143,12 +141,12 @@ def run(
             if trapping is not None:
                 usersub.trap(trapping)
             library.close()
-    return Result(stem, seconds=time.perf_counter() - started, warnings=[] if output is None else output.warnings)
+    return Result(stem, seconds=time.perf_counter() - started, warnings=output.warnings)
 
 
 def _assemble(model: Model, library: Library, routines: RoutineOptions, ranks: Ranks) -> System:
-    if ranks.size > 1:
-        refuse_shared_stress(model, library, ranks.size)
+    judge_neighbours(model, library)
+    refuse_shared_stress(model, library, ranks.size)
     system = TolerantSystem(model, library, routines.linear, ranks)
     if routines.cpus > 1:
         use_threads(system.blocks, library, routines.cpus, routines.thread_safe)
@@ -167,64 +165,48 @@ def _analyse(
     assemble: Callable[[], System],
     model: Model,
     library: Library,
-    output: JobOutput | None,
+    output: SharedOutput,
     solver: SolverOptions,
-    ranks: Ranks,
     resumed: Resumption | None,
 ) -> None:
-    """Run all steps and write their records to the files, which are closed however the run ends.
-
-    On ranks other than 0, which have no output, the same steps: they help where a record is written.
-    """
-    system: System | None = None
-
-    def write(act: Callable[[JobOutput], None]) -> None:
-        messages = messages_of(library, ranks)
-        if output is not None:
-            _pass_on(messages, output)
-        ranks.lead(lambda: None if output is None else act(output), lambda: system and system.share_states())
-
+    """Run all steps and write their records to the files, which are closed however the run ends."""
+    files = output.files
     try:
         warn_of_missing_unsymm(model, library)
-        ranks.agree(lambda: judge_neighbours(model, library))
-        system = ranks.agree(assemble)
+        output.system = system = assemble()
         long_elements = LongElements(model, library)
 
-        def put(record: Record, output: JobOutput) -> None:
-            output.write(record)
+        def put(record: Record, files: JobOutput) -> None:
+            files.write(record)
             if isinstance(record, IncrementDone):
-                for warning in long_elements.warnings(record, output.warnings):
-                    output.user_text(".dat", "warning", warning)
+                for warning in long_elements.warnings(record, files.warnings):
+                    files.user_text(".dat", "warning", warning)
 
         with one_blas_thread(), guard_values({}):
             for record in run_steps(system, model, library, solver, resumed=resumed):
                 with held():
-                    if isinstance(record, AttemptEnded | StepDone):
-                        write(partial(put, record))
-                    elif output is not None:
-                        # nothing of the other ranks is in it
-                        _pass_on(library.messages(), output)
-                        output.write(record)
+                    write = output.write if isinstance(record, AttemptEnded | StepDone) else output.write_own
+                    write(partial(put, record))
         with held():
-            if output is not None:
-                for warning in long_elements.waiting(output.warnings):
-                    output.user_text(".dat", "warning", warning)
-            write(methodcaller("close", None))
-            ranks.ended(None)
+            if files is not None:
+                for warning in long_elements.waiting(files.warnings):
+                    files.user_text(".dat", "warning", warning)
+            output.write(methodcaller("close", None))
+            output.ranks.ended(None)
             settle()
     except BaseException as error:
         settle()
-        ranks.ended(error)
+        output.ranks.ended(error)
         with suppress(OSError):
-            write(methodcaller("close", UelError(in_words(error))))
-        if output is None:
+            output.write(methodcaller("close", UelError(in_words(error))))
+        if files is None:
             raise
-        note_warnings(error, output.warnings, f" in {output.job}.dat and .msg")
-        for text in output.unbalanced if isinstance(error, ConvergenceError) else ():
+        note_warnings(error, files.warnings, f" in {files.job}.dat and .msg")
+        for text in files.unbalanced if isinstance(error, ConvergenceError) else ():
             error.add_note(text)
-        if isinstance(error, UelError) and (far := _progress(output.stem)):
+        if isinstance(error, UelError) and (far := _progress(files.stem)):
             error.add_note(far)
-        error.add_note(f"{output.job} ended {output.reached}; what was written is readable")
+        error.add_note(f"{files.job} ended {files.reached}; what was written is readable")
         if isinstance(error, ConvergenceError):
             # contact and distributing couplings take neither of the two, a restart at most the second
             neither = bool(constraints_with_multipliers(model))
@@ -263,9 +245,3 @@ def _debug_helps(sources: Sequence[Path], message: str) -> bool:
     """Report whether an error without a line may have one in a debug build."""
     compiled = bool(sources) and all(map(usersub.is_source, sources))
     return compiled and not usersub.names_line(message)
-
-
-def _pass_on(messages: Sequence[Message], output: JobOutput) -> None:
-    """Write texts of user routines where Abaqus puts them."""
-    for message in messages:
-        output.user_text(message.file, message.kind, message.text)

@@ -4,12 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
+from uel.assembly import System
 from uel.errors import DeckError, SilentError, UsageError, in_words
 from uel.model.model import Model, constraints_with_multipliers
+from uel.output import JobOutput
 from uel.output.lock import locked
 from uel.output.verdict import forget_verdict, write_verdict
 from uel.parallel import leave_word
@@ -18,29 +20,66 @@ from uel.usersub import Library, Message
 
 
 def refuse_unshared(model: Model, ranks: Ranks) -> None:
-    """Raise DeckError for contact, distributing couplings with NLGEOM and linear perturbation steps, whose matrices are
-    not shared out.
+    """Raise DeckError, on several ranks, for what is not shared out: contact, linear perturbation steps, and with
+    NLGEOM distributing couplings and constraints with rotations.
     """
-    for keyword, source in constraints_with_multipliers(model):
-        raise DeckError(source, f"{keyword} does not run on {ranks.size} ranks; run this deck in one process")
+    if ranks.size == 1:
+        return
+    unshared = list(constraints_with_multipliers(model))
     for step in model.steps:
         if step.procedure.linear:
-            raise DeckError(
-                step.source,
-                f"step {step.number} is a linear perturbation step, which does not run on {ranks.size} ranks; "
-                "run this deck in one process",
-            )
+            unshared.append((f"step {step.number} is a linear perturbation step, which", step.source))
+        elif step.nlgeom and model.arms:
+            unshared.append(("a constraint with rotations, with NLGEOM,", model.arms[0].source))
+    for what, source in unshared:
+        raise DeckError(source, f"{what} does not run on {ranks.size} ranks; run this deck in one process")
 
 
-def messages_of(library: Library, ranks: Ranks) -> list[Message]:
-    """Return the messages of all ranks since the last call, on rank 0: its own, and others that it does not have."""
-    own, *others = ranks.collect(library.messages()) or [[]]
-    known = {(message.file, message.kind, message.text) for message in own}
-    for messages in others:
-        new = [message for message in messages if (message.file, message.kind, message.text) not in known]
-        own += new
-        known.update((message.file, message.kind, message.text) for message in new)
-    return own
+class SharedOutput:
+    """Output of a job, which rank 0 alone has; the other ranks help where it reads the states of their elements.
+
+    files   of the job; None on ranks other than 0
+    ranks   of the job
+    system  whose states are read
+    """
+
+    def __init__(self, files: Callable[[], JobOutput], library: Library, ranks: Ranks) -> None:
+        """Open the files."""
+        self.files = ranks.agree(lambda: None if ranks.rank else files())
+        self.system: System | None = None
+        self.ranks, self._library = ranks, library
+
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings so far; none on ranks other than 0."""
+        return [] if self.files is None else self.files.warnings
+
+    def write(self, act: Callable[[JobOutput], None]) -> None:
+        """Write the messages of user routines on all ranks where Abaqus puts them, then act."""
+        files, system = self.files, self.system
+        self._pass_on(self._messages())
+        self.ranks.lead(lambda: None if files is None else act(files), lambda: system and system.share_states())
+
+    def write_own(self, act: Callable[[JobOutput], None]) -> None:
+        """Write as `write` does what needs nothing of the other ranks."""
+        if self.files is not None:
+            self._pass_on(self._library.messages())
+            act(self.files)
+
+    def _pass_on(self, messages: Sequence[Message]) -> None:
+        for message in messages:
+            assert self.files is not None
+            self.files.user_text(message.file, message.kind, message.text)
+
+    def _messages(self) -> list[Message]:
+        """Return the messages of all ranks since the last call, on rank 0: its own, and those that it does not have."""
+        own, *others = self.ranks.collect(self._library.messages()) or [[]]
+        known = {(message.file, message.kind, message.text) for message in own}
+        for messages in others:
+            new = [message for message in messages if (message.file, message.kind, message.text) not in known]
+            own += new
+            known.update((message.file, message.kind, message.text) for message in new)
+        return own
 
 
 @contextmanager

@@ -5,6 +5,8 @@
 Distributing couplings bend beams too.
 """
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from bent_beams import CELLS, COUPLING, DISTRIBUTING, HIGH, LENGTH, YOUNG, beam, beam_of_quads, last, step
@@ -19,6 +21,7 @@ from uel.deck import read_deck
 from uel.elements import Call, Flags, rotation_matrices, spin_matrices
 from uel.errors import DeckError, Source
 from uel.model.model import Arm
+from uel.running.ranks import refuse_unshared
 
 ANGLES = [[0, 0, 0], [1e-5, -2e-5, 1e-5], [0.02, 0.02, 0.01], [0.03, 0.01, 0.0], [1.0, -2.0, 0.5], [0, 0, 3.0]]
 
@@ -150,6 +153,12 @@ HELD = {
     "too many": [(4, 1), (4, 2), (4, 3), (5, 1), (5, 2), (5, 3)],
 }
 """Nodes and dofs of the body that are prescribed: they eliminate unknowns of its reference node."""
+
+
+def test_constraints_with_rotations_are_not_shared_by_ranks(tmp_path):
+    (tmp_path / "bars.inp").write_text(bars("*RIGID BODY, REF NODE=9, PIN NSET=BODY"))
+    with pytest.raises(DeckError, match=r"bars\.inp:\d+: a constraint with rotations, with NLGEOM, does not run on 2"):
+        refuse_unshared(read_deck(tmp_path / "bars.inp"), SimpleNamespace(size=2))
 
 
 @pytest.mark.parametrize("weight", [1.0, 0.7])
