@@ -12,7 +12,7 @@ import argparse
 import sys
 import tomllib
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -84,16 +84,16 @@ module abaqus_layout
 """
 
 
-def main() -> None:
-    """Command line."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def main(layout: Callable[[str], str], purpose: str) -> None:
+    """Run the command line of a program that writes a module from a table, its layout."""
+    parser = argparse.ArgumentParser(description=purpose.splitlines()[0])
     parser.add_argument("-o", "--output", type=Path, required=True)
-    parser.add_argument("properties", type=Path)
+    parser.add_argument("table", type=Path)
     options = parser.parse_args()
     try:
-        options.output.write_text(layout(options.properties.read_text(encoding="utf-8")), encoding="utf-8")
+        options.output.write_text(layout(options.table.read_text(encoding="utf-8")), encoding="utf-8")
     except ValueError as error:
-        sys.exit(f"{options.properties}: {error}")
+        sys.exit(f"{options.table}: {error}")
 
 
 def layout(text: str) -> str:
@@ -285,4 +285,4 @@ def faces(row: Row, data: Row) -> str:
 
 
 if __name__ == "__main__":
-    main()
+    main(layout, __doc__)

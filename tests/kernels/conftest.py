@@ -5,6 +5,7 @@
 import ctypes
 import importlib.util
 import subprocess
+import sys
 from pathlib import Path
 from typing import ClassVar
 
@@ -239,8 +240,12 @@ def element_of():
 def program():
     """Module of a program of fortran/ that the build calls: program(name)."""
 
+    folder = Path(__file__).parents[2] / "fortran"
+    # one of them imports another
+    sys.path.append(str(folder))
+
     def program(name):
-        spec = importlib.util.spec_from_file_location(name, Path(__file__).parents[2] / "fortran" / f"{name}.py")
+        spec = importlib.util.spec_from_file_location(name, folder / f"{name}.py")
         module = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(module)
         return module

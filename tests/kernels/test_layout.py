@@ -112,7 +112,8 @@ def test_generator_names_its_file(program, tmp_path, monkeypatch):
     file.write_text("[ranges\n")
     monkeypatch.setattr("sys.argv", ["generate_layout.py", "-o", str(tmp_path / "layout.f90"), str(file)])
     with pytest.raises(SystemExit, match=r"properties.toml: .*line 1"):
-        program("generate_layout").main()
+        module = program("generate_layout")
+        module.main(module.layout, module.__doc__)
     assert not (tmp_path / "layout.f90").exists()
 
 

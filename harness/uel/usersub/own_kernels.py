@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Paths of the project's own kernels, as the build leaves them."""
+"""Paths of the project's own kernels and of tables beside them, as the build leaves them."""
 
 from __future__ import annotations
 
@@ -21,6 +21,11 @@ def path_of_kernels() -> Path:
 def path_of_properties() -> Path:
     """Return the file that defines every property, state variable and element type of the kernels."""
     return _packaged("properties.toml")
+
+
+def path_of_built_in() -> Path:
+    """Return the file that defines the properties and state variables of built-in elements."""
+    return _packaged("built_in.toml")
 
 
 def _packaged(name: str) -> Path:

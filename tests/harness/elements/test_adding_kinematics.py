@@ -74,7 +74,8 @@ def branch(tmp_path_factory):
     folder = tmp_path_factory.mktemp("branch")
     shutil.copytree(ROOT / "fortran", folder / "fortran")
     shutil.copytree(ROOT / "harness" / "uel", folder / "uel", ignore=shutil.ignore_patterns("__pycache__"))
-    shutil.copy(ROOT / "fortran" / "properties.toml", folder / "uel" / "usersub")
+    for table in (ROOT / "fortran").glob("*.toml"):
+        shutil.copy(table, folder / "uel" / "usersub")
     shutil.copy(SOURCE, folder / "fortran" / "host" / "elements" / "solid")
     for name, edits in EDITS.items():
         text = (folder / name).read_text()

@@ -3,11 +3,7 @@
 !> Built-in Timoshenko beams (B21, B22, B31, B32): of linear elastic sections or, with a material, of sections over whose points it
 !> is integrated (host_beam_section). harness/uel/elements/families/beam.py gives what they need.
 !>
-!> JPROPS: family of the axis (host_shape), its integration points, section points, integration points of the mass. PROPS: density;
-!> slenderness compensation of the shear along directions 2 and 1, over the squared length of the element; place of the centroid and
-!> of the shear centre along directions 1 and 2; Young's modulus; section stiffness (6, 6) by the strains below; mass per length and
-!> density (6, 6) of translations and rotations in the directions t, 1, 2; then the place of each section point, where a
-!> material is integrated followed by its area and lever. The section stiffness is then that of what is elastic beside the material.
+!> Values of PROPS and JPROPS: built_in.toml.
 !>
 !> With NLGEOM beams in a plane have the strains of E. Reissner, Journal of Applied Mathematics and Physics 23 (1972) 795: those of
 !> the axis in directions that turn with the section; for those in space see host_beam_turning, and host_beam_curved of three nodes.
@@ -26,6 +22,8 @@ module host_beam
   use host_beam_turning, only: turning_beam, turning_strains
   use host_context, only: added_stress
   use host_kinds, only: dp
+  use host_layout, only: j_beam_family, j_beam_mass_points, j_beam_points, j_beam_sections, p_beam_centroid, p_beam_density, &
+                         p_beam_mass, p_beam_points, p_beam_shear_centre, p_beam_slenderness, p_beam_stiffness, p_beam_young
   use host_materials, only: material_t
   use host_polar, only: step
   use host_shape, only: is_quadratic, rule_of, rule_t
@@ -33,7 +31,6 @@ module host_beam
   private
   public :: timoshenko_beam
 
-  integer, parameter :: head = 80                        !< values of PROPS before the section points
   integer, parameter :: planar(3) = [1, 2, 4]            !< strains of a beam in a plane
   integer, parameter :: planar_unknowns(3) = [1, 2, 6]   !< dofs of its nodes
 
@@ -73,9 +70,9 @@ contains
     type(rule_t), pointer :: rule
     type(beam_t) :: beam
     type(resultants_t) :: resultants
-    points = element%jprops(2)
-    full = element%jprops(4)
-    rule => rule_of(int(element%jprops(1)), full)
+    points = element%jprops(j_beam_points)
+    full = element%jprops(j_beam_mass_points)
+    rule => rule_of(int(element%jprops(j_beam_family)), full)
     first = size(element%svars) - 9*(points + full) + 1
     call describe(element, rule, beam)
     beam%axes(1:3, 1:3, 1:points) => element%svars(first:)
@@ -83,7 +80,7 @@ contains
     call keep_forces(element, states + 1, first)
     if (element%has_mass) call find_mass(beam, rule, element%props, element%svars(first + 9*points:), element%mass)
     if (.not. element%has_forces) return
-    rule => rule_of(int(element%jprops(1)), points)
+    rule => rule_of(int(element%jprops(j_beam_family)), points)
     call integrate(beam, rule, element, element%rhs, element%amatrx, element%svars, resultants)
     if (element%of_stress) call turn_stress(beam, rule, element, resultants, element%amatrx)
   end subroutine timoshenko_beam
@@ -97,10 +94,11 @@ contains
     beam%n = element%n
     beam%dim = element%mcrd
     beam%each = merge(6, 3, element%mcrd == 3)
-    beam%sections = element%jprops(3)
+    beam%sections = element%jprops(j_beam_sections)
     beam%finite = element%finite
     beam%length = length_of(rule, beam%dim, element%coords)
-    beam%centre = reshape(element%props(4:7), [2, 2])
+    beam%centre(:, 1) = element%props(p_beam_centroid)
+    beam%centre(:, 2) = element%props(p_beam_shear_centre)
     beam%material => element%material
     beam%values = 2*beam%each
     if (associated(beam%material)) then
@@ -111,7 +109,7 @@ contains
     beam%x => element%coords
     beam%u(1:beam%each, 1:element%nodes) => element%u
     values = merge(4, 2, associated(beam%material))
-    beam%places(1:values, 1:beam%sections) => element%props(head + 1:)
+    beam%places(1:values, 1:beam%sections) => element%props(p_beam_points:)
   end subroutine describe
 
   !> Length of the element by the parent coordinate at a point. Nodes follow each other along the axis.
@@ -186,9 +184,9 @@ contains
     rows = kept_of(beam%each, planar)
     unknowns = kept_of(beam%each, planar_unknowns)
     allocate (resultants%force(beam%each, rule%points), resultants%stiffness(beam%each, beam%each, rule%points))
-    elastic = reshape(element%props(9:44), [6, 6])
+    elastic = reshape(element%props(p_beam_stiffness), [6, 6])
     do k = 1, 2
-      elastic(k + 1, k + 1) = elastic(k + 1, k + 1)/(1 + element%props(k + 1)*beam%length**2)
+      elastic(k + 1, k + 1) = elastic(k + 1, k + 1)/(1 + element%props(p_beam_slenderness(k))*beam%length**2)
     end do
     moved = 0
     moved(:beam%dim, :) = beam%x
@@ -233,7 +231,7 @@ contains
         chosen = section(rows, rows)
         resultant = forces(rows)
       else
-        call keep_stresses(beam%sections, beam%places, beam%centre(:, 1), element%props(8), strain, svars(:, :, p))
+        call keep_stresses(beam%sections, beam%places, beam%centre(:, 1), element%props(p_beam_young), strain, svars(:, :, p))
       end if
       resultants%force(:, p) = resultant
       resultants%stiffness(:, :, p) = chosen
@@ -467,7 +465,7 @@ contains
   pure subroutine find_mass(beam, rule, props, axes, mass)
     type(beam_t), intent(in) :: beam
     type(rule_t), intent(in) :: rule
-    real(dp), intent(in) :: props(head), axes(3, 3, rule%points)
+    real(dp), intent(in) :: props(:), axes(3, 3, rule%points)
     real(dp), intent(inout) :: mass(beam%n, beam%n)
     real(dp) :: of_section(6, 6), turn(6, 6), kept(beam%each, beam%each), at(rule%nodes), weight
     integer :: i, j, k, p, each, unknowns(beam%each)
@@ -477,10 +475,10 @@ contains
       turn = 0
       turn(:3, :3) = axes(:, :, p)
       turn(4:, 4:) = axes(:, :, p)
-      of_section = matmul(turn, matmul(reshape(props(45:80), [6, 6]), transpose(turn)))
+      of_section = matmul(turn, matmul(reshape(props(p_beam_mass), [6, 6]), transpose(turn)))
       kept = of_section(unknowns, unknowns)
       at = along_axis(rule, rule%n(:, p))
-      weight = props(1)*rule%weight(p)*stretch(rule, p, beam%dim, beam%x)
+      weight = props(p_beam_density)*rule%weight(p)*stretch(rule, p, beam%dim, beam%x)
       do k = 1, rule%nodes
         do j = 1, rule%nodes
           if (j /= k .and. .not. is_quadratic(rule)) cycle

@@ -4,20 +4,21 @@
 !>
 !> 2  SPRINGA: PROPS hold force and elongation in turn, ascending; SVARS elongation, force.
 !> 3  SPRING1, SPRING2: the same between the first unknown and the second, or the ground; SVARS as SPRINGA.
-!> 4  MASS: PROPS(1).
-!> 5  load on a face of an element: PROPS thickness or 2 pi, direction of a traction; JPROPS family and integration points of
-!>    the face (host_shape), 1 about an axis, outward as in add_pressure, 0 pressure, 1 traction, 2 shear traction, 3 a pressure at
-!>    each point. The loads of the call are their magnitudes, with NLGEOM on the present face; ENERGY(8) is their work. Column 2 of
-!>    RHS is the force of their increments.
+!> 4  MASS.
+!> 5  load on a face of an element. The loads of the call are their magnitudes, with NLGEOM on the present face; ENERGY(8) is their
+!>    work. Column 2 of RHS is the force of their increments.
 !> 6  DASHPOTA, 7  DASHPOT1 and DASHPOT2: as springs, but with the rate of the elongation in place of the elongation in PROPS. In
 !>    static steps it is the increment of the elongation over that of the time, in linear ones there is none; then the damping
 !>    matrix that LFLAGS(7) asks for is the slope at rest.
 !>
-!> In dynamic analyses SVARS go on with the forces of the last two increments, those of loads on faces always.
+!> Values of PROPS and JPROPS of masses and faces: built_in.toml. In dynamic analyses SVARS go on with the forces of the last two
+!> increments, those of loads on faces always.
 module host_discrete
   use host_adapter, only: element_t, keep_forces
   use host_bar, only: bar_forces, bar_of, bar_t
   use host_kinds, only: dp, i4
+  use host_layout, only: j_face_axisymmetric, j_face_family, j_face_outward, j_face_points, j_face_traction, p_face_depth, &
+                         p_face_direction, p_mass_value
   use host_messages, only: add_message
   use host_followers, only: add_pressure, add_traction
   use host_protect, only: escape
@@ -27,7 +28,7 @@ module host_discrete
   public :: discrete
 
   integer(i4), parameter :: axial_spring = 2, spring = 3, mass_point = 4, face = 5, axial_dashpot = 6, dashpot = 7
-  integer, parameter :: at_points = 3   !< JPROPS(5): a pressure at each point of the face
+  integer, parameter :: at_points = 3   !< traction: a pressure at each point of the face
 
 contains
 
@@ -39,7 +40,7 @@ contains
     call keep_forces(element, merge(1, 3, element%jtype == face), size(element%svars) + 1)
     if (element%has_mass .and. element%jtype == mass_point) then
       do i = 1, element%n
-        element%mass(i, i) = element%props(1)
+        element%mass(i, i) = element%props(p_mass_value)
       end do
     end if
     if (element%has_damping .and. any(element%jtype == [axial_dashpot, dashpot])) then
@@ -97,7 +98,7 @@ contains
     real(dp) :: unused(element%n, element%n)
     type(rule_t), pointer :: rule
     associate (rhs => element%rhs, loads => element%ndload)
-      rule => rule_of(int(element%jprops(1)), int(element%jprops(2)))
+      rule => rule_of(int(element%jprops(j_face_family)), int(element%jprops(j_face_points)))
       call load_face(rule, element, element%adlmag(:loads), rhs(:, 1), element%amatrx)
       if (size(rhs, 2) == 2) then
         call load_face(rule, element, element%ddlmag(:loads), rhs(:, 2), unused)
@@ -135,14 +136,15 @@ contains
     start = reshape(element%coords, [element%n])
     x = start
     if (element%finite) x = start + element%u
-    axisymmetric = element%jprops(3) /= 0
-    associate (outward => int(element%jprops(4)), kind => element%jprops(5), props => element%props)
+    axisymmetric = element%jprops(j_face_axisymmetric) /= 0
+    associate (outward => int(element%jprops(j_face_outward)), kind => element%jprops(j_face_traction), &
+               depth => element%props(p_face_depth), direction => element%props(p_face_direction:))
       pressures = sum(magnitudes)
       if (kind == at_points .and. size(magnitudes) > 0) pressures = magnitudes
       if (kind == 0 .or. kind == at_points) then
-        call add_pressure(rule, axisymmetric, outward, props(1), pressures, x, force, stiffness)
+        call add_pressure(rule, axisymmetric, outward, depth, pressures, x, force, stiffness)
       else
-        call add_traction(rule, axisymmetric, kind == 2, props(1), sum(magnitudes), props(2:), start, x, force, stiffness)
+        call add_traction(rule, axisymmetric, kind == 2, depth, sum(magnitudes), direction, start, x, force, stiffness)
       end if
     end associate
     if (.not. element%finite) stiffness = 0

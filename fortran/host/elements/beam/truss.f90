@@ -2,15 +2,16 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Built-in trusses (T2D2, T3D2). harness/uel/elements/families/discrete.py gives what they need.
 !>
-!> PROPS hold area and density, JPROPS the family of the line (host_shape). SVARS hold strain, stress, plastic strain and
-!> equivalent plastic strain, in dynamic analyses then the forces of the last two increments; the material history, if there is
-!> one, STATEV, and of UMAT what host_umat says. With NLGEOM the strain is the logarithm of the stretch and the volume stays (Abaqus
-!> Theory Guide, Truss elements).
+!> Values of PROPS, JPROPS and SVARS: built_in.toml. In dynamic analyses SVARS go on with the forces of the last two increments; the
+!> material history, if there is one, holds STATEV, and of UMAT what host_umat says. With NLGEOM the strain is the logarithm of the
+!> stretch and the volume stays (Abaqus Theory Guide, Truss elements).
 module host_truss
   use host_adapter, only: element_t, keep_forces
   use host_bar, only: bar_forces, bar_of, bar_t, initial_length
   use host_coupling, only: interpolate_fields
   use host_kinds, only: dp
+  use host_layout, only: j_truss_family, p_truss_area, p_truss_density, s_truss_e11, s_truss_pe11, s_truss_peeq, s_truss_s11, &
+                         truss_values
   use host_materials, only: elastic_energy, has_fields, material_t, set_constants, stress_update
   use host_mises, only: mises_uniaxial
   use host_point, only: move_to, point_t
@@ -20,8 +21,6 @@ module host_truss
   private
   public :: truss
 
-  integer, parameter :: states = 4   !< values of SVARS of the point
-
 contains
 
   subroutine truss(element)
@@ -30,16 +29,16 @@ contains
     type(bar_t) :: bar
     type(point_t) :: point
     integer :: i
-    call keep_forces(element, states + 1, size(element%svars) + 1)
+    call keep_forces(element, truss_values + 1, size(element%svars) + 1)
     associate (props => element%props)
       do i = 1, merge(element%n, 0, element%has_mass)
-        element%mass(i, i) = 0.5_dp*props(1)*props(2)*initial_length(element%mcrd, element%coords)
+        element%mass(i, i) = 0.5_dp*props(p_truss_area)*props(p_truss_density)*initial_length(element%mcrd, element%coords)
       end do
       if (.not. element%has_forces) return
       bar = bar_of(element%mcrd, element%finite, element%coords, element%u)
       call move_to(point, 1)
       if (has_fields(element%material)) call set_fields(element, bar, point)
-      call truss_force(element%material, point, props(1), bar, element%svars, pull, slope, element%energy)
+      call truss_force(element%material, point, props(p_truss_area), bar, element%svars, pull, slope, element%energy)
     end associate
     call bar_forces(element%mcrd, bar, element%request, pull, slope, element%added, element%rhs, element%amatrx)
   end subroutine truss
@@ -55,9 +54,11 @@ contains
       point%place = 0
       point%place(:dim) = sum(x, 2)/2
       if (bar%finite) point%place(:dim) = sum(x + reshape(element%u, [dim, 2]), 2)/2
-      call interpolate_fields(rule_of(int(element%jprops(1)), 1), 1, element%fields, element%predef, material%variables, point)
+      call interpolate_fields(rule_of(int(element%jprops(j_truss_family)), 1), 1, element%fields, element%predef, &
+                              material%variables, point)
       if (allocated(material%user_field)) then
-        call call_usdfld(material%user_field, material%ntens, point, no_directions, no_directions, .true., element%svars(:states))
+        call call_usdfld(material%user_field, material%ntens, point, no_directions, no_directions, .true., &
+                            element%svars(:truss_values))
       end if
       if (allocated(material%dependence)) call set_constants(material, point)
     end associate
@@ -69,7 +70,7 @@ contains
     type(point_t), intent(inout) :: point
     real(dp), intent(in) :: area
     type(bar_t), intent(in) :: bar
-    real(dp), intent(inout) :: state(states), energy(8)
+    real(dp), intent(inout) :: state(truss_values), energy(8)
     real(dp), intent(out) :: pull, slope
     real(dp) :: strain, stress, modulus, volume, work, elastic, found(1), tangent(1, 1)
     associate (young => material%young, length => bar%length, now => bar%now)
@@ -86,13 +87,14 @@ contains
         stress = young*strain
         modulus = young
         if (allocated(material%yield)) then
-          call mises_uniaxial(young, material%yield, strain, state(3), state(4), stress, modulus)
+          call mises_uniaxial(young, material%yield, strain, state(s_truss_pe11), state(s_truss_peeq), stress, modulus)
         end if
         elastic = 0.5_dp*stress**2/young
       end if
       ! trapezoidal rule, exact where the response is linear
-      work = energy(2) + energy(4) + 0.5_dp*volume*(stress + state(2))*(strain - state(1))
-      state(1:2) = [strain, stress]
+      work = energy(2) + energy(4) + 0.5_dp*volume*(stress + state(s_truss_s11))*(strain - state(s_truss_e11))
+      state(s_truss_e11) = strain
+      state(s_truss_s11) = stress
       energy(2) = volume*elastic
       energy(4) = work - energy(2)
       pull = area*stress

@@ -18,23 +18,22 @@
 !> An element is deleted at the end of the increment in which the damage of all its points has reached MAX DEGRADATION with
 !> none of them in compression (Analysis User's Guide, Maximum degradation and choice of element removal).
 !>
-!> PROPS, JPROPS: harness/uel/elements/families/cohesive.py. SVARS hold for each point, with a component for each dimension:
+!> Values of PROPS and JPROPS: built_in.toml. SVARS hold for each point, with a component for each dimension:
 !> position, separation, traction, damage, energies dissipated by damage, by viscosity, damage without viscosity, strain,
 !> initiation criterion, status; in dynamic analyses then the forces of the last two increments.
 module host_cohesive
   use core_rotation, only: line_frame, surface_frame, turned_frame
   use host_adapter, only: element_t, keep_forces
   use host_kinds, only: dp, i4
+  use host_layout, only: j_cohesive_deletion, j_cohesive_family, j_cohesive_law, p_cohesive_density, p_cohesive_law, &
+                         p_cohesive_thickness, p_cohesive_width
   use host_messages, only: add_message
   use host_protect, only: escape
   use host_shape, only: line2, quad4
-  use host_traction_separation, only: cohesive_law, cohesive_point, fine, n_law_integers, read_law, update_point
+  use host_traction_separation, only: cohesive_law, cohesive_point, fine, read_law, update_point
   implicit none (type, external)
   private
   public :: cohesive
-
-  integer, parameter :: p_thickness = 1, p_width = 2, p_density = 3, p_law = 4
-  integer, parameter :: j_family = 1, j_deletion = 2, j_law = 3
 
   !> Rows n, s, t of a frame from rows s, n, t, and the other way round.
   integer, parameter :: by_normal(3) = [2, 1, 3]
@@ -50,7 +49,7 @@ contains
     if (element%has_mass) call lump_mass(element, points, element%coords, element%mass)
     if (.not. any(element%request == forces_wanted)) return
     associate (props => element%props, jprops => element%jprops, dim => element%mcrd)
-      call integrate(element, read_law(props(p_law:), jprops(j_law:j_law + n_law_integers - 1)), dim, points, element%coords, &
+      call integrate(element, read_law(props(p_cohesive_law:), jprops(j_cohesive_law:)), dim, points, element%coords, &
                      element%u, element%rhs, element%amatrx, element%svars)
     end associate
   end subroutine cohesive
@@ -73,9 +72,9 @@ contains
     real(dp) :: present_frame(3, n), turning(3, n, n, points), apart(n), change(n)
     integer :: p, bottom, top, status, i, k, q, node, family
     logical :: removed, failed
-    family = element%jprops(j_family)
+    family = element%jprops(j_cohesive_family)
     removed = is_removed(n, svars(:, 1))
-    failed = element%jprops(j_deletion) /= 0
+    failed = element%jprops(j_cohesive_deletion) /= 0
     ! deletion counts the energy that is still stored as lost by damage
     if (removed) element%energy(4) = element%energy(4) + element%energy(2)
     element%energy(2) = 0
@@ -84,7 +83,7 @@ contains
       bottom = p
       top = opposite(family, points, p)
       call measure(family, n, points, p, x, frame, area)
-      distance = thickness_at(n, points, x, element%props(p_thickness), frame, bottom, top)
+      distance = thickness_at(n, points, x, element%props(p_cohesive_thickness), frame, bottom, top)
       separation = matmul(frame, u(:, top) - u(:, bottom))
       if (element%finite) then
         call turn_frame(family, n, points, p, x, x + u, frame, present_frame, turning)
@@ -101,7 +100,7 @@ contains
         call update_point(law, distance, element%dtime, separation, old, new, tangent, status, fault)
         if (status /= fine) call stop_with('*DAMAGE EVOLUTION: the fracture energy at the mode mix must exceed the elastic ' &
                                            //'energy at the onset of damage, and falls short by', fault, p)
-        area = element%props(p_width)*area
+        area = element%props(p_cohesive_width)*area
         force = area*matmul(new%traction, frame)
         rhs(:, bottom) = rhs(:, bottom) - force
         rhs(:, top) = rhs(:, top) + force
@@ -142,12 +141,12 @@ contains
     real(dp) :: frame(3, element%mcrd), area, half
     integer :: p, i, top, n, family
     n = element%mcrd
-    family = element%jprops(j_family)
+    family = element%jprops(j_cohesive_family)
     do p = 1, points
       top = opposite(family, points, p)
       call measure(family, n, points, p, x, frame, area)
-      half = 0.5_dp*(element%props(p_width)*element%props(p_density))*area &
-             *thickness_at(n, points, x, element%props(p_thickness), frame, p, top)
+      half = 0.5_dp*(element%props(p_cohesive_width)*element%props(p_cohesive_density))*area &
+             *thickness_at(n, points, x, element%props(p_cohesive_thickness), frame, p, top)
       do i = 1, n
         mass(i, p, i, p) = half
         mass(i, top, i, top) = half

@@ -2,10 +2,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Built-in continuum shells (SC6R, SC8R). harness/uel/elements/families/continuum_shell.py gives what they need.
 !>
-!> JPROPS: family of the element (host_shape), that of its surface, section points, 1 with *ORIENTATION, 1 if the transverse shear
-!> stiffness goes with the thickness; then those of host_shell_section. PROPS are there; values of the element are the thickness
-!> modulus and nu/(1 - nu) with Poisson's ratio of the section.
-!>
 !> Pairs of nodes at the bottom and the top, b and t, make the shell m(r,s) + z d(r,s)/h of host_shell_strains: the middle surface
 !> m = (b + t)/2, and d = t - b over the thickness h as the director. Its strains are those of Green and Lagrange, less what is
 !> quadratic in z: half of the change of
@@ -30,8 +26,9 @@
 !> with that of the element. Stresses are in axes that move with the surface; those of user routines turn with the middle of the
 !> element (core_solid_rotation).
 !>
-!> SVARS hold the values of the section points; in dynamic analyses then the forces of the last two increments; then the directions
-!> of the integration point, with *ORIENTATION (host_axes); last the stack direction.
+!> Values of PROPS and JPROPS: built_in.toml. SVARS hold the values of the section points (host_shell_section); in dynamic analyses
+!> then the forces of the last two increments; then the directions of the integration point, with *ORIENTATION (host_axes); last
+!> the stack direction.
 module host_continuum_shell
   use core_small_matrix, only: invert
   use core_solid_rotation, only: find_turn, solid_turn
@@ -40,12 +37,16 @@ module host_continuum_shell
   use host_context, only: added_stress, current
   use host_inertia, only: mass_matrix
   use host_kinds, only: dp, i4
+  use host_layout, only: j_continuum_shell_family, j_continuum_shell_layers, j_continuum_shell_oriented, j_continuum_shell_scaled, &
+                         j_continuum_shell_sections, j_continuum_shell_surface, p_continuum_shell_modulus, &
+                         p_continuum_shell_points, p_continuum_shell_transverse, p_section_density, p_section_thickness, &
+                         section_values
   use host_messages, only: add_message
   use host_protect, only: escape
   use host_shape, only: parent_place, rule_of, rule_t
   use host_shell_directors, only: shell_stress
   use host_shell_section, only: add_section_points, elastic_section, integrate_section, motion_t, operators_t, prepare_operators, &
-                                report_shape, section_head, section_turn, set_direction, shear_stiffness, values_of_section_point
+                                report_shape, section_turn, set_direction, shear_stiffness
   use host_shell_strains, only: assumed_shear, enhance, shell_middle, shell_place, shell_point
   implicit none (type, external)
   private
@@ -82,13 +83,14 @@ contains
     integer :: behind
     behind = size(element%svars)
     axes => null()
-    if (element%jprops(4) /= 0) then
+    if (element%jprops(j_continuum_shell_oriented) /= 0) then
       behind = behind - values_of_axes
       axes(1:3, 1:3, 1:2, 1:1) => element%svars(behind:)
     end if
-    call keep_forces(element, element%jprops(3)*values_of_section_point + 1, behind)
+    call keep_forces(element, element%jprops(j_continuum_shell_sections)*section_values + 1, behind)
     if (element%has_mass) then
-      call mass_matrix(rule_of(int(element%jprops(1)), element%nodes), .false., element%props(2), element%coords, element%mass)
+      call mass_matrix(rule_of(int(element%jprops(j_continuum_shell_family)), element%nodes), .false., &
+                       element%props(p_section_density), element%coords, element%mass)
     end if
     if (element%has_forces) call integrate(element, axes)
   end subroutine continuum_shell
@@ -97,7 +99,7 @@ contains
   subroutine integrate(element, axes)
     type(element_t), intent(inout) :: element
     real(dp), intent(in), pointer, contiguous :: axes(:, :, :, :)
-    real(dp) :: elastic(6, 6), section(3, element%jprops(3)), ratio, k_shear(2, 2)
+    real(dp) :: elastic(6, 6), section(3, element%jprops(j_continuum_shell_sections)), ratio, k_shear(2, 2)
     integer(i4), pointer, contiguous :: of_section(:, :)
     type(pairs_t) :: pairs
     type(forms_t) :: middle, full
@@ -108,26 +110,27 @@ contains
     associate (nodes => element%nodes, n => element%n, jprops => element%jprops, props => element%props, energy => element%energy, &
                x => element%coords, u => element%u, du => element%du, large => element%finite)
       pairs = pairs_of(nodes, x, nint(element%svars(size(element%svars))))
-      ratio = pairs%height/props(1)
+      ratio = pairs%height/props(p_section_thickness)
       elastic = elastic_section(props)
       elastic(:3, :3) = ratio*elastic(:3, :3)
       elastic(4:, :3) = ratio**2*elastic(4:, :3)
       elastic(:3, 4:) = ratio**2*elastic(:3, 4:)
       elastic(4:, 4:) = ratio**3*elastic(4:, 4:)
-      of_section(1:3, 1:jprops(3)) => jprops(6:)
-      section = reshape(props(section_head + 1:section_head + size(section)), shape(section))
+      of_section(1:3, 1:size(section, 2)) => jprops(j_continuum_shell_layers:)
+      section = reshape(props(p_continuum_shell_points:), shape(section))
       section(:2, :) = ratio*section(:2, :)
-      call find_forms(rule_of(int(jprops(2)), 1), pairs, nodes, axes, elastic, middle)
-      call find_forms(rule_of(int(jprops(2)), nodes/2), pairs, nodes, axes, elastic, full)
+      call find_forms(rule_of(int(jprops(j_continuum_shell_surface)), 1), pairs, nodes, axes, elastic, middle)
+      call find_forms(rule_of(int(jprops(j_continuum_shell_surface)), nodes/2), pairs, nodes, axes, elastic, full)
       k_shear = shear_stiffness(props, sum(full%point%weight)/ratio**2)
-      if (jprops(5) /= 0) k_shear = ratio*k_shear
-      linear(1) = shear_and_across(nodes, full, k_shear, pairs%height*props(3), props(8))
+      if (jprops(j_continuum_shell_scaled) /= 0) k_shear = ratio*k_shear
+      linear(1) = shear_and_across(nodes, full, k_shear, pairs%height*props(p_continuum_shell_modulus), &
+                                   props(p_continuum_shell_transverse))
       linear(2) = hourglass_of(nodes, full, elastic)
 
       call find_motion(nodes, x, pairs, middle, u, du, large, motion)
       energy(2) = energy(2) - stored_by(nodes, linear(1), x, u - du, large)
-      call integrate_section(element, rule_of(int(jprops(1)), 1), of_section, section, k_shear, middle, motion, stress, &
-                             element%svars, sqrt(sum(full%point%weight)))
+      call integrate_section(element, rule_of(int(jprops(j_continuum_shell_family)), 1), of_section, section, k_shear, middle, &
+                             motion, stress, element%svars, sqrt(sum(full%point%weight)))
       energy(2) = energy(2) + stored_by(nodes, linear(1), x, u, large)
       energy(6) = stored_by(nodes, linear(2), x, u, large)
       if (element%of_stress) then

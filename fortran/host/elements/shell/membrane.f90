@@ -2,9 +2,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Built-in membranes (M3D3, M3D4, M3D4R, M3D6, M3D8, M3D8R): surfaces in plane stress without any stiffness in bending.
 !>
-!> JPROPS: family of the surface (host_shape), its integration points, those of the mass, 1 with *ORIENTATION. PROPS: thickness,
-!> density, hourglass stiffness parameter, Poisson's ratio of the section.
-!>
 !> The material is in two directions of each point, which turn with the rotation of the polar decomposition f = R U of the
 !> deformation of the surface. The strain of an increment is that of its middle, sym((U - U') (U + U')^-1) 2. The thickness follows
 !> the area, t = T (dA/da)**(nu/(1 - nu)), with Poisson's ratio of the section (Theory Guide, Membrane elements). With the Cauchy
@@ -20,8 +17,8 @@
 !>
 !> The matrix of a stress (host_context) is that of forces along the gradients, U^-1 s U^-1 on each direction alike.
 !>
-!> SVARS hold, for each point, E11 E22 E12 S11 S22 S12 in its directions; in dynamic analyses then the forces of the last two
-!> increments; last the directions of each point, with *ORIENTATION (host_axes).
+!> Values of PROPS, JPROPS and of each point in SVARS: built_in.toml. In dynamic analyses SVARS go on with the forces of the last
+!> two increments; last are the directions of each point, with *ORIENTATION (host_axes).
 module host_membrane
   use core_rotation, only: cross, surface_frame
   use core_small_matrix, only: invert
@@ -31,6 +28,8 @@ module host_membrane
   use host_coupling, only: interpolate_fields
   use host_initial_stress, only: begin_point
   use host_kinds, only: dp, i4
+  use host_layout, only: j_membrane_family, j_membrane_mass_points, j_membrane_oriented, j_membrane_points, membrane_values, &
+                         p_membrane_density, p_membrane_hourglass, p_membrane_poisson, p_membrane_thickness
   use host_materials, only: elastic_energy, has_fields, material_t, set_constants, stress_update
   use host_messages, only: add_message
   use host_point, only: move_to, point_t
@@ -43,7 +42,6 @@ module host_membrane
   private
   public :: membrane
 
-  integer, parameter :: values = 6        !< of SVARS for a point
   real(dp), parameter :: smallest_area = 1.0e-8_dp   !< over that before any displacement
   real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
 
@@ -69,25 +67,28 @@ contains
   subroutine membrane(element)
     type(element_t), intent(inout), target :: element
     real(dp), pointer, contiguous :: axes(:, :, :, :), none(:, :, :, :)
-    type(place_t) :: places(element%jprops(2)), full(element%jprops(3))
+    type(place_t) :: places(element%jprops(j_membrane_points)), full(element%jprops(j_membrane_mass_points))
+    type(rule_t), pointer :: rule, mass_rule
     integer :: points, behind
     associate (jprops => element%jprops, props => element%props, x => element%coords)
-      points = jprops(2)
+      points = jprops(j_membrane_points)
+      rule => rule_of(int(jprops(j_membrane_family)), points)
+      mass_rule => rule_of(int(jprops(j_membrane_family)), int(jprops(j_membrane_mass_points)))
       behind = size(element%svars) + 1
       axes => null()
       none => null()
-      if (jprops(4) /= 0) then
+      if (jprops(j_membrane_oriented) /= 0) then
         behind = behind - values_of_axes*points
         axes(1:3, 1:3, 1:2, 1:points) => element%svars(behind:)
       end if
-      call keep_forces(element, points*values + 1, behind)
-      places = places_of(rule_of(int(jprops(1)), points), x, axes)
-      full = places_of(rule_of(int(jprops(1)), int(jprops(3))), x, none)
+      call keep_forces(element, points*membrane_values + 1, behind)
+      places = places_of(rule, x, axes)
+      full = places_of(mass_rule, x, none)
       if (element%has_mass) then
-        call find_mass(rule_of(int(jprops(1)), int(jprops(3))), props(1)*props(2), full%area, element%mass)
+        call find_mass(mass_rule, props(p_membrane_thickness)*props(p_membrane_density), full%area, element%mass)
       end if
       if (element%has_forces) then
-        call integrate(rule_of(int(jprops(1)), points), places, element, element%svars, element%rhs, element%amatrx)
+        call integrate(rule, places, element, element%svars, element%rhs, element%amatrx)
       end if
     end associate
   end subroutine membrane
@@ -170,7 +171,7 @@ contains
     type(rule_t), intent(in) :: rule
     type(place_t), intent(in) :: places(rule%points)
     type(element_t), intent(inout) :: element
-    real(dp), intent(inout), target :: svars(values, rule%points)
+    real(dp), intent(inout), target :: svars(membrane_values, rule%points)
     real(dp), intent(inout) :: force(3, rule%nodes), stiffness(3, rule%nodes, 3, rule%nodes)
     type(material_t), pointer :: material
     real(dp), dimension(:, :), pointer, contiguous :: x, u, du, added
@@ -189,13 +190,13 @@ contains
     point%rotation = identity
     point%turn = identity
     point%length = sqrt(sum(places%area))*merge(0.5_dp, 1.0_dp, is_quadratic(rule))
-    at%thinning = element%props(4)/(1 - element%props(4))
+    at%thinning = element%props(p_membrane_poisson)/(1 - element%props(p_membrane_poisson))
     elastic = 0
     work = element%energy(2) + element%energy(4)
     do p = 1, rule%points
       call move_to(point, p)
       associate (g => places(p)%gradient(:rule%nodes, :), frame => places(p)%frame)
-        at%volume = places(p)%area*element%props(1)
+        at%volume = places(p)%area*element%props(p_membrane_thickness)
         linear = strain_matrix(transpose(frame(:2, :)))
         if (element%request == initial_stresses) then
           ! as plane elements keep it, with E33 and S33
@@ -252,7 +253,8 @@ contains
     if (element%request == initial_stresses) return
     element%energy(4) = work - elastic
     if (rule%reduced .and. .not. element%of_stress) then
-      call resist(places(1), element%props(1)*places(1)%area*element%props(3), element%finite, x, u, force, stiffness, &
+      call resist(places(1), element%props(p_membrane_thickness)*places(1)%area*element%props(p_membrane_hourglass), &
+                  element%finite, x, u, force, stiffness, &
                   element%energy(6))
     end if
   end subroutine integrate

@@ -3,17 +3,13 @@
 !> Sections of shells: their directions at integration points, their stresses and state at section points, and the stiffness of what
 !> is elastic. Conventional shells (host_shell) and continuum shells (host_continuum_shell) have them.
 !>
-!> Places of PROPS: thickness, density, two values of the element, of the transverse shear K11, K22, K12 and the slenderness factor,
-!> one value of the element; elastic section stiffness (6, 6), of membrane strains and curvatures; then place, weight and angle
-!> (radians) of each section point. For each of them JPROPS have material, layer and section point of the layer (KSPT).
-!>
-!> SVARS hold, for each section point of each integration point, E11 E22 E12 S11 S22 S12 in the directions of its layer, and SF1 to
-!> SF5, SM1 to SM3 of the section.
+!> Values of PROPS, and of each section point of each integration point in SVARS: built_in.toml.
 module host_shell_section
   use host_adapter, only: element_t
   use host_context, only: current, output_variables
   use host_coupling, only: interpolate_fields
   use host_kinds, only: dp, i4
+  use host_layout, only: p_section_shear, p_section_slenderness, p_section_stiffness, p_section_thickness, section_values
   use host_materials, only: elastic_energy, find_material, has_fields, material_t, set_constants, stress_update
   use host_messages, only: add_message
   use host_protect, only: escape
@@ -25,12 +21,9 @@ module host_shell_section
   use host_uvarm, only: keep_uvar
   implicit none (type, external)
   private
-  public :: operators_t, motion_t, values_of_section_point, section_head, identity
+  public :: operators_t, motion_t, identity
   public :: prepare_operators, set_direction, report_shape, elastic_section, shear_stiffness, shear_matrix, shear_energy
   public :: section_turn, add_section_points, integrate_section
-
-  integer, parameter :: values_of_section_point = 14   !< of SVARS
-  integer, parameter :: section_head = 44              !< values of PROPS before those of the section points
 
   real(dp), parameter :: identity(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
 
@@ -81,9 +74,9 @@ contains
 
   !> Stiffness of the elastic section.
   pure function elastic_section(props) result(elastic)
-    real(dp), intent(in) :: props(section_head)
+    real(dp), intent(in) :: props(:)
     real(dp) :: elastic(6, 6)
-    elastic = reshape(props(9:44), [6, 6])
+    elastic = reshape(props(p_section_stiffness), [6, 6])
   end function elastic_section
 
   !> The global direction whose projection is direction 1 by default: x, or z where x is within 0.1 degrees of the normal.
@@ -120,9 +113,9 @@ contains
 
   !> Transverse shear stiffness of the section.
   pure function shear_stiffness(props, area) result(k)
-    real(dp), intent(in) :: props(section_head), area
+    real(dp), intent(in) :: props(:), area
     real(dp) :: k(2, 2)
-    k = reshape([props(4), props(6), props(6), props(5)], [2, 2])/(1 + props(7)*area/props(1)**2)
+    k = reshape(props(p_section_shear([1, 3, 3, 2])), [2, 2])/(1 + props(p_section_slenderness)*area/props(p_section_thickness)**2)
   end function shear_stiffness
 
   !> Transverse shear strains by the unknowns, in the directions of the section.
@@ -201,7 +194,7 @@ contains
     class(operators_t), intent(in) :: at
     class(motion_t), intent(in) :: motion
     type(shell_stress), intent(inout) :: found
-    real(dp), intent(inout), target :: svars(values_of_section_point, size(section, 2), rule%points)
+    real(dp), intent(inout), target :: svars(section_values, size(section, 2), rule%points)
     type(material_t), pointer :: material
     real(dp) :: axes(8, 8), strain(8), resultant(8), tangent(8, 8), turn(3, 3), layer(3), stress(3), modulus(3, 3)
     real(dp) :: directions(3, 3), basis(3, 3), elastic, work, volume, z

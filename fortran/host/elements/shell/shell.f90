@@ -2,35 +2,31 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Built-in conventional shells (S3, S3R, S4, S4R, S8R). harness/uel/elements/families/shell.py gives what they need.
 !>
-!> JPROPS: family of the surface (host_shape), its integration points, section points, 1 with *ORIENTATION; then those of
-!> host_shell_section. PROPS are there; values of the element are the stiffness against drilling and the place of the middle
-!> surface.
-!>
 !> Transverse shear is elastic, and not that of the section points (Analysis User's Guide, Shell section behavior): its
 !> stiffness comes with the factor 1/(1 + slenderness area/thickness^2). It and the drilling are integrated fully, the shear of
 !> eight nodes at the integration points. S4R has one point, for the shear as well, and the hourglass control and the drilling of
 !> host_shell_hourglass. With the enhanced control its hourglass modes have the stiffness that the elastic section has in S4.
 !>
-!> PROPS end with two moduli of the hourglass control, zero where there is none or an enhanced one.
-!>
 !> With NLGEOM all of it is in axes that turn with the element (host_corotation), of eight nodes with its points
 !> (host_shell_directors).
 !>
-!> SVARS hold the values of the section points; in dynamic analyses then the forces of the last two increments; then the directions
-!> of each integration point, with *ORIENTATION (host_axes); last the director of each node.
+!> Values of PROPS and JPROPS: built_in.toml. SVARS hold the values of the section points (host_shell_section); in dynamic analyses
+!> then the forces of the last two increments; then the directions of each integration point, with *ORIENTATION (host_axes); last
+!> the director of each node.
 module host_shell
   use host_adapter, only: element_t, keep_forces
   use host_axes, only: values_of_axes
   use host_context, only: added_stress
   use host_corotation, only: corotation_t, local_motion, turn_back
   use host_kinds, only: dp, i4
+  use host_layout, only: j_shell_family, j_shell_layers, j_shell_oriented, j_shell_points, j_shell_sections, p_section_density, &
+                         p_section_thickness, p_shell_drilling, p_shell_hourglass, p_shell_middle, p_shell_points, section_values
   use host_polar, only: polar_axes, step
   use host_shape, only: parent_place, rule_of, rule_t
   use host_shell_directors, only: director_stiffness, director_strains, mean_directors, shell_stress
   use host_shell_hourglass, only: drilling_of_corners, hourglass_of_shell
   use host_shell_section, only: add_section_points, elastic_section, identity, integrate_section, motion_t, operators_t, &
-                                prepare_operators, report_shape, section_head, set_direction, shear_energy, &
-                                shear_matrix, shear_stiffness, values_of_section_point
+                                prepare_operators, report_shape, set_direction, shear_energy, shear_matrix, shear_stiffness
   use host_shell_strains, only: by_rotations, drilling_strain, enhance, shell_middle, shell_point, shell_strains
   implicit none (type, external)
   private
@@ -51,17 +47,19 @@ contains
     type(operators_t) :: at_points, full
     integer :: points, behind
     associate (nodes => element%nodes, props => element%props)
-      points = element%jprops(2)
+      points = element%jprops(j_shell_points)
       behind = size(element%svars) + 1 - 3*nodes
       v(1:3, 1:nodes) => element%svars(behind:)
       axes => null()
-      if (element%jprops(4) /= 0) then
+      if (element%jprops(j_shell_oriented) /= 0) then
         behind = behind - values_of_axes*points
         axes(1:3, 1:3, 1:2, 1:points) => element%svars(behind:)
       end if
-      call keep_forces(element, points*element%jprops(3)*values_of_section_point + 1, behind)
+      call keep_forces(element, points*element%jprops(j_shell_sections)*section_values + 1, behind)
       call prepare(element, v, axes, at_points, full)
-      if (element%has_mass) call add_mass(nodes, props(1), props(2), props(8), full%point, element%mass)
+      if (element%has_mass) then
+        call add_mass(nodes, props(p_section_thickness), props(p_section_density), props(p_shell_middle), full%point, element%mass)
+      end if
       if (element%has_forces) call add_forces(element, v, at_points, full)
     end associate
   end subroutine shell
@@ -78,25 +76,26 @@ contains
     type(shell_stress) :: stress
     logical :: directors
     associate (nodes => element%nodes, n => element%n, x => element%coords, props => element%props, energy => element%energy)
-      of_section(1:3, 1:element%jprops(3)) => element%jprops(5:)
-      section(1:3, 1:element%jprops(3)) => element%props(section_head + 1:)
+      of_section(1:3, 1:element%jprops(j_shell_sections)) => element%jprops(j_shell_layers:)
+      section(1:3, 1:element%jprops(j_shell_sections)) => element%props(p_shell_points:)
       shear = shear_stiffness(props, sum(full%point%weight))
       directors = nodes == 8 .and. element%finite
       if (directors) then
         motion = motion_of_directors(nodes, x, v, at_points, full%point, element%u, element%du)
         stored = [shear_energy(at_points, shear, motion%before), shear_energy(at_points, shear, motion%strain)]
-        energy(6) = 0.5_dp*props(3)*sum(full%point%weight*motion%drill**2)
+        energy(6) = 0.5_dp*props(p_shell_drilling)*sum(full%point%weight*motion%drill**2)
       else
         motion = motion_of(nodes, n, x, at_points, element%u, element%du, element%finite)
         call add_elastic(element, v, shear, at_points, full, motion, stored)
       end if
       energy(2) = energy(2) - stored(1)
-      call integrate_section(element, rule_of(int(element%jprops(1)), int(element%jprops(2))), of_section, section, shear, &
+      call integrate_section(element, rule_of(int(element%jprops(j_shell_family)), int(element%jprops(j_shell_points))), &
+                             of_section, section, shear, &
                              at_points, motion, stress, element%svars, &
                              sqrt(sum(full%point%weight))*merge(0.5_dp, 1.0_dp, nodes == 8))
       energy(2) = energy(2) + stored(2)
-      stress%drilling = props(3)
-      if (directors) stress%drill = props(3)*motion%drill
+      stress%drilling = props(p_shell_drilling)
+      if (directors) stress%drill = props(p_shell_drilling)*motion%drill
       if (directors .or. (nodes == 8 .and. element%of_stress)) then
         call turn_directors(element, v, at_points%point, full%point, stress)
       else
@@ -227,11 +226,12 @@ contains
     real(dp), intent(in) :: v(3, element%nodes)
     real(dp), intent(in), pointer, contiguous :: axes(:, :, :, :)
     type(operators_t), intent(out) :: at_points, full
-    integer :: family, points
-    family = element%jprops(1)
+    integer :: family, points, reduced
+    family = element%jprops(j_shell_family)
+    reduced = element%jprops(j_shell_points)
     points = merge(9, element%nodes, element%nodes == 8)
-    call find_operators(rule_of(family, int(element%jprops(2))), element%n, element%coords, v, element%props, axes, at_points)
-    if (element%jprops(2) == points) then
+    call find_operators(rule_of(family, reduced), element%n, element%coords, v, element%props, axes, at_points)
+    if (reduced == points) then
       full = at_points
     else
       call find_operators(rule_of(family, points), element%n, element%coords, v, element%props, axes, full)
@@ -242,7 +242,7 @@ contains
   subroutine find_operators(rule, n, x, v, props, axes, found)
     type(rule_t), intent(in) :: rule
     integer, intent(in) :: n
-    real(dp), intent(in) :: x(3, rule%nodes), v(3, rule%nodes), props(section_head)
+    real(dp), intent(in) :: x(3, rule%nodes), v(3, rule%nodes), props(:)
     real(dp), intent(in), pointer, contiguous :: axes(:, :, :, :)
     type(operators_t), intent(out) :: found
     real(dp) :: membrane(3, 3, rule%points), elastic(6, 6), b(8, 6, rule%nodes)
@@ -299,8 +299,7 @@ contains
     n = element%n
     artificial = 0
     reduced = element%nodes == 4 .and. size(at_points%point) == 1
-    ! of the hourglass control
-    moduli = element%props(size(element%props) - 1:)
+    moduli = element%props(p_shell_hourglass)
     if (element%nodes == 8 .or. (reduced .and. any(moduli > 0))) then
       shear = shear_matrix(at_points, n, k)
     else
@@ -308,7 +307,8 @@ contains
     end if
     if (reduced) then
       area = sum(full%point%weight)
-      artificial = drilling_of_corners(element%coords, motion%middle, area, element%props(1), element%props(3))
+      artificial = drilling_of_corners(element%coords, motion%middle, area, element%props(p_section_thickness), &
+                                       element%props(p_shell_drilling))
       if (any(moduli > 0)) then
         artificial = artificial + hourglass_of_shell(element%coords, v, motion%middle, area, moduli, 0.5_dp*(k(1, 1) + k(2, 2)), &
                                                      at_points%b(7:8, :, 1))
@@ -318,7 +318,7 @@ contains
     else
       do p = 1, size(full%point)
         drill = reshape(drilling_strain(element%nodes, full%point(p)), [n])
-        artificial = artificial + full%point(p)%weight*element%props(3)*spread(drill, 2, n)*spread(drill, 1, n)
+        artificial = artificial + full%point(p)%weight*element%props(p_shell_drilling)*spread(drill, 2, n)*spread(drill, 1, n)
       end do
     end if
     element%amatrx = element%amatrx + shear + artificial

@@ -33,7 +33,7 @@ from uel.model.model import Model
 from uel.model.properties import BeamSection
 from uel.model.records import PointVariables
 from uel.model.steps import ElementLoad, LoadKind
-from uel.usersub import Library, _binding
+from uel.usersub import Library, _binding, built_in
 
 SLENDERNESS: Final = 0.25
 """Default slenderness compensation factor (Analysis User's Guide, Choosing a beam element)."""
@@ -71,20 +71,21 @@ def beam_routine(model: Model, group: ElementGroup, kind: BeamType, section: Bea
         mcrd=kind.dimension,
         svars=states + hidden,
         hidden=hidden,
-        density=0,
-        props=np.array(
-            [
-                section.density,
-                *_compensation(section, profile, kind),
-                *profile.centroid,
-                *profile.shear_centre,
-                section.young,
-                *stiffness.ravel(),
-                *section_mass(profile, isotropic=section.isotropic, plane=kind.dimension == 2).ravel(),
-                *_values_of_points(profile, points),
-            ]
+        density=built_in.position("beam", "density"),
+        props=built_in.reals(
+            "beam",
+            density=section.density,
+            slenderness=_compensation(section, profile, kind),
+            centroid=profile.centroid,
+            shear_centre=profile.shear_centre,
+            young=section.young,
+            stiffness=stiffness,
+            mass=section_mass(profile, isotropic=section.isotropic, plane=kind.dimension == 2),
+            points=_values_of_points(profile, points),
         ),
-        jprops=np.array([kind.family.number, kind.points, sections, _mass_points(kind)]),
+        jprops=built_in.integers(
+            "beam", family=kind.family.number, points=kind.points, sections=sections, mass_points=_mass_points(kind)
+        ),
         linear=True,
         forces=Linearity.KNOWN,
         stores=True,
@@ -131,7 +132,7 @@ def beam_variables(section: BeamSection, kind: BeamType, routine: Routine) -> Po
     numbers = [number for number, *_ in profile.points]
     # where a material is integrated, all section points are there, in the order of their numbers
     places = [number - 1 for number in numbers] if section.integrated else range(len(numbers))
-    sections = max(1, int(routine.jprops[2]))
+    sections = max(1, int(routine.jprops[built_in.position("beam", "sections", "jprops")]))
     return PointVariables(
         "continuum",
         (*_names(section, profile, kind), *history_names(routine)),

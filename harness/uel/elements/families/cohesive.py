@@ -6,19 +6,18 @@ from __future__ import annotations
 
 from typing import Final
 
-import numpy as np
-
 from uel.elements.block import ElementBlock
 from uel.elements.building import Building, nodal_block
 from uel.elements.routine import Routine
 from uel.errors import DeckError
+from uel.model.arrays import FloatArray, IntArray
 from uel.model.damage import Damage, DamageEvolution
 from uel.model.element_types import COHESIVE, CohesiveType
 from uel.model.mesh import ElementGroup
 from uel.model.model import Model
 from uel.model.properties import CohesiveSection
 from uel.model.records import PointVariables
-from uel.usersub import _binding
+from uel.usersub import _binding, built_in
 
 # in the order of the cases of fortran/host/materials/traction_separation.f90
 _CRITERIA: Final = {"MAXS": 1, "QUADS": 2, "MAXE": 3, "QUADE": 4, "MAXU": 3, "QUADU": 4}
@@ -34,7 +33,7 @@ def cohesive_routine(model: Model, group: ElementGroup, section: CohesiveSection
     kind = COHESIVE[group.type]
     dynamic = next((step for step in model.steps if step.procedure.inertia), None)
     hidden = 2 * kind.dimension * kind.nodes if dynamic is not None else 0
-    reals, integers = cohesive_properties(section, kind.dimension)
+    reals, integers = cohesive_properties(section, kind)
     return Routine(
         address=_binding.address_of("cohesive"),
         jtype=kind.nodes,
@@ -42,8 +41,8 @@ def cohesive_routine(model: Model, group: ElementGroup, section: CohesiveSection
         svars=kind.face.nodes * (5 * kind.dimension + 5) + hidden,
         hidden=hidden,
         massive=bool(section.material.density),
-        props=np.array(reals),
-        jprops=np.array([kind.face.number, *integers]),
+        props=reals,
+        jprops=integers,
         damages=True,
     )
 
@@ -71,13 +70,9 @@ def cohesive_variables(section: CohesiveSection, kind: CohesiveType) -> PointVar
     return PointVariables("interface", names, kind.face.nodes, bottom=kind.bottom, top=kind.top, aliases=aliases)
 
 
-def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[float], list[int]]:
-    """Return PROPS, and JPROPS after the family of the faces. Raises DeckError.
-
-    PROPS: constitutive thickness (0: from the nodes), width, density, then those of the law. JPROPS: deletion, then
-    those of the law.
-    """
-    material, controls = section.material, section.controls
+def cohesive_properties(section: CohesiveSection, kind: CohesiveType) -> tuple[FloatArray, IntArray]:
+    """Return PROPS and JPROPS. Raises DeckError."""
+    material, controls, dimension = section.material, section.controls, kind.dimension
     elastic, damage = material.elastic, material.damage
     assert elastic is not None
     moduli = directions(elastic.constants, dimension)
@@ -88,7 +83,10 @@ def cohesive_properties(section: CohesiveSection, dimension: int) -> tuple[list[
     width = section.width if dimension == 2 else 1.0
     viscosity = (damage.viscosity if damage else 0.0) if controls.viscosity is None else controls.viscosity
     reals, codes = law_properties(moduli, damage, dimension, section.thickness, (viscosity, controls.degradation))
-    return [section.thickness, width, material.density, *reals], [int(controls.deletion), *codes]
+    return (
+        built_in.reals("cohesive", thickness=section.thickness, width=width, density=material.density, law=reals),
+        built_in.integers("cohesive", family=kind.face.number, deletion=controls.deletion, law=codes),
+    )
 
 
 def law_properties(

@@ -13,7 +13,6 @@ from uel.elements.block import ElementBlock
 from uel.elements.building import Building, begin_surface_axes, nodal_block
 from uel.elements.directions import start_axes
 from uel.elements.families.shell import (
-    NAMES,
     check_section,
     define_section,
     hourglass_modulus,
@@ -31,7 +30,7 @@ from uel.model.element_types import WEDGE6, ContinuumShellType, Tensor
 from uel.model.mesh import ElementGroup
 from uel.model.model import Model
 from uel.model.properties import ElasticType, ShellSection
-from uel.usersub import Library, _binding
+from uel.usersub import Library, _binding, built_in
 
 POISSON: Final = 0.5
 """Default Poisson's ratio of the section (Abaqus Keywords Guide, *SHELL SECTION)."""
@@ -49,7 +48,7 @@ def continuum_shell_routine(
     stiffness = section_stiffness(section, points)
     poisson = _poisson(group, section)
     forces = 6 * kind.nodes if dynamic else 0
-    of_points = len(points.place) * len(NAMES)
+    of_points = len(points.place) * len(built_in.variables("section"))
     axes = PointAxes(of_points + forces, 1, False, section.orientation) if section.orientation else None
     hidden = forces + (VALUES_OF_AXES if axes else 0) + 1
     layers, common = define_section(section, points, 1, library)
@@ -59,18 +58,25 @@ def continuum_shell_routine(
         jtype=kind.nodes,
         svars=of_points + hidden,
         hidden=hidden,
-        props=section_properties(
-            section,
-            points,
-            (_thickness_modulus(group, section), poisson / (1 - poisson)),
-            section.shear or shear_stiffness(section, stiffness),
-            hourglass_modulus(kind, section, stiffness),
+        props=built_in.reals(
+            "continuum_shell",
+            modulus=_thickness_modulus(group, section),
+            transverse=poisson / (1 - poisson),
+            **section_properties(
+                section,
+                points,
+                section.shear or shear_stiffness(section, stiffness),
+                hourglass_modulus(kind, section, stiffness),
+            ),
         ),
-        jprops=np.array(
-            [
-                *(kind.family.number, kind.surface.number, len(points.place), axes is not None, not section.shear),
-                *layers,
-            ]
+        jprops=built_in.integers(
+            "continuum_shell",
+            family=kind.family.number,
+            surface=kind.surface.number,
+            sections=len(points.place),
+            oriented=axes is not None,
+            scaled=not section.shear,
+            layers=layers,
         ),
         axes=axes,
     )

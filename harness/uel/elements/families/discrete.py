@@ -26,12 +26,10 @@ from uel.model.mesh import ElementGroup, is_in_space
 from uel.model.model import Model
 from uel.model.properties import MassSection, RigidSection, SolidSection, SpringSection
 from uel.model.records import PointVariables
-from uel.usersub import Library, _binding
+from uel.usersub import Library, _binding, built_in
 
-_TRUSS_STATES: Final = 4
-"""SVARS of a truss."""
 _STATES: Final = 2
-"""SVARS of another element."""
+"""SVARS of an element that is no truss."""
 _AXIAL: Final = (DiscreteKind.AXIAL_SPRING, DiscreteKind.AXIAL_DASHPOT)
 
 
@@ -67,7 +65,7 @@ def discrete_routine(model: Model, group: ElementGroup, unknowns: int, library: 
         mcrd=unknowns // 2 if kind in _AXIAL else 3,
         svars=_STATES + hidden,
         hidden=hidden,
-        props=section.table if isinstance(section, SpringSection) else np.array([mass]),
+        props=section.table if isinstance(section, SpringSection) else built_in.reals("mass", value=mass),
         turns=kind is DiscreteKind.AXIAL_SPRING,
         jprops=np.zeros(0, dtype=np.int64),
         forceless=isinstance(section, RigidSection),
@@ -90,12 +88,12 @@ def _truss_routine(group: ElementGroup, unknowns: int, hidden: int, library: Lib
         address=_binding.address_of("truss"),
         jtype=2,
         mcrd=unknowns // 2,
-        svars=_TRUSS_STATES + hidden,
+        svars=len(built_in.variables("truss")) + hidden,
         hidden=hidden,
-        density=1,
-        props=np.array([section.thickness, material.density]),
+        density=built_in.position("truss", "density"),
+        props=built_in.reals("truss", area=section.thickness, density=material.density),
         turns=True,
-        jprops=np.array([LINE2.number]),
+        jprops=built_in.integers("truss", family=LINE2.number),
         material=define_truss_material(material, library),
         tensor=int(Tensor.UNIAXIAL),
         # one value stands for no history: plastic strains are in SVARS
@@ -119,7 +117,7 @@ def discrete_variables(group: ElementGroup, routine: Routine) -> PointVariables 
     if _kind_of(group) is not DiscreteKind.TRUSS:
         return None
     outputs = () if routine.uvarm is None else numbered("UVARM", routine.uvarm.count)
-    return PointVariables("continuum", ("E11", "S11", "PE11", "PEEQ", *numbered("SDV", routine.statev), *outputs), 1)
+    return PointVariables("continuum", (*built_in.variables("truss"), *numbered("SDV", routine.statev), *outputs), 1)
 
 
 def discrete_block(building: Building, group: ElementGroup) -> ElementBlock:

@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-from typing import Final
-
 import numpy as np
 
 from uel.elements.block import ElementBlock
@@ -25,10 +23,7 @@ from uel.model.mesh import ElementGroup
 from uel.model.model import Model
 from uel.model.properties import MembraneSection
 from uel.model.records import PointVariables
-from uel.usersub import Library, _binding, _materials
-
-NAMES: Final = ("E11", "E22", "E12", "S11", "S22", "S12")
-"""Variables of a point, in its directions."""
+from uel.usersub import Library, _binding, _materials, built_in
 
 
 def membrane_routine(
@@ -47,7 +42,7 @@ def membrane_routine(
     prestressed = is_prestressed(model, group, material)
     if prestressed:
         _materials.set_prestressed(number)
-    of_points = kind.points * len(NAMES)
+    of_points = kind.points * len(built_in.variables("membrane"))
     forces = 6 * kind.nodes if dynamic else 0
     axes = PointAxes(of_points + forces, kind.points, False, orientation) if orientation else None
     hidden = forces + (VALUES_OF_AXES * kind.points if axes else 0)
@@ -58,9 +53,21 @@ def membrane_routine(
         mcrd=3,
         svars=of_points + hidden,
         hidden=hidden,
-        density=1,
-        props=np.array([section.thickness, material.density, hourglass, section.poisson]),
-        jprops=np.array([kind.family.number, kind.points, kind.family.full_points, axes is not None]),
+        density=built_in.position("membrane", "density"),
+        props=built_in.reals(
+            "membrane",
+            thickness=section.thickness,
+            density=material.density,
+            hourglass=hourglass,
+            poisson=section.poisson,
+        ),
+        jprops=built_in.integers(
+            "membrane",
+            family=kind.family.number,
+            points=kind.points,
+            mass_points=kind.family.full_points,
+            oriented=axes is not None,
+        ),
         family=kind.family.number,
         material=number,
         tensor=int(Tensor.PLANE_STRESS),
@@ -80,7 +87,7 @@ def membrane_routine(
 
 def membrane_variables(kind: MembraneType, routine: Routine) -> PointVariables:
     """Describe the state variables of a membrane group."""
-    return PointVariables("continuum", (*NAMES, *history_names(routine)), kind.points)
+    return PointVariables("continuum", (*built_in.variables("membrane"), *history_names(routine)), kind.points)
 
 
 def membrane_block(building: Building, group: ElementGroup) -> ElementBlock:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from uel.elements.block import ElementBlock
 from uel.elements.building import Building, begin_surface_axes, nodal_block
@@ -36,13 +37,7 @@ from uel.model.mesh import ElementGroup, full_name
 from uel.model.model import Model
 from uel.model.properties import ShellLayer, ShellSection
 from uel.model.records import PointVariables
-from uel.usersub import Library, _binding
-
-WHOLE: Final = ("SF1", "SF2", "SF3", "SF4", "SF5", "SM1", "SM2", "SM3")
-"""Forces and moments of the section, per length: 11, 22, 12, 13, 23; 11, 22, 12."""
-
-NAMES: Final = (*("E11", "E22", "E12", "S11", "S22", "S12"), *WHOLE)
-"""Variables of a section point, in the directions of its layer, and those of its section."""
+from uel.usersub import Library, _binding, built_in
 
 SLENDERNESS: Final = 0.25e-4
 """Default slenderness factor of the transverse shear stiffness (Analysis User's Guide, Shell section behavior)."""
@@ -75,23 +70,34 @@ def shell_routine(
     dynamic = any(step.procedure.inertia for step in model.steps)
     points = section_points(section)
     forces = 12 * kind.nodes if dynamic else 0
-    of_points = kind.points * len(points.place) * len(NAMES)
+    of_points = kind.points * len(points.place) * len(built_in.variables("section"))
     axes = PointAxes(of_points + forces, kind.points, False, section.orientation) if section.orientation else None
     hidden = forces + (VALUES_OF_AXES * kind.points if axes else 0) + 3 * kind.nodes
     stiffness = section_stiffness(section, points)
     shear = section.shear or shear_stiffness(section, stiffness)
     layers, common = define_section(section, points, kind.points, library)
     drilling = _drilling_of_reduced(section) if kind.hourglass_control else DRILLING * (shear[0] + shear[1]) / 2
-    of_element = drilling, -section.offset * section.thickness
-    of_section = section_properties(section, points, of_element, shear, hourglass_modulus(kind, section, stiffness))
     return replace(
         common,
         address=_binding.address_of("shell"),
         jtype=kind.nodes,
         svars=of_points + hidden,
         hidden=hidden,
-        props=np.concatenate([of_section, _hourglass_moduli(kind, section)]),
-        jprops=np.array([kind.family.number, kind.points, len(points.place), axes is not None, *layers]),
+        props=built_in.reals(
+            "shell",
+            **section_properties(section, points, shear, hourglass_modulus(kind, section, stiffness)),
+            drilling=drilling,
+            middle=-section.offset * section.thickness,
+            hourglass=_hourglass_moduli(kind, section),
+        ),
+        jprops=built_in.integers(
+            "shell",
+            family=kind.family.number,
+            points=kind.points,
+            sections=len(points.place),
+            oriented=axes is not None,
+            layers=layers,
+        ),
         axes=axes,
     )
 
@@ -126,7 +132,7 @@ def define_section(
         jtype=0,
         mcrd=3,
         svars=0,
-        density=1,
+        density=built_in.position("section", "density"),
         props=np.zeros(0),
         jprops=np.zeros(0, dtype=np.int64),
         material=next(iter(numbers.values())),
@@ -143,25 +149,27 @@ def define_section(
 
 
 def section_properties(
-    section: ShellSection,
-    points: SectionPoints,
-    of_element: tuple[float, float],
-    shear: tuple[float, ...],
-    hourglass: FloatArray,
-) -> FloatArray:
-    """Return PROPS of fortran/host/elements/shell/section.f90; of_element: the two values of the element."""
-    slenderness = SLENDERNESS if section.slenderness is None else section.slenderness
+    section: ShellSection, points: SectionPoints, shear: tuple[float, ...], stiffness: FloatArray
+) -> dict[str, ArrayLike]:
+    """Return the values of PROPS that all shells have."""
     angles = np.radians([section.layers[k].angle for k in points.layer.tolist()])
-    first = [section.thickness, section.density, of_element[0], *shear, slenderness, of_element[1]]
-    of_points = np.column_stack([points.place, points.weight, angles])
-    return np.concatenate([first, hourglass.ravel(), of_points.ravel()])
+    return {
+        "thickness": section.thickness,
+        "density": section.density,
+        "shear": shear,
+        "slenderness": SLENDERNESS if section.slenderness is None else section.slenderness,
+        "stiffness": stiffness,
+        "points": np.column_stack([points.place, points.weight, angles]),
+    }
 
 
 def shell_variables(section: ShellSection, kind: ShellType | ContinuumShellType, routine: Routine) -> PointVariables:
     """Describe the state variables of a group of shells, conventional or continuum shells."""
     sections = sum(layer.points for layer in section.layers)
-    names = *NAMES, *history_names(routine)
-    return PointVariables("continuum", names, kind.points * sections, sections=sections, whole=WHOLE)
+    names = built_in.variables("section")
+    whole = names[names.index("SF1") :]
+    names = *names, *history_names(routine)
+    return PointVariables("continuum", names, kind.points * sections, sections=sections, whole=whole)
 
 
 def directors(model: Model, group: ElementGroup) -> FloatArray:

@@ -26,7 +26,7 @@ from uel.model.model import Model
 from uel.model.properties import CompositeSection, ShellSection, SolidSection
 from uel.model.restart import Saved
 from uel.model.steps import ElementLoad, LoadKind, LoadType
-from uel.usersub import Library, _binding
+from uel.usersub import Library, _binding, built_in
 
 _TRACTIONS: Final = {LoadKind.TRACTION: 1, LoadKind.SHEAR: 2}
 """JPROPS(5) of loads other than pressures."""
@@ -66,8 +66,15 @@ class FollowerBlock(LoadBlock):
             jtype=DiscreteKind.FACE,
             mcrd=dimension,
             svars=2 * len(unknowns),
-            props=np.array([depth, *load.direction[:dimension]]),
-            jprops=np.array([face.number, face.full_points, axisymmetric, outward, traction]),
+            props=built_in.reals("face", depth=depth, direction=load.direction[:dimension]),
+            jprops=built_in.integers(
+                "face",
+                family=face.number,
+                points=face.full_points,
+                axisymmetric=axisymmetric,
+                outward=outward,
+                traction=traction,
+            ),
         )
         group = replace(parent, labels=parent.labels[rows], nodes=nodes)
         super().__init__(group, coordinates, unknowns, routine, library, unsymmetric=True, variables=None)
