@@ -9,8 +9,8 @@
 !> harness/uel/procedures/fidelity.md), as far as DUDT is constant. In elements with fewer points for stresses than for heat,
 !> UMATHT has the STATEV of the stress point that stands for the place.
 !>
-!> Heat transfer elements: JPROPS family, integration points, direct strains (host_kinematics); PROPS(1) thickness or 2 pi;
-!> SVARS the heat flux of each point, then the energies per mass of UMATHT.
+!> Heat transfer elements: values of PROPS and JPROPS as flow in built_in.toml; SVARS the heat flux of each point, then the energies
+!> per mass of UMATHT.
 module host_conduction
   use core_small_matrix, only: invert
   use host_adapter, only: element_t
@@ -18,6 +18,7 @@ module host_conduction
   use host_coupling, only: interpolate_fields
   use host_kinds, only: dp, i4
   use host_kinematics, only: gradients, point_position, size_of
+  use host_layout, only: j_flow_direct, j_flow_family, j_flow_points, p_flow_depth
   use host_materials, only: material_t
   use host_point, only: heat_t, move_to, point_t
   use host_shape, only: is_quadratic, rule_of, rule_t
@@ -48,10 +49,10 @@ contains
     integer :: fluxes
     if (.not. element%has_forces .or. element%request == initial_stresses) return
     associate (jprops => element%jprops, dim => element%mcrd)
-      body%geometry => rule_of(int(jprops(1)), int(jprops(2)))
+      body%geometry => rule_of(int(jprops(j_flow_family)), int(jprops(j_flow_points)))
       body%field => body%geometry
-      body%direct = jprops(3)
-      body%depth = merge(element%props(1), 1.0_dp, dim == 2)
+      body%direct = jprops(j_flow_direct)
+      body%depth = merge(element%props(p_flow_depth), 1.0_dp, dim == 2)
       body%dtime = merge(0.0_dp, element%dtime, is_steady(element%procedure_code))
       body%generates = .true.
       body%modified = .true.

@@ -4,11 +4,9 @@
 !> Subroutines Guide, DFLUX, FILM), and radiation (Analysis User's Guide, Thermal loads). In mass diffusion solute enters as heat
 !> does.
 !>
-!> JTYPE: 1 a face, 2 a volume, 3 a node. JPROPS: family and integration points of the shape, family of the temperatures, 1 about an
-!> axis, number of the load (define_heat_load), 1 in mass diffusion (host_mass_diffusion). PROPS(1): thickness or 2 pi, at a node
-!> its area. Loads of the call: of kind 1 the flux or the temperature of the sink or the surroundings, of kind 2 the film
-!> coefficient or the emissivity. The unknowns are the temperatures or concentrations, in quadratic coupled elements those of the
-!> corners.
+!> JTYPE: 1 a face, 2 a volume, 3 a node. Values of PROPS and JPROPS: built_in.toml. Loads of the call: of kind 1 the flux or the
+!> temperature of the sink or the surroundings, of kind 2 the film coefficient or the emissivity. The unknowns are the temperatures
+!> or concentrations, in quadratic coupled elements those of the corners.
 !>
 !> Faces of linear elements have their points at the corners, as in Abaqus (Analysis User's Guide, Solid elements), each with the
 !> integral of its function as weight, so that a uniform flux makes a linear temperature on any mesh; the others, and volumes,
@@ -21,6 +19,8 @@ module host_heat_loads
   use host_context, only: current
   use host_guarded, only: guarded_t, lay_out_guarded, warn_of_no_numbers, warn_of_writes
   use host_kinds, only: dp, i4
+  use host_layout, only: j_heat_load_axisymmetric, j_heat_load_diffusive, j_heat_load_family, j_heat_load_field, j_heat_load_load, &
+                         j_heat_load_points, p_heat_load_depth
   use host_shape, only: radius_of, rule_of, rule_t
   implicit none (type, external)
   private
@@ -77,9 +77,9 @@ contains
   subroutine heat_load(element)
     type(element_t), intent(inout) :: element
     type(rule_t), pointer :: shape, field
-    logical :: corners, axisymmetric
+    logical :: corners, axisymmetric, diffusive
     integer :: p, points
-    real(dp) :: n(element%nodes), of_field(element%n), weight, given(2), driving(2), heat, slope
+    real(dp) :: n(element%nodes), of_field(element%n), weight, depth, given(2), driving(2), heat, slope
     if (.not. element%has_forces .or. element%ndload == 0) return
     given = 0
     do p = 1, element%ndload
@@ -87,12 +87,14 @@ contains
     end do
     points = 1
     corners = .false.
-    associate (jprops => element%jprops, jtype => element%jtype, props => element%props, x => element%coords, &
-               fields => element%fields, predef => element%predef)
-      axisymmetric = jprops(4) /= 0
+    associate (jprops => element%jprops, jtype => element%jtype, x => element%coords, fields => element%fields, &
+               predef => element%predef)
+      axisymmetric = jprops(j_heat_load_axisymmetric) /= 0
+      diffusive = jprops(j_heat_load_diffusive) /= 0
+      depth = element%props(p_heat_load_depth)
       if (jtype /= node) then
-        shape => rule_of(int(jprops(1)), int(jprops(2)))
-        field => rule_of(int(jprops(3)), int(jprops(2)))
+        shape => rule_of(int(jprops(j_heat_load_family)), int(jprops(j_heat_load_points)))
+        field => rule_of(int(jprops(j_heat_load_field)), int(jprops(j_heat_load_points)))
         corners = jtype /= volume .and. shape%nodes == shape%corners
         points = merge(shape%nodes, shape%points, corners)
       end if
@@ -101,17 +103,17 @@ contains
           n = 0
           n(p) = 1
           of_field = n(:element%n)
-          weight = props(1)
+          weight = depth
           if (corners) weight = weight*corner_area(shape, p, axisymmetric, x)
         else
           n = shape%n(:, p)
           of_field = field%n(:, p)
-          weight = props(1)*shape%weight(p)*area(matmul(x, shape%dn(:, :, p)))*radius_of(shape, p, axisymmetric, x)
+          weight = depth*shape%weight(p)*area(matmul(x, shape%dn(:, :, p)))*radius_of(shape, p, axisymmetric, x)
         end if
         driving = 0
-        if (jprops(6) /= 0) driving(1) = dot_product(predef(1, 1, :), n)
-        if (jprops(6) /= 0 .and. fields > 2) driving(2) = dot_product(predef(1, fields - 1, :), n)
-        call heat_at(loads(jprops(5)), int(p, i4), merge(element%jelem, 0_i4, jtype == node), matmul(x, n), &
+        if (diffusive) driving(1) = dot_product(predef(1, 1, :), n)
+        if (diffusive .and. fields > 2) driving(2) = dot_product(predef(1, fields - 1, :), n)
+        call heat_at(loads(jprops(j_heat_load_load)), int(p, i4), merge(element%jelem, 0_i4, jtype == node), matmul(x, n), &
                      dot_product(element%u, of_field), element%time, weight, given, matmul(predef(1, 2:fields - 1, :), n), &
                      driving, heat, slope)
         element%rhs(:, 1) = element%rhs(:, 1) - weight*heat*of_field

@@ -6,8 +6,8 @@
 !> their corners, others at their integration points, as heat is (host_conduction). Predefined fields: the first is the temperature,
 !> the last but one the equivalent pressure stress.
 !>
-!> JPROPS family, integration points, direct strains (host_kinematics); PROPS(1) thickness or 2 pi; SVARS of each point the
-!> flux of the concentration, the concentration, the amount of solute and the volume.
+!> Values of PROPS and JPROPS: flow in built_in.toml. SVARS of each point: the flux of the concentration, the concentration, the
+!> amount of solute and the volume.
 module host_mass_diffusion
   use host_adapter, only: element_t
   use host_conduction, only: add_flow, add_product, is_steady, unit
@@ -15,6 +15,7 @@ module host_mass_diffusion
   use host_diffusion, only: diffusion_t, diffusive_flow, driven_t, solubility_at
   use host_kinds, only: dp, i4
   use host_kinematics, only: gradients
+  use host_layout, only: j_flow_direct, j_flow_family, j_flow_points, p_flow_depth
   use host_messages, only: add_message
   use host_protect, only: escape
   use host_shape, only: is_quadratic, rule_of, rule_t
@@ -30,10 +31,11 @@ contains
     type(rule_t), pointer :: rule
     real(dp) :: pressure(element%nodes)
     if (.not. element%has_forces .or. element%request == initial_stresses) return
-    rule => rule_of(int(element%jprops(1)), int(element%jprops(2)))
+    rule => rule_of(int(element%jprops(j_flow_family)), int(element%jprops(j_flow_points)))
     pressure = 0
     if (element%fields > 2) pressure = element%predef(1, element%fields - 1, :)
-    call diffuse(rule, int(element%jprops(3)), element%material%diffusion, merge(element%props(1), 1.0_dp, element%mcrd == 2), &
+    call diffuse(rule, int(element%jprops(j_flow_direct)), element%material%diffusion, &
+                 merge(element%props(p_flow_depth), 1.0_dp, element%mcrd == 2), &
                  merge(0.0_dp, element%dtime, is_steady(element%procedure_code)), element%coords, element%predef(:, 1, :), &
                  pressure, element%u, element%du, element%svars, element%rhs, element%amatrx)
     element%rhs = -element%rhs

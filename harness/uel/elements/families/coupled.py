@@ -34,7 +34,7 @@ from uel.model.mesh import ElementGroup
 from uel.model.model import Model
 from uel.model.properties import Material
 from uel.model.records import PointVariables
-from uel.usersub import Library, _binding, _materials
+from uel.usersub import Library, _binding, _materials, built_in
 
 
 def coupled_block(building: Building, group: ElementGroup) -> ElementBlock:
@@ -96,8 +96,8 @@ def heat_block(building: Building, group: ElementGroup) -> ElementBlock:
         mcrd=kind.dimension,
         svars=(kind.dimension + 1) * kind.points,
         hidden=kind.points,
-        props=np.array([section_depth(kind, section)]),
-        jprops=np.array([kind.family.number, kind.points, kind.direct]),
+        props=built_in.reals("flow", depth=section_depth(kind, section)),
+        jprops=built_in.integers("flow", family=kind.family.number, points=kind.points, direct=kind.direct),
         family=kind.family.number,
         material=number,
         history=history_of(material, kind.points),

@@ -17,7 +17,7 @@ from uel.model.element_types import HeatType
 from uel.model.mesh import ElementGroup
 from uel.model.properties import Diffusivity, Material, Orientation
 from uel.model.records import PointVariables
-from uel.usersub import _binding, _materials
+from uel.usersub import _binding, _materials, built_in
 
 _ROWS, _COLUMNS = (0, 0, 1, 0, 1, 2), (0, 1, 1, 2, 2, 2)
 """Rows and columns of D11, D12, D22, D13, D23, D33."""
@@ -49,8 +49,8 @@ def mass_diffusion_block(building: Building, group: ElementGroup) -> ElementBloc
         jtype=kind.nodes,
         mcrd=kind.dimension,
         svars=len(_names(kind)) * kind.points,
-        props=np.array([section_depth(kind, section)]),
-        jprops=np.array([kind.family.number, kind.points, kind.direct]),
+        props=built_in.reals("flow", depth=section_depth(kind, section)),
+        jprops=built_in.integers("flow", family=kind.family.number, points=kind.points, direct=kind.direct),
         family=kind.family.number,
         material=number,
     )

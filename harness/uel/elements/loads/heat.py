@@ -26,7 +26,7 @@ from uel.model.mesh import ElementGroup
 from uel.model.model import Model
 from uel.model.properties import NodalSection, SolidSection
 from uel.model.steps import HeatLaw, HeatLoad, HeatLoadType
-from uel.usersub import Library, _binding
+from uel.usersub import Library, _binding, built_in
 
 FACE, VOLUME, NODE = 1, 2, 3
 """JTYPE in fortran/host/elements/heat/loads.f90."""
@@ -118,7 +118,15 @@ def _on_elements(
     # coupled elements have temperatures at their corners
     field = family if isinstance(kind, HeatType) else family.linear
     depth = section_depth(kind, section)
-    integers = [family.number, points, field.number, kind.axisymmetric, number, model.diffusive]
+    integers = built_in.integers(
+        "heat_load",
+        family=family.number,
+        points=points,
+        field=field.number,
+        axisymmetric=kind.axisymmetric,
+        load=number,
+        diffusive=model.diffusive,
+    )
     group = replace(parent, labels=parent.labels[rows], nodes=nodes)
     jtype = FACE if load.face else VOLUME
     routine = _routine(jtype, kind.dimension, depth, integers)
@@ -145,18 +153,19 @@ def _check_nodes(model: Model, entries: list[HeatLoad]) -> None:
 def _at_nodes(model: Model, nodes: IntArray, entry: HeatLoad, number: int, library: Library) -> HeatLoadBlock:
     load, section = entry.type, NodalSection(entry.source)
     group = ElementGroup(load.keyword, model.mesh.labels[nodes], nodes[:, None], "", section, None, entry.source)
-    routine = _routine(NODE, 3, load.area, [0, 0, 0, 0, number, False])
+    none = {"family": 0, "points": 0, "field": 0, "axisymmetric": False, "diffusive": False}
+    routine = _routine(NODE, 3, load.area, built_in.integers("heat_load", **none, load=number))
     return _block(model, group, routine, library, None, nodes, load, 1)
 
 
-def _routine(jtype: int, dimension: int, factor: float, integers: list[int]) -> Routine:
+def _routine(jtype: int, dimension: int, depth: float, integers: IntArray) -> Routine:
     return Routine(
         address=_binding.address_of("heat load"),
         jtype=jtype,
         mcrd=dimension,
         svars=1,
-        props=np.array([factor]),
-        jprops=np.array(integers),
+        props=built_in.reals("heat_load", depth=depth),
+        jprops=integers,
     )
 
 
