@@ -118,8 +118,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with ProcessPoolExecutor(options.workers) as pool:
             for one in pool.map(digests_of_deck, *zip(*others, strict=True)) if others else ():
                 found.update(one)
-            # bodies hold functions that cannot be sent: by position
-            for one in pool.map(_body_at, [position for position, body in enumerate(bodies()) if body in chosen]):
+            # bodies hold functions, which cannot be sent and differ from call to call: by position
+            names = {body.name for body in chosen}
+            for one in pool.map(_body_at, [position for position, body in enumerate(bodies()) if body.name in names]):
                 found.update(one)
     else:
         for one in (*(digests_of_deck(*deck) for deck in others), *map(digests_of_body, chosen)):
