@@ -45,8 +45,7 @@ module host_block
   type :: block_t
     type(c_funptr) :: address
     type(scalars_t) :: scalars           !< of each call, but for the number of the element and its loads
-    logical :: built_in = .false.        !< a built-in element, not one of the user's
-    logical :: one_argument = .false.    !< its routine has one argument (host_adapter)
+    logical :: built_in = .false.        !< a built-in element (host_adapter), not one of the user's
     logical :: symmetric = .false.       !< assemble (A + A^T)/2
     logical :: parallel = .false.        !< several threads may call elements at the same time
     integer(i4) :: guards = guards_stop  !< one of guards_*

@@ -69,11 +69,11 @@ contains
     allocate (arguments%jdltyp(1 - spare:last), source=0_i4)
     allocate (arguments%adlmag(1 - spare:last), arguments%ddlmag(1 - spare:last), source=0.0_dp)
     arguments%scalars = block%scalars
-    if (block%one_argument) call lay_out_element(block, work, arguments)
+    if (block%built_in) call lay_out_element(block, work, arguments)
     associate (layout => arguments%layout, given => arguments%given)
       layout%routine = block%address
       layout%element = c_null_ptr
-      if (block%one_argument) then
+      if (block%built_in) then
         layout%routine = c_funloc(evaluate)
         layout%element = c_loc(arguments%element)
       end if
@@ -89,7 +89,7 @@ contains
       layout%predef = work%length(i_predef)
       layout%another = merge(layout%predef, 0_c_int64_t, size(block%predef, 2) > 1)
       layout%jprops = size(block%jprops)
-      layout%on_entry = merge(0_i8, work%unset, block%entries == entries_zero .or. block%one_argument)
+      layout%on_entry = merge(0_i8, work%unset, block%entries == entries_zero .or. block%built_in)
       layout%equations = c_loc(block%equations)
       layout%from_u = c_loc(block%u)
       layout%from_du = c_loc(block%du)

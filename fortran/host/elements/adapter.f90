@@ -4,13 +4,16 @@
 !>
 !> A built-in element is a procedure with one argument, of type element_t. On entry RHS, AMATRX and the mass are zero. The element
 !> adds the internal force to RHS and the stiffness to AMATRX if has_forces, its mass if has_mass, updates SVARS and ENERGY, and
-!> says by `keep_forces` where SVARS have the forces of earlier increments. `evaluate` makes of that what LFLAGS ask for. In
-!> elements with temperatures or concentrations minus the flow that enters through the nodes stands for the force.
+!> says by `keep_forces` where SVARS have the forces of earlier increments. `evaluate` makes of that what LFLAGS ask for. The force
+!> of a temperature or a concentration is minus the flow that enters through the node, that of a potential minus the charge.
+!>
+!> In dynamic steps the operator of Hilber, Hughes and Taylor needs the forces of the last two increments: they are state variables,
+!> as in the UEL example of the Abaqus User Subroutines Guide.
 module host_adapter
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funptr, c_ptr
   use host_block, only: scalars_t
-  use host_context, only: stress_matrix
-  use host_inertia, only: is_dynamic, respond
+  use host_context, only: initial_stresses, stress_matrix
+  use host_inertia, only: is_dynamic
   use host_kinds, only: dp, i4
   use host_materials, only: find_material, material_t
   use host_messages, only: add_message
@@ -104,10 +107,34 @@ contains
     if (element%has_mass) element%mass = 0
     if (element%lost) call report_lost()
     call element%routine(element)
-    if (element%request == damping) return
-    call respond(element%n, [element%procedure_code, 0_i4, element%request], element%params, element%dtime, element%v, element%a, &
-                 element%mass, element%old, element%rhs, element%amatrx, element%energy(1))
+    if (element%request /= damping) call respond(element)
   end subroutine evaluate
+
+  !> Make RHS and AMATRX of internal force, stiffness and mass, keep the force where the call keeps state, and find the kinetic
+  !> energy.
+  subroutine respond(element)
+    type(element_t), intent(inout) :: element
+    real(dp) :: force(element%n)
+    associate (request => element%request, rhs => element%rhs(:, 1), old => element%old)
+      if (any(request == [1_i4, acceleration, initial_stresses])) then
+        force = old(:, 1)
+        old(:, 2) = merge(rhs, force, request == acceleration)
+        old(:, 1) = rhs
+      else
+        force = 0.5_dp*(old(:, 1) + old(:, 2))
+      end if
+      if (element%dynamic .and. any(request == [1, 5])) then
+        associate (alpha => element%params(1))
+          rhs = -matmul(element%mass, element%a) - (1 + alpha)*rhs + alpha*force
+          if (request == 1) element%amatrx = (1 + alpha)*element%amatrx + element%mass/(element%params(2)*element%dtime**2)
+        end associate
+      else
+        rhs = -rhs
+      end if
+      if (any(request == [mass, acceleration])) element%amatrx = element%mass
+      if (element%dynamic) element%energy(1) = 0.5_dp*dot_product(element%v, matmul(element%mass, element%v))
+    end associate
+  end subroutine respond
 
   !> Leave the pass.
   subroutine report_lost()

@@ -12,7 +12,7 @@ subroutine host_evaluate(address, material, jtype, tensor, labels, jprops, equat
                          mload, mfield)
   use, intrinsic :: iso_c_binding, only: c_funptr, c_intptr_t
   use host_block, only: block_t, keeps_state, scalars_t
-  use host_built_in, only: find_built_in
+  use host_built_in, only: is_built_in
   use host_context, only: initial_stresses
   use host_driver, only: run_block
   use host_kinds, only: dp, i4, i8
@@ -46,7 +46,7 @@ subroutine host_evaluate(address, material, jtype, tensor, labels, jprops, equat
   real(dp), target :: by_unknown(ndofel, 3)
   type(block_t), target :: block
   block%address = transfer(int(address, c_intptr_t), block%address)
-  call find_built_in(block%address, block%built_in, block%one_argument)
+  block%built_in = is_built_in(block%address)
   block%tensor = tensor
   block%symmetric = symmetric /= 0
   block%want_matrix = want_matrix /= 0

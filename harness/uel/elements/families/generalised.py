@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Built-in elements in generalised plane strain for the driver (fortran/host/elements/solid/generalised.f90)."""
+"""Built-in elements in generalised plane strain for the driver (fortran/host/elements/solid/solid.f90)."""
 
 from __future__ import annotations
 

@@ -32,14 +32,12 @@ def piezoelectric_block(building: Building, group: ElementGroup) -> ElementBlock
     chosen = slice(kind.dimension)
     components = 2 * kind.dimension
     constants = np.hstack([coupling[chosen, :components], dielectric[chosen, chosen]])
-    averaged = kind.tensor is not Tensor.PLANE_STRESS
     routine = replace(
         solid,
         address=_binding.address_of("piezoelectric"),
         svars=kind.points * (2 * components + 2 * kind.dimension),
         hidden=0,
         props=np.concatenate([solid.props, constants.ravel(order="F")]),
-        jprops=np.concatenate([solid.jprops, [averaged]]),
         # the matrix does not store the energy: it is that of the enthalpy
         stores=False,
         stress=(),
