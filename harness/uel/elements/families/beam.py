@@ -15,11 +15,7 @@ from uel.elements.families.beam_points import SectionPoints, section_points, sec
 from uel.elements.families.beam_profiles import SHEAR_FACTORS, Profile, profile_of
 from uel.elements.families.solid import history_names, history_of
 from uel.elements.materials.library import (
-    define_expansion,
-    define_fields,
     define_material,
-    define_user_output,
-    directions,
     state_variables,
     user_outputs,
 )
@@ -108,11 +104,8 @@ def _with_material(found: Routine, kind: BeamType, section: BeamSection, section
     material = section.material
     assert material is not None
     tensor = section_tensor(section, kind.dimension)
-    number = define_material(material, None, tensor, section.source, library)
-    define_expansion(number, material, None)
-    define_fields(number, material, directions(None), tensor, library)
     outputs = user_outputs(material, library)
-    define_user_output(number, material, "", library, room=state_variables(material), width=outputs)
+    number = define_material(material, None, tensor, section.source, library, outputs=outputs)
     return replace(
         found,
         material=number,

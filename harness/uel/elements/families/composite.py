@@ -29,8 +29,6 @@ from uel.elements.families.solid import (
     warn_of_enhanced,
 )
 from uel.elements.materials.library import (
-    define_expansion,
-    define_fields,
     define_material,
     history_values,
     linearity,
@@ -46,7 +44,7 @@ from uel.model.mesh import ElementGroup
 from uel.model.model import Model
 from uel.model.properties import CompositeSection, Orientation, SolidLayer, materials_of
 from uel.model.records import PointVariables
-from uel.usersub import Library, _binding, _materials
+from uel.usersub import Library, _binding
 
 ALONG: Final = 1e-6
 """Length below which the projection of a unit vector on a layer has no direction."""
@@ -101,7 +99,12 @@ def composite_routine(
     warn_of_enhanced(model, group, kind, library, "tangents of the layers")
     materials = materials_of(section)
     statev = max(map(state_variables, materials))
-    numbers = [_define(kind, section, layer, library, statev) for layer in section.layers]
+    numbers = [
+        define_material(
+            layer.material, layer.orientation, kind.tensor, section.source, library, local=True, room=statev
+        )
+        for layer in section.layers
+    ]
     points = layer_points(kind, section)
     family = _binding.define_rule(kind.family.number, points.parent, points.weight, reduced=reduced)
     count = len(points.weight)
@@ -243,17 +246,6 @@ def turned_directions(layer: SolidLayer, axes: FloatArray, normal: FloatArray) -
     c, s = np.cos(np.radians(layer.angle)), np.sin(np.radians(layer.angle))
     turned = np.stack([c * along + s * next_one, c * next_one - s * along, upright], axis=-2)
     return np.asarray(np.roll(turned, orientation.normal, axis=-2))
-
-
-def _define(kind: ContinuumType, section: CompositeSection, layer: SolidLayer, library: Library, room: int) -> int:
-    """Define the material of a layer in the host, and return its number. Raises DeckError."""
-    material = layer.material
-    number = define_material(material, None, kind.tensor, section.source, library, room=room)
-    name = layer.orientation.name if layer.orientation else ""
-    define_fields(number, material, (np.eye(3), name), kind.tensor, library, room=room)
-    _materials.set_local(number)
-    define_expansion(number, material, None)
-    return number
 
 
 def _check(group: ElementGroup, section: CompositeSection) -> None:

@@ -4,15 +4,11 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from uel.elements.block import ElementBlock
 from uel.elements.building import Building, begin_surface_axes, nodal_block
 from uel.elements.families.solid import history_names, history_of, hourglass_stiffness, is_prestressed
 from uel.elements.materials.library import (
-    define_fields,
     define_material,
-    define_user_output,
     linearity,
     state_variables,
     user_outputs,
@@ -23,7 +19,7 @@ from uel.model.mesh import ElementGroup
 from uel.model.model import Model
 from uel.model.properties import MembraneSection
 from uel.model.records import PointVariables
-from uel.usersub import Library, _binding, _materials, built_in
+from uel.usersub import Library, _binding, built_in
 
 
 def membrane_routine(
@@ -33,15 +29,17 @@ def membrane_routine(
     material, orientation = section.material, section.orientation
     dynamic = any(step.procedure.inertia for step in model.steps)
     hourglass = hourglass_stiffness(kind, section, Tensor.PLANE_STRESS) if kind.hourglass_control else 0.0
-    number = define_material(material, None, Tensor.PLANE_STRESS, section.source, library)
-    # the axes are those of each point
-    name = orientation.name if orientation else ""
-    statev, outputs = state_variables(material), user_outputs(material, library)
-    define_fields(number, material, (np.eye(3), name), Tensor.PLANE_STRESS, library)
-    define_user_output(number, material, name, library, room=statev, width=outputs)
-    prestressed = is_prestressed(model, group, material)
-    if prestressed:
-        _materials.set_prestressed(number)
+    outputs, prestressed = user_outputs(material, library), is_prestressed(model, group, material)
+    number = define_material(
+        material,
+        orientation,
+        Tensor.PLANE_STRESS,
+        section.source,
+        library,
+        local=True,
+        prestressed=prestressed,
+        outputs=outputs,
+    )
     of_points = kind.points * len(built_in.variables("membrane"))
     forces = 6 * kind.nodes if dynamic else 0
     axes = PointAxes(of_points + forces, kind.points, False, orientation) if orientation else None
@@ -72,7 +70,7 @@ def membrane_routine(
         material=number,
         tensor=int(Tensor.PLANE_STRESS),
         history=history,
-        statev=statev,
+        statev=state_variables(material),
         outputs=outputs,
         linear=history[0] == 1,
         forces=linearity(material, prestressed=prestressed),

@@ -17,9 +17,7 @@ from uel.elements.block import ElementBlock
 from uel.elements.building import Building, begin_surface_axes, nodal_block
 from uel.elements.families.solid import HOURGLASS_FRACTION, history_names
 from uel.elements.materials.library import (
-    define_fields,
     define_material,
-    define_user_output,
     global_compliance,
     history_values,
     linearity,
@@ -113,14 +111,13 @@ def define_section(
     materials = {layer.material.name: layer.material for layer in section.layers}
     statev = max(map(state_variables, materials.values()))
     outputs = max(user_outputs(material, library) for material in materials.values())
-    numbers = {}
-    for name, material in materials.items():
-        number = define_material(material, None, Tensor.PLANE_STRESS, section.source, library, room=statev)
-        # the axes are those of each section point
-        orientation = section.orientation.name if section.orientation else ""
-        define_fields(number, material, (np.eye(3), orientation), Tensor.PLANE_STRESS, library, room=statev)
-        define_user_output(number, material, orientation, library, room=statev, width=outputs)
-        numbers[name] = number
+    place, plane = section.source, Tensor.PLANE_STRESS
+    numbers = {
+        name: define_material(
+            material, section.orientation, plane, place, library, local=True, room=statev, outputs=outputs
+        )
+        for name, material in materials.items()
+    }
     of_layers = np.array([numbers[layer.material.name] for layer in section.layers])
     # UVAR and STATEV are behind what any of the materials has of other values
     values = (

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -14,8 +13,6 @@ from uel.elements.building import Building
 from uel.elements.directions import first_element, start_axes
 from uel.elements.materials.hybrid import has_unsymmetric_pressure, pressure_unknowns
 from uel.elements.materials.library import (
-    define_expansion,
-    define_fields,
     define_material,
     directions,
     has_unsymmetric_tangent,
@@ -43,7 +40,7 @@ from uel.model.properties import (
     materials_of,
 )
 from uel.model.records import PointVariables
-from uel.usersub import Library, _binding, _materials
+from uel.usersub import Library, _binding
 
 HOURGLASS_FRACTION: Final = 0.005
 """Hourglass stiffness parameter over the shear modulus (Abaqus Analysis User's Guide, Section controls)."""
@@ -87,10 +84,7 @@ def solid_routine(model: Model, group: ElementGroup, library: Library) -> Routin
     if kind.axisymmetric:
         check_radii(model, group)
     dynamic = any(step.procedure.inertia for step in model.steps)
-    orientation, local = section.orientation, _local_orientation(model, section)
-    if local is not None:
-        # the material is in the directions of the points
-        orientation = replace(local, axes=np.eye(3), system=None)
+    local = _local_orientation(model, section)
     hourglass = 0.0
     if kind.hourglass_control:
         hourglass = hourglass_stiffness(kind, section, kind.tensor)
@@ -99,14 +93,17 @@ def solid_routine(model: Model, group: ElementGroup, library: Library) -> Routin
     tangent = f"DDSDDE of UMAT (material {material.name})" if _of_tangent(kind, section) else ""
     warn_of_enhanced(model, group, kind, library, tangent)
     _warn_of_unpublished(model, group, kind, library)
-    number = define_material(material, orientation, kind.tensor, section.source, library, hybrid=kind.pressures > 0)
     prestressed = is_prestressed(model, group, material)
-    if prestressed:
-        _materials.set_prestressed(number)
-    define_fields(number, material, directions(orientation), kind.tensor, library)
-    if local is not None:
-        _materials.set_local(number)
-    define_expansion(number, material, orientation)
+    number = define_material(
+        material,
+        section.orientation,
+        kind.tensor,
+        section.source,
+        library,
+        hybrid=kind.pressures > 0,
+        local=local is not None,
+        prestressed=prestressed,
+    )
     enhanced = _enhanced_moduli(kind, section)
     pressures = pressure_unknowns(kind, material)
     unknowns = kind.dimension * kind.nodes + pressures

@@ -8,6 +8,7 @@ constants' meaning is that of the *ELASTIC data line (Abaqus Analysis User's Gui
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -134,14 +135,8 @@ def directions(orientation: Orientation | None) -> tuple[FloatArray, str]:
     return (np.eye(3), "") if orientation is None else (orientation.axes, orientation.name)
 
 
-def define_fields(
-    number: int,
-    material: Material,
-    along: tuple[FloatArray, str],
-    tensor: Tensor,
-    library: Library,
-    *,
-    room: int | None = None,
+def _define_fields(
+    number: int, material: Material, along: tuple[FloatArray, str], tensor: Tensor, library: Library, room: int
 ) -> None:
     """Define in the host the dependence of a material on temperature and fields, or on USDFLD. Raises DeckError.
 
@@ -162,25 +157,13 @@ def define_fields(
 def define_user_field(
     number: int, material: Material, along: tuple[FloatArray, str], library: Library, *, room: int | None = None
 ) -> None:
-    """Define USDFLD in the host, if the material uses it. Arguments and errors as in `define_fields`."""
+    """Define USDFLD in the host, if the material uses it. Arguments and errors as in `_define_fields`."""
     if material.user_field is not None:
         address = _needed(library.usdfld, "USDFLD", material, "*USER DEFINED FIELD", material.user_field, library)
         axes, name = along
         statev = state_variables(material)
         room = statev if room is None else room
         _materials.set_user_field(number, address, (material.name, name), statev, room, axes)
-
-
-def define_user_output(
-    number: int, material: Material, orientation: str, library: Library, *, room: int, width: int
-) -> None:
-    """Define UVARM in the host, if the material asks for its variables and the job has it.
-
-    orientation: its name; room: as `define_material` has it; width: values of the history for UVAR, before them.
-    """
-    if material.output_variables and library.uvarm is not None:
-        counts = material.output_variables, width, state_variables(material), room
-        _materials.set_user_output(number, library.uvarm, (material.name, orientation), counts)
 
 
 def user_outputs(material: Material, library: Library) -> int:
@@ -205,13 +188,50 @@ def define_material(
     library: Library,
     *,
     hybrid: bool = False,
+    local: bool = False,
+    prestressed: bool = False,
     room: int | None = None,
+    outputs: int = 0,
 ) -> int:
-    """Define a material in the host, and return its number. `user` is the place that uses it. Raises DeckError.
+    """Define a material in the host, and return its number. Raises DeckError.
 
-    hybrid: its elements are, so that it may be incompressible; room: values at the end of the history of which STATEV
-    are the first, if they are not all, since another layer has more.
+    orientation  its directions
+    user         the place that uses it
+    hybrid       its elements are, so that it may be incompressible
+    local        the elements turn strains and stresses at each point: only the name of the orientation counts
+    prestressed  its points may have an initial stress
+    room         values at the end of the history of which STATEV are the first, if they are not all, since another
+                 layer has more
+    outputs      values of the history for UVAR, of elements that call UVARM themselves
     """
+    if local and orientation is not None:
+        orientation = replace(orientation, axes=np.eye(3), system=None)
+    room = state_variables(material) if room is None else room
+    number = _define_stresses(material, orientation, tensor, user, library, hybrid=hybrid, room=room)
+    along = directions(orientation)
+    _define_fields(number, material, along, tensor, library, room)
+    _define_expansion(number, material, orientation)
+    if outputs and material.output_variables and library.uvarm is not None:
+        counts = material.output_variables, outputs, state_variables(material), room
+        _materials.set_user_output(number, library.uvarm, (material.name, along[1]), counts)
+    if local:
+        _materials.set_local(number)
+    if prestressed:
+        _materials.set_prestressed(number)
+    return number
+
+
+def _define_stresses(
+    material: Material,
+    orientation: Orientation | None,
+    tensor: Tensor,
+    user: Source,
+    library: Library,
+    *,
+    hybrid: bool,
+    room: int,
+) -> int:
+    """Define what gives the stresses of a material, and return its number. Arguments as in `define_material`."""
     if material.user is not None:
         return _define_user_material(material, material.user, orientation, tensor, library, hybrid=hybrid, room=room)
     if material.hyperelastic is not None:
@@ -366,16 +386,16 @@ def _define_incompressible(elastic: Elastic, tensor: Tensor) -> int:
 
 def define_truss_material(material: Material, library: Library) -> int:
     """Define an isotropic or user material of trusses in the host, and return its number. Raises DeckError."""
-    elastic = material.elastic
+    elastic, room = material.elastic, state_variables(material)
     if material.user is not None:
-        number = _define_user_material(material, material.user, None, Tensor.UNIAXIAL, library, hybrid=False, room=None)
+        number = _define_user_material(material, material.user, None, Tensor.UNIAXIAL, library, hybrid=False, room=room)
     else:
         assert elastic is not None
         young, poisson = _isotropic_constants(elastic)
         table = np.zeros((1, 2)) if material.plastic is None else material.plastic.table
         one = np.eye(1)
         number = _materials.define_material(one * young, one / young, np.zeros(3), np.eye(3), (young, poisson), table)
-    define_fields(number, material, directions(None), Tensor.UNIAXIAL, library)
+    _define_fields(number, material, directions(None), Tensor.UNIAXIAL, library, room)
     return number
 
 
@@ -420,14 +440,13 @@ def _define_user_material(
     library: Library,
     *,
     hybrid: bool,
-    room: int | None,
+    room: int,
 ) -> int:
     address = _needed(library.umat, "UMAT", material, "*USER MATERIAL", given.source, library)
     if orientation is not None and not is_global(orientation):
         raise DeckError(orientation.source, f"*ORIENTATION is not supported for *USER MATERIAL ({material.name})")
     formulation = int(given.hybrid) if hybrid else 0
     statev = state_variables(material)
-    room = statev if room is None else room
     return _materials.define_user_material(
         address, material.name, int(tensor), given.constants, formulation, statev, room
     )
@@ -530,11 +549,8 @@ def _anisotropic(c: tuple[float, ...]) -> FloatArray:
     return d
 
 
-def define_expansion(number: int, material: Material, orientation: Orientation | None) -> None:
-    """Define the thermal expansion of a material in the host, if it has any.
-
-    orientation: its directions; None if the material of the host is in them.
-    """
+def _define_expansion(number: int, material: Material, orientation: Orientation | None) -> None:
+    """Define the thermal expansion of a material in the host, if it has any."""
     if material.expansion is None:
         return
     table = material.expansion.table.copy()
