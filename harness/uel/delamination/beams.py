@@ -49,10 +49,7 @@ class BeamCurve:
 
 
 def growth(problem: str, arms: Arms = ARMS) -> BeamCurve:
-    """Return the growth branch of 'dcb' (displacement of one arm), 'enf' or 'frmm' of table 2.
-
-    Displacements rise with the crack's length in all three, so that growth is stable.
-    """
+    """Return the growth branch of 'dcb' (displacement of one arm), 'enf' or 'frmm' of table 2; growth is stable."""
     load, compliance = _formulas(problem, arms)
     cracks = np.linspace(CRACK, LONGEST[problem], 300)
     loads = np.array([load(crack) for crack in cracks])

@@ -19,21 +19,20 @@ BY_EQUATION_21 = -2.0
 class Interface:
     """Interface elements of a deck.
 
-    type       'U2' standard, 'U3' consistent or paper's with four nodes, 'U4' with eight, 'COH2D4' Abaqus' own; in
-               space 'U7' standard, 'U8' consistent or paper's, 'COH3D8' Abaqus' own
+    type       'U2' standard, 'U3' consistent or paper's with four nodes, 'U4' with eight, 'COH2D4' of Abaqus; in 3D
+               'U7' standard, 'U8' consistent or paper's, 'COH3D8' of Abaqus
     cohesive   parameters of the law
-    beta       stabilisation parameter beta_n = beta_tau (N/mm^3); 0 computes it by the local eigenvalue problem, in U3
-               and U10 by equation (21), which BY_EQUATION_21 asks for
+    beta       stabilisation parameter beta_n = beta_tau (N/mm^3); 0: from the local eigenvalue problem, in U3 and
+               U10 from equation (21), like BY_EQUATION_21
     weight     of the bulk stress below; 0 computes it by equation (22), with the estimate of beta
     viscosity  relaxation time of the damage, in step time
     sampling   of the bulk stress: 0 middle of the face, 1 face, 2 Gauss point
-    consistent the law has a separation of its own (CLOSURE 1), in place of the paper's damage at the displacement jump
-               (CLOSURE 2)
+    consistent law evaluated at the separation (CLOSURE 1) instead of the displacement jump of the paper (CLOSURE 2)
     law        1 linear criterion (11), 2 criterion of Benzeggagh and Kenane with the exponent `eta`, or the power law
     power      exponent of the power law, where `eta` is 0; 0: 1, the linear criterion
-    newton_cotes  integration points at the nodes, in place of Gauss points
+    newton_cotes  integration points at the nodes instead of Gauss points
     secant     AMATRX without the derivative of the damage (TANGENT 1), equation (24)
-    blend      share of that matrix in AMATRX
+    blend      weight of that matrix in AMATRX
 
     COH2D4 and COH3D8 are built in: they have the law of `law` 1 or 2, integrate by Newton-Cotes, and ignore beta,
     weight, sampling, consistent, newton_cotes, secant and blend.
@@ -68,7 +67,7 @@ class Interface:
 class Specimen:
     """The elements of a deck.
 
-    name    beginning of the names of the mesh files
+    name    prefix of the mesh files
     quads   'U1', or 'CPS4' for the built-in quads of plane stress
     width   thickness out of the plane (mm)
     bottom, top  plies of the two arms
@@ -156,12 +155,12 @@ def _interface(specimen: Specimen) -> list[str]:
 
 
 def cohesive_section(interface: Interface, width: float | None = None) -> list[str]:
-    """Write *COHESIVE SECTION of the set INTERFACE with its material; width: out of plane (mm), None in space."""
+    """Write *COHESIVE SECTION of the set INTERFACE with its material; width: out of plane (mm), None in 3D."""
     return [*traction_section("INTERFACE", "INTERFACE", width), *traction_material("INTERFACE", interface)]
 
 
 def traction_section(elset: str, material: str, width: float | None = None) -> list[str]:
-    """Write *COHESIVE SECTION of an element set; its *SECTION CONTROLS have the name of its material."""
+    """Write *COHESIVE SECTION of an element set, with *SECTION CONTROLS named like its material."""
     section = {"CONTROLS": material, "ELSET": elset, "MATERIAL": material}
     return [
         "** constitutive thickness" + (", width" if width else ""),
@@ -171,9 +170,9 @@ def traction_section(elset: str, material: str, width: float | None = None) -> l
 
 
 def traction_material(name: str, interface: Interface) -> list[str]:
-    """Write *SECTION CONTROLS and *MATERIAL of a name: the law of the user elements in Abaqus' words.
+    """Write *SECTION CONTROLS and *MATERIAL: the law of the user elements in Abaqus keywords.
 
-    The controls let failed elements still resist compression, like the user elements.
+    With these controls failed elements resist compression, like the user elements.
     """
     law = interface.cohesive
     mixed = ("BK", interface.eta) if interface.eta else ("POWER LAW", interface.power or 1.0)
@@ -195,7 +194,7 @@ def traction_material(name: str, interface: Interface) -> list[str]:
 
 
 def bending_section(elset: str, material: str, modulus: float) -> list[str]:
-    """Write the section of quads that bend exactly (CPS4R), 1 mm wide; its material has a modulus (MPa) and nu = 0."""
+    """Write a CPS4R section with exact bending, 1 mm wide; material with a modulus (MPa) and nu = 0."""
     return [
         "*SECTION CONTROLS, NAME=BENDING, HOURGLASS=ENHANCED",
         keyword("SOLID SECTION", ELSET=elset, MATERIAL=material, CONTROLS="BENDING"),

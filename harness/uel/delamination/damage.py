@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Damage by one definition, whatever the element writes.
+"""Conversion between the damage variables of the elements.
 
-The standard and the paper's element and COH2D4 write d of (9), the share of its stiffness alpha that a point has lost:
-with the secant stiffness K of traction over separation, d = 1 - K/alpha. Where alpha is infinite, that is 1 from the
-onset on. So the consistent element writes D = (1 - K/alpha) k/(K + k), with the softening stiffness k of mode I: the
-dissipated share of the toughness there. K is the same in both, so that with q = k/alpha
+The standard and the paper's element and COH2D4 write d of (9), the loss of the initial stiffness alpha: with the secant
+stiffness K of traction over separation, d = 1 - K/alpha. With an infinite alpha, d = 1 from the onset on. The
+consistent element therefore writes D = (1 - K/alpha) k/(K + k), with the softening stiffness k of mode I: the
+dissipated fraction of the toughness. K is the same in both, so that with q = k/alpha
 
     d = D (1 + q)/(D + q),    D = d q/(1 + q - d).
 """

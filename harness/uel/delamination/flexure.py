@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """End-notched flexure (mode II) and fixed-ratio mixed-mode specimens, sections 4.3 and 4.4 (N, mm, MPa).
 
-The faces of an end-notched flexure specimen's crack press on each other where the left support carries the upper arm.
-No element stands between them there: *EQUATION ties their deflections above the support, the point through which beam
-theory passes the load. Both arms then have the same end deflection under a load each, thus, as beams, the same
-deflection all along the crack, whatever their stiffnesses: nothing else keeps them apart or together.
+The crack faces of an end-notched flexure specimen are in contact above the left support. There are no elements between
+them; *EQUATION couples their deflections above the support, where beam theory transmits the load. Both arms then have
+the same end deflection under one load each and so, as beams, equal deflections along the whole crack.
 """
 
 from __future__ import annotations
@@ -23,15 +22,15 @@ FRMM_LENGTH = 50.0
 
 
 def enf_mesh(size: float = 0.25, bump: float = 0.0) -> TwoArmMesh:
-    """Mesh with columns of `size` (mm) over the whole span; four quads over the height of an arm."""
+    """Mesh with columns of `size` (mm) over the whole span and four quads over the height of an arm."""
     x = np.round(np.linspace(0.0, SPAN, round(SPAN / size) + 1), 6)
     return two_arms(x, ARM_HEIGHT, 4, CRACK, bump)
 
 
 def frmm_mesh(size: float = 0.125, bump: float = 0.0, crack: float = CRACK) -> TwoArmMesh:
-    """Mesh with columns of `size` (mm) from ahead of the crack's tip to the clamp, up to 0.5 mm before.
+    """Mesh with columns of `size` (mm) from the crack tip to 0.5 mm before the clamp.
 
-    The specimen is as many times longer than the paper's as its `crack` (mm).
+    The length scales with `crack` (mm) from that of the paper.
     """
     start, length = crack - 1.5, FRMM_LENGTH * crack / CRACK
     x = crack_columns(length, (start, length), size, ratio=1.15, largest=(0.5, 0.5))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keyword blocks of the project's elements, from the layout that the elements themselves are compiled with."""
+"""Keyword blocks of the project's elements, from the layout that is compiled into them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from uel.usersub.layout import element_layouts
 
 
 def user_element(jtype: int, **options: str | int) -> list[str]:
-    """Write *USER ELEMENT of an element type: its counts, UNSYMM where it needs it, and what else is given."""
+    """Write *USER ELEMENT of an element type, with UNSYMM where necessary and further options."""
     layout = element_layouts()[jtype]
     counts: dict[str, str | int] = {"TYPE": f"U{jtype}", "NODES": layout.nodes, "COORDINATES": layout.dimension}
     counts |= {"PROPERTIES": len(layout.reals), "I_PROPERTIES": len(layout.integers), "VARIABLES": layout.svars}
@@ -22,7 +22,7 @@ def user_element(jtype: int, **options: str | int) -> list[str]:
 def uel_property(jtype: int, elset: str, values: Mapping[str, float], **options: str) -> list[str]:
     """Write *UEL PROPERTY with properties by name, 0 by default; those of other element types are ignored.
 
-    Integers follow the reals on the same lines, eight per line; comments above name them.
+    Integers follow the reals on the same lines, eight per line, with their names in comments.
     """
     layout = element_layouts()[jtype]
     names = [item.name for item in (*layout.reals, *layout.integers)]

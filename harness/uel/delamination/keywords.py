@@ -14,13 +14,13 @@ PER_LINE = 8
 
 
 def number(value: float) -> str:
-    """Write a real number to twelve digits, as short as it reads back, with a point or an exponent; no minus zero."""
+    """Format a real number with up to twelve digits and a point or an exponent; -0 as 0."""
     text = f"{value + 0.0:.12g}"
     return text if any(mark in text for mark in ".en") else text + "."
 
 
 def keyword(name: str, *flags: str, **options: str | int) -> str:
-    """Write a keyword line: options, then flags; an underscore in an option's name stands for a blank."""
+    """Write a keyword line: parameters, then flags; an underscore in a parameter's name becomes a blank."""
     words = [f"{key.replace('_', ' ')}={value}" for key, value in options.items()]
     return ", ".join([f"*{name}", *words, *flags])
 
@@ -36,7 +36,7 @@ def wrapped(values: Sequence[float]) -> list[str]:
 
 
 def captions(names: Sequence[str]) -> list[str]:
-    """Write comment lines with the names of values, one for each data line of `wrapped`."""
+    """Write a comment line with the names of the values for each data line of `wrapped`."""
     return ["** " + ", ".join(names[k : k + PER_LINE]) for k in range(0, len(names), PER_LINE)]
 
 

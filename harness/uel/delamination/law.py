@@ -1,11 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Interface element driven along paths of the separation, for `uel law`.
+"""Single interface element under prescribed separation paths, for `uel law`.
 
-The element is square and small, with a uniform separation. Separations and tractions are (normal, tangential). A
-standard element (U2, U5) is opened by its nodes. The two quads of a stabilised element (U4, U6) are strained so that
-their stress equals the traction of the interface, as in a structure in equilibrium, so that it shows its law, not
-Nitsche's compliance.
+The element is a small square with a uniform separation. Separations and tractions are (normal, tangential). The nodes
+of a standard element (U2, U5) are displaced. The two quads of a stabilised element (U4, U6) are strained so that their
+stress balances the interface traction: the response is then the law, without the compliance of Nitsche's method.
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ from uel.model.properties import UserElement, UserProperty
 from uel.usersub import Library
 from uel.usersub.layout import check_law_uses, element_layouts
 
-PLACE: Final = Source("uel law", 0)
+LOCATION: Final = Source("uel law", 0)
 STANDARD: Final = 2
 LOW: Final = np.array([[0, -1], [1, -1], [1, 0], [0, 0], [0.5, -1], [1, -0.5], [0.5, 0], [0, -0.5]])
 HIGH: Final = np.add(LOW, [0, 1])
@@ -42,73 +41,69 @@ NODES: Final = {
     5: np.array([[0, 0], [1, 0], [1, 0], [0, 0], [0.5, 0], [0.5, 0]]),
     6: np.vstack([LOW, HIGH]),
 }
-"""Coordinates over the size, of each element type that can be driven."""
+"""Coordinates divided by the size, by element type."""
 TOP: Final = {2: [2, 3], 4: [4, 5, 6, 7], 5: [2, 3, 5], 6: list(range(8, 16))}
 """Nodes above the interface."""
 SIZE: Final = 0.125
-"""Edge of the quads of a stabilised element, on which beta depends: that of the double cantilever beam (mm)."""
+"""Edge length of the quads of a stabilised element (mm), on which beta depends: as in the double cantilever beam."""
 
 MOST_ITERATIONS: Final = 50
 PATIENCE: Final = 10
-"""Iterations after which a step of the search for equilibrium may no longer increase what is missed."""
+"""Iterations after which a Newton step may no longer increase the residual."""
 BISECTIONS: Final = 30
 RIGID: Final = 1e6
-"""Stiffness in place of an infinite one, over that of the softening, when only the end of a curve is sought."""
-BACK: Final = 20
-"""Number of increments of an unloading."""
+"""Penalty stiffness that replaces an infinite one, over the softening stiffness, to find the end of a curve."""
+UNLOADING: Final = 20
+"""Number of increments of an unloading branch."""
 
 Properties = Mapping[str, float]
-
 
 LARGEST: Final = 1 << 31
 """The first integer too large for JPROPS."""
 
 
 def standard_properties() -> dict[str, float]:
-    """Return the properties of the paper's interface (tables 1 and 2), of every element type."""
+    """Return the properties of the paper's interface (tables 1 and 2) for all element types."""
     mesh = two_arms(np.array([0.0, 1.0]), 1.0, 1, crack=0.0)
     return interface_values(Specimen("law", mesh, Interface("U2", TABLE_2), 1.0, PLY_0, PLY_0))
 
 
-def given_properties(words: Iterable[str]) -> dict[str, float]:
+def read_properties(words: Iterable[str]) -> dict[str, float]:
     """Read properties from words NAME=VALUE; an underscore stands for a blank. Raises UsageError naming the word."""
     layouts = element_layouts().values()
     integers = {item.name for layout in layouts for item in layout.integers}
-    known = integers | {item.name for layout in layouts for item in layout.reals}
-    given = {}
+    names = integers | {item.name for layout in layouts for item in layout.reals}
+    properties = {}
     for word in words:
         name, equals, value = word.upper().partition("=")
         name = name.replace("_", " ")
-        if not equals or name not in known:
-            raise UsageError(f"'{word}': expected NAME=VALUE with a name among {', '.join(sorted(known))}")
+        if not equals or name not in names:
+            raise UsageError(f"'{word}': expected NAME=VALUE with a name among {', '.join(sorted(names))}")
         try:
-            given[name] = float(value)
+            properties[name] = float(value)
         except ValueError:
-            given[name] = math.nan
-        if not math.isfinite(given[name]):
+            properties[name] = math.nan
+        if not math.isfinite(properties[name]):
             raise UsageError(f"'{word}': '{value}' is not a finite number")
-        if name in integers and not (given[name].is_integer() and abs(given[name]) < LARGEST):
+        if name in integers and not (properties[name].is_integer() and abs(properties[name]) < LARGEST):
             raise UsageError(f"'{word}': '{value}' is not a whole number below {LARGEST}")
-    return given
+    return properties
 
 
-def refuse_ignored(given: Properties, jtype: int, number: int) -> None:
-    """Raise UsageError for a property that elements of a type, or the law of a number, would ignore.
-
-    It names those that have it.
-    """
+def refuse_ignored(values: Properties, jtype: int, number: int) -> None:
+    """Raise UsageError for a property that the element type or the law would ignore; names the types that use it."""
     layouts = element_layouts()
-    has = {number: {item.name for item in (*layouts[number].reals, *layouts[number].integers)} for number in NODES}
-    for name in given:
-        if name not in has[jtype]:
-            others = [f"U{number}" for number in NODES if name in has[number]]
+    accepted = {number: {item.name for item in (*layouts[number].reals, *layouts[number].integers)} for number in NODES}
+    for name in values:
+        if name not in accepted[jtype]:
+            others = [f"U{number}" for number in NODES if name in accepted[number]]
             other = f"; --element {' or '.join(others)} has it" if others else ""
             raise UsageError(f"{name}: U{jtype} has no such property and would ignore it{other}")
-    check_law_uses(jtype, given, number)
+    check_law_uses(jtype, values, number)
 
 
 def shown_properties(values: Properties, jtype: int) -> list[tuple[str, float]]:
-    """Return the law's properties that are not zero, by name; those of plies and the thickness do not change it."""
+    """Return the non-zero properties of the law; those of the plies and the thickness do not affect it."""
     layout = element_layouts()[jtype]
     names = [item.name for item in (*layout.reals, *layout.integers)]
     names = [name for name in names if name != "THICKNESS" and not name.endswith((" BOTTOM", " TOP"))]
@@ -116,9 +111,9 @@ def shown_properties(values: Properties, jtype: int) -> list[tuple[str, float]]:
 
 
 def deck_properties(path: Path, elset: str | None = None) -> tuple[int, dict[str, float]]:
-    """Return the type and properties of the interface elements of a deck: of one element set, by default the first.
+    """Return type and properties of the interface elements in `elset` of a deck, by default the first set.
 
-    The four-node stabilised element does not work without its neighbours; its law is that of the standard element.
+    The four-node stabilised element needs its neighbours; it is replaced by the standard element with the same law.
     """
     sections = []
     for group in read_deck(path).groups:
@@ -134,17 +129,17 @@ def deck_properties(path: Path, elset: str | None = None) -> tuple[int, dict[str
         sections.append(section.elset)
     if not sections:
         raise UelError(f"{path}: no interface elements of the project with *UEL PROPERTY")
-    known = ", ".join(sections)
-    raise UelError(f"{path}: no interface elements with *UEL PROPERTY, ELSET={elset}; expected one of {known}")
+    expected = ", ".join(sections)
+    raise UelError(f"{path}: no interface elements with *UEL PROPERTY, ELSET={elset}; expected one of {expected}")
 
 
 @dataclass(frozen=True, slots=True)
 class LawCurve:
-    """Path of the separation with the element's response.
+    """Response along a separation path.
 
-    label    as in the legend
+    label    in the legend
     columns  one value per increment, the start included: TIME, SEPN, SEPT, TN, TT, the other variables of the point,
-             WORK (of the traction, per area)
+             WORK (per area)
     """
 
     label: str
@@ -152,7 +147,7 @@ class LawCurve:
 
 
 class LawElement:
-    """Interface element of a type with properties by name."""
+    """Model of one interface element."""
 
     def __init__(self, library: Library, jtype: int, values: Properties, size: float = SIZE) -> None:
         layout = element_layouts()[jtype]
@@ -167,7 +162,7 @@ class LawElement:
             jtype,
             layout.nodes,
             tuple((node, dof) for node in range(layout.nodes) for dof in (1, 2)),
-            PLACE,
+            LOCATION,
             coordinates=2,
             properties=len(layout.reals),
             integer_properties=len(layout.integers),
@@ -176,11 +171,11 @@ class LawElement:
         )
         section = UserProperty(
             "LAW",
-            PLACE,
+            LOCATION,
             np.array([float(values.get(item.name, 0.0)) for item in layout.reals]),
             np.array([int(values.get(item.name, 0)) for item in layout.integers]),
         )
-        group = ElementGroup(f"U{jtype}", np.array([1]), np.arange(layout.nodes)[None], "", section, user, PLACE)
+        group = ElementGroup(f"U{jtype}", np.array([1]), np.arange(layout.nodes)[None], "", section, user, LOCATION)
         coordinates = np.column_stack([nodes * size, np.zeros(len(nodes))])
         mesh = Mesh(np.arange(1, len(nodes) + 1), coordinates, ("",) * len(nodes))
         (self._block,) = build_blocks(Model(Path("uel law"), "", mesh, (group,), ()), library)
@@ -193,7 +188,7 @@ class LawElement:
         self._operator = self._stress_operator(values) if self._stabilised else np.zeros((2, 2))
 
     def advance(self, separation: FloatArray, dtime: float) -> FloatArray:
-        """Make a converged increment to a separation (normal, tangential); returns the traction."""
+        """Advance one increment to a separation (normal, tangential) and return the traction."""
         self._time += dtime
         if self._stabilised:
             self._gradient = self._equilibrium(separation, dtime)
@@ -204,7 +199,7 @@ class LawElement:
         return traction
 
     def probe(self, separation: FloatArray) -> FloatArray:
-        """Return the traction of a standard element at a separation; the increment is not kept."""
+        """Return the traction of a standard element at a trial separation, without advancing."""
         return self._traction(self._displacements(separation, self._gradient), 1.0)
 
     def variables(self) -> dict[str, float]:
@@ -223,7 +218,7 @@ class LawElement:
         return np.array([normal, tangential])
 
     def _stress_operator(self, values: Properties) -> FloatArray:
-        """Build the matrix from gradient to quads' stress: without separation the traction is (1 - S) times this."""
+        """Return the matrix from gradient to quad stress; at zero separation the traction is 1 - S times the stress."""
         columns = []
         # far below onset
         step = 1e-3 * min(values["SIGMAMAX"], values["TAUMAX"]) / max(values["E2 BOTTOM"], values["G12 BOTTOM"])
@@ -235,104 +230,104 @@ class LawElement:
         return np.array(columns).T
 
     def _equilibrium(self, separation: FloatArray, dtime: float) -> FloatArray:
-        """Solve for the derivative of the displacement along the normal that makes the quads' stress the traction.
+        """Solve for the normal derivative of the displacement at which the quad stress balances the traction.
 
-        Newton's method with differences: 1 - dT/dsigma is S or, with a consistent law, positive as beta exceeds the
-        steepest softening, so the solution is unique.
+        Newton's method with a finite-difference Jacobian. The solution is unique: 1 - dT/dsigma is S or, with a
+        consistent law, positive because beta exceeds the steepest softening.
         """
         gradient = self._gradient
 
-        def miss(at: FloatArray) -> FloatArray:
+        def imbalance(at: FloatArray) -> FloatArray:
             return self._traction(self._displacements(separation, at), dtime) - self._operator @ at
 
         negligible = 1e-10 * self._strength
-        for passes in range(MOST_ITERATIONS):
-            residual = miss(gradient)
+        for iteration in range(MOST_ITERATIONS):
+            residual = imbalance(gradient)
             if np.abs(residual).max() <= negligible:
                 return gradient
             steps = np.linalg.solve(self._operator, 1e-6 * self._strength * np.eye(2)).T
-            slopes = np.array([(miss(gradient + step) - residual) / (1e-6 * self._strength) for step in steps]).T
-            left, sizes, right = np.linalg.svd(slopes)
-            missed, free = left.T @ residual, sizes > 1e-6
-            stress = -right[free].T @ (missed[free] / sizes[free])
-            # rigid up to the onset: only the stress at the onset allows a separation
-            rigid = right[~free & (np.abs(missed) > negligible)]
+            jacobian = np.array([(imbalance(gradient + step) - residual) / (1e-6 * self._strength) for step in steps]).T
+            left, singular, right = np.linalg.svd(jacobian)
+            projected, free = left.T @ residual, singular > 1e-6
+            stress = -right[free].T @ (projected[free] / singular[free])
+            # a rigid interface separates only at the onset stress
+            rigid = right[~free & (np.abs(projected) > negligible)]
             stress = stress + rigid.T @ (rigid @ (self._operator @ gradient + residual))
-            change, share = np.linalg.solve(self._operator, stress), 1.0
-            # back and forth across the onset of a rigid interface
-            while passes >= PATIENCE and share > negligible and _larger(miss(gradient + share * change), residual):
-                share /= 2.0
-            gradient = gradient + share * change
+            change, fraction = np.linalg.solve(self._operator, stress), 1.0
+            # backtracking: a rigid interface may oscillate across its onset
+            while (
+                iteration >= PATIENCE
+                and fraction > negligible
+                and np.abs(imbalance(gradient + fraction * change)).max() > np.abs(residual).max()
+            ):
+                fraction /= 2.0
+            gradient = gradient + fraction * change
         raise UelError(f"no equilibrium of the quads with the interface at a separation of {separation}")
 
 
-def _larger(one: FloatArray, other: FloatArray) -> bool:
-    return bool(np.abs(one).max() > np.abs(other).max())
-
-
 def along(points: FloatArray, increments: int) -> FloatArray:
-    """Return separations (n, 2) on straight lines from the origin through the points, each in equal increments."""
+    """Return separations (n, 2) along straight segments from the origin through the points, in equal increments."""
     corners = np.vstack([np.zeros((1, 2)), points])
-    parts = [start + np.linspace(0, 1, increments + 1)[1:, None] * (end - start) for start, end in pairwise(corners)]
-    return np.vstack([corners[:1], *parts])
+    segments = [start + np.linspace(0, 1, increments + 1)[1:, None] * (end - start) for start, end in pairwise(corners)]
+    return np.vstack([corners[:1], *segments])
 
 
 def opening(
     angle: float, reach: float, increments: int, unload: Sequence[float] = (), close: float = 0.0
 ) -> FloatArray:
-    """Return the separations (n, 2) growing at a fixed angle, from opening (0) to sliding (90 degrees), up to `reach`.
+    """Return separations (n, 2) up to `reach` at a fixed angle, from opening (0) to sliding (90 degrees).
 
-    The increments grow with the separation, so that the stiff rise has some. At the fractions `unload` of the reach
-    the path goes back to the origin, on to a closure of `close` times the reach, and returns.
+    The increments grow with the separation to resolve the stiff initial slope. At the fractions `unload` of the reach
+    the path unloads to the origin, closes by `close` times the reach, and reloads.
     """
     direction = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
-    sizes = np.linspace(0.0, 1.0, increments + 1) ** 2
-    path: FloatArray = sizes[:, None] * reach * direction
-    closed = np.linspace(0.0, -close * reach, BACK + 1)[1:, None] * [1.0, 0.0] if close else np.zeros((0, 2))
-    # from the last one, so that earlier places do not shift
+    fractions = np.linspace(0.0, 1.0, increments + 1) ** 2
+    path: FloatArray = fractions[:, None] * reach * direction
+    closed = np.linspace(0.0, -close * reach, UNLOADING + 1)[1:, None] * [1.0, 0.0] if close else np.zeros((0, 2))
+    # from the last fraction, so that the earlier rows do not shift
     for fraction in sorted(unload, reverse=True):
-        place = int(np.searchsorted(sizes, fraction))
-        way = np.vstack([np.linspace(1.0, 0.0, BACK + 1)[1:, None] * path[place], closed])
-        path = np.vstack([path[: place + 1], way, way[-2::-1], path[place:]])
+        row = int(np.searchsorted(fractions, fraction))
+        unloading = np.vstack([np.linspace(1.0, 0.0, UNLOADING + 1)[1:, None] * path[row], closed])
+        path = np.vstack([path[: row + 1], unloading, unloading[-2::-1], path[row:]])
     return path
 
 
 def reach_of(library: Library, values: Properties, angle: float) -> float:
-    """Return the separation at an angle (degrees) at which a thousandth of the strength is left of the traction."""
+    """Return the separation at an angle (degrees) at which the traction has dropped to a thousandth of the strength."""
     for name in ("SIGMAMAX", "TAUMAX", "GIC", "GIIC"):
         if not values[name] > 0.0:
             raise UelError(f"{name} = {values[name]:g}: expected a number above 0, which determines the reach")
     direction = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
     stiff = {name: values[name] or RIGID * values["SIGMAMAX"] ** 2 / values["GIC"] for name in ("ALPHAN", "ALPHAT")}
-    # in one increment, in which viscosity would delay the damage
+    # probed in one increment, so without viscosity, which would delay the damage
     element = LawElement(library, STANDARD, {**values, **stiff, "VISCOSITY": 0.0})
-    least = 1e-3 * min(values["SIGMAMAX"], values["TAUMAX"])
+    limit = 1e-3 * min(values["SIGMAMAX"], values["TAUMAX"])
 
-    def holds(size: float) -> bool:
-        return float(np.linalg.norm(element.probe(size * direction))) > least
+    def above_limit(size: float) -> bool:
+        return float(np.linalg.norm(element.probe(size * direction))) > limit
 
-    # in pure modes a bilinear law ends at twice this, a mixed mode in between
-    start = near = min(values["GIC"] / values["SIGMAMAX"], values["GIIC"] / values["TAUMAX"])
-    far = near
-    while holds(far):
-        near, far = far, 2.0 * far
-        if far > 1e6 * start:
+    # a bilinear law ends at twice this in pure modes
+    estimate = lower = min(values["GIC"] / values["SIGMAMAX"], values["GIIC"] / values["TAUMAX"])
+    upper = lower
+    while above_limit(upper):
+        lower, upper = upper, 2.0 * upper
+        if upper > 1e6 * estimate:
             raise UelError(f"the traction at {angle:g} degrees does not fall to a thousandth: give the reach (--reach)")
     for _ in range(BISECTIONS):
-        middle = 0.5 * (near + far)
-        near, far = (middle, far) if holds(middle) else (near, middle)
-    return far
+        middle = 0.5 * (lower + upper)
+        lower, upper = (middle, upper) if above_limit(middle) else (lower, middle)
+    return upper
 
 
 def drive(element: LawElement, label: str, path: FloatArray, duration: float = 1.0) -> LawCurve:
-    """Compute tractions along a path, in increments of equal duration."""
+    """Compute the tractions along a path with increments of equal duration."""
     rows = []
-    work, before, old = 0.0, np.zeros(2), np.zeros(2)
+    work, previous, last = 0.0, np.zeros(2), np.zeros(2)
     dtime = duration / (len(path) - 1)
     for number, separation in enumerate(path):
         traction = element.advance(separation, dtime if number else 0.0)
-        work += 0.5 * float((traction + before) @ (separation - old))
-        before, old = traction, separation
+        work += 0.5 * float((traction + previous) @ (separation - last))
+        previous, last = traction, separation
         point = element.variables()
         rows.append({"TIME": number * dtime, **point, "TN": traction[0], "TT": traction[1], "WORK": work})
     return LawCurve(label, {name: np.array([row[name] for row in rows]) for name in rows[0]})

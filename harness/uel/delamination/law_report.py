@@ -29,29 +29,29 @@ from uel.output.pictures.plots import COLOURS, STYLE
 SURFACE_ANGLES = 31
 SURFACE_SIZES = 60
 _LINE = 130
-"""Letters of a line below a picture."""
+"""Width of the caption in characters."""
 _MOST_PRESSURE = 0.5
-"""Pressure that is drawn, over the largest tension."""
+"""Largest pressure plotted, over the largest tension."""
 _SHORTEST_ARROWED = 0.05
-"""Length of a part of a curve with an arrow, over the size of the axes."""
+"""Shortest branch with an arrow, over the size of the axes."""
 
 
 @dataclass(frozen=True, slots=True)
 class Exploration:
     """Options of `uel law`.
 
-    properties  words NAME=VALUE, in place of those of the deck or of the paper
-    deck, elset *UEL PROPERTY to take the properties from
+    properties  words NAME=VALUE that override those of the deck or of the paper
+    deck, elset source of the properties: *UEL PROPERTY in the deck
     element     number of the element type, 2 and 5 standard, 4 and 6 stabilised; None: as in the deck, or U2
     angles      of the separation, from opening (0) to sliding (90 degrees); a curve each
-    path        points (normal, tangential) to go through from the origin, in place of the angles
+    path        points (normal, tangential) of a path from the origin, instead of the angles
     reach       largest separation of a curve; None: until no traction is left
     unload      fractions of the reach at which to unload to the origin
-    close       fraction of the reach by which to press together after unloading
+    close       fraction of the reach by which to close after unloading
     surface     also draw both tractions over both separations
-    increments  of a curve, or of each straight line of a path
-    duration    of a curve in step time, for VISCOSITY
-    units       of length and traction, for the axes; None: those of the paper, or with a deck unknown
+    increments  per curve, or per segment of a path
+    duration    step time of a curve, for VISCOSITY
+    units       of length and traction, for the axes; None: those of the paper, with a deck none
     """
 
     properties: Sequence[str] = ()
@@ -71,53 +71,53 @@ class Exploration:
     units: tuple[str, str] | None = None
 
 
-def explore(asked: Exploration) -> tuple[list[LawCurve], list[Path]]:
-    """Drive the element, write JOB.csv, JOB.png and, if requested, JOB_surface.png; returns curves and files."""
-    stem = job_stem(asked.job, asked.output_dir)
-    asked.output_dir.mkdir(parents=True, exist_ok=True)
+def explore(options: Exploration) -> tuple[list[LawCurve], list[Path]]:
+    """Compute the curves; write JOB.csv, JOB.png and, if requested, JOB_surface.png. Returns curves and files."""
+    stem = job_stem(options.job, options.output_dir)
+    options.output_dir.mkdir(parents=True, exist_ok=True)
     with locked(stem):
-        return _explore(asked)
+        return _explore(options)
 
 
-def _explore(asked: Exploration) -> tuple[list[LawCurve], list[Path]]:
+def _explore(options: Exploration) -> tuple[list[LawCurve], list[Path]]:
     jtype, values = law.STANDARD, law.standard_properties()
-    if asked.deck is not None:
-        jtype, from_deck = law.deck_properties(asked.deck, asked.elset)
+    if options.deck is not None:
+        jtype, from_deck = law.deck_properties(options.deck, options.elset)
         values |= from_deck
-    given = law.given_properties(asked.properties)
-    values |= given
-    jtype = asked.element or jtype
-    law.refuse_ignored(given, jtype, int(values["LAW"]))
-    what = f"U{jtype}: " + ", ".join(f"{name}={value:g}" for name, value in law.shown_properties(values, jtype))
+    properties = law.read_properties(options.properties)
+    values |= properties
+    jtype = options.element or jtype
+    law.refuse_ignored(properties, jtype, int(values["LAW"]))
+    caption = f"U{jtype}: " + ", ".join(f"{name}={value:g}" for name, value in law.shown_properties(values, jtype))
     # the paper's values are in mm and MPa
-    units = asked.units or (("mm", "MPa") if asked.deck is None else ("", ""))
-    library = usersub.load(None, job=asked.job, output_dir=asked.output_dir)
+    units = options.units or (("mm", "MPa") if options.deck is None else ("", ""))
+    library = usersub.load(None, job=options.job, output_dir=options.output_dir)
     try:
 
         def curve(label: str, path: FloatArray) -> LawCurve:
-            return law.drive(LawElement(library, jtype, values), label, path, asked.duration)
+            return law.drive(LawElement(library, jtype, values), label, path, options.duration)
 
         def reach(angle: float) -> float:
-            return asked.reach or law.reach_of(library, values, angle)
+            return options.reach or law.reach_of(library, values, angle)
 
-        if asked.path is None:
+        if options.path is None:
             curves = [
                 curve(
                     f"{angle:g}°",
-                    law.opening(angle, reach(angle), asked.increments, asked.unload, asked.close),
+                    law.opening(angle, reach(angle), options.increments, options.unload, options.close),
                 )
-                for angle in asked.angles
+                for angle in options.angles
             ]
         else:
-            curves = [curve("path", law.along(asked.path, asked.increments))]
-        files = [asked.output_dir / f"{asked.job}.csv", asked.output_dir / f"{asked.job}.png"]
-        write_csv(curves, files[0], what)
-        draw_curves(curves, files[1], units, what)
-        if asked.surface:
+            curves = [curve("path", law.along(options.path, options.increments))]
+        files = [options.output_dir / f"{options.job}.csv", options.output_dir / f"{options.job}.png"]
+        write_csv(curves, files[0], caption)
+        draw_curves(curves, files[1], units, caption)
+        if options.surface:
             angles = np.linspace(0.0, 90.0, SURFACE_ANGLES)
             sheets = [curve("", law.opening(angle, reach(angle), SURFACE_SIZES)) for angle in angles]
-            files.append(asked.output_dir / f"{asked.job}_surface.png")
-            draw_surface(sheets, files[-1], units, what)
+            files.append(options.output_dir / f"{options.job}_surface.png")
+            draw_surface(sheets, files[-1], units, caption)
     finally:
         library.close()
     return curves, files
@@ -134,10 +134,10 @@ def path_points(text: str) -> FloatArray:
     return points
 
 
-def write_csv(curves: Sequence[LawCurve], path: Path, what: str) -> None:
-    """Write a comment (#) with element and properties; then a line per increment: the curve's label and its columns."""
+def write_csv(curves: Sequence[LawCurve], path: Path, caption: str) -> None:
+    """Write the caption as a comment (#), then a row per increment with the label and columns of its curve."""
     with path.open("w", newline="", encoding="utf-8") as file:
-        file.write(f"# {what}\r\n")
+        file.write(f"# {caption}\r\n")
         writer = csv.writer(file)
         writer.writerow(["CURVE", *curves[0].columns])
         for curve in curves:
@@ -157,7 +157,7 @@ def summary(curves: Sequence[LawCurve]) -> Table:
 
 
 def _shown(values: list[float]) -> list[str]:
-    """Return the values of one kind; rounding, compared with the others, is shown as zero."""
+    """Format values of one kind; round-off relative to the largest is shown as zero."""
     largest = max(map(abs, values))
     return [f"{value if abs(value) > 1e-9 * largest else 0.0:.5g}" for value in values]
 
@@ -166,10 +166,10 @@ def _with_unit(words: str, unit: str) -> str:
     return f"{words} [{unit}]" if unit else words
 
 
-def draw_curves(curves: Sequence[LawCurve], path: Path, units: tuple[str, str], what: str = "") -> None:
-    """Draw normal traction over opening and tangential traction over sliding; arrows where a path turns.
+def draw_curves(curves: Sequence[LawCurve], path: Path, units: tuple[str, str], caption: str = "") -> None:
+    """Plot normal traction over opening and tangential traction over sliding, with arrows if a path reverses.
 
-    `what` it shows is below. A pressure much larger than the largest tension is cut off, and named.
+    A pressure much larger than the largest tension is cut off, and its value annotated.
     """
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.0, 3.2), layout="constrained")
@@ -191,12 +191,12 @@ def draw_curves(curves: Sequence[LawCurve], path: Path, units: tuple[str, str], 
             handles, labels = panels[0].get_legend_handles_labels()
             title = "angle of the separation, 0° opening, 90° sliding"
             figure.legend(handles, labels, title=title, loc="outside upper center", ncols=8)
-        figure.supxlabel(textwrap.fill(what, _LINE), fontsize=7, color="0.35")
+        figure.supxlabel(textwrap.fill(caption, _LINE), fontsize=7, color="0.35")
         figure.savefig(path, dpi=200)
 
 
 def _cut_pressure(axis: Any, curves: Sequence[LawCurve]) -> None:
-    """Let a pressure not flatten the tension."""
+    """Limit the axis so that a large pressure does not flatten the tension."""
     tractions = np.concatenate([curve.columns["TN"] for curve in curves])
     lowest, highest = float(tractions.min()), float(tractions.max())
     if highest > 0.0 and lowest < -_MOST_PRESSURE * highest:
@@ -205,14 +205,14 @@ def _cut_pressure(axis: Any, curves: Sequence[LawCurve]) -> None:
 
 
 def _arrows(axis: Any, x: FloatArray, y: FloatArray, colour: str) -> None:
-    """Draw an arrow in the middle of each part of a curve between two turns; none on a curve without turns."""
+    """Draw an arrow in the middle of each branch between two reversals; none on a monotone curve."""
     scale = np.array([max(float(np.ptp(x)), 1e-300), max(float(np.ptp(y)), 1e-300)])
     steps = np.diff(np.column_stack([x, y]), axis=0) / scale
     moving = np.flatnonzero(np.abs(np.diff(x)) > 0.0)
-    turns = moving[1:][np.diff(np.sign(np.diff(x)[moving])) != 0]
-    if not len(turns):
+    reversals = moving[1:][np.diff(np.sign(np.diff(x)[moving])) != 0]
+    if not len(reversals):
         return
-    bounds = [0, *turns.tolist(), len(x) - 1]
+    bounds = [0, *reversals.tolist(), len(x) - 1]
     for first, last in pairwise(bounds):
         lengths = np.cumsum(np.linalg.norm(steps[first:last], axis=1))
         if len(lengths) and lengths[-1] > _SHORTEST_ARROWED:
@@ -221,8 +221,8 @@ def _arrows(axis: Any, x: FloatArray, y: FloatArray, colour: str) -> None:
             axis.annotate("", (x[k + 1], y[k + 1]), (x[k], y[k]), arrowprops=style, annotation_clip=True)
 
 
-def draw_surface(curves: Sequence[LawCurve], path: Path, units: tuple[str, str], what: str = "") -> None:
-    """Draw both tractions over opening and sliding, from curves of equally many increments, one per angle."""
+def draw_surface(curves: Sequence[LawCurve], path: Path, units: tuple[str, str], caption: str = "") -> None:
+    """Plot both tractions over opening and sliding, from one curve per angle, all with the same increments."""
     grids = {name: np.array([curve.columns[name] for curve in curves]) for name in ("SEPN", "SEPT", "TN", "TT")}
     with mpl.rc_context(STYLE | {"axes.grid": False}):
         figure = Figure(figsize=(8.0, 3.8), layout="constrained")
@@ -247,5 +247,5 @@ def draw_surface(curves: Sequence[LawCurve], path: Path, units: tuple[str, str],
             axis.set_box_aspect(None, zoom=0.9)
             axis.locator_params(nbins=4, axis="x")
             axis.locator_params(nbins=4, axis="y")
-        figure.supxlabel(textwrap.fill(what, _LINE), fontsize=7, color="0.35")
+        figure.supxlabel(textwrap.fill(caption, _LINE), fontsize=7, color="0.35")
         figure.savefig(path, dpi=200)

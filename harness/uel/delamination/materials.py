@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 @dataclass(frozen=True, slots=True)
 class Ply:
-    """Orthotropic ply in its own plane X1-X2, as the data line of *ELASTIC, TYPE=LAMINA (moduli in MPa).
+    """Orthotropic ply in its plane X1-X2, as the data line of *ELASTIC, TYPE=LAMINA (moduli in MPa).
 
     The last two shear moduli have no effect in a plane model; Abaqus requires them on the line.
     """
@@ -28,7 +28,7 @@ class Ply:
 
     @property
     def in_plane(self) -> tuple[float, float, float, float]:
-        """E1, E2, nu12, G12: all that plane stress needs."""
+        """E1, E2, nu12, G12 for plane stress."""
         return self.e1, self.e2, self.nu12, self.g12
 
     @property
@@ -39,7 +39,7 @@ class Ply:
 
 @dataclass(frozen=True, slots=True)
 class SolidPly:
-    """Orthotropic ply in space, as the data lines of *ELASTIC, TYPE=ENGINEERING CONSTANTS.
+    """Orthotropic ply in 3D, as the data lines of *ELASTIC, TYPE=ENGINEERING CONSTANTS.
 
     name    of its material, its orientation and its element set
     moduli  E1, E2, E3 (MPa)
@@ -56,7 +56,7 @@ class SolidPly:
 
     @property
     def isotropic(self) -> bool:
-        """True if no direction differs from another."""
+        """True if the constants are the same in all directions."""
         same = all(len(set(values)) == 1 for values in (self.moduli, self.ratios, self.shear))
         return same and math.isclose(self.shear[0], self.moduli[0] / (2.0 * (1.0 + self.ratios[0])), rel_tol=1e-12)
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Structured mesh of two arms, one above the other, that meet in pairs of coincident nodes.
+"""Structured mesh of two arms, one above the other, with pairs of coincident nodes at the interface.
 
 Numbers are readable: line j of nodes counted from below and column i are node stride*j + i, row j of quads and column
 i are element stride*j + i, all from 1, with a power of ten as the stride. The interface elements take the row above
@@ -22,8 +22,8 @@ class TwoArmMesh:
 
     x            (nx+1,) abscissas of the columns' edges, ascending (mm)
     lower, upper (ny+1,) ordinates of the node lines of the two arms; lower[-1] = upper[0] is the interface
-    first        column (from 0) of the first interface element: the crack lies before it
-    bumps        (nx+1,) shift of both interface lines, which stay coincident; zero for a flat interface
+    first        column (from 0) of the first interface element, behind the crack
+    bumps        (nx+1,) vertical offset of both interface lines; zero for a flat interface
     """
 
     x: FloatArray
@@ -44,12 +44,12 @@ class TwoArmMesh:
 
     @property
     def stride(self) -> int:
-        """Step of node and element numbers from one row to the next: a power of ten."""
+        """Increment of node and element numbers from one row to the next: a power of ten."""
         return int(10 ** np.ceil(np.log10(self.columns + 2)))
 
     @property
     def offsets(self) -> tuple[int, int]:
-        """Number of the quad below and of the quad above, each less the number of the interface element."""
+        """Numbers of the quads below and above minus the number of the interface element."""
         above = self.rows[1]
         return -(above + 1) * self.stride, -above * self.stride
 
@@ -119,13 +119,13 @@ def two_arms(x: FloatArray, height: float, rows: int, crack: float, bump: float 
     Parameters
     ----------
     x
-        Abscissas of the columns' edges (mm); one of them is the crack's tip.
+        Abscissas of the columns' edges (mm), one of them at the crack tip.
     height, rows
         Height of one arm (mm) and its number of rows of quads.
     crack
         Length of the initial crack (mm), 0 for none.
     bump
-        The interface nodes are moved by this height (mm), alternately up and down.
+        Vertical offset of the interface nodes (mm), alternately up and down.
     """
     ordinates = np.linspace(0.0, height, rows + 1)
     first = int(np.argmin(np.abs(x - crack)))
@@ -134,24 +134,25 @@ def two_arms(x: FloatArray, height: float, rows: int, crack: float, bump: float 
 
 
 def refined(mesh: TwoArmMesh, factor: int) -> TwoArmMesh:
-    """Cut every quad into factor x factor quads; the interface keeps its shape, bumps and all."""
+    """Divide every quad into factor x factor quads; the interface keeps its shape, bumps included."""
     x, lower, upper, bumps = (cut(values, factor) for values in (mesh.x, mesh.lower, mesh.upper, mesh.bumps))
     return TwoArmMesh(np.round(x, 9), lower, upper, factor * mesh.first, bumps)
 
 
 def cut(values: FloatArray, factor: int, axis: int = 0) -> FloatArray:
-    """Return values at the ends of intervals along an axis and, interpolated, at those of `factor` parts of each."""
+    """Refine values at grid lines along an axis by linear interpolation, `factor` intervals in place of one."""
     last = values.shape[axis] - 1
     along = np.arange(factor * last + 1) / factor
-    before = np.minimum(along.astype(int), last - 1)
-    share = (along - before).reshape([-1 if k == axis else 1 for k in range(values.ndim)])
-    return np.asarray(values.take(before, axis) * (1.0 - share) + values.take(before + 1, axis) * share)
+    interval = np.minimum(along.astype(int), last - 1)
+    weight = (along - interval).reshape([-1 if k == axis else 1 for k in range(values.ndim)])
+    return np.asarray(values.take(interval, axis) * (1.0 - weight) + values.take(interval + 1, axis) * weight)
 
 
 def graded_columns(start: float, end: float, size: float, ratio: float, largest: float) -> FloatArray:
-    """Return edges from `start` to `end` whose spacing grows from `size` by `ratio` up to `largest`, fitted.
+    """Return edges from `start` to `end` (mm), in either direction, with spacing `size` growing by `ratio` to
+    `largest`.
 
-    With end < start the edges run backwards. Lengths in mm.
+    The spacing is scaled to fit the length.
     """
     if start == end:
         return np.array([start])
@@ -160,11 +161,11 @@ def graded_columns(start: float, end: float, size: float, ratio: float, largest:
     while sum(sizes) < length:
         step = min(step * ratio, largest)
         sizes.append(step)
-    # drop the last column if the stretched ones then stay closer to their sizes
+    # drop the last column if that scales the others less
     if len(sizes) > 1 and sum(sizes) - length > 0.5 * sizes[-1]:
         sizes.pop()
     edges = start + np.concatenate([[0.0], np.cumsum(sizes)]) * ((end - start) / sum(sizes))
-    # exactly there: the sum is only on some processors
+    # the sum is exact only on some processors
     edges[-1] = end
     return edges
 
@@ -172,14 +173,14 @@ def graded_columns(start: float, end: float, size: float, ratio: float, largest:
 def crack_columns(
     length: float, fine: tuple[float, float], size: float, ratio: float, largest: tuple[float, float]
 ) -> FloatArray:
-    """Return the edges from 0 to `length`: columns of `size` in the interval `fine`, graded towards both ends (mm).
+    """Return edges from 0 to `length` (mm): spacing `size` in the interval `fine`, graded towards both ends.
 
-    The neighbours before and behind the interval grow by `ratio` up to the `largest` of each side.
+    The spacing grows by `ratio` per column to the `largest` of each end.
     """
     begin, end = fine
     middle = np.linspace(begin, end, round((end - begin) / size) + 1)
     left = graded_columns(begin, 0.0, size, ratio, largest[0])[::-1]
     right = graded_columns(end, length, size, ratio, largest[1])
     edges = np.concatenate([left[:-1], middle, right[1:]])
-    # a node's position is written with six decimals; rounded here, the deck and the builder agree
+    # rounded to the six decimals of a deck, so that the deck and the builder agree
     return np.round(edges, 6)

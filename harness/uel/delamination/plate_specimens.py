@@ -1,13 +1,12 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Specimens in space: double cantilever beam, end-notched flexure, mixed-mode bending, circular delamination.
+"""Specimens in 3D: double cantilever beam, end-notched flexure, mixed-mode bending, circular delamination.
 
-The crack of the beams begins at x = 0 and grows along x; z is the normal of the interface. Each specimen takes a
-laminate whatever its plies, its mesh, and its interface elements: the decks differ by loads and supports alone.
+The crack of the beams starts at x = 0 and grows along x; z is the normal of the interface. The decks differ only in
+loads and supports; plies, mesh and interface elements are those of the laminate.
 
-A beam can be modelled whole, by the half on one side of its symmetry plane y = 0 (HALF), or in plane strain, by a strip
-whose nodes all keep their y (STRIP). Reactions are those of the part that is modelled. Every increment whose number
-is a multiple of `every` has field output.
+A beam is modelled as a whole, as the half on one side of its symmetry plane y = 0 (HALF), or in plane strain as a strip
+with u_y = 0 (STRIP). Reactions are those of the modelled part. Field output is written every `every` increments.
 """
 
 from __future__ import annotations
@@ -51,12 +50,12 @@ def enf_deck(
 ) -> list[str]:
     """Write the end-notched flexure: supports below both ends, mid-span of the upper face pushed by `deflection` (mm).
 
-    *EQUATION ties the deflections of the crack's faces above the left support, as in the plane.
+    *EQUATION couples the deflections of the crack faces above the left support, as in 2D.
     """
     bottom, top = laminate.mesh.labels
     middle = _column(laminate, 0.5 * float(laminate.mesh.x[-1]))
     sets = {"MIDSPAN": top[-1, :, middle], "LEFT": bottom[0, :, 0], "RIGHT": bottom[0, :, -1]}
-    sets, boundary = _sides(laminate, part, sets, held=bottom[0, 0, -1])
+    sets, boundary = _sides(laminate, part, sets, fixed=bottom[0, 0, -1])
     boundary = ["LEFT, 3, 3", "RIGHT, 1, 1", "RIGHT, 3, 3", *boundary, f"MIDSPAN, 3, 3, {number(-deflection)}"]
     equations = _equal(top[0, :, 0], bottom[-1, :, 0])
     comment = "simply supported; mid-span pushed down; the crack's faces have one deflection above the left support"
@@ -79,16 +78,16 @@ def mmb_deck(
     Parameters
     ----------
     title, laminate, static, part, every
-        As for the other specimens.
+        As in `dcb_deck`.
     span
         Distance 2 L of the supports below x = 0 and x = 2 L (mm).
     lever
         Distance c of the load from mid-span, on the side of the bonded end (mm).
     displacement
-        Of the load, downwards (mm).
+        Displacement of the load, downwards (mm).
 
-    The lever turns by small angles: with deflections w at the upper arm's end, at mid-span (M) and at the load (P),
-    w_M = (L w_P + c w_end)/(L + c). Its node is LEVER, and the reaction there is the load.
+    The rotations of the lever are small: with deflections w at the upper arm's end, at mid-span (M) and at the load
+    (P), w_M = (L w_P + c w_end)/(L + c). Its node is LEVER, and the reaction there is the load.
     """
     mesh = laminate.mesh
     bottom, top = mesh.labels
@@ -98,15 +97,15 @@ def mmb_deck(
     # the end of the arm is pulled at its middle, where it has the deflection of a beam
     end = top[np.argmin(np.abs(mesh.upper - np.mean(mesh.upper[[0, -1]]))), :, 0]
     sets = {"LEVER": np.array([node]), "END": end, "LEFT": bottom[0, :, 0], "RIGHT": bottom[0, :, right]}
-    sets, boundary = _sides(laminate, part, sets, held=bottom[0, 0, right])
+    sets, boundary = _sides(laminate, part, sets, fixed=bottom[0, 0, right])
     boundary = ["LEFT, 3, 3", "RIGHT, 1, 1", "RIGHT, 3, 3", *boundary, f"LEVER, 3, 3, {number(-displacement)}"]
     equations = _equal(end[1:], np.full(len(end) - 1, end[0]))
     for roller in top[-1, :, middle].tolist():
-        share = half / (half + lever)
-        equations += ["3", *table([(roller, 3, 1.0, node, 3, -share, int(end[0]), 3, share - 1.0)])]
-    place = [half + lever, float(np.mean(mesh.y)), float(mesh.upper[-1])]
+        ratio = half / (half + lever)
+        equations += ["3", *table([(roller, 3, 1.0, node, 3, -ratio, int(end[0]), 3, ratio - 1.0)])]
+    position = [half + lever, float(np.mean(mesh.y)), float(mesh.upper[-1])]
     comment = "a rigid lever pushes mid-span down and pulls the upper arm's left end up"
-    extra = ["*NODE", *table([[node, *place]])]
+    extra = ["*NODE", *table([[node, *position]])]
     return _deck(title, comment, laminate, sets, [*extra, *equations], boundary, {"LEVER": "U3, RF3"}, static, every)
 
 
@@ -131,24 +130,24 @@ def _column(laminate: Laminate, x: float) -> int:
 
 
 def _equal(nodes: IntArray, others: IntArray) -> list[str]:
-    """Write *EQUATION: nodes with the deflections of others; the keyword even without equations."""
+    """Write *EQUATION: equal deflections of nodes and others; the keyword is written even without equations."""
     pairs = zip(nodes.tolist(), others.tolist(), strict=True)
     rows = [line for node, other in pairs for line in ("2", *table([(node, 3, 1.0, other, 3, -1.0)]))]
     return ["*EQUATION", *rows]
 
 
 def _sides(
-    laminate: Laminate, part: str, sets: dict[str, IntArray], held: int | None = None
+    laminate: Laminate, part: str, sets: dict[str, IntArray], fixed: int | None = None
 ) -> tuple[dict[str, IntArray], list[str]]:
-    """Return node sets with those that keep y, and boundary conditions; held: a node of a whole, unclamped beam."""
+    """Return node sets and boundary conditions with u_y = 0; fixed: the node fixed in an unclamped whole beam."""
     both = laminate.mesh.labels
     if part == HALF:
         return sets | {"SYMMETRY": np.concatenate([labels[:, 0].ravel() for labels in both])}, ["SYMMETRY, 2, 2"]
     if part == STRIP:
         return sets | {"PLANE": np.concatenate([labels.ravel() for labels in both])}, ["PLANE, 2, 2"]
-    if held is None:
+    if fixed is None:
         return sets, []
-    return sets | {"HELD": np.array([held])}, ["HELD, 2, 2"]
+    return sets | {"HELD": np.array([fixed])}, ["HELD, 2, 2"]
 
 
 def _deck(

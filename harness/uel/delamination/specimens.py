@@ -21,9 +21,9 @@ CRACK = 35.0
 WIDTH = 20.0
 ARMS = Arms(WIDTH, ARM_HEIGHT, PLY_0.e1, PLY_0.e2, PLY_0.g12)
 
-# section 4.1: stiff in compression, soft in sliding. With alpha_tau = 10 N/mm^3 the strength of table 2 lies at a
-# sliding of 6 mm, beyond the end of softening that G_IIc of table 2 gives: the law does not exist. The patch is
-# compressed and never slides that far, so G_IIc is raised and nothing else changes.
+# section 4.1: stiff in compression, soft in sliding. With alpha_tau = 10 N/mm^3 the strength of table 2 is reached at a
+# sliding of 6 mm, beyond the end of softening for G_IIc of table 2: there is no such law. The patch is compressed and
+# never slides that far, so a larger G_IIc has no effect on the results.
 PATCH_LAW = replace(TABLE_2, stiffness_normal=1.0e8, stiffness_shear=10.0, toughness_2=1000.0)
 PATCH_BETA = 3.0e6
 PATCH_BUMP = -0.003
@@ -35,7 +35,7 @@ def patch_mesh(bump: float) -> TwoArmMesh:
 
 
 def dcb_mesh(size: float = 0.125, bump: float = 0.0) -> TwoArmMesh:
-    """Mesh with quads of `size` (mm) where the crack runs (up to 3 mm of opening), 0.5 mm before, 1 mm behind."""
+    """Mesh with quads of `size` (mm) along the crack path (up to 3 mm of opening), 0.5 mm before, 1 mm behind."""
     x = crack_columns(LENGTH, (33.5, 61.0), size, ratio=1.15, largest=(0.5, 1.0))
     return two_arms(x, ARM_HEIGHT, 4, CRACK, bump)
 
@@ -46,7 +46,7 @@ def dcb_ref_mesh() -> TwoArmMesh:
 
 
 def mesh_files(name: str, mesh: TwoArmMesh, interfaces: tuple[int, ...]) -> dict[str, str]:
-    """Write the files that decks of a specimen share: nodes and sets; quads; interface elements by number of nodes."""
+    """Write the include files of a specimen: nodes and sets; quads; interface elements by number of nodes."""
     nodes = [*node_block(*mesh.nodes()), *node_set("RIGHT", mesh.edge(-1))]
     nodes += node_set("LOAD_TOP", mesh.top_line[:1]) + node_set("LOAD_BOTTOM", mesh.line(1)[:1])
     quads = np.concatenate([mesh.quads("lower"), mesh.quads("upper")])
@@ -84,7 +84,7 @@ def dcb_deck(title: str, specimen: Specimen, opening: float, increments: Increme
 
 
 def patch_deck(title: str, specimen: Specimen, displacement: float, increments: Increments, *, slide: bool) -> str:
-    """Write the square pressed from above by `displacement` (mm); with `slide`, its bottom may contract sideways."""
+    """Write the square compressed from above by `displacement` (mm); with `slide`, its bottom is free laterally."""
     note = "bottom edge free to slide but for its left end" if slide else "bottom edge held in both directions"
     lines = deck_head(title, [f"square of 1 mm pressed from above; {note}"], specimen)
     mesh = specimen.mesh

@@ -17,11 +17,11 @@ class Increments:
 
     initial, smallest, largest  increment in step time
     limit          number of increments allowed
-    discontinuous  ANALYSIS=DISCONTINUOUS: the residual may rise for longer before an attempt is abandoned
+    discontinuous  ANALYSIS=DISCONTINUOUS: the residual may grow for more iterations before a cutback
     line_search    number of line-search iterations, 0 for none
     attempts       attempts allowed in one increment (I_A)
     residual       R_n and R_l where the default is not strict enough
-    field_parts    field output at the end of so many equal parts of the step; 0: every so many increments
+    field_parts    NUMBER INTERVAL of the field output; 0: every so many increments
     """
 
     initial: float
@@ -58,23 +58,23 @@ def step_block(
     history
         Node sets whose U2 and RF2 are written.
     field_every
-        Field output every so many increments, unless the increments say otherwise; printed output too.
+        FREQUENCY of printed output and, without `field_parts`, of field output.
     built_in
-        The interface elements are Abaqus' own: other names of their variables and energies.
+        The interface elements are cohesive elements of Abaqus, with other output variables.
     """
     static = (increments.initial, 1.0, increments.smallest, increments.largest)
     head = [keyword("STEP", INC=increments.limit, UNSYMM="YES"), title, "*STATIC", *table([static])]
-    moved = [f"{name}, {dof}, {dof}, {number(value)}" for name, dof, value in prescribed]
-    every = f"NUMBER INTERVAL={increments.field_parts}, TIME MARKS=NO"
+    boundary = [f"{name}, {dof}, {dof}, {number(value)}" for name, dof, value in prescribed]
+    interval = f"NUMBER INTERVAL={increments.field_parts}, TIME MARKS=NO"
     dissipated = "ALLDMD, ALLCD" if built_in else "ALLPD, ALLVD"
     names = list(history)
     output = Output(
-        when=every if increments.field_parts else f"FREQUENCY={field_every}",
+        when=interval if increments.field_parts else f"FREQUENCY={field_every}",
         stresses=False,
         history=dict.fromkeys(names, "U2, RF2"),
         energies=f"ALLIE, ALLSE, {dissipated}, ALLWK, ETOTAL",
     )
-    lines = [*head, *_controls(increments), "*BOUNDARY", *moved, *output.lines()]
+    lines = [*head, *_controls(increments), "*BOUNDARY", *boundary, *output.lines()]
     for name in names:
         lines += [keyword("NODE PRINT", NSET=name, FREQUENCY=field_every), "U2, RF2"]
     # the state of the first interface element, as all types of the plane have it; Abaqus prints SVARS as SDV
@@ -126,7 +126,7 @@ def static_step(
     boundary
         Data lines of *BOUNDARY.
     output
-        What is written.
+        Output requests.
     limit
         Number of increments allowed.
     unsymmetric, nlgeom

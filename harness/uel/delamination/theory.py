@@ -4,8 +4,8 @@
 
 Source of the corrections: J. G. Williams, "End corrections for orthotropic DCB specimens", Composites Science and
 Technology 35 (1989) 367-376, and Y. Wang, J. G. Williams, "Corrections for mode II fracture toughness specimens of
-composites materials", Composites Science and Technology 43 (1992) 251-256. An arm that is clamped to an elastic
-ligament bends as if the crack were longer by chi h in mode I and by 0.42 chi h in mode II.
+composites materials", Composites Science and Technology 43 (1992) 251-256. The elastic
+ligament is equivalent to a crack longer by chi h in mode I and by 0.42 chi h in mode II.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Arms:
 
     @property
     def correction(self) -> float:
-        """Length that mode I adds to the crack, chi h (mm)."""
+        """Crack length correction of mode I, chi h (mm)."""
         return self.chi * self.height
 
 
@@ -75,7 +75,7 @@ def dcb_crack(arms: Arms, compliance: float) -> float:
 def dcb_elastica(bending: float, toughness: float, width: float, opening: float) -> tuple[float, float]:
     """Load (N) and length of the crack (mm) of a double cantilever beam in large rotations while the crack grows.
 
-    The arms are elasticas, clamped at the crack's tip; the loads stay normal to the specimen. With the rotation t0 of
+    The arms are elasticas, clamped at the crack tip; the loads keep their direction. With the rotation t0 of
     an end, EI theta'^2/2 = P (sin t0 - sin theta); the moments at the tip make the energy release rate
     2 P sin t0/width, which is the fracture energy.
 
@@ -167,8 +167,8 @@ def frmm_mode_ratio(arms: Arms, crack: float) -> float:
 def enf_compliance(arms: Arms, crack: float, half_span: float) -> float:
     """Return the deflection at mid-span per load (mm/N) of an end-notched flexure specimen of span 2 L (mm).
 
-    (2 L^3 + 3 (a + 0.42 chi h)^3)/(8 B h^3 E11) and the shear of the whole beam, 3 L/(10 B h G12): that of the crack's
-    end is in the correction.
+    (2 L^3 + 3 (a + 0.42 chi h)^3)/(8 B h^3 E11) plus the shear of the beam, 3 L/(10 B h G12); the correction includes
+    the shear at the crack tip.
     """
     length = crack + MODE_2_CORRECTION * arms.correction
     bending = (2.0 * half_span**3 + 3.0 * length**3) / (8.0 * arms.width * arms.height**3 * arms.e11)
@@ -178,7 +178,7 @@ def enf_compliance(arms: Arms, crack: float, half_span: float) -> float:
 def frmm_compliance(arms: Arms, crack: float, length: float) -> float:
     """Return the loaded end's displacement per load (mm/N) of a fixed-ratio specimen, clamped at `length` (mm).
 
-    By its two parts of equal and opposite, and of equal deflections of the arms:
+    Superposition of opposite and of equal deflections of the arms:
     (a + chi h)^3/(6 E11 I) + (a + 0.42 chi h)^3/(8 E11 I) + L^3/(24 E11 I).
     """
     mode_1 = (crack + arms.correction) ** 3 / 6.0
