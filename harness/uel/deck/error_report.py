@@ -13,14 +13,14 @@ from uel.errors import DeckError, Source, all_of
 
 MOST_REPORTED = 50
 _LONGEST_WORD = 80
-"""Characters of a word for which the nearest one is sought; the longest keyword has half as many."""
+"""Characters of the longest word for which a suggestion is searched; the longest keyword has half as many."""
 
 
 Entry = TypeVar("Entry")
 
 
 class Problems:
-    """Errors and warnings of one deck, each kept once."""
+    """Errors and warnings of one deck, without repetitions."""
 
     def __init__(self) -> None:
         self._errors: dict[tuple[Source, str], DeckError] = {}
@@ -37,12 +37,12 @@ class Problems:
         self._warnings.setdefault(f"{source}: {message}")
 
     def differ(self, source: Source, message: str) -> None:
-        """Record a difference of Abaqus with this deck, which does not change this run."""
+        """Record that Abaqus treats this deck differently; the run is not affected."""
         self._differences.setdefault(f"{source}: {message}")
 
     @contextmanager
     def gather(self) -> Iterator[None]:
-        """Record the DeckError that ends the body, so that reading goes on with the next block."""
+        """Record a DeckError raised in the body, so that reading continues with the next block."""
         try:
             yield
         except DeckError as error:
@@ -50,7 +50,7 @@ class Problems:
 
     @contextmanager
     def gather_of(self, material: str) -> Iterator[None]:
-        """Record the DeckError that ends the body as one of a material, which counts only if the material is used."""
+        """Record a DeckError raised in the body for a material; it counts only if the material is used."""
         try:
             yield
         except DeckError as error:
@@ -65,21 +65,21 @@ class Problems:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Warnings in the order they came."""
+        """Warnings in the order in which they were recorded."""
         return tuple(self._warnings)
 
     @property
     def differences(self) -> tuple[str, ...]:
-        """Differences from Abaqus, in the order of their occurrence."""
+        """Differences from Abaqus, in the order in which they were recorded."""
         return tuple(self._differences)
 
     @property
-    def found(self) -> bool:
+    def has_errors(self) -> bool:
         """Whether there is an error so far."""
         return bool(self._errors)
 
     def check(self) -> None:
-        """Raise one DeckError that names every place so far, if there is any."""
+        """Raise one DeckError with all recorded errors, if there are any."""
         errors = list(self._errors.values())
         if errors:
             shown = errors[:MOST_REPORTED]
@@ -92,12 +92,12 @@ def nearest(word: str, known: Iterable[str]) -> str:
     """Return the ending '; did you mean X?' for a misspelt word, '' if no known word is near."""
     if len(word) > _LONGEST_WORD:
         return ""
-    found = difflib.get_close_matches(word, list(known), n=1, cutoff=0.6)
-    return f"; did you mean {found[0]}?" if found else ""
+    matches = difflib.get_close_matches(word, list(known), n=1, cutoff=0.6)
+    return f"; did you mean {matches[0]}?" if matches else ""
 
 
-def look_up(known: Mapping[str, Entry], name: str, what: str, source: Source) -> Entry:
+def look_up(known: Mapping[str, Entry], name: str, kind: str, source: Source) -> Entry:
     """Return the entry of a name. Raises DeckError, which suggests the nearest known name."""
     if name not in known:
-        raise DeckError(source, f"unknown {what} {name}{nearest(name, known)}")
+        raise DeckError(source, f"unknown {kind} {name}{nearest(name, known)}")
     return known[name]

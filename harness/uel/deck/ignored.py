@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keywords that nothing reads: they cannot change the solution, and are accepted and listed."""
+"""Keywords that cannot change the solution: they are accepted and listed, but not read."""
 
 from __future__ import annotations
 

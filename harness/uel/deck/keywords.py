@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The keyword table, put together from the files that read the keywords, and its Markdown form."""
+"""Keyword table, assembled from the files that read the keywords, and its Markdown form."""
 
 from __future__ import annotations
 

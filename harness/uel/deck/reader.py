@@ -1,8 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reading of a deck into the model: the stages in order,
-each of which reports all its errors before the next begins.
-"""
+"""Read a deck into the model, in stages: each stage reports all its errors before the next one starts."""
 
 from __future__ import annotations
 
@@ -50,7 +48,7 @@ from uel.model.steps import Boundary
 
 def read_deck(
     path: Path,
-    given: Mapping[str, float] | None = None,
+    parameters: Mapping[str, float] | None = None,
     parts: Sequence[DeckPart] = (),
     earlier: EarlierResults | None = None,
 ) -> Model:
@@ -61,33 +59,33 @@ def read_deck(
     path
         The deck. Included files are looked up in the current folder, as Abaqus does where the job is submitted, then
         in the folder of the deck, then in that of the including file.
-    given
-        Values of parameters in place of those in its *PARAMETER; what the deck computes from them follows.
+    parameters
+        Values of parameters in place of those in *PARAMETER.
     parts
-        Of a restart: the decks that the model comes from, the last of which is this one.
+        Decks of a restart, in order; the last one is this deck.
     earlier
-        Reads results of earlier jobs, for *IMPERFECTION and *INITIAL CONDITIONS with FILE; None: these are left out.
+        Reader of the results of earlier jobs, for FILE of *IMPERFECTION and *INITIAL CONDITIONS; None: FILE is skipped.
 
     Returns
     -------
     Model
-        The flattened model, with warnings about what is odd but understood.
+        The flattened model, with warnings.
 
     Raises
     ------
     DeckError
-        Something is wrong or not supported, or cannot be read: a line with file:line for each of the first 50 places
-        that one stage of reading finds.
+        The deck is invalid, unsupported or unreadable: one line with file:line for each of the first 50 errors of a
+        stage.
     UsageError
-        A given parameter is none of the deck's.
+        The deck does not define one of the parameters.
     """
     problems = Problems()
-    blocks = read_blocks(path, KEYWORDS, problems, given)
+    blocks = read_blocks(path, KEYWORDS, problems, parameters)
     structure, restarts = join_parts(parts, blocks, KEYWORDS, problems)
     if not parts:
         refuse_reading(structure, problems)
     leave_out_unused(structure, problems)
-    if problems.found:
+    if problems.has_errors:
         refuse_types(blocks, problems)
     problems.check()
     interactions = Interactions(structure.root, problems)
@@ -103,7 +101,7 @@ def read_deck(
     groups = make_groups(flat, materials, read_section_controls(structure.root, problems), problems)
     if not structure.steps:
         raise DeckError(Source(str(path), 1), "the deck has no *STEP")
-    # first, since they may move nodes
+    # ADJUST moves nodes, which the readers below use
     constraints = ConstraintReader(flat, groups, problems)
     constraints.adjust()
     contacts: tuple[ContactPair | SlidingPair, ...] = ContactReader(flat, groups, interactions, problems).read()
@@ -152,56 +150,39 @@ def read_deck(
         initial_solutions=tuple(solutions),
         initial_stresses=tuple(stresses),
         constants=read_physical_constants(structure.root),
-        parameters=dict(given or {}),
+        parameters=dict(parameters or {}),
         ignored=(*interactions.unused, *structure.ignored),
         warnings=problems.warnings,
         differences=problems.differences,
     )
-    found = with_concentrations(model, problems)
+    complete = with_concentrations(model, problems)
     problems.check()
-    return found
+    return complete
 
 
 def _check_repetition(root: Sequence[Block], structure: Structure, problems: Problems) -> None:
-    """Refuse keywords that are given twice in the model, its steps, or an instance; root: the model's own ones."""
+    """Refuse repeated keywords in the model, its steps, or an instance; root: blocks of the model itself."""
     check_once([*root, *(block for scope in structure.steps for block in (scope.head, *scope.blocks))], problems)
     for blocks in structure.of_instances.values():
         check_once(blocks, problems)
 
 
-def survey_deck(path: Path, given: Mapping[str, float] | None = None) -> Survey:
-    """Return the files and parameters of a deck, without interpreting its keywords.
+def survey_deck(path: Path, parameters: Mapping[str, float] | None = None) -> Survey:
+    """Return the files and parameters of a deck, missing include files too, without interpreting its keywords.
 
-    Parameters
-    ----------
-    path
-        The deck.
-    given
-        As in `read_deck`.
-
-    Returns
-    -------
-    Survey
-        What was found as far as the deck can be read; a file that does not exist is in it.
-
-    Raises
-    ------
-    DeckError
-        The deck itself cannot be read, or is empty.
+    Raises DeckError if the deck itself is empty or cannot be read.
     """
-    return survey_blocks(path, KEYWORDS, given)
+    return survey_blocks(path, KEYWORDS, parameters)
 
 
-def survey_restart(path: Path, given: Mapping[str, float] | None = None) -> RestartRead | None:
+def survey_restart(path: Path, parameters: Mapping[str, float] | None = None) -> RestartRead | None:
     """Return the *RESTART, READ of a deck, None if it has none. Raises DeckError and UsageError as `read_deck`."""
-    return find_restart(path, KEYWORDS, given)
+    return find_restart(path, KEYWORDS, parameters)
 
 
-def part_of(path: Path, given: Mapping[str, float] | None = None, steps: int = 0) -> DeckPart:
-    """Return a deck as a part of a model; steps: number of steps kept of earlier decks.
-    Raises DeckError if it cannot be read.
-    """
-    return DeckPart(str(path.resolve()), digest_of(path, KEYWORDS, given), dict(given or {}), steps)
+def part_of(path: Path, parameters: Mapping[str, float] | None = None, steps: int = 0) -> DeckPart:
+    """Return a deck as part of a restart; steps: steps taken from earlier decks. Raises DeckError."""
+    return DeckPart(str(path.resolve()), digest_of(path, KEYWORDS, parameters), dict(parameters or {}), steps)
 
 
 def _active_dofs(groups: tuple[ElementGroup, ...]) -> frozenset[int]:

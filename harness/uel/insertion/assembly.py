@@ -210,7 +210,7 @@ class Deck:
     def faces_of(self, owner: Owner, block: Block) -> NDArray[np.bool_]:
         """Mask the faces of the solids that belong to a *SURFACE of elements."""
         found = np.zeros(len(self.solids.element), dtype=bool)
-        if block.options.given("COMBINE"):
+        if block.options.has("COMBINE"):
             raise block.error("a combined surface is not supported here; expected one of sets or elements and faces")
         for row in block.rows():
             elements = self.flat.elements(row.name(0, "set"), row.source, owner.name)

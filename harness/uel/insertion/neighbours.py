@@ -89,7 +89,7 @@ def _temperatures(deck: Deck, block: Block) -> Iterator[Load]:
     """Yield the entries of *TEMPERATURE; one with an amplitude counts as given by a routine."""
     if block.name != "TEMPERATURE":
         return
-    varies = block.options.given("AMPLITUDE") or block.options.flag("USER")
+    varies = block.options.has("AMPLITUDE") or block.options.flag("USER")
     for row in block.rows():
         nodes = deck.flat.nodes(row.name(0, "node or node set"), row.source)
         yield Load(nodes, 0, row.real(1, "temperature", 0.0), None, row.source, user=varies)

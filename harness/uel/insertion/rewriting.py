@@ -161,7 +161,7 @@ class Rewriting:
                 members = flat.nsets[key]
                 lines: list[str] = []
                 blocks = [block for block in owner.blocks if _defines(block, name)]
-                follows = all(block.name == "NSET" and block.options.given("ELSET") for block in blocks)
+                follows = all(block.name == "NSET" and block.options.has("ELSET") for block in blocks)
                 if key in loaded:
                     present = self._nodes_after(owner, blocks) if follows else None
                     lines += self._set_lines(owner, f"{name}{_LOADED}", self._one_each(members, present))
@@ -386,7 +386,7 @@ def _defines(block: Block, name: str) -> bool:
 
 def _without_input(block: Block, lines: Sequence[str]) -> Sequence[str]:
     """Drop INPUT= from a keyword line, whose data lines follow it now."""
-    if not (block.options.known("INPUT") and block.options.given("INPUT")):
+    if not (block.options.known("INPUT") and block.options.has("INPUT")):
         return lines
     fields = split_fields("".join(line for line in lines if not line.startswith("**")))
     kept = [

@@ -566,7 +566,7 @@ def test_anchors_of_a_circle(gap):
     inner = nodes[1:-1]
     points = inner * (1 + gap / 10.0)
     found = find_anchors(points, -inner, [(edges, normals)], nodes)
-    assert found.found.all()
+    assert found.facing.all()
     np.testing.assert_allclose(found.clearances, gap, atol=1e-9)
     np.testing.assert_allclose(found.normals, inner / 10.0, atol=1e-9)
     np.testing.assert_allclose(np.einsum("mk,mkd->md", found.weights, nodes[found.faces]), inner, atol=1e-8)
@@ -588,7 +588,7 @@ def test_faces_of_several_kinds_in_space():
     kinds = [(np.array([[0, 1, 2, 3]]), normal @ turn), (np.array([[1, 4, 2]]), normal @ turn)]
     points = np.array([[0.5, 1.5, 0.7], [3.0, 1.0, -0.2], [2.0, 1.0, 0.1], [3.0, 3.0, 0.1]])
     found = find_anchors(points @ turn, np.zeros_like(points), kinds, flat @ turn)
-    np.testing.assert_array_equal(found.found, [True, True, True, False])
+    np.testing.assert_array_equal(found.facing, [True, True, True, False])
     np.testing.assert_allclose(found.clearances[:3], [0.7, -0.2, 0.1], atol=1e-9)
     np.testing.assert_allclose(found.normals[:3], np.repeat(normal @ turn, 3, axis=0), atol=1e-9)
     places = np.einsum("mk,mkd->md", found.weights, (flat @ turn)[found.faces])[:3] @ turn.T

@@ -41,7 +41,7 @@ def test_options_that_the_table_has() -> None:
     assert READ.flag("DIRECT")
     assert READ.real("FACTOR", 1.0) == 2.0
     assert READ.text("TYPE") == "B"
-    assert READ.given("FACTOR")
+    assert READ.has("FACTOR")
     assert [READ.known(name) for name in ("DIRECT", "RIKS", "CREEP")] == [True, False, False]
     assert Options(KEYWORD).real("FACTOR", 1.0) == 1.0
 
@@ -50,7 +50,7 @@ def test_options_that_the_table_has() -> None:
     "ask, name",
     [
         (READ.flag, "RIKS"),
-        (READ.given, "RIKS"),
+        (READ.has, "RIKS"),
         (READ.text, "INPUT"),
         (READ.text, "CREEP"),
         (READ.flag, "FACTOR"),
@@ -65,11 +65,13 @@ def test_an_option_that_the_table_does_not_have_is_no_silent_default(ask: Callab
 
 KINDS = {
     "flag": {Kind.FLAG, Kind.SWITCH},
-    "given": set(Kind),
+    "has": set(Kind),
     "known": set(Kind),
     "text": {Kind.NAME, Kind.CHOICE, Kind.FILE},
     "real": {Kind.REAL},
     "integer": {Kind.INTEGER},
+    "positive": {Kind.REAL},
+    "not_negative": {Kind.REAL},
 }
 
 
@@ -78,7 +80,7 @@ def look_ups(code: str) -> Iterator[tuple[str, str]]:
     for node in ast.walk(ast.parse(code)):
         match node:
             case ast.Call(func=ast.Attribute(value=owner, attr=how), args=[ast.Constant(value=str(name)), *_]) if (
-                how in KINDS and ast.unparse(owner).endswith("options")
+                how in KINDS and ast.unparse(owner).endswith(("options", "block"))
             ):
                 yield how, name
 

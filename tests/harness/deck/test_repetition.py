@@ -123,7 +123,7 @@ OPENERS = {
 
 
 def test_every_keyword_that_may_be_given_once_is_tested():
-    assert set(ONCE) == {name for name, rule in RULES.items() if rule.repeat is Repeat.ONCE and not rule.apart}
+    assert set(ONCE) == {name for name, rule in RULES.items() if rule.repeat is Repeat.ONCE and not rule.by_reader}
 
 
 def checked(folder, *lines):

@@ -264,7 +264,7 @@ def body(element_type="CPEG4", section=", REF NODE=5", length="1.", material=ELA
     [
         (body(section=""), r"deck.inp:9: \*SOLID SECTION: elements of type CPEG4 need REF NODE"),
         (body("CPE4"), r"REF NODE goes with elements in generalised plane strain \(CPEG3, .*BODY holds CPE4"),
-        (body(section=", REF NODE=ALL"), r"\*SOLID SECTION: REF NODE=ALL has 5 nodes; expected one"),
+        (body(section=", REF NODE=ALL"), r"\*SOLID SECTION: REF NODE=ALL has 5 nodes, expected one"),
         (body(section=", REF NODE=6"), r"node 6 is not defined"),
         (body(length="1., 0., 0.1"), r"deck.inp:10: .*an initial rotation of the bounding planes about y is not sup"),
         (

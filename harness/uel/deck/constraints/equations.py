@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Linear equations between dofs, from *EQUATION, *MPC, *COUPLING, *RIGID BODY and *TIE.
 
-Equations have small rotations. With NLGEOM, nodes all of whose displacements follow a reference node are arms, which
-turn by any angle in general steps, and *DISTRIBUTING is no equation, so that it does in static ones; what else couples
-displacements to rotations is refused, unless these are held at zero.
+Equations have small rotations. With NLGEOM a node with all displacements coupled to a reference node becomes an arm,
+with finite rotations in general steps, and *DISTRIBUTING a coupling with finite rotations in static steps. Other
+couplings of displacements to rotations are refused, unless the rotations are zero in all steps.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ _MPC_TYPES = ("TIE", "PIN", "LINEAR", "BEAM")
 
 
 class ConstraintReader:
-    """Reader of constraints, which turns them into equations. Each equation eliminates a dof of the dependent node."""
+    """Reader of constraints. Each equation eliminates a dof of the dependent node."""
 
     def __init__(self, flat: FlatMesh, groups: Sequence[ElementGroup], problems: Problems) -> None:
         self._flat = flat
@@ -54,7 +54,7 @@ class ConstraintReader:
             if isinstance(group.built_in, ContinuumType | RigidType) and group.built_in.axisymmetric:
                 self._axisymmetric[group.nodes] = True
         self._turning: dict[Source, dict[int, set[int]]] = {}
-        """Rotations of reference nodes that matter, by the place of a constraint."""
+        """Rotations of reference nodes that enter displacements, by location of the constraint."""
         self._followers: list[Arm] = []
         self._partial: set[tuple[Source, int]] = set()
         self._finite = False
@@ -64,18 +64,18 @@ class ConstraintReader:
         self.couplings: list[Distributing] = []
 
     def adjust(self) -> None:
-        """Find the nodes that ties join, and move them by ADJUST."""
+        """Find the tied nodes, and move them by ADJUST."""
         self._ties.find(self._active, self._axisymmetric)
 
     def read(self, boundaries: Sequence[Boundary], steps: Sequence[Step]) -> tuple[Equation, ...]:
-        """Return the equations of all constraints of the deck; boundaries are those before the first step.
+        """Return the equations of all constraints; boundaries: those before the first step.
 
-        `arms` are those that have finite rotations; `couplings` have them too, and no equations.
+        Sets `arms` and `couplings`, the constraints with finite rotations.
         """
         self._finite = any(step.nlgeom for step in steps)
         self._held = _held_at_zero(boundaries, steps)
         self._ties.check(steps)
-        found: list[Equation] = []
+        equations: list[Equation] = []
         readers = {
             "MPC": self._mpc,
             "KINEMATIC": self._kinematic,
@@ -94,28 +94,28 @@ class ConstraintReader:
                         raise block.error("does not follow *COUPLING")
                     elif block.name in readers:
                         self._coupling = coupling
-                        found += readers[block.name](block, owner)
+                        equations += readers[block.name](block, owner)
         nonlinear = [step for step in steps if step.nlgeom]
         if nonlinear:
             self._turn(nonlinear)
-            self._check_couplings(found, steps)
-        return tuple(found)
+            self._check_couplings(equations, steps)
+        return tuple(equations)
 
     def _turn(self, nonlinear: Sequence[Step]) -> None:
-        """Find the arms that turn, and refuse other constraints with rotations that are not held at zero."""
+        """Set the arms with finite rotations, and refuse other constraints whose rotations are not fixed at zero."""
         other = next((step for step in nonlinear if step.procedure.linear), None)
         turning: set[tuple[Source, int]] = set()
         for source, references in self._turning.items():
             free = {
                 node: dofs for node in references if (dofs := sorted(references[node] - self._held.get(node, set())))
             }
-            places = {(source, node) for node in free}
-            if not (other and free) and not places & self._partial:
-                turning |= places
+            pairs = {(source, node) for node in free}
+            if not (other and free) and not pairs & self._partial:
+                turning |= pairs
                 continue
             where = f"in *{other.procedure.keyword} ({other.source})" if other else f"({nonlinear[0].source})"
             message = f"a constraint with rotations is not supported with NLGEOM {where}"
-            if places & self._partial:
+            if pairs & self._partial:
                 message += " unless all displacements of its nodes follow"
             for node, dofs in free.items():
                 name, those = self._flat.mesh.name(node), ", ".join(map(str, dofs))
@@ -126,7 +126,7 @@ class ConstraintReader:
         self.arms = tuple(arm for arm in self._followers if (arm.source, arm.reference) in turning)
 
     def _check_couplings(self, equations: Sequence[Equation], steps: Sequence[Step]) -> None:
-        """Refuse distributing couplings with finite rotations of free nodes, and beside procedures without them."""
+        """Refuse distributing couplings with finite rotations of free nodes, or with unsupported procedures."""
         tied = {node for equation in equations for node, _, _ in equation.terms} if self.couplings else set()
         for coupling in self.couplings:
             for node in coupling.nodes.tolist():
@@ -144,14 +144,14 @@ class ConstraintReader:
             kind = row.name(0, "type")
             if kind not in _MPC_TYPES:
                 raise row.unsupported(f"type {kind}", _MPC_TYPES)
-            wanted = 3 if kind == "LINEAR" else 2
-            if len(row) != wanted + 1:
-                raise row.error(f"{kind} takes {wanted} nodes or node sets, found {len(row) - 1}")
-            for nodes in self._tuples(row, wanted, owner):
+            count = 3 if kind == "LINEAR" else 2
+            if len(row) != count + 1:
+                raise row.error(f"{kind} takes {count} nodes or node sets, found {len(row) - 1}")
+            for nodes in self._tuples(row, count, owner):
                 yield from self._mpc_of(kind, nodes, row.source)
 
     def _tuples(self, row: Row, count: int, owner: Owner) -> Iterable[tuple[int, ...]]:
-        """Pair the nodes of sets one by one; a single node is combined with each node of the other sets."""
+        """Pair the nodes of sets in order; a single node is paired with each node of the other sets."""
         sets = [self._flat.nodes(row.name(k, "node or set"), row.source, owner.name) for k in range(1, count + 1)]
         size = len(sets[0])
         if any(len(nodes) not in (1, size) for nodes in sets):
@@ -181,7 +181,7 @@ class ConstraintReader:
             yield Equation(((node, dof, 1.0), (other, dof, -1.0)), source)
 
     def _follow(self, node: int, reference: int, dofs: Iterable[int], source: Source) -> Iterator[Equation]:
-        """Yield the equations of a node that follows the reference node as a rigid body: u = u_ref + theta_ref x r."""
+        """Yield the equations of a rigid link to the reference node: u = u_ref + theta_ref x r."""
         if node == reference:
             return
         x, y, z = (float(c) for c in self._points[node] - self._points[reference])
@@ -193,7 +193,7 @@ class ConstraintReader:
         dofs, last = list(dofs), 3 if self._solid else 2
         moving = {dof for dof in dofs if dof <= last}
         if any((x, y, z)) and moving:
-            # a rotation about an axis leaves displacements along it as they are
+            # a rotation about an axis does not change displacements along it
             axes = {axis for axis in ROTATIONS if moving - {axis - 3}} if self._solid else {6}
             self._turning.setdefault(source, {}).setdefault(reference, set()).update(axes)
             self._followers.append(Arm(node, reference, source))
@@ -201,9 +201,9 @@ class ConstraintReader:
                 self._partial.add((source, reference))
         for dof in dofs:
             if dof <= last:
-                # a coefficient that is zero now is not after a finite rotation
-                kept = (t for t in turning[dof] if self._finite or t[2] != 0.0)
-                terms = tuple(t for t in kept if self._solid or t[1] == 6)
+                # a finite rotation makes zero coefficients nonzero
+                rotations = (t for t in turning[dof] if self._finite or t[2] != 0.0)
+                terms = tuple(t for t in rotations if self._solid or t[1] == 6)
                 yield Equation(((node, dof, 1.0), (reference, dof, -1.0), *terms), source)
             elif dof in ROTATIONS:
                 yield Equation(((node, dof, 1.0), (reference, dof, -1.0)), source)
@@ -219,7 +219,7 @@ class ConstraintReader:
         yield from self._follow_all(nodes, self._reference(coupling, owner), chosen, block.source)
 
     def _global(self, chosen: set[int], block: Block, owner: Owner) -> set[int]:
-        """Return the chosen dofs; warn if they are not all of a group that the turned instance mixes."""
+        """Return the chosen dofs; warn if a rotated instance mixes them with others."""
         groups = ({1, 2, 3}, set(ROTATIONS)) if self._solid else ({1, 2},)
         if owner.placement.rotates and chosen and any(0 < len(chosen & group) < len(group) for group in groups):
             dofs = ", ".join(map(str, sorted(chosen)))
@@ -228,11 +228,11 @@ class ConstraintReader:
         return chosen
 
     def _coupled(self, coupling: Block, owner: Owner) -> tuple[IntArray, FloatArray]:
-        """Return the nodes of *COUPLING, and their tributary areas. Raises DeckError if there are none."""
+        """Return the nodes of *COUPLING and their tributary areas. Raises DeckError without nodes."""
         nodes, areas = self._surfaces.shares(coupling.options.text("SURFACE"), coupling.source, owner.name)
         reference = self._reference(coupling, owner)
         near = nodes != reference
-        if coupling.options.given("INFLUENCE RADIUS"):
+        if coupling.options.has("INFLUENCE RADIUS"):
             radius = coupling.options.real("INFLUENCE RADIUS", 0.0)
             near &= np.linalg.norm(self._points[nodes] - self._points[reference], axis=1) <= radius
         if not near.any():
@@ -256,8 +256,8 @@ class ConstraintReader:
         dofs = (1, 2, 3) if self._solid else (1, 2)
         turning = [dof for dof in (ROTATIONS if self._solid else (6,)) if not chosen or dof in chosen]
         if turning and motion.axes < (3 if self._solid else 1):
-            place = "its nodes lie on a line" if motion.axes else "all its nodes are in one place"
-            self._problems.warn(block.source, f"*DISTRIBUTING: {place}, about which no moment is passed on")
+            geometry = "its nodes lie on a line" if motion.axes else "all its nodes are in one place"
+            self._problems.warn(block.source, f"*DISTRIBUTING: {geometry}, about which no moment is passed on")
         if self._finite and motion.axes:
             self._turn_with(block, reference, (nodes, weights / weights.sum()), len(turning), motion.axes)
             return
@@ -270,8 +270,9 @@ class ConstraintReader:
     def _turn_with(
         self, block: Block, reference: int, cloud: tuple[IntArray, FloatArray], turning: int, axes: int
     ) -> None:
-        """Record a distributing coupling with finite rotations: so many rotations are coupled, about so many axes there
-        is inertia. Raises DeckError.
+        """Add a distributing coupling with finite rotations. Raises DeckError.
+
+        turning: number of coupled rotations; axes: number of axes with inertia.
         """
         dimension = 3 if self._solid else 2
         if turning < (3 if self._solid else 1):
@@ -287,7 +288,7 @@ class ConstraintReader:
             yield from self._follow_all(nodes, reference, self._global(_dofs(row, 1), block, owner), row.source)
 
     def _follow_all(self, nodes: IntArray, reference: int, chosen: set[int], source: Source) -> Iterator[Equation]:
-        """Yield the equations of nodes that follow the reference node in the chosen dofs; none chosen: in all."""
+        """Yield the equations of nodes that follow the reference node in the chosen dofs, by default in all."""
         for node in nodes.tolist():
             dofs = sorted(dof for dof in self._active[node] if not chosen or dof in chosen)
             yield from self._follow(node, reference, dofs, source)
@@ -296,13 +297,13 @@ class ConstraintReader:
         reference, options = self._reference(block, owner), block.options
         pinned: set[int] = set()
         tied: set[int] = set()
-        if options.given("ELSET"):
+        if options.has("ELSET"):
             elements = self._flat.elements(options.text("ELSET"), block.source, owner.name)
             tied |= self._surfaces.nodes_of(elements)
         for name, nodes in (("PIN NSET", pinned), ("TIE NSET", tied)):
-            if options.given(name):
+            if options.has(name):
                 nodes |= set(self._flat.nodes(options.text(name), block.source, owner.name).tolist())
-        if not pinned | tied and not options.given("ANALYTICAL SURFACE"):
+        if not pinned | tied and not options.has("ANALYTICAL SURFACE"):
             raise block.error("needs ELSET, PIN NSET, TIE NSET or ANALYTICAL SURFACE")
         for node in sorted(pinned | tied):
             dofs = sorted(dof for dof in self._active[node] if dof <= 3 or node in tied)
@@ -314,47 +315,43 @@ class ConstraintReader:
 
 
 def reference_node(block: Block, owner: Owner, flat: FlatMesh) -> int:
-    """Return the reference node of a keyword. Raises DeckError unless it is one node."""
+    """Return the node that REF NODE names. Raises DeckError unless it is a single node."""
     name = block.options.text("REF NODE")
-    nodes = flat.nodes(name, block.source, owner.name)
-    if len(nodes) != 1:
-        raise block.error(f"REF NODE={name} has {len(nodes)} nodes, expected one")
-    return int(nodes[0])
+    return flat.one_node(name, f"REF NODE={name}", block, owner.name)
 
 
 def bodies_with_surfaces(flat: FlatMesh) -> Iterator[tuple[Block, Owner, str]]:
-    """Yield each *RIGID BODY that has an analytical surface, its owner, and the name of the surface."""
-    for owner in flat.owners:
-        for block in owner.blocks:
-            if block.name == "RIGID BODY" and block.options.given("ANALYTICAL SURFACE"):
-                yield block, owner, block.options.text("ANALYTICAL SURFACE")
+    """Yield each *RIGID BODY with an analytical surface, its owner, and the name of the surface."""
+    for block, owner in flat.blocks("RIGID BODY"):
+        if block.options.has("ANALYTICAL SURFACE"):
+            yield block, owner, block.options.text("ANALYTICAL SURFACE")
 
 
 def _held_at_zero(boundaries: Sequence[Boundary], steps: Sequence[Step]) -> dict[int, set[int]]:
     """Return, by node, the dofs that are prescribed as zero in each step."""
-    found: set[tuple[int, int]] | None = None
+    fixed: set[tuple[int, int]] | None = None
     now: set[tuple[int, int]] = set()
     for entries, new in ((boundaries, False), *((step.boundaries, step.new_boundary) for step in steps)):
         if new:
             now = set()
         for entry in entries:
-            places = {(node, entry.dof) for node in entry.nodes.tolist()}
-            now = now - places if entry.magnitude or entry.user else now | places
+            entry_dofs = {(node, entry.dof) for node in entry.nodes.tolist()}
+            now = now - entry_dofs if entry.magnitude or entry.user else now | entry_dofs
         if entries is not boundaries:
-            found = now if found is None else found & now
+            fixed = now if fixed is None else fixed & now
     by_node: dict[int, set[int]] = {}
-    for node, dof in found or ():
+    for node, dof in fixed or ():
         by_node.setdefault(node, set()).add(dof)
     return by_node
 
 
 def _chosen(block: Block) -> set[int]:
-    """Return the dofs of all data lines; empty stands for all dofs."""
+    """Return the dofs of all data lines; empty: all dofs."""
     return set().union(*(_dofs(row, 0) for row in block.rows()))
 
 
 def _dofs(row: Row, start: int) -> set[int]:
-    """Return the dofs from the first to the last of a data line; empty stands for all dofs. Raises DeckError."""
+    """Return the dofs of a data line, first to last; empty: all dofs. Raises DeckError."""
     if row.blank(start):
         return set()
     first = row.integer(start, "first dof")
@@ -366,20 +363,18 @@ def _dofs(row: Row, start: int) -> set[int]:
 
 def read_equations(flat: FlatMesh, problems: Problems) -> tuple[Equation, ...]:
     """Read the equations of all instances and of the root."""
-    found: list[Equation] = []
-    for owner in flat.owners:
-        for block in owner.blocks:
-            if block.name == "EQUATION":
-                with problems.gather():
-                    found += _read_equation(flat, owner, block)
-    return tuple(found)
+    equations: list[Equation] = []
+    for block, owner in flat.blocks("EQUATION"):
+        with problems.gather():
+            equations += _read_equation(flat, owner, block)
+    return tuple(equations)
 
 
 def _read_equation(flat: FlatMesh, owner: Owner, block: Block) -> list[Equation]:
     if owner.placement.rotates:
         raise block.error(f"is not supported in an instance that is rotated ({owner.name})")
     rows = iter(block.rows())
-    found = []
+    equations = []
     for head in rows:
         count = head.integer(0, "number of terms")
         if count < 1 or len(head) != 1:
@@ -392,8 +387,8 @@ def _read_equation(flat: FlatMesh, owner: Owner, block: Block) -> list[Equation]
             terms += _read_terms(flat, owner, row)
         if len(terms) > count:
             raise head.error(f"expected {count} terms, found {len(terms)}")
-        found += _expand(terms, head.source)
-    return found
+        equations += _expand(terms, head.source)
+    return equations
 
 
 def _read_terms(flat: FlatMesh, owner: Owner, row: Row) -> list[tuple[IntArray, int, float]]:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The faces of surfaces that *TIE joins: of solids, rigid elements, shells and membranes, and edges of shells."""
+"""Faces of tied surfaces: of solids, rigid elements, shells and membranes, and edges of shells."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from uel.deck.language.blocks import Row
 from uel.deck.mesh.flatten import Owner
-from uel.deck.mesh.surfaces import Surfaces, family_of_face
+from uel.deck.mesh.surfaces import Surfaces, face_family
 from uel.errors import DeckError
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.element_types import (
@@ -21,11 +21,8 @@ from uel.model.element_types import (
     QUAD8,
     TRI3,
     TRI6,
-    Face,
     Family,
     ShellType,
-    SolidType,
-    SurfaceType,
 )
 from uel.model.mesh import ElementGroup
 from uel.model.properties import ShellSection
@@ -39,7 +36,7 @@ LINEAR: Final = {(1, 2): LINE2, (2, 3): TRI3, (2, 4): QUAD4}
 
 @dataclass(frozen=True, slots=True)
 class TiedFaces:
-    """Nodes (f, k) of the faces of a surface, by family, and the distance of the sides of its shells from them."""
+    """Nodes (f, k) of the faces of a surface, by family, and half of the shell thickness."""
 
     nodes: dict[Family, IntArray]
     half_thickness: float
@@ -51,19 +48,19 @@ class TiedFaces:
 
     @property
     def quadratic(self) -> bool:
-        """Whether faces have nodes between their corners."""
+        """Whether faces have midside nodes."""
         return any(family.nodes > family.corners for family in self.nodes)
 
     @property
     def corners(self) -> TiedFaces:
-        """The faces between their corners."""
-        found: dict[Family, list[IntArray]] = {}
+        """Linear faces with the same corners."""
+        faces: dict[Family, list[IntArray]] = {}
         for family, nodes in self.nodes.items():
-            found.setdefault(LINEAR[family.dimension, family.corners], []).append(nodes[:, : family.corners])
-        return TiedFaces({family: np.concatenate(parts) for family, parts in found.items()}, self.half_thickness)
+            faces.setdefault(LINEAR[family.dimension, family.corners], []).append(nodes[:, : family.corners])
+        return TiedFaces({family: np.concatenate(arrays) for family, arrays in faces.items()}, self.half_thickness)
 
     def edge(self, points: FloatArray) -> float:
-        """Return the typical length of the edges of the faces: the median."""
+        """Return the median length of the edges."""
         lengths = []
         for family, nodes in self.nodes.items():
             corners = points[nodes[:, : family.corners]]
@@ -72,49 +69,28 @@ class TiedFaces:
 
 
 def read_faces(surfaces: Surfaces, row: Row, column: int, owner: Owner) -> TiedFaces | None:
-    """Read the faces of a surface, None for a surface of nodes.
+    """Read the faces of the surface in a column of a *TIE data line, None for a surface of nodes.
 
-    Parameters
-    ----------
-    surfaces
-        Those of the deck.
-    row, column
-        The data line of *TIE, and where the surface stands in it.
-    owner
-        Level of the line.
-
-    Raises
-    ------
-    DeckError
-        A face is of no kind that ties know, or the surface has faces and edges.
+    Raises DeckError for unsupported faces, and for a surface with faces and edges.
     """
-    name, found, half = row.name(column, "surface"), dict[Family, list[IntArray]](), 0.0
+    name, faces, half = row.name(column, "surface"), dict[Family, list[IntArray]](), 0.0
     if surfaces.of_nodes(name, row.source, owner.name) is not None:
         return None
     for group, rows, local, source in surfaces.facets(name, row.source, owner.name):
-        family = _family(group, local)
+        family = face_family(group, local)
         if family not in (LINE2, LINE3, TRI3, TRI6, QUAD4, QUAD8):
             raise DeckError(source, f"*TIE: faces of elements of type {group.type} are not supported")
-        found.setdefault(family, []).append(group.nodes[rows][:, list(local)])
+        faces.setdefault(family, []).append(group.nodes[rows][:, list(local)])
         if family.dimension == FACE:
-            # the thickness of a shell lies across its faces, not along them
+            # edges are within the thickness, faces are offset by it
             half = max(half, _half_thickness(group))
-    if len({family.dimension for family in found}) > 1:
+    if len({family.dimension for family in faces}) > 1:
         raise row.error(f"surface {name} has faces and edges; expected a surface of one kind")
-    return TiedFaces({family: np.concatenate(parts) for family, parts in found.items()}, half)
-
-
-def _family(group: ElementGroup, local: Face) -> Family | None:
-    kind = group.built_in
-    if isinstance(kind, SurfaceType):
-        return kind.family if len(local) == kind.nodes else kind.family.face_family(local)
-    if isinstance(kind, SolidType):
-        return kind.family.face_family(local)
-    return family_of_face(group, local)
+    return TiedFaces({family: np.concatenate(arrays) for family, arrays in faces.items()}, half)
 
 
 def _half_thickness(group: ElementGroup) -> float:
-    """Return the distance of the farther side of conventional shells from their nodes; 0 for other elements."""
+    """Return the larger distance of a shell side from the nodes; 0 for other elements."""
     section = group.section
     if not isinstance(group.built_in, ShellType) or not isinstance(section, ShellSection):
         return 0.0

@@ -1,15 +1,14 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*TIE: the nodes of a secondary surface move as the points of the main surface where they are.
+"""*TIE: the nodes of a secondary surface follow points of the main surface.
 
-TYPE=NODE TO SURFACE: a node follows the point of the main surface that is nearest to it, by the shape functions of the
-face. SURFACE TO SURFACE, the default: it follows means over its own faces (`tie_weights`), where these are covered by
-main faces, and the nearest point elsewhere. A main surface of nodes is followed node by node. Nodes farther from the
-main surface than the position tolerance stay untied. ADJUST moves tied nodes onto the main surface. The projection onto
-a face is that of contact, `harness/uel/contact/face_surface.py`.
+TYPE=NODE TO SURFACE: a node follows the nearest point of the main surface, by the shape functions of the face. SURFACE
+TO SURFACE, the default: it follows means over its faces (`tie_weights`) where main faces cover these, else the nearest
+point. On a main surface of nodes it follows the nearest node. Nodes outside the position tolerance stay untied. ADJUST
+moves tied nodes onto the main surface. The projection is that of contact, `harness/uel/contact/face_surface.py`.
 
-With CYCLIC SYMMETRY the main surface is that of the next sector of the model: turned by 360/N degrees about the axis,
-displacements and rotations with it. Nodes of both surfaces lie on the axis, along which they move.
+With CYCLIC SYMMETRY the main surface is that of the next sector, rotated by 360/N degrees about the axis, with its
+displacements and rotations. Nodes on both surfaces are on the axis and move along it.
 """
 
 from __future__ import annotations
@@ -43,43 +42,43 @@ Term = tuple[int, int, float]
 """Node, dof and coefficient of an equation."""
 
 CLOSE: Final = 0.05
-"""Position tolerance over the typical size of the main surface: 5 % of the element size, or, of a surface of nodes, of
-the average distance between nodes (Abaqus Keywords Guide, *TIE)."""
+"""Default position tolerance over the element size, or on a surface of nodes over the average distance of nodes (Abaqus
+Keywords Guide, *TIE)."""
 
 NAMED: Final = 5
-"""Nodes that a warning names."""
+"""Largest number of nodes in a warning."""
 
 ROUNDED: Final = 1e-6
-"""Distance, over the size of a face, that is rounding of coordinates in the deck."""
+"""Distance over the face size that is rounding of coordinates in the deck."""
 
 ROTATIONS: Final = (4, 5, 6)
-"""Dofs that are rotations."""
+"""Dofs of rotations."""
 
 ROUNDING: Final = 1e-12
-"""Cosine that is none: of an axis that is meant to be along a global one, and of the angle that it turns by."""
+"""Largest cosine that is rounding."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Sector:
-    """*CYCLIC SYMMETRY MODEL: a point of the axis, its direction (unit vector), and the angle of a sector."""
+    """*CYCLIC SYMMETRY MODEL: point and unit vector of the axis, and the angle of a sector."""
 
     point: FloatArray
     axis: FloatArray
     angle: float
 
     def turn(self, sign: int) -> FloatArray:
-        """Return the rotation (3, 3) to the next sector, or back for sign -1."""
-        turned = rotation_matrices(sign * self.angle * self.axis[None])[0]
-        return np.where(np.abs(turned) <= ROUNDING, 0.0, turned)
+        """Return the rotation (3, 3) to the next sector; sign -1: to the previous one."""
+        rotation = rotation_matrices(sign * self.angle * self.axis[None])[0]
+        return np.where(np.abs(rotation) <= ROUNDING, 0.0, rotation)
 
-    def distances(self, places: FloatArray) -> FloatArray:
+    def distances(self, points: FloatArray) -> FloatArray:
         """Return the distances (n,) of points from the axis."""
-        return np.asarray(np.linalg.norm(np.cross(places - self.point, self.axis), axis=1))
+        return np.asarray(np.linalg.norm(np.cross(points - self.point, self.axis), axis=1))
 
 
 @dataclass(frozen=True, slots=True)
 class _Weights:
-    """Weights (m, n) of the nodes that secondary nodes (m,) follow, at their nearest points and as means."""
+    """Weights (m, n) of main nodes for secondary nodes (m,): at their nearest points, and as means."""
 
     nearest: sparse.csr_array
     means: sparse.csr_array
@@ -92,17 +91,17 @@ class _Tie:
     nodes     (m,) that are tied
     weights   of the nodes of the main surface; corners: those between the corners of the faces, for dofs that only the
               corners have
-    whole     dofs that all nodes of both surfaces have
-    offsets   (m, 3) from the points that they follow to the nodes; zero after ADJUST
-    turn      (3, 3) of the next sector to this one; None: they are the same
-    both      nodes of both surfaces of a sector
+    common     dofs that all nodes of both surfaces have
+    offsets   (m, 3) from the points to the nodes that follow them; zero after ADJUST
+    turn      (3, 3) rotation to the main surface; None: identity
+    both      nodes on both surfaces of a sector
     """
 
     row: Row
     nodes: IntArray
     weights: _Weights
     corners: _Weights | None
-    whole: frozenset[int]
+    common: frozenset[int]
     offsets: FloatArray
     turn: FloatArray | None
     tolerance: float
@@ -110,51 +109,48 @@ class _Tie:
 
 
 class TieReader:
-    """Reader of *TIE, which turns it into equations."""
+    """Reader of *TIE."""
 
     def __init__(self, flat: FlatMesh, surfaces: Surfaces, solid: bool, problems: Problems) -> None:
         """Prepare the reader; solid: the model is three-dimensional."""
         self._flat, self._surfaces, self._solid, self._problems = flat, surfaces, solid, problems
         self._points = flat.mesh.coordinates
         self._sector: _Sector | None = None
-        self._found: dict[Source, list[_Tie]] = {}
+        self._ties: dict[Source, list[_Tie]] = {}
 
     def find(self, active: Sequence[frozenset[int]], axisymmetric: np.ndarray) -> None:
-        """Find the nodes that all ties of the deck join, and move them by ADJUST.
+        """Find the tied nodes of all ties, and move them by ADJUST.
 
         Parameters
         ----------
         active
-            Dofs that elements use, of each node.
+            Active dofs of each node.
         axisymmetric
-            (n,) nodes of axisymmetric elements.
+            (n,) mask of the nodes of axisymmetric elements.
         """
         self._active, self._axisymmetric = active, axisymmetric
         with self._problems.gather():
             self._find_sector()
-        for owner in self._flat.owners:
-            for block in owner.blocks:
-                if block.name == "TIE":
-                    with self._problems.gather():
-                        self._found[block.source] = self._find(block, owner)
+        for block, owner in self._flat.blocks("TIE"):
+            with self._problems.gather():
+                self._ties[block.source] = self._find(block, owner)
 
     def check(self, steps: Sequence[Step]) -> None:
-        """Refuse steps in which a sector has other solutions than one for all sectors."""
-        cyclic = [block for block in self._blocks("TIE") if block.options.flag("CYCLIC SYMMETRY")]
+        """Refuse steps whose solution differs between sectors."""
+        cyclic = self._cyclic()
         for step in steps if cyclic else ():
-            given = step.procedure
+            procedure = step.procedure
             # modes differ from sector to sector
-            if given.inertia or (given.linear and given.keyword != "STATIC"):
-                where = f"*{given.keyword} ({step.source})"
+            if procedure.inertia or (procedure.linear and procedure.keyword != "STATIC"):
+                where = f"*{procedure.keyword} ({step.source})"
                 self._problems.add(cyclic[0].source, f"*TIE: CYCLIC SYMMETRY is not supported with {where}")
 
-    def _blocks(self, name: str) -> list[Block]:
-        return [block for owner in self._flat.owners for block in owner.blocks if block.name == name]
+    def _cyclic(self) -> list[Block]:
+        return [block for block, _ in self._flat.blocks("TIE") if block.options.flag("CYCLIC SYMMETRY")]
 
     def _find_sector(self) -> None:
         """Read *CYCLIC SYMMETRY MODEL. Raises DeckError."""
-        cyclic = [block for block in self._blocks("TIE") if block.options.flag("CYCLIC SYMMETRY")]
-        models = self._blocks("CYCLIC SYMMETRY MODEL")
+        cyclic, models = self._cyclic(), [block for block, _ in self._flat.blocks("CYCLIC SYMMETRY MODEL")]
         if models and not cyclic:
             raise models[0].error("no *TIE has CYCLIC SYMMETRY")
         if cyclic and not models:
@@ -166,9 +162,7 @@ class TieReader:
         count = block.options.integer("N", 0)
         if count < 1:
             raise block.error(f"N={count}: expected at least one sector")
-        row = block.only_row()
-        if row is None:
-            raise block.error("needs a data line with the points a and b of the axis")
+        row = block.required_row("the points a and b of the axis")
         row.at_most(6)
         first, second = np.array([row.real(k, "coordinate", 0.0) for k in range(6)]).reshape(2, 3)
         axis = second - first if self._solid else np.array([0.0, 0.0, 1.0])
@@ -186,18 +180,18 @@ class TieReader:
         block
             The keyword.
         held
-            Dofs of nodes that are held at zero in each step: where both surfaces have them, there is nothing left to
-            say, and a secondary node that has one follows the nearest point in it.
+            Dofs of nodes that are zero in each step: no equation is needed where both surfaces have them; a secondary
+            node with such a dof follows the nearest point in it.
         nlgeom
-            Some step has large displacements.
+            Whether a step has NLGEOM.
         """
         rotations = not block.options.flag("NO ROTATION")
-        # a plane model has no motion out of the plane, whatever its masses and springs could have
+        # no motion out of the plane in a plane model, even where masses and springs have the dof
         without = {3, 4, 5} if not self._solid else set()
         without |= set() if rotations else set(ROTATIONS)
-        for tie in self._found.get(block.source, ()):
+        for tie in self._ties.get(block.source, ()):
             yield from self._on_axis(tie)
-            turned = False
+            rotates = False
             for k, node in enumerate(tie.nodes.tolist()):
                 for dof in sorted(self._active[node] - without):
                     row = self._row(tie, k, dof, exactly=dof in held.get(node, ()))
@@ -205,11 +199,11 @@ class TieReader:
                         continue
                     terms = self._terms(dof, *row, tie.turn)
                     arms = self._arms(dof, *row, tie.offsets[k]) if rotations else []
-                    turned |= bool(arms)
+                    rotates |= bool(arms)
                     same = dof in held.get(node, ()) and all(j in held.get(other, ()) for other, j, _ in terms)
                     if not same:
                         yield Equation(((node, dof, 1.0), *terms, *arms), tie.row.source)
-            if turned and nlgeom:
+            if rotates and nlgeom:
                 message = "nodes beside the main surface follow its rotations as small ones, also with NLGEOM"
                 self._problems.warn(tie.row.source, f"*TIE: {message}")
             elif nlgeom and tie.offsets.any():
@@ -219,45 +213,39 @@ class TieReader:
                 self._problems.warn(tie.row.source, f"*TIE: {message}")
 
     def _row(self, tie: _Tie, k: int, dof: int, *, exactly: bool) -> tuple[list[int], list[float]] | None:
-        """Return the nodes that the k-th secondary node follows in a dof, and their weights;
-        None if they lack that dof.
-        """
-        ways = (tie.weights,) if tie.corners is None or dof in tie.whole else (tie.corners, tie.weights)
-        for weights in ways:
+        """Return the main nodes of the k-th secondary node in a dof, and their weights; None if they lack the dof."""
+        candidates = (tie.weights,) if tie.corners is None or dof in tie.common else (tie.corners, tie.weights)
+        for weights in candidates:
             matrix = weights.nearest if exactly else weights.means
-            part = slice(matrix.indptr[k], matrix.indptr[k + 1])
-            nodes = matrix.indices[part].tolist()
+            entries = slice(matrix.indptr[k], matrix.indptr[k + 1])
+            nodes = matrix.indices[entries].tolist()
             if all(dof in self._active[other] for other in nodes):
-                return nodes, matrix.data[part].tolist()
+                return nodes, matrix.data[entries].tolist()
         return None
 
-    def _arms(self, dof: int, nodes: Sequence[int], shares: Sequence[float], offset: FloatArray) -> list[Term]:
-        """Return the terms of theta x offset in a displacement if the main surface has rotations, else none."""
+    def _arms(self, dof: int, nodes: Sequence[int], weights: Sequence[float], offset: FloatArray) -> list[Term]:
+        """Return the terms of theta x offset in a displacement, none if the main surface has no rotations."""
         if dof > 3 or not offset.any() or not all(self._active[node] >= {4, 5, 6} for node in nodes):
             return []
-        one, two = dof % 3, (dof + 1) % 3
-        ways = ((4 + one, float(offset[two])), (4 + two, -float(offset[one])))
-        return [
-            (node, turn, -share * arm) for node, share in zip(nodes, shares, strict=True) for turn, arm in ways if arm
-        ]
+        first, second = dof % 3, (dof + 1) % 3
+        axes = ((4 + first, float(offset[second])), (4 + second, -float(offset[first])))
+        return [(node, turn, -w * arm) for node, w in zip(nodes, weights, strict=True) for turn, arm in axes if arm]
 
-    def _terms(self, dof: int, nodes: Sequence[int], shares: Sequence[float], turn: FloatArray | None) -> list[Term]:
-        """Return the terms of the nodes that a dof follows, rotated by `turn`."""
-        own = [(dof, 1.0)]
+    def _terms(self, dof: int, nodes: Sequence[int], weights: Sequence[float], turn: FloatArray | None) -> list[Term]:
+        """Return the terms of main nodes in a dof, rotated by `turn`."""
+        components = [(dof, 1.0)]
         if turn is not None and dof <= ROTATIONS[-1]:
             base = 0 if dof < ROTATIONS[0] else ROTATIONS[0] - 1
-            own = [(base + k + 1, float(cosine)) for k, cosine in enumerate(turn[dof - base - 1])]
+            components = [(base + k + 1, float(cosine)) for k, cosine in enumerate(turn[dof - base - 1])]
         return [
-            (node, other, -share * cosine)
-            for node, share in zip(nodes, shares, strict=True)
-            for other, cosine in own
-            if share * cosine != 0.0
+            (node, other, -weight * cosine)
+            for node, weight in zip(nodes, weights, strict=True)
+            for other, cosine in components
+            if weight * cosine != 0.0
         ]
 
     def _on_axis(self, tie: _Tie) -> Iterator[Equation]:
-        """Yield the equations of nodes on both sides of a sector: they move along the axis, and turn about it:
-        u_j = (n_j/n_k) u_k.
-        """
+        """Yield the equations of nodes on the axis, which move along it and rotate about it: u_j = (n_j/n_k) u_k."""
         if not len(tie.both):
             return
         assert self._sector is not None
@@ -274,67 +262,69 @@ class TieReader:
                     yield Equation(((node, dof, 1.0), *terms), tie.row.source)
 
     def _find(self, block: Block, owner: Owner) -> list[_Tie]:
-        """Find the nodes that each data line of *TIE joins."""
+        """Find the tied nodes of each data line."""
         if block.options.flag("CYCLIC SYMMETRY") and self._sector is None:
-            # the sector is wrong, which is known
+            # the error of the sector is reported already
             return []
-        if block.options.given("POSITION TOLERANCE") and block.options.given("TIED NSET"):
+        if block.options.has("POSITION TOLERANCE") and block.options.has("TIED NSET"):
             raise block.error("POSITION TOLERANCE and TIED NSET exclude each other")
         return [self._find_row(block, row, owner) for row in block.rows()]
 
     def _find_row(self, block: Block, row: Row, owner: Owner) -> _Tie:
-        second, main = (self._surfaces.nodes(row.name(k, "surface"), row.source, owner.name) for k in range(2))
-        if not len(main) or not len(second):
+        secondary, main = (self._surfaces.nodes(row.name(k, "surface"), row.source, owner.name) for k in range(2))
+        if not len(main) or not len(secondary):
             raise row.error("a surface has no nodes")
-        own, faces = (read_faces(self._surfaces, row, k, owner) for k in range(2))
+        side, faces = (read_faces(self._surfaces, row, k, owner) for k in range(2))
         size = _spacing(self._points[main]) if faces is None else faces.edge(self._points)
         tolerance = block.options.real("POSITION TOLERANCE", CLOSE * size)
         cyclic, both = block.options.flag("CYCLIC SYMMETRY"), np.zeros(0, dtype=np.int64)
         if cyclic:
-            both = np.intersect1d(second, main)
-            second = np.setdiff1d(second, both)
-        if block.options.given("TIED NSET"):
+            both = np.intersect1d(secondary, main)
+            secondary = np.setdiff1d(secondary, both)
+        if block.options.has("TIED NSET"):
             tolerance = np.inf
-            second = np.intersect1d(second, self._flat.nodes(block.options.text("TIED NSET"), block.source, owner.name))
-            if not len(second):
+            secondary = np.intersect1d(
+                secondary, self._flat.nodes(block.options.text("TIED NSET"), block.source, owner.name)
+            )
+            if not len(secondary):
                 raise row.error("no node of the first surface is in TIED NSET")
         thick = 0.0
         if not block.options.flag("NO THICKNESS"):
-            thick = sum(side.half_thickness for side in (own, faces) if side is not None)
-        ways: list[FloatArray | None] = [None]
+            thick = sum(surface.half_thickness for surface in (side, faces) if surface is not None)
+        rotations: list[FloatArray | None] = [None]
         if cyclic and self._sector is not None:
-            ways = [self._sector.turn(1), self._sector.turn(-1)]
-        tries = [(turn, *self._nearest(second, main, faces, self._turned(main, turn))) for turn in ways]
-        turn, nearest, distance = min(tries, key=lambda one: float(np.minimum(one[2], size).sum()))
+            rotations = [self._sector.turn(1), self._sector.turn(-1)]
+        attempts = [(turn, *self._nearest(secondary, main, faces, self._rotated(main, turn))) for turn in rotations]
+        turn, nearest, distance = min(attempts, key=lambda attempt: float(np.minimum(attempt[2], size).sum()))
         near = distance - thick <= tolerance
-        if len(second) and not near.any():
+        if len(secondary) and not near.any():
             raise row.error(
                 f"no node of the first surface is within {tolerance:g} of the second one; expected surfaces that "
                 "touch, or a larger POSITION TOLERANCE"
             )
-        self._warn_far(row, second[~near], tolerance)
-        second, nearest = second[near], sparse.csr_array(nearest[np.flatnonzero(near)])
-        places = self._turned(main, turn)
+        self._warn_far(row, secondary[~near], tolerance)
+        secondary, nearest = secondary[near], sparse.csr_array(nearest[np.flatnonzero(near)])
+        points = self._rotated(main, turn)
         if block.options.flag("ADJUST"):
-            self._adjust(row, second, nearest @ places, (thick, size))
-        weights = self._weights(block, (row, second, nearest), (own, faces), places, tolerance + thick)
+            self._adjust(row, secondary, nearest @ points, (thick, size))
+        weights = self._weights(block, (row, secondary, nearest), (side, faces), points, tolerance + thick)
         corners = None
-        if faces is not None and (faces.quadratic or (own is not None and own.quadratic)):
-            pointed = self._nearest(second, main, faces.corners, places)[0]
-            sides = None if own is None else own.corners, faces.corners
-            corners = self._weights(block, (row, second, pointed), sides, places, tolerance + thick)
-        whole = frozenset.intersection(*(self._active[node] for node in np.union1d(second, main).tolist()))
-        offsets = self._points[second] - weights.means @ places
+        if faces is not None and (faces.quadratic or (side is not None and side.quadratic)):
+            pointed = self._nearest(secondary, main, faces.corners, points)[0]
+            sides = None if side is None else side.corners, faces.corners
+            corners = self._weights(block, (row, secondary, pointed), sides, points, tolerance + thick)
+        common = frozenset.intersection(*(self._active[node] for node in np.union1d(secondary, main).tolist()))
+        offsets = self._points[secondary] - weights.means @ points
         offsets[np.linalg.norm(offsets, axis=1) <= ROUNDED * size] = 0.0
-        return _Tie(row, second, weights, corners, whole, offsets, turn, tolerance, both)
+        return _Tie(row, secondary, weights, corners, common, offsets, turn, tolerance, both)
 
-    def _adjust(self, row: Row, second: IntArray, at: FloatArray, sizes: tuple[float, float]) -> None:
-        """Move nodes to these points (m, 3), except where shells are between them; sizes: of these and of faces."""
+    def _adjust(self, row: Row, secondary: IntArray, at: FloatArray, sizes: tuple[float, float]) -> None:
+        """Move nodes to points `at` (m, 3), except with shells; sizes: shell thickness and face size."""
         thick, size = sizes
-        gap = np.linalg.norm(self._points[second] - at, axis=1) - thick
+        gap = np.linalg.norm(self._points[secondary] - at, axis=1) - thick
         if not thick:
-            apart = gap > ROUNDING * size
-            self._points[second[apart]] = at[apart]
+            separate = gap > ROUNDING * size
+            self._points[secondary[separate]] = at[separate]
         elif (np.abs(gap) > ROUNDED * size).any():
             self._problems.warn(row.source, "*TIE: nodes beside shells stay where they are; Abaqus adjusts them")
 
@@ -345,63 +335,65 @@ class TieReader:
             message = f"nodes of the first surface farther than {tolerance:g} from the second one stay untied: {names}"
             self._problems.warn(row.source, f"*TIE: {message}")
 
-    def _turned(self, main: IntArray, turn: FloatArray | None) -> FloatArray:
-        """Return (n, 3) coordinates, those of the main surface rotated into the next sector."""
-        places = self._points.copy()
+    def _rotated(self, main: IntArray, turn: FloatArray | None) -> FloatArray:
+        """Return (n, 3) coordinates, with the main surface rotated into the next sector."""
+        points = self._points.copy()
         if turn is not None and self._sector is not None:
-            places[main] = (places[main] - self._sector.point) @ turn.T + self._sector.point
-        return places
+            points[main] = (points[main] - self._sector.point) @ turn.T + self._sector.point
+        return points
 
     def _nearest(
-        self, second: IntArray, main: IntArray, faces: TiedFaces | None, places: FloatArray
+        self, secondary: IntArray, main: IntArray, faces: TiedFaces | None, coordinates: FloatArray
     ) -> tuple[sparse.csr_array, FloatArray]:
-        """Return weights (m, n) of the points of the main surface nearest to nodes, and distances (m,) from them."""
-        points, m, n = self._points[second], len(second), len(places)
+        """Return weights (m, n) of the nearest points on the main surface, and their distances (m,)."""
+        points, m, n = self._points[secondary], len(secondary), len(coordinates)
         if faces is None:
-            distance, found = _search_tree(places[main]).query(points)
-            entries = (np.ones(m), (np.arange(m), main[found]))
+            distance, index = _search_tree(coordinates[main]).query(points)
+            entries = (np.ones(m), (np.arange(m), main[index]))
             return sparse.coo_array(entries, shape=(m, n)).tocsr(), np.asarray(distance)
         dimension = 3 if self._solid else 2
-        surface = FaceSurface(whole_pieces(faces.nodes), places[:, :dimension])
-        nodes, shares = surface.nearest(points[:, :dimension])
+        surface = FaceSurface(whole_pieces(faces.nodes), coordinates[:, :dimension])
+        nodes, factors = surface.nearest(points[:, :dimension])
         rows = np.repeat(np.arange(m), nodes.shape[1])
-        weights = sparse.coo_array((shares.ravel(), (rows, nodes.ravel())), shape=(m, n)).tocsr()
+        weights = sparse.coo_array((factors.ravel(), (rows, nodes.ravel())), shape=(m, n)).tocsr()
         weights.eliminate_zeros()
-        return weights, np.asarray(np.linalg.norm(points - weights @ places, axis=1))
+        return weights, np.asarray(np.linalg.norm(points - weights @ coordinates, axis=1))
 
     def _weights(
         self,
         block: Block,
         tied: tuple[Row, IntArray, sparse.csr_array],
         sides: tuple[TiedFaces | None, TiedFaces | None],
-        places: FloatArray,
+        points: FloatArray,
         reach: float,
     ) -> _Weights:
-        """Return the weights of tied nodes, with those of their nearest points."""
-        row, second, nearest = tied
-        own, faces = sides
-        if block.options.text("TYPE") == "NODE TO SURFACE" or own is None or faces is None:
+        """Return the weights of tied nodes: at the nearest points, and as means."""
+        row, secondary, nearest = tied
+        side, faces = sides
+        if block.options.text("TYPE") == "NODE TO SURFACE" or side is None or faces is None:
             return _Weights(nearest, nearest)
         dimension = 3 if self._solid else 2
-        if own.dimension != dimension - 1 or faces.dimension != dimension - 1:
+        if side.dimension != dimension - 1 or faces.dimension != dimension - 1:
             return _Weights(nearest, nearest)
-        given = self._points[:, :dimension], places[:, :dimension]
-        reach = min(reach, float(own.edge(self._points) + faces.edge(places)))
-        round_axis = bool(self._axisymmetric[second].all())
+        coordinates = self._points[:, :dimension], points[:, :dimension]
+        reach = min(reach, float(side.edge(self._points) + faces.edge(points)))
+        round_axis = bool(self._axisymmetric[secondary].all())
         entries = nearest.tocoo()
-        every = sparse.coo_array((entries.data, (second[entries.row], entries.col)), shape=(len(places),) * 2).tocsr()
-        found, valid = surface_weights(own.nodes, faces.nodes, given, every, reach, round_axis=round_axis)
-        mean = valid[second].astype(np.float64)
-        means = sparse.csr_array(sparse.diags_array(mean) @ found[second] + sparse.diags_array(1.0 - mean) @ nearest)
+        every = sparse.coo_array(
+            (entries.data, (secondary[entries.row], entries.col)), shape=(len(points),) * 2
+        ).tocsr()
+        means, valid = surface_weights(side.nodes, faces.nodes, coordinates, every, reach, round_axis=round_axis)
+        mean = valid[secondary].astype(np.float64)
+        means = sparse.csr_array(sparse.diags_array(mean) @ means[secondary] + sparse.diags_array(1.0 - mean) @ nearest)
         means.eliminate_zeros()
-        if means.nnz > len(second):
+        if means.nnz > len(secondary):
             message = "nodes follow means of the main surface over their faces, which pass constant stress"
             self._problems.warn(row.source, f"*TIE: {message}; the weights of Abaqus are not published")
         return _Weights(nearest, means)
 
 
 def _spacing(points: FloatArray) -> float:
-    """Return the mean distance of a point to its nearest neighbour; 1 for a single point."""
+    """Return the mean distance to the nearest neighbour; 1 for a single point."""
     if len(points) == 1:
         return 1.0
     distance, _ = _search_tree(points).query(points, k=2)

@@ -18,32 +18,30 @@ import numpy as np
 from uel.model.arrays import FloatArray, IntArray
 
 CANDIDATES: Final = 12
-"""Faces that are tried for a node: those nearest to it."""
+"""Nearest faces that are tried for a node."""
 STEPS: Final = 25
 """Most iterations of Newton's method for the anchor point on a face."""
 EDGE: Final = 1e-6
-"""Distance beyond the edges of a face, whose natural coordinates go from -1 to 1,
-at which a point still counts as on it: rounding.
-"""
+"""Tolerance of natural coordinates, from -1 to 1, for a point on an edge of a face."""
 EQUAL: Final = 1e-9
-"""Difference of clearances, over the size of a face, that counts as none."""
+"""Relative difference of clearances, over the face size, that is rounding."""
 CHUNK: Final = 2**22
-"""Distances of nodes and faces that are looked at together."""
+"""Distances of nodes and faces per chunk."""
 
 
 @dataclass(frozen=True, slots=True)
 class Anchors:
     """Anchor points of m nodes.
 
-    found       (m,) whether the main surface faces the node; the other values are meaningless without
-    faces       (m, k) nodes of the face, the first one repeated up to k
+    facing      (m,) whether the main surface faces the node; other values are undefined without
+    faces       (m, k) nodes of the face, padded with the first one
     weights     (m, k) of these nodes
-    slopes      (m, k, 2) their derivatives along the natural coordinates of the face, of which a line has one
+    slopes      (m, k, 2) their derivatives by the natural coordinates, of which a line has one
     normals     (m, 3) unit vectors
-    clearances  (m,) along the normals, 0 where rounding alone makes them different from 0
+    clearances  (m,) along the normals, 0 where they are rounding
     """
 
-    found: np.ndarray
+    facing: np.ndarray
     faces: IntArray
     weights: FloatArray
     slopes: FloatArray
@@ -53,7 +51,7 @@ class Anchors:
 
 def find_anchors(
     points: FloatArray,
-    looks: FloatArray,
+    outward: FloatArray,
     faces: Sequence[tuple[IntArray, FloatArray]],
     coordinates: FloatArray,
     *,
@@ -64,15 +62,15 @@ def find_anchors(
     Parameters
     ----------
     points
-        (m, 3) places of the nodes.
-    looks
-        (m, 3) outward normals of their own surface, which do not point the way of that at the anchor point; zero: any.
+        (m, 3) coordinates of the nodes.
+    outward
+        (m, 3) outward normals at the nodes; the normal at the anchor point must be opposite. Zero: any.
     faces
-        Of each kind, lines, triangles or quadrilaterals: their nodes (f, corners), and outward unit normals (f, 3).
+        Lines, triangles or quadrilaterals, by kind: nodes (f, corners), and outward unit normals (f, 3).
     coordinates
         (n, 3) of all nodes.
     along
-        The anchor point is where the main surface is met along `looks`, with the opposite of these as the normal.
+        Project along `outward`, whose opposite is the normal at the anchor point.
     """
     nodal = nodal_normals(faces, coordinates)
     width = max(nodes.shape[1] for nodes, _ in faces)
@@ -87,9 +85,9 @@ def find_anchors(
     for nodes, _ in faces:
         step = max(1, CHUNK // len(nodes))
         for start in range(0, len(points), step):
-            part = slice(start, start + step)
-            given = points[part], looks[part]
-            _improve(best, part, given, nodes, coordinates[nodes], nodal[nodes], along=along)
+            rows = slice(start, start + step)
+            chunk = points[rows], outward[rows]
+            _improve(best, rows, chunk, nodes, coordinates[nodes], nodal[nodes], along=along)
     return best
 
 
@@ -106,26 +104,26 @@ def nodal_normals(faces: Sequence[tuple[IntArray, FloatArray]], coordinates: Flo
 
 def _improve(
     best: Anchors,
-    part: slice,
-    given: tuple[FloatArray, FloatArray],
+    span: slice,
+    chunk: tuple[FloatArray, FloatArray],
     nodes: IntArray,
     corners: FloatArray,
     normals: FloatArray,
     *,
     along: bool,
 ) -> None:
-    """Update the anchor points by those on faces of one kind that are nearer."""
-    points, looks = given
+    """Update the anchor points with nearer ones on faces of one kind."""
+    points, outward = chunk
     centres = corners.mean(axis=1)
     sizes = np.linalg.norm(corners - centres[:, None], axis=2).max(axis=1)
     distance = np.linalg.norm(points[:, None] - centres, axis=2) - sizes
     count = min(CANDIDATES, len(nodes))
     chosen = np.sort(np.argpartition(distance, count - 1, axis=1)[:, :count], axis=1)
-    given_normals = np.broadcast_to(-looks[:, None, None], corners[chosen].shape) if along else normals[chosen]
-    place, clearance = _project(points[:, None], corners[chosen], given_normals)
-    weights = shape_functions(place, nodes.shape[1])
-    facing = np.einsum("mck,mckd,md->mc", weights, normals[chosen], looks) <= 0.0
-    normal = np.einsum("mck,mckd->mcd", weights, given_normals)
+    projection = np.broadcast_to(-outward[:, None, None], corners[chosen].shape) if along else normals[chosen]
+    natural, clearance = _project(points[:, None], corners[chosen], projection)
+    weights = shape_functions(natural, nodes.shape[1])
+    facing = np.einsum("mck,mckd,md->mc", weights, normals[chosen], outward) <= 0.0
+    normal = np.einsum("mck,mckd->mcd", weights, projection)
     length = np.linalg.norm(normal, axis=2)
     clearance = clearance * length
     gap = np.einsum("mck,mckd->mcd", weights, corners[chosen]) + clearance[..., None] * normal / length[..., None]
@@ -134,24 +132,24 @@ def _improve(
     hit &= (weights >= -EDGE).all(axis=2) & facing
     distance = np.where(hit, np.abs(clearance), np.inf)
     nearest = distance.min(axis=1, keepdims=True)
-    # of faces that are as near, the first one, whatever rounding says
+    # of equally near faces the first one, independent of rounding
     k = np.argmax(distance <= nearest + EQUAL * size, axis=1)
     rows = np.arange(len(points))
-    better = hit[rows, k] & (nearest[:, 0] < np.abs(best.clearances[part]))
+    better = hit[rows, k] & (nearest[:, 0] < np.abs(best.clearances[span]))
     rows, k = rows[better], k[better]
-    target = np.arange(best.clearances.size)[part][better]
+    target = np.arange(best.clearances.size)[span][better]
     width = nodes.shape[1]
-    best.found[target] = True
+    best.facing[target] = True
     best.faces[target] = nodes[chosen[rows, k]][:, :1]
     best.faces[target, :width] = nodes[chosen[rows, k]]
     best.weights[target] = 0.0
     best.weights[target, :width] = weights[rows, k]
-    slopes = natural_gradients(place, width)[rows, k]
+    slopes = natural_gradients(natural, width)[rows, k]
     best.slopes[target] = 0.0
     best.slopes[target, :width, : slopes.shape[2]] = slopes
     best.normals[target] = (normal / length[..., None])[rows, k]
-    found = clearance[rows, k]
-    best.clearances[target] = np.where(np.abs(found) <= EQUAL * size[rows, k], 0.0, found)
+    gaps = clearance[rows, k]
+    best.clearances[target] = np.where(np.abs(gaps) <= EQUAL * size[rows, k], 0.0, gaps)
 
 
 def _project(points: FloatArray, corners: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -162,52 +160,52 @@ def _project(points: FloatArray, corners: FloatArray, normals: FloatArray) -> tu
     along = 1 if count == 2 else 2
     points = np.broadcast_to(points, (*pairs, 3)).reshape(-1, 3)
     corners, normals = (np.reshape(values, (-1, count, 3)) for values in (corners, normals))
-    place = np.zeros((len(points), along)) + (1 / 3 if count == 3 else 0.0)
+    natural = np.zeros((len(points), along)) + (1 / 3 if count == 3 else 0.0)
     distance, rows = np.zeros(len(points)), np.arange(len(points))
     size = np.linalg.norm(corners - corners.mean(axis=1, keepdims=True), axis=2).max(axis=1)
     for _ in range(STEPS):
-        shapes, slopes = shape_functions(place[rows], count), natural_gradients(place[rows], count)
+        shapes, slopes = shape_functions(natural[rows], count), natural_gradients(natural[rows], count)
         normal = np.einsum("pk,pkd->pd", shapes, normals[rows])
-        missing = points[rows] - np.einsum("pk,pkd->pd", shapes, corners[rows]) - distance[rows, None] * normal
-        turned = corners[rows] + distance[rows, None, None] * normals[rows]
-        # lines are in the plane, whose third coordinate does not matter
+        residual = points[rows] - np.einsum("pk,pkd->pd", shapes, corners[rows]) - distance[rows, None] * normal
+        offset = corners[rows] + distance[rows, None, None] * normals[rows]
+        # lines are in the plane: no third coordinate
         matrix = np.zeros((len(rows), 3, 3))
         matrix[:, 2, 2] = 1.0
-        matrix[..., :along] = np.einsum("pka,pkd->pda", slopes, turned)
+        matrix[..., :along] = np.einsum("pka,pkd->pda", slopes, offset)
         matrix[..., along] = normal
         if along == 1:
-            matrix[:, 2, :2] = missing[:, 2] = 0.0
+            matrix[:, 2, :2] = residual[:, 2] = 0.0
         usable = np.abs(np.linalg.det(matrix)) > EQUAL * size[rows] ** along
-        change = np.linalg.solve(np.where(usable[:, None, None], matrix, np.eye(3)), missing[..., None])[..., 0]
+        change = np.linalg.solve(np.where(usable[:, None, None], matrix, np.eye(3)), residual[..., None])[..., 0]
         change[~usable] = 0.0
-        last = place[rows]
-        place[rows] = np.clip(last + change[:, :along], -3.0, 3.0)
+        last = natural[rows]
+        natural[rows] = np.clip(last + change[:, :along], -3.0, 3.0)
         distance[rows] += change[:, along]
-        # the method doubles the digits: the error is now that of rounding
-        moves = np.abs(place[rows] - last).max(axis=1) > EQUAL
+        # convergence is quadratic: the next error is rounding
+        moves = np.abs(natural[rows] - last).max(axis=1) > EQUAL
         rows = rows[moves | (np.abs(change[:, along]) > EQUAL * size[rows])]
         if not len(rows):
             break
-    return place.reshape(*pairs, along), distance.reshape(pairs)
+    return natural.reshape(*pairs, along), distance.reshape(pairs)
 
 
-def shape_functions(place: FloatArray, count: int) -> FloatArray:
+def shape_functions(natural: FloatArray, count: int) -> FloatArray:
     """Evaluate the shape functions (..., corners) of lines, triangles or quadrilaterals."""
     if count == 2:
-        return 0.5 * np.stack([1 - place[..., 0], 1 + place[..., 0]], axis=-1)
-    x, y = place[..., 0], place[..., 1]
+        return 0.5 * np.stack([1 - natural[..., 0], 1 + natural[..., 0]], axis=-1)
+    x, y = natural[..., 0], natural[..., 1]
     if count == 3:
         return np.stack([1 - x - y, x, y], axis=-1)
     return 0.25 * np.stack([(1 - x) * (1 - y), (1 + x) * (1 - y), (1 + x) * (1 + y), (1 - x) * (1 + y)], axis=-1)
 
 
-def natural_gradients(place: FloatArray, count: int) -> FloatArray:
+def natural_gradients(natural: FloatArray, count: int) -> FloatArray:
     """Evaluate the derivatives (..., corners, 1 or 2) of the shape functions by the natural coordinates."""
     if count == 2:
-        return np.broadcast_to(np.array([[-0.5], [0.5]]), (*place.shape[:-1], 2, 1))
+        return np.broadcast_to(np.array([[-0.5], [0.5]]), (*natural.shape[:-1], 2, 1))
     if count == 3:
-        return np.broadcast_to(np.array([[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]]), (*place.shape[:-1], 3, 2))
-    x, y = place[..., 0], place[..., 1]
+        return np.broadcast_to(np.array([[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]]), (*natural.shape[:-1], 3, 2))
+    x, y = natural[..., 0], natural[..., 1]
     by_x = 0.25 * np.stack([-(1 - y), 1 - y, 1 + y, -(1 + y)], axis=-1)
     by_y = 0.25 * np.stack([-(1 - x), -(1 + x), 1 + x, 1 - x], axis=-1)
     return np.stack([by_x, by_y], axis=-1)

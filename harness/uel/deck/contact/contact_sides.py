@@ -25,7 +25,7 @@ from uel.model.mesh import ElementGroup, Mesh, full_name
 from uel.model.properties import SolidSection
 
 Facets = tuple[ElementGroup, IntArray, Face, Source]
-"""A group of elements, rows of it, the local nodes of their face, and the place in the deck."""
+"""Element group, rows of it, local nodes of their face, and location in the deck."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,9 +34,9 @@ class Side:
 
     faces    by their corners, with outward normals; none of a surface of nodes
     normals  (m, 3) of the nodes, with areas (m,)
-    depth    factor from the length or area of faces to area, at all nodes of the model
+    depth    factor from length or area of faces to area, at all nodes of the model
     size     mean length of a face
-    heights  (f,) of the elements behind the faces, those of each kind behind each other: 0 of rigid ones
+    heights  (f,) of the elements behind the faces, in the order of `faces`; 0 for rigid elements
     """
 
     faces: list[tuple[IntArray, FloatArray]]
@@ -68,60 +68,63 @@ class Sides:
                 raise row.error(f"surface {name} is rigid ({group.type}); expected it as the main surface")
 
     def side(self, name: str, row: Row, owner: Owner, main: Side | None) -> Side:
-        """Build one side of a pair; main: the other side of a secondary surface, if it has faces, whose length a
-        surface of nodes takes.
-        """
-        given = self.surfaces.of_nodes(name, row.source, owner.name)
-        if given is not None:
-            return self._of_nodes(name, row, given, 0.0 if main is None else main.size)
+        """Build one side of a pair; main: main side, whose face length a secondary surface of nodes takes."""
+        nodes = self.surfaces.of_nodes(name, row.source, owner.name)
+        if nodes is not None:
+            return self._of_nodes(name, row, nodes, 0.0 if main is None else main.size)
         facets = self.surfaces.facets(name, row.source, owner.name)
         return self.of_facets(facets, name, row)
 
     def of_facets(self, facets: Iterable[Facets], name: str, row: Row) -> Side:
-        """Build the side of a surface of faces; name and row: of the surface, for messages."""
+        """Build the side of a surface of faces; name and row are for messages."""
         by_corners: dict[int, list[tuple[IntArray, FloatArray, FloatArray]]] = {}
         areas, depth, lengths = np.zeros(len(self._points)), np.zeros(len(self._points)), [np.zeros(0)]
-        for group, rows, local, place in facets:
+        for group, rows, local, source in facets:
             family = linear_face(group, local)
             if family is None:
                 kinds = ", ".join(f"those of {count} nodes" for count in (2, 3, 4))
                 message = f"faces of elements of type {group.type} are not supported in contact pairs"
                 raise DeckError(
-                    place, f"*{row.keyword}: {message}; expected linear ones of solids, or rigid ones: {kinds}"
+                    source, f"*{row.keyword}: {message}; expected linear ones of solids, or rigid ones: {kinds}"
                 )
             nodes = group.nodes[rows]
             faces = nodes[:, list(local)]
             corners = self._points[faces]
             with np.errstate(over="ignore", invalid="ignore"):
-                own, outward = tributary_areas(family, corners), face_normals(corners)
+                tributary, outward = tributary_areas(family, corners), face_normals(corners)
                 inside = np.zeros_like(outward)
                 if not isinstance(group.built_in, RigidType):
                     inside = corners.mean(axis=1) - self._points[nodes].mean(axis=1)
                     outward = np.where(np.einsum("fd,fd->f", outward, inside)[:, None] < 0.0, -outward, outward)
                 size = np.linalg.norm(outward, axis=1)
-                flat = ~(np.isfinite(own).all(axis=1) & np.isfinite(size) & (own.sum(axis=1) > 0.0) & (size > 0.0))
+                flat = ~(
+                    np.isfinite(tributary).all(axis=1)
+                    & np.isfinite(size)
+                    & (tributary.sum(axis=1) > 0.0)
+                    & (size > 0.0)
+                )
             if flat.any():
                 label = full_name(group.instance, int(group.labels[rows[flat][0]]))
-                raise DeckError(place, f"*{row.keyword}: the face of element {label} in surface {name} has no area")
-            lengths.append(own.sum(axis=1) if family is LINE2 else np.sqrt(own.sum(axis=1)))
+                raise DeckError(source, f"*{row.keyword}: the face of element {label} in surface {name} has no area")
+            lengths.append(tributary.sum(axis=1) if family is LINE2 else np.sqrt(tributary.sum(axis=1)))
             depth[faces] = across = self._depth(group, faces)
             if family is LINE2:
                 # the integral of a shape function, over the radius too
                 across = (across + across.sum(axis=1, keepdims=True)) / 3.0
-            np.add.at(areas, faces, own * across)
+            np.add.at(areas, faces, tributary * across)
             outward /= size[:, None]
-            # the middle of an element is half of its height away
+            # the centroid is half of the height behind the face
             heights = 2.0 * np.einsum("fd,fd->f", outward, inside)
             by_corners.setdefault(family.corners, []).append((faces, outward, heights))
         if not by_corners:
             raise row.error(f"surface {name} has no faces")
         all_faces = [
-            (np.concatenate([faces for faces, *_ in parts]), np.concatenate([normals for _, normals, _ in parts]))
-            for parts in by_corners.values()
+            (np.concatenate([faces for faces, *_ in entries]), np.concatenate([normals for _, normals, _ in entries]))
+            for entries in by_corners.values()
         ]
         nodes = np.unique(np.concatenate([faces.ravel() for faces, _ in all_faces]))
         normals = nodal_normals(all_faces, self._points)[nodes]
-        heights = np.concatenate([own for parts in by_corners.values() for *_, own in parts])
+        heights = np.concatenate([tributary for entries in by_corners.values() for *_, tributary in entries])
         return Side(all_faces, nodes, normals, areas[nodes], depth, float(np.concatenate(lengths).mean()), heights)
 
     def _depth(self, group: ElementGroup, faces: IntArray) -> FloatArray:
@@ -133,11 +136,11 @@ class Sides:
         thickness = section.thickness if isinstance(section, SolidSection) and kind.dimension == 2 else 1.0
         return np.full(faces.shape, thickness)
 
-    def _of_nodes(self, name: str, row: Row, given: list[tuple[IntArray, float]], size: float) -> Side:
+    def _of_nodes(self, name: str, row: Row, lines: list[tuple[IntArray, float]], size: float) -> Side:
         areas = np.zeros(len(self._points))
-        for nodes, area in given:
+        for nodes, area in lines:
             areas[nodes] = area
-        nodes = np.unique(np.concatenate([nodes for nodes, _ in given]))
+        nodes = np.unique(np.concatenate([nodes for nodes, _ in lines]))
         active = dofs_by_node(len(self._points), self._groups)
         for node in nodes.tolist():
             if not active[node] >= {1, 2}:
@@ -148,7 +151,7 @@ class Sides:
 
 def surface_pair(
     name: str,
-    place: tuple[str, Source],
+    origin: tuple[str, Source],
     sides: tuple[Side, Side],
     coordinates: FloatArray,
     surface: ContactProperty,
@@ -161,39 +164,39 @@ def surface_pair(
     Parameters
     ----------
     name, place
-        Of the pair: keyword and place in the deck.
+        Name of the pair; its keyword and location in the deck.
     sides
-        The secondary and the main one.
+        Secondary and main side.
     coordinates
         (n, 3) of all nodes.
     surface
         The contact property.
     everywhere
-        The surfaces may have all sides of their bodies: an overlap of half of the height of an element is none.
+        The surfaces may enclose their bodies: overlaps beyond half of the element height are ignored.
     regions
-        Where faces approximate curved surfaces.
+        Faces that approximate curved surfaces.
     """
     secondary, main = sides
     faces, opposite = wound(secondary.faces, coordinates), wound(main.faces, coordinates)
-    parts = smooth_parts(faces, coordinates)
-    own = make_pieces(faces, coordinates, 0.0, 0.0, parts.corners)
-    other = make_pieces(opposite, coordinates, 0.0, 0.0, smooth_parts(opposite, coordinates).corners)
+    smooth = smooth_parts(faces, coordinates)
+    pieces = make_pieces(faces, coordinates, 0.0, 0.0, smooth.corners)
+    main_pieces = make_pieces(opposite, coordinates, 0.0, 0.0, smooth_parts(opposite, coordinates).corners)
     return SurfacePair(
         name=name,
         property=surface,
-        keyword=place[0],
-        source=place[1],
-        dimension=own.low.shape[1] + 1,
-        secondary=parts.nodes,
-        faces=parts.corners,
-        main=other,
-        areas=secondary.areas[np.searchsorted(secondary.nodes, parts.nodes)],
+        keyword=origin[0],
+        source=origin[1],
+        dimension=pieces.low.shape[1] + 1,
+        secondary=smooth.nodes,
+        faces=smooth.corners,
+        main=main_pieces,
+        areas=secondary.areas[np.searchsorted(secondary.nodes, smooth.nodes)],
         length=secondary.size,
-        own=own,
-        corners=filled(parts.corners),
-        depths=secondary.depth[own.nodes],
+        own=pieces,
+        corners=filled(smooth.corners),
+        depths=secondary.depth[pieces.nodes],
         deepest=0.5 * secondary.heights if everywhere else np.full(len(secondary.heights), np.inf),
-        rounded=(rounded_pieces(regions, own), rounded_pieces(regions, other)),
+        rounded=(rounded_pieces(regions, pieces), rounded_pieces(regions, main_pieces)),
     )
 
 

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Faces of elements that take part in general contact: exterior ones, those of surfaces, and the bodies they are of.
+"""Faces in general contact: exterior faces, faces of surfaces, and their bodies.
 
-A face has a number: the position of its element in the model, times the most sides that an element has, and its side.
+The number of a face is the position of its element times the largest number of sides, plus its side.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from uel.model.element_types import (
 from uel.model.mesh import ElementGroup
 
 _SIDES = 8
-"""Stride between the face numbers of elements: at least as many as an element has sides."""
+"""Stride of the face numbers of elements, at least the number of sides of an element."""
 
 
 class ContactFaces:
@@ -49,22 +49,20 @@ class ContactFaces:
             )
             raise DeckError(source, f"*CONTACT: {message}")
         of_group = {id(group): k for k, group in enumerate(self._groups)}
-        found = [np.zeros(0, dtype=np.int64)]
+        numbers = [np.zeros(0, dtype=np.int64)]
         for group, rows, local, _ in self._surfaces.facets(name, source):
-            found.append(self._numbers(of_group[id(group)], rows, _sides_of(group).index(local)))
-        return np.unique(np.concatenate(found))
+            numbers.append(self._numbers(of_group[id(group)], rows, _sides_of(group).index(local)))
+        return np.unique(np.concatenate(numbers))
 
     def exterior(self) -> IntArray:
-        """Return the exterior faces, ascending: those of solids that no other solid or cohesive element shares, those
-        of shells, and both sides of rigid elements.
-        """
+        """Return the exterior faces, ascending: free faces of solids, and both sides of shells and rigid elements."""
         covering = [
             (k, side, np.sort(group.nodes[:, list(local)], axis=1))
             for k, group in enumerate(self._groups)
             if isinstance(group.built_in, SolidType | CohesiveType)
             for side, local in enumerate(_sides_of(group))
         ]
-        found = [
+        numbers = [
             self._numbers(k, np.arange(len(group.labels)), side)
             for k, group in enumerate(self._groups)
             if isinstance(group.built_in, ShellType | RigidType)
@@ -73,14 +71,14 @@ class ContactFaces:
         if covering:
             width = max(nodes.shape[1] for _, _, nodes in covering)
             every = [np.pad(nodes, ((0, 0), (0, width - nodes.shape[1])), constant_values=-1) for *_, nodes in covering]
-            _, which, counts = np.unique(np.concatenate(every), axis=0, return_inverse=True, return_counts=True)
-            alone = np.split(counts[which.ravel()] == 1, np.cumsum([len(nodes) for nodes in every])[:-1])
-            found += [
+            _, index, counts = np.unique(np.concatenate(every), axis=0, return_inverse=True, return_counts=True)
+            alone = np.split(counts[index.ravel()] == 1, np.cumsum([len(nodes) for nodes in every])[:-1])
+            numbers += [
                 self._numbers(k, np.flatnonzero(free), side)
                 for (k, side, _), free in zip(covering, alone, strict=True)
                 if isinstance(self._groups[k].built_in, SolidType)
             ]
-        return np.unique(np.concatenate([np.zeros(0, dtype=np.int64), *found]))
+        return np.unique(np.concatenate([np.zeros(0, dtype=np.int64), *numbers]))
 
     @property
     def without(self) -> list[str]:
@@ -95,13 +93,13 @@ class ContactFaces:
         )
 
     def bodies(self, faces: IntArray) -> tuple[IntArray, IntArray]:
-        """Return (f,) body of each face, numbered from 1 by their first elements, and (f,) 1 where it is rigid.
+        """Return (f,) body of each face, numbered from 1 by first elements, and (f,) 1 where it is rigid.
 
-        Elements that share nodes are one body; those of beams, trusses, springs and the like connect none.
+        Elements with common nodes are one body; beams, trusses, springs and the like do not connect bodies.
         """
-        parts = [group.nodes for group in self._groups if not isinstance(group.built_in, BeamType | DiscreteType)]
-        first = np.concatenate([np.repeat(nodes[:, 0], nodes.shape[1]) for nodes in parts])
-        second = np.concatenate([nodes.ravel() for nodes in parts])
+        connected = [group.nodes for group in self._groups if not isinstance(group.built_in, BeamType | DiscreteType)]
+        first = np.concatenate([np.repeat(nodes[:, 0], nodes.shape[1]) for nodes in connected])
+        second = np.concatenate([nodes.ravel() for nodes in connected])
         graph = sparse.coo_array((np.ones(len(first)), (first, second)), shape=(self._size, self._size))
         from scipy.sparse.csgraph import connected_components  # noqa: PLC0415 (few decks have contact)
 
@@ -116,13 +114,13 @@ class ContactFaces:
             rigid[chosen] = isinstance(group.built_in, RigidType)
         return bodies, rigid
 
-    def facets(self, faces: IntArray, place: Source) -> Iterator[Facets]:
-        """Yield the faces as `Surfaces.facets` does; place: in the deck, for messages."""
+    def facets(self, faces: IntArray, source: Source) -> Iterator[Facets]:
+        """Yield the faces as `Surfaces.facets` does; source: in the deck, for messages."""
         for k, chosen in self._by_group(faces):
             sides = faces[chosen] % _SIDES
             for side in np.unique(sides).tolist():
                 rows = self._rows(k, faces[chosen][sides == side])
-                yield self._groups[k], rows, _sides_of(self._groups[k])[side], place
+                yield self._groups[k], rows, _sides_of(self._groups[k])[side], source
 
     def _numbers(self, group: int, rows: IntArray, side: int) -> IntArray:
         return np.asarray((self._starts[group] + rows) * _SIDES + side)
@@ -137,7 +135,7 @@ class ContactFaces:
 
 
 def _sides_of(group: ElementGroup) -> list[Face]:
-    """Return the faces of elements by their local nodes; of shells and rigid elements the two sides, then edges."""
+    """Return the local nodes of the faces of elements; for shells and rigid elements the two sides, then edges."""
     kind = group.built_in
     if isinstance(kind, SolidType):
         return list(kind.family.faces)

@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*CONTACT, general contact: from its inclusions and assignments to pairs of surfaces in finite sliding.
+"""*CONTACT, general contact: surface pairs in finite sliding from inclusions and assignments.
 
-Faces that belong to the same body and to the same of the named surfaces form a class. Which classes may touch, with
-which property and in which roles, follows for each two of them; classes of a body that have the same main classes and
-the same property become one secondary surface.
+Faces of one body that are in the same named surfaces form a class. Inclusions, properties and roles are evaluated for
+each pair of classes; classes of a body with the same main classes and property become one secondary surface.
 """
 
 from __future__ import annotations
@@ -29,7 +28,7 @@ from uel.model.contact import ContactProperty, SurfacePair
 from uel.model.mesh import ElementGroup
 
 EVERYTHING = ""
-"""Name of the whole contact domain, for a data line that leaves out a surface."""
+"""Name of the entire contact domain, for a data line without a surface."""
 
 EXTERIOR = "ALL EXTERIOR"
 """The surface of all exterior faces."""
@@ -43,25 +42,25 @@ MAIN, SECONDARY = ("MAIN", "MASTER"), ("SECONDARY", "SLAVE")
 
 @dataclass(frozen=True, slots=True)
 class _Line:
-    """Data line of two surfaces and the value that it assigns."""
+    """Data line: two surfaces and the assigned value."""
 
     first: str
     second: str
     value: str
     source: Source
 
-    def holds(self, one: _Class, other: _Class) -> bool:
-        """Return whether the first class is in the first surface, and the other one in the second."""
-        return self.first in one.surfaces and self.second in other.surfaces
+    def holds(self, first: _Class, second: _Class) -> bool:
+        """Return whether the first class is in the first surface, and the second class in the second."""
+        return self.first in first.surfaces and self.second in second.surfaces
 
-    def about(self, one: _Class, other: _Class) -> bool:
-        """Return whether the line is about contact between two classes."""
-        return self.holds(one, other) or self.holds(other, one)
+    def about(self, first: _Class, second: _Class) -> bool:
+        """Return whether the line applies to contact between two classes."""
+        return self.holds(first, second) or self.holds(second, first)
 
 
 @dataclass(frozen=True, slots=True)
 class _Class:
-    """Faces (positions in `ContactFaces`) of a body that are in the same surfaces."""
+    """Faces (numbers of `ContactFaces`) of a body that are in the same surfaces."""
 
     body: int
     rigid: bool
@@ -71,14 +70,14 @@ class _Class:
 
 @dataclass(frozen=True, slots=True)
 class _Start:
-    """*CONTACT INITIALIZATION DATA: gaps and overlaps that are closed at the start."""
+    """*CONTACT INITIALIZATION DATA: largest gap and overlap that are closed at the start."""
 
     above: float = 0.0
     below: float = np.inf
 
 
 class GeneralContact:
-    """Reader of *CONTACT. Moves nodes that overlap at the start in the mesh."""
+    """Reader of *CONTACT. Moves nodes to close initial gaps and overlaps."""
 
     def __init__(
         self, flat: FlatMesh, groups: Sequence[ElementGroup], interactions: Interactions, problems: Problems
@@ -90,15 +89,15 @@ class GeneralContact:
 
     def read(self, blocks: Sequence[Block]) -> tuple[SurfacePair, ...]:
         """Return the contact pairs of the general contact that root blocks of a deck define."""
-        found: list[SurfacePair] = []
+        pairs: list[SurfacePair] = []
         with self._problems.gather():
             domain = _blocks_of(blocks)
             if domain:
                 lines = {name: [line for b in domain if b.name == name for line in _lines(b)] for name in _PARTS}
                 lines[EXCLUSIONS] += self._constrained(blocks)
                 self._regions = read_corrections(domain, self._sides.surfaces)
-                found += self._pairs(domain[0], lines, _starts(blocks))
-        return tuple(found)
+                pairs += self._pairs(domain[0], lines, _starts(blocks))
+        return tuple(pairs)
 
     def _pairs(self, head: Block, lines: dict[str, list[_Line]], starts: dict[str, _Start]) -> Iterator[SurfacePair]:
         if not lines[INCLUSIONS]:
@@ -107,24 +106,25 @@ class GeneralContact:
         classes = self._classes(lines, faces)
         self._check_inclusions(lines[INCLUSIONS], classes)
         chosen: dict[tuple[int, str, str, tuple[int, ...]], list[int]] = {}
-        for number, one in enumerate(classes):
+        for number, first in enumerate(classes):
             mains: dict[tuple[str, str], list[int]] = {}
             for k, other in enumerate(classes):
-                if _touches(lines, one, other) and _is_secondary(lines[FORMULATION], one, other):
-                    what = _last(lines[PROPERTY], one, other), _last(lines[INITIALIZATION], one, other)
-                    mains.setdefault(what, []).append(k)
-            for what, numbers in mains.items():
-                chosen.setdefault((one.body, *what, tuple(numbers)), []).append(number)
+                if _touches(lines, first, other) and _is_secondary(lines[FORMULATION], first, other):
+                    assigned = _last(lines[PROPERTY], first, other), _last(lines[INITIALIZATION], first, other)
+                    mains.setdefault(assigned, []).append(k)
+            for assigned, numbers in mains.items():
+                chosen.setdefault((first.body, *assigned, tuple(numbers)), []).append(number)
         if not chosen:
             raise head.error("no two bodies can touch; contact of a body with itself is not supported")
         hard = False
-        for (_, surface, start, others), own in chosen.items():
+        for (_, surface, start, others), secondary in chosen.items():
             line = next((line for line in lines[PROPERTY] if line.value == surface), None)
-            given = ContactProperty("", head.source) if line is None else self._interactions.find(surface, line.source)
-            hard |= given.stiffness is None
+            contact = self._interactions.find(surface, line.source) if line else ContactProperty("", head.source)
+            hard |= contact.stiffness is None
             at_start = next((line for line in lines[INITIALIZATION] if line.value == start), None)
             begin = look_up(starts, start, "contact initialization", at_start.source) if at_start else _Start()
-            yield self._pair(head, faces, ([classes[k] for k in own], [classes[k] for k in others]), given, begin)
+            sides = [classes[k] for k in secondary], [classes[k] for k in others]
+            yield self._pair(head, faces, sides, contact, begin)
         if hard:
             self._problems.warn(
                 head.source,
@@ -133,9 +133,8 @@ class GeneralContact:
             )
 
     def _classes(self, lines: dict[str, list[_Line]], faces: ContactFaces) -> list[_Class]:
-        sources = {
-            name: line.source for own in lines.values() for line in own for name in (line.second, line.first) if name
-        }
+        every_line = [line for group in lines.values() for line in group]
+        sources = {name: line.source for line in every_line for name in (line.second, line.first) if name}
         members = [
             faces.exterior() if name == EXTERIOR else faces.of_surface(name, source) for name, source in sources.items()
         ]
@@ -144,19 +143,19 @@ class GeneralContact:
             self._problems.warn(sources[EXTERIOR], f"*{INCLUSIONS}: {message}")
         every = np.unique(np.concatenate(members))
         inside = [np.isin(every, chosen).astype(np.int64) for chosen in members]
-        keys, which = np.unique(np.stack([*faces.bodies(every), *inside]), axis=1, return_inverse=True)
+        keys, index = np.unique(np.stack([*faces.bodies(every), *inside]), axis=1, return_inverse=True)
         return [
             _Class(
                 body,
                 bool(rigid),
-                frozenset([EVERYTHING, *(name for name, there in zip(sources, given, strict=True) if there)]),
-                every[which.ravel() == number],
+                frozenset([EVERYTHING, *(name for name, there in zip(sources, inside_flags, strict=True) if there)]),
+                every[index.ravel() == number],
             )
-            for number, (body, rigid, *given) in enumerate(keys.T.tolist())
+            for number, (body, rigid, *inside_flags) in enumerate(keys.T.tolist())
         ]
 
     def _constrained(self, blocks: Sequence[Block]) -> Iterator[_Line]:
-        """Yield the surfaces of contact pairs and ties as exclusions: they have constraints of their own."""
+        """Yield exclusions for the surfaces of contact pairs and ties."""
         for block in blocks:
             for row in block.rows() if block.name in ("CONTACT PAIR", "TIE") else ():
                 if not row.blank(0) and not row.blank(1):
@@ -166,16 +165,16 @@ class GeneralContact:
                         yield _Line(*names, "", row.source)
 
     def _check_inclusions(self, inclusions: Sequence[_Line], classes: Sequence[_Class]) -> None:
-        """Raise DeckError for a line that only pairs surfaces of one body; warn if this holds for a part of it."""
+        """Raise DeckError for an inclusion within one body only; warn of one that is partly within a body."""
         for line in inclusions:
-            bodies = {(one.body, other.body) for one in classes for other in classes if line.holds(one, other)}
-            if not any(one != other for one, other in bodies):
+            bodies = {(first.body, second.body) for first in classes for second in classes if line.holds(first, second)}
+            if not any(first != second for first, second in bodies):
                 raise DeckError(
                     line.source,
                     f"*{INCLUSIONS}: {line.first} and {line.second} belong to one body; contact of a body with itself "
                     "is not supported",
                 )
-            if any(one == other for one, other in bodies):
+            if any(first == second for first, second in bodies):
                 message = f"contact of a body with itself, between {line.first} and {line.second}, is left out"
                 self._problems.warn(line.source, f"*{INCLUSIONS}: {message}")
 
@@ -184,21 +183,21 @@ class GeneralContact:
         head: Block,
         faces: ContactFaces,
         classes: tuple[list[_Class], list[_Class]],
-        given: ContactProperty,
+        contact: ContactProperty,
         start: _Start,
     ) -> SurfacePair:
-        names = ["+".join(str(body) for body in sorted({one.body for one in side})) for side in classes]
+        names = ["+".join(str(body) for body in sorted({member.body for member in side})) for side in classes]
         row, points = Row(head.name, (), head.source), self._flat.mesh.coordinates
         secondary, main = (
             self._sides.of_facets(
-                faces.facets(np.concatenate([one.faces for one in side]), head.source), f"of body {name}", row
+                faces.facets(np.concatenate([own.faces for own in side]), head.source), f"of body {name}", row
             )
             for side, name in zip(classes, names, strict=True)
         )
         check_corners(main, self._flat.mesh, row)
-        name = "({},{})".format(*(f"General_Contact_Faces_{part}" for part in names))
-        place = head.name, head.source
-        pair = surface_pair(name, place, (secondary, main), points, given, everywhere=True, regions=self._regions)
+        name = "({},{})".format(*(f"General_Contact_Faces_{body}" for body in names))
+        origin = head.name, head.source
+        pair = surface_pair(name, origin, (secondary, main), points, contact, everywhere=True, regions=self._regions)
         chosen, clearances, normals = SurfaceSliding(pair, points).at_nodes()
         chosen &= (clearances != 0.0) & (clearances >= -start.below) & (clearances <= start.above)
         normals = np.pad(normals, ((0, 0), (0, 3 - pair.dimension)))
@@ -207,16 +206,16 @@ class GeneralContact:
 
 
 def _blocks_of(blocks: Sequence[Block]) -> list[Block]:
-    """Return *CONTACT and the keywords that belong to it."""
-    found: list[Block] = []
+    """Return *CONTACT and its keywords."""
+    domain: list[Block] = []
     for block in blocks:
         if block.name == "CONTACT":
-            found.append(block)
+            domain.append(block)
         elif block.name in (*_PARTS, ASSIGNMENT):
-            if not found:
+            if not domain:
                 raise block.error("does not follow *CONTACT")
-            found.append(block)
-    return found
+            domain.append(block)
+    return domain
 
 
 def _lines(block: Block) -> Iterator[_Line]:
@@ -241,39 +240,36 @@ def _lines(block: Block) -> Iterator[_Line]:
 
 
 def _starts(blocks: Sequence[Block]) -> dict[str, _Start]:
-    found = {}
+    starts = {}
     for block in blocks:
         if block.name == "CONTACT INITIALIZATION DATA":
-            above, below = block.options.real("SEARCH ABOVE", 0.0), block.options.real("SEARCH BELOW", np.inf)
-            for name, value in (("SEARCH ABOVE", above), ("SEARCH BELOW", below)):
-                if value < 0.0:
-                    raise block.error(f"{name}={value:g} must not be negative")
-            found[block.options.text("NAME")] = _Start(above, below)
-    return found
+            above, below = block.not_negative("SEARCH ABOVE", 0.0), block.not_negative("SEARCH BELOW", np.inf)
+            starts[block.options.text("NAME")] = _Start(above, below)
+    return starts
 
 
-def _touches(lines: dict[str, list[_Line]], one: _Class, other: _Class) -> bool:
-    if one.body == other.body or (one.rigid and other.rigid):
+def _touches(lines: dict[str, list[_Line]], first: _Class, second: _Class) -> bool:
+    if first.body == second.body or (first.rigid and second.rigid):
         return False
-    included = any(line.about(one, other) for line in lines[INCLUSIONS])
-    return included and not any(line.about(one, other) for line in lines[EXCLUSIONS])
+    included = any(line.about(first, second) for line in lines[INCLUSIONS])
+    return included and not any(line.about(first, second) for line in lines[EXCLUSIONS])
 
 
-def _is_secondary(roles: Sequence[_Line], one: _Class, other: _Class) -> bool:
+def _is_secondary(roles: Sequence[_Line], first: _Class, second: _Class) -> bool:
     """Return whether the first class is secondary: rigid classes are main, then roles decide, then the body number."""
-    if one.rigid or other.rigid:
-        return not one.rigid
-    found = one.body > other.body
+    if first.rigid or second.rigid:
+        return not first.rigid
+    secondary = first.body > second.body
     for line in roles:
-        # a line whose surfaces both have the classes says nothing new
-        if line.holds(one, other) != line.holds(other, one):
-            found = line.holds(one, other) == (line.value in SECONDARY)
-    return found
+        # a line that applies both ways assigns no role
+        if line.holds(first, second) != line.holds(second, first):
+            secondary = line.holds(first, second) == (line.value in SECONDARY)
+    return secondary
 
 
-def _last(lines: Sequence[_Line], one: _Class, other: _Class) -> str:
-    """Return the value of the last line about two classes, '' if there is none."""
-    return next((line.value for line in reversed(lines) if line.about(one, other)), "")
+def _last(lines: Sequence[_Line], first: _Class, second: _Class) -> str:
+    """Return the value of the last line for two classes, '' without one."""
+    return next((line.value for line in reversed(lines) if line.about(first, second)), "")
 
 
 _PARTS = (INCLUSIONS, EXCLUSIONS, PROPERTY, FORMULATION, INITIALIZATION)

@@ -11,6 +11,7 @@ import numpy as np
 
 from uel.deck.error_report import Problems
 from uel.deck.language.blocks import Block, Row
+from uel.deck.language.definitions import read_definitions
 from uel.deck.language.table import NAME, Keyword, Where, one_of
 from uel.deck.mesh.surfaces import Surfaces
 from uel.model.arrays import FloatArray
@@ -18,12 +19,12 @@ from uel.model.contact import Pieces, Rounded
 
 SMOOTHING, ASSIGNMENT = "SURFACE SMOOTHING", "SURFACE PROPERTY ASSIGNMENT"
 _COUNTS = {"CIRCUMFERENTIAL": (2, 6), "SPHERICAL": (3,), "TOROIDAL": (7,)}
-"""Numbers of a data line: of a circle in the plane 2."""
+"""Numbers on a data line; 2 for a circle in the plane."""
 
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """Faces, by their nodes in ascending order, and the surface that they approximate, as in `Rounded`."""
+    """Faces, by their sorted nodes, and the surface that they approximate, as in `Rounded`."""
 
     faces: frozenset[tuple[int, ...]]
     centre: FloatArray
@@ -33,14 +34,11 @@ class Region:
 
 def read_smoothings(blocks: Iterable[Block], surfaces: Surfaces, problems: Problems) -> dict[str, tuple[Region, ...]]:
     """Read the regions of each *SURFACE SMOOTHING, by name."""
-    found: dict[str, tuple[Region, ...]] = {}
-    for block in blocks:
-        if block.name == SMOOTHING:
-            with problems.gather():
-                found[block.options.text("NAME")] = tuple(
-                    region for row in block.rows() for region in _regions(row, 2, surfaces)
-                )
-    return found
+
+    def read(block: Block) -> tuple[Region, ...]:
+        return tuple(region for row in block.rows() for region in _regions(row, 2, surfaces))
+
+    return read_definitions(blocks, SMOOTHING, read, problems)
 
 
 def read_corrections(blocks: Iterable[Block], surfaces: Surfaces) -> tuple[Region, ...]:
@@ -50,14 +48,14 @@ def read_corrections(blocks: Iterable[Block], surfaces: Surfaces) -> tuple[Regio
 
 
 def _regions(row: Row, names: int, surfaces: Surfaces) -> Iterator[Region]:
-    """Yield the regions of a data line that begins with this number of surfaces. Raises DeckError."""
+    """Yield the regions of a data line; names: number of surfaces at its start. Raises DeckError."""
     kind = row.name(names, "kind of the correction")
     if kind not in _COUNTS:
         raise row.error(f"correction {kind} is not known; expected {', '.join(_COUNTS)}")
     numbers = [row.real(k, "coordinate") for k in range(names + 1, len(row))]
     if len(numbers) not in _COUNTS[kind]:
-        wanted = " or ".join(map(str, _COUNTS[kind]))
-        raise row.error(f"{len(numbers)} numbers of a {kind.lower()} correction, expected {wanted}")
+        counts = " or ".join(map(str, _COUNTS[kind]))
+        raise row.error(f"{len(numbers)} numbers of a {kind.lower()} correction, expected {counts}")
     dimension = 2 if len(numbers) == 2 else 3
     centre, axis = np.array(numbers[:dimension]), np.zeros(dimension)
     if len(numbers) > dimension:
@@ -70,7 +68,7 @@ def _regions(row: Row, names: int, surfaces: Surfaces) -> Iterator[Region]:
         if not row.blank(k):
             name = row.name(k, "surface")
             faces = [group.nodes[rows][:, list(local)] for group, rows, local, _ in surfaces.facets(name, row.source)]
-            chosen = frozenset(tuple(sorted(nodes)) for own in faces for nodes in own.tolist())
+            chosen = frozenset(tuple(sorted(nodes)) for connectivity in faces for nodes in connectivity.tolist())
             if not chosen:
                 raise row.error(f"surface {name} has no faces")
             yield Region(chosen, centre, axis, numbers[6] if len(numbers) == 7 else None)
@@ -82,10 +80,10 @@ def rounded_pieces(regions: Sequence[Region], pieces: Pieces) -> tuple[Rounded, 
         return ()
     faces = [tuple(sorted(set(nodes))) for nodes in pieces.nodes.tolist()]
     dimension = pieces.low.shape[1] + 1
-    found = [(region, [k for k, face in enumerate(faces) if face in region.faces]) for region in regions]
+    matches = [(region, [k for k, face in enumerate(faces) if face in region.faces]) for region in regions]
     return tuple(
         Rounded(np.array(chosen), region.centre, region.axis, region.radius)
-        for region, chosen in found
+        for region, chosen in matches
         if chosen and len(region.centre) == dimension
     )
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*SURFACE INTERACTION and the contact properties that follow it. They are read when a contact pair uses them."""
+"""*SURFACE INTERACTION and its contact properties, which are read when a contact pair uses them."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from uel.model.contact import INITIAL, SLIP_TOLERANCE, Cohesion, ContactProperty
 
 
 class Interactions:
-    """Contact properties by name; `unused` lists the places of those that nothing has asked for."""
+    """Contact properties by name."""
 
     def __init__(self, blocks: Iterable[Block], problems: Problems) -> None:
         self._problems = problems
         self._options: set[Source] = set()
-        self._given: dict[str, list[Block]] = {}
+        self._blocks: dict[str, list[Block]] = {}
         self._read: dict[str, ContactProperty] = {}
         current: list[Block] | None = None
         for block in blocks:
             with problems.gather():
                 if block.name == "SURFACE INTERACTION":
-                    self._given[block.options.text("NAME")] = current = [block]
+                    self._blocks[block.options.text("NAME")] = current = [block]
                 elif block.name not in _OPTIONS:
                     current = None
                 elif current is not None:
@@ -39,67 +39,65 @@ class Interactions:
                     raise block.error("does not follow *SURFACE INTERACTION")
 
     def find(self, name: str, source: Source) -> ContactProperty:
-        """Return the contact property of this name.
-        Raises DeckError if it does not exist, or has something unsupported.
-        """
-        if name not in self._given:
-            raise DeckError(source, f"unknown surface interaction {name}{nearest(name, self._given)}")
+        """Return a contact property. Raises DeckError if it is unknown or unsupported."""
+        if name not in self._blocks:
+            raise DeckError(source, f"unknown surface interaction {name}{nearest(name, self._blocks)}")
         if name not in self._read:
-            head, *others = self._given[name]
-            check_once(self._given[name], self._problems)
-            found = ContactProperty(name, head.source)
+            head, *others = self._blocks[name]
+            check_once(self._blocks[name], self._problems)
+            contact = ContactProperty(name, head.source)
             for block in others:
                 match block.name:
                     case "SURFACE BEHAVIOR":
-                        found = _read_behavior(found, block, self._problems)
+                        contact = _read_behavior(contact, block, self._problems)
                     case "FRICTION":
-                        found = _read_friction(found, block)
+                        contact = _read_friction(contact, block)
                     case "COHESIVE BEHAVIOR":
-                        found = replace(found, cohesion=_read_cohesion(block))
+                        contact = replace(contact, cohesion=_read_cohesion(block))
                     case _ if block.name in _HEAT:
-                        found = replace(found, heat=found.heat or block.source)
+                        contact = replace(contact, heat=contact.heat or block.source)
                     case _ if block.name in DAMAGE:
-                        found = replace(found, cohesion=_extend_cohesion(found.cohesion, block))
+                        contact = replace(contact, cohesion=_extend_cohesion(contact.cohesion, block))
                     case _:
                         raise block.error(f"is not supported, but a contact pair uses {name} ({source})")
-            self._read[name] = found
+            self._read[name] = contact
         return self._read[name]
 
     def without_options(self, blocks: Iterable[Block]) -> list[Block]:
-        """Return the blocks without the options of contact properties, some of which follow *MATERIAL too."""
+        """Return the blocks without those of contact properties, which *MATERIAL may have too."""
         return [block for block in blocks if block.source not in self._options]
 
     @property
     def unused(self) -> tuple[tuple[str, Source], ...]:
-        """Names and places of keywords that nothing uses."""
-        rest = [blocks for name, blocks in self._given.items() if name not in self._read]
+        """Names and locations of keywords of unused properties."""
+        rest = [blocks for name, blocks in self._blocks.items() if name not in self._read]
         return tuple((block.name, block.source) for blocks in rest for block in blocks)
 
 
 def _refuse(block: Block, *names: str) -> None:
     for name in names:
-        if block.options.given(name):
+        if block.options.has(name):
             raise block.unsupported(f"option {name}")
 
 
-def _read_behavior(found: ContactProperty, block: Block, problems: Problems) -> ContactProperty:
+def _read_behavior(contact: ContactProperty, block: Block, problems: Problems) -> ContactProperty:
     options = block.options
     _refuse(block, "AUGMENTED LAGRANGE", "NO SEPARATION")
     kind, row = options.text("PRESSURE-OVERCLOSURE"), block.only_row()
     if kind not in ("HARD", "LINEAR"):
         raise block.unsupported(f"PRESSURE-OVERCLOSURE={kind}", ("HARD", "LINEAR"))
-    if kind == "HARD" and not options.given("PENALTY"):
-        return replace(found, stiffness=None)
-    if options.given("DIRECT"):
+    if kind == "HARD" and not options.has("PENALTY"):
+        return replace(contact, stiffness=None)
+    if options.has("DIRECT"):
         raise block.error("DIRECT and a stiffness exclude each other")
     unknown = "that of Abaqus depends on the elements in a way that it does not describe"
     if row is None and kind == "HARD":
         problems.warn(block.source, f"*{block.name}: PENALTY without a stiffness is enforced exactly; {unknown}")
-        return replace(found, stiffness=None)
+        return replace(contact, stiffness=None)
     if row is None or row.blank(0):
         why = "" if kind == "LINEAR" else f"; {unknown}"
         raise block.error(f"expected the stiffness, pressure per overclosure, on the data line{why}")
-    slope = row.real(0, "stiffness")
+    slope = row.positive(0, "stiffness")
     clearance, factor, initial = 0.0, 1.0, 1.0
     if kind == "HARD":
         if options.text("PENALTY") == "NONLINEAR":
@@ -107,19 +105,14 @@ def _read_behavior(found: ContactProperty, block: Block, problems: Problems) -> 
             if len(row) > 3:
                 raise row.error("other ratios of PENALTY=NONLINEAR than the default ones are not supported")
         row.at_most(3)
-        clearance, factor = row.real(1, "clearance at zero pressure", 0.0), row.real(2, "scale factor", 1.0)
+        clearance = row.not_negative(1, "clearance at zero pressure", 0.0)
+        factor = row.positive(2, "scale factor", 1.0)
     else:
         row.at_most(1)
-    for value, what in ((slope, "stiffness"), (factor, "scale factor")):
-        if value <= 0:
-            raise row.error(f"{what} {value:g} must be positive")
-    if clearance < 0:
-        raise row.error(f"clearance at zero pressure {clearance:g} must not be negative")
-    return replace(found, stiffness=slope * factor, clearance=clearance, initial=initial)
+    return replace(contact, stiffness=slope * factor, clearance=clearance, initial=initial)
 
 
-def _read_friction(found: ContactProperty, block: Block) -> ContactProperty:
-    options = block.options
+def _read_friction(contact: ContactProperty, block: Block) -> ContactProperty:
     _refuse(
         block,
         *("ANISOTROPIC", "DEPENDENCIES", "DEPVAR", "EXPONENTIAL DECAY", "LAGRANGE", "PROPERTIES", "ROUGH"),
@@ -130,15 +123,9 @@ def _read_friction(found: ContactProperty, block: Block) -> ContactProperty:
         raise block.error("expected the friction coefficient on the data line")
     if len(rows) > 1 or len(rows[0]) > 1:
         raise rows[-1].unsupported("a coefficient that depends on slip rate, pressure or fields")
-    coefficient = rows[0].real(0, "friction coefficient")
-    tolerance = options.real("SLIP TOLERANCE", SLIP_TOLERANCE)
-    elastic = options.real("ELASTIC SLIP", 0.0)
-    if coefficient < 0:
-        raise rows[0].error(f"friction coefficient {coefficient:g} must not be negative")
-    for name, value in (("SLIP TOLERANCE", tolerance), ("ELASTIC SLIP", elastic)):
-        if options.given(name) and value <= 0:
-            raise block.error(f"{name}={value:g} must be positive")
-    return replace(found, friction=coefficient, slip_tolerance=tolerance, elastic_slip=elastic)
+    coefficient = rows[0].not_negative(0, "friction coefficient")
+    tolerance, elastic = block.positive("SLIP TOLERANCE", SLIP_TOLERANCE), block.positive("ELASTIC SLIP", 0.0)
+    return replace(contact, friction=coefficient, slip_tolerance=tolerance, elastic_slip=elastic)
 
 
 def _read_cohesion(block: Block) -> Cohesion:
@@ -157,11 +144,11 @@ def _read_cohesion(block: Block) -> Cohesion:
     return Cohesion(values, block.source)
 
 
-def _extend_cohesion(found: Cohesion | None, block: Block) -> Cohesion:
-    """Return the cohesive behavior with the damage data of a keyword added. Raises DeckError."""
-    if found is None:
+def _extend_cohesion(cohesion: Cohesion | None, block: Block) -> Cohesion:
+    """Return the cohesive behavior with the damage data of a keyword. Raises DeckError."""
+    if cohesion is None:
         raise block.error("does not follow *COHESIVE BEHAVIOR")
-    return replace(found, damage=extend_damage(found.damage, block, OF_SURFACES))
+    return replace(cohesion, damage=extend_damage(cohesion.damage, block, OF_SURFACES))
 
 
 DAMAGE = tuple(keyword.name for keyword in DAMAGE_OPTIONS)

@@ -12,7 +12,7 @@ import numpy as np
 from uel.contact import FiniteSliding, SurfaceSliding
 from uel.deck.contact.anchor_points import EQUAL, Anchors, find_anchors
 from uel.deck.contact.contact_sides import Side, Sides, check_corners, surface_pair
-from uel.deck.contact.geometric_corrections import Region, read_smoothings
+from uel.deck.contact.geometric_corrections import SMOOTHING, Region, read_smoothings
 from uel.deck.contact.interactions import Interactions
 from uel.deck.contact.profiles import find_profile
 from uel.deck.contact.sliding_surfaces import make_pieces, wound
@@ -40,9 +40,9 @@ EXTENSION = 0.1
 
 @dataclass(frozen=True, slots=True)
 class _Points:
-    """The points of a pair, as in `ContactPair`, and which of them the main surface faces."""
+    """Points of a pair, as in `ContactPair`, and the mask of those that the main surface faces."""
 
-    found: np.ndarray
+    facing: np.ndarray
     nodes: IntArray
     shares: FloatArray
     slopes: FloatArray
@@ -52,7 +52,7 @@ class _Points:
 
 
 class ContactReader:
-    """Reader of contact pairs. Moves nodes in the mesh as ADJUST demands."""
+    """Reader of contact pairs. Moves nodes by ADJUST."""
 
     def __init__(
         self,
@@ -68,18 +68,16 @@ class ContactReader:
         self._problems = problems
         self._points = flat.mesh.coordinates
         self._pairs: dict[tuple[Source, ...], Source] = {}
-        blocks = [block for owner in flat.owners for block in owner.blocks]
-        self._smoothings = read_smoothings(blocks, self._sides.surfaces, problems)
+        smoothings = (block for block, _ in flat.blocks(SMOOTHING))
+        self._smoothings = read_smoothings(smoothings, self._sides.surfaces, problems)
 
     def read(self) -> tuple[ContactPair | SlidingPair, ...]:
         """Return all contact pairs of the deck."""
-        found: list[ContactPair | SlidingPair] = []
-        for owner in self._flat.owners:
-            for block in owner.blocks:
-                if block.name == "CONTACT PAIR":
-                    with self._problems.gather():
-                        found += self._read(block, owner)
-        return tuple(found)
+        pairs: list[ContactPair | SlidingPair] = []
+        for block, owner in self._flat.blocks("CONTACT PAIR"):
+            with self._problems.gather():
+                pairs += self._read(block, owner)
+        return tuple(pairs)
 
     def _read(self, block: Block, owner: Owner) -> Iterator[ContactPair | SlidingPair]:
         for row in block.rows():
@@ -110,7 +108,7 @@ class ContactReader:
             name = self._flat.mesh.name(int(shared[0]))
             raise row.error(f"node {name} is on both surfaces, {secondary} and {main}")
         averaged = block.options.text("TYPE") == "SURFACE TO SURFACE" and bool(side.faces)
-        if block.options.given("GEOMETRIC CORRECTION") and (block.options.flag("SMALL SLIDING") or not averaged):
+        if block.options.has("GEOMETRIC CORRECTION") and (block.options.flag("SMALL SLIDING") or not averaged):
             raise block.error("GEOMETRIC CORRECTION is supported between surfaces in finite sliding")
         if not block.options.flag("SMALL SLIDING"):
             if averaged:
@@ -120,12 +118,12 @@ class ContactReader:
             pieces = make_pieces(wound(target.faces, self._points), self._points, smooth, zone)
             return self._sliding(block, row, owner, side, pieces, surface)
         anchors = find_anchors(self._points[side.nodes], side.normals, target.faces, self._points)
-        moved = self._adjust(block, side.nodes, (anchors.found, anchors.clearances, anchors.normals), owner)
+        moved = self._adjust(block, side.nodes, (anchors.facing, anchors.clearances, anchors.normals), owner)
         anchors = replace(anchors, clearances=np.where(moved, 0.0, anchors.clearances))
         points = self._averages(side, target) if averaged else _at_nodes(side, anchors)
-        here = points.found
-        self._warn_beside(side.nodes[~here], secondary, main, row)
-        if not here.any():
+        facing = points.facing
+        self._warn_beside(side.nodes[~facing], secondary, main, row)
+        if not facing.any():
             raise row.error(f"no node of {secondary} faces {main}: normals of {main} go through none of them")
         dimension = 2 if target.faces[0][0].shape[1] == 2 else 3
         self._check_planes(points, dimension, row)
@@ -134,12 +132,12 @@ class ContactReader:
             property=surface,
             source=row.source,
             dimension=dimension,
-            nodes=points.nodes[here],
-            shares=points.shares[here],
-            slopes=points.slopes[here, :, : dimension - 1],
-            normals=points.normals[here],
-            clearances=points.clearances[here],
-            areas=points.areas[here],
+            nodes=points.nodes[facing],
+            shares=points.shares[facing],
+            slopes=points.slopes[facing, :, : dimension - 1],
+            normals=points.normals[facing],
+            clearances=points.clearances[facing],
+            areas=points.areas[facing],
             length=side.size,
         )
 
@@ -148,7 +146,7 @@ class ContactReader:
     ) -> SlidingPair:
         """Build a pair with an analytical rigid surface. Raises DeckError."""
         secondary, main = row.name(0, "secondary surface"), row.name(1, "main surface")
-        if block.options.given("GEOMETRIC CORRECTION"):
+        if block.options.has("GEOMETRIC CORRECTION"):
             raise block.error(f"GEOMETRIC CORRECTION: the analytical rigid surface {main} has no faces")
         if block.options.flag("SMALL SLIDING"):
             raise block.error(f"SMALL SLIDING is not supported on the analytical rigid surface {main}; leave it out")
@@ -175,9 +173,9 @@ class ContactReader:
         smoothing, regions = block.options.text("GEOMETRIC CORRECTION"), tuple[Region, ...]()
         if smoothing:
             regions = look_up(self._smoothings, smoothing, "surface smoothing", block.source)
-        place = block.name, row.source
-        pair = surface_pair(name, place, sides, self._points, surface, everywhere=False, regions=regions)
-        if block.options.given("ADJUST"):
+        origin = block.name, row.source
+        pair = surface_pair(name, origin, sides, self._points, surface, everywhere=False, regions=regions)
+        if block.options.has("ADJUST"):
             self._adjust_sliding(block, pair, SurfaceSliding(pair, self._points).at_nodes(), owner)
         return pair
 
@@ -202,7 +200,7 @@ class ContactReader:
             areas=side.areas,
             length=side.size,
         )
-        if block.options.given("ADJUST"):
+        if block.options.has("ADJUST"):
             start = FiniteSliding(pair, self._points)
             self._adjust_sliding(block, pair, (start.above, start.start(), start.start_normals), owner)
         return pair
@@ -211,24 +209,24 @@ class ContactReader:
         self, block: Block, pair: SlidingPair, start: tuple[np.ndarray, FloatArray, FloatArray], owner: Owner
     ) -> None:
         """Move nodes by ADJUST; start: mask of those that can touch, clearances, and normals."""
-        found, clearances, normals = start
+        facing, clearances, normals = start
         normals = np.pad(normals, ((0, 0), (0, 3 - pair.dimension)))
-        self._adjust(block, pair.secondary, (found, clearances, normals), owner)
+        self._adjust(block, pair.secondary, (facing, clearances, normals), owner)
 
     def _averages(self, side: Side, target: Side) -> _Points:
-        found, areas = average(side.faces, target.faces, side.depth, self._points)
-        apart = np.einsum("mn,mnd->md", found.shares, self._points[found.nodes])
-        clearances = np.einsum("md,md->m", apart, found.normals)
+        mean, areas = average(side.faces, target.faces, side.depth, self._points)
+        gaps = np.einsum("mn,mnd->md", mean.shares, self._points[mean.nodes])
+        clearances = np.einsum("md,md->m", gaps, mean.normals)
         clearances[np.abs(clearances) <= EQUAL * side.size] = 0.0
-        return _Points(found.found, found.nodes, found.shares, found.slopes, found.normals, clearances, areas)
+        return _Points(mean.facing, mean.nodes, mean.shares, mean.slopes, mean.normals, clearances, areas)
 
     def _check_planes(self, points: _Points, dimension: int, row: Row) -> None:
-        """Raise DeckError where the surface with which a normal turns has no tangent plane."""
-        places = self._points[points.nodes]
-        along = np.einsum("mna,mnd->mad", points.slopes[..., : dimension - 1], places)
+        """Raise DeckError where the surface of a rotating normal has no tangent plane."""
+        coordinates = self._points[points.nodes]
+        along = np.einsum("mna,mnd->mad", points.slopes[..., : dimension - 1], coordinates)
         area = np.linalg.norm(np.cross(along[:, 0], along[:, 1]) if dimension == 3 else along[:, 0], axis=1)
         size = np.linalg.norm(along, axis=2).max(axis=1) ** (dimension - 1)
-        wrong = points.found & ~(area > EQUAL * size)
+        wrong = points.facing & ~(area > EQUAL * size)
         if wrong.any():
             label = self._flat.mesh.name(int(points.nodes[wrong][0, 0]))
             raise row.error(
@@ -245,11 +243,12 @@ class ContactReader:
     def _adjust(
         self, block: Block, nodes: IntArray, start: tuple[np.ndarray, FloatArray, FloatArray], owner: Owner
     ) -> np.ndarray:
-        """Move nodes onto the main surface as ADJUST demands, and return the mask (m,) of them; start: mask of the
-        nodes that face the main surface, their clearances and normals.
+        """Move nodes onto the main surface by ADJUST, and return their mask (m,).
+
+        start: mask of the nodes that face the main surface, clearances and normals.
         """
-        options, (found, clearances, normals) = block.options, start
-        if not options.given("ADJUST"):
+        options, (facing, clearances, normals) = block.options, start
+        if not options.has("ADJUST"):
             return np.zeros(len(nodes), dtype=np.bool_)
         text = options.text("ADJUST")
         try:
@@ -260,7 +259,7 @@ class ContactReader:
             if depth < 0:
                 raise block.error(f"ADJUST={depth:g} must not be negative")
             chosen = clearances <= depth
-        chosen &= found & (clearances != 0.0)
+        chosen &= facing & (clearances != 0.0)
         np.subtract.at(self._points, nodes[chosen], (clearances[:, None] * normals)[chosen])
         return chosen
 
@@ -279,7 +278,7 @@ def _at_nodes(side: Side, anchors: Anchors) -> _Points:
     """Return the points of node-to-surface contact."""
     count = len(side.nodes)
     return _Points(
-        anchors.found,
+        anchors.facing,
         np.concatenate([side.nodes[:, None], anchors.faces], axis=1),
         np.concatenate([np.ones((count, 1)), -anchors.weights], axis=1),
         np.concatenate([np.zeros((count, 1, 2)), anchors.slopes], axis=1),
@@ -290,22 +289,22 @@ def _at_nodes(side: Side, anchors: Anchors) -> _Points:
 
 
 def check_contact(pairs: Sequence[ContactPair | SlidingPair], steps: Sequence[Step], problems: Problems) -> None:
-    """Add an error to each step that uses something unsupported with contact pairs."""
+    """Add an error to each step with a feature that contact pairs do not support."""
     if not pairs:
         return
     for step in steps:
-        given, place = step.procedure, f"*{pairs[0].keyword} ({pairs[0].source})"
+        procedure, origin = step.procedure, f"*{pairs[0].keyword} ({pairs[0].source})"
         obstacles = {
-            "*STATIC, RIKS": given.riks is not None,
-            "*STEP, PERTURBATION": given.linear and given.keyword in PROCEDURES,
-            f"*{given.keyword}": given.keyword not in PROCEDURES,
+            "*STATIC, RIKS": procedure.riks is not None,
+            "*STEP, PERTURBATION": procedure.linear and procedure.keyword in PROCEDURES,
+            f"*{procedure.keyword}": procedure.keyword not in PROCEDURES,
         }
-        for what, there in obstacles.items():
-            if there:
-                problems.add(step.source, f"{place} is not supported with {what}")
+        for feature, used in obstacles.items():
+            if used:
+                problems.add(step.source, f"{origin} is not supported with {feature}")
         for heat in dict.fromkeys(pair.property.heat for pair in pairs):
-            if heat is not None and given.temperatures:
-                message = f"heat that crosses a contact is not supported (*{given.keyword}, {step.source})"
+            if heat is not None and procedure.temperatures:
+                message = f"heat that crosses a contact is not supported (*{procedure.keyword}, {step.source})"
                 problems.add(heat, f"{message}; without this line none crosses it")
 
 

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Analytical rigid surfaces: *SURFACE, TYPE=SEGMENTS, with the reference node that *RIGID BODY gives.
+"""Analytical rigid surfaces: *SURFACE, TYPE=SEGMENTS, with the reference node of *RIGID BODY.
 
-The outward normal is on the left of the way from the start to the end.
+The outward normal is on the left, seen from the start to the end.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ from uel.model.arrays import FloatArray
 from uel.model.contact import RigidProfile
 
 CLOSE = 1e-3
-"""Difference of the distances of both ends of an arc from its centre, over the radius, that a deck may have."""
+"""Relative difference of the radii at both ends of an arc that a deck may have."""
 
 
 @dataclass(frozen=True, slots=True)
-class _Way:
-    """A line, or an arc about a centre, of less than 180 degrees."""
+class _Segment:
+    """Line, or arc of less than 180 degrees about a centre."""
 
     start: FloatArray
     end: FloatArray
@@ -45,22 +45,22 @@ class _Way:
         return first, last
 
 
-def find_profile(name: str, source: Source, owner: str, flat: FlatMesh, surfaces: Surfaces) -> RigidProfile | None:
-    """Return the analytical rigid surface of this name, None for a surface of another type. Raises DeckError."""
-    found = surfaces.profile(name, source, owner)
-    if found is None:
+def find_profile(name: str, source: Source, scope_name: str, flat: FlatMesh, surfaces: Surfaces) -> RigidProfile | None:
+    """Return an analytical rigid surface, None for a surface of another type. Raises DeckError."""
+    profile = surfaces.profile(name, source, scope_name)
+    if profile is None:
         return None
-    place, block, radius = found
-    level = next(one for one in flat.owners if one.name == place)
+    scope, block, radius = profile
+    instance = next(owner for owner in flat.owners if owner.name == scope)
     reference = _reference(block, name, source, flat, surfaces)
-    ways = _read(block, level.placement)
+    ways = _read(block, instance.placement)
     return _profile(_filleted(ways, radius, block) if radius else ways, reference)
 
 
 def _reference(surface: Block, name: str, source: Source, flat: FlatMesh, surfaces: Surfaces) -> int:
-    """Return the reference node of the rigid body that has the surface. Raises DeckError if none has it."""
-    for body, owner, own in bodies_with_surfaces(flat):
-        if surfaces.locate(own, body.source, owner.name)[1] is surface:
+    """Return the reference node of the rigid body with the surface. Raises DeckError without one."""
+    for body, owner, surface_name in bodies_with_surfaces(flat):
+        if surfaces.locate(surface_name, body.source, owner.name)[1] is surface:
             return reference_node(body, owner, flat)
     raise surface.error(f"needs *RIGID BODY, ANALYTICAL SURFACE={name}, for a contact pair uses it ({source})")
 
@@ -70,7 +70,7 @@ def reference_dofs(flat: FlatMesh) -> frozenset[int]:
     return frozenset(RigidSurface.dofs if any(True for _ in bodies_with_surfaces(flat)) else ())
 
 
-def _read(block: Block, placement: Placement) -> list[_Way]:
+def _read(block: Block, placement: Placement) -> list[_Segment]:
     if placement.turn(np.eye(3))[2, 2] < 0.5:
         raise block.error("its instance is turned out of the plane, which is not supported")
     rows = list(block.rows())
@@ -88,7 +88,7 @@ def _read(block: Block, placement: Placement) -> list[_Way]:
         centre = None if kind == "LINE" else _point(row, 3, placement)
         if centre is not None:
             _check_arc(last, end, centre, row)
-        ways.append(_Way(last, end, centre))
+        ways.append(_Segment(last, end, centre))
         last = end
     if not ways:
         raise block.error("expected LINE or CIRCL on the second data line")
@@ -103,30 +103,30 @@ def _check_arc(start: FloatArray, end: FloatArray, centre: FloatArray, row: Row)
         raise row.error("the arc has 180 degrees; expected less")
 
 
-def _filleted(ways: list[_Way], radius: float, block: Block) -> list[_Way]:
-    """Insert arcs of this radius between lines that meet at an angle. Raises DeckError."""
-    found = [ways[0]]
-    for way in ways[1:]:
-        before = found[-1]
-        into, out = before.tangents[1], way.tangents[0]
+def _filleted(lines: list[_Segment], radius: float, block: Block) -> list[_Segment]:
+    """Insert arcs of this radius at corners between lines. Raises DeckError."""
+    segments = [lines[0]]
+    for segment_after in lines[1:]:
+        before = segments[-1]
+        into, out = before.tangents[1], segment_after.tangents[0]
         turn = float(np.arctan2(into[0] * out[1] - into[1] * out[0], into @ out))
         if abs(turn) > CLOSE:
             cut = radius * np.tan(0.5 * abs(turn))
-            if before.centre is not None or way.centre is not None:
+            if before.centre is not None or segment_after.centre is not None:
                 raise block.unsupported("FILLET RADIUS beside an arc that meets its neighbour at an angle")
-            if not cut < min(np.linalg.norm(one.end - one.start) for one in (before, way)):
+            if not cut < min(np.linalg.norm(segment.end - segment.start) for segment in (before, segment_after)):
                 raise block.error(f"an arc of FILLET RADIUS={radius:g} does not fit between two of its lines")
-            start, end = before.end - cut * into, way.start + cut * out
+            start, end = before.end - cut * into, segment_after.start + cut * out
             side = np.sign(turn) * np.array([-into[1], into[0]])
-            found[-1] = replace(before, end=start)
-            found.append(_Way(start, end, start + radius * side))
-            found.append(replace(way, start=end))
+            segments[-1] = replace(before, end=start)
+            segments.append(_Segment(start, end, start + radius * side))
+            segments.append(replace(segment_after, start=end))
         else:
-            found.append(way)
-    return found
+            segments.append(segment_after)
+    return segments
 
 
-def _profile(ways: list[_Way], reference: int) -> RigidProfile:
+def _profile(ways: list[_Segment], reference: int) -> RigidProfile:
     """Build the profile, reversed so that the outward normal is on the right, as on all main surfaces."""
     count = len(ways)
     middle, half, radius = np.zeros((count, 2)), np.zeros((count, 2)), np.zeros(count)

@@ -1,16 +1,17 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Main surfaces of finite sliding from faces of elements, smoothed in the plane.
+"""Main surfaces of finite sliding from element faces, smoothed in the plane.
 
-Where two faces meet at a node, a parabola replaces their ends: it touches them at a fraction of their lengths from the
-node (Abaqus Analysis User's Guide, "Contact formulations in Abaqus/Standard", smoothing deformable main surfaces). A
-force goes to the nodes of one face alone, as there, and by the point of that face: a constant pressure on opposite
-nodes stays constant. The parabola is two pieces, one for each face.
+A parabola replaces the ends of two adjacent faces: it is tangent to them at a fraction of their lengths from the common
+node (Abaqus Analysis User's Guide, "Contact formulations in Abaqus/Standard", smoothing deformable main surfaces).
+Forces act on the nodes of one face, as there, so that constant pressures on matching nodes stay constant. Each parabola
+is two pieces, one per face.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Final
 
 import numpy as np
 from scipy import sparse
@@ -26,14 +27,22 @@ _QUADRILATERAL = 0.25 * np.array([[1, -1, -1, 1], [1, 1, -1, -1], [1, 1, 1, 1], 
 _TRIANGLE = np.array([[1, -1, -1, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 0]], dtype=float)
 
 
+NATURAL: Final = {
+    (1, 2): np.array([[-1.0], [1.0]]),
+    (2, 3): np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]),
+    (2, 4): np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]),
+}
+"""Natural coordinates of the corners of faces, by dimension and number of corners."""
+
+
 def wound(faces: Faces, coordinates: FloatArray) -> list[IntArray]:
-    """Return the corners of faces of each kind, ordered so that the outward normals follow from the tangents."""
-    found = []
+    """Return the corners of faces of each kind, ordered so that the tangents give the outward normals."""
+    ordered = []
     for nodes, normals in faces:
-        own = face_normals(coordinates[nodes])
-        turned = np.einsum("fd,fd->f", own, normals) < 0.0
-        found.append(np.where(turned[:, None], nodes[:, ::-1], nodes))
-    return found
+        normal = face_normals(coordinates[nodes])
+        reversed_faces = np.einsum("fd,fd->f", normal, normals) < 0.0
+        ordered.append(np.where(reversed_faces[:, None], nodes[:, ::-1], nodes))
+    return ordered
 
 
 def face_normals(corners: FloatArray) -> FloatArray:
@@ -55,7 +64,7 @@ def make_pieces(
     Parameters
     ----------
     faces
-        Of each kind, lines, triangles or quadrilaterals, as `wound` returns them.
+        Lines, triangles or quadrilaterals, by kind, as `wound` returns them.
     coordinates
         (n, 3) of all nodes.
     smooth
@@ -63,7 +72,7 @@ def make_pieces(
     zone
         Extension zone beyond free edges, over the length of a face.
     corners
-        Of the faces, by numbers that two faces share where they continue each other; None: those of their nodes.
+        Corner numbers of the faces, equal where faces are continuous; None: the nodes.
     """
     numbers = faces if corners is None else corners
     if faces[0].shape[1] == 2:
@@ -72,22 +81,20 @@ def make_pieces(
 
 
 def whole_pieces(faces: Mapping[Family, IntArray]) -> Pieces:
-    """Build the pieces of a surface that is not smoothed and has no edges, from the nodes (f,
-    k) of each family of faces.
-    """
+    """Build the patches of a surface without smoothing and edges, from the nodes (f, k) of each family of faces."""
     width = max(family.nodes for family in faces)
     along = next(iter(faces)).dimension
-    # those that have nodes fewer repeat the first one
+    # pad the nodes with the first one
     nodes = [
         np.concatenate([part, np.repeat(part[:, :1], width - part.shape[1], axis=1)], axis=1) for part in faces.values()
     ]
     count = 3 if along == 1 else 4 if width <= 4 else 8
     shapes, low, total = [], [], []
     for family, part in faces.items():
-        own = np.zeros((width, count))
-        own[: family.nodes, : family.nodes] = _coefficients(family, count)
+        coefficients = np.zeros((width, count))
+        coefficients[: family.nodes, : family.nodes] = _coefficients(family, count)
         triangle = family.dimension == 2 and family.corners == 3
-        shapes.append(np.broadcast_to(own, (len(part), width, count)))
+        shapes.append(np.broadcast_to(coefficients, (len(part), width, count)))
         low.append(np.full((len(part), along), 0.0 if triangle else -1.0))
         total.append(np.full(len(part), 1.0 if triangle else np.inf))
     every, start, most = np.concatenate(nodes), np.concatenate(low), np.concatenate(total)
@@ -99,15 +106,10 @@ def whole_pieces(faces: Mapping[Family, IntArray]) -> Pieces:
 
 def _coefficients(family: Family, count: int) -> FloatArray:
     """Return (k, k) coefficients of the first k monomials in the shape functions of a face, one row per node."""
-    if family.dimension == 1:
-        corners = np.array([[-1.0], [1.0]])
-    elif family.corners == 3:
-        corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
-    else:
-        corners = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    corners = NATURAL[family.dimension, family.corners]
     middles = 0.5 * (corners + np.roll(corners, -1, axis=0))
-    places = np.concatenate([corners, middles])[: family.nodes]
-    return np.asarray(np.linalg.inv(monomials(places, count)[0][:, : family.nodes]).T, dtype=np.float64)
+    points = np.concatenate([corners, middles])[: family.nodes]
+    return np.asarray(np.linalg.inv(monomials(points, count)[0][:, : family.nodes]).T, dtype=np.float64)
 
 
 def _of_lines(lines: IntArray, ends: IntArray, coordinates: FloatArray, smooth: float, zone: float) -> Pieces:
@@ -121,15 +123,19 @@ def _of_lines(lines: IntArray, ends: IntArray, coordinates: FloatArray, smooth: 
     nodes = np.concatenate([filled([lines]), corners, corners])
     shapes, loads = np.zeros((len(nodes), 3, 3)), np.zeros((len(nodes), 3, 3))
     shapes[:p, 0, :2], shapes[:p, 1, :2] = (0.5, -0.5), (0.5, 0.5)
-    before, after, one = smooth * np.array([1.0, -2.0, 1.0]), smooth * np.array([0.0, 0.0, 1.0]), np.array([1.0, 0, 0])
-    shapes[p:] = np.stack([one - before - after, before, after])
+    before, after, unit = (
+        smooth * np.array([1.0, -2.0, 1.0]),
+        smooth * np.array([0.0, 0.0, 1.0]),
+        np.array([1.0, 0, 0]),
+    )
+    shapes[p:] = np.stack([unit - before - after, before, after])
     loads[:p] = shapes[:p]
-    # distances along the faces from the node, over the length of the face before and the one behind
+    # distances from the node over the lengths of the two faces
     length = np.linalg.norm(coordinates[corners[:, 1:]] - coordinates[middle][:, None], axis=2)
     ratio = length[:, 1] / length[:, 0]
     loads[p : p + count, 1] = before - ratio[:, None] * after
     loads[p + count :, 2] = after - before / ratio[:, None]
-    loads[p:, 0] = one - loads[p:, 1] - loads[p:, 2]
+    loads[p:, 0] = unit - loads[p:, 1] - loads[p:, 2]
     low, high = np.zeros(len(nodes)), np.ones(len(nodes))
     low[:p], high[:p] = -1.0 + 2.0 * smooth * rounded[:, 0], 1.0 - 2.0 * smooth * rounded[:, 1]
     high[p : p + count] = low[p + count :] = 1.0 / (1.0 + np.sqrt(ratio))
@@ -157,9 +163,9 @@ def _of_areas(faces: Sequence[IntArray], corners: Sequence[IntArray], zone: floa
         np.stack([numbers, np.where(four[:, None], np.roll(numbers, -1, axis=1), numbers[:, [1, 2, 0, 0]])]), axis=0
     )
     keys = edges[0] * (int(numbers.max()) + 1) + edges[1]
-    own = np.where(four[:, None] | (np.arange(4) < 3), keys, -1)
-    _, place, count = np.unique(own, return_inverse=True, return_counts=True)
-    free = (count[place.reshape(own.shape)] == 1) & (own >= 0)
+    edge_keys = np.where(four[:, None] | (np.arange(4) < 3), keys, -1)
+    _, index, count = np.unique(edge_keys, return_inverse=True, return_counts=True)
+    free = (count[index.reshape(edge_keys.shape)] == 1) & (edge_keys >= 0)
     inside, step = np.where(four, -1.0, 0.0), np.where(four, 2.0, 1.0) * zone
     infinite = np.full(len(nodes), np.inf)
     low, high = np.stack([inside] * 2, axis=1), np.ones((len(nodes), 2))
@@ -181,7 +187,7 @@ def _of_areas(faces: Sequence[IntArray], corners: Sequence[IntArray], zone: floa
 
 
 def _ring(nodes: IntArray) -> IntArray:
-    """Return (p, r) the pieces that share a node with a piece, including itself, repeated to fill a row."""
+    """Return (p, r) the pieces with a common node, including the piece itself, padded with it."""
     p, k = nodes.shape
     of_node = sparse.csr_array((np.ones(p * k, dtype=np.bool_), (np.repeat(np.arange(p), k), nodes.ravel())))
     shared = sparse.csr_array(of_node @ of_node.T)

@@ -4,10 +4,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import TypeVar
 
-from uel.deck.error_report import Problems
+from uel.deck.error_report import Problems, look_up
 from uel.deck.language.blocks import Block
 
 Defined = TypeVar("Defined")
@@ -20,24 +20,19 @@ def read_definitions(
     problems: Problems,
     option: str = "NAME",
 ) -> dict[str, Defined]:
-    """Read the definitions of the blocks of a keyword, by name.
+    """Read the definitions that a keyword makes in one scope, by the name that `option` gives.
 
-    Parameters
-    ----------
-    blocks
-        Of one scope; those of other keywords are passed over.
-    keyword
-        Its name, without the asterisk.
-    read
-        From a block to what its name stands for.
-    problems
-        Gets the errors.
-    option
-        Has the name.
+    Errors of `read`, which makes one definition, go to `problems`.
     """
-    found: dict[str, Defined] = {}
+    definitions: dict[str, Defined] = {}
     for block in blocks:
         if block.name == keyword:
             with problems.gather():
-                found[block.options.text(option)] = read(block)
-    return found
+                definitions[block.options.text(option)] = read(block)
+    return definitions
+
+
+def named(block: Block, option: str, definitions: Mapping[str, Defined]) -> Defined | None:
+    """Return the definition that an option names, None without the option. Raises DeckError if it is unknown."""
+    name = block.options.text(option)
+    return look_up(definitions, name, option.lower(), block.source) if name else None

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*PARAMETER: statements `name = expression` in Python's spelling, evaluated by a small interpreter of its own."""
+"""*PARAMETER: statements `name = expression` in Python syntax, evaluated by a small interpreter."""
 
 from __future__ import annotations
 
@@ -29,30 +29,30 @@ _LARGEST_INTEGER = 2**63
 
 
 def assign(statement: str, parameters: Mapping[str, Value]) -> tuple[str, Value]:
-    """Return name and value of `name = expression`. Raises ValueError, which says what is wrong."""
+    """Return name and value of `name = expression`. Raises ValueError."""
     if len(statement) > _LONGEST:
         raise ValueError("the expression is too long")
+    source = statement.strip()
+    malformed = ValueError(f"'{source}' is not of the form name = expression")
     try:
-        tree = ast.parse(statement.strip())
+        tree = ast.parse(source)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        raise ValueError(f"'{statement.strip()}' is not of the form name = expression") from None
-    if len(tree.body) != 1 or not isinstance(tree.body[0], ast.Assign):
-        raise ValueError(f"'{statement.strip()}' is not of the form name = expression")
-    target, source = tree.body[0].targets[0], statement.strip()
-    if len(tree.body[0].targets) != 1 or not isinstance(target, ast.Name):
-        raise ValueError(f"'{statement.strip()}' is not of the form name = expression")
+        raise malformed from None
+    match tree.body:
+        case [ast.Assign(targets=[ast.Name(id=name)], value=value)]:
+            pass
+        case _:
+            raise malformed
     try:
-        return target.id, _evaluate(tree.body[0].value, parameters, source)
+        return name, _evaluate(value, parameters, source)
     except OverflowError:
-        raise ValueError(f"'{statement.strip()}' cannot be evaluated: a number is too large") from None
+        raise ValueError(f"'{source}' cannot be evaluated: a number is too large") from None
     except (ArithmeticError, TypeError, RecursionError) as error:
-        raise ValueError(f"'{statement.strip()}' cannot be evaluated: {error}") from None
+        raise ValueError(f"'{source}' cannot be evaluated: {error}") from None
 
 
 def find(name: str, parameters: Mapping[str, Value]) -> Value | None:
-    """Return the value of a parameter: of this very name, else of the only one that differs in case;
-    None if there is none.
-    """
+    """Return the value of a parameter, else of the only one that differs in case, else None."""
     if name in parameters:
         return parameters[name]
     alike = [value for key, value in parameters.items() if key.lower() == name.lower()]
@@ -65,10 +65,10 @@ def _evaluate(node: ast.expr, parameters: Mapping[str, Value], source: str) -> V
         case ast.Constant(value=str() | float() | int() as value):
             return value
         case ast.Name(id=name):
-            found = find(name, {**_CONSTANTS, **parameters})
-            if found is None:
+            parameter = find(name, {**_CONSTANTS, **parameters})
+            if parameter is None:
                 raise ValueError(f"parameter '{name}' is not defined")
-            return found
+            return parameter
         case ast.UnaryOp(op=ast.USub(), operand=operand):
             return -_number(operand, parameters, source)
         case ast.UnaryOp(op=ast.UAdd(), operand=operand):

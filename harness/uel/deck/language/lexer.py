@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Text of a deck and its includes, cut into keyword blocks; parameters are substituted here."""
+"""Split the text of a deck and its includes into keyword blocks, and substitute parameters."""
 
 from __future__ import annotations
 
@@ -43,16 +43,16 @@ _PARAMETER = re.compile(r"<\s*([A-Za-z_]\w*)\s*>")
 
 
 def read_blocks(
-    deck: Path, keywords: Mapping[str, Keyword], problems: Problems, given: Mapping[str, Value] | None = None
+    deck: Path, keywords: Mapping[str, Keyword], problems: Problems, parameters: Mapping[str, Value] | None = None
 ) -> list[Block]:
     """Read the keyword blocks of a deck in order, against the keyword table.
 
-    given: values of parameters in place of those in the deck. What is wrong goes to `problems`; DeckError if the deck
-    cannot be read, UsageError if a given parameter is none of its own.
+    parameters: values in place of those in the deck. Errors in the deck go to `problems`. Raises DeckError if the deck
+    cannot be read, UsageError for a parameter that it does not define.
     """
-    lexer = _read(deck, keywords, problems, given or {})
+    lexer = _read(deck, keywords, problems, parameters or {})
     defined = list(lexer.parameters)
-    for name in lexer.given:
+    for name in lexer.overrides:
         if find(name, lexer.parameters) is None:
             raise UsageError(f"--parameter {name}: {unknown_parameter(name, deck, defined)}")
     return lexer.blocks
@@ -74,10 +74,10 @@ class Survey:
 
 @dataclass(frozen=True, slots=True)
 class Passage:
-    """Lines of a deck as they are written, in the order of reading; those of an included file are where it is read.
+    """Consecutive lines of a deck, unchanged and in the order of reading, included files in place.
 
-    block  whose keyword line or data lines they are; None for comments, into which *INCLUDE turns
-    first  place of the first one among the data lines of the block; -1 for its keyword line
+    block  keyword of these lines; None for comments and *INCLUDE
+    first  index of the first line among the data lines of the block; -1 for its keyword line
     """
 
     block: Block | None
@@ -88,10 +88,9 @@ class Passage:
 def read_passages(
     files: Sequence[Path], keywords: Mapping[str, Keyword], problems: Problems, made: Mapping[Path, list[str]]
 ) -> tuple[list[Block], list[Passage]]:
-    """Read the keyword blocks of decks that follow each other, and their whole text, for a program that rewrites them.
+    """Read the keyword blocks and the text of consecutive decks, for a program that rewrites them.
 
-    made: lines of those of the files that are not on the disk. What is wrong goes to `problems`; DeckError if a deck
-    cannot be read.
+    made: lines of files that are not on the disk. Errors go to `problems`. Raises DeckError if a deck cannot be read.
     """
     lexer = _Lexer(files[-1], keywords, problems, {})
     for file in files:
@@ -100,23 +99,20 @@ def read_passages(
     return lexer.blocks, lexer.passages
 
 
-def survey_blocks(deck: Path, keywords: Mapping[str, Keyword], given: Mapping[str, Value] | None = None) -> Survey:
-    """Return files and parameters of a deck, as far as it can be read; `read_blocks` reports the problems in it.
-
-    DeckError if the deck itself cannot be read.
-    """
-    lexer = _read(deck, keywords, Problems(), given or {})
+def survey_blocks(deck: Path, keywords: Mapping[str, Keyword], parameters: Mapping[str, Value] | None = None) -> Survey:
+    """Return files and parameters of a deck, as far as it can be read. Raises DeckError if it cannot be opened."""
+    lexer = _read(deck, keywords, Problems(), parameters or {})
     return Survey((deck, *dict.fromkeys(lexer.included)), tuple(lexer.parameters), lexer.depends)
 
 
 def unknown_parameter(name: str, deck: Path, defined: Sequence[str]) -> str:
-    """Return a sentence about a name that is not among the parameters that a deck defines."""
+    """Return the message about a parameter that a deck does not define."""
     has = f"its parameters are {', '.join(defined)}{nearest(name, defined)}" if defined else "it has no *PARAMETER"
     return f"{deck} defines no parameter of this name; {has}"
 
 
-def _read(deck: Path, keywords: Mapping[str, Keyword], problems: Problems, given: Mapping[str, Value]) -> _Lexer:
-    lexer = _Lexer(deck, keywords, problems, given)
+def _read(deck: Path, keywords: Mapping[str, Keyword], problems: Problems, parameters: Mapping[str, Value]) -> _Lexer:
+    lexer = _Lexer(deck, keywords, problems, parameters)
     start = Source(str(deck), 0)
     lines = _load(deck, start)
     if not any(line and not line.startswith("**") for line in lines):
@@ -127,8 +123,8 @@ def _read(deck: Path, keywords: Mapping[str, Keyword], problems: Problems, given
 
 
 def _load(path: Path, source: Source) -> list[str]:
-    """Return the lines of a text file in UTF-8 or Latin-1, with any kind of line end, stripped. Raises DeckError."""
-    # one that is not there has no first line either; another one has the place of its *INCLUDE
+    """Return the stripped lines of a text file in UTF-8 or Latin-1, with any line end. Raises DeckError."""
+    # line 0: the deck itself, which has no location if it cannot be opened; else the location is that of *INCLUDE
     name = str(path) if source.line else "the file"
     try:
         raw = read_whole(path)
@@ -152,7 +148,7 @@ def _load(path: Path, source: Source) -> list[str]:
 
 @dataclass(slots=True)
 class _Header:
-    """Keyword line under construction: its text so far and where it begins."""
+    """Keyword line with its continuation lines, and its location."""
 
     text: str
     source: Source
@@ -160,15 +156,15 @@ class _Header:
 
 
 class _Lexer:
-    """Lexer of the lines of a deck and its includes; `open` is the block that takes data lines."""
+    """Lexer of the lines of a deck and its includes."""
 
     def __init__(
-        self, deck: Path, keywords: Mapping[str, Keyword], problems: Problems, given: Mapping[str, Value]
+        self, deck: Path, keywords: Mapping[str, Keyword], problems: Problems, overrides: Mapping[str, Value]
     ) -> None:
         self.blocks: list[Block] = []
         self.passages: list[Passage] = []
         self.parameters: dict[str, Value] = {}
-        self.given = given
+        self.overrides = overrides
         self.included: list[Path] = []
         self.depends = False
         self._folder = deck.parent
@@ -188,8 +184,8 @@ class _Lexer:
             line = lines[number]
             if not line.startswith("*"):
                 stop = stars[bisect.bisect_left(stars, number)]
-                place = len(self._open.lines) if self._open is not None else 0
-                self.passages.append(Passage(self._open, place, lines[number:stop]))
+                first = len(self._open.lines) if self._open is not None else 0
+                self.passages.append(Passage(self._open, first, lines[number:stop]))
                 self._data(lines[number:stop], file, number + 1)
                 number = stop
                 continue
@@ -206,7 +202,7 @@ class _Lexer:
                     self._keyword(header, stack)
 
     def close(self) -> None:
-        """End the open block; the statements of *PARAMETER are evaluated now, for the lines that follow."""
+        """End the open block; evaluate the statements of *PARAMETER, for the lines that follow."""
         block = self._open
         if block is None:
             return
@@ -225,19 +221,19 @@ class _Lexer:
         except ValueError as error:
             self.parameters.setdefault(statement.partition("=")[0].strip(), 0.0)
             raise DeckError(source, f"*PARAMETER: {error}") from None
-        given = find(name, self.given)
-        if given is not None:
-            # 5 for 2. would make length/2 a quotient of integers
-            value = float(given) if isinstance(value, float) else given
+        override = find(name, self.overrides)
+        if override is not None:
+            # a real parameter stays real: with 5 in place of 2. length/2 would be a quotient of integers
+            value = float(override) if isinstance(value, float) else override
         self.parameters[name] = value
 
     def _data(self, lines: list[str], file: str, first: int) -> None:
-        """Read consecutive data lines, the first with this number."""
+        """Read consecutive data lines; first: number of the first one."""
         if self._open is None:
-            place = next((index for index, line in enumerate(lines) if line), None)
-            if place is not None and not self._discard:
+            index = next((k for k, line in enumerate(lines) if line), None)
+            if index is not None and not self._discard:
                 self._problems.add(
-                    Source(file, first + place), "data before the first keyword; a comment begins with **"
+                    Source(file, first + index), "data before the first keyword; a comment begins with **"
                 )
                 self._discard = True
             return
@@ -248,7 +244,7 @@ class _Lexer:
         self._open.extend(lines, file, first)
 
     def _plain(self, line: str, source: Source) -> str:
-        """Return a data line without its trailing comment, and with the values of parameters."""
+        """Return a data line without trailing comment, with parameters substituted."""
         line = self._uncommented(line, source)
         if "<" in line:
             with self._problems.gather():
@@ -256,7 +252,7 @@ class _Lexer:
         return line
 
     def _uncommented(self, line: str, source: Source) -> str:
-        """Strip the trailing comment of a data line, which Abaqus allows too; warn at the first one."""
+        """Strip the trailing comment of a data line, as Abaqus does; warn at the first one."""
         comment = _COMMENT.search(line) if "**" in line else None
         if comment is None:
             return line
@@ -267,15 +263,15 @@ class _Lexer:
 
     def _substitute(self, line: str, source: Source) -> str:
         def value(match: re.Match[str]) -> str:
-            found = find(match[1], self.parameters)
-            if found is None:
+            parameter = find(match[1], self.parameters)
+            if parameter is None:
                 raise DeckError(source, f"parameter <{match[1]}> is not defined")
-            return str(found)
+            return str(parameter)
 
         return _PARAMETER.sub(value, line)
 
     def _join(self, header: _Header, lines: list[str], number: int) -> int:
-        """Join the lines that continue a keyword line, and return their number."""
+        """Join the continuation lines of a keyword line, and return the number of the line after them."""
         while header.text.endswith(",") and number < len(lines):
             ahead = number
             while ahead < len(lines) - 1 and lines[ahead].startswith("**"):
@@ -289,7 +285,7 @@ class _Lexer:
         return number
 
     def _continues(self, header: str, line: str) -> bool:
-        """Return whether a line continues a keyword line that ends in a comma, and is not its first data line."""
+        """Return whether a line continues a keyword line that ends in a comma, or is a data line."""
         if not line or line.startswith("*"):
             return False
         first = split_fields(line)[0]
@@ -302,7 +298,7 @@ class _Lexer:
         return any(compact(option.name) == compact(first) for option in keyword.options)
 
     def _gather(self, header: _Header) -> AbstractContextManager[None]:
-        """Return the context that collects the errors of a keyword line; those in a material count if it is used."""
+        """Return the context that records the errors of a keyword line, for a material those of the material."""
         name = abaqus_name(split_fields(header.text[1:])[0])
         if name in MATERIAL_KEYWORDS and self._material:
             return self._problems.gather_of(self._material)
@@ -320,31 +316,31 @@ class _Lexer:
         try:
             keyword = find_keyword(self._keywords, fields[0], source)
         except DeckError:
-            # it may be in a material that nothing uses
+            # it may belong to an unused material
             self.passages.append(Passage(None, 0, header.lines))
             raise
         if keyword.name == "INCLUDE":
             self._open = previous
             self.passages.append(Passage(None, 0, [f"** {line}" for line in header.lines]))
             options = read_options(keyword, fields[1:], source)
-            given = [option.name for option in keyword.options if option.name in options.values]
-            if len(given) != 1:
-                problem = "takes one of INPUT and FILE" if given else "needs the option INPUT"
+            names = [option.name for option in keyword.options if option.name in options.values]
+            if len(names) != 1:
+                problem = "takes one of INPUT and FILE" if names else "needs the option INPUT"
                 raise DeckError(source, f"*INCLUDE {problem}")
-            self._include(options.text(given[0]), source, stack)
+            self._include(options.text(names[0]), source, stack)
             return
         self._open = Block(keyword, Options(keyword), source)
         self.blocks.append(self._open)
         self.passages.append(Passage(self._open, -1, header.lines))
-        # a block with a wrong option stays, so that one wrong *STEP does not condemn all that follows
+        # keep a block with a wrong option: a wrong *STEP must not cause errors in all keywords after it
         self._open.options = options = _options(keyword, fields[1:], source)
         if keyword.name == "MATERIAL":
             self._material = options.text("NAME")
-        if options.known("INPUT") and options.given("INPUT"):
+        if options.known("INPUT") and options.has("INPUT"):
             self._include(options.text("INPUT"), source, stack)
 
     def _include(self, name: str, source: Source, stack: tuple[Path, ...]) -> None:
-        """Read another file in place; the open block stays open, since the file may begin with data lines."""
+        """Read an included file; the open block stays open, since the file may begin with data lines."""
         try:
             path = self._find(name, stack[-1], source)
             resolved = path.resolve()
@@ -357,32 +353,30 @@ class _Lexer:
             raise DeckError(source, f"include loop: {loop}")
         self.included.append(path)
         if len(stack) > DEEPEST or len(self.included) > MOST_INCLUDED:
-            # files that include each other several times multiply without limit
+            # nested includes can multiply without limit
             limit = f"{MOST_INCLUDED} of them are" if len(stack) <= DEEPEST else f"{DEEPEST} within each other are"
             raise DeckError(source, f"too many included files: {limit} read")
         self.read(_load(path, source), str(path), (*stack, resolved))
 
     def _find(self, name: str, including: Path, source: Source) -> Path:
-        """Return the path of an included file; warn if Abaqus, which looks in the current folder alone,
-        would not find it.
-        """
+        """Return the path of an included file; warn if Abaqus, which searches the current folder only, would fail."""
         here, beside_deck, beside_including = Path(name), self._folder / name, including.parent / name
         if not here.exists():
             in_deck_folder = beside_deck.exists() or not beside_including.exists()
-            found = beside_deck if in_deck_folder else beside_including
-            if found.exists() and not self._problems.differences:
-                # where one file is not found, others are not either
+            path = beside_deck if in_deck_folder else beside_including
+            if path.exists() and not self._problems.differences:
+                # one message is enough: the other files are in the same folder
                 there = "beside the deck" if in_deck_folder else "beside the including file"
                 advice = f"submit it in {self._folder}" if in_deck_folder else "name it as seen from the deck"
                 only = "only in the folder where the job is submitted"
                 self._problems.differ(source, f"Abaqus looks for {name} {only}, not {there}: {advice}")
-            return found
+            return path
         if not beside_deck.exists():
             return here
         if not beside_deck.samefile(here):
             self._problems.warn(source, f"{name} is that of the current folder, as in Abaqus, not {beside_deck}")
             return here
-        # messages name it like the deck
+        # name it relative to the deck, as messages do
         return beside_deck
 
 

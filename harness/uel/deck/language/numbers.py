@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers as a deck writes them: one by one with every spelling, or a whole block of plain ones at once."""
+"""Numbers of a deck: single fields in any spelling, or blocks of plain numbers at once."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from uel.model.arrays import FloatArray, IntArray
 
 Number = TypeVar("Number", np.float64, np.int64)
 
-# mantissa, then an exponent with E or D; '210e9.0' has one reading only, so it is taken
+# mantissa, then an exponent with E or D; '210e9.0' is accepted, since it is unambiguous
 _REAL = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[EeDd]([+-]?\d+)(?:\.0*)?)?", re.ASCII)
 _INTEGER = re.compile(r"[+-]?\d+(?:\.0*)?", re.ASCII)
 LARGEST_INTEGER = 2**31 - 1
@@ -57,7 +57,7 @@ def real_table(lines: list[str]) -> FloatArray | None:
     if table is None:
         return None
     sizes = np.abs(table)
-    # a number that is out of bounds is named when the lines are read one by one; comparisons with nan are false
+    # reading line by line reports a number out of bounds; comparisons with nan are false
     if not (sizes <= LARGEST).all() or ((sizes < SMALLEST) & (sizes > 0.0)).any():
         return None
     return table
@@ -66,7 +66,7 @@ def real_table(lines: list[str]) -> FloatArray | None:
 def integer_table(lines: list[str], *, columns: int | None = None) -> IntArray | None:
     """Parse a block of plain integers to (lines, columns), None unless all lines hold the same number of them.
 
-    columns: of lines with more entries, those to read; the others may hold anything.
+    columns: number of columns to read; further entries are not parsed.
     """
     table = _table(lines, np.int64, columns)
     return None if table is None or np.abs(table).max() > LARGEST_INTEGER else table

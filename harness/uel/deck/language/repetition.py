@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rules for repeated keywords: one rule for each keyword that sets a value says what a second one means.
+"""Rules for repeated keywords: whether a second value adds, replaces or is refused.
 
-`check_once` refuses what may be given once in a scope, wherever the keyword is read. The other rules are carried out
-where the values are: entries of a step in `uel.deck.steps.step`, faces of a surface in `uel.deck.mesh.surfaces`,
-sections of elements in `uel.deck.mesh.groups`, nodes, elements and sets in `uel.deck.mesh.local_mesh`.
+`check_once` refuses repetitions in a scope. The readers apply the other rules: `uel.deck.steps.step` to entries of a
+step, `uel.deck.mesh.surfaces` to faces, `uel.deck.mesh.groups` to sections, `uel.deck.mesh.local_mesh` to nodes,
+elements and sets.
 """
 
 from __future__ import annotations
@@ -35,18 +35,18 @@ class Rule:
     """One rule.
 
     repeat  what several values are
-    of      what they are values of, for `keywords.md`
-    within  keywords that begin what may have the keyword once; none: the part, the assembly or the model
-    by      options that tell different things apart
-    apart   the reader of the keyword refuses, since what is given once has no option of its own
-    note    what else a user should know, for `keywords.md`
+    of      owner of the values, for `keywords.md`
+    within  keywords that open a scope with one such keyword; none: the part, the assembly or the model
+    by      options that distinguish entries
+    by_reader  the reader refuses repetitions, since no option identifies the owner
+    note    remark for `keywords.md`
     """
 
     repeat: Repeat
     of: str
     within: tuple[str, ...] = ()
     by: tuple[str, ...] = ()
-    apart: bool = False
+    by_reader: bool = False
     note: str = ""
 
     @property
@@ -59,7 +59,7 @@ _NAMED: Final = Rule(Repeat.ONCE, "a name", by=("NAME",))
 _OF_MATERIAL: Final = Rule(Repeat.ONCE, "a material", within=("MATERIAL",))
 _OF_INTERACTION: Final = Rule(Repeat.ONCE, "a surface interaction", within=("SURFACE INTERACTION",))
 _OF_STEP: Final = Rule(Repeat.ONCE, "a step", within=("STEP",))
-_OF_ELEMENT: Final = Rule(Repeat.ONCE, "an element", apart=True)
+_OF_ELEMENT: Final = Rule(Repeat.ONCE, "an element", by_reader=True)
 _OF_DAMAGE: Final = Rule(Repeat.ONCE, "a *DAMAGE INITIATION", within=("DAMAGE INITIATION",))
 _IN_MODEL: Final = Rule(Repeat.ONCE, "the model")
 _WARNED: Final = "a warning says where it differs"
@@ -71,7 +71,7 @@ _REQUEST: Final = Rule(Repeat.ADD, "a step")
 _ASSIGNMENT: Final = Rule(Repeat.LAST, "two surfaces")
 _DEFINITION: Final = Rule(Repeat.LAST, "a node or element", note=_WARNED)
 _SET: Final = Rule(Repeat.ADD, "a name")
-_PROCEDURE: Final = Rule(Repeat.ONCE, "a step", apart=True)
+_PROCEDURE: Final = Rule(Repeat.ONCE, "a step", by_reader=True)
 
 RULES: Final[dict[str, Rule]] = {
     # each node, element and set; a set is extended (Analysis User's Guide, "Node definition", "Element definition")
@@ -80,7 +80,7 @@ RULES: Final[dict[str, Rule]] = {
     "SYSTEM": Rule(Repeat.LAST, "the nodes that follow"),
     "PARAMETER": Rule(Repeat.LAST, "the lines that follow"),
     "IMPERFECTION": Rule(Repeat.ADD, "a node", note="of data lines with a warning, since Abaqus does not say"),
-    "TRANSFORM": Rule(Repeat.ONCE, "a node", apart=True, note="the same directions are accepted"),
+    "TRANSFORM": Rule(Repeat.ONCE, "a node", by_reader=True, note="the same directions are accepted"),
     "DISTRIBUTION": Rule(Repeat.ONCE, "a name", by=("NAME",), note="in one the last value of an element counts"),
     # what has a name
     **dict.fromkeys(("AMPLITUDE", "DISTRIBUTION TABLE", "MATERIAL", "ORIENTATION", "SECTION CONTROLS"), _NAMED),
@@ -96,7 +96,7 @@ RULES: Final[dict[str, Rule]] = {
     "USER MATERIAL": Rule(Repeat.ONCE, "a material and TYPE", within=("MATERIAL",), by=("TYPE",)),
     "VISCOELASTIC": Rule(Repeat.ONCE, "a material and network", within=("MATERIAL",), by=("NETWORKID",)),
     "TRS": Rule(Repeat.ONCE, "a network", within=("VISCOELASTIC",)),
-    "DAMAGE INITIATION": Rule(Repeat.ONCE, "a material or surface interaction", apart=True),
+    "DAMAGE INITIATION": Rule(Repeat.ONCE, "a material or surface interaction", by_reader=True),
     **dict.fromkeys(("DAMAGE EVOLUTION", "DAMAGE STABILIZATION"), _OF_DAMAGE),
     # options of a contact property
     **dict.fromkeys(("SURFACE BEHAVIOR", "FRICTION", "COHESIVE BEHAVIOR", "CONTACT DAMPING"), _OF_INTERACTION),
@@ -108,13 +108,15 @@ RULES: Final[dict[str, Rule]] = {
     **dict.fromkeys(("SOLID SECTION", "COHESIVE SECTION", "SHELL SECTION", "SHELL GENERAL SECTION"), _OF_ELEMENT),
     **dict.fromkeys(("BEAM SECTION", "BEAM GENERAL SECTION", "MEMBRANE SECTION", "UEL PROPERTY"), _OF_ELEMENT),
     **dict.fromkeys(("MASS", "SPRING", "DASHPOT", "RIGID BODY"), _OF_ELEMENT),
-    **dict.fromkeys(("HOURGLASS STIFFNESS", "TRANSVERSE SHEAR STIFFNESS"), Rule(Repeat.ONCE, "a section", apart=True)),
+    **dict.fromkeys(
+        ("HOURGLASS STIFFNESS", "TRANSVERSE SHEAR STIFFNESS"), Rule(Repeat.ONCE, "a section", by_reader=True)
+    ),
     # constraints and contact
     **dict.fromkeys(("EQUATION", "MPC", "KINEMATIC COUPLING", "TIE", "COUPLING"), _CONSTRAINT),
     **dict.fromkeys(("KINEMATIC", "DISTRIBUTING"), Rule(Repeat.ONCE, "a *COUPLING", within=("COUPLING",))),
     "CYCLIC SYMMETRY MODEL": _IN_MODEL,
     "CONTACT": _IN_MODEL,
-    "CONTACT PAIR": Rule(Repeat.ONCE, "two surfaces", apart=True),
+    "CONTACT PAIR": Rule(Repeat.ONCE, "two surfaces", by_reader=True),
     **dict.fromkeys(("CONTACT INCLUSIONS", "CONTACT EXCLUSIONS"), Rule(Repeat.ADD, "the model")),
     **dict.fromkeys(("CONTACT PROPERTY ASSIGNMENT", "CONTACT INITIALIZATION ASSIGNMENT"), _ASSIGNMENT),
     "CONTACT FORMULATION": _ASSIGNMENT,
@@ -128,7 +130,7 @@ RULES: Final[dict[str, Rule]] = {
     **dict.fromkeys(("CLOAD", "CFLUX", "CECHARGE", "DLOAD", "DSLOAD", "DFLUX", "DSFLUX"), _LOAD),
     **dict.fromkeys(("FILM", "SFILM", "CFILM", "RADIATE", "SRADIATE", "CRADIATE"), _FILM),
     "BASE MOTION": Rule(Repeat.ONCE, "a step, dof and part", within=("STEP",), by=("DOF", "IMAGINARY")),
-    "MODAL DAMPING": Rule(Repeat.ONCE, "a step and kind of damping", apart=True),
+    "MODAL DAMPING": Rule(Repeat.ONCE, "a step and kind of damping", by_reader=True),
     "SELECT EIGENMODES": _OF_STEP,
     "MONITOR": _OF_STEP,
     "CONTROLS": Rule(Repeat.LAST, "an entry of the data lines"),
@@ -156,48 +158,48 @@ _MEMBERS: Final = {
     opener: [_ALIKE.get(name, name) for name, rule in RULES.items() if opener in rule.within]
     for opener in {opener for rule in RULES.values() for opener in rule.within}
 }
-"""Keywords that may be given once, by the keyword that opens their scope."""
+"""Keywords allowed once, by the keyword that opens their scope."""
 
 
 def check_once(blocks: Iterable[Block], problems: Problems) -> None:
-    """Report each keyword of one scope that repeats what may be given only once."""
+    """Report repeated keywords of one scope that are allowed once."""
     seen: dict[str, dict[tuple[str, ...], Block]] = {}
     for block in blocks:
         for name in _MEMBERS.get(block.name, ()):
             seen.pop(name, None)
         rule = RULES.get(block.name)
-        if rule is None or rule.repeat is not Repeat.ONCE or rule.apart:
+        if rule is None or rule.repeat is not Repeat.ONCE or rule.by_reader:
             continue
         values = tuple(block.options.values.get(option, "") for option in rule.by)
         first = seen.setdefault(_ALIKE.get(block.name, block.name), {}).setdefault(values, block)
-        # not by their places: a file may be included twice
+        # compare objects, not locations: a file may be included twice
         if first is block:
             continue
         if rule.by and not rule.within:
             message = f"{values[0]} is defined already"
         else:
-            given = ", ".join(f"{name}={value}" for name, value in zip(rule.by, values, strict=True) if value)
-            message = f"{given} is given already" if given else f"{rule.of} has one already"
+            repeated = ", ".join(f"{name}={value}" for name, value in zip(rule.by, values, strict=True) if value)
+            message = f"{repeated} is given already" if repeated else f"{rule.of} has one already"
         problems.add(block.source, f"*{block.name}: {message}, at {first.source}")
 
 
-def overlaps(places: Sequence[IntArray]) -> Iterator[tuple[int, int, int]]:
-    """Yield each pair of entries that follow each other at some place, and the first such place.
+def overlaps(members: Sequence[IntArray]) -> Iterator[tuple[int, int, int]]:
+    """Yield each pair of consecutive entries with a common member, and the first such member.
 
-    places: of each entry, (k,) numbers, none of them twice.
+    members: (k,) unique numbers of each entry.
     """
-    if len(places) < 2:
+    if len(members) < 2:
         return
-    every = np.concatenate(places)
-    numbers = np.repeat(np.arange(len(places)), [len(own) for own in places])
-    order = np.argsort(every, kind="stable")
-    every, numbers = every[order], numbers[order]
-    again = np.flatnonzero(every[1:] == every[:-1])
+    all_members = np.concatenate(members)
+    numbers = np.repeat(np.arange(len(members)), [len(numbers_of) for numbers_of in members])
+    order = np.argsort(all_members, kind="stable")
+    all_members, numbers = all_members[order], numbers[order]
+    again = np.flatnonzero(all_members[1:] == all_members[:-1])
     pairs, first = np.unique(np.stack([numbers[again], numbers[again + 1]], axis=1), axis=0, return_index=True)
     for (earlier, later), k in zip(pairs.tolist(), first.tolist(), strict=True):
-        yield earlier, later, int(every[again[k]])
+        yield earlier, later, int(all_members[again[k]])
 
 
-def given_again(what: str, here: str, before: str, source: Source, where: str = "") -> str:
-    """Return the sentence about something that is given one value here and another before, at a place."""
-    return f"{what} is given {here} here and {before} at {source}{where and ', '}{where}; the entry here counts"
+def repeated_value(item: str, here: str, before: str, source: Source, scope: str = "") -> str:
+    """Return the message about an item with another value here than before, at an earlier location."""
+    return f"{item} is given {here} here and {before} at {source}{scope and ', '}{scope}; the entry here counts"

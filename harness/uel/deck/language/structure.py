@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Blocks sorted to the place they belong to: model, parts, assembly, instances and steps."""
+"""Sort blocks by scope: model, parts, assembly, instances and steps."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Scope:
 
 @dataclass(slots=True)
 class Structure:
-    """Sorted blocks of a deck. `root` has those of no part: the model's own data and the assembly's."""
+    """Sorted blocks of a deck. `root` has the data of the model and of the assembly."""
 
     root: list[Block] = field(default_factory=list)
     assembly: Scope | None = None
@@ -48,12 +48,12 @@ class Structure:
 
     @property
     def materials(self) -> frozenset[str]:
-        """Names that keywords give as MATERIAL=, and all words on data lines of sections, which may have layers."""
+        """Names in MATERIAL= options, and all words on data lines of sections, which may have layers."""
         scopes = *self.parts.values(), *self.instances.values()
         blocks = [*self.root, *(block for scope in scopes for block in scope.blocks)]
-        found = {block.options.values.get("MATERIAL", "") for block in blocks}
+        names = {block.options.values.get("MATERIAL", "") for block in blocks}
         rows = (row for block in blocks if block.name.endswith("SECTION") for row in block.rows())
-        return frozenset(found.union(unquote(field) for row in rows for field in row.fields))
+        return frozenset(names.union(unquote(field) for row in rows for field in row.fields))
 
     @property
     def of_instances(self) -> dict[str, list[Block]]:
@@ -133,18 +133,18 @@ def _begin(scope: Scope, structure: Structure) -> None:
 
 
 def _end(block: Block, open_scopes: list[Scope]) -> None:
-    wanted = _ENDS[block.name]
-    if not any(scope.head.name == wanted for scope in open_scopes):
-        raise block.error(f"no *{wanted} to end")
+    opener = _ENDS[block.name]
+    if not any(scope.head.name == opener for scope in open_scopes):
+        raise block.error(f"no *{opener} to end")
     scope = open_scopes.pop()
-    if scope.head.name != wanted:
-        while open_scopes.pop().head.name != wanted:
+    if scope.head.name != opener:
+        while open_scopes.pop().head.name != opener:
             pass
         raise DeckError(scope.head.source, f"*{scope.head.name} without *END {scope.head.name}")
 
 
 def _misplaced(block: Block, open_scopes: list[Scope], problems: Problems) -> None:
-    """Report a scope in the wrong place, and treat the open ones as ended, so that reading goes on."""
+    """Report a misplaced scope, and close the open ones, so that reading continues."""
     if open_scopes:
         head = open_scopes[-1].head
         problems.add(head.source, f"*{head.name} without *END {head.name}; *{block.name} follows at {block.source}")
@@ -156,7 +156,7 @@ def _misplaced(block: Block, open_scopes: list[Scope], problems: Problems) -> No
 def _check_instances(structure: Structure, problems: Problems) -> None:
     for scope in structure.instances.values():
         part = scope.head.options.text("PART")
-        # without a name the keyword line has an error already
+        # a missing name is reported at the keyword line
         if part and part not in structure.parts:
             problems.add(scope.head.source, f"*INSTANCE: unknown part {part}{nearest(part, structure.parts)}")
     used = {scope.head.options.text("PART") for scope in structure.instances.values()}

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Entries of the keyword table, a keyword and its options, and the reading of a keyword line against it."""
+"""Entries of the keyword table, and the reading of keyword lines against it."""
 
 from __future__ import annotations
 
@@ -48,12 +48,12 @@ class Where(StrEnum):
 class Option:
     """One option of a keyword line.
 
-    doc       what it gives, for `keywords.md`
-    required  the line must have it
-    default   its value where the line does not have it; '' for none
+    doc       description for `keywords.md`
+    required  whether the line must have it
+    default   value without the option; '' for none
     choices   values of Kind.CHOICE
-    refused   values Abaqus knows that would change the solution here
-    bare      its value where the line has the option without a value; '' if there must be one
+    refused   values of Abaqus that are not supported
+    bare      value of the option without `=`; '' if a value is required
     """
 
     name: str
@@ -71,10 +71,10 @@ class Option:
 class Keyword:
     """One keyword.
 
-    doc      what it does, for `keywords.md`
-    data     what its data lines hold, '' where it takes none
-    comments what comments between them may give, '' where they are not looked at
-    support  IGNORED: it cannot change the solution, and no reader looks at it
+    doc      description for `keywords.md`
+    data     content of the data lines, '' without data lines
+    comments content of comments among them, '' where comments are skipped
+    support  IGNORED: it cannot change the solution, and is not read
     """
 
     name: str
@@ -105,12 +105,12 @@ def one_of(
 
 
 def refused(*names: str) -> tuple[Option, ...]:
-    """Make the options of these names, which Abaqus knows and which would change the solution, as refused."""
+    """Make options that Abaqus has and that would change the solution: they are refused."""
     return tuple(Option(name, support=Support.REFUSED) for name in names)
 
 
 def ignored(*names: str) -> tuple[Option, ...]:
-    """Make the options of these names, which cannot change the solution, as ignored."""
+    """Make options that cannot change the solution: they are ignored."""
     return tuple(Option(name, support=Support.IGNORED) for name in names)
 
 
@@ -118,8 +118,8 @@ def ignored(*names: str) -> tuple[Option, ...]:
 class Options:
     """Options of one keyword line, checked against the table; names are those of the table.
 
-    Each look-up raises LookupError for an option that the keyword does not have, or that is of another kind: that is a
-    mistake of the reader, not of the deck.
+    Each look-up raises LookupError for an option or kind that is not in the table: an error of the reader, not of the
+    deck.
     """
 
     keyword: Keyword
@@ -133,7 +133,7 @@ class Options:
         """Return whether the flag or switch is on."""
         return (self._value(name, Kind.FLAG, Kind.SWITCH) or "NO") != "NO"
 
-    def given(self, name: str) -> bool:
+    def has(self, name: str) -> bool:
         """Return whether the option is on the line."""
         return self._value(name, *Kind) is not None
 
@@ -163,24 +163,24 @@ class Options:
 
 @lru_cache(4096)
 def compact(word: str) -> str:
-    """Return the spelling in which words are compared: upper case, without blanks."""
+    """Return a word normalized for comparison: upper case, without blanks."""
     return "".join(word.split()).upper()
 
 
 def split_fields(line: str) -> list[str]:
     """Split a line at its commas and strip the fields; commas within quotes do not separate."""
     if '"' not in line:
-        return [part.strip() for part in line.split(",")]
+        return [text.strip() for text in line.split(",")]
     fields = [""]
-    for number, piece in enumerate(re.split(r'("[^"]*")', line)):
-        first, *others = [piece] if number % 2 else piece.split(",")
+    for number, text in enumerate(re.split(r'("[^"]*")', line)):
+        first, *others = [text] if number % 2 else text.split(",")
         fields[-1] += first
         fields += others
     return [field.strip() for field in fields]
 
 
 def unquote(name: str) -> str:
-    """Return a name in the spelling in which names are compared: without quotes, in upper case, with single blanks."""
+    """Return a name normalized for comparison: without quotes, in upper case, with single blanks."""
     return " ".join(name.replace('"', "").split()).upper()
 
 
@@ -194,23 +194,21 @@ _ABAQUS = {compact(name): name for name in ABAQUS_KEYWORDS}
 
 def abaqus_name(name: str) -> str:
     """Return the Abaqus keyword of this name, or the only one that begins with it; '' if there is none."""
-    wanted = compact(name)
-    begins = [wanted] if wanted in _ABAQUS else [full for full in _ABAQUS if wanted and full.startswith(wanted)]
-    return _ABAQUS[begins[0]] if len(begins) == 1 else ""
+    word = compact(name)
+    matches = [word] if word in _ABAQUS else [full for full in _ABAQUS if word and full.startswith(word)]
+    return _ABAQUS[matches[0]] if len(matches) == 1 else ""
 
 
 def find_keyword(keywords: Mapping[str, Keyword], name: str, source: Source) -> Keyword:
-    """Return the keyword of this name, or the only one of Abaqus that begins with it.
-    Raises DeckError, which says whether Abaqus has it.
-    """
-    wanted = compact(name)
-    if not wanted:
+    """Return the keyword of this name, or the only one of Abaqus that begins with it. Raises DeckError."""
+    word = compact(name)
+    if not word:
         raise DeckError(source, "a keyword line without a keyword; a comment begins with **")
-    wanted = compact(abaqus_name(name)) or wanted
-    if wanted in keywords:
-        return keywords[wanted]
-    if wanted in _ABAQUS:
-        raise DeckError(source, f"*{_ABAQUS[wanted]} is not supported{_REASONS.get(_ABAQUS[wanted], '')}")
+    word = compact(abaqus_name(name)) or word
+    if word in keywords:
+        return keywords[word]
+    if word in _ABAQUS:
+        raise DeckError(source, f"*{_ABAQUS[word]} is not supported{_REASONS.get(_ABAQUS[word], '')}")
     known = {keyword.name for keyword in keywords.values()} | ABAQUS_KEYWORDS
     raise DeckError(source, f"unknown keyword *{name.strip()}{nearest(name.strip().upper(), known)}")
 
@@ -237,13 +235,13 @@ def read_options(keyword: Keyword, fields: list[str], source: Source) -> Options
 
 def _find_option(keyword: Keyword, name: str, source: Source) -> Option:
     """Return the option of this name, or the only one that begins with it. Raises DeckError."""
-    wanted = compact(name)
-    begins = [option for option in keyword.options if wanted and compact(option.name).startswith(wanted)]
-    exact = [option for option in begins if compact(option.name) == wanted]
-    if exact or len(begins) == 1:
-        return (exact or begins)[0]
-    if begins:
-        names = " or ".join(option.name for option in begins)
+    word = compact(name)
+    matches = [option for option in keyword.options if word and compact(option.name).startswith(word)]
+    exact = [option for option in matches if compact(option.name) == word]
+    if exact or len(matches) == 1:
+        return (exact or matches)[0]
+    if matches:
+        names = " or ".join(option.name for option in matches)
         raise DeckError(source, f"*{keyword.name}: option {name.strip()} is ambiguous ({names}); write it out")
     known = [option.name for option in keyword.options if option.support is not Support.REFUSED]
     takes = f"; it takes {', '.join(known)}" if known else "; it takes none"
@@ -252,23 +250,23 @@ def _find_option(keyword: Keyword, name: str, source: Source) -> Option:
 
 
 def _read_value(keyword: Keyword, option: Option, value: str | None, source: Source) -> str:
-    place = f"*{keyword.name}, {option.name}"
+    option_text = f"*{keyword.name}, {option.name}"
     if option.kind is Kind.FLAG:
         if value and value.upper() not in ("YES", "NO"):
-            raise DeckError(source, f"{place} takes no value, found '{value}'")
+            raise DeckError(source, f"{option_text} takes no value, found '{value}'")
         return (value or "YES").upper()
     if option.kind is Kind.SWITCH:
         return (
-            _choose(place, value or "YES", ("YES", "NO", "ON", "OFF"), (), source)
+            _choose(option_text, value or "YES", ("YES", "NO", "ON", "OFF"), (), source)
             .replace("ON", "YES")
             .replace("OFF", "NO")
         )
     value = value or option.bare
     # quotes around nothing are none
     if not value or not value.strip('" '):
-        raise DeckError(source, f"{place} needs a value")
+        raise DeckError(source, f"{option_text} needs a value")
     if option.kind is Kind.CHOICE:
-        return _choose(place, value, option.choices, option.refused, source)
+        return _choose(option_text, value, option.choices, option.refused, source)
     if option.kind is Kind.FILE:
         return value.strip('"')
     if option.kind is Kind.NAME:
@@ -276,18 +274,18 @@ def _read_value(keyword: Keyword, option: Option, value: str | None, source: Sou
     try:
         return str(read_integer(value)) if option.kind is Kind.INTEGER else repr(read_real(value))
     except ValueError as error:
-        raise DeckError(source, f"{place}: {error}") from None
+        raise DeckError(source, f"{option_text}: {error}") from None
 
 
-def _choose(place: str, value: str, choices: tuple[str, ...], refused: tuple[str, ...], source: Source) -> str:
-    wanted = compact(value.replace('"', ""))
-    begins = [choice for choice in choices + refused if compact(choice).startswith(wanted)]
-    exact = [choice for choice in begins if compact(choice) == wanted]
-    if not exact and len(begins) != 1:
+def _choose(option_text: str, value: str, choices: tuple[str, ...], refused: tuple[str, ...], source: Source) -> str:
+    word = compact(value.replace('"', ""))
+    matches = [choice for choice in choices + refused if compact(choice).startswith(word)]
+    exact = [choice for choice in matches if compact(choice) == word]
+    if not exact and len(matches) != 1:
         raise DeckError(
-            source, f"{place}={value}: expected one of {', '.join(choices)}{nearest(value.upper(), choices)}"
+            source, f"{option_text}={value}: expected one of {', '.join(choices)}{nearest(value.upper(), choices)}"
         )
-    chosen = (exact or begins)[0]
+    chosen = (exact or matches)[0]
     if chosen in refused:
-        raise DeckError(source, f"{place}={chosen} is not supported (supported: {', '.join(choices)})")
+        raise DeckError(source, f"{option_text}={chosen} is not supported (supported: {', '.join(choices)})")
     return chosen

@@ -19,9 +19,7 @@ OF_SURFACES: Final = ("MAXS", "QUADS", "MAXU", "QUADU")
 
 
 def extend_damage(damage: Damage | None, block: Block, criteria: tuple[str, ...]) -> Damage:
-    """Return the damage of a material or contact property, which has these criteria, extended by one keyword.
-    Raises DeckError.
-    """
+    """Return the damage extended by one keyword; criteria: those allowed. Raises DeckError."""
     if block.name == "DAMAGE INITIATION":
         if damage is not None:
             raise block.error(f"one criterion is supported; there is one already, at {damage.source}")
@@ -38,10 +36,7 @@ def extend_damage(damage: Damage | None, block: Block, criteria: tuple[str, ...]
         raise block.error("does not follow *DAMAGE EVOLUTION")
     row = _only_row(block)
     row.at_most(1)
-    viscosity = row.real(0, "viscosity")
-    if viscosity < 0:
-        raise row.error(f"viscosity {viscosity:g} must not be negative")
-    return replace(damage, viscosity=viscosity)
+    return replace(damage, viscosity=row.not_negative(0, "viscosity"))
 
 
 def _read_evolution(block: Block) -> DamageEvolution:
@@ -53,7 +48,7 @@ def _read_evolution(block: Block) -> DamageEvolution:
             raise block.error(f"MIXED MODE BEHAVIOR={mixed} goes with SOFTENING=LINEAR or EXPONENTIAL")
         if kind == "DISPLACEMENT":
             raise block.error(f"MIXED MODE BEHAVIOR={mixed} goes with TYPE=ENERGY")
-        if not options.given("POWER"):
+        if not options.has("POWER"):
             raise block.error(f"MIXED MODE BEHAVIOR={mixed} needs POWER")
         if power <= 0:
             raise block.error(f"POWER={power:g} must be positive")
@@ -62,7 +57,7 @@ def _read_evolution(block: Block) -> DamageEvolution:
             message = f"shear fracture energies {values[1]:g} and {values[2]:g}: BK has one for both directions"
             raise _only_row(block).error(message)
         return DamageEvolution(kind, softening, mixed, values, power, block.source)
-    if options.given("POWER"):
+    if options.has("POWER"):
         raise block.error("POWER goes with MIXED MODE BEHAVIOR")
     if softening == "TABULAR":
         if kind != "DISPLACEMENT":
@@ -79,9 +74,7 @@ def _read_evolution(block: Block) -> DamageEvolution:
 
 
 def _read_table(block: Block) -> tuple[float, ...]:
-    """Read displacements after the onset and damages, alternating, from lines with the damage first.
-    Raises DeckError.
-    """
+    """Read alternating displacements after the onset and damages. Raises DeckError."""
     table: list[float] = []
     for row in block.rows():
         if len(row) > 2:
@@ -106,13 +99,13 @@ def _only_row(block: Block) -> Row:
     return rows[0]
 
 
-def _values(block: Block, least: int, most: int, what: str) -> tuple[float, ...]:
-    """Return `most` values of the only data line, zero if they are left out. Raises DeckError."""
+def _values(block: Block, least: int, most: int, quantity: str) -> tuple[float, ...]:
+    """Return `most` values of the only data line; missing ones are zero. Raises DeckError."""
     row = _only_row(block)
     if not least <= len(row) <= most:
         expected = str(most) if least == most else f"{least} or {most}"
         raise row.dependent(f"{len(row)} values, expected {expected}")
-    return tuple(row.real(index, what, 0.0) for index in range(most))
+    return tuple(row.real(index, quantity, 0.0) for index in range(most))
 
 
 KEYWORDS = (

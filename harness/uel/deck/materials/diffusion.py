@@ -1,8 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Diffusion of one material through another: *DIFFUSIVITY, *SOLUBILITY and *KAPPA; concentrations in place of
-temperatures in a deck with *MASS DIFFUSION.
-"""
+"""Mass diffusion: *DIFFUSIVITY, *SOLUBILITY and *KAPPA; dof 11 is the concentration with *MASS DIFFUSION."""
 
 from __future__ import annotations
 
@@ -14,33 +12,24 @@ import numpy as np
 from uel.deck.error_report import Problems
 from uel.deck.language.blocks import Block, Row
 from uel.deck.language.table import Keyword, Where, one_of, refused
-from uel.deck.materials.heat import read_by_temperature
 from uel.model.dofs import CONCENTRATION, TEMPERATURE
 from uel.model.model import Equation, Model
-from uel.model.properties import Diffusivity, Material
+from uel.model.properties import Diffusivity
 from uel.model.steps import PRESSURE_STRESS, Boundary, Step
 
 _DIAGONAL: Final = ((0, 0), (1, 1), (2, 2))
-_PLACES: Final = {"ISO": _DIAGONAL, "ORTHO": _DIAGONAL, "ANISO": ((0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2))}
+_ENTRIES: Final = {"ISO": _DIAGONAL, "ORTHO": _DIAGONAL, "ANISO": ((0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2))}
 """Positions in the matrix of the constants of each TYPE."""
 
 
-def extend_diffusion(material: Material, block: Block) -> Material:
-    """Return the material extended by one of these options. Raises DeckError."""
-    if block.name == "DIFFUSIVITY":
-        return replace(material, diffusivity=_read_diffusivity(block))
-    if block.name == "SOLUBILITY":
-        return replace(material, solubility=read_by_temperature(block, "solubility"))
-    return replace(material, diffusivity=_read_kappa(block, material.diffusivity))
-
-
-def _read_diffusivity(block: Block) -> Diffusivity:
+def read_diffusivity(block: Block) -> Diffusivity:
+    """Read the diffusivity by concentration and temperature. Raises DeckError."""
     kind = block.options.text("TYPE")
-    places = _PLACES[kind]
-    rows = _read_rows(block, 1 if kind == "ISO" else len(places), "diffusivity")
+    entries = _ENTRIES[kind]
+    rows = _read_rows(block, 1 if kind == "ISO" else len(entries), "diffusivity")
     tensors = np.zeros((len(rows), 3, 3))
     for tensor, (row, values) in zip(tensors, rows, strict=True):
-        for value, (i, j) in zip(np.broadcast_to(values[:-2], len(places)), places, strict=True):
+        for value, (i, j) in zip(np.broadcast_to(values[:-2], len(entries)), entries, strict=True):
             tensor[i, j] = tensor[j, i] = value
         if np.linalg.eigvalsh(tensor)[0] <= 0:
             raise row.error("the diffusivity must be positive" if kind == "ISO" else "D must be positive definite")
@@ -48,38 +37,35 @@ def _read_diffusivity(block: Block) -> Diffusivity:
     return Diffusivity(tensors, points, block.options.text("LAW") == "FICK", kind == "ISO", block.source)
 
 
-def _read_kappa(block: Block, given: Diffusivity | None) -> Diffusivity:
+def read_kappa(block: Block, diffusivity: Diffusivity | None) -> Diffusivity:
+    """Return the diffusivity extended by the factors of *KAPPA. Raises DeckError."""
     kind = block.options.text("TYPE")
-    if given is None:
+    if diffusivity is None:
         raise block.error("does not follow *DIFFUSIVITY")
     table = np.array([values for _, values in _read_rows(block, 1, "factor")])
     if kind == "PRESS":
-        return replace(given, pressure=table)
-    if given.fick:
-        message = f"TYPE=TEMP and *DIFFUSIVITY, LAW=FICK ({given.source}) exclude each other"
+        return replace(diffusivity, pressure=table)
+    if diffusivity.fick:
+        message = f"TYPE=TEMP and *DIFFUSIVITY, LAW=FICK ({diffusivity.source}) exclude each other"
         raise block.error(f"{message}: Fick's law sets the factor by the solubility")
-    return replace(given, soret=table)
+    return replace(diffusivity, soret=table)
 
 
-def _read_rows(block: Block, constants: int, what: str) -> list[tuple[Row, list[float]]]:
+def _read_rows(block: Block, constants: int, quantity: str) -> list[tuple[Row, list[float]]]:
     """Read rows of constants, concentration and temperature. Raises DeckError for a repeated pair of the last two."""
-    found: list[tuple[Row, list[float]]] = []
-    for row in block.rows():
+    table: list[tuple[Row, list[float]]] = []
+    for row in block.required_rows(f"the {quantity}"):
         row.at_most(constants + 2)
-        values = [row.real(k, what) for k in range(constants)]
+        values = [row.real(k, quantity) for k in range(constants)]
         values += [row.real(constants, "concentration", 0.0), row.real(constants + 1, "temperature", 0.0)]
-        if any(values[constants:] == earlier[constants:] for _, earlier in found):
+        if any(values[constants:] == earlier[constants:] for _, earlier in table):
             raise row.error("concentration and temperature are those of an earlier line")
-        found.append((row, values))
-    if not found:
-        raise block.error(f"needs a data line with the {what}")
-    return found
+        table.append((row, values))
+    return table
 
 
 def with_concentrations(model: Model, problems: Problems) -> Model:
-    """Return the model with the concentration as dof 11 if its steps are *MASS DIFFUSION;
-    add errors for what does not fit.
-    """
+    """Return the model with the concentration as dof 11 if its steps are *MASS DIFFUSION; report incompatible data."""
     if not model.diffusive:
         _refuse_elsewhere(model, problems)
         return model
@@ -93,20 +79,13 @@ def with_concentrations(model: Model, problems: Problems) -> Model:
 
 
 def _refuse_elsewhere(model: Model, problems: Problems) -> None:
-    given = [(entry.source, "*INITIAL CONDITIONS, TYPE=CONCENTRATION") for entry in model.initial_concentrations]
-    given += [
-        (entry.source, "*INITIAL CONDITIONS, TYPE=PRESSURE STRESS")
-        for entry in model.initial_fields
-        if entry.dof == PRESSURE_STRESS
-    ]
-    given += [
-        (entry.source, "*PRESSURE STRESS")
-        for step in model.steps
-        for entry in step.fields
-        if entry.dof == PRESSURE_STRESS
-    ]
-    for source, what in given:
-        problems.add(source, f"{what} is for *MASS DIFFUSION")
+    conditions = [("CONCENTRATION", entry.source) for entry in model.initial_concentrations]
+    conditions += [("PRESSURE STRESS", entry.source) for entry in model.initial_fields if entry.dof == PRESSURE_STRESS]
+    entries = [(source, f"*INITIAL CONDITIONS, TYPE={kind}") for kind, source in conditions]
+    fields = (entry for step in model.steps for entry in step.fields if entry.dof == PRESSURE_STRESS)
+    entries += [(entry.source, "*PRESSURE STRESS") for entry in fields]
+    for source, keyword in entries:
+        problems.add(source, f"{keyword} is for *MASS DIFFUSION")
 
 
 def _check(model: Model, problems: Problems) -> None:
@@ -145,13 +124,13 @@ def _number(dof: int) -> int:
 
 _POINT: Final = "concentration, temperature; linear in between"
 
-OPTIONS = (
+KEYWORDS = (
     Keyword(
         "DIFFUSIVITY",
         "Diffusivity of a material that diffuses through another one, in *MASS DIFFUSION.",
         Where.MODEL,
         (
-            one_of("TYPE", "symmetry, in the directions of *ORIENTATION", tuple(_PLACES), default="ISO"),
+            one_of("TYPE", "symmetry, in the directions of *ORIENTATION", tuple(_ENTRIES), default="ISO"),
             one_of("LAW", "general chemical potential or Fick's law", ("GENERAL", "FICK"), default="GENERAL"),
             *refused("DEPENDENCIES"),
         ),
@@ -173,6 +152,3 @@ OPTIONS = (
         "solubility, temperature; linear in between",
     ),
 )
-"""Keywords of diffusion after *MATERIAL."""
-
-KEYWORDS = OPTIONS

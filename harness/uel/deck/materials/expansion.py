@@ -21,7 +21,7 @@ def read_expansion(block: Block) -> Expansion:
     kind = block.options.text("TYPE")
     count = COUNTS[kind]
     table: list[list[float]] = []
-    for row in block.rows():
+    for row in block.required_rows("the expansion coefficients"):
         row.at_most(count + 1)
         values = [row.real(k, "expansion coefficient") for k in range(count)]
         temperature = row.real(count, "temperature", 0.0)
@@ -29,8 +29,6 @@ def read_expansion(block: Block) -> Expansion:
             raise row.error(f"temperature {temperature:g} is not above that of the line before, {table[-1][0]:g}")
         direct = values * 3 if kind == "ISO" else values
         table.append([temperature, *direct, *[0.0] * (6 - len(direct))])
-    if not table:
-        raise block.error("needs a data line with the expansion coefficients")
     return Expansion(np.array(table), block.options.real("ZERO", 0.0), block.source)
 
 

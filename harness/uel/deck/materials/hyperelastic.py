@@ -19,36 +19,30 @@ MOST_FIBRES = 3
 FIXED_ORDER = {Potential.ARRUDA_BOYCE: 1, Potential.MOONEY_RIVLIN: 1, Potential.NEO_HOOKE: 1, Potential.YEOH: 3}
 
 
-def read_hyperelastic(block: Block, problems: Problems) -> Hyperelastic | Holzapfel | UserPotential:
-    """Read the potential and its coefficients, or the constants of UHYPER or UANISOHYPER_INV. Raises DeckError."""
-    if block.name == "HYPERELASTIC":
-        return _read_isotropic(block, problems)
-    return _read_anisotropic(block, problems)
-
-
-def _read_isotropic(block: Block, problems: Problems) -> Hyperelastic | UserPotential:
-    """Read *HYPERELASTIC; coefficients are in the order of the data line. Raises DeckError."""
-    given = [potential for potential in Potential if block.options.flag(potential.value)]
-    named = [*given, *(["USER"] if block.options.flag("USER") else [])]
+def read_isotropic(block: Block, problems: Problems) -> Hyperelastic | UserPotential:
+    """Read *HYPERELASTIC: the coefficients in the order of the data line, or the constants of UHYPER.
+    Raises DeckError.
+    """
+    potentials = [potential for potential in Potential if block.options.flag(potential.value)]
+    named = [*potentials, *(["USER"] if block.options.flag("USER") else [])]
     if len(named) > 1:
         raise block.error(f"{' and '.join(named)}: expected one strain energy potential")
     if named == ["USER"]:
         return _read_user(block, problems)
-    if other := next((name for name in ("TYPE", "PROPERTIES") if block.options.given(name)), ""):
+    if other := next((name for name in ("TYPE", "PROPERTIES") if block.options.has(name)), ""):
         raise block.error(f"{other}: expected with USER only")
-    potential = given[0] if given else Potential.POLYNOMIAL
+    potential = potentials[0] if potentials else Potential.POLYNOMIAL
     order = block.options.integer("N", FIXED_ORDER.get(potential, 1))
     if order != FIXED_ORDER.get(potential, order):
         raise block.error(f"N={order}: {potential} has N={FIXED_ORDER[potential]}")
     if not 1 <= order <= HIGHEST_ORDER:
         raise block.error(f"N={order}: expected a number from 1 to {HIGHEST_ORDER}")
     count = _coefficients(potential, order)
+    block.required_rows("the coefficients")
     values = [row.real(index, "coefficient", 0.0) for row, index in block.entries(problems.warn)]
-    if not values:
-        raise block.error("needs a data line with the coefficients")
     if len(values) > count + order + 1:
         raise block.dependent(f"{len(values)} values, but {potential}, N={order} has {count + order}")
-    # entries that are not given are zero; a temperature after the only set of coefficients is not a dependence
+    # missing entries are zero; a temperature after a single set of coefficients is ignored
     values += [0.0] * (count + order - len(values))
     return Hyperelastic(
         potential,
@@ -60,16 +54,17 @@ def _read_isotropic(block: Block, problems: Problems) -> Hyperelastic | UserPote
     )
 
 
-def _read_anisotropic(block: Block, problems: Problems) -> Holzapfel | UserPotential:
+def read_anisotropic(block: Block, problems: Problems) -> Holzapfel | UserPotential:
+    """Read *ANISOTROPIC HYPERELASTIC: its coefficients, or the constants of UANISOHYPER_INV. Raises DeckError."""
     directions = read_count(block, "LOCAL DIRECTIONS", 0, 0, MOST_FIBRES)
     by_user = block.options.flag("USER")
     if by_user == block.options.flag("HOLZAPFEL"):
         raise block.error("expected either HOLZAPFEL or USER")
     if by_user:
-        if not block.options.given("FORMULATION"):
+        if not block.options.has("FORMULATION"):
             raise block.error("USER needs FORMULATION=INVARIANT")
         return replace(_read_user(block, problems), directions=directions)
-    if other := next((name for name in ("TYPE", "PROPERTIES", "FORMULATION") if block.options.given(name)), ""):
+    if other := next((name for name in ("TYPE", "PROPERTIES", "FORMULATION") if block.options.has(name)), ""):
         raise block.error(f"{other}: expected with USER only")
     if not directions:
         raise block.error("HOLZAPFEL needs LOCAL DIRECTIONS, the number of fiber families")

@@ -1,12 +1,15 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*MATERIAL and the options that follow it."""
+"""*MATERIAL and its options."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
+from operator import attrgetter
+from typing import Any
 
 import numpy as np
 
@@ -14,46 +17,39 @@ from uel.deck.error_report import Problems
 from uel.deck.language.blocks import PER_LINE, Block, Row
 from uel.deck.language.structure import Structure
 from uel.deck.language.table import NAME, Keyword, Kind, Option, Where, ignored, one_of, refused
-from uel.deck.materials.damage import KEYWORDS as DAMAGE_OPTIONS
 from uel.deck.materials.damage import OF_MATERIALS, extend_damage
-from uel.deck.materials.diffusion import OPTIONS as DIFFUSION_OPTIONS
-from uel.deck.materials.diffusion import extend_diffusion
-from uel.deck.materials.expansion import KEYWORDS as EXPANSION_OPTIONS
+from uel.deck.materials.diffusion import read_diffusivity, read_kappa
 from uel.deck.materials.expansion import read_expansion
-from uel.deck.materials.heat import KEYWORDS as HEAT_OPTIONS
-from uel.deck.materials.heat import extend_heat
-from uel.deck.materials.hyperelastic import KEYWORDS as HYPERELASTIC_OPTIONS
-from uel.deck.materials.hyperelastic import read_hyperelastic
-from uel.deck.materials.piezoelectric import KEYWORDS as PIEZO_OPTIONS
-from uel.deck.materials.piezoelectric import extend_electrical
-from uel.deck.materials.plastic import KEYWORDS as PLASTIC_OPTIONS
+from uel.deck.materials.heat import read_by_temperature, read_latent_heat
+from uel.deck.materials.hyperelastic import read_anisotropic, read_isotropic
+from uel.deck.materials.piezoelectric import read_dielectric, read_piezoelectric
 from uel.deck.materials.plastic import extend_plastic
 from uel.deck.materials.user_constants import MOST_VARIABLES, read_constants
-from uel.deck.materials.viscous import KEYWORDS as VISCOUS_OPTIONS
-from uel.deck.materials.viscous import extend_viscous
+from uel.deck.materials.viscous import extend_shift, extend_viscoelastic, read_creep
 from uel.deck.sections.user_elements import read_count
 from uel.model.arrays import FloatArray
 from uel.model.properties import Elastic, ElasticType, HybridFormulation, Material, UserMaterial, isotropic_fault
 
 DEPENDENT = (ElasticType.ISOTROPIC, ElasticType.LAMINA, ElasticType.ENGINEERING_CONSTANTS)
-"""Elastic types whose constants may depend on temperature and fields."""
+"""Elastic types that may depend on temperature and fields."""
 MOST_FIELDS = 1000
+Reader = Callable[[Material, Block, Problems], Material]
 
 
 def leave_out_unused(structure: Structure, problems: Problems) -> None:
-    """Drop the materials that have errors and are not used: they have no effect in Abaqus either."""
+    """Drop unused materials with errors, which have no effect in Abaqus either."""
     _list_unused(problems.settle(structure.materials), structure)
     left_out = {name for name, _ in structure.ignored}
-    kept: list[Block] = []
-    inside = False
+    blocks: list[Block] = []
+    dropped = False
     for block in structure.root:
         if block.name == "MATERIAL":
-            inside = _label(block.options.text("NAME")) in left_out
+            dropped = _label(block.options.text("NAME")) in left_out
         elif block.name not in MATERIAL_OPTIONS:
-            inside = False
-        if not inside:
-            kept.append(block)
-    structure.root = kept
+            dropped = False
+        if not dropped:
+            blocks.append(block)
+    structure.root = blocks
 
 
 def _list_unused(names: Sequence[str], structure: Structure) -> None:
@@ -69,10 +65,10 @@ def _label(material: str) -> str:
 
 
 def read_materials(blocks: list[Block], structure: Structure, problems: Problems) -> dict[str, Material]:
-    """Return the materials: *MATERIAL and the options that follow it at once.
+    """Read the materials.
 
-    blocks: those of the model, in the structure, without the options of contact properties. Errors in a material count
-    where something uses it, else the structure lists it among what is ignored.
+    blocks: those of the model without contact properties. Errors of used materials go to `problems`; other materials
+    with errors are listed in `structure.ignored`.
     """
     materials: dict[str, Material] = {}
     current: str | None = None
@@ -85,81 +81,51 @@ def read_materials(blocks: list[Block], structure: Structure, problems: Problems
             elif block.name in MATERIAL_OPTIONS:
                 if current is None:
                     raise block.error("does not follow *MATERIAL")
-                materials[current] = _extend(materials[current], block, problems)
+                materials[current] = _READERS[block.name](materials[current], block, problems)
             else:
                 current = None
     _list_unused(problems.settle(structure.materials), structure)
     return materials
 
 
-def _extend(material: Material, block: Block, problems: Problems) -> Material:
-    match block.name:
-        case "ELASTIC":
-            extended = replace(material, elastic=_read_elastic(block))
-        case "HYPERELASTIC" | "ANISOTROPIC HYPERELASTIC":
-            extended = replace(material, hyperelastic=read_hyperelastic(block, problems))
-        case "PLASTIC" | "CYCLIC HARDENING":
-            extended = replace(material, plastic=extend_plastic(material.plastic, block, problems))
-        case "VISCOELASTIC" | "CREEP" | "TRS":
-            extended = extend_viscous(material, block, problems)
-        case "USER MATERIAL":
-            given, thermal = _read_user_material(block, problems), block.options.text("TYPE") == "THERMAL"
-            extended = replace(material, user_thermal=given) if thermal else replace(material, user=given)
-        case "USER DEFINED FIELD":
-            extended = replace(material, user_field=block.source)
-        case "DENSITY" | "DEPVAR" | "USER OUTPUT VARIABLES":
-            extended = _extend_number(material, block)
-        case "CONDUCTIVITY" | "HEAT GENERATION" | "LATENT HEAT" | "SPECIFIC HEAT":
-            extended = extend_heat(material, block)
-        case "DIFFUSIVITY" | "KAPPA" | "SOLUBILITY":
-            extended = extend_diffusion(material, block)
-        case "PIEZOELECTRIC" | "DIELECTRIC":
-            extended = extend_electrical(material, block)
-        case "EXPANSION":
-            extended = replace(material, expansion=read_expansion(block))
-        case _:
-            extended = replace(material, damage=extend_damage(material.damage, block, OF_MATERIALS))
-    return extended
+def _sets(field: str, read: Callable[[Block], object]) -> Reader:
+    """Return the reader of an option that sets one field of the material."""
+
+    def extend(material: Material, block: Block, _: Problems) -> Material:
+        values: dict[str, Any] = {field: read(block)}
+        return replace(material, **values)
+
+    return extend
 
 
-def _extend_number(material: Material, block: Block) -> Material:
-    """Return the material extended by an option that takes one number. Raises DeckError."""
-    match block.name:
-        case "DENSITY":
-            return replace(material, density=_read_constant(block, "density"))
-        case "DEPVAR":
-            return replace(material, state_variables=_read_count(block))
-        case _:
-            return replace(material, output_variables=_read_count(block))
+def _extend_user(material: Material, block: Block, problems: Problems) -> Material:
+    user = _read_user_material(block, problems)
+    thermal = block.options.text("TYPE") == "THERMAL"
+    return replace(material, user_thermal=user) if thermal else replace(material, user=user)
 
 
-def _read_constant(block: Block, what: str) -> float:
+def _read_constant(block: Block, quantity: str) -> float:
     """Read the only positive number of a material option. Raises DeckError."""
     rows = list(block.rows())
     if len(rows) != 1 or len(rows[0]) != 1:
-        raise block.dependent(f"needs one data line with the {what}")
-    value = rows[0].real(0, what)
-    if value <= 0:
-        raise rows[0].error(f"{what} {value:g} must be positive")
-    return value
+        raise block.dependent(f"needs one data line with the {quantity}")
+    return rows[0].positive(0, quantity)
 
 
 def _read_elastic(block: Block) -> Elastic:
     kind = ElasticType(block.options.text("TYPE"))
     count = kind.constants
     instantaneous = block.options.text("MODULI") == "INSTANTANEOUS"
-    rows = list(block.rows())
-    if not rows:
-        raise block.error("needs a data line")
+    rows = block.required_rows()
     fields = read_count(block, "DEPENDENCIES", 0, 0, MOST_FIELDS)
     values = [value for row in rows for value in row.reals("elastic constant")]
     if fields or len(values) > count:
         table = _read_dependence(block, kind, count, fields)
-        # one row is no dependence
+        # a single row is constant
         return Elastic(
             kind, tuple(table[0, :count].tolist()), block.source, table if len(table) > 1 else None, instantaneous
         )
-    # trailing constants may be left out: Poisson's ratio, the transverse shear moduli of a lamina, Ett in the plane
+    # optional trailing constants: Poisson's ratio, transverse shear moduli of a lamina, Ett in the plane
     needed = {ElasticType.ISOTROPIC: 1, ElasticType.LAMINA: 4, ElasticType.TRACTION: 2}.get(kind, count)
     if len(values) < needed:
         raise rows[0].error(f"{len(values)} values, but {kind.value} takes {count}")
@@ -205,14 +171,45 @@ def _read_user_material(block: Block, problems: Problems) -> UserMaterial:
 
 
 def _read_count(block: Block) -> int:
-    row = next(block.rows(), None)
-    if row is None:
-        raise block.error("needs a data line with the number of variables")
+    row = block.required_rows("the number of variables")[0]
     count = row.integer(0, "number of variables")
     if not 0 <= count <= MOST_VARIABLES:
         raise row.error(f"{count} variables: expected a number from 0 to {MOST_VARIABLES}")
     return count
 
+
+_READERS: dict[str, Reader] = {
+    "ELASTIC": _sets("elastic", _read_elastic),
+    "HYPERELASTIC": lambda m, block, problems: replace(m, hyperelastic=read_isotropic(block, problems)),
+    "ANISOTROPIC HYPERELASTIC": lambda m, block, problems: replace(m, hyperelastic=read_anisotropic(block, problems)),
+    **dict.fromkeys(
+        ("PLASTIC", "CYCLIC HARDENING"),
+        lambda m, block, problems: replace(m, plastic=extend_plastic(m.plastic, block, problems)),
+    ),
+    **{"VISCOELASTIC": extend_viscoelastic, "CREEP": _sets("creep", read_creep), "TRS": extend_shift},
+    "USER MATERIAL": _extend_user,
+    "USER DEFINED FIELD": _sets("user_field", attrgetter("source")),
+    "DENSITY": _sets("density", partial(_read_constant, quantity="density")),
+    "DEPVAR": _sets("state_variables", _read_count),
+    "USER OUTPUT VARIABLES": _sets("output_variables", _read_count),
+    "CONDUCTIVITY": _sets("conductivity", partial(read_by_temperature, quantity="conductivity")),
+    "SPECIFIC HEAT": _sets("specific_heat", partial(read_by_temperature, quantity="specific heat")),
+    "LATENT HEAT": _sets("latent_heat", read_latent_heat),
+    "HEAT GENERATION": _sets("heat_generation", attrgetter("source")),
+    "DIFFUSIVITY": _sets("diffusivity", read_diffusivity),
+    "SOLUBILITY": _sets("solubility", partial(read_by_temperature, quantity="solubility")),
+    "KAPPA": lambda m, block, _: replace(m, diffusivity=read_kappa(block, m.diffusivity)),
+    "PIEZOELECTRIC": _sets("piezoelectric", read_piezoelectric),
+    "DIELECTRIC": _sets("dielectric", read_dielectric),
+    "EXPANSION": _sets("expansion", read_expansion),
+    **dict.fromkeys(
+        ("DAMAGE INITIATION", "DAMAGE EVOLUTION", "DAMAGE STABILIZATION"),
+        lambda m, block, _: replace(m, damage=extend_damage(m.damage, block, OF_MATERIALS)),
+    ),
+}
+"""Reader of each option: returns the material extended by it. Raises DeckError."""
+
+MATERIAL_OPTIONS = frozenset(_READERS)
 
 _OPTIONS = (
     Keyword(
@@ -285,9 +282,6 @@ _OPTIONS = (
         "density",
     ),
 )
-_OTHERS = (*PLASTIC_OPTIONS, *VISCOUS_OPTIONS, *HYPERELASTIC_OPTIONS, *DAMAGE_OPTIONS)
-_FIELDS = (*EXPANSION_OPTIONS, *HEAT_OPTIONS, *DIFFUSION_OPTIONS, *PIEZO_OPTIONS)
-MATERIAL_OPTIONS = {keyword.name for keyword in (*_OPTIONS, *_OTHERS, *_FIELDS)}
 
 KEYWORDS = (
     Keyword(

@@ -13,14 +13,11 @@ from uel.model.model import PhysicalConstants
 
 def read_physical_constants(blocks: Iterable[Block]) -> PhysicalConstants:
     """Return the constants of the last *PHYSICAL CONSTANTS, or the defaults without one. Raises DeckError."""
-    found = PhysicalConstants()
-    for block in blocks:
-        if block.name != "PHYSICAL CONSTANTS":
-            continue
-        found = PhysicalConstants(block.options.real("ABSOLUTE ZERO", 0.0), block.options.real("STEFAN BOLTZMANN", 0.0))
-        if found.stefan_boltzmann < 0:
-            raise block.error(f"STEFAN BOLTZMANN={found.stefan_boltzmann:g} must not be negative")
-    return found
+    constants = PhysicalConstants()
+    for block in (block for block in blocks if block.name == "PHYSICAL CONSTANTS"):
+        zero, radiation = block.options.real("ABSOLUTE ZERO", 0.0), block.not_negative("STEFAN BOLTZMANN", 0.0)
+        constants = PhysicalConstants(zero, radiation)
+    return constants
 
 
 KEYWORDS = (

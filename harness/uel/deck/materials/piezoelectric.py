@@ -4,32 +4,24 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from uel.deck.language.blocks import Block
 from uel.deck.language.table import Keyword, Where, one_of, refused
 from uel.model.arrays import FloatArray
-from uel.model.properties import Material, Piezoelectric
+from uel.model.properties import Piezoelectric
 
 _DIELECTRIC = {"ISO": 1, "ORTHO": 3, "ANISO": 6}
 """Constants of TYPE=."""
 
 
-def extend_electrical(material: Material, block: Block) -> Material:
-    """Return the material extended by one of these options. Raises DeckError."""
-    if block.name == "PIEZOELECTRIC":
-        return replace(material, piezoelectric=_read_piezoelectric(block))
-    return replace(material, dielectric=_read_dielectric(block))
-
-
-def _read_piezoelectric(block: Block) -> Piezoelectric:
+def read_piezoelectric(block: Block) -> Piezoelectric:
+    """Read the piezoelectric coefficients (3, 6). Raises DeckError."""
     values = np.array(_read_constants(block, 18)).reshape(3, 6)
     return Piezoelectric(block.options.text("TYPE") == "E", values, block.source)
 
 
-def _read_dielectric(block: Block) -> FloatArray:
+def read_dielectric(block: Block) -> FloatArray:
     """Read the dielectric matrix (3, 3). Raises DeckError unless it is positive definite."""
     kind = block.options.text("TYPE")
     values = _read_constants(block, _DIELECTRIC[kind])
@@ -44,12 +36,8 @@ def _read_dielectric(block: Block) -> FloatArray:
 
 
 def _read_constants(block: Block, count: int) -> list[float]:
-    """Read this many constants, eight per line; trailing ones that are left out are zero if there are several lines.
-    Raises DeckError.
-    """
-    values = [value for row in block.rows() for value in row.reals("constant")]
-    if not values:
-        raise block.error("needs a data line")
+    """Read `count` constants, eight per line; missing trailing ones are zero. Raises DeckError."""
+    values = [value for row in block.required_rows() for value in row.reals("constant")]
     if len(values) > count:
         message = f"{len(values)} values, expected {count}; dependence on temperature and fields is not supported"
         raise block.error(message)

@@ -19,18 +19,16 @@ MOST_BACKSTRESSES = 10
 
 
 def extend_plastic(plastic: Plastic | None, block: Block, problems: Problems) -> Plastic:
-    """Return the plasticity of a material, extended by one keyword. Raises DeckError."""
+    """Return the plasticity extended by one keyword. Raises DeckError."""
     if block.name == "PLASTIC":
         return _read_plastic(block, problems)
     if plastic is None or not plastic.combined:
         raise block.error("does not follow *PLASTIC, HARDENING=COMBINED")
     if block.options.flag("PARAMETERS"):
-        row = block.only_row()
-        if row is None:
-            raise block.error("needs a data line with the size of the yield surface, Q and b")
+        row = block.required_row("the size of the yield surface, Q and b")
         row.at_most(3)
         size, growth, rate = (
-            row.real(index, what) for index, what in enumerate(("size of the yield surface", "Q", "b"))
+            row.real(index, quantity) for index, quantity in enumerate(("size of the yield surface", "Q", "b"))
         )
         if min(size, size + growth) <= 0 or rate < 0:
             message = f"size {size:g}, Q = {growth:g}, b = {rate:g}: expected size > 0, size + Q > 0 and b >= 0"
@@ -38,9 +36,9 @@ def extend_plastic(plastic: Plastic | None, block: Block, problems: Problems) ->
         extended = replace(plastic, table=np.array([[size, 0.0]]), growth=(growth, rate))
     else:
         extended = replace(plastic, table=_read_table(block, "size of the yield surface"), growth=(0.0, 0.0))
-    first, given = extended.table[0, 0], plastic.table[0, 0]
-    if first != given:
-        message = f"*CYCLIC HARDENING: the yield surface begins with {first:g}, not with the {given:g} of *PLASTIC"
+    first, initial = extended.table[0, 0], plastic.table[0, 0]
+    if first != initial:
+        message = f"*CYCLIC HARDENING: the yield surface begins with {first:g}, not with the {initial:g} of *PLASTIC"
         problems.warn(block.source, f"{message} ({plastic.source})")
     return extended
 
@@ -50,11 +48,11 @@ def _read_plastic(block: Block, problems: Problems) -> Plastic:
     hardening = options.text("HARDENING")
     if hardening == "COMBINED":
         return _read_combined(block, problems)
-    if other := next((name for name in ("DATA TYPE", "NUMBER BACKSTRESSES") if options.given(name)), ""):
+    if other := next((name for name in ("DATA TYPE", "NUMBER BACKSTRESSES") if options.has(name)), ""):
         raise block.error(f"{other} goes with HARDENING=COMBINED")
     if hardening == "USER":
         return _read_user(block)
-    if options.given("PROPERTIES"):
+    if options.has("PROPERTIES"):
         raise block.error("PROPERTIES goes with HARDENING=USER")
     table = _read_table(block, "yield stress")
     if hardening == "ISOTROPIC":
@@ -94,9 +92,7 @@ def _read_combined(block: Block, problems: Problems) -> Plastic:
         )
     if not entries:
         raise block.error("needs a data line")
-    size = entries[0][0].real(0, "yield stress")
-    if size <= 0:
-        raise entries[0][0].error(f"yield stress {size:g} must be positive")
+    size = entries[0][0].positive(0, "yield stress")
     values = [row.real(index, "C or gamma", 0.0) for row, index in entries[1:]]
     if len(values) < 2 * count - 1:
         raise block.error(f"{len(values)} values after the yield stress, expected C and gamma of {count} backstresses")
@@ -106,19 +102,15 @@ def _read_combined(block: Block, problems: Problems) -> Plastic:
     return Plastic(np.array([[size, 0.0]]), block.source, backstresses, combined=True)
 
 
-def _read_table(block: Block, what: str) -> FloatArray:
+def _read_table(block: Block, quantity: str) -> FloatArray:
     """Read rows of a stress and the plastic strain, which begins at zero. Raises DeckError."""
     table: list[tuple[float, float]] = []
-    for row in block.rows():
+    for row in block.required_rows():
         if len(row) > 2:
-            raise row.dependent(f"expected only {what} and plastic strain")
-        table.append((row.real(0, what), row.real(1, "plastic strain", 0.0)))
-        if table[-1][0] <= 0:
-            raise row.error(f"{what} {table[-1][0]:g} must be positive")
+            raise row.dependent(f"expected only {quantity} and plastic strain")
+        table.append((row.positive(0, quantity), row.real(1, "plastic strain", 0.0)))
         if (table[-1][1] != 0) if len(table) == 1 else (table[-1][1] <= table[-2][1]):
             raise row.error("plastic strains must begin at zero and increase")
-    if not table:
-        raise block.error("needs a data line")
     return np.array(table)
 
 

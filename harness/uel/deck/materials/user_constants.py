@@ -15,13 +15,11 @@ MOST_VARIABLES = 1_000_000
 
 
 def read_constants(block: Block, option: str, problems: Problems) -> FloatArray:
-    """Read the number of constants that an option gives; constants that are left out are zero, as everywhere.
-    Raises DeckError.
-    """
+    """Read the constants, whose number an option gives; missing ones are zero. Raises DeckError."""
     count = read_count(block, option, 0, 0, MOST_VARIABLES)
     values = [row.real(index, "constant", 0.0) for row, index in block.entries(problems.warn)]
     if len(values) == count + 1:
-        # a temperature after the only set of constants is not a dependence
+        # a temperature after a single set of constants is ignored
         values.pop()
     if len(values) > count:
         raise block.dependent(f"{len(values)} values, but {option}={count}")

@@ -15,17 +15,13 @@ from uel.deck.materials.user_constants import read_constants
 from uel.model.properties import SRATIO_ROUNDING, Creep, CreepLaw, Material, Network, Viscoelastic
 
 
-def extend_viscous(material: Material, block: Block, problems: Problems) -> Material:
-    """Return the material extended by this keyword. Raises DeckError."""
-    if block.name == "CREEP":
-        return replace(material, creep=_read_creep(block))
-    if block.name == "TRS":
-        return _extend_shift(material, block, problems)
+def extend_viscoelastic(material: Material, block: Block, problems: Problems) -> Material:
+    """Return the material with a Prony series, or with another network. Raises DeckError."""
     if block.options.flag("NONLINEAR"):
         return _extend_networks(material, block, problems)
-    if other := next((name for name in ("LAW", "NETWORKID", "PROPERTIES", "SRATIO") if block.options.given(name)), ""):
+    if other := next((name for name in ("LAW", "NETWORKID", "PROPERTIES", "SRATIO") if block.options.has(name)), ""):
         raise block.error(f"{other}: expected with NONLINEAR only")
-    if not block.options.given("TIME"):
+    if not block.options.has("TIME"):
         raise block.error("expected TIME=PRONY or NONLINEAR")
     return replace(material, viscoelastic=_read_viscoelastic(block))
 
@@ -33,14 +29,12 @@ def extend_viscous(material: Material, block: Block, problems: Problems) -> Mate
 def _read_viscoelastic(block: Block) -> Viscoelastic:
     """Read a Prony series. Raises DeckError."""
     terms: list[tuple[float, float, float]] = []
-    for row in block.rows():
+    for row in block.required_rows("g, k and tau"):
         row.at_most(3)
         shear, bulk, time = row.real(0, "g", 0.0), row.real(1, "k", 0.0), row.real(2, "tau")
         if min(shear, bulk) < 0 or time <= 0:
             raise row.error(f"g = {shear:g}, k = {bulk:g}, tau = {time:g}: expected g >= 0, k >= 0 and tau > 0")
         terms.append((shear, bulk, time))
-    if not terms:
-        raise block.error("needs a data line with g, k and tau")
     if len(terms) > MOST_TERMS:
         raise block.error(f"{len(terms)} terms, expected at most {MOST_TERMS}")
     series = np.array(terms)
@@ -50,15 +44,13 @@ def _read_viscoelastic(block: Block) -> Viscoelastic:
     return Viscoelastic(series, block.source)
 
 
-def _read_creep(block: Block) -> Creep:
+def read_creep(block: Block) -> Creep:
     """Read a power law, or that of user subroutine CREEP. Raises DeckError."""
-    row = block.only_row()
     if block.options.text("LAW") == "USER":
-        if row is not None:
+        if (row := block.only_row()) is not None:
             raise row.error("LAW=USER has no data line: CREEP gives the law")
         return Creep(False, 0.0, 0.0, 0.0, block.source, user=True)
-    if row is None:
-        raise block.error("needs a data line with A, n and m")
+    row = block.required_row("A, n and m")
     if len(row) > 3:
         raise row.dependent("expected only A, n and m")
     factor, power, of_time = row.real(0, "A"), row.real(1, "n"), row.real(2, "m", 0.0)
@@ -70,9 +62,10 @@ def _read_creep(block: Block) -> Creep:
 def _extend_networks(material: Material, block: Block, problems: Problems) -> Material:
     """Return the material with another network. Raises DeckError."""
     for name in ("LAW", "NETWORKID", "SRATIO"):
-        if not block.options.given(name):
+        if not block.options.has(name):
             raise block.error(f"NONLINEAR needs {name}")
-    number, ratio, law = block.options.integer("NETWORKID", 0), block.options.real("SRATIO", 0.0), _law(block)
+    number, ratio = block.options.integer("NETWORKID", 0), block.options.real("SRATIO", 0.0)
+    law = _LAWS[block.options.text("LAW")]
     if number != len(material.networks) + 1:
         raise block.error(f"NETWORKID={number}: expected {len(material.networks) + 1}, networks in ascending order")
     if not 0 < ratio <= 1:
@@ -87,24 +80,12 @@ def _extend_networks(material: Material, block: Block, problems: Problems) -> Ma
     return replace(material, networks=(*material.networks, network))
 
 
-def _extend_shift(material: Material, block: Block, problems: Problems) -> Material:
+def extend_shift(material: Material, block: Block, problems: Problems) -> Material:
     """Return the material with a reduced time in its last network. Raises DeckError."""
     if not material.networks:
         raise block.error("expected *VISCOELASTIC, NONLINEAR before it; other materials with it are not supported")
     *others, last = material.networks
     return replace(material, networks=(*others, replace(last, shift=read_constants(block, "PROPERTIES", problems))))
-
-
-def _law(block: Block) -> CreepLaw:
-    match block.options.text("LAW"):
-        case "HYPERB":
-            return CreepLaw.HYPERBOLIC
-        case "BERGSTROM-BOYCE":
-            return CreepLaw.BERGSTROM_BOYCE
-        case "USER":
-            return CreepLaw.USER
-        case _:
-            return CreepLaw.POWER
 
 
 def _read_law(block: Block) -> tuple[float, ...]:
@@ -118,9 +99,7 @@ def _read_law(block: Block) -> tuple[float, ...]:
         "POWER LAW": ("q0", "n", "m", "a", "rate"),
         "STRAIN": ("A", "n", "m"),
     }[law]
-    row = block.only_row()
-    if row is None:
-        raise block.error(f"needs a data line with {', '.join(names)}")
+    row = block.required_row(", ".join(names))
     if len(row) > len(names):
         raise row.dependent(f"expected only {', '.join(names)}")
     values = tuple(row.real(k, name, 0.0) for k, name in enumerate(names))
@@ -131,24 +110,27 @@ def _read_law(block: Block) -> tuple[float, ...]:
     return values
 
 
-def _check_law(row: Row, law: str, of: dict[str, float]) -> None:
-    given = ", ".join(f"{name} = {value:g}" for name, value in of.items())
+def _check_law(row: Row, law: str, c: dict[str, float]) -> None:
+    constants = ", ".join(f"{name} = {value:g}" for name, value in c.items())
     match law:
         case "BERGSTROM-BOYCE":
-            wanted = "A > 0, m > 0, -1 <= C <= 0, and E > 0 with C < 0"
-            good = min(of["A"], of["m"]) > 0 and -1 <= of["C"] <= 0 <= of["E"] and (of["E"] > 0 or of["C"] == 0)
+            bounds = "A > 0, m > 0, -1 <= C <= 0, and E > 0 with C < 0"
+            good = min(c["A"], c["m"]) > 0 and -1 <= c["C"] <= 0 <= c["E"] and (c["E"] > 0 or c["C"] == 0)
         case "HYPERB":
-            wanted, good = "A > 0, B > 0 and n > 0", min(of.values()) > 0
+            bounds, good = "A > 0, B > 0 and n > 0", min(c.values()) > 0
         case "POWER LAW":
-            wanted = "q0 > 0, n > 0, -1 < m <= 0, a >= 0 and rate > 0"
-            good = min(of["q0"], of["n"], of["rate"]) > 0 and -1 < of["m"] <= 0 <= of["a"]
+            bounds = "q0 > 0, n > 0, -1 < m <= 0, a >= 0 and rate > 0"
+            good = min(c["q0"], c["n"], c["rate"]) > 0 and -1 < c["m"] <= 0 <= c["a"]
         case _:
-            wanted, good = "A > 0, n > 0 and -1 < m <= 0", min(of["A"], of["n"]) > 0 and -1 < of["m"] <= 0
+            bounds, good = "A > 0, n > 0 and -1 < m <= 0", min(c["A"], c["n"]) > 0 and -1 < c["m"] <= 0
     if not good:
-        raise row.error(f"{given}: expected {wanted}")
+        raise row.error(f"{constants}: expected {bounds}")
 
 
-LAWS = ("BERGSTROM-BOYCE", "HYPERB", "POWER LAW", "STRAIN", "USER")
+_LAWS = {
+    **{"BERGSTROM-BOYCE": CreepLaw.BERGSTROM_BOYCE, "HYPERB": CreepLaw.HYPERBOLIC, "POWER LAW": CreepLaw.POWER},
+    **{"STRAIN": CreepLaw.POWER, "USER": CreepLaw.USER},
+}
 
 MOST_TERMS = 20
 """Largest number of terms; fortran/host/materials/library.f90 has room for them."""
@@ -171,7 +153,7 @@ KEYWORDS = (
             Option("NONLINEAR", doc="a network"),
             Option("NETWORKID", Kind.INTEGER, "number of the network, ascending from 1"),
             Option("SRATIO", Kind.REAL, "stiffness ratio of the network; what is left to 1 is elastic"),
-            one_of("LAW", "creep law of the network; USER: UCREEPNETWORK", LAWS),
+            one_of("LAW", "creep law of the network; USER: UCREEPNETWORK", tuple(_LAWS)),
             Option("PROPERTIES", Kind.INTEGER, "number of constants of UCREEPNETWORK"),
             *refused("DEPENDENCIES", "ERRTOL", "FREQUENCY", "NMAX", "PRELOAD"),
         ),

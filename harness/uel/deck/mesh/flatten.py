@@ -1,17 +1,17 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Flattening of parts and instances to one mesh: nodes, elements, sets and element groups of the whole model."""
+"""Flatten parts and instances to one mesh: nodes, elements, sets and element groups of the model."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
 
 import numpy as np
 
 from uel.deck.error_report import Problems
-from uel.deck.language.blocks import Block
+from uel.deck.language.blocks import Block, Row
 from uel.deck.language.definitions import read_definitions
 from uel.deck.language.numbers import LARGEST_INTEGER, is_integer
 from uel.deck.language.structure import Structure
@@ -29,7 +29,7 @@ ROOT = ""
 
 @dataclass(slots=True)
 class Owner:
-    """One instance, or the root: its mesh, its blocks, and where its nodes and elements are in the whole model."""
+    """Instance, or the root: its mesh, its blocks, and the positions of its nodes and elements in the model."""
 
     name: str
     mesh: LocalMesh
@@ -42,11 +42,11 @@ class Owner:
     element_offset: int = 0
 
     def find_nodes(self, labels: IntArray) -> IntArray:
-        """Return indices in the whole model, -1 for nodes that do not exist."""
+        """Return indices in the model, -1 for undefined nodes."""
         return _find(self.nodes, labels, self.node_offset)
 
     def find_elements(self, labels: IntArray) -> IntArray:
-        """Return positions in the whole model, -1 for elements that do not exist."""
+        """Return positions in the model, -1 for undefined elements."""
         return _find(self.elements, labels, self.element_offset)
 
 
@@ -58,7 +58,7 @@ def _find(sorted_labels: IntArray, labels: IntArray, offset: int) -> IntArray:
 
 
 class FlatMesh:
-    """The whole mesh, with names resolved as a step sees them."""
+    """Mesh of the model, with names as in steps."""
 
     def __init__(self, structure: Structure, problems: Problems) -> None:
         self._problems = problems
@@ -90,18 +90,29 @@ class FlatMesh:
         """Instances in their order, then the root."""
         return list(self._owners.values())
 
+    def blocks(self, *names: str) -> Iterator[tuple[Block, Owner]]:
+        """Yield the keywords of these names, with the instance or root that has them."""
+        return ((block, owner) for owner in self.owners for block in owner.blocks if block.name in names)
+
+    def one_node(self, name: str, label: str, location: Row | Block, owner: str = ROOT) -> int:
+        """Return the index of a single node; label: option or entry that names it. Raises DeckError."""
+        nodes = self.nodes(name, location.source, owner)
+        if len(nodes) != 1:
+            raise location.error(f"{label} has {len(nodes)} nodes, expected one")
+        return int(nodes[0])
+
     @property
     def element_count(self) -> int:
         """Number of elements, whose positions begin at 0."""
         return sum(len(owner.elements) for owner in self.owners)
 
     def owner_of(self, position: int) -> Owner:
-        """Return the instance, or the root, that has an element, by its position."""
+        """Return the instance, or the root, of the element at a position."""
         owners = (owner for owner in reversed(self.owners) if len(owner.elements))
         return next(owner for owner in owners if owner.element_offset <= position)
 
     def element_name(self, position: int) -> str:
-        """Return the number of an element, with its instance if it has one."""
+        """Return the label of an element, with its instance if any."""
         owner = self.owner_of(position)
         return full_name(owner.name, int(owner.elements[position - owner.element_offset]))
 
@@ -111,27 +122,23 @@ class FlatMesh:
         return self._owners[ROOT].mesh
 
     def nodes(self, name: str, source: Source, owner: str = ROOT) -> IntArray:
-        """Return the node indices of a number, a set, INSTANCE.number or INSTANCE.SET.
-        Raises DeckError if it is unknown.
-        """
+        """Return the node indices of a label, a set, INSTANCE.label or INSTANCE.SET. Raises DeckError."""
         return self._resolve("NSET", name, source, owner)
 
     def elements(self, name: str, source: Source, owner: str = ROOT) -> IntArray:
-        """Return the element positions of a number, a set, INSTANCE.number or INSTANCE.SET.
-        Raises DeckError if it is unknown.
-        """
+        """Return the element positions of a label, a set, INSTANCE.label or INSTANCE.SET. Raises DeckError."""
         return self._resolve("ELSET", name, source, owner)
 
     def _resolve(self, kind: str, name: str, source: Source, owner: str) -> IntArray:
         outer, _, label = (owner, "", name.split(".", maxsplit=1)[0]) if is_integer(name) else name.rpartition(".")
         instance = outer.rpartition(".")[2]
         if (outer or is_integer(name)) and is_integer(label) and instance in self._owners:
-            place = self._owners[instance]
-            find = place.find_nodes if kind == "NSET" else place.find_elements
-            found = find(np.array([min(int(label), LARGEST_INTEGER)]))
-            if found[0] < 0:
+            scope = self._owners[instance]
+            find = scope.find_nodes if kind == "NSET" else scope.find_elements
+            position = find(np.array([min(int(label), LARGEST_INTEGER)]))
+            if position[0] < 0:
                 raise DeckError(source, f"{'node' if kind == 'NSET' else 'element'} {name} is not defined")
-            return found
+            return position
         self._owners[owner].mesh.find_set(kind, name, source)
         sets = self.nsets if kind == "NSET" else self.elsets
         local = name.split(".")
@@ -159,49 +166,49 @@ class FlatMesh:
         return index if index >= 0 else None
 
     def displace(self, change: FloatArray) -> None:
-        """Move the nodes of the whole model by (n, 3)."""
+        """Move the nodes of the model by (n, 3)."""
         self.mesh = replace(self.mesh, coordinates=self.mesh.coordinates + change)
 
     def _make_mesh(self) -> Mesh:
         points, names, normals = [], [], []
         for owner in self.owners:
             points.append(owner.placement.move(owner.points))
-            given = np.zeros_like(owner.points)
+            own_normals = np.zeros_like(owner.points)
             if owner.mesh.normals:
-                given[np.searchsorted(owner.nodes, list(owner.mesh.normals))] = list(owner.mesh.normals.values())
-            normals.append(owner.placement.turn(given))
+                own_normals[np.searchsorted(owner.nodes, list(owner.mesh.normals))] = list(owner.mesh.normals.values())
+            normals.append(owner.placement.turn(own_normals))
             names += [owner.name] * len(owner.nodes)
         labels = np.concatenate([owner.nodes for owner in self.owners])
-        whole = np.concatenate(normals)
-        return Mesh(labels, np.concatenate(points), tuple(names), whole if whole.any() else None)
+        all_normals = np.concatenate(normals)
+        return Mesh(labels, np.concatenate(points), tuple(names), all_normals if all_normals.any() else None)
 
     def _resolve_sets(self, kind: str) -> dict[str, IntArray]:
-        """Return the sets of the whole model; warn of labels that do not exist and leave them out."""
-        found = {}
+        """Return the sets of the model; warn of undefined labels and drop them."""
+        sets = {}
         for owner in self.owners:
             for name, members in owner.mesh.sets(kind).items():
-                parts = [self._resolve_members(kind, owner, name, part) for part in members]
-                whole = np.concatenate(parts) if parts else np.zeros(0, dtype=np.int64)
+                positions = [self._resolve_members(kind, owner, name, entry) for entry in members]
+                union = np.concatenate(positions) if positions else np.zeros(0, dtype=np.int64)
                 if kind == "NSET" and name in owner.mesh.unsorted:
-                    whole = whole[np.sort(np.unique(whole, return_index=True)[1])]
-                elif not (whole[1:] > whole[:-1]).all():
-                    whole = np.unique(whole)
-                found[f"{owner.name}.{name}" if owner.name else name] = whole
-        return found
+                    union = union[np.sort(np.unique(union, return_index=True)[1])]
+                elif not (union[1:] > union[:-1]).all():
+                    union = np.unique(union)
+                sets[f"{owner.name}.{name}" if owner.name else name] = union
+        return sets
 
-    def _resolve_members(self, kind: str, owner: Owner, name: str, part: Members) -> IntArray:
-        place = self._owners[part.instance] if part.instance else owner
-        found = place.find_nodes(part.labels) if kind == "NSET" else place.find_elements(part.labels)
-        missing = part.labels[found < 0]
+    def _resolve_members(self, kind: str, owner: Owner, name: str, entry: Members) -> IntArray:
+        scope = self._owners[entry.instance] if entry.instance else owner
+        positions = scope.find_nodes(entry.labels) if kind == "NSET" else scope.find_elements(entry.labels)
+        missing = entry.labels[positions < 0]
         if len(missing):
-            what = "node" if kind == "NSET" else "element"
+            item = "node" if kind == "NSET" else "element"
             more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
-            self._problems.warn(part.source, f"set {name}: {what} {missing[0]}{more} does not exist and is left out")
-        return found[found >= 0]
+            self._problems.warn(entry.source, f"set {name}: {item} {missing[0]}{more} does not exist and is left out")
+        return positions[positions >= 0]
 
 
 def _definitions(blocks: list[Block], outer: Definitions, problems: Problems) -> dict[str, UserElement]:
-    """Return the user elements of these blocks, added to those of the enclosing scope."""
+    """Return the user elements of blocks, with those of the enclosing scope."""
     return {
         **outer,
         **read_definitions(blocks, "USER ELEMENT", partial(read_user_element, problems=problems), problems, "TYPE"),

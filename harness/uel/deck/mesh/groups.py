@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Elements of the whole model: connectivity by node index, sections, and runs of like elements in calling order."""
+"""Elements of the model: connectivity by node index, sections, and element groups in calling order."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ from uel.model.properties import (
 
 
 class _Elements:
-    """All elements by position: type, row in the connectivity of the type, section keyword (-1: none)."""
+    """Elements by position: type, row in the connectivity of the type, section keyword (-1: none)."""
 
     def __init__(self, flat: FlatMesh, problems: Problems) -> None:
         self.flat = flat
@@ -69,28 +69,26 @@ class _Elements:
 
 
 def node_indices(owner: Owner, run: ElementRun) -> IntArray:
-    """Return the node indices in the whole model (m, nodes) of the elements of a run.
-    Raises DeckError for an undefined node.
-    """
-    found = np.where(run.nodes < 0, -1 - run.nodes, owner.find_nodes(run.nodes.ravel()).reshape(run.nodes.shape))
-    missing = np.argwhere(found < 0)
+    """Return the node indices (m, nodes) of the elements of a run. Raises DeckError for an undefined node."""
+    indices = np.where(run.nodes < 0, -1 - run.nodes, owner.find_nodes(run.nodes.ravel()).reshape(run.nodes.shape))
+    missing = np.argwhere(indices < 0)
     if len(missing):
         row, column = missing[0]
         others = len({int(row) for row, _ in missing}) - 1
         more = f"; {others} more elements here lack nodes" if others else ""
         message = f"element {run.labels[row]} uses node {run.nodes[row, column]}, which is not defined{more}"
         raise DeckError(run.source(int(row)), message)
-    return found
+    return indices
 
 
 def make_groups(
     flat: FlatMesh, materials: Mapping[str, Material], controls: Mapping[str, SectionControls], problems: Problems
 ) -> tuple[ElementGroup, ...]:
-    """Make the element groups in the order in which Abaqus calls user elements. Reports DeckError via `problems`."""
+    """Make the element groups, in the order in which Abaqus calls user elements; errors go to `problems`."""
     elements = _Elements(flat, problems)
     problems.check()
     sections: list[tuple[Block, Owner]] = []
-    given: dict[tuple[str, int], Block] = {}
+    seen: dict[tuple[str, int], Block] = {}
     hourglass: dict[int, tuple[float, float, float]] = {}
     shear: dict[int, tuple[tuple[float, ...], float | None]] = {}
     for owner in flat.owners:
@@ -99,36 +97,38 @@ def make_groups(
                 if block.name in SECTION_KEYWORDS:
                     _assign(elements, sections, block, owner)
                 elif block.name == "HOURGLASS STIFFNESS":
-                    place = _last_section(block, sections, "SOLID SECTION", *SHELL_KEYWORDS, MEMBRANE_KEYWORD)
-                    _refuse_second(block, place, given)
-                    hourglass[place] = _hourglass_stiffness(block)
+                    section_number = _last_section(block, sections, "SOLID SECTION", *SHELL_KEYWORDS, MEMBRANE_KEYWORD)
+                    _refuse_second(block, section_number, seen)
+                    hourglass[section_number] = _hourglass_stiffness(block)
                 elif block.name == "TRANSVERSE SHEAR STIFFNESS":
-                    place = _last_section(block, sections, *SHELL_KEYWORDS, *BEAM_KEYWORDS)
-                    _refuse_second(block, place, given)
-                    of_beam = sections[place][0].name in BEAM_KEYWORDS
-                    shear[place] = read_beam_shear(block) if of_beam else read_shear_stiffness(block)
+                    section_number = _last_section(block, sections, *SHELL_KEYWORDS, *BEAM_KEYWORDS)
+                    _refuse_second(block, section_number, seen)
+                    of_beam = sections[section_number][0].name in BEAM_KEYWORDS
+                    shear[section_number] = read_beam_shear(block) if of_beam else read_shear_stiffness(block)
     problems.check()
     _check_assigned(elements, problems)
     problems.check()
     made = _make_sections(elements, sections, materials, controls, problems)
     problems.check()
-    for (section, kind), found in made.items():
+    for (section, kind), section_made in made.items():
         controlled = SolidSection | CompositeSection | ShellSection | MembraneSection
-        if section in hourglass and isinstance(found, controlled):
+        if section in hourglass and isinstance(section_made, controlled):
             control, rotation, drilling = hourglass[section]
-            made[section, kind] = replace(found, hourglass=control)
-            if isinstance(found, ShellSection):
-                made[section, kind] = replace(found, hourglass=control, hourglass_rotation=rotation, drilling=drilling)
-    for (section, kind), found in made.items():
-        if section in shear and isinstance(found, ShellSection | BeamSection):
+            made[section, kind] = replace(section_made, hourglass=control)
+            if isinstance(section_made, ShellSection):
+                made[section, kind] = replace(
+                    section_made, hourglass=control, hourglass_rotation=rotation, drilling=drilling
+                )
+    for (section, kind), section_made in made.items():
+        if section in shear and isinstance(section_made, ShellSection | BeamSection):
             stiffness, slenderness = shear[section]
-            made[section, kind] = replace(found, shear=stiffness, slenderness=slenderness)
+            made[section, kind] = replace(section_made, shear=stiffness, slenderness=slenderness)
     return _cut(elements, made)
 
 
-def _refuse_second(block: Block, section: int, given: dict[tuple[str, int], Block]) -> None:
-    """Refuse a keyword that the section before has already."""
-    first = given.setdefault((block.name, section), block)
+def _refuse_second(block: Block, section: int, seen: dict[tuple[str, int], Block]) -> None:
+    """Refuse a keyword that its section has already."""
+    first = seen.setdefault((block.name, section), block)
     if first is not block:
         raise block.error(f"the section has one already, at {first.source}")
 
@@ -140,9 +140,7 @@ def _last_section(block: Block, sections: list[tuple[Block, Owner]], *names: str
 
 
 def _hourglass_stiffness(block: Block) -> tuple[float, float, float]:
-    """Read the hourglass stiffness, that of shell rotations, 0 for the default,
-    and the factor of the drilling stiffness. Raises DeckError.
-    """
+    """Read the hourglass stiffnesses of displacements and rotations (0: default) and the drilling factor."""
     row = next(block.rows(), None)
     if row is None:
         return 0.0, 0.0, 1.0
@@ -156,24 +154,24 @@ def _hourglass_stiffness(block: Block) -> tuple[float, float, float]:
 
 
 def _assign(elements: _Elements, sections: list[tuple[Block, Owner]], block: Block, owner: Owner) -> None:
-    if block.name == "RIGID BODY" and not block.options.given("ELSET"):
+    if block.name == "RIGID BODY" and not block.options.has("ELSET"):
         return
     positions = elements.flat.elements(block.options.text("ELSET"), block.source, owner.name)
     if block.name == "RIGID BODY":
-        # others are rigid too, but have a section of their own
+        # other elements of a rigid body have their own section
         kinds = np.array([kind.section == block.name for kind in elements.types])
         positions = positions[kinds[elements.type_of[positions]]]
-    taken = positions[elements.section_of[positions] >= 0]
-    if len(taken):
-        other = sections[elements.section_of[taken[0]]][0]
-        label = elements.flat.element_name(int(taken[0]))
+    assigned = positions[elements.section_of[positions] >= 0]
+    if len(assigned):
+        other = sections[elements.section_of[assigned[0]]][0]
+        label = elements.flat.element_name(int(assigned[0]))
         raise block.error(f"element {label} has a section already, by *{other.name} at {other.source}")
     elements.section_of[positions] = len(sections)
     sections.append((block, owner))
 
 
 def _check_assigned(elements: _Elements, problems: Problems) -> None:
-    """Report elements without a section: one error for each type that has such elements."""
+    """Report elements without a section, one error per type."""
     without = np.flatnonzero(elements.section_of < 0)
     for index, kind in enumerate(elements.types):
         lacking = without[elements.type_of[without] == index]
@@ -191,7 +189,7 @@ def _make_sections(
     controls: Mapping[str, SectionControls],
     problems: Problems,
 ) -> dict[tuple[int, int], Section]:
-    """Make the section of each pair of section keyword and element type that occurs."""
+    """Make the section of each pair of section keyword and element type."""
     kinds = max(len(elements.types), 1)
     pairs = np.unique(elements.section_of * kinds + elements.type_of)
     orientations = read_orientations(elements.flat, problems)
@@ -201,16 +199,16 @@ def _make_sections(
         block, owner = sections[section]
         with problems.gather():
             type, axes = elements.types[kind], orientations[owner.name]
-            found = make_section(block, type, materials, axes, controls, problems)
-            if isinstance(found, SolidSection):
-                find = partial(elements.flat.nodes, owner=owner.name)
-                found = replace(found, reference=reference_node(block, type.name, find))
-            made[section, kind] = _turned(found, owner, problems)
+            made_section = make_section(block, type, materials, axes, controls, problems)
+            if isinstance(made_section, SolidSection):
+                find = partial(elements.flat.one_node, owner=owner.name)
+                made_section = replace(made_section, reference=reference_node(block, type.name, find))
+            made[section, kind] = _rotated(made_section, owner, problems)
     return made
 
 
-def _turned(section: Section, owner: Owner, problems: Problems) -> Section:
-    """Return a section with the directions that it gives turned with its instance."""
+def _rotated(section: Section, owner: Owner, problems: Problems) -> Section:
+    """Return a section with its directions rotated with the instance."""
     if not owner.placement.rotates:
         return section
     if isinstance(section, BeamSection):
@@ -230,40 +228,38 @@ def _cut(elements: _Elements, made: dict[tuple[int, int], Section]) -> tuple[Ele
         span = slice(owner.element_offset, owner.element_offset + len(owner.elements))
         types, sections, rows = elements.type_of[span], elements.section_of[span], elements.row_of[span]
         cuts = np.flatnonzero((np.diff(types) != 0) | (np.diff(sections) != 0)) + 1
-        for part in np.split(np.arange(len(types)), cuts) if len(types) else []:
-            index, section = int(types[part[0]]), int(sections[part[0]])
+        for span_rows in np.split(np.arange(len(types)), cuts) if len(types) else []:
+            index, section = int(types[span_rows[0]]), int(sections[span_rows[0]])
             groups.append(
                 ElementGroup(
                     type=elements.types[index].name,
-                    labels=owner.elements[part],
-                    nodes=connectivity[index][rows[part]],
+                    labels=owner.elements[span_rows],
+                    nodes=connectivity[index][rows[span_rows]],
                     instance=owner.name,
                     section=made[section, index],
                     definition=elements.types[index].definition,
-                    source=_source(elements.flat, span.start + int(part[0])),
-                    orienting=_orienting(elements.flat, owner, owner.elements[part], span.start + part),
+                    source=_source(elements.flat, span.start + int(span_rows[0])),
+                    orienting=_orienting(elements.flat, owner, owner.elements[span_rows], span.start + span_rows),
                 )
             )
     return tuple(groups)
 
 
 def _orienting(flat: FlatMesh, owner: Owner, labels: IntArray, positions: IntArray) -> IntArray | None:
-    """Return the index of the additional node that gives n1 of beams, -1 without one; None if none has it.
-    Raises DeckError.
-    """
-    given = owner.mesh.orienting
-    if not given or not any(label in given for label in labels.tolist()):
+    """Return the index of the additional node of each beam, for n1, -1 without; None if no beam has one."""
+    orienting = owner.mesh.orienting
+    if not orienting or not any(label in orienting for label in labels.tolist()):
         return None
-    found = np.full(len(labels), -1)
+    indices = np.full(len(labels), -1)
     for row, label in enumerate(labels.tolist()):
-        node = given.get(label)
+        node = orienting.get(label)
         if node is None:
             continue
-        found[row] = -1 - node if node < 0 else int(owner.find_nodes(np.array([node]))[0])
-        if found[row] < 0:
+        indices[row] = -1 - node if node < 0 else int(owner.find_nodes(np.array([node]))[0])
+        if indices[row] < 0:
             message = f"element {label} uses node {node}, which is not defined"
             raise DeckError(_source(flat, int(positions[row])), message)
-    return found
+    return indices
 
 
 def _source(flat: FlatMesh, position: int) -> Source:

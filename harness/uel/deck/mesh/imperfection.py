@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*IMPERFECTION: nodes that are moved by shapes of an earlier job, or by the data lines, before all else is read."""
+"""*IMPERFECTION: move nodes by mode shapes of an earlier job, or by data lines."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ class EarlierResults(Protocol):
     """Reader of the field output of earlier jobs."""
 
     def shape(self, job: str, step: int, mode: int, increment: int) -> tuple[IntArray, FloatArray]:
-        """Return labels (m,) of the nodes of a job, and displacements (m,
-        3) of a mode or of an increment of a general step.
+        """Return labels (m,) of the nodes of a job, and displacements (m, 3) of a mode or of an increment of a general
+        step.
 
         increment: 0 for the last one. Raises UelError if they were not written.
         """
@@ -36,13 +36,13 @@ class EarlierResults(Protocol):
 
 
 def displace(blocks: Iterable[Block], flat: FlatMesh, problems: Problems, earlier: EarlierResults | None) -> None:
-    """Move the nodes of the mesh. Without a reader of results, imperfections from other jobs are left out."""
+    """Move the nodes of the mesh. Without a reader of results, imperfections from other jobs are skipped."""
     change = np.zeros_like(flat.mesh.coordinates)
     for block in blocks:
         if block.name != "IMPERFECTION":
             continue
         with problems.gather():
-            if not block.options.given("FILE"):
+            if not block.options.has("FILE"):
                 _by_nodes(block, flat, change, problems)
             elif earlier is not None:
                 _by_shapes(block, flat, change, earlier)
@@ -51,7 +51,7 @@ def displace(blocks: Iterable[Block], flat: FlatMesh, problems: Problems, earlie
 
 
 def _by_nodes(block: Block, flat: FlatMesh, change: FloatArray, problems: Problems) -> None:
-    if block.options.given("STEP") or block.options.given("INC") or block.options.given("NSET"):
+    if block.options.has("STEP") or block.options.has("INC") or block.options.has("NSET"):
         raise block.error("STEP, INC and NSET are about FILE")
     rows = list(block.rows())
     if not rows:
@@ -73,7 +73,7 @@ def _by_nodes(block: Block, flat: FlatMesh, change: FloatArray, problems: Proble
 
 def _by_shapes(block: Block, flat: FlatMesh, change: FloatArray, earlier: EarlierResults) -> None:
     options = block.options
-    if not options.given("STEP"):
+    if not options.has("STEP"):
         raise block.error("FILE needs STEP, the number of the step of that job")
     job, step, increment = options.text("FILE"), options.integer("STEP", 0), options.integer("INC", 0)
     chosen = np.zeros(len(change), dtype=bool)
@@ -89,24 +89,22 @@ def _by_shapes(block: Block, flat: FlatMesh, change: FloatArray, earlier: Earlie
             labels, shape = earlier.shape(job, step, mode, increment)
         except UelError as error:
             raise row.error(f"FILE={job}: {error}") from None
-        found = np.zeros_like(change)
-        here, there = same_nodes(flat, labels, row, job)
-        found[here] = shape[there]
-        change[chosen] += factor * found[chosen]
+        displacements = np.zeros_like(change)
+        here, earlier_rows = same_nodes(flat, labels, row, job)
+        displacements[here] = shape[earlier_rows]
+        change[chosen] += factor * displacements[chosen]
 
 
-def same_nodes(flat: FlatMesh, labels: IntArray, place: Row | Block, job: str) -> tuple[IntArray, IntArray]:
-    """Match nodes of the mesh with those of an earlier job by label, and return the positions in both.
-    Raises DeckError at the place.
-    """
+def same_nodes(flat: FlatMesh, labels: IntArray, line: Row | Block, job: str) -> tuple[IntArray, IntArray]:
+    """Match nodes of the mesh and of an earlier job by label; return their positions in both. Raises DeckError."""
     mesh = flat.mesh
     if np.array_equal(labels, mesh.labels):
         every = np.arange(len(labels))
         return every, every
     if any(mesh.instances) or len(np.unique(labels)) < len(labels):
-        raise place.error(f"FILE={job}: the nodes of that job are not those of this model with instances")
-    _, here, there = np.intersect1d(mesh.labels, labels, return_indices=True)
-    return here, there
+        raise line.error(f"FILE={job}: the nodes of that job are not those of this model with instances")
+    _, here, earlier_rows = np.intersect1d(mesh.labels, labels, return_indices=True)
+    return here, earlier_rows
 
 
 KEYWORDS = (

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Nodes, elements and sets of one part, one instance, or of the model outside all parts, by their labels."""
+"""Nodes, elements and sets of a part, an instance or the root, by label."""
 
 from __future__ import annotations
 
@@ -22,15 +22,13 @@ from uel.model.element_types import BEAM, BUILT_IN
 
 LARGEST_LABEL = 999_999_999
 MOST_GENERATED = {"nodes": 1_000_000, "elements": 1_000_000, "numbers": 10_000_000}
-"""Largest number of items that the generating keywords of one scope may make:
-a typing error must not exhaust the memory.
-"""
+"""Largest number of generated items per scope, so that a typing error does not exhaust the memory."""
 Point = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
 class Members:
-    """Part of a set: labels, the instance they belong to ('' for the mesh that has the set), and their place."""
+    """Part of a set: labels, their instance ('' for the scope of the set), and their location."""
 
     instance: str
     labels: IntArray
@@ -39,9 +37,9 @@ class Members:
 
 @dataclass(frozen=True, slots=True)
 class ElementRun:
-    """Elements of one type from one keyword: labels (m,), node labels (m, nodes), and the place of each.
+    """Elements of one type from one keyword: labels (m,), node labels (m, nodes), and location of each.
 
-    A negative node label is that of a node of an instance: -1 - its index in the whole model.
+    A negative label is a node of an instance: -1 - its index in the model.
     """
 
     type: ElementType
@@ -51,8 +49,8 @@ class ElementRun:
 
     def at(self, rows: IntArray) -> ElementRun:
         """Return the run of the elements in these rows."""
-        places = rows.tolist()
-        return ElementRun(self.type, self.labels[rows], self.nodes[rows], lambda index: self.source(places[index]))
+        indices = rows.tolist()
+        return ElementRun(self.type, self.labels[rows], self.nodes[rows], lambda index: self.source(indices[index]))
 
 
 def _rows(run: ElementRun) -> Iterable[tuple[int, list[int]]]:
@@ -61,10 +59,10 @@ def _rows(run: ElementRun) -> Iterable[tuple[int, list[int]]]:
 
 
 class LocalMesh:
-    """Nodes, elements and sets that *NODE, *ELEMENT, *NSET, *ELSET and the generating keywords define in one scope.
+    """Nodes, elements and sets of one scope, from *NODE, *ELEMENT, *NSET, *ELSET and the generating keywords.
 
-    A node or element that is defined more than once is as the last definition says (Abaqus Analysis User's Guide, "Node
-    definition", "Element definition"), with a warning where an earlier one says otherwise.
+    The last definition of a node or element counts (Abaqus Analysis User's Guide, "Node definition", "Element
+    definition"), with a warning if an earlier one differs.
     """
 
     def __init__(
@@ -76,11 +74,11 @@ class LocalMesh:
         self._warn = warn
         self.definitions = definitions
         self.instances = instances or {}
-        # coordinates of all definitions one after the other, and which one counts
+        # coordinates of all definitions, and the index of the last one of each node
         self._points = array("d")
         self._definition_of: dict[int, int] = {}
         self.normals: dict[int, Point] = {}
-        # nodes that give n1 of beams, by the elements; numbers as those of ElementRun
+        # additional nodes of beams, for n1, by element; numbers as in ElementRun
         self.orienting: dict[int, int] = {}
         self.runs: list[ElementRun] = []
         self.run_of: dict[int, int] = {}
@@ -90,16 +88,14 @@ class LocalMesh:
         self.assembly = ""
         self.system = IDENTITY
         self._generated = dict.fromkeys(MOST_GENERATED, 0)
-        # index in the whole model of a node of an instance; set by the flattening before it reads the root
+        # index in the model of a node of an instance; FlatMesh sets it before it reads the root
         self.find_instance_node: Callable[[str, int], int | None] = lambda instance, label: None
 
-    def reserve(self, count: int, what: str, row: Row) -> None:
-        """Count 'nodes', 'elements' or 'numbers' that a line is about to generate.
-        Raises DeckError if there are too many.
-        """
-        self._generated[what] += count
-        if self._generated[what] > MOST_GENERATED[what]:
-            raise row.error(f"{count} {what} are too many: at most {MOST_GENERATED[what]} can be generated in total")
+    def reserve(self, count: int, kind: str, row: Row) -> None:
+        """Count generated 'nodes', 'elements' or 'numbers'. Raises DeckError if there are too many."""
+        self._generated[kind] += count
+        if self._generated[kind] > MOST_GENERATED[kind]:
+            raise row.error(f"{count} {kind} are too many: at most {MOST_GENERATED[kind]} can be generated in total")
 
     def add_nodes(self, labels: IntArray, points: FloatArray, source: Callable[[int], Source]) -> None:
         """Add nodes."""
@@ -136,14 +132,14 @@ class LocalMesh:
         self.runs.append(run)
 
     def _tell_changes(self, run: ElementRun, known: dict[int, tuple[ElementType, list[int]]]) -> None:
-        """Warn of elements that differ from an earlier definition; known: type and nodes by these."""
+        """Warn of elements that differ from an earlier definition; known: type and nodes of these."""
         for index, (label, nodes) in enumerate(_rows(run)):
             if known.setdefault(label, (run.type, nodes)) != (run.type, nodes):
                 self._warn(run.source(index), f"element {label} is defined again, differently; this definition counts")
             known[label] = run.type, nodes
 
     def add_to_set(self, sets: dict[str, list[Members]], name: str, members: Iterable[Members]) -> None:
-        """Extend a set; a set without a name takes nothing."""
+        """Extend a set, if it has a name."""
         if name:
             sets.setdefault(name, []).extend(members)
 
@@ -154,8 +150,8 @@ class LocalMesh:
         if self.system is not IDENTITY:
             points, normals = self.system.move(points), self.system.turn(normals)
         self.add_nodes(labels, points, source)
-        given = normals.any(axis=1)
-        self.normals.update(zip(labels[given].tolist(), map(tuple, normals[given].tolist()), strict=True))
+        nonzero = normals.any(axis=1)
+        self.normals.update(zip(labels[nonzero].tolist(), map(tuple, normals[nonzero].tolist()), strict=True))
         self.add_to_set(self.nsets, block.options.text("NSET"), [Members("", labels, block.source)])
 
     def read_system(self, block: Block) -> None:
@@ -182,7 +178,7 @@ class LocalMesh:
         self.add_to_set(sets, name, [])
         if nodal and block.options.flag("UNSORTED"):
             self.unsorted.add(name)
-        if nodal and block.options.given("ELSET"):
+        if nodal and block.options.has("ELSET"):
             elements = self.find_set("ELSET", block.options.text("ELSET"), block.source)
             self.add_to_set(sets, name, self._nodes_of(elements))
         instance = block.options.text("INSTANCE")
@@ -195,9 +191,7 @@ class LocalMesh:
             self.add_to_set(sets, name, self._listed(block, instance))
 
     def find_set(self, kind: str, name: str, source: Source) -> list[Members]:
-        """Return the members of a node set ('NSET') or element set ('ELSET'), of this scope or INSTANCE.NAME.
-        Raises DeckError.
-        """
+        """Return the members of a node set ('NSET') or element set ('ELSET'), or of INSTANCE.NAME. Raises DeckError."""
         sets = self.sets(kind)
         if name in sets:
             return sets[name]
@@ -207,10 +201,10 @@ class LocalMesh:
         instance = instance.rpartition(".")[2]
         if dot and instance in self.instances and local in self.instances[instance].sets(kind):
             members = self.instances[instance].sets(kind)[local]
-            return [replace(part, instance=instance) for part in members]
+            return [replace(entry, instance=instance) for entry in members]
         known = [*sets, *(f"{key}.{inner}" for key, mesh in self.instances.items() for inner in mesh.sets(kind))]
-        what = "node set" if kind == "NSET" else "element set"
-        raise DeckError(source, f"unknown {what} {name}{nearest(name, known)}")
+        kind_name = "node set" if kind == "NSET" else "element set"
+        raise DeckError(source, f"unknown {kind_name} {name}{nearest(name, known)}")
 
     def sets(self, kind: str) -> dict[str, list[Members]]:
         """Return the node sets ('NSET') or element sets ('ELSET')."""
@@ -221,8 +215,8 @@ class LocalMesh:
         if is_integer(name):
             return np.array([int(name.split(".", maxsplit=1)[0])])
         members = self.find_set("NSET", name, source)
-        own = [part.labels for part in members if not part.instance]
-        return np.unique(np.concatenate(own)) if own else np.zeros(0, dtype=np.int64)
+        labels = [entry.labels for entry in members if not entry.instance]
+        return np.unique(np.concatenate(labels)) if labels else np.zeros(0, dtype=np.int64)
 
     def nodes(self) -> tuple[IntArray, FloatArray]:
         """Return the labels of all nodes in ascending order, and their coordinates (n, 3)."""
@@ -237,8 +231,8 @@ class LocalMesh:
         return self._coordinates_of(label)
 
     def _coordinates_of(self, label: int) -> Point:
-        place = 3 * self._definition_of[label]
-        x, y, z = self._points[place : place + 3]
+        start = 3 * self._definition_of[label]
+        x, y, z = self._points[start : start + 3]
         return x, y, z
 
     def element(self, label: int, source: Source) -> tuple[ElementType, IntArray]:
@@ -249,13 +243,13 @@ class LocalMesh:
         return run.type, run.nodes[int(np.flatnonzero(run.labels == label)[0])]
 
     def _nodes_of(self, elements: list[Members]) -> list[Members]:
-        found = []
-        for part in elements:
-            mesh = self.instances[part.instance] if part.instance else self
-            wanted = [run.nodes[np.isin(run.labels, part.labels)].ravel() for run in mesh.runs]
-            if wanted:
-                found.append(replace(part, labels=np.unique(np.concatenate(wanted))))
-        return found
+        nodes = []
+        for entry in elements:
+            mesh = self.instances[entry.instance] if entry.instance else self
+            labels = [run.nodes[np.isin(run.labels, entry.labels)].ravel() for run in mesh.runs]
+            if labels:
+                nodes.append(replace(entry, labels=np.unique(np.concatenate(labels))))
+        return nodes
 
     def _listed(self, block: Block, instance: str) -> list[Members]:
         """Return labels and set names of the data lines of *NSET and *ELSET."""
@@ -268,17 +262,15 @@ class LocalMesh:
                 return [Members(instance, np.array(labels, dtype=np.int64), block.source)]
         except ValueError:
             pass
-        found: list[Members] = []
+        members: list[Members] = []
         for row in block.rows():
             for index in range(len(row)):
                 if not row.blank(index):
-                    found += self._member(block.name, unquote(row.fields[index]), instance, row.source)
-        return found
+                    members += self._member(block.name, unquote(row.fields[index]), instance, row.source)
+        return members
 
     def _range(self, row: Row) -> IntArray:
-        """Return the labels of one GENERATE line: first, last, increment (1), which may be negative,
-        as in public decks.
-        """
+        """Return the labels of a GENERATE line: first, last, increment (1), negative in some public decks."""
         first = row.integer(0, "first number")
         last = row.integer(1, "last number", first)
         step = row.integer(2, "increment", 1)
@@ -306,7 +298,7 @@ class LocalMesh:
         labels: list[int] = []
         nodes: list[list[int]] = []
         lines: list[int] = []
-        wanted: list[int] = []
+        entries: list[int] = []
         orienting = _orienting_nodes(block, kind)
         for index, line in enumerate(block.lines):
             fields = _entries(line)
@@ -315,18 +307,20 @@ class LocalMesh:
             if index in orienting:
                 fields.pop()
             source = block.source_of(index)
-            if not wanted:
+            if not entries:
                 lines.append(index)
-            before = len(wanted)
-            wanted += [self._node_reference(block, field, source) for field in fields]
-            if len(wanted) > kind.nodes + 1:
-                raise DeckError(block.source_of(lines[-1]), _wrong_count(wanted[0], kind, (before or len(wanted)) - 1))
-            if len(wanted) == kind.nodes + 1:
-                labels.append(_label(str(wanted[0]), source))
-                nodes.append(wanted[1:])
-                wanted = []
-        if wanted:
-            raise DeckError(block.source_of(lines[-1]), _wrong_count(wanted[0], kind, len(wanted) - 1))
+            before = len(entries)
+            entries += [self._node_reference(block, field, source) for field in fields]
+            if len(entries) > kind.nodes + 1:
+                raise DeckError(
+                    block.source_of(lines[-1]), _wrong_count(entries[0], kind, (before or len(entries)) - 1)
+                )
+            if len(entries) == kind.nodes + 1:
+                labels.append(_label(str(entries[0]), source))
+                nodes.append(entries[1:])
+                entries = []
+        if entries:
+            raise DeckError(block.source_of(lines[-1]), _wrong_count(entries[0], kind, len(entries) - 1))
         shape = (len(labels), kind.nodes)
         return np.array(labels, dtype=np.int64), np.array(nodes, dtype=np.int64).reshape(shape), np.array(lines)
 
@@ -353,11 +347,11 @@ def _entries(line: str) -> list[str]:
 
 
 def _orienting_nodes(block: Block, kind: ElementType) -> dict[int, str]:
-    """Return the additional node that gives n1 of a beam in space, by the index of its line."""
+    """Return the additional node of beams in space, for n1, by the index of the line."""
     if kind.name not in BEAM or BEAM[kind.name].dimension == 2:
         return {}
-    found = ((index, _entries(line)) for index, line in enumerate(block.lines))
-    return {index: fields[-1] for index, fields in found if len(fields) == kind.nodes + 2}
+    numbered = ((index, _entries(line)) for index, line in enumerate(block.lines))
+    return {index: fields[-1] for index, fields in numbered if len(fields) == kind.nodes + 2}
 
 
 def _wrong_count(element: int, kind: ElementType, nodes: int) -> str:
@@ -375,8 +369,8 @@ def _label(text: str, source: Source) -> int:
 
 
 def _read_nodes(block: Block) -> tuple[IntArray, FloatArray, Callable[[int], Source]]:
-    """Read labels, (n, 6) coordinates and direction cosines of the normal, and the place of each."""
-    # read as a real number, 2e0 would be a label
+    """Read labels, (n, 6) coordinates and direction cosines of the normal, and the location of each."""
+    # integers first: as a real number, 2e0 would be a label
     labels = integer_table(block.lines, columns=1)
     if labels is not None and 0 < labels.min() <= labels.max() <= LARGEST_LABEL:
         table = real_table(block.lines)
@@ -385,13 +379,13 @@ def _read_nodes(block: Block) -> tuple[IntArray, FloatArray, Callable[[int], Sou
             points[:, : table.shape[1] - 1] = table[:, 1:]
             return labels[:, 0], points, block.source_of
     rows = list(block.rows())
-    found = np.array([_label(row.text(0, "node number"), row.source) for row in rows], dtype=np.int64)
+    label_array = np.array([_label(row.text(0, "node number"), row.source) for row in rows], dtype=np.int64)
     points = np.zeros((len(rows), 6))
-    names = [f"{what} {k}" for what in ("coordinate", "direction cosine") for k in (1, 2, 3)]
+    names = [f"{quantity} {k}" for quantity in ("coordinate", "direction cosine") for k in (1, 2, 3)]
     for index, row in enumerate(rows):
         row.at_most(7)
         points[index] = [row.real(column, name, 0.0) for column, name in enumerate(names, 1)]
-    return found, points, lambda index: rows[index].source
+    return label_array, points, lambda index: rows[index].source
 
 
 TAKES_NODES = Option("NSET", Kind.NAME, "set that takes the nodes")

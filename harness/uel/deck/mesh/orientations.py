@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*ORIENTATION, with *DISTRIBUTION and *DISTRIBUTION TABLE, which give its points or angles element by element."""
+"""*ORIENTATION, with *DISTRIBUTION and *DISTRIBUTION TABLE for points or angles by element."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _POINTS = ("COORD3D", "COORD3D")
 _ANGLE = ("ANGLE",)
 MOST_DIRECTIONS = 100
 _VALUES = {_POINTS: 6, _ANGLE: 1}
-"""Values that each kind of *DISTRIBUTION TABLE gives to an element."""
+"""Values per element of each kind of *DISTRIBUTION TABLE."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,22 +37,20 @@ class _Distribution:
 
 
 def read_orientations(flat: FlatMesh, problems: Problems) -> dict[str, dict[str, Orientation]]:
-    """Return the orientations visible in each instance and the root (''): those of the root, and its own,
-    which turn with the instance.
-    """
+    """Return the orientations of each instance and the root (''): those of the root, and its own ones, rotated."""
     root = flat.owners[-1]
     tables = read_definitions(root.blocks, "DISTRIBUTION TABLE", _read_table, problems)
     outer: dict[str, _Distribution] = {}
     shared: dict[str, Orientation] = {}
-    found: dict[str, dict[str, Orientation]] = {}
+    orientations: dict[str, dict[str, Orientation]] = {}
     for owner in reversed(flat.owners):
         read = partial(_read_distribution, flat, owner, tables)
-        given = outer | read_definitions(owner.blocks, "DISTRIBUTION", read, problems)
-        own = read_definitions(owner.blocks, "ORIENTATION", partial(_read_orientation, flat, owner, given), problems)
-        found[owner.name] = shared | own
+        values = outer | read_definitions(owner.blocks, "DISTRIBUTION", read, problems)
+        local = read_definitions(owner.blocks, "ORIENTATION", partial(_read_orientation, flat, owner, values), problems)
+        orientations[owner.name] = shared | local
         if owner is root:
-            outer, shared = given, own
-    return found
+            outer, shared = values, local
+    return orientations
 
 
 def _read_table(block: Block) -> tuple[str, ...]:
@@ -74,14 +72,14 @@ def _read_distribution(
     values = np.tile(_values(rows[0], count), (sum(len(other.elements) for other in flat.owners), 1))
     numbered = [row for row in rows[1:] if not row.blank(0) and is_integer(row.fields[0])]
     numbers = np.array([row.integer(0, "element") for row in numbered], dtype=np.int64)
-    places = owner.find_elements(numbers).tolist()
-    of_number = {id(row): place for row, place in zip(numbered, places, strict=True)}
+    positions = owner.find_elements(numbers).tolist()
+    of_number = {id(row): position for row, position in zip(numbered, positions, strict=True)}
     for row in rows[1:]:
-        place = of_number.get(id(row))
-        if place is None or place < 0:
+        position = of_number.get(id(row))
+        if position is None or position < 0:
             values[flat.elements(row.name(0, "element or element set"), row.source, owner.name)] = _values(row, count)
         else:
-            values[place] = _values(row, count)
+            values[position] = _values(row, count)
     return _Distribution(labels, values)
 
 
@@ -118,27 +116,27 @@ def _read_orientation(
         ((axes,),) = system.axes(np.zeros(1, dtype=np.int64), np.zeros((1, 1, 3)), np.zeros((1, 1, 3)))
     except UndefinedDirectionsError as error:
         raise rows[0].error(str(error)) from None
-    turned = axes if _in_model(block) else owner.placement.turn(axes)
-    return Orientation(name, turned, block.source, normal=axis, local=local)
+    rotated = axes if _in_model(block) else owner.placement.turn(axes)
+    return Orientation(name, rotated, block.source, normal=axis, local=local)
 
 
 def _direction(row: Row) -> FloatArray:
     """Return the unit vector of a local direction. Raises DeckError if its length is zero."""
     row.at_most(3)
-    given = np.array([row.real(k, "component of a local direction", 0.0) for k in range(3)])
-    length = np.linalg.norm(given)
+    components = np.array([row.real(k, "component of a local direction", 0.0) for k in range(3)])
+    length = np.linalg.norm(components)
     if length == 0:
         raise row.error("a local direction of length zero")
-    return np.asarray(given / length)
+    return np.asarray(components / length)
 
 
 def _in_model(block: Block) -> bool:
-    """Return whether the points are nodes, which already have their place in the model."""
+    """Return whether the points are nodes, whose coordinates are those of the model."""
     return block.options.text("DEFINITION") != "COORDINATES"
 
 
 def _placed(system: LocalSystem, owner: Owner, block: Block) -> LocalSystem:
-    """Return the system with its points moved by the placement of the instance, unless they are nodes."""
+    """Return the system with its points moved with the instance, unless they are nodes."""
     if _in_model(block):
         return system
     moved = owner.placement.move(system.points.reshape(-1, 3)).reshape(system.points.shape)
@@ -148,7 +146,7 @@ def _placed(system: LocalSystem, owner: Owner, block: Block) -> LocalSystem:
 def _read_points(
     flat: FlatMesh, owner: Owner, distributions: Mapping[str, _Distribution], block: Block, row: Row
 ) -> tuple[FloatArray, tuple[int, ...]]:
-    """Read the points a, b and c, (3, 3) or by element; or local numbers of the nodes at which they are."""
+    """Read the points a, b and c, (3, 3) or by element; or the local node numbers of OFFSET TO NODES."""
     definition = block.options.text("DEFINITION")
     if definition == "COORDINATES":
         if len(row) == 1 and not _is_number(row.fields[0]):
@@ -159,12 +157,12 @@ def _read_points(
     row.at_most(3)
     count = max(len(row), 2)
     if definition == "NODES":
-        given = [flat.nodes(row.name(k, "node"), row.source, owner.name) for k in range(count)]
-        if any(len(found) != 1 for found in given):
+        node_sets = [flat.nodes(row.name(k, "node"), row.source, owner.name) for k in range(count)]
+        if any(len(nodes) != 1 for nodes in node_sets):
             raise row.error("expected the numbers of two or three nodes")
-        points = flat.mesh.coordinates[np.concatenate(given)]
+        points = flat.mesh.coordinates[np.concatenate(node_sets)]
         return np.vstack([points, np.zeros((3 - count, 3))]), ()
-    # the origin is the first node unless it is given
+    # the default origin is the first node
     numbers = tuple(row.integer(k, "local node number") for k in range(count))
     if min(numbers) < 1:
         raise row.error(f"local node number {min(numbers)} must be positive")
@@ -186,10 +184,10 @@ def _distributed(
     distributions: Mapping[str, _Distribution], row: Row, index: int, labels: tuple[str, ...]
 ) -> _Distribution:
     name = row.name(index, "distribution")
-    found = look_up(distributions, name, "distribution", row.source)
-    if found.labels != labels:
-        raise row.error(f"distribution {name} has {', '.join(found.labels)}; expected one of {', '.join(labels)}")
-    return found
+    entry = look_up(distributions, name, "distribution", row.source)
+    if entry.labels != labels:
+        raise row.error(f"distribution {name} has {', '.join(entry.labels)}; expected one of {', '.join(labels)}")
+    return entry
 
 
 def _is_number(text: str) -> bool:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Placements, as *INSTANCE, *NCOPY and *SYSTEM give them."""
+"""Placements of *INSTANCE, *NCOPY and *SYSTEM."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Placement:
         return not np.array_equal(self.rotation, np.eye(3))
 
     def move(self, points: FloatArray) -> FloatArray:
-        """Return (n, 3) points moved to their new place."""
+        """Return (n, 3) moved points."""
         return points @ self.rotation.T + self.shift
 
     def turn(self, directions: FloatArray) -> FloatArray:
@@ -56,9 +56,7 @@ def read_placement(block: Block) -> Placement:
 
 
 def read_system(block: Block) -> Placement:
-    """Read the placement of the nodes after *SYSTEM: origin a, point b on the local x-axis,
-    point c of the local x-y plane.
-    """
+    """Read *SYSTEM: origin a, point b on the local x-axis, point c in the local x-y plane."""
     rows = list(block.rows())
     if len(rows) > 2:
         raise rows[2].error("expected at most two data lines")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Smooth parts of a surface: faces that meet at an edge at a large angle belong to different ones."""
+"""Smooth parts of a surface, separated at sharp edges."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from uel.model.arrays import FloatArray, IntArray
 class SmoothParts:
     """The m corners of the smooth parts of a surface.
 
-    nodes    (m,) at which they are, repeated where parts meet
-    corners  of faces of each kind (f, k): which of them
+    nodes    (m,) node of each corner, repeated at sharp edges
+    corners  (f, k) corner numbers of faces, by kind
     """
 
     nodes: IntArray
@@ -28,12 +28,12 @@ class SmoothParts:
 
 
 def smooth_parts(faces: Sequence[IntArray], coordinates: FloatArray) -> SmoothParts:
-    """Cut a surface where the normals of faces that share an edge, in the plane a node, differ by too much.
+    """Split a surface where the normals of adjacent faces differ by too much.
 
     Parameters
     ----------
     faces
-        Of each kind, lines, triangles or quadrilaterals, as `wound` returns them.
+        Lines, triangles or quadrilaterals, by kind, as `wound` returns them.
     coordinates
         (n, 3) of all nodes.
     """
@@ -45,8 +45,8 @@ def smooth_parts(faces: Sequence[IntArray], coordinates: FloatArray) -> SmoothPa
     for nodes in faces:
         keys.append(part[first : first + len(nodes), None] * size + nodes)
         first += len(nodes)
-    every = np.unique(np.concatenate([own.ravel() for own in keys]))
-    return SmoothParts(every % size, tuple(np.searchsorted(every, own) for own in keys))
+    unique_keys = np.unique(np.concatenate([face_keys.ravel() for face_keys in keys]))
+    return SmoothParts(unique_keys % size, tuple(np.searchsorted(unique_keys, face_keys) for face_keys in keys))
 
 
 def _edges(faces: Sequence[IntArray], size: int) -> IntArray:
@@ -70,10 +70,6 @@ def _parts(edges: IntArray, normals: FloatArray) -> IntArray:
     smooth = np.einsum("ed,ed->e", normals[edges[:, 0]], normals[edges[:, 1]]) > FACING
     ends = edges[smooth]
     graph = sparse.coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(len(normals),) * 2)
-    return _components(graph)
-
-
-def _components(graph: sparse.coo_array) -> IntArray:
     from scipy.sparse.csgraph import connected_components  # noqa: PLC0415 (few decks have contact)
 
     return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)

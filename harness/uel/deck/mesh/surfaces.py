@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*SURFACE: the nodes of a surface for constraints, its faces for loads. A surface is read when something uses it."""
+"""*SURFACE: nodes for constraints, faces for loads. Surfaces are read on use."""
 
 from __future__ import annotations
 
@@ -41,12 +41,12 @@ _QUADRATIC = {
     TRI6.number: [1 / 12] * 3 + [1 / 4] * 3,
     QUAD8.number: [1 / 16] * 4 + [3 / 16] * 4,
 }
-"""Shares of the nodes in the area of a quadratic face."""
+"""Fractions of the area of a quadratic face, by node."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Line:
-    """Positions of elements with a face, or nodes, of one data line of a surface."""
+    """Data line of a surface: positions of elements and their face, or nodes."""
 
     members: IntArray
     face: str
@@ -54,14 +54,14 @@ class _Line:
 
 
 def _keys(lines: Sequence[_Line], every: Sequence[_Line]) -> IntArray:
-    """Return numbers of the faces or nodes of lines, concatenated; every: all lines that are compared."""
+    """Return the numbers of faces or nodes of lines, concatenated; every: all lines of the comparison."""
     codes = {face: k for k, face in enumerate(sorted({line.face for line in every}))}
     keys = [line.members * len(codes) + codes[line.face] for line in lines]
     return np.concatenate([np.zeros(0, dtype=np.int64), *keys])
 
 
 def _chosen(lines: Sequence[_Line], chosen: NDArray[np.bool_]) -> list[_Line]:
-    """Return the lines restricted to a mask of their faces or nodes, which are in the order of `_keys`."""
+    """Return the lines restricted by a mask of their faces or nodes, in the order of `_keys`."""
     ends = np.cumsum([len(line.members) for line in lines])[:-1]
     parts = np.split(chosen, ends)
     return [replace(line, members=line.members[part]) for line, part in zip(lines, parts, strict=True)]
@@ -76,17 +76,17 @@ def _merged(lines: Sequence[_Line]) -> list[_Line]:
 
 
 def _combined(block: Block) -> list[tuple[str, Source]]:
-    """Return names and places of the surfaces that COMBINE puts together. Raises DeckError."""
+    """Return names and locations of the surfaces of COMBINE. Raises DeckError."""
     how = block.options.text("COMBINE")
     names = [(row.name(k, "surface"), row.source) for row in block.rows() for k in range(len(row))]
     if not names or (how != "UNION" and len(names) != 2):
-        wanted = "the names of surfaces" if how == "UNION" else "the names of two surfaces"
-        raise block.error(f"COMBINE={how} takes {wanted}, found {len(names)}")
+        expected = "the names of surfaces" if how == "UNION" else "the names of two surfaces"
+        raise block.error(f"COMBINE={how} takes {expected}, found {len(names)}")
     return names
 
 
 class Surfaces:
-    """Surfaces of the whole model, by their names at the level where they are used."""
+    """Surfaces of the model, by their names in the scope of use."""
 
     def __init__(self, flat: FlatMesh, groups: Sequence[ElementGroup]) -> None:
         self._flat = flat
@@ -100,7 +100,7 @@ class Surfaces:
                     self._blocks[f"{owner.name}.{name}" if owner.name else name] = (owner.name, block)
 
     def locate(self, name: str, source: Source, owner: str) -> tuple[str, Block]:
-        """Return level and keyword of a surface of any type. Raises DeckError."""
+        """Return scope and keyword of a surface. Raises DeckError."""
         local = name.split(".")
         candidates = [f"{owner}.{name}" if owner else name, ".".join(local[-2:]), local[-1]]
         key = next((candidate for candidate in candidates if candidate in self._blocks), None)
@@ -109,170 +109,137 @@ class Surfaces:
         return self._blocks[key]
 
     def kind(self, name: str, source: Source, owner: str = "") -> str:
-        """Return the TYPE of a surface; of a combined one that of its surfaces. Raises DeckError."""
-        place, block = self.locate(name, source, owner)
-        if not block.options.given("COMBINE"):
+        """Return the TYPE of a surface, for COMBINE of its surfaces. Raises DeckError."""
+        scope, block = self.locate(name, source, owner)
+        if not block.options.has("COMBINE"):
             return block.options.text("TYPE")
         self._lines(name, source, owner)
-        own, at = _combined(block)[0]
-        return self.kind(own, at, place)
+        first, at = _combined(block)[0]
+        return self.kind(first, at, scope)
 
     def profile(self, name: str, source: Source, owner: str) -> tuple[str, Block, float] | None:
-        """Return level, keyword and fillet radius of an analytical rigid surface in the plane, None for another type.
-
-        Raises DeckError.
-        """
-        place, block = self.locate(name, source, owner)
+        """Return scope, keyword and fillet radius of an analytical rigid surface, None for another type."""
+        scope, block = self.locate(name, source, owner)
         kind = block.options.text("TYPE")
         if kind not in ANALYTICAL:
             return None
         if kind != "SEGMENTS":
             raise block.error("is not supported in contact; of analytical rigid surfaces TYPE=SEGMENTS is")
-        radius = block.options.real("FILLET RADIUS", 0.0)
-        if radius < 0.0:
-            raise block.error(f"FILLET RADIUS={radius:g} must not be negative")
-        return place, block, radius
+        return scope, block, block.not_negative("FILLET RADIUS", 0.0)
 
     def _lines(self, name: str, source: Source, owner: str, within: tuple[Source, ...] = ()) -> list[_Line]:
-        """Return the lines of a surface of elements or nodes, each without the members of earlier lines.
-        Raises DeckError.
-        """
-        place, block = self.locate(name, source, owner)
+        """Return the disjoint lines of a surface of elements or nodes. Raises DeckError."""
+        scope, block = self.locate(name, source, owner)
         if block.source in within:
             raise block.error("combines itself")
-        if block.options.given("COMBINE"):
-            members = [self._lines(own, at, place, (*within, block.source)) for own, at in _combined(block)]
-            found = self._combine(block, members)
-            if not any(len(line.members) for line in found):
+        if block.options.has("COMBINE"):
+            members = [self._lines(member, at, scope, (*within, block.source)) for member, at in _combined(block)]
+            lines = self._combine(block, members)
+            if not any(len(line.members) for line in lines):
                 self._flat.warn(block.source, f"*SURFACE: {name} is empty")
-            return found
+            return lines
         kind = block.options.text("TYPE")
         if kind not in ("ELEMENT", "NODE"):
             raise DeckError(source, f"surface {name} ({block.source}) is of TYPE={kind}, which constraints cannot use")
         find, faces = (self._flat.nodes, False) if kind == "NODE" else (self._flat.elements, True)
         return _merged(
             [
-                _Line(find(row.name(0, "set"), row.source, place), row.name(1, "face") if faces else "", row)
+                _Line(find(row.name(0, "set"), row.source, scope), row.name(1, "face") if faces else "", row)
                 for row in block.rows()
             ]
         )
 
     @staticmethod
     def _combine(block: Block, members: list[list[_Line]]) -> list[_Line]:
-        how, lines = block.options.text("COMBINE"), [line for own in members for line in own]
+        how, lines = block.options.text("COMBINE"), [line for member in members for line in member]
         if len({bool(line.face) for line in lines}) > 1:
             raise block.error("combines surfaces of elements and of nodes; expected one kind")
         if how == "UNION":
             return _merged(lines)
-        first, second = (_keys(own, lines) for own in members)
+        first, second = (_keys(member, lines) for member in members)
         return _chosen(members[0], np.isin(first, second) == (how == "INTERSECTION"))
 
     def nodes(self, name: str, source: Source, owner: str = "") -> IntArray:
-        """Return the node indices of a surface, ascending. Raises DeckError if it is unknown, or its faces are."""
-        lines, parts = self._lines(name, source, owner), [np.zeros(0, dtype=np.int64)]
+        """Return the node indices of a surface, ascending. Raises DeckError if it or a face is unknown."""
         if self.kind(name, source, owner) == "NODE":
-            parts += [line.members for line in lines]
+            parts = [line.members for line in self._lines(name, source, owner)]
         else:
-            parts += [self._face(element, line)[1] for line in lines for element in line.members.tolist()]
-        return np.unique(np.concatenate(parts))
+            facets = self.facets(name, source, owner)
+            parts = [group.nodes[rows][:, list(local)].ravel() for group, rows, local, _ in facets]
+        return np.unique(np.concatenate([np.zeros(0, dtype=np.int64), *parts]))
 
     def shares(self, name: str, source: Source, owner: str = "") -> tuple[IntArray, FloatArray]:
-        """Return the nodes of a surface, ascending, and their tributary areas or lengths,
-        which are 1 on a surface of nodes.
-        """
+        """Return the nodes of a surface, ascending, and their tributary areas or lengths (1 on a surface of nodes)."""
         nodes = self.nodes(name, source, owner)
         if self.kind(name, source, owner) == "NODE":
             return nodes, np.ones(len(nodes))
         areas = np.zeros(len(nodes))
-        for line in self._lines(name, source, owner):
-            for element in line.members.tolist():
-                family, face = self._face(element, line)
-                places = self._flat.mesh.coordinates[face]
-                np.add.at(areas, np.searchsorted(nodes, face), tributary_areas(family, places))
+        for group, rows, local, _ in self.facets(name, source, owner):
+            family, faces = face_family(group, local), group.nodes[rows][:, list(local)]
+            assert family is not None
+            np.add.at(areas, np.searchsorted(nodes, faces), tributary_areas(family, self._flat.mesh.coordinates[faces]))
         return nodes, areas
 
     def faces(self, name: str, source: Source) -> list[tuple[IntArray, str, Source]]:
-        """Return the elements (positions) and their face (S1, ...) of each line of a surface of elements.
-        Raises DeckError.
-        """
+        """Return the elements (positions) and their face (S1, ...) of each line of a surface. Raises DeckError."""
         lines = self._lines(name, source, "")
         if self.kind(name, source) == "NODE":
-            place = self.locate(name, source, "")[1].source
-            raise DeckError(source, f"surface {name} ({place}) has no faces of elements")
+            location = self.locate(name, source, "")[1].source
+            raise DeckError(source, f"surface {name} ({location}) has no faces of elements")
         return [(line.members, line.face, line.row.source) for line in lines]
 
     def facets(
         self, name: str, source: Source, owner: str = ""
     ) -> Iterator[tuple[ElementGroup, IntArray, Face, Source]]:
-        """Yield the faces of a surface: a group, rows of it, the local nodes of their face, the place.
+        """Yield the faces of a surface: a group, rows of it, the local nodes of their face, the location.
         Raises DeckError.
         """
         for line in self._lines(name, source, owner):
-            numbers = np.searchsorted(self._starts, line.members, side="right") - 1
-            for k in np.unique(numbers).tolist():
+            for k, members in self._by_group(line.members):
                 local = face_nodes(self._groups[k], line.face, line.row.source, "SURFACE")
-                yield self._groups[k], line.members[numbers == k] - self._starts[k], local, line.row.source
+                yield self._groups[k], members - self._starts[k], local, line.row.source
 
     def of_nodes(self, name: str, source: Source, owner: str = "") -> list[tuple[IntArray, float]] | None:
-        """Return the nodes of each line of a surface of nodes, with the area of each node;
-        None for a surface of faces.
-        """
+        """Return the nodes of each line of a surface of nodes, and their area; None for a surface of faces."""
         lines = self._lines(name, source, owner)
         if self.kind(name, source, owner) != "NODE":
             return None
-        for row in (line.row for line in lines):
-            if not row.real(1, "area", 1.0) > 0.0:
-                raise row.error(f"area {row.real(1, 'area'):g} must be positive")
-        return [(line.members, line.row.real(1, "area", 1.0)) for line in lines]
+        return [(line.members, line.row.positive(1, "area", 1.0)) for line in lines]
 
     def by_group(self, elements: IntArray) -> Iterator[tuple[ElementGroup, IntArray]]:
-        """Yield the rows of elements, given by their positions in the model, group by group."""
-        groups = np.searchsorted(self._starts, elements, side="right") - 1
-        for k in np.unique(groups).tolist():
-            yield self._groups[k], elements[groups == k]
+        """Yield the elements, by their positions in the model, group by group."""
+        return ((self._groups[k], members) for k, members in self._by_group(elements))
 
     def nodes_of(self, elements: IntArray) -> set[int]:
-        """Return the nodes of elements, given by their positions in the model."""
-        found: set[int] = set()
-        for element in elements.tolist():
-            k = int(np.searchsorted(self._starts, element, side="right")) - 1
-            found |= set(self._groups[k].nodes[element - self._starts[k]].tolist())
-        return found
+        """Return the nodes of elements, by their positions in the model."""
+        nodes = [self._groups[k].nodes[own - self._starts[k]].ravel() for k, own in self._by_group(elements)]
+        return set(np.unique(np.concatenate([np.zeros(0, dtype=np.int64), *nodes])).tolist())
 
-    def _face(self, element: int, line: _Line) -> tuple[Family, IntArray]:
-        """Return the family and nodes of the face of an element of a line; element: position in the model."""
-        k = int(np.searchsorted(self._starts, element, side="right")) - 1
-        group = self._groups[k]
-        local = face_nodes(group, line.face, line.row.source, "SURFACE")
-        kind = group.built_in
-        nodes: IntArray = group.nodes[element - self._starts[k]][list(local)]
-        if isinstance(kind, CohesiveType):
-            return kind.face, nodes
-        assert isinstance(kind, SolidType | SurfaceType | RigidType)
-        whole = not isinstance(kind, SolidType) and len(local) == kind.nodes
-        return kind.family if whole else kind.family.face_family(local), nodes
+    def _by_group(self, elements: IntArray) -> Iterator[tuple[int, IntArray]]:
+        groups = np.searchsorted(self._starts, elements, side="right") - 1
+        return ((k, elements[groups == k]) for k in np.unique(groups).tolist())
 
 
-def tributary_areas(family: Family, places: FloatArray) -> FloatArray:
-    """Compute the area or length that belongs to each node of faces of a family.
+def tributary_areas(family: Family, points: FloatArray) -> FloatArray:
+    """Compute the tributary area or length of each node of faces of a family.
 
-    On linear faces that is the integral of its shape function. Those of quadratic faces are negative at corners, or
-    zero; such a face is cut at the middles of its edges instead, and the area between its corners is shared.
+    On linear faces it is the integral of the shape function. On quadratic faces, where that is zero or negative at
+    corners, it is the area of the parts cut at the midside nodes.
 
     Parameters
     ----------
     family
-        Of the face.
-    places
-        (..., n, 3) coordinates of faces: corners, then middles of edges.
+        Family of the faces.
+    points
+        (..., n, 3) coordinates of faces: corners, then midside nodes.
 
     Returns
     -------
     FloatArray
         (..., n).
     """
-    first, second, third = (places[..., k % family.corners, :] for k in range(3))
-    areas = np.zeros((*places.shape[:-2], family.corners))
+    first, second, third = (points[..., k % family.corners, :] for k in range(3))
+    areas = np.zeros((*points.shape[:-2], family.corners))
     if family.dimension == 1:
         areas += 0.5 * np.linalg.norm(second - first, axis=-1)[..., None]
     elif family.corners == 3:
@@ -280,14 +247,14 @@ def tributary_areas(family: Family, places: FloatArray) -> FloatArray:
     else:
         for xi, eta in _GAUSS:
             along, across = 1.0 + xi * _CORNERS[0], 1.0 + eta * _CORNERS[1]
-            tangents = [0.25 * slopes @ places[..., :4, :] for slopes in (_CORNERS[0] * across, _CORNERS[1] * along)]
+            tangents = [0.25 * slopes @ points[..., :4, :] for slopes in (_CORNERS[0] * across, _CORNERS[1] * along)]
             areas += 0.25 * along * across * np.linalg.norm(np.cross(*tangents), axis=-1)[..., None]
-    shares = _QUADRATIC.get(family.number)
-    return areas if shares is None else areas.sum(axis=-1, keepdims=True) * np.array(shares)
+    fractions = _QUADRATIC.get(family.number)
+    return areas if fractions is None else areas.sum(axis=-1, keepdims=True) * np.array(fractions)
 
 
 def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> tuple[int, ...]:
-    """Return the local nodes of a face of the elements of a group: corners, then middles of edges. Raises DeckError."""
+    """Return the local nodes of a face of the elements of a group: corners, then midside nodes. Raises DeckError."""
     kind = group.built_in
     faces = {}
     if isinstance(kind, SolidType):
@@ -305,21 +272,19 @@ def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> 
     return faces[face]
 
 
-def family_of_face(group: ElementGroup, local: Face) -> Family | None:
-    """Return the family of a face of solids, rigid or cohesive elements, None for others."""
+def face_family(group: ElementGroup, local: Face) -> Family | None:
+    """Return the family of a face, or of an edge of shells; None for elements without faces."""
     kind = group.built_in
-    if isinstance(kind, RigidType):
-        return kind.family
     if isinstance(kind, CohesiveType):
         return kind.face
-    return kind.family.face_family(local) if isinstance(kind, ContinuumType) else None
+    if isinstance(kind, SurfaceType | RigidType) and len(local) == kind.nodes:
+        return kind.family
+    return kind.family.face_family(local) if isinstance(kind, SolidType | SurfaceType | RigidType) else None
 
 
 def linear_face(group: ElementGroup, local: Face) -> Family | None:
-    """Return the family of a linear face of solids or rigid elements,
-    None for other elements and faces with middle nodes.
-    """
-    family = None if isinstance(group.built_in, CohesiveType) else family_of_face(group, local)
+    """Return the family of a linear face of continuum or rigid elements, None for others and for quadratic faces."""
+    family = face_family(group, local) if isinstance(group.built_in, ContinuumType | RigidType) else None
     return family if family in (LINE2, TRI3, QUAD4) else None
 
 

@@ -43,9 +43,7 @@ def read_beam_section(block: Block, materials: Mapping[str, Material], dimension
     material, density = None, 0.0
     if general:
         young, shear = _read_moduli(block, rows[2] if len(rows) > 2 else None)
-        density = options.real("DENSITY", 0.0)
-        if density < 0:
-            raise block.error(f"DENSITY={density:g} must not be negative")
+        density = block.not_negative("DENSITY", 0.0)
     else:
         material = look_up(materials, options.text("MATERIAL"), "material", block.source)
         young, shear = 0.0, 0.0
@@ -71,28 +69,28 @@ def read_beam_section(block: Block, materials: Mapping[str, Material], dimension
 
 def _read_dimensions(row: Row, profile: str) -> tuple[float, ...]:
     names = _DIMENSIONS[profile]
-    # the last two of GENERAL are for open sections, which beams of these types are not
+    # the last two entries of GENERAL are for beams with open sections
     row.at_most(len(names) + (2 if profile == "GENERAL" else 0))
-    found = {name: row.real(k, name, 0.0 if name in _MAY_VANISH else None) for k, name in enumerate(names)}
-    for name, value in found.items():
+    dimensions = {name: row.real(k, name, 0.0 if name in _MAY_VANISH else None) for k, name in enumerate(names)}
+    for name, value in dimensions.items():
         if name not in _MAY_VANISH and not value > 0:
             raise row.error(f"{name} = {value:g} must be positive")
-    if profile == "PIPE" and found["wall thickness"] >= found["outside radius"]:
+    if profile == "PIPE" and dimensions["wall thickness"] >= dimensions["outside radius"]:
         raise row.error("the wall thickness must be less than the outside radius")
     if profile == "BOX":
-        if len({found[f"t{k}"] for k in range(1, 5)}) > 1:
+        if len({dimensions[f"t{k}"] for k in range(1, 5)}) > 1:
             raise row.error("walls of different thickness are not supported")
-        if 2 * found["t1"] >= min(found["a"], found["b"]):
+        if 2 * dimensions["t1"] >= min(dimensions["a"], dimensions["b"]):
             raise row.error("the walls are thicker than the box")
-    if profile == "I" and found["t1"] + found["t2"] >= found["h"]:
+    if profile == "I" and dimensions["t1"] + dimensions["t2"] >= dimensions["h"]:
         raise row.error("the flanges are thicker than the section is high (h)")
-    return tuple(found.values())
+    return tuple(dimensions.values())
 
 
 def _read_n1(row: Row) -> tuple[float, float, float]:
     row.at_most(3)
-    given = row.real(0, "n1", 0.0), row.real(1, "n1", 0.0), row.real(2, "n1", 0.0)
-    return given if any(given) else (0.0, 0.0, -1.0)
+    n1 = row.real(0, "n1", 0.0), row.real(1, "n1", 0.0), row.real(2, "n1", 0.0)
+    return n1 if any(n1) else (0.0, 0.0, -1.0)
 
 
 def _read_moduli(block: Block, row: Row | None) -> tuple[float, float]:
@@ -110,29 +108,23 @@ def _read_moduli(block: Block, row: Row | None) -> tuple[float, float]:
 def _check_points(row: Row, profile: str, dimension: int) -> None:
     default = DEFAULT_POINTS[profile][dimension - 2]
     row.at_most(len(default))
-    given = tuple(row.integer(k, "number of section points", count) for k, count in enumerate(default))
-    if given != default:
+    points = tuple(row.integer(k, "number of section points", count) for k, count in enumerate(default))
+    if points != default:
         expected = ", ".join(map(str, default))
         raise row.error(f"only the default numbers of section points are supported ({expected})")
 
 
 def read_beam_shear(block: Block) -> tuple[tuple[float, ...], float | None]:
-    """Read K23 and K13, none for those of the profile, and the slenderness factor, None for the default.
-    Raises DeckError.
-    """
-    row = next(block.rows(), None)
-    if row is None:
-        raise block.error("needs a data line with K23, K13")
+    """Read K23 and K13 (empty: of the profile) and the slenderness factor (None: default). Raises DeckError."""
+    row = block.required_rows("K23, K13")[0]
     row.at_most(3)
     if not row.blank(2) and row.name(2, "slenderness compensation factor") == "SCF":
         raise row.error("SCF, a slenderness compensation factor from the moduli, is not supported; give its value")
     second, first = row.real(0, "K23", 0.0), row.real(1, "K13", 0.0)
     if second < 0 or first < 0:
         raise row.error(f"K23 = {second:g}, K13 = {first:g} must not be negative")
-    slenderness = None if row.blank(2) else row.real(2, "slenderness compensation factor")
-    if slenderness is not None and slenderness < 0:
-        raise row.error(f"slenderness compensation factor {slenderness:g} must not be negative")
-    # one that is left out or zero is the other one
+    slenderness = None if row.blank(2) else row.not_negative(2, "slenderness compensation factor")
+    # a missing or zero value equals the other one
     return (second or first, first or second) if second or first else (), slenderness
 
 

@@ -22,11 +22,11 @@ def _read_controls(block: Block) -> SectionControls:
     degradation = options.real("MAX DEGRADATION", 1.0)
     if not 0 < degradation <= 1:
         raise block.error(f"MAX DEGRADATION={degradation:g}: expected a number above 0, up to 1")
-    viscosity = options.real("VISCOSITY", 0.0) if options.given("VISCOSITY") else None
+    viscosity = options.real("VISCOSITY", 0.0) if options.has("VISCOSITY") else None
     if viscosity is not None and viscosity < 0:
         raise block.error(f"VISCOSITY={viscosity:g} must not be negative")
-    deletion = options.flag("ELEMENT DELETION") or not options.given("ELEMENT DELETION")
-    enhanced = options.text("HOURGLASS") == "ENHANCED" if options.given("HOURGLASS") else None
+    deletion = options.flag("ELEMENT DELETION") or not options.has("ELEMENT DELETION")
+    enhanced = options.text("HOURGLASS") == "ENHANCED" if options.has("HOURGLASS") else None
     row = next(block.rows(), None)
     # "any data given on the data line will be ignored" where it is enhanced (Abaqus Keywords Guide)
     factors = [1.0, 1.0]

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Names of the properties and variables of a user element, from comments below its *USER ELEMENT.
 
-Abaqus has no keyword for them, and takes a comment anywhere, so a deck with names runs there unchanged.
+Abaqus has no keyword for them, and allows comments anywhere: a deck with names runs there unchanged.
 """
 
 from __future__ import annotations
@@ -22,19 +22,17 @@ _UNNAMED: Final = "-"
 
 
 def read_names(block: Block, element: UserElement, problems: Problems) -> ElementNames:
-    """Read the names in the comments of a *USER ELEMENT; warn of those that do not fit
-    the element and leave them out.
-    """
-    found: dict[str, list[str]] = {}
-    places: dict[str, Source] = {}
+    """Read the names in the comments of a *USER ELEMENT; warn of names that do not match it, and drop them."""
+    names_of: dict[str, list[str]] = {}
+    locations: dict[str, Source] = {}
     for text, source in block.comments:
         if match := _LINE.match(text):
             kind = " ".join(match[1].upper().replace("IP", "I P").split())
-            places.setdefault(kind, source)
-            found.setdefault(kind, []).extend(name.strip() for name in match[2].strip(" ,").split(","))
-    wanted = {"PROPERTIES": element.properties, "I PROPERTIES": element.integer_properties}
-    for kind, names in list(found.items()):
-        count, fault = wanted.get(kind, element.variables), ""
+            locations.setdefault(kind, source)
+            names_of.setdefault(kind, []).extend(name.strip() for name in match[2].strip(" ,").split(","))
+    counts = {"PROPERTIES": element.properties, "I PROPERTIES": element.integer_properties}
+    for kind, names in list(names_of.items()):
+        count, fault = counts.get(kind, element.variables), ""
         plain = [_plain(name, kind) for name in names if name != _UNNAMED]
         if not all(names):
             fault = "a name is empty"
@@ -45,16 +43,16 @@ def read_names(block: Block, element: UserElement, problems: Problems) -> Elemen
         elif kind != "VARIABLES" and len(names) != count:
             fault = f"{len(names)} names for {kind}={count}"
         if fault:
-            problems.warn(places[kind], f"*USER ELEMENT: {fault}; the names of {kind} in comments are not used")
-            del found[kind]
+            problems.warn(locations[kind], f"*USER ELEMENT: {fault}; the names of {kind} in comments are not used")
+            del names_of[kind]
     return ElementNames(
-        tuple(found.get("PROPERTIES", [])),
-        tuple(found.get("I PROPERTIES", [])),
-        tuple("" if name == _UNNAMED else _plain(name, "VARIABLES") for name in found.get("VARIABLES", [])),
+        tuple(names_of.get("PROPERTIES", [])),
+        tuple(names_of.get("I PROPERTIES", [])),
+        tuple("" if name == _UNNAMED else _plain(name, "VARIABLES") for name in names_of.get("VARIABLES", [])),
     )
 
 
 def _plain(name: str, kind: str) -> str:
-    """Return a name without its unit; that of a variable in the spelling of output requests."""
+    """Return a name without its unit, for a variable in the spelling of output requests."""
     plain = _UNIT.sub("", name)
     return compact(plain) if kind == "VARIABLES" else plain

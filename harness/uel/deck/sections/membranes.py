@@ -7,8 +7,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Final
 
-from uel.deck.error_report import look_up
 from uel.deck.language.blocks import Block
+from uel.deck.language.definitions import named
 from uel.deck.language.table import Keyword, Kind, Option, Where, refused
 from uel.deck.sections.shells import surface_material
 from uel.model.properties import Material, MembraneSection, Orientation, SectionControls
@@ -26,18 +26,13 @@ def read_membrane_section(
 ) -> MembraneSection:
     """Read the section of membranes. Raises DeckError."""
     material = surface_material(block, block.options.text("MATERIAL"), materials)
-    name = block.options.text("ORIENTATION")
-    orientation = look_up(orientations, name, "orientation", block.source) if name else None
+    orientation = named(block, "ORIENTATION", orientations)
     poisson = block.options.real("POISSON", _INCOMPRESSIBLE)
     if not -1 <= poisson <= _INCOMPRESSIBLE:
         raise block.error(f"POISSON={poisson:g}: expected a number from -1 to {_INCOMPRESSIBLE:g}")
-    row = block.only_row()
-    if row is None:
-        raise block.error("needs a data line with the thickness")
+    row = block.required_row("the thickness")
     row.at_most(1)
-    thickness = row.real(0, "thickness")
-    if thickness <= 0:
-        raise row.error(f"thickness {thickness:g} must be positive")
+    thickness = row.positive(0, "thickness")
     return MembraneSection(
         block.options.text("ELSET"), material, orientation, thickness, poisson, block.source, controls
     )

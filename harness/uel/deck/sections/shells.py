@@ -10,6 +10,7 @@ from typing import Final, Literal
 
 from uel.deck.error_report import look_up
 from uel.deck.language.blocks import Block, Row
+from uel.deck.language.definitions import named
 from uel.deck.language.numbers import read_real
 from uel.deck.language.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from uel.model.properties import Material, Orientation, SectionControls, ShellLayer, ShellSection
@@ -20,9 +21,7 @@ MOST_POINTS: Final = 250
 """Section points of a layer."""
 _SIDES: Final = {"SPOS": 0.5, "SNEG": -0.5}
 _DEFAULT_POINTS: Final = {("SIMPSON", False): 5, ("SIMPSON", True): 3, ("GAUSS", False): 3, ("GAUSS", True): 2}
-"""Default number of section points by the rule, and whether the section is composite (Abaqus Keywords Guide,
-*SHELL SECTION).
-"""
+"""Default number of section points by rule and COMPOSITE (Abaqus Keywords Guide, *SHELL SECTION)."""
 
 
 def read_shell_section(
@@ -34,9 +33,8 @@ def read_shell_section(
     """Read the section of shells. Raises DeckError."""
     options, rows = block.options, list(block.rows())
     composite = options.flag("COMPOSITE")
-    name = options.text("ORIENTATION")
-    orientation = look_up(orientations, name, "orientation", block.source) if name else None
-    if composite == options.given("MATERIAL"):
+    orientation = named(block, "ORIENTATION", orientations)
+    if composite == options.has("MATERIAL"):
         more = "; a stiffness matrix is not supported" if block.name == "SHELL GENERAL SECTION" else ""
         raise block.error(f"expected either MATERIAL= or COMPOSITE, with the material of each layer on its line{more}")
     if not rows or (len(rows) > 1 and not composite):
@@ -60,7 +58,7 @@ def read_shell_section(
         controls,
         stack=None if stack == "ORIENTATION" else int(stack),
         poisson=_poisson(block),
-        modulus=_thickness_modulus(block),
+        modulus=block.positive("THICKNESS MODULUS", 0.0),
     )
 
 
@@ -80,16 +78,8 @@ def _poisson(block: Block) -> float | Literal["ELASTIC"] | None:
     return value
 
 
-def _thickness_modulus(block: Block) -> float:
-    """Read the thickness modulus of continuum shells; 0 for the default. Raises DeckError."""
-    value = block.options.real("THICKNESS MODULUS", 0.0)
-    if block.options.given("THICKNESS MODULUS") and value <= 0:
-        raise block.error(f"THICKNESS MODULUS={value:g} must be positive")
-    return value
-
-
 def _rule(block: Block) -> str:
-    """Return the rule through the thickness; Simpson's is exact if the section is linear elastic."""
+    """Return the rule through the thickness; Simpson's rule is exact for linear elastic sections."""
     return block.options.text("SECTION INTEGRATION") if block.name == "SHELL SECTION" else "SIMPSON"
 
 
@@ -102,11 +92,9 @@ def _offset(block: Block) -> float:
 
 
 def _read_layer(block: Block, row: Row, materials: Mapping[str, Material], default: int) -> ShellLayer:
-    thickness = row.real(0, "thickness")
-    if thickness <= 0:
-        raise row.error(f"thickness {thickness:g} must be positive")
+    thickness = row.positive(0, "thickness")
     if block.name == "SHELL GENERAL SECTION":
-        # the second entry of a layer has no meaning
+        # the second entry of a layer is not used
         row.at_most(4 if block.options.flag("COMPOSITE") else 1)
         points = default
     else:
@@ -133,26 +121,22 @@ def surface_material(block: Block, name: str, materials: Mapping[str, Material])
     material = look_up(materials, name, "material", block.source)
     depends = material.user_field or (material.elastic is not None and material.elastic.table is not None)
     if block.name == "SHELL GENERAL SECTION" and (material.user or material.plastic or depends):
-        what = "depends on temperature or fields" if depends else "is not linear elastic"
-        message = f"material {material.name} {what}, but the section is linear elastic with constants"
+        fault = "depends on temperature or fields" if depends else "is not linear elastic"
+        message = f"material {material.name} {fault}, but the section is linear elastic with constants"
         raise block.error(f"{message}; *SHELL SECTION takes it")
     return material
 
 
 def read_shear_stiffness(block: Block) -> tuple[tuple[float, float, float], float | None]:
     """Read K11, K22 and K12, and the slenderness factor, None for the default. Raises DeckError."""
-    row = next(block.rows(), None)
-    if row is None:
-        raise block.error("needs a data line with K11, K22, K12")
+    row = block.required_rows("K11, K22, K12")[0]
     row.at_most(4)
     first, second = row.real(0, "K11"), row.real(1, "K22")
     coupling = row.real(2, "K12", 0.0)
     if not (first > 0 and second > 0 and first * second > coupling**2):
         message = f"K11 = {first:g}, K22 = {second:g}, K12 = {coupling:g}: expected a positive definite stiffness"
         raise row.error(message)
-    slenderness = None if row.blank(3) else row.real(3, "slenderness factor")
-    if slenderness is not None and slenderness < 0:
-        raise row.error(f"slenderness factor {slenderness:g} must not be negative")
+    slenderness = None if row.blank(3) else row.not_negative(3, "slenderness factor")
     return (first, second, coupling), slenderness
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*SOLID SECTION, *COHESIVE SECTION, *SPRING and *MASS, made for the element type they are used with.
+"""Sections for their element types: *SOLID SECTION, *COHESIVE SECTION, *SPRING and *MASS.
 
 *UEL PROPERTY is in user_elements.py, *SHELL SECTION in shells.py, *MEMBRANE SECTION in membranes.py, *BEAM SECTION in
 beams.py.
@@ -15,13 +15,13 @@ import numpy as np
 
 from uel.deck.error_report import Problems, look_up
 from uel.deck.language.blocks import Block, Row
+from uel.deck.language.definitions import named
 from uel.deck.language.table import Keyword, Kind, Option, Where, ignored, one_of, refused
 from uel.deck.sections.beams import BEAM_KEYWORDS, read_beam_section
 from uel.deck.sections.membranes import MEMBRANE_KEYWORD, read_membrane_section
 from uel.deck.sections.shells import MOST_POINTS, SHELL_KEYWORDS, read_shell_section
 from uel.deck.sections.user_elements import LARGEST_DOF, ElementType, read_user_property
-from uel.errors import DeckError, Source
-from uel.model.arrays import IntArray
+from uel.errors import DeckError
 from uel.model.element_types import BEAM, DISCRETE, GENERALISED, LAYERED, DiscreteKind
 from uel.model.properties import (
     CohesiveSection,
@@ -46,7 +46,7 @@ def make_section(
     controls: Mapping[str, SectionControls],
     problems: Problems,
 ) -> Section:
-    """Make the section that a keyword gives to elements of a type. Raises DeckError if the two do not go together."""
+    """Make the section of a keyword for elements of a type. Raises DeckError if they do not match."""
     options = block.options
     elset = options.text("ELSET")
     alike = any({block.name, kind.section}.issubset(names) for names in (BEAM_KEYWORDS, SHELL_KEYWORDS))
@@ -59,13 +59,11 @@ def make_section(
     if block.name in (*SHELL_KEYWORDS, MEMBRANE_KEYWORD):
         read = read_membrane_section if block.name == MEMBRANE_KEYWORD else read_shell_section
         return read(block, materials, orientations, _controls(block, controls))
-    name = options.text("MATERIAL")
-    material = look_up(materials, name, "material", block.source) if name else None
+    material = named(block, "MATERIAL", materials)
     if block.name == "COHESIVE SECTION":
         assert material is not None
         return _cohesive_section(block, material, controls)
-    name = options.text("ORIENTATION")
-    orientation = look_up(orientations, name, "orientation", block.source) if name else None
+    orientation = named(block, "ORIENTATION", orientations)
     if kind.definition:
         return read_user_property(block, kind.definition, material, orientation, problems)
     layers: tuple[SolidLayer, ...] = ()
@@ -77,28 +75,26 @@ def make_section(
 def _solid_section(
     block: Block,
     type: str,
-    given: Material | tuple[SolidLayer, ...],
+    content: Material | tuple[SolidLayer, ...],
     orientation: Orientation | None,
     controls: Mapping[str, SectionControls],
 ) -> SolidSection | CompositeSection:
     """Make the section of solids from a material, or from layers. Raises DeckError."""
-    elset, found = block.options.text("ELSET"), _controls(block, controls)
-    if isinstance(given, tuple):
+    elset, section_controls = block.options.text("ELSET"), _controls(block, controls)
+    if isinstance(content, tuple):
         direction = int(block.options.text("STACK DIRECTION"))
-        return CompositeSection(elset, given, direction, block.source, controls=found)
+        return CompositeSection(elset, content, direction, block.source, controls=section_controls)
     rows = list(block.rows())
     if type in GENERALISED:
         _check_planes(rows)
     thickness = _thickness(rows, 0, "thickness")
-    return SolidSection(elset, given, orientation, thickness, block.source, controls=found)
+    return SolidSection(elset, content, orientation, thickness, block.source, controls=section_controls)
 
 
 def _is_composite(block: Block, kind: ElementType) -> bool:
-    """Return whether a solid section has layers.
-    Raises DeckError unless it has either a material or layers, for bricks.
-    """
+    """Return whether a solid section has layers. Raises DeckError unless it has either a material or layers."""
     composite = block.options.flag("COMPOSITE")
-    if composite == block.options.given("MATERIAL"):
+    if composite == block.options.has("MATERIAL"):
         raise block.error("expected either MATERIAL= or COMPOSITE, with the material of each layer on its line")
     if composite and kind.name not in LAYERED:
         types = ", ".join(LAYERED)
@@ -129,9 +125,7 @@ def _solid_layer(
 ) -> SolidLayer:
     # the fifth is the name of the layer
     row.at_most(5)
-    thickness, points = row.real(0, "thickness"), row.integer(1, "number of section points", 1)
-    if thickness <= 0:
-        raise row.error(f"thickness {thickness:g} must be positive")
+    thickness, points = row.positive(0, "thickness"), row.integer(1, "number of section points", 1)
     if not 1 <= points <= MOST_POINTS or points % 2 == 0:
         raise row.error(f"{points} section points: expected an odd number from 1 to {MOST_POINTS - 1}")
     material = look_up(materials, row.name(2, "material"), "material", row.source)
@@ -140,8 +134,8 @@ def _solid_layer(
     try:
         angle = row.real(3, "orientation angle")
     except DeckError:
-        own = look_up(orientations, row.name(3, "orientation"), "orientation", row.source)
-        return SolidLayer(thickness, points, material, own)
+        of_layer = look_up(orientations, row.name(3, "orientation"), "orientation", row.source)
+        return SolidLayer(thickness, points, material, of_layer)
     if of_section is None:
         raise row.error("an angle is measured from the ORIENTATION of the section, which is not given")
     return SolidLayer(thickness, points, material, of_section, angle)
@@ -154,10 +148,10 @@ def _without_material(block: Block, kind: ElementType) -> MassSection | RigidSec
     return MassSection(elset, _mass(block), block.source) if block.name == "MASS" else _spring(block, kind)
 
 
-def reference_node(block: Block, type: str, find: Callable[[str, Source], IntArray]) -> int:
-    """Return the index of the node that REF NODE of *SOLID SECTION names, -1 if the elements have none.
+def reference_node(block: Block, type: str, find: Callable[[str, str, Block], int]) -> int:
+    """Return the index of the REF NODE of *SOLID SECTION, -1 for elements without.
 
-    find: nodes of a number or set. Raises DeckError.
+    find: `FlatMesh.one_node` of the instance. Raises DeckError.
     """
     name = block.options.text("REF NODE")
     if name and type not in GENERALISED:
@@ -167,10 +161,7 @@ def reference_node(block: Block, type: str, find: Callable[[str, Source], IntArr
         if type in GENERALISED:
             raise block.error(f"elements of type {type} need REF NODE")
         return -1
-    nodes = find(name, block.source)
-    if len(nodes) != 1:
-        raise block.error(f"REF NODE={name} has {len(nodes)} nodes; expected one")
-    return int(nodes[0])
+    return find(name, f"REF NODE={name}", block)
 
 
 def _check_planes(rows: list[Row]) -> None:
@@ -181,19 +172,13 @@ def _check_planes(rows: list[Row]) -> None:
 
 
 def _mass(block: Block) -> float:
-    row = next(block.rows(), None)
-    if row is None:
-        raise block.error("needs a data line with the mass")
-    mass = row.real(0, "mass")
-    if mass < 0:
-        raise row.error(f"mass {mass:g} must not be negative")
-    return mass
+    return block.required_rows("the mass")[0].not_negative(0, "mass")
 
 
 def _spring(block: Block, kind: ElementType) -> SpringSection:
-    """Read a first line with the dofs, blank for SPRINGA and DASHPOTA, then the stiffness, or force and elongation.
+    """Read a line with the dofs, blank for SPRINGA and DASHPOTA, then the stiffness, or force and elongation.
 
-    Of dashpots these are the damping coefficient, or force and velocity.
+    For dashpots: the damping coefficient, or force and velocity.
     """
     constant, variable = ("stiffness", "elongation") if block.name == "SPRING" else ("coefficient", "velocity")
     rows = list(block.all_rows())
@@ -206,22 +191,22 @@ def _spring(block: Block, kind: ElementType) -> SpringSection:
         raise rows[0].error(f"a dof is a number from 1 to {LARGEST_DOF}")
     table = [rows[1].real(0, constant)]
     if block.options.flag("NONLINEAR"):
-        table = [row.real(k, what) for row in rows[1:] for k, what in enumerate(("force", variable))]
+        table = [row.real(k, quantity) for row in rows[1:] for k, quantity in enumerate(("force", variable))]
         if len(table) < 4 or any(later <= earlier for earlier, later in pairwise(table[1::2])):
             raise rows[1].error(f"NONLINEAR needs two or more lines of force and {variable}, which ascends")
     elif block.name == "DASHPOT":
-        # a frequency would follow
+        # dependence on frequency is not supported
         rows[1].at_most(1)
     return SpringSection(block.options.text("ELSET"), dofs, np.array(table), block.source)
 
 
-def _thickness(rows: list[Row], index: int, what: str) -> float:
-    """Read a field of the first data line; 1 if it is zero or left out. Raises DeckError if it is negative."""
-    thickness = rows[0].real(index, what, 1.0) if rows else 1.0
+def _thickness(rows: list[Row], index: int, quantity: str) -> float:
+    """Read a field of the first data line; 1 if it is zero or missing. Raises DeckError if it is negative."""
+    thickness = rows[0].real(index, quantity, 1.0) if rows else 1.0
     if thickness == 0:
         return 1.0
     if thickness < 0:
-        raise rows[0].error(f"{what} {thickness:g} must be positive")
+        raise rows[0].error(f"{quantity} {thickness:g} must be positive")
     return thickness
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Definition of user elements, *USER ELEMENT with *UEL PROPERTY, and the meaning of element type names."""
+"""User elements, *USER ELEMENT and *UEL PROPERTY, and element type names."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ Definitions = Mapping[str, UserElement]
 
 @dataclass(frozen=True, slots=True)
 class ElementType:
-    """Type name with the user element it stands for, None for a built-in element."""
+    """Element type name, with the definition of a user element, None for a built-in one."""
 
     name: str
     definition: UserElement | None
@@ -59,8 +59,8 @@ def dofs_of(group: ElementGroup) -> set[int]:
 
 def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[frozenset[int]]:
     """Return the dofs that elements use at each of `count` nodes."""
-    # a bit for each dof: few sets of dofs differ, and nothing is done for each element
-    found = np.zeros(count, dtype=np.int64)
+    # one bit per dof, without a loop over elements
+    bits_of_node = np.zeros(count, dtype=np.int64)
     for group in groups:
         for local in range(group.nodes.shape[1]):
             if group.definition is not None:
@@ -69,10 +69,10 @@ def dofs_by_node(count: int, groups: Sequence[ElementGroup]) -> list[frozenset[i
                 dofs = {group.section.dofs[local]}
             else:
                 dofs = set(BUILT_IN[group.type].dofs(local))
-            found[group.nodes[:, local]] |= sum(1 << dof for dof in dofs)
+            bits_of_node[group.nodes[:, local]] |= sum(1 << dof for dof in dofs)
         if group.reference >= 0:
-            found[group.reference] |= sum(1 << dof for dof in PLANES)
-    of_nodes = found.tolist()
+            bits_of_node[group.reference] |= sum(1 << dof for dof in PLANES)
+    of_nodes = bits_of_node.tolist()
     sets = {bits: frozenset(dof for dof in range(1, LARGEST_DOF + 1) if bits >> dof & 1) for bits in set(of_nodes)}
     return [sets[bits] for bits in of_nodes]
 
@@ -92,13 +92,13 @@ def find_type(name: str, definitions: Definitions, source: Source) -> ElementTyp
         defined = ", ".join(definitions) or "none"
         raise DeckError(source, f"element type {name} is not defined by *USER ELEMENT (defined: {defined})")
     near = difflib.get_close_matches(name, [*BUILT_IN, *definitions], n=_NEAREST, cutoff=0.6)
-    what = "of Abaqus is not supported here" if is_abaqus_element(name) else "is not supported"
+    fault = "of Abaqus is not supported here" if is_abaqus_element(name) else "is not supported"
     hint = f"; the nearest are {', '.join(near)}" if near else ""
-    raise DeckError(source, f"element type {name} {what}{hint}; {LISTED}")
+    raise DeckError(source, f"element type {name} {fault}{hint}; {LISTED}")
 
 
 def refuse_types(blocks: Sequence[Block], problems: Problems) -> None:
-    """Report the first use of each unsupported type of Abaqus, for decks whose other errors end the reading earlier."""
+    """Report the first use of each unsupported type of Abaqus, for decks whose errors end the reading before."""
     seen: set[str] = set()
     for block in blocks:
         if block.name == "ELEMENT":
@@ -110,15 +110,13 @@ def refuse_types(blocks: Sequence[Block], problems: Problems) -> None:
 
 
 def read_user_element(block: Block, problems: Problems) -> UserElement:
-    """Read the definition in a *USER ELEMENT; warn of names in comments that do not fit and leave them out.
-    Raises DeckError.
-    """
+    """Read a *USER ELEMENT, with the names in its comments. Raises DeckError."""
     options = block.options
     name = options.text("TYPE")
     match = _USER_TYPE.fullmatch(name)
     if match is None:
         raise block.error(f"TYPE={name}: expected Un with n from 1 to 9999")
-    if options.given("INTEGRATION") != options.given("TENSOR"):
+    if options.has("INTEGRATION") != options.has("TENSOR"):
         raise block.error("INTEGRATION and TENSOR are given together or not at all")
     nodes = read_count(block, "NODES", 0, 1, MOST_NODES)
     element = UserElement(
@@ -148,8 +146,8 @@ def read_count(block: Block, name: str, default: int, least: int, most: int) -> 
 def _read_dofs(block: Block, nodes: int) -> tuple[tuple[int, int], ...]:
     """Read (local node, dof) of each unknown. Raises DeckError.
 
-    The first line holds the dofs from node 1 on, each later line `position, dofs` those from that position on. A
-    position that does not exceed the one before begins another pass over the nodes.
+    The first line has the dofs from node 1 on, each further line `position, dofs` those from that position on. A
+    position not above the previous one starts another pass over the nodes.
     """
     passes: list[list[tuple[int, tuple[int, ...]]]] = []
     for row in block.rows():
@@ -165,16 +163,16 @@ def _read_dofs(block: Block, nodes: int) -> tuple[tuple[int, int], ...]:
         passes[-1].append((position, dofs))
     if not passes:
         raise block.error("needs a data line with the dofs at the first node")
-    found: list[tuple[int, int]] = []
+    unknowns: list[tuple[int, int]] = []
     for entries in passes:
         for (position, dofs), following in zip(entries, [*(entry[0] for entry in entries[1:]), nodes + 1], strict=True):
-            found += [(node - 1, dof) for node in range(position, following) for dof in dofs]
-    if len(set(found)) != len(found):
-        node, dof = next(pair for pair in found if found.count(pair) > 1)
+            unknowns += [(node - 1, dof) for node in range(position, following) for dof in dofs]
+    if len(set(unknowns)) != len(unknowns):
+        node, dof = next(pair for pair in unknowns if unknowns.count(pair) > 1)
         raise block.error(f"dof {dof} is listed twice at node {node + 1}")
-    if not found:
+    if not unknowns:
         raise block.error("no node has a dof")
-    return tuple(found)
+    return tuple(unknowns)
 
 
 def read_user_property(
@@ -184,35 +182,33 @@ def read_user_property(
     orientation: Orientation | None,
     problems: Problems,
 ) -> UserProperty:
-    """Read the values of a *UEL PROPERTY for elements of a definition, reals first.
-    Raises DeckError if their lines do not fit.
-    """
+    """Read the values of a *UEL PROPERTY, reals first. Raises DeckError if the number of lines is wrong."""
     entries = block.entries(problems.warn)
     reals, integers = definition.properties, definition.integer_properties
-    wanted = reals + integers
-    if len(entries) != wanted:
+    expected = reals + integers
+    if len(entries) != expected:
         announced = f"PROPERTIES={reals}" + (f", I PROPERTIES={integers}" if integers else "")
-        message = f"{len(entries)} values where U{definition.number} takes {wanted} ({announced})"
-        lines, needed = math.ceil(len(entries) / PER_LINE), math.ceil(max(wanted, 1) / PER_LINE)
+        message = f"{len(entries)} values where U{definition.number} takes {expected} ({announced})"
+        lines, needed = math.ceil(len(entries) / PER_LINE), math.ceil(max(expected, 1) / PER_LINE)
         if lines != needed:
             raise block.error(f"{message}; a line has eight values" if lines > needed else message)
-        left = "those that are left are not passed to it" if len(entries) > wanted else "the others are zero"
-        problems.warn(block.source, f"*{block.name}: {message}; {left}")
+        remedy = "those that are left are not passed to it" if len(entries) > expected else "the others are zero"
+        problems.warn(block.source, f"*{block.name}: {message}; {remedy}")
         if entries:
             entries += [(entries[-1][0], index) for index in range(entries[-1][1] + 1, PER_LINE)]
-        entries = entries[:wanted]
+        entries = entries[:expected]
     values = [row.real(index, f"property {index + 1}", 0.0) for row, index in entries[:reals]]
-    whole = []
+    integer_values = []
     for row, index in entries[reals:]:
         value = row.real(index, "integer property", 0.0)
         if value != int(value) or abs(value) > LARGEST_INTEGER:
             raise DeckError(row.source, f"*{block.name}: integer property {row.fields[index]} is not an integer")
-        whole.append(int(value))
+        integer_values.append(int(value))
     return UserProperty(
         block.options.text("ELSET"),
         block.source,
         np.array(values, dtype=np.float64),
-        np.array(whole, dtype=np.int64),
+        np.array(integer_values, dtype=np.int64),
         material,
         orientation,
     )

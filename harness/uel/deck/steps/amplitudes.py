@@ -26,14 +26,14 @@ def _read_amplitude(block: Block) -> Amplitude:
     options = block.options
     name = options.text("NAME")
     spaced = options.text("DEFINITION") == "EQUALLY SPACED"
-    if not spaced and (options.given("FIXED INTERVAL") or options.given("BEGIN")):
+    if not spaced and (options.has("FIXED INTERVAL") or options.has("BEGIN")):
         raise block.error("FIXED INTERVAL and BEGIN are for DEFINITION=EQUALLY SPACED")
     kind = AmplitudeType.TABULAR if spaced else AmplitudeType(options.text("DEFINITION"))
     total, absolute = options.text("TIME") == "TOTAL TIME", options.text("VALUE") == "ABSOLUTE"
     if kind is AmplitudeType.USER:
         properties, variables = _read_user(block)
         return UserAmplitude(name, kind, properties, block.source, total, absolute, variables=variables)
-    if options.given("PROPERTIES") or options.given("VARIABLES"):
+    if options.has("PROPERTIES") or options.has("VARIABLES"):
         raise block.error("PROPERTIES and VARIABLES are for DEFINITION=USER")
     readers = {AmplitudeType.PERIODIC: _read_periodic, AmplitudeType.DECAY: _read_decay}
     data = _read_spaced(block) if spaced else readers.get(kind, _read_pairs)(block)
@@ -44,7 +44,7 @@ def _read_amplitude(block: Block) -> Amplitude:
 
 def _read_smoothing(block: Block, kind: AmplitudeType) -> float | None:
     """Read SMOOTH of a table, None if it is left out. Raises DeckError."""
-    if not block.options.given("SMOOTH"):
+    if not block.options.has("SMOOTH"):
         return None
     smoothing = block.options.real("SMOOTH", 0.0)
     if kind is not AmplitudeType.TABULAR:
@@ -65,7 +65,7 @@ def _read_user(block: Block) -> tuple[FloatArray, int]:
 
 def _read_pairs(block: Block) -> FloatArray:
     values: list[float] = []
-    for row in block.rows():
+    for row in block.required_rows():
         before = values[-2] if len(values) % 2 == 0 and values else None
         values += row.reals("time or value")
         times = ([] if before is None else [before]) + values[len(values) - len(row) :: 2]
@@ -73,8 +73,6 @@ def _read_pairs(block: Block) -> FloatArray:
             raise row.error("expected pairs of time and value")
         if any(later <= earlier for earlier, later in pairwise(times)):
             raise row.error("times must increase")
-    if not values:
-        raise block.error("needs a data line")
     return np.array(values).reshape(-1, 2)
 
 
@@ -83,19 +81,15 @@ def _read_spaced(block: Block) -> FloatArray:
     interval, begin = block.options.real("FIXED INTERVAL", 0.0), block.options.real("BEGIN", 0.0)
     if interval <= 0:
         raise block.error("DEFINITION=EQUALLY SPACED needs a positive FIXED INTERVAL")
-    values = [value for row in block.rows() for value in row.reals("value")]
-    if not values:
-        raise block.error("needs a data line")
+    values = [value for row in block.required_rows() for value in row.reals("value")]
     return np.column_stack([begin + interval * np.arange(len(values)), values])
 
 
 def _read_decay(block: Block) -> FloatArray:
     """Read rows (A0, A), (t0, td). Raises DeckError."""
-    row = next(block.rows(), None)
-    if row is None:
-        raise block.error("needs a data line")
+    row = block.required_rows()[0]
     row.at_most(4)
-    values = [row.real(index, what, 0.0) for index, what in enumerate(("A0", "A", "t0", "td"))]
+    values = [row.real(index, quantity, 0.0) for index, quantity in enumerate(("A0", "A", "t0", "td"))]
     if values[3] <= 0:
         raise row.error(f"decay time td = {values[3]:g} must be positive")
     return np.array(values).reshape(2, 2)
@@ -103,11 +97,9 @@ def _read_decay(block: Block) -> FloatArray:
 
 def _read_periodic(block: Block) -> FloatArray:
     """Read rows (omega, t0), (A0, 0), then (An, Bn). Raises DeckError."""
-    rows = list(block.rows())
-    if not rows:
-        raise block.error("needs a data line")
+    rows = block.required_rows()
     terms = rows[0].integer(0, "number of terms")
-    head = [rows[0].real(index, what, 0.0) for index, what in ((1, "omega"), (2, "t0"), (3, "A0"))]
+    head = [rows[0].real(index, quantity, 0.0) for index, quantity in ((1, "omega"), (2, "t0"), (3, "A0"))]
     values = [value for row in rows[1:] for value in row.reals("coefficient")]
     if len(values) % 2:
         values.append(0.0)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*CONTROLS: the data lines of the manual, entry by entry; later steps keep the values of earlier ones."""
+"""*CONTROLS: data lines as in the manual; values persist in later steps."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from uel.deck.language.table import Keyword, Option, Where, one_of, refused
 from uel.model.controls import Controls, FieldControls, LineSearchControls, TimeControls
 
 EPS_D, DEFAULT_EPS_D = "eps_d", 1e-8
-"""Displacement increments that count as zero, over the characteristic element length; here none does."""
+"""Zero displacement increment over the characteristic element length, which is not used here."""
 
 FIELD_LINES = (("r_n", "c_n", "q_0", "q_u", "r_p", "eps", "c_eps", "r_l"), ("c_f", "eps_l", EPS_D))
 TIME_LINES = (
-    # the last one counts augmentations of contact, of which there are none
+    # the last one is the number of contact augmentations, which are not used
     ("i_0", "i_r", "i_p", "i_c", "i_l", "i_g", "i_s", "i_a", "i_j", "i_t", "i_s_c", "i_j_c", ""),
     ("d_f", "d_c", "d_b", "d_a", "d_s", "d_h", "d_d", "w_g"),
-    # the last two belong to explicit integration of creep
+    # the last two are for explicit creep integration
     ("d_g", "d_m", "d_m_dyn", "d_m_diff", "d_l", "d_e", "", ""),
-    # growth before a time point of the output, at which increments do not end
+    # growth before a time point of the output, where increments do not end here
     ("",),
 )
-# the others belong to constraints that hold exactly: of hybrid beams, soft contact at p = 0
+# the others are for constraints that are exact here: of hybrid beams, soft contact at p = 0
 CONSTRAINT_LINES = (("volume", "", "", "contact", "", "coupling", "coupling_rotation", "contact_force"),)
 LINE_SEARCH_LINES = (("n_ls", "s_max", "s_min", "f_s", "eta_s"),)
 DISCONTINUOUS = {"i_0": 8, "i_r": 10}
@@ -33,7 +33,7 @@ Group = TypeVar("Group", FieldControls, TimeControls, LineSearchControls, Contro
 
 @dataclass(frozen=True, slots=True)
 class ControlState:
-    """Controls as set so far; DISCONTINUOUS overrides I_0 and I_R whenever they are given."""
+    """Controls in force; DISCONTINUOUS overrides I_0 and I_R."""
 
     controls: Controls = field(default_factory=Controls)
     discontinuous: bool = False
@@ -52,12 +52,12 @@ class ControlState:
             if any(block.rows()):
                 raise block.error("RESET takes no data lines")
             return ControlState()
-        state = replace(self, discontinuous=True) if options.given("ANALYSIS") else self
+        state = replace(self, discontinuous=True) if options.has("ANALYSIS") else self
         parameters = options.text("PARAMETERS")
         if not parameters:
             if any(block.rows()):
                 raise block.error("data lines need PARAMETERS=")
-            if not options.given("ANALYSIS"):
+            if not options.has("ANALYSIS"):
                 raise block.error("needs ANALYSIS, PARAMETERS or RESET")
             return state
         return replace(state, controls=_apply(state.controls, parameters, block))
@@ -72,17 +72,15 @@ def _apply(controls: Controls, parameters: str, block: Block) -> Controls:
         return replace(controls, line_search=_update(controls.line_search, LINE_SEARCH_LINES, block))
     name = block.options.text("FIELD")
     if name != "GLOBAL":
-        own = _update(controls.fields.get(name, controls.default), FIELD_LINES, block)
-        return replace(controls, fields={**controls.fields, name: own})
-    each = {key: _update(value, FIELD_LINES, block) for key, value in controls.fields.items()}
-    return replace(controls, default=_update(controls.default, FIELD_LINES, block), fields=each)
+        updated = _update(controls.fields.get(name, controls.default), FIELD_LINES, block)
+        return replace(controls, fields={**controls.fields, name: updated})
+    by_field = {key: _update(value, FIELD_LINES, block) for key, value in controls.fields.items()}
+    return replace(controls, default=_update(controls.default, FIELD_LINES, block), fields=by_field)
 
 
 def _update(group: Group, lines: tuple[tuple[str, ...], ...], block: Block) -> Group:
-    """Return the group updated by the entries on the lines; a blank entry, or a blank line, leaves the value.
-    Raises DeckError.
-    """
-    whole = {item.name for item in fields(group) if isinstance(getattr(group, item.name), int)}
+    """Return the group updated by the data lines; blank entries keep their value. Raises DeckError."""
+    integers = {item.name for item in fields(group) if isinstance(getattr(group, item.name), int)}
     values: dict[str, float] = {}
     for number, row in enumerate(block.all_rows()):
         if number >= len(lines):
@@ -92,7 +90,7 @@ def _update(group: Group, lines: tuple[tuple[str, ...], ...], block: Block) -> G
         row.at_most(len(lines[number]))
         for index, name in enumerate(lines[number]):
             if not row.blank(index):
-                value = _entry(row, index, name, name in whole)
+                value = _entry(row, index, name, name in integers)
                 if name == EPS_D and value > DEFAULT_EPS_D:
                     message = f"{EPS_D.upper()} = {value:g}: only up to the default {DEFAULT_EPS_D:g} is supported"
                     raise row.error(f"{message}, as Abaqus does not document the element length that it is relative to")
@@ -100,11 +98,11 @@ def _update(group: Group, lines: tuple[tuple[str, ...], ...], block: Block) -> G
     return replace(group, **values)  # type: ignore[arg-type]  # int fields get what row.integer returns
 
 
-def _entry(row: Row, index: int, name: str, whole: bool) -> float:
-    what = name.upper() or f"entry {index + 1}"
-    value = row.integer(index, what) if whole else row.real(index, what)
+def _entry(row: Row, index: int, name: str, integer: bool) -> float:
+    quantity = name.upper() or f"entry {index + 1}"
+    value = row.integer(index, quantity) if integer else row.real(index, quantity)
     if value < 0:
-        raise row.error(f"{what} = {value:g} must not be negative")
+        raise row.error(f"{quantity} = {value:g} must not be negative")
     return value
 
 

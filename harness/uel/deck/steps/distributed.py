@@ -12,7 +12,7 @@ import numpy as np
 
 from uel.deck.error_report import Problems
 from uel.deck.language.blocks import Block, Row
-from uel.deck.language.repetition import given_again, overlaps
+from uel.deck.language.repetition import overlaps, repeated_value
 from uel.deck.language.table import Keyword, Kind, Option, Where, refused
 from uel.deck.mesh.flatten import FlatMesh
 from uel.deck.mesh.surfaces import face_nodes
@@ -32,7 +32,7 @@ _ON_EDGE = re.compile(rf"({'|'.join(ON_EDGES)})([1-4])")
 def read_distributed(block: Block, prescription: Prescription) -> list[DistributedLoad | ElementLoad]:
     """Read the entries of one *DLOAD, on user elements and on built-in ones. Raises DeckError."""
     amplitude, imaginary = prescription.amplitude(block), block.options.flag("IMAGINARY")
-    found: list[DistributedLoad | ElementLoad] = []
+    loads: list[DistributedLoad | ElementLoad] = []
     for row in block.rows():
         label = row.name(1, "load type")
         elements = prescription.flat.elements(row.name(0, "element or element set"), row.source)
@@ -40,48 +40,44 @@ def read_distributed(block: Block, prescription: Prescription) -> list[Distribut
         match = _USER_LOAD.fullmatch(label)
         if match is None:
             by_user = _BY_DLOAD.fullmatch(label) is not None
-            given = label.removesuffix("NU") if by_user else label
+            plain = label.removesuffix("NU") if by_user else label
             for group, positions in prescription.surfaces.by_group(elements):
                 solid = _loaded(row, label, group)
                 if isinstance(solid, BeamType):
-                    kept = _beam_load(row, label, solid)
-                    found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source, imaginary))
+                    load_type = _beam_load(row, label, solid)
+                    loads.append(ElementLoad(positions, load_type, magnitude, amplitude, row.source, imaginary))
                     continue
-                kind, face, direction = _volume_load(row, given)
-                if given == "P" and not isinstance(solid, SurfaceType):
+                kind, face, direction = _volume_load(row, plain)
+                if plain == "P" and not isinstance(solid, SurfaceType):
                     message = f"load type P on elements of type {group.type}"
                     raise row.error(f"{message}; expected Pn with the number of a face")
                 if kind is LoadKind.BODY:
-                    direction = _body_direction(row, given, solid)
+                    direction = _body_direction(row, plain, solid)
                 jltyp = _jltyp(face, direction) if by_user else 0
                 nodes = face_nodes(group, face, row.source, block.name) if face else ()
                 follows = kind is LoadKind.PRESSURE or kind in ON_EDGES
-                kept = LoadType(kind, nodes, direction, follows=follows, jltyp=jltyp)
-                found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source, imaginary))
+                load_type = LoadType(kind, nodes, direction, follows=follows, jltyp=jltyp)
+                loads.append(ElementLoad(positions, load_type, magnitude, amplitude, row.source, imaginary))
             continue
         row.at_most(3)
         built_in = prescription.built_in[elements]
         if built_in.any():
             raise row.error(f"load type {label} on elements that are not user elements ({np.count_nonzero(built_in)})")
         kind_number = -int(match[1]) if match[2] else int(match[1])
-        found.append(DistributedLoad(elements, kind_number, magnitude, amplitude, row.source))
-    return found
+        loads.append(DistributedLoad(elements, kind_number, magnitude, amplitude, row.source))
+    return loads
 
 
 def _jltyp(face: str, direction: Direction) -> int:
-    """Return JLTYP of a nonuniform load: 20 + n for face n,
-    1 to 3 for the directions (User Subroutines Guide, DLOAD).
-    """
+    """Return JLTYP of a nonuniform load: 20 + n for face n, 1 to 3 for directions (User Subroutines Guide, DLOAD)."""
     return 20 + int(face[1:]) if face else 1 + direction.index(1.0)
 
 
 def _volume_load(row: Row, label: str) -> tuple[LoadKind, str, Direction]:
-    """Return kind, face ('' for a volume) and direction of a load type of *DLOAD; body forces have it by element.
-    Raises DeckError.
-    """
+    """Return kind, face ('' for a volume) and direction of a *DLOAD label, except that of body forces."""
     match = re.fullmatch(r"P(\d)", label)
     if label == "P":
-        # along the normal of a surface, as on its other side
+        # along the normal of the shell, which is a pressure on SNEG
         row.at_most(3)
         return LoadKind.PRESSURE, "SNEG", _NO_DIRECTION
     if (edge := _ON_EDGE.fullmatch(label)) is not None:
@@ -128,8 +124,8 @@ def _body_direction(row: Row, label: str, solid: ContinuumType | SurfaceType) ->
 def read_surface_loads(block: Block, prescription: Prescription) -> list[ElementLoad]:
     """Read the entries of one *DSLOAD. Raises DeckError."""
     amplitude, imaginary = prescription.amplitude(block), block.options.flag("IMAGINARY")
-    follower = block.options.flag("FOLLOWER") if block.options.given("FOLLOWER") else True
-    found = []
+    follower = block.options.flag("FOLLOWER") if block.options.has("FOLLOWER") else True
+    loads = []
     for row in block.rows():
         label = row.name(1, "load type")
         if label not in (*_SURFACE, *ON_EDGES):
@@ -139,27 +135,27 @@ def read_surface_loads(block: Block, prescription: Prescription) -> list[Element
         row.at_most(6 if directed else 3)
         direction = _direction(row, label) if directed else _NO_DIRECTION
         magnitude = row.real(2, "magnitude", 0.0)
-        for elements, face, place in prescription.surfaces.faces(row.name(0, "surface"), row.source):
+        for elements, face, source in prescription.surfaces.faces(row.name(0, "surface"), row.source):
             for group, positions in prescription.surfaces.by_group(elements):
                 kind_of_element = _loaded(row, label, group)
                 on_edge = isinstance(kind_of_element, SurfaceType) and face in kind_of_element.edges
                 if on_edge != (kind in ON_EDGES):
                     expected = ", ".join(ON_EDGES if on_edge else _SURFACE)
                     raise row.error(f"load type {label} on face {face} of {group.type}; expected {expected}")
-                nodes = face_nodes(group, face, place, "SURFACE")
+                nodes = face_nodes(group, face, source, "SURFACE")
                 follows = follower if kind in (LoadKind.TRACTION, LoadKind.SHEAR, LoadKind.EDGE) else True
-                kept = LoadType(kind, nodes, direction, follows=follows)
-                found.append(ElementLoad(positions, kept, magnitude, amplitude, row.source, imaginary))
-    return found
+                load_type = LoadType(kind, nodes, direction, follows=follows)
+                loads.append(ElementLoad(positions, load_type, magnitude, amplitude, row.source, imaginary))
+    return loads
 
 
 def _direction(row: Row, label: str) -> Direction:
     """Read the unit vector in entries 4 to 6. Raises DeckError."""
-    given = np.array([row.real(index, "component of the direction", 0.0) for index in (3, 4, 5)])
-    length = float(np.linalg.norm(given))
+    components = np.array([row.real(index, "component of the direction", 0.0) for index in (3, 4, 5)])
+    length = float(np.linalg.norm(components))
     if length == 0.0:
         raise row.error(f"{label} needs a direction, entries 4 to 6")
-    x, y, z = (given / length).tolist()
+    x, y, z = (components / length).tolist()
     return x, y, z
 
 
@@ -175,40 +171,38 @@ def _loaded(row: Row, label: str, group: ElementGroup) -> ContinuumType | Surfac
 
 
 def read_fields(block: Block, prescription: Prescription) -> list[Load]:
-    """Read the entries of one of these keywords; their dof is the number of the field, 0 for temperature.
-    Raises DeckError.
-    """
+    """Read one *TEMPERATURE, *FIELD or *PRESSURE STRESS; dof: number of the field, 0 for temperature."""
     amplitude = prescription.amplitude(block)
     number = field_number(block) if block.name == "FIELD" else {"TEMPERATURE": 0}.get(block.name, PRESSURE_STRESS)
     by_user = block.options.known("USER") and block.options.flag("USER")
-    found = []
+    entries = []
     for row in block.rows():
         row.at_most(2)
         nodes = prescription.flat.nodes(row.name(0, "node or node set"), row.source)
-        given = nodes, number, row.real(1, "value", 0.0), amplitude, row.source
-        found.append(Load(*given, user=by_user))
-    return found
+        data = nodes, number, row.real(1, "value", 0.0), amplitude, row.source
+        entries.append(Load(*data, user=by_user))
+    return entries
 
 
 def keep_last(entries: Sequence[Load], flat: FlatMesh, problems: Problems) -> tuple[Load, ...]:
-    """Return the fields of a step, each node with its last value, and warn of earlier ones that differ."""
+    """Return the fields of a step with the last value of each node; warn of earlier values that differ."""
     by_field: dict[int, list[int]] = {}
     for k, entry in enumerate(entries):
         by_field.setdefault(entry.dof, []).append(k)
-    kept = {k: entry.nodes for k, entry in enumerate(entries)}
+    nodes_of = {k: entry.nodes for k, entry in enumerate(entries)}
     for dof, group in by_field.items():
         name = {0: "TEMPERATURE", PRESSURE_STRESS: "PRESSURE STRESS"}.get(dof, f"FIELD, VARIABLE={dof}")
-        for first, later, node in overlaps([kept[k] for k in group]):
+        for first, later, node in overlaps([nodes_of[k] for k in group]):
             before, here = entries[group[first]], entries[group[later]]
             if _value(before) != _value(here):
-                what = f"*{name}: node {flat.mesh.name(node)}"
-                message = given_again(what, _value(here), _value(before), before.source, "in one step")
+                item = f"*{name}: node {flat.mesh.name(node)}"
+                message = repeated_value(item, _value(here), _value(before), before.source, "in one step")
                 problems.warn(here.source, message)
-        taken = np.zeros(len(flat.mesh.labels), dtype=bool)
+        set_later = np.zeros(len(flat.mesh.labels), dtype=bool)
         for k in reversed(group):
-            kept[k] = kept[k][~taken[kept[k]]]
-            taken[kept[k]] = True
-    return tuple(replace(entry, nodes=kept[k]) for k, entry in enumerate(entries) if len(kept[k]))
+            nodes_of[k] = nodes_of[k][~set_later[nodes_of[k]]]
+            set_later[nodes_of[k]] = True
+    return tuple(replace(entry, nodes=nodes_of[k]) for k, entry in enumerate(entries) if len(nodes_of[k]))
 
 
 def _value(entry: Load) -> str:

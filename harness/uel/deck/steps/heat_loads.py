@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Heat that enters elements with temperatures: fluxes, films and radiation."""
+"""Heat loads on elements with temperatures: fluxes, films and radiation."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from typing import Final
 
 import numpy as np
 
-from uel.deck.error_report import look_up
 from uel.deck.language.blocks import Block, Row
 from uel.deck.language.table import Keyword, Kind, Option, Where, ignored, refused
 from uel.deck.mesh.surfaces import face_nodes
@@ -36,38 +35,37 @@ _BODY, _FIRST_FACE = 1, 11
 
 def read_heat_loads(block: Block, prescription: Prescription) -> list[HeatLoad]:
     """Read the entries of one of these keywords. Raises DeckError."""
-    amplitude, film_amplitude = prescription.amplitude(block), None
-    law = _law(block.name)
-    if law is HeatLaw.FILM and (name := block.options.text("FILM AMPLITUDE")):
-        film_amplitude = look_up(prescription.amplitudes, name, "amplitude", block.source)
-    found = []
+    law, amplitude = _law(block.name), prescription.amplitude(block)
+    film_amplitude = prescription.amplitude(block, "FILM AMPLITUDE") if law is HeatLaw.FILM else None
+    loads = []
     for row in block.rows():
         row.at_most(3 if law is HeatLaw.FLUX else 4)
-        for places, kind in _places(block, row, prescription):
-            found.append(_load(row, places, kind, (amplitude, film_amplitude)))
-    return found
+        for positions, kind in _places(block, row, prescription):
+            loads.append(_load(row, positions, kind, (amplitude, film_amplitude)))
+    return loads
 
 
 def number_exchanges(loads: Sequence[HeatLoad]) -> list[HeatLoad]:
-    """Assign numbers to the films and radiation of one step in the same place, so that each has its own surroundings.
+    """Assign numbers to the films and radiation loads of a step on the same face or node, so that each has its own
+    sink.
 
-    loads: those of one keyword. Fluxes need no numbers: they add up.
+    loads: those of one keyword. Fluxes need no numbers: they are summed.
     """
     size = max((int(load.places.max()) for load in loads if len(load.places)), default=-1) + 1
     counts: dict[HeatLoadType, IntArray] = {}
-    found: list[HeatLoad] = []
+    numbered: list[HeatLoad] = []
     for load in loads:
         if not load.type.exchanges:
-            found.append(load)
+            numbered.append(load)
             continue
-        # a node has one place for exchange, whatever its area
+        # a node exchanges heat with any area
         count = counts.setdefault(replace(load.type, area=float(load.type.area > 0)), np.zeros(size, dtype=np.int64))
         numbers = count[load.places]
         for number in np.unique(numbers).tolist():
             kind = replace(load.type, number=number)
-            found.append(replace(load, places=load.places[numbers == number], type=kind))
+            numbered.append(replace(load, places=load.places[numbers == number], type=kind))
         count[load.places] += 1
-    return found
+    return numbered
 
 
 def _law(keyword: str) -> HeatLaw:
@@ -76,25 +74,23 @@ def _law(keyword: str) -> HeatLaw:
 
 
 def _load(
-    row: Row, places: IntArray, kind: HeatLoadType, amplitudes: tuple[Amplitude | None, Amplitude | None]
+    row: Row, positions: IntArray, kind: HeatLoadType, amplitudes: tuple[Amplitude | None, Amplitude | None]
 ) -> HeatLoad:
     amplitude, film_amplitude = amplitudes
     if not kind.exchanges:
-        return HeatLoad(places, kind, row.real(2, "flux", 0.0), amplitude, row.source)
-    temperature, coefficient = (row.real(k, what, 0.0) for k, what in enumerate(_WORDS[kind.law], start=2))
-    if kind.law is HeatLaw.RADIATION and coefficient < 0:
-        raise row.error(f"emissivity {coefficient:g} must not be negative")
-    return HeatLoad(places, kind, temperature, amplitude, row.source, coefficient, film_amplitude)
+        return HeatLoad(positions, kind, row.real(2, "flux", 0.0), amplitude, row.source)
+    sink, factor = _WORDS[kind.law]
+    temperature = row.real(2, sink, 0.0)
+    coefficient = (row.not_negative if kind.law is HeatLaw.RADIATION else row.real)(3, factor, 0.0)
+    return HeatLoad(positions, kind, temperature, amplitude, row.source, coefficient, film_amplitude)
 
 
 def _places(block: Block, row: Row, prescription: Prescription) -> Iterator[tuple[IntArray, HeatLoadType]]:
-    """Yield the elements or nodes of a line, group by group, with the type of the load there. Raises DeckError."""
+    """Yield the elements or nodes of a line, group by group, with their load type. Raises DeckError."""
     name, law = block.name, _law(block.name)
     if name in ("CFILM", "CRADIATE"):
         nodes = prescription.flat.nodes(row.name(0, "node or node set"), row.source)
-        area = row.real(1, "area", 1.0)
-        if area <= 0:
-            raise row.error(f"area {area:g} must be positive")
+        area = row.positive(1, "area", 1.0)
         by_user = law is HeatLaw.FILM and block.options.flag("USER")
         yield nodes, HeatLoadType(name, law, area=area, by_user=by_user)
         return
@@ -120,15 +116,15 @@ def _places(block: Block, row: Row, prescription: Prescription) -> Iterator[tupl
 
 def _label(row: Row, law: HeatLaw, *, on_surface: bool) -> tuple[str, bool]:
     """Return the label of a load without NU, and whether it has NU. Raises DeckError."""
-    given, letter = row.name(1, "load type"), _LETTERS[law]
+    text, letter = row.name(1, "load type"), _LETTERS[law]
     known = [letter if on_surface else f"{letter}n"]
     if law is HeatLaw.FLUX and not on_surface:
         known.insert(0, "BF")
-    by_user = law is not HeatLaw.RADIATION and given.endswith("NU")
-    label = given.removesuffix("NU") if by_user else given
+    by_user = law is not HeatLaw.RADIATION and text.endswith("NU")
+    label = text.removesuffix("NU") if by_user else text
     if re.sub("[0-9]", "n", label) not in known:
         more = "" if law is HeatLaw.RADIATION else f"; with NU, as in {letter}NU"
-        raise row.error(f"load type {given} is not supported (supported: {', '.join(known)}{more})")
+        raise row.error(f"load type {text} is not supported (supported: {', '.join(known)}{more})")
     return label, by_user
 
 

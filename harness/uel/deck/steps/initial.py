@@ -11,7 +11,7 @@ import numpy as np
 
 from uel.deck.error_report import Problems
 from uel.deck.language.blocks import Block, Row
-from uel.deck.language.repetition import given_again, overlaps
+from uel.deck.language.repetition import overlaps, repeated_value
 from uel.deck.language.table import INPUT, Keyword, Kind, Option, Where, one_of, refused
 from uel.deck.mesh.flatten import FlatMesh
 from uel.deck.mesh.imperfection import EarlierResults, same_nodes
@@ -24,7 +24,7 @@ from uel.model.steps import PRESSURE_STRESS, InitialSolution, InitialStress, Ini
 MOST_FIELDS = 1000
 
 _ONE_VALUE = {"CONCENTRATION": CONCENTRATION, "PRESSURE STRESS": PRESSURE_STRESS}
-"""Dof of each TYPE= that gives nodes one value."""
+"""Dof of each TYPE= with one value per node."""
 
 MOST_COMPONENTS = 6
 """Components of a stress."""
@@ -41,27 +41,26 @@ def field_number(block: Block) -> int:
 def read_initial_values(
     blocks: Iterable[Block], kind: str, flat: FlatMesh, problems: Problems, earlier: EarlierResults | None
 ) -> list[InitialValue]:
-    """Read the entries of all *INITIAL CONDITIONS of a TYPE=: VELOCITY (node, dof, value),
-    and those with node and value.
+    """Read all *INITIAL CONDITIONS of a TYPE= with nodal values.
 
-    The dof of a field is its number, VARIABLE=. Further temperatures of a node are those of dofs 12 and up. Without
-    what reads results of earlier jobs, theirs are left out.
+    The dof of a field is VARIABLE=; further temperatures of a node are dofs 12 and up. Without a reader of earlier
+    results FILE is skipped.
     """
-    found: list[InitialValue] = []
+    entries: list[InitialValue] = []
     for block in blocks:
         if block.name != "INITIAL CONDITIONS" or block.options.text("TYPE") != kind:
             continue
         if block.options.flag("USER"):
             problems.add(block.source, "*INITIAL CONDITIONS: USER is for TYPE=SOLUTION and TYPE=STRESS")
-        if block.options.given("UNBALANCED STRESS") or block.options.flag("GEOSTATIC"):
+        if block.options.has("UNBALANCED STRESS") or block.options.flag("GEOSTATIC"):
             problems.add(block.source, "*INITIAL CONDITIONS: GEOSTATIC and UNBALANCED STRESS are for TYPE=STRESS")
-        if block.options.given("FILE"):
+        if block.options.has("FILE"):
             with problems.gather():
-                found += _read_earlier(block, kind, flat, earlier)
+                entries += _read_earlier(block, kind, flat, earlier)
             continue
         for row in block.rows():
             with problems.gather():
-                everywhere = block.options.given("SECTION SPECIFICATION") and not row.fields[0]
+                everywhere = block.options.has("SECTION SPECIFICATION") and not row.fields[0]
                 nodes = (
                     np.arange(len(flat.mesh.labels))
                     if everywhere
@@ -82,22 +81,22 @@ def read_initial_values(
                     row.at_most(1 + LARGEST_DOF - TEMPERATURE + 1)
                     count = max(len(row) - 1, 1)
                     values = {TEMPERATURE + k: row.real(1 + k, "temperature", 0.0) for k in range(count)}
-                found += [InitialValue(nodes, dof, value, row.source) for dof, value in values.items()]
-    for dof in dict.fromkeys(entry.dof for entry in found):
-        own = [(entry.nodes, f"{entry.value:g}", entry.source) for entry in found if entry.dof == dof]
-        what = f"*INITIAL CONDITIONS, TYPE={kind}: {f'dof {dof} of ' if kind == 'VELOCITY' else ''}node"
-        _warn_of_changes(own, what, flat.mesh.name, problems)
-    return found
+                entries += [InitialValue(nodes, dof, value, row.source) for dof, value in values.items()]
+    for dof in dict.fromkeys(entry.dof for entry in entries):
+        of_dof = [(entry.nodes, f"{entry.value:g}", entry.source) for entry in entries if entry.dof == dof]
+        item = f"*INITIAL CONDITIONS, TYPE={kind}: {f'dof {dof} of ' if kind == 'VELOCITY' else ''}node"
+        _warn_of_changes(of_dof, item, flat.mesh.name, problems)
+    return entries
 
 
 def _warn_of_changes(
-    entries: Sequence[tuple[IntArray, str, Source]], what: str, name: Callable[[int], str], problems: Problems
+    entries: Sequence[tuple[IntArray, str, Source]], item: str, name: Callable[[int], str], problems: Problems
 ) -> None:
-    """Warn of nodes or elements that get another value than from an earlier entry (places, value, source)."""
-    for first, later, place in overlaps([places for places, _, _ in entries]):
+    """Warn of nodes or elements with another value in a later entry (indices, value, location)."""
+    for first, later, index in overlaps([indices for indices, _, _ in entries]):
         (_, before, source), (_, here, at) = entries[first], entries[later]
         if here != before:
-            problems.warn(at, given_again(f"{what} {name(place)}", here, before, source))
+            problems.warn(at, repeated_value(f"{item} {name(index)}", here, before, source))
 
 
 def _read_earlier(block: Block, kind: str, flat: FlatMesh, earlier: EarlierResults | None) -> Iterator[InitialValue]:
@@ -114,20 +113,20 @@ def _read_earlier(block: Block, kind: str, flat: FlatMesh, earlier: EarlierResul
         labels, values = earlier.temperatures(job, step, increment)
     except UelError as error:
         raise block.error(f"FILE={job}: {error}") from None
-    here, there = same_nodes(flat, labels, block, job)
+    rows, earlier_rows = same_nodes(flat, labels, block, job)
     dof = field_number(block) if kind == "FIELD" else TEMPERATURE
-    for value in np.unique(values[there]).tolist():
-        yield InitialValue(here[values[there] == value], dof, value, block.source)
+    for value in np.unique(values[earlier_rows]).tolist():
+        yield InitialValue(rows[values[earlier_rows] == value], dof, value, block.source)
 
 
 def _refuse_file(block: Block) -> None:
-    if block.options.given("FILE"):
+    if block.options.has("FILE"):
         raise block.error("FILE is for TYPE=TEMPERATURE and TYPE=FIELD")
 
 
 def read_initial_stresses(blocks: Iterable[Block], flat: FlatMesh, problems: Problems) -> list[InitialStress]:
     """Read the entries of all *INITIAL CONDITIONS, TYPE=STRESS: element or set and components of the stress."""
-    found: list[InitialStress] = []
+    entries: list[InitialStress] = []
     for block in blocks:
         if block.name != "INITIAL CONDITIONS" or block.options.text("TYPE") != "STRESS":
             continue
@@ -136,24 +135,24 @@ def read_initial_stresses(blocks: Iterable[Block], flat: FlatMesh, problems: Pro
             by_user = _check_stress(block)
             # UNBALANCED STRESS=RAMP is the default (Keywords Guide, *INITIAL CONDITIONS)
             ramped = block.options.text("UNBALANCED STRESS") != "STEP"
-            if found and found[0].ramped != ramped:
+            if entries and entries[0].ramped != ramped:
                 raise block.error(
-                    f"UNBALANCED STRESS must be the same in the whole model, but differs at {found[0].source}"
+                    f"UNBALANCED STRESS must be the same in the whole model, but differs at {entries[0].source}"
                 )
             if by_user:
-                found.append(InitialStress(np.arange(flat.element_count), None, ramped, block.source))
+                entries.append(InitialStress(np.arange(flat.element_count), None, ramped, block.source))
             for row in block.rows():
                 row.at_most(1 + MOST_COMPONENTS)
                 elements = flat.elements(row.name(0, "element or element set"), row.source)
                 if block.options.flag("GEOSTATIC"):
                     profile = _read_profile(row)
-                    found.append(InitialStress(elements, np.zeros(0), ramped, row.source, profile))
+                    entries.append(InitialStress(elements, np.zeros(0), ramped, row.source, profile))
                     continue
                 values = np.array([row.real(k, "stress", 0.0) for k in range(1, len(row))])
-                found.append(InitialStress(elements, values, ramped, row.source))
-    own = [(entry.elements, _stress_of(entry), entry.source) for entry in found]
-    _warn_of_changes(own, "*INITIAL CONDITIONS, TYPE=STRESS: element", flat.element_name, problems)
-    return found
+                entries.append(InitialStress(elements, values, ramped, row.source))
+    described = [(entry.elements, _stress_of(entry), entry.source) for entry in entries]
+    _warn_of_changes(described, "*INITIAL CONDITIONS, TYPE=STRESS: element", flat.element_name, problems)
+    return entries
 
 
 def _stress_of(entry: InitialStress) -> str:
@@ -178,7 +177,7 @@ def _read_profile(row: Row) -> VerticalStress:
 
 
 def _check_stress(block: Block) -> bool:
-    """Return whether SIGINI gives the stresses. Raises DeckError if neither it nor data lines do."""
+    """Return whether SIGINI defines the stresses. Raises DeckError without SIGINI and data lines."""
     expected = "expected the components of the stress after each element or set"
     if block.options.flag("USER"):
         if any(True for _ in block.rows()):
@@ -190,44 +189,42 @@ def _check_stress(block: Block) -> bool:
 
 
 def read_initial_solutions(blocks: Iterable[Block], flat: FlatMesh, problems: Problems) -> list[InitialSolution]:
-    """Read the entries of all *INITIAL CONDITIONS, TYPE=SOLUTION: element or set and values,
-    continued on lines of values.
-    """
-    found: list[InitialSolution] = []
+    """Read all *INITIAL CONDITIONS, TYPE=SOLUTION: element or set and values."""
+    entries: list[InitialSolution] = []
     for block in blocks:
         if block.name != "INITIAL CONDITIONS" or block.options.text("TYPE") != "SOLUTION":
             continue
         with problems.gather():
             _refuse_file(block)
             if block.options.flag("USER"):
-                found.append(InitialSolution(None, np.zeros(0), block.source))
+                entries.append(InitialSolution(None, np.zeros(0), block.source))
             else:
-                found += _read_solution(block, flat)
-    own = [(entry.elements, _listed(entry.values), entry.source) for entry in found if entry.elements is not None]
-    _warn_of_changes(own, "*INITIAL CONDITIONS, TYPE=SOLUTION: element", flat.element_name, problems)
-    return found
+                entries += _read_solution(block, flat)
+    described = [
+        (entry.elements, _listed(entry.values), entry.source) for entry in entries if entry.elements is not None
+    ]
+    _warn_of_changes(described, "*INITIAL CONDITIONS, TYPE=SOLUTION: element", flat.element_name, problems)
+    return entries
 
 
 def _read_solution(block: Block, flat: FlatMesh) -> list[InitialSolution]:
-    """Read lines of a name and up to seven values, each continued on lines of eight
-    values as long as these are full.
-    """
-    found: list[InitialSolution] = []
+    """Read lines of a name and up to seven values; a full line is continued by a line of up to eight values."""
+    entries: list[InitialSolution] = []
     values: list[float] = []
-    goes_on = False
+    continued = False
     for row in block.rows():
         row.at_most(8)
-        if not goes_on:
+        if not continued:
             elements = flat.elements(row.name(0, "element or element set"), row.source)
             values = [row.real(k, "value", 0.0) for k in range(1, len(row))]
-            found.append(InitialSolution(elements, np.array(values), row.source))
+            entries.append(InitialSolution(elements, np.array(values), row.source))
         else:
             values += row.reals("value")
-            found[-1] = replace(found[-1], values=np.array(values))
-        goes_on = len(row) == 8
-    if not found:
+            entries[-1] = replace(entries[-1], values=np.array(values))
+        continued = len(row) == 8
+    if not entries:
         raise block.error("needs data lines, or USER for SDVINI")
-    return found
+    return entries
 
 
 FIELD_NUMBER = Option("VARIABLE", Kind.INTEGER, "number of the field variable (1)")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*SELECT EIGENMODES, *MODAL DAMPING and *BASE MOTION: data of steps by modes of *FREQUENCY."""
+"""*SELECT EIGENMODES, *MODAL DAMPING and *BASE MOTION, for modal procedures."""
 
 from __future__ import annotations
 
@@ -23,29 +23,27 @@ _LAST_TRANSLATION = 3
 
 
 def with_modes(procedure: Procedure, blocks: Sequence[Block], prescription: Prescription) -> Procedure:
-    """Return the procedure of a step, completed by its keywords for modes.
-    Raises DeckError if it does not use modes.
-    """
-    given = {name: [block for block in blocks if block.name == name] for name in _NAMES}
+    """Return the procedure of a step with the data of its modal keywords. Raises DeckError if it has no modes."""
+    keywords = {name: [block for block in blocks if block.name == name] for name in _NAMES}
     if not procedure.modal:
-        for block in (block for found in given.values() for block in found):
+        for block in (block for same_keyword in keywords.values() for block in same_keyword):
             raise block.error("is for *MODAL DYNAMIC, and *STEADY STATE DYNAMICS without DIRECT")
         return procedure
     superposition = Superposition(
-        damping=tuple(_read_damping(block) for block in given["MODAL DAMPING"]),
-        base=tuple(_read_base(block, prescription, procedure) for block in given["BASE MOTION"]),
+        damping=tuple(_read_damping(block) for block in keywords["MODAL DAMPING"]),
+        base=tuple(_read_base(block, prescription, procedure) for block in keywords["BASE MOTION"]),
     )
-    for block in given["SELECT EIGENMODES"]:
+    for block in keywords["SELECT EIGENMODES"]:
         selected, by_frequency = _read_selection(block)
         superposition = replace(superposition, selected=selected, by_frequency=by_frequency)
     _check_damping(superposition.damping, procedure)
     return replace(procedure, superposition=superposition)
 
 
-def _check_damping(given: Sequence[ModalDamping], procedure: Procedure) -> None:
+def _check_damping(dampings: Sequence[ModalDamping], procedure: Procedure) -> None:
     """Raise DeckError if a kind of damping is repeated, or unsupported by the procedure."""
     seen: dict[DampingKind, ModalDamping] = {}
-    for damping in given:
+    for damping in dampings:
         message = ""
         if damping.kind in seen:
             message = f"{damping.kind} is given already, at {seen[damping.kind].source}"
@@ -63,20 +61,18 @@ def _read_selection(block: Block) -> tuple[FloatArray, bool]:
     generate = block.options.flag("GENERATE")
     if by_frequency and generate:
         raise block.error("GENERATE is for DEFINITION=MODE NUMBERS")
-    found: list[tuple[float, float]] = []
-    for row in block.rows():
+    ranges: list[tuple[float, float]] = []
+    for row in block.required_rows():
         if by_frequency:
             row.at_most(2)
             lowest, highest = row.real(0, "lowest frequency"), row.real(1, "highest frequency")
             if highest < lowest:
                 raise row.error(f"the highest frequency {highest:g} is below the lowest, {lowest:g}")
-            found.append((lowest, highest))
+            ranges.append((lowest, highest))
         else:
             numbers = _generated(row) if generate else (_mode(row, index) for index in range(len(row)))
-            found += [(number, number) for number in numbers]
-    if not found:
-        raise block.error("needs a data line")
-    return np.array(found, dtype=float), by_frequency
+            ranges += [(number, number) for number in numbers]
+    return np.array(ranges, dtype=float), by_frequency
 
 
 def _generated(row: Row) -> Iterator[int]:
@@ -98,7 +94,7 @@ def _mode(row: Row, index: int) -> int:
 def _read_damping(block: Block) -> ModalDamping:
     options = block.options
     kinds = [options.text("VISCOUS"), *(name for name in ("RAYLEIGH", "STRUCTURAL") if options.flag(name))]
-    kinds += ["FRACTION OF CRITICAL DAMPING"] if options.given("MODAL") else []
+    kinds += ["FRACTION OF CRITICAL DAMPING"] if options.has("MODAL") else []
     kinds = [name for name in kinds if name]
     if len(kinds) > 1:
         raise block.error(f"{' and '.join(kinds)} exclude each other")
@@ -107,7 +103,7 @@ def _read_damping(block: Block) -> ModalDamping:
     names = ("alpha", "beta") if kind is DampingKind.RAYLEIGH else (f"damping ({kind.lower()})",)
     ranges: list[tuple[float, ...]] = []
     factors: list[tuple[float, ...]] = []
-    for row in block.rows():
+    for row in block.required_rows():
         ranges.append((row.real(0, "frequency"),) if by_frequency else _read_modes(row))
         begin = 1 if by_frequency else 2
         row.at_most(begin + len(names))
@@ -116,8 +112,6 @@ def _read_damping(block: Block) -> ModalDamping:
             raise row.error("frequencies must increase")
         if min(factors[-1]) < 0:
             raise row.error("damping must not be negative")
-    if not ranges:
-        raise block.error("needs a data line")
     return ModalDamping(kind, np.array(ranges), np.array(factors), block.source, by_frequency)
 
 

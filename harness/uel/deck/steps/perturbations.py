@@ -23,7 +23,7 @@ from uel.model.perturbations import (
 )
 
 _POINTS, _MOST_POINTS = 20, 100_000
-"""Frequencies of an interval: where their number is not given, and how many there can be; as many increments."""
+"""Default and largest number of frequencies of an interval; the largest number of increments too."""
 
 
 def read_static_perturbation(block: Block) -> StaticPerturbation:
@@ -33,7 +33,7 @@ def read_static_perturbation(block: Block) -> StaticPerturbation:
             "not supported in a step with PERTURBATION; expected *STATIC, *FREQUENCY, *BUCKLE, *STEADY STATE DYNAMICS "
             "or *MODAL DYNAMIC"
         )
-    if any(block.options.given(name) for name in ("DIRECT", "RIKS", "STABILIZE")):
+    if any(block.options.has(name) for name in ("DIRECT", "RIKS", "STABILIZE")):
         raise block.error("DIRECT, RIKS and STABILIZE have no meaning in a step with PERTURBATION")
     return StaticPerturbation()
 
@@ -56,9 +56,7 @@ def _read_frequency(block: Block, _: Prescription) -> Frequency:
 
 
 def _read_buckle(block: Block, _: Prescription) -> Buckle:
-    row = block.only_row()
-    if row is None:
-        raise block.error("needs a data line with the number of eigenvalues")
+    row = block.required_row("the number of eigenvalues")
     lanczos = block.options.text("EIGENSOLVER") == "LANCZOS"
     row.at_most(5 if lanczos else 4)
     number, lowest = row.integer(0, "number of eigenvalues"), -math.inf
@@ -74,19 +72,18 @@ def _read_buckle(block: Block, _: Prescription) -> Buckle:
 
 def _read_steady_state(block: Block, _: Prescription) -> SteadyState:
     options = block.options
-    kinds = [name for name in ("DIRECT", "SUBSPACE PROJECTION", "MODE BASED") if options.given(name)]
+    kinds = [name for name in ("DIRECT", "SUBSPACE PROJECTION", "MODE BASED") if options.has(name)]
     if len(kinds) > 1:
         raise block.error(f"{' and '.join(kinds)} exclude each other")
     direct, projected = kinds == ["DIRECT"], kinds == ["SUBSPACE PROJECTION"]
     undamped = options.flag("REAL ONLY")
     if undamped and not (direct or projected):
         raise block.error("REAL ONLY needs DIRECT or SUBSPACE PROJECTION; without *MODAL DAMPING modes are not damped")
-    # with modes the natural frequencies divide the ranges
+    # modal procedures divide the ranges at natural frequencies by default
     natural = (options.text("INTERVAL") or ("RANGE" if direct else "EIGENFREQUENCY")) == "EIGENFREQUENCY"
     logarithmic = options.text("FREQUENCY SCALE") == "LOGARITHMIC"
-    ranges = tuple(_read_range(row, logarithmic=logarithmic, natural=natural) for row in block.rows())
-    if not ranges:
-        raise block.error("needs a data line with a frequency, or the limits of a range of frequencies")
+    rows = block.required_rows("a frequency, or the limits of a range of frequencies")
+    ranges = tuple(_read_range(row, logarithmic=logarithmic, natural=natural) for row in rows)
     kind = SteadyState if direct else SubspaceSteadyState if projected else ModalSteadyState
     return kind(ranges=ranges, natural=natural, undamped=undamped)
 
@@ -112,9 +109,7 @@ def _read_range(row: Row, *, logarithmic: bool, natural: bool) -> FrequencyRange
 
 
 def _read_modal_dynamic(block: Block, _: Prescription) -> ModalDynamic:
-    row = block.only_row()
-    if row is None:
-        raise block.error("needs a data line with the time increment and the period")
+    row = block.required_row("the time increment and the period")
     row.at_most(2)
     increment, period = row.real(0, "time increment"), row.real(1, "period")
     if not 0 < increment <= period:
@@ -224,4 +219,4 @@ PERTURBATIONS = (
         _read_modal_dynamic,
     ),
 )
-"""Keywords of steps that are linear perturbations, whether these say so or not, and their readers."""
+"""Keywords of procedures that are always linear perturbations, and their readers."""

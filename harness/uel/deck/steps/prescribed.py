@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from uel.deck.error_report import Problems, look_up, nearest
 from uel.deck.language.blocks import Block, Row
-from uel.deck.language.repetition import given_again, overlaps
+from uel.deck.language.repetition import overlaps, repeated_value
 from uel.deck.language.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused, unquote
 from uel.deck.mesh.flatten import FlatMesh
 from uel.deck.mesh.surfaces import Surfaces
@@ -23,7 +23,7 @@ from uel.model.amplitude import Amplitude
 from uel.model.dofs import dof_in_deck
 from uel.model.steps import Boundary, Load
 
-# dofs that a named boundary type holds (Abaqus Analysis User's Guide, "Boundary conditions")
+# dofs of the named boundary types (Abaqus Analysis User's Guide, "Boundary conditions")
 NAMED_DOFS = {
     "XSYMM": (1, 5, 6),
     "YSYMM": (2, 4, 6),
@@ -39,11 +39,11 @@ REFUSED_TYPES = ("NOWARP", "NOOVAL", "NODEFORM")
 
 @dataclass(frozen=True, slots=True)
 class Prescription:
-    """Reader of prescribed values and point loads, with the parts of the model that they refer to.
+    """Reader of prescribed values and point loads.
 
-    flat, amplitudes  names
-    active_dofs       dofs that some element uses
-    built_in          (elements,) whether each is a built-in one
+    flat, amplitudes  sets and amplitudes by name
+    active_dofs       dofs of the elements
+    built_in          (elements,) mask of built-in elements
     surfaces          faces of elements, for loads
     transforms        local directions of nodes
     """
@@ -56,7 +56,7 @@ class Prescription:
     transforms: Transforms
 
     def read_boundary(self, block: Block, in_step: bool) -> list[Boundary]:
-        """Read the entries of one *BOUNDARY, one for each dof. Raises DeckError."""
+        """Read one *BOUNDARY, an entry for each dof. Raises DeckError."""
         amplitude = self.amplitude(block)
         velocity, user = block.options.text("TYPE") == "VELOCITY", block.options.flag("USER")
         if user and not in_step:
@@ -68,7 +68,7 @@ class Prescription:
             )
         if user and velocity:
             raise block.error("USER is supported for displacements, not for TYPE=VELOCITY")
-        found = []
+        entries = []
         for row in block.rows():
             nodes = self.flat.nodes(row.name(0, "node or node set"), row.source)
             dofs = self._dofs(row)
@@ -76,42 +76,42 @@ class Prescription:
             row.at_most(4)
             if magnitude and not in_step:
                 raise row.error(f"value {magnitude:g} before the first *STEP, where only zero can be prescribed")
-            given = magnitude, amplitude, row.source, velocity, user, fixed, block.options.flag("IMAGINARY")
+            data = magnitude, amplitude, row.source, velocity, user, fixed, block.options.flag("IMAGINARY")
             if user and (name := self.transforms.named(nodes)):
                 raise row.error(f"USER is not supported at nodes with *TRANSFORM, such as {name}")
             parts = [part for dof in dofs for part in self.transforms.parts(nodes, dof, row.source)]
-            found += [Boundary(some, dof, *given) for some, dof in parts]
-        return found
+            entries += [Boundary(subset, dof, *data) for subset, dof in parts]
+        return entries
 
     def read_loads(self, block: Block) -> list[Load]:
         """Read the entries of one *CLOAD, *CFLUX or *CECHARGE. Raises DeckError."""
         amplitude = self.amplitude(block)
         if block.name == "CECHARGE" and amplitude is not None and amplitude.absolute:
             raise block.error("an amplitude with VALUE=ABSOLUTE is not supported; give the charge, and factors of it")
-        found = []
+        entries = []
         for row in block.rows():
             row.at_most(3)
             nodes = self.flat.nodes(row.name(0, "node or node set"), row.source)
-            own = _OWN_DOFS.get(block.name)
-            dof = own if own is not None and row.blank(1) else read_dof(row, 1)
-            if block.name == "CECHARGE" and dof != own:
-                raise row.error(f"charges belong to dof {own}, found {dof}")
+            default_dof = _OWN_DOFS.get(block.name)
+            dof = default_dof if default_dof is not None and row.blank(1) else read_dof(row, 1)
+            if block.name == "CECHARGE" and dof != default_dof:
+                raise row.error(f"charges belong to dof {default_dof}, found {dof}")
             imaginary = block.options.known("IMAGINARY") and block.options.flag("IMAGINARY")
-            # potentials have minus charges as their forces
+            # the force of a potential is minus the charge
             value = row.real(2, "value", 0.0) * (-1 if block.name == "CECHARGE" else 1)
-            given = value, amplitude, row.source, imaginary
-            found += [Load(some, part, *given) for some, part in self.transforms.parts(nodes, dof, row.source)]
-        return found
+            data = value, amplitude, row.source, imaginary
+            entries += [Load(subset, number, *data) for subset, number in self.transforms.parts(nodes, dof, row.source)]
+        return entries
 
-    def amplitude(self, block: Block) -> Amplitude | None:
+    def amplitude(self, block: Block, option: str = "AMPLITUDE") -> Amplitude | None:
         """Return the amplitude that a keyword names, None if it names none. Raises DeckError."""
-        name = block.options.text("AMPLITUDE")
+        name = block.options.text(option)
         return look_up(self.amplitudes, name, "amplitude", block.source) if name else None
 
     def _dofs(self, row: Row) -> list[int]:
         named = unquote(row.text(1, "dof")).replace(" ", "")
         if named in NAMED_DOFS:
-            # a named type holds of its dofs those that exist
+            # a named type fixes its active dofs
             return [dof for dof in NAMED_DOFS[named] if dof in self.active_dofs]
         if named in REFUSED_TYPES:
             raise row.unsupported(f"boundary type {named}")
@@ -132,14 +132,14 @@ def of_load_case(blocks: Sequence[Block], case: int) -> list[Block]:
 def check_load_cases(
     blocks: Sequence[Block], first: Sequence[Boundary], second: Sequence[Boundary], problems: Problems
 ) -> None:
-    """Report LOAD CASE outside *BUCKLE, and supports of the modes, LOAD CASE=2, that differ from those of the loads."""
-    given = [block for block in blocks if block.name == "BOUNDARY" and block.options.given("LOAD CASE")]
-    for block in given:
+    """Report LOAD CASE outside *BUCKLE, and different supports in LOAD CASE=2."""
+    load_cases = [block for block in blocks if block.name == "BOUNDARY" and block.options.has("LOAD CASE")]
+    for block in load_cases:
         if not any(other.name == "BUCKLE" for other in blocks):
             problems.add(block.source, "*BOUNDARY: LOAD CASE is for *BUCKLE")
         elif _load_case(block) not in (1, 2):
             problems.add(block.source, f"*BOUNDARY: LOAD CASE={_load_case(block)}: expected 1 or 2")
-    modes = next((block for block in given if _load_case(block) == 2), None)
+    modes = next((block for block in load_cases if _load_case(block) == 2), None)
     held = [{(n, entry.dof) for entry in entries for n in entry.nodes.tolist()} for entries in (first, second)]
     if modes is not None and held[0] != held[1]:
         message = "LOAD CASE=2 holds other dofs than LOAD CASE=1: modes with supports of their own are not supported"
@@ -159,20 +159,23 @@ def read_dof(row: Row, index: int) -> int:
 
 
 def contradictions(entries: Sequence[Boundary], flat: FlatMesh) -> Iterator[tuple[Source, str]]:
-    """Yield place and sentence of each entry of a step that gives a dof another value than an earlier one does."""
+    """Yield location and message of each entry of a step with another value than an earlier entry."""
     alike: dict[tuple[int, bool], list[Boundary]] = {}
     for entry in entries:
         alike.setdefault((entry.dof, entry.imaginary), []).append(entry)
     for group in alike.values():
         for first, later, node in overlaps([entry.nodes for entry in group]):
             before, here = group[first], group[later]
-            if _given(before) != _given(here):
-                what = f"*BOUNDARY: node {flat.mesh.name(node)}, dof {dof_in_deck(here.dof)}"
-                yield here.source, given_again(what, _given(here), _given(before), before.source, "in one step")
+            if _described(before) != _described(here):
+                item = f"*BOUNDARY: node {flat.mesh.name(node)}, dof {dof_in_deck(here.dof)}"
+                yield (
+                    here.source,
+                    repeated_value(item, _described(here), _described(before), before.source, "in one step"),
+                )
 
 
-def _given(entry: Boundary) -> str:
-    """Return the words for what an entry prescribes, for messages."""
+def _described(entry: Boundary) -> str:
+    """Return the prescribed value of an entry, for messages."""
     if entry.fixed or entry.user:
         return "what DISP says" if entry.user else "the value at the start of the step"
     return f"{'the rate' if entry.velocity else 'the value'} {of_amplitude(entry)}"

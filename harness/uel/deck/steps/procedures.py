@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The procedure of a step: *STATIC, *VISCO, *GEOSTATIC, *DYNAMIC, *HEAT TRANSFER, *COUPLED
-TEMPERATURE-DISPLACEMENT and *MASS DIFFUSION, and the table of all procedures, with the linear ones of `perturbations`.
+"""Procedures of general steps, and the table of all procedures, with the linear ones of `perturbations`.
 
-Defaults are those of the Abaqus Keywords Guide; zero or blank stands for the default everywhere.
+Defaults are those of the Abaqus Keywords Guide; zero or blank means the default.
 """
 
 from __future__ import annotations
@@ -62,9 +61,7 @@ def read_procedure(scope: Scope, prescription: Prescription) -> Procedure:
 
 
 def _read_times(block: Block, *, largest: float = 1.0, direct: bool = False, along_path: bool = False) -> Times:
-    """Read increments and period of the data line; `largest` increment as a fraction of the period.
-    Raises DeckError.
-    """
+    """Read increments and period; largest: default of the largest increment over the period. Raises DeckError."""
     row = block.only_row()
     entries = [0.0] * 4
     if row is not None:
@@ -102,13 +99,13 @@ def _read_static(block: Block, prescription: Prescription) -> Static:
 
 def _read_stabilize(block: Block) -> Stabilize | None:
     options = block.options
-    if not options.given("STABILIZE"):
-        extra = next((name for name in ("FACTOR", "ALLSDTOL") if options.given(name)), None)
+    if not options.has("STABILIZE"):
+        extra = next((name for name in ("FACTOR", "ALLSDTOL") if options.has(name)), None)
         if extra is not None:
             raise block.error(f"{extra} needs STABILIZE")
         return None
     fraction, factor = options.real("STABILIZE", 0.0), options.real("FACTOR", 0.0)
-    # damping with a given factor is not adapted unless that is asked for
+    # with FACTOR damping is adaptive only with ALLSDTOL
     limit = options.real("ALLSDTOL", 0.0 if factor else Stabilize().limit)
     if fraction <= 0 or min(factor, limit) < 0:
         raise block.error("STABILIZE must be positive, FACTOR and ALLSDTOL not negative")
@@ -124,16 +121,12 @@ def _read_riks(row: Row | None, prescription: Prescription) -> Riks:
         if len(row) > 5:
             raise row.error("a dof and a displacement need a node")
         return Riks(largest)
-    nodes = prescription.flat.nodes(row.name(5, "node"), row.source)
-    if len(nodes) != 1:
-        raise row.error(f"{row.fields[5]} has {len(nodes)} nodes, expected one")
-    return Riks(largest, int(nodes[0]), row.integer(6, "dof"), row.real(7, "displacement"))
+    node = prescription.flat.one_node(row.name(5, "node"), row.fields[5], row)
+    return Riks(largest, node, row.integer(6, "dof"), row.real(7, "displacement"))
 
 
 def _read_visco(block: Block, _: Prescription) -> Visco:
-    tolerance = block.options.real("CETOL", 0.0)
-    if tolerance < 0:
-        raise block.error(f"CETOL={tolerance:g} must not be negative")
+    tolerance = block.not_negative("CETOL", 0.0)
     # without a tolerance increments are fixed
     times = _read_times(block, direct=block.options.flag("DIRECT") or not tolerance)
     return Visco(*times, tolerance=tolerance or math.inf)
@@ -149,7 +142,7 @@ def _read_dynamic(block: Block, _: Prescription) -> Dynamic:
     integrator = options.text("TIME INTEGRATOR") or _INTEGRATORS[application]
     times = _read_times(block, largest=_LARGEST[application], direct=options.flag("DIRECT"))
     transient = application == "TRANSIENT FIDELITY"
-    initial = options.flag("INITIAL") if options.given("INITIAL") else transient
+    initial = options.flag("INITIAL") if options.has("INITIAL") else transient
     force = options.real("HAFTOL", 0.0)
     factor = options.real("HALFINC SCALE FACTOR", HALF_INCREMENT_FACTOR if transient else math.inf)
     if min(force, factor) < 0:
@@ -158,7 +151,7 @@ def _read_dynamic(block: Block, _: Prescription) -> Dynamic:
         force, factor = 0.0, math.inf
     common = Dynamic(*times, initial_acceleration=initial, half_increment=factor, half_force=force)
     if integrator == "BWE":
-        if any(map(options.given, ("ALPHA", "BETA", "GAMMA"))):
+        if any(map(options.has, ("ALPHA", "BETA", "GAMMA"))):
             raise block.error("ALPHA, BETA and GAMMA are for the integrators HHT-TF and HHT-MD, not for backward Euler")
         return replace(common, alpha=0.0, beta=1.0, gamma=1.0, integrator=Integrator.BACKWARD_EULER)
     alpha = options.real("ALPHA", _HHT[integrator])
@@ -178,9 +171,7 @@ def _read_diffusive(block: Block, _: Prescription) -> Diffusive:
     options = block.options
     kind = next(kind for kind in _DIFFUSIVE if kind.keyword == block.name)
     steady = options.flag("STEADY STATE")
-    largest_change = options.real(kind.limit, 0.0)
-    if largest_change < 0:
-        raise block.error(f"{kind.limit}={largest_change:g} must not be negative")
+    largest_change = block.not_negative(kind.limit, 0.0)
     # without a largest change a transient step has fixed increments
     fixed = not steady and not largest_change
     end_change, row = 0.0, block.only_row()

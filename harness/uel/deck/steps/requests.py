@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Output requests of the steps; requests go on in later steps until they are replaced."""
+"""Output requests of the steps; they stay in force until replaced."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -25,9 +26,18 @@ NEVER = 0
 _OUTPUT_TIMES = ("NUMBER INTERVAL", "TIME INTERVAL", "TIME POINTS")
 
 
+_EMPTY: dict[str, dict[str, object]] = {
+    "FIELD": {"field_frequency": NEVER, "field_intervals": 0},
+    "HISTORY": {"history_nodes": (), "history_energies": (), "history_sets": (), "history_frequency": 1},
+    "NODE PRINT": {"node_print": ()},
+    "EL PRINT": {"element_print": ()},
+}
+"""Values of `OutputRequests` without requests of each kind."""
+
+
 @dataclass(frozen=True, slots=True)
 class _Open:
-    """The *OUTPUT that *NODE OUTPUT and *ENERGY OUTPUT belong to."""
+    """*OUTPUT of the following *NODE OUTPUT and *ENERGY OUTPUT."""
 
     history: bool
     frequency: int
@@ -44,7 +54,7 @@ class RequestReader:
         self._open: _Open | None = None
         self._dropped: set[str] = set()
         self.energies: list[tuple[Source, str]] = []
-        """Energies of the whole model that the step asks for itself."""
+        """Energies of the model requested in the step itself."""
         self._readers: dict[str, Callable[[Block], None]] = {
             "OUTPUT": self._output,
             "NODE OUTPUT": self._node_output,
@@ -73,7 +83,7 @@ class RequestReader:
         options = block.options
         both = not options.flag("FIELD") and not options.flag("HISTORY")
         kinds = {kind for kind in ("FIELD", "HISTORY") if options.flag(kind) or both}
-        if any(options.given(name) for name in _OUTPUT_TIMES) and options.flag("TIME MARKS"):
+        if any(options.has(name) for name in _OUTPUT_TIMES) and options.flag("TIME MARKS"):
             message = "*OUTPUT: increments do not end at the output times; every increment is written instead"
             self._problems.warn(block.source, message)
         self._drop({"NEW": {"FIELD", "HISTORY"}, "REPLACE": kinds}.get(options.text("OP"), set()))
@@ -93,20 +103,13 @@ class RequestReader:
             self._requests = replace(self._requests, field_frequency=smallest)
         if "HISTORY" in kinds:
             smallest = min(now.history_frequency, frequency) if now.history_nodes or now.history_energies else frequency
-            energies = ENERGIES if options.given("VARIABLE") else now.history_energies
+            energies = ENERGIES if options.has("VARIABLE") else now.history_energies
             self._requests = replace(self._requests, history_frequency=smallest, history_energies=energies)
 
     def _drop(self, kinds: set[str]) -> None:
         """Drop the requests of earlier steps of these kinds, once in a step."""
-        if "FIELD" in kinds - self._dropped:
-            self._requests = replace(self._requests, field_frequency=NEVER, field_intervals=0)
-        if "HISTORY" in kinds - self._dropped:
-            none = replace(self._requests, history_nodes=(), history_energies=(), history_sets=())
-            self._requests = replace(none, history_frequency=1)
-        if "NODE PRINT" in kinds - self._dropped:
-            self._requests = replace(self._requests, node_print=())
-        if "EL PRINT" in kinds - self._dropped:
-            self._requests = replace(self._requests, element_print=())
+        empty: dict[str, Any] = {key: value for kind in kinds - self._dropped for key, value in _EMPTY[kind].items()}
+        self._requests = replace(self._requests, **empty)
         self._dropped |= kinds
 
     def _history(self, block: Block) -> _Open | None:
@@ -128,7 +131,7 @@ class RequestReader:
 
     def _energy_output(self, block: Block) -> None:
         options = block.options
-        if options.given("PER ELEMENT SET") or options.given("PER SECTION"):
+        if options.has("PER ELEMENT SET") or options.has("PER SECTION"):
             message = "PER ELEMENT SET and PER SECTION are not supported; ELSET= is, with the energies of a set"
             self._problems.warn(block.source, f"*ENERGY OUTPUT: {message}")
         if self._history(block) is None:
@@ -154,11 +157,10 @@ class RequestReader:
     def _element_print(self, block: Block) -> None:
         self._drop({"EL PRINT"})
         name, frequency = block.options.text("ELSET"), _frequency(block)
-        count = sum(len(owner.elements) for owner in self._flat.owners)
-        elements = self._flat.elements(name, block.source) if name else np.arange(count)
-        given = block.options.text("POSITION")
+        elements = self._flat.elements(name, block.source) if name else np.arange(self._flat.element_count)
+        text = block.options.text("POSITION")
         # Abaqus takes CENTROID too, in a public deck with its .dat file
-        position = Position.CENTROID if given == "CENTROID" else Position(given)
+        position = Position.CENTROID if text == "CENTROID" else Position(text)
         tables = [_variables(row.fields) for row in block.rows()] if frequency != NEVER else []
         requests = [ElementRequest(name, elements, variables, frequency, position) for variables in tables]
         self._requests = replace(self._requests, element_print=(*self._requests.element_print, *requests))
@@ -171,12 +173,10 @@ class RequestReader:
 
     def _monitor(self, block: Block) -> None:
         name, dof = block.options.text("NODE"), block.options.integer("DOF", 0)
-        nodes = self._flat.nodes(name, block.source)
-        if len(nodes) != 1:
-            raise block.error(f"set {name} has {len(nodes)} nodes, expected one")
+        node = self._flat.one_node(name, f"set {name}", block)
         if not 1 <= dof <= LARGEST_DOF:
             raise block.error(f"{dof} is not a dof (1 to {LARGEST_DOF})")
-        self._requests = replace(self._requests, monitor=(int(nodes[0]), dof))
+        self._requests = replace(self._requests, monitor=(node, dof))
 
     def _nodes(self, block: Block) -> IntArray:
         name = block.options.text("NSET")
@@ -193,7 +193,7 @@ def _variables(fields: tuple[str, ...]) -> tuple[str, ...]:
 
 def _intervals(block: Block) -> int:
     intervals = block.options.integer("NUMBER INTERVAL", 0)
-    if intervals < 1 and block.options.given("NUMBER INTERVAL"):
+    if intervals < 1 and block.options.has("NUMBER INTERVAL"):
         raise block.error(f"NUMBER INTERVAL={intervals} must be positive")
     return intervals
 

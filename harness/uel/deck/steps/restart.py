@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*RESTART: when states are kept, where a restart resumes, and the model of a restart deck.
+"""*RESTART: when states are written, where a restart resumes, and the model of a restart deck.
 
-Abaqus Analysis User's Guide, "Restarting an analysis": the model is that of the earlier job. A restart deck may add
-amplitudes and sets, and has the steps that follow.
+The model is that of the earlier job; a restart deck adds steps, amplitudes and sets (Abaqus Analysis User's Guide,
+"Restarting an analysis").
 """
 
 from __future__ import annotations
@@ -24,71 +24,73 @@ MAY_BE_ADDED = ("AMPLITUDE", "NSET", "ELSET")
 """Model data of a restart deck."""
 
 
-def find_restart(deck: Path, keywords: Mapping[str, Keyword], given: Mapping[str, float] | None) -> RestartRead | None:
-    """Return the *RESTART, READ of a deck, None if it has none; `read_deck` reports other errors of the deck.
+def find_restart(
+    deck: Path, keywords: Mapping[str, Keyword], parameters: Mapping[str, float] | None
+) -> RestartRead | None:
+    """Return the *RESTART, READ of a deck, None without; `read_deck` reports other errors of the deck.
 
-    Raises DeckError if the deck cannot be read or has two of them, UsageError if a given parameter is none of its own.
+    Raises DeckError if the deck cannot be read or has several, UsageError for an undefined parameter.
     """
-    blocks = read_blocks(deck, keywords, Problems(), given)
+    blocks = read_blocks(deck, keywords, Problems(), parameters)
     reads = [block for block in blocks if block.name == "RESTART" and block.options.flag("READ")]
     for again in reads[1:]:
         raise again.error(f"*RESTART, READ is there already, at {reads[0].source}")
     return _read(reads[0]) if reads else None
 
 
-def digest_of(deck: Path, keywords: Mapping[str, Keyword], given: Mapping[str, float] | None) -> str:
+def digest_of(deck: Path, keywords: Mapping[str, Keyword], parameters: Mapping[str, float] | None) -> str:
     """Return the hash of a deck and of the files that it includes. Raises DeckError if it cannot be read."""
-    found = hashlib.sha256()
-    for file in survey_blocks(deck, keywords, given).files:
-        found.update(hashlib.sha256(read_whole(file)).digest())
-    return found.hexdigest()
+    digest = hashlib.sha256()
+    for file in survey_blocks(deck, keywords, parameters).files:
+        digest.update(hashlib.sha256(read_whole(file)).digest())
+    return digest.hexdigest()
 
 
 def join_parts(
     parts: Sequence[DeckPart], blocks: list[Block], keywords: Mapping[str, Keyword], problems: Problems
 ) -> tuple[Structure, tuple[RestartWrite | None, ...]]:
-    """Join the decks of a model, and say for each of its steps when it keeps its state.
+    """Join the decks of a restart; return when each step writes its state.
 
     Parameters
     ----------
     parts
-        The decks; none if there is only one, which resumes nothing.
+        The decks; empty without a restart.
     blocks
-        Of the last one.
+        Blocks of the last deck.
     keywords
         The keyword table.
     problems
-        Takes what is wrong with them.
+        Receives errors.
 
     Returns
     -------
     tuple[Structure, tuple[RestartWrite | None, ...]]
-        The model data of all decks, and the steps that stay; None: the step keeps no states.
+        Model data and steps of all decks; None: the step writes no states.
     """
-    whole, requests = Structure(), list[RestartWrite | None]()
+    model, requests = Structure(), list[RestartWrite | None]()
     earlier = [read_blocks(Path(part.path), keywords, problems, part.given) for part in parts[:-1]]
-    for number, own in enumerate([*earlier, blocks]):
-        part = sort_blocks(own, problems)
+    for number, own_blocks in enumerate([*earlier, blocks]):
+        part = sort_blocks(own_blocks, problems)
         current = _in_force(part.root, requests[-1] if requests else None, problems)
         if number:
             _check_added(part, problems)
             stay = parts[number].steps
-            del whole.steps[stay:], requests[stay:]
+            del model.steps[stay:], requests[stay:]
             requests[-1:] = [current]
         for scope in part.steps:
             current = _in_force(scope.blocks, current, problems)
             requests.append(current)
         if number:
-            whole.root += part.root
-            whole.steps += part.steps
-            whole.ignored += part.ignored
+            model.root += part.root
+            model.steps += part.steps
+            model.ignored += part.ignored
         else:
-            whole = part
-    return whole, tuple(requests)
+            model = part
+    return model, tuple(requests)
 
 
 def refuse_reading(structure: Structure, problems: Problems) -> None:
-    """Report *RESTART, READ as an error, for a run without the job that the model comes from."""
+    """Report *RESTART, READ as an error, for a run without the old job."""
     for block in structure.root:
         if block.name == "RESTART" and block.options.flag("READ"):
             problems.add(block.source, "*RESTART, READ: the model is that of an earlier job, uel run --oldjob NAME")
@@ -115,7 +117,7 @@ def _in_force(blocks: list[Block], current: RestartWrite | None, problems: Probl
 
 
 def _written(block: Block, current: RestartWrite | None, problems: Problems) -> RestartWrite | None:
-    """Return the *RESTART, WRITE of a block, or the current one if it has none. Raises DeckError."""
+    """Return the *RESTART, WRITE of a block, the current one without. Raises DeckError."""
     options = block.options
     if not (options.flag("READ") or options.flag("WRITE")):
         raise block.error("expected READ or WRITE")
@@ -124,9 +126,9 @@ def _written(block: Block, current: RestartWrite | None, problems: Problems) -> 
     frequency, intervals = options.integer("FREQUENCY", 1), options.integer("NUMBER INTERVAL", 0)
     if frequency < 0:
         raise block.error(f"FREQUENCY={frequency} must not be negative")
-    if intervals < 1 and options.given("NUMBER INTERVAL"):
+    if intervals < 1 and options.has("NUMBER INTERVAL"):
         raise block.error(f"NUMBER INTERVAL={intervals} must be positive")
-    if intervals and options.given("FREQUENCY"):
+    if intervals and options.has("FREQUENCY"):
         raise block.error("FREQUENCY and NUMBER INTERVAL exclude each other")
     if intervals and options.flag("TIME MARKS"):
         message = "*RESTART: increments do not end at the times; the first one that reaches a time is kept instead"
@@ -137,7 +139,7 @@ def _written(block: Block, current: RestartWrite | None, problems: Problems) -> 
 def _read(block: Block) -> RestartRead:
     """Read *RESTART, READ of a block. Raises DeckError."""
     options = block.options
-    numbers = [options.integer(name, 0) if options.given(name) else None for name in ("STEP", "INC")]
+    numbers = [options.integer(name, 0) if options.has(name) else None for name in ("STEP", "INC")]
     for name, number in zip(("STEP", "INC"), numbers, strict=True):
         if number is not None and number < 1:
             raise block.error(f"{name}={number} must be positive")

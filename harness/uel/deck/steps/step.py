@@ -45,8 +45,8 @@ def read_steps(
         output = requests.read_step(scope.blocks)
         nlgeom = nlgeom or scope.head.options.flag("NLGEOM")
         options = scope.head.options
-        unsymmetric = options.flag("UNSYMM") if options.given("UNSYMM") else unsymmetric
-        convert = options.flag("CONVERT SDI") if options.given("CONVERT SDI") else convert
+        unsymmetric = options.flag("UNSYMM") if options.has("UNSYMM") else unsymmetric
+        convert = options.flag("CONVERT SDI") if options.has("CONVERT SDI") else convert
         name = options.text("NAME") or f"Step-{number}"
         if name in (step.name for step in steps):
             problems.add(scope.head.source, f"*STEP: the name {name} is taken by an earlier step")
@@ -123,7 +123,7 @@ def read_steps(
 
 
 def _check_energies(scope: Scope, procedure: Procedure, requests: RequestReader, problems: Problems) -> None:
-    """Report the energies that a step requests but its procedure does not have."""
+    """Report requested energies that the procedure does not have."""
     known = procedure.energies or ()
     where = f"*{procedure.keyword} (step at {scope.head.source}), which has {', '.join(known)}"
     by_place: dict[Source, list[str]] = {}
@@ -138,9 +138,7 @@ def _check_energies(scope: Scope, procedure: Procedure, requests: RequestReader,
 
 
 def _check_smoothing(step: Step, problems: Problems) -> None:
-    """Report tables of prescribed motion in a dynamic step:
-    Abaqus rounds their corners by a quarter of the intervals.
-    """
+    """Report tabular amplitudes of prescribed motion in a dynamic step, whose corners Abaqus smooths."""
     for entry in step.boundaries:
         curve = entry.amplitude
         if curve is None or curve.type is not AmplitudeType.TABULAR or len(curve.data) <= 2 or not entry.magnitude:
@@ -154,15 +152,15 @@ def _check_smoothing(step: Step, problems: Problems) -> None:
 
 
 def _check_perturbation(step: Step, problems: Problems) -> None:
-    """Report entries that have no meaning in a linear step, or are not supported there."""
+    """Report entries that are meaningless or unsupported in a linear step."""
     for field in step.fields:
         problems.add(field.source, "predefined fields are not supported in a linear perturbation")
     for boundary in step.boundaries:
         if boundary.velocity:
             problems.add(boundary.source, "TYPE=VELOCITY has no meaning in a linear perturbation")
         elif boundary.user and (step.procedure.harmonic or step.procedure.modal):
-            what = "a harmonic response" if step.procedure.harmonic else "a step by modes"
-            problems.add(boundary.source, f"values of DISP are not supported in {what}")
+            procedure = "a harmonic response" if step.procedure.harmonic else "a step by modes"
+            problems.add(boundary.source, f"values of DISP are not supported in {procedure}")
     for load in (*step.element_loads, *step.surface_loads):
         if load.type.jltyp and step.procedure.modal:
             problems.add(load.source, "loads by DLOAD are not supported in a step by modes")
@@ -170,9 +168,9 @@ def _check_perturbation(step: Step, problems: Problems) -> None:
             message = f"load type {load.type.kind} follows the surface: its load stiffness is not supported in *BUCKLE"
             problems.add(load.source, f"{message}; {_not_following(load)}")
     if step.procedure.harmonic or step.procedure.modal:
-        for given in step.distributed:
+        for user_load in step.distributed:
             kind = "harmonic loads" if step.procedure.harmonic else "loads by modes"
-            problems.add(given.source, f"{kind} on user elements are not supported")
+            problems.add(user_load.source, f"{kind} on user elements are not supported")
         if any(isinstance(amplitude, UserAmplitude) for amplitude in step.amplitudes):
             over = "frequency" if step.procedure.harmonic else "the time of this step alone"
             problems.add(step.source, f"an amplitude is a function of {over} here, which UAMP cannot give")
@@ -183,10 +181,10 @@ def _check_perturbation(step: Step, problems: Problems) -> None:
 
 def _check_modes(steps: Sequence[Step], problems: Problems) -> None:
     """Report steps that need modes without an earlier *FREQUENCY, and nonzero values of *BOUNDARY in steps by modes."""
-    found = False
+    has_modes = False
     for step in steps:
-        found = found or step.procedure.finds_modes
-        if step.procedure.needs_modes and not found:
+        has_modes = has_modes or step.procedure.finds_modes
+        if step.procedure.needs_modes and not has_modes:
             how = "by modes" if step.procedure.modal else "with INTERVAL=EIGENFREQUENCY"
             problems.add(step.source, f"*{step.procedure.keyword} {how} needs a *FREQUENCY step before it")
         for boundary in step.boundaries if step.procedure.modal else ():
@@ -212,8 +210,8 @@ def _not_following(load: ElementLoad) -> str:
 
 
 def _check_followers(steps: Sequence[Step], problems: Problems) -> None:
-    """Report follower loads that NLGEOM or *BUCKLE does not support: on edges, along local directions of beams, or
-    beside a perturbation step.
+    """Report unsupported follower loads with NLGEOM or *BUCKLE: on edges, along local directions of beams, or with a
+    perturbation step.
     """
     nonlinear = next((step for step in steps if step.nlgeom), None)
     if nonlinear is None:
@@ -243,13 +241,13 @@ def _check_buckling_loads(steps: Sequence[Step], problems: Problems) -> None:
 def _read_entries(
     scope: Scope, names: tuple[str, ...], read: Callable[[Block], Sequence[Entry]], problems: Problems
 ) -> tuple[tuple[Entry, ...], bool]:
-    """Read the entries of some keywords of a step, and whether they replace those of earlier steps."""
-    found: list[Entry] = []
+    """Read the entries of keywords of a step; return them, and whether they replace those of earlier steps."""
+    entries: list[Entry] = []
     blocks = [block for block in scope.blocks if block.name in names]
     for block in blocks:
         with problems.gather():
-            found += read(block)
-    return tuple(found), _is_new(blocks, problems)
+            entries += read(block)
+    return tuple(entries), _is_new(blocks, problems)
 
 
 def _is_new(blocks: list[Block], problems: Problems) -> bool:
