@@ -72,12 +72,12 @@ def mark_properties(_: argparse.ArgumentParser, words: list[str]) -> list[str]:
 def insert_elements(options: argparse.Namespace) -> int:
     """Run `uel insert`."""
     from uel.insertion.command import insert  # noqa: PLC0415
-    from uel.insertion.selection import Wanted  # noqa: PLC0415
+    from uel.insertion.selection import CutRequest  # noqa: PLC0415
 
     if any(options.output.resolve() == file.resolve() for file in options.files):
         raise UsageError(f"-o {options.output}: is what is read; write to another file")
     pairs = [(below, above) for below, above in options.between]
-    wanted = Wanted(pairs, options.surface, options.nodes, options.plies, options.all, options.crack)
+    wanted = CutRequest(pairs, options.surface, options.nodes, options.plies, options.all, options.crack)
     text, done = insert(
         options.files,
         wanted,

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A deck as the insertion sees it: its text, its solids, and the names of its sets.
+"""A deck for the insertion: its text, its solids, and the names of its sets.
 
-Instances of one part have one mesh: the first of them stands for all, and a cut through it is a cut through the part.
+Instances of a part have one mesh. The first instance represents all of them: a cut through it cuts the part.
 """
 
 from __future__ import annotations
@@ -25,19 +25,18 @@ from uel.deck.mesh.groups import node_indices
 from uel.deck.mesh.local_mesh import ElementRun
 from uel.deck.sections.solids import SECTION_KEYWORDS
 from uel.errors import DeckError, Source, UsageError
-from uel.insertion.cut import Cells, Solids
+from uel.insertion.cut import Cells, Solids, mask_of
 from uel.model.arrays import IntArray
 from uel.model.element_types import BUILT_IN, FAMILIES, ContinuumType, Family
-from uel.model.mesh import full_name
 from uel.usersub.layout import element_layouts
 
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """Elements of one *ELEMENT or *ELGEN line: where they are in the whole model, and their nodes there.
+    """Elements of one *ELEMENT or *ELGEN line: positions and nodes in the model.
 
-    family  of solids, None for other elements
-    face    of elements that may lie on faces of the solids, None for others
+    family  family of solids, None for other elements
+    face    family of elements that may be on faces of the solids, None for others
     """
 
     owner: Owner
@@ -49,10 +48,10 @@ class Run:
 
 
 class Deck:
-    """The text of a deck, and the mesh that stands for all instances.
+    """Text of a deck, and the mesh of the first instance of each part.
 
-    runs     elements that stand for all instances
-    solids   their solids; `numbers` (elements,) are their numbers there, -1 for other elements
+    runs     elements of these instances
+    solids   their solids; `numbers` (elements,): number of the solid, -1 for other elements
     """
 
     def __init__(self, files: Sequence[Path], made: dict[Path, list[str]]) -> None:
@@ -67,17 +66,17 @@ class Deck:
         self.warnings = problems.warnings
         self.owners = self.flat.owners
         self.part_of = {name: scope.head.options.text("PART") for name, scope in self.structure.instances.items()}
-        self._stand_in()
+        self._map_instances()
         self._read_elements()
         self._read_sections()
 
     @property
     def start(self) -> Source:
-        """First line, for errors that have no other place."""
+        """First line, for errors without another location."""
         return Source(str(self.file), 1)
 
-    def _stand_in(self) -> None:
-        """Map nodes and elements of the whole model to those of the first instance of their part. Raises DeckError."""
+    def _map_instances(self) -> None:
+        """Map nodes and elements of the model to those of the first instance of their part. Raises DeckError."""
         self.node_of = np.arange(len(self.flat.mesh.labels))
         self.element_of = np.arange(sum(len(owner.elements) for owner in self.owners))
         self.first: dict[str, Owner] = {}
@@ -85,12 +84,12 @@ class Deck:
             first = self.first.setdefault(self.part_of.get(owner.name, ""), owner)
             if first is owner:
                 continue
-            for what in ("nodes", "elements"):
-                own, other = getattr(owner, what), getattr(first, what)
-                if not np.array_equal(own, other):
+            for kind in ("nodes", "elements"):
+                labels, first_labels = getattr(owner, kind), getattr(first, kind)
+                if not np.array_equal(labels, first_labels):
                     scope = self.structure.instances[owner.name]
                     raise scope.head.error(
-                        f"{owner.name} has other {what} than {first.name}, an instance of the same part: expected "
+                        f"{owner.name} has other {kind} than {first.name}, an instance of the same part: expected "
                         "the mesh in the part alone, or one instance"
                     )
             self.node_of[owner.node_offset :][: len(owner.nodes)] = first.node_offset + np.arange(len(owner.nodes))
@@ -101,9 +100,9 @@ class Deck:
     def _read_elements(self) -> None:
         self.runs: list[Run] = []
         runs = [(owner, run) for owner in self.first.values() for run in owner.mesh.runs if len(run.labels)]
-        # an element of the assembly with nodes of instances is in no part's mesh
+        # an element of the assembly with nodes of instances is in no part
         families = [None if np.any(run.nodes < 0) else _solid_family(run) for _, run in runs]
-        # plane elements beside bricks, as Gmsh exports groups of faces, are no solids
+        # plane elements in a mesh of bricks, Gmsh's groups of faces, are no solids
         dimension = max((family.dimension for family in families if family), default=0)
         for (owner, run), family in zip(runs, families, strict=True):
             solid = family if family and family.dimension == dimension else None
@@ -114,19 +113,20 @@ class Deck:
         self.numbers = np.full(len(self.element_of), -1)
         indices: list[IntArray] = []
         rows: dict[int, list[tuple[IntArray, IntArray]]] = {}
-        for family in {found.family.number: found.family for found in self.runs if found.family}.values():
-            for index, found in enumerate(self.runs):
-                if found.family is family:
-                    indices.append(np.full(len(found.nodes), index))
-                    numbers = count + np.arange(len(found.nodes))
-                    count += len(found.nodes)
-                    self.numbers[found.positions] = numbers
-                    rows.setdefault(family.number, []).append((numbers, found.nodes))
+        for family in {run_data.family.number: run_data.family for run_data in self.runs if run_data.family}.values():
+            for index, run_data in enumerate(self.runs):
+                if run_data.family is family:
+                    indices.append(np.full(len(run_data.nodes), index))
+                    numbers = count + np.arange(len(run_data.nodes))
+                    count += len(run_data.nodes)
+                    self.numbers[run_data.positions] = numbers
+                    rows.setdefault(family.number, []).append((numbers, run_data.nodes))
         cells = [
             Cells(
-                next(f for f in FAMILIES.values() if f.number == number), *map(np.concatenate, zip(*parts, strict=True))
+                next(f for f in FAMILIES.values() if f.number == number),
+                *map(np.concatenate, zip(*entries, strict=True)),
             )
-            for number, parts in rows.items()
+            for number, entries in rows.items()
         ]
         self.run_index = np.concatenate([*indices, np.zeros(0, dtype=np.int64)])
         self.positions = np.zeros(count, dtype=np.int64)
@@ -140,7 +140,7 @@ class Deck:
             raise self.error(last, f"elements {names} share a face, which can belong to two elements at most")
 
     def _read_sections(self) -> None:
-        """Read the section of each solid, -1 for none, and the keywords that give them."""
+        """Read the section of each solid, -1 for none, and the section keywords."""
         self.section_blocks: list[tuple[Owner, Block]] = []
         self.sections = np.full(self.solids.count, -1)
         self._sectioned = np.zeros(len(self.element_of), dtype=bool)
@@ -154,34 +154,28 @@ class Deck:
                     self.section_blocks.append((owner, block))
 
     def lacks_section(self, positions: IntArray) -> NDArray[np.bool_]:
-        """Mask the elements of the whole model that have no section."""
+        """Return the mask of elements without a section."""
         return ~self._sectioned[positions]
 
     def surface_names(self) -> list[str]:
         """Return the names of all surfaces."""
         return list(self._surfaces())
 
-    def owner_of(self, position: int) -> Owner:
-        """Return the owner of an element of the whole model."""
-        return next(o for o in reversed(self.owners) if len(o.elements) and o.element_offset <= position)
-
     def owner_of_node(self, index: int) -> Owner:
-        """Return the owner of a node of the whole model."""
+        """Return the owner of a node."""
         return next(o for o in reversed(self.owners) if len(o.nodes) and o.node_offset <= index)
 
     def name(self, number: int) -> str:
         """Return the label of a solid, with its instance."""
-        position = int(self.positions[number])
-        owner = self.owner_of(position)
-        return full_name(owner.name, int(owner.elements[position - owner.element_offset]))
+        return self.flat.element_name(int(self.positions[number]))
 
     def run_of(self, number: int) -> tuple[Run, int]:
-        """Run of a solid, and its place there."""
+        """Return the run of a solid, and its row in it."""
         run = self.runs[self.run_index[number]]
         return run, int(np.flatnonzero(run.positions == self.positions[number])[0])
 
     def error(self, number: int, message: str) -> DeckError:
-        """Make an error at a solid: 'element 7 (C3D10)', then the message."""
+        """Return an error at a solid: 'element 7 (C3D10)', then the message."""
         run, row = self.run_of(number)
         return DeckError(run.run.source(row), f"element {self.name(number)} ({run.run.type.name}): {message}")
 
@@ -197,7 +191,7 @@ class Deck:
         return numbers
 
     def nodes_of(self, name: str, option: str) -> IntArray | None:
-        """Return the nodes of a node set, None where there is no set of this name."""
+        """Return the nodes of a node set, None for an unknown set."""
         key = self._key(name, self.flat.nsets, option)
         return None if key is None else np.unique(self.node_of[self.flat.nsets[key]])
 
@@ -208,8 +202,8 @@ class Deck:
         return None if key is None else blocks[key]
 
     def faces_of(self, owner: Owner, block: Block) -> NDArray[np.bool_]:
-        """Mask the faces of the solids that belong to a *SURFACE of elements."""
-        found = np.zeros(len(self.solids.element), dtype=bool)
+        """Return the mask of the faces of solids in a *SURFACE of elements."""
+        mask = np.zeros(len(self.solids.element), dtype=bool)
         if block.options.has("COMBINE"):
             raise block.error("a combined surface is not supported here; expected one of sets or elements and faces")
         for row in block.rows():
@@ -218,35 +212,34 @@ class Deck:
             side = row.name(1, "face")
             if side[:1] != "S" or not side[1:].isdecimal():
                 raise row.error(f"{side} is not a face of a solid (S1, S2, ...)")
-            inside = np.zeros(self.solids.count, dtype=bool)
-            inside[numbers[numbers >= 0]] = True
-            found |= inside[self.solids.element] & (self.solids.side == int(side[1:]) - 1)
-        return found
+            inside = mask_of(numbers[numbers >= 0], self.solids.count)
+            mask |= inside[self.solids.element] & (self.solids.side == int(side[1:]) - 1)
+        return mask
 
     def _surfaces(self) -> dict[str, tuple[Owner, Block]]:
-        found = [(owner, block) for owner in self.owners for block in owner.blocks if block.name == "SURFACE"]
+        surfaces = [(owner, block) for owner in self.owners for block in owner.blocks if block.name == "SURFACE"]
         return {
             (f"{owner.name}." if owner.name else "") + block.options.text("NAME"): (owner, block)
-            for owner, block in found
+            for owner, block in surfaces
         }
 
-    def unknown(self, option: str, what: str, name: str, *known: Iterable[str]) -> UsageError:
-        """Make the error for a name that the deck does not have."""
+    def unknown(self, option: str, kind: str, name: str, *known: Iterable[str]) -> UsageError:
+        """Return the error for a name that the deck does not define."""
         names = list(dict.fromkeys(name for names in known for name in names))
         listed = ", ".join(names[:20]) + (", ..." if len(names) > 20 else "") if names else "none"
-        return UsageError(f"{option}: the mesh has no {what} {name} (it has: {listed}){nearest(name.upper(), names)}")
+        return UsageError(f"{option}: the mesh has no {kind} {name} (it has: {listed}){nearest(name.upper(), names)}")
 
     def _key(self, name: str, known: Container[str], option: str) -> str | None:
-        """Find the name of a set as the whole model has it: SET, INSTANCE.SET, PART.SET, or SET of one part."""
+        """Return the name of a set in the model, from SET, INSTANCE.SET, PART.SET, or SET of a single part."""
         name = " ".join(name.replace('"', "").upper().split())
         if name in known:
             return name
-        part, _, local = name.rpartition(".")
-        owners = [owner.name for key, owner in self.first.items() if owner.name and part in ("", key)]
-        found = [f"{owner}.{local}" for owner in owners if f"{owner}.{local}" in known]
-        if len(found) > 1:
-            raise UsageError(f"{option}: {name} is in several parts: write one of {', '.join(found)}")
-        return found[0] if found else None
+        scope, _, local = name.rpartition(".")
+        owners = [owner.name for key, owner in self.first.items() if owner.name and scope in ("", key)]
+        matches = [f"{owner}.{local}" for owner in owners if f"{owner}.{local}" in known]
+        if len(matches) > 1:
+            raise UsageError(f"{option}: {name} is in several parts: write one of {', '.join(matches)}")
+        return matches[0] if matches else None
 
 
 def _face_family(run: ElementRun, dimension: int) -> Family | None:
@@ -255,17 +248,17 @@ def _face_family(run: ElementRun, dimension: int) -> Family | None:
     family: Family | None = getattr(kind, "family", None)
     if family is None or family.dimension != dimension:
         return None
-    # the middle of a beam is not its last node
+    # the midside node of a beam is not its last node
     return family if dimension == 2 or family.nodes == 2 else None
 
 
 def _solid_family(run: ElementRun) -> Family | None:
-    """Return the family of the solids of a run, built in or U1 and U9 of the project; None for other elements."""
+    """Return the family of solids of a run: built-in ones, or U1 and U9 of the project; None for other elements."""
     if run.type.definition is None:
         kind = BUILT_IN[run.type.name]
         return kind.family if isinstance(kind, ContinuumType) else None
     layout = element_layouts().get(run.type.definition.number)
-    # a UELMAT; another code may call its interface element U1
+    # U1 of another code may be an interface element: expect UELMAT
     if layout is None or any(layout.faces) or not run.type.definition.integration or layout.nodes != run.type.nodes:
         return None
     return FAMILIES[layout.dimension, layout.nodes]

@@ -25,7 +25,7 @@ from uel.insertion.connectivity import (
     interface_types,
     known_types,
 )
-from uel.insertion.cut import NONE, Cells, Cut, cut
+from uel.insertion.cut import NONE, Cells, Cut, cut, mask_of
 from uel.insertion.meshes import is_mesh, read_mesh
 from uel.insertion.neighbours import check_neighbours
 from uel.insertion.properties import (
@@ -38,7 +38,7 @@ from uel.insertion.properties import (
 )
 from uel.insertion.rewriting import Rewriting, quoted
 from uel.insertion.sections import Faces, Sections
-from uel.insertion.selection import Selection, Wanted, select
+from uel.insertion.selection import CutRequest, Selection, select
 from uel.model.arrays import IntArray
 from uel.model.element_types import BUILT_IN, DISCRETE, FAMILIES, ContinuumType, Family
 
@@ -54,29 +54,29 @@ class Insertion:
     elements    number of elements
     doubled     number of new nodes
     crack       number of faces of the initial crack
-    whole       faces that were left as they are, for none of their nodes is doubled
-    warnings    what is odd but understood
-    plies       between which plies is cut, and how many faces there
+    closed      number of faces without duplicated nodes, which get no element
+    warnings    warnings of the deck and of the insertion
+    plies       cut pairs of plies, and their numbers of faces
     """
 
     kind: str
     elements: int
     doubled: int
     crack: int
-    whole: int
+    closed: int
     warnings: tuple[str, ...]
     plies: tuple[tuple[str, str, int], ...] = ()
 
     def lines(self, elset: str) -> list[str]:
-        """Return the lines that tell the user about it."""
+        """Return the report to the user."""
         lines = [f"warning: {warning}" for warning in self.warnings]
         lines += [
             f"--plies: cut between {lower} and {upper}: {count} face{'s' * (count != 1)}"
             for lower, upper, count in self.plies
         ]
-        if self.whole:
+        if self.closed:
             lines.append(
-                f"warning: {self.whole} faces get no element: the mesh around them holds all their nodes together"
+                f"warning: {self.closed} faces get no element: the mesh around them holds all their nodes together"
             )
         if self.kind and not known_types()[self.kind].here:
             lines.append(f"warning: {self.kind} runs in Abaqus, not here")
@@ -87,7 +87,7 @@ class Insertion:
 
 def insert(
     files: Sequence[Path],
-    wanted: Wanted,
+    request: CutRequest,
     *,
     element: str = "",
     elset: str = "INTERFACE",
@@ -99,58 +99,58 @@ def insert(
     Parameters
     ----------
     files
-        A deck; or a mesh, which may be followed by a deck with what belongs to it.
-    wanted
-        Where the elements are.
+        A deck; or a mesh, with or without a deck for its sections, steps and so on.
+    request
+        Faces to cut.
     element
-        Their type; '' for the recommended one that fits.
+        Type of the interface elements; '' for the recommended one.
     elset
-        Element set that takes them.
+        Element set of the interface elements.
     solids
-        Continuum elements that cells of a mesh become.
+        Continuum element types for the cells of a mesh.
     values
-        Their properties, NAME=VALUE.
+        Properties of the interface elements, NAME=VALUE.
 
     Raises
     ------
     UelError
-        With the option, or the place in the deck.
+        With the option, or the location in the deck.
     """
-    given = read_values(values)
+    properties_given = read_values(values)
     deck = _read(files, solids)
-    selection = select(deck, wanted)
+    selection = select(deck, request)
     if not selection.cuts.any():
         raise UsageError("say where: --between, --surface, --nodes, --plies or --all")
-    pieces = cut(deck.solids, selection.cuts)
-    chosen, whole = _with_elements(deck, selection, pieces)
+    cut_mesh = cut(deck.solids, selection.cuts)
+    chosen, closed = _with_elements(deck, selection, cut_mesh)
     if not len(chosen) and not selection.crack.any():
         raise UsageError("no face gets an element: nothing there can open")
     kind = _kind(deck, chosen, element) if len(chosen) else None
     properties: dict[Items, IntArray] = {}
     warnings: list[str] = []
     if kind is not None:
-        check_values(kind, given)
+        check_values(kind, properties_given)
         sections, sides = Sections(deck), _two_sides(deck, chosen)
         warnings += check_neighbours(deck, sections, kind, chosen)
-        properties = _values(kind, sections, sides, given)
+        properties = _values(kind, sections, sides, properties_given)
         warnings += sections.warnings
-    if wanted.plies is not None and not wanted.plies:
+    if request.plies is not None and not request.plies:
         warnings += _meeting(deck, selection)
-    rewriting = Rewriting(deck, pieces)
+    rewriting = Rewriting(deck, cut_mesh)
     rewriting.write_nodes()
-    rewriting.write_elements(_changed(deck, pieces, warnings))
+    rewriting.write_elements(_changed(deck, cut_mesh, warnings))
     rewriting.write_sets()
     rewriting.write_nodal_lines()
     rewriting.write_equations()
     if kind is not None:
-        _write_interface(deck, rewriting, pieces, kind, chosen, elset, properties)
+        _write_interface(deck, rewriting, cut_mesh, kind, chosen, elset, properties)
     done = Insertion(
         kind.name if kind is not None else "",
         len(chosen),
-        len(pieces.origins),
+        len(cut_mesh.origins),
         int(np.sum(selection.crack)),
-        whole,
-        (*deck.warnings, *warnings, *_ties(deck, pieces)),
+        closed,
+        (*deck.warnings, *warnings, *_ties(deck, cut_mesh)),
         tuple(selection.plies),
     )
     return rewriting.text(), done
@@ -166,8 +166,8 @@ def _read(files: Sequence[Path], solids: Sequence[str]) -> Deck:
 
 
 def _meeting(deck: Deck, selection: Selection) -> list[str]:
-    """Return a warning that cuts between sections meet, as where the section of a ply changes along it."""
-    faces = np.flatnonzero(selection.meets)
+    """Return a warning where cuts between sections intersect, since the section changes within a ply."""
+    faces = np.flatnonzero(selection.branching)
     if not len(faces):
         return []
     first, second = (deck.name(int(deck.solids.element[face])) for face in deck.solids.pairs[faces[0]])
@@ -178,19 +178,17 @@ def _meeting(deck: Deck, selection: Selection) -> list[str]:
     ]
 
 
-def _with_elements(deck: Deck, selection: Selection, pieces: Cut) -> tuple[IntArray, int]:
-    """Return the faces below and above, (faces, 2), that get elements; and how many get none, for they cannot open."""
+def _with_elements(deck: Deck, selection: Selection, cut_mesh: Cut) -> tuple[IntArray, int]:
+    """Return the faces below and above, (faces, 2), of the elements, and the number of faces that cannot open."""
     pairs = deck.solids.pairs
     order = np.stack([selection.below, 1 - selection.below], axis=1)
     sides = np.take_along_axis(pairs, order, axis=1)[selection.cuts & ~selection.crack]
-    doubled = np.zeros(len(deck.solids.points) + 1, dtype=bool)
-    doubled[pieces.origins] = True
-    opens = doubled[deck.solids.nodes[sides[:, 0]]].any(axis=1)
+    opens = mask_of(cut_mesh.origins, len(deck.solids.points) + 1)[deck.solids.nodes[sides[:, 0]]].any(axis=1)
     return sides[opens], int(np.sum(~opens))
 
 
 def _kind(deck: Deck, sides: IntArray, name: str) -> InterfaceType:
-    """Return the type of the elements, as asked for or recommended. Raises UsageError, DeckError if it does not fit."""
+    """Return the requested or recommended element type. Raises UsageError, or DeckError if none fits."""
     known = interface_types()
     if name and name.upper() not in known:
         reason = ""
@@ -238,15 +236,14 @@ def _face_families(deck: Deck, faces: IntArray) -> list[Family]:
     return [by_size[size] for size in sizes.tolist()]
 
 
-def _changed(deck: Deck, pieces: Cut, warnings: list[str]) -> dict[int, IntArray]:
-    """Return the new nodes of elements that have doubles, by position in the whole model; adds to the warnings."""
-    found: dict[int, IntArray] = {}
-    for before, after in zip(deck.solids.cells, pieces.cells, strict=True):
+def _changed(deck: Deck, cut_mesh: Cut, warnings: list[str]) -> dict[int, IntArray]:
+    """Return the new connectivity of elements with duplicated nodes, by position; adds to the warnings."""
+    connectivity: dict[int, IntArray] = {}
+    for before, after in zip(deck.solids.cells, cut_mesh.cells, strict=True):
         rows = np.flatnonzero(np.any(before.nodes != after.nodes, axis=1))
-        found |= dict(zip(deck.positions[before.numbers[rows]].tolist(), after.nodes[rows], strict=True))
-    doubled = np.zeros(len(deck.solids.points), dtype=bool)
-    doubled[pieces.origins] = True
-    cells = {group.family.number: group for group in pieces.cells}
+        connectivity |= dict(zip(deck.positions[before.numbers[rows]].tolist(), after.nodes[rows], strict=True))
+    doubled = mask_of(cut_mesh.origins, len(deck.solids.points))
+    cells = {group.family.number: group for group in cut_mesh.cells}
     for run in (run for run in deck.runs if run.run.type.name not in DISCRETE):
         rows = np.flatnonzero(doubled[run.nodes].any(axis=1))
         if np.any(run.run.nodes[rows] < 0):
@@ -266,16 +263,16 @@ def _changed(deck: Deck, pieces: Cut, warnings: list[str]) -> dict[int, IntArray
                 if run.face is not None:
                     reason = "it lies on no face, or on one that is cut"
                 raise _unknown_element(run, row, f"it is not known on which side it is: {reason}")
-            found |= dict(zip(run.positions[rows].tolist(), nodes, strict=True))
-    return found
+            connectivity |= dict(zip(run.positions[rows].tolist(), nodes, strict=True))
+    return connectivity
 
 
 def _on_faces(
     deck: Deck, run: Run, rows: IntArray, cells: Mapping[int, Cells], warnings: list[str]
 ) -> tuple[IntArray, NDArray[np.bool_]]:
-    """Return the nodes after the cut of shells and the like on faces of solids, and which of them are on no side.
+    """Return the new nodes of shells and the like on faces of solids, and the mask of those on no unique side.
 
-    Those without a section, groups of faces of a mesh, stay where both sides have them.
+    Elements without a section, groups of faces of a mesh, stay on the old nodes.
     """
     assert run.face is not None
     solids, nodes = deck.solids, run.nodes[rows]
@@ -283,11 +280,11 @@ def _on_faces(
     on = first != NONE
     partner = np.arange(len(solids.element))
     partner[solids.pairs] = solids.pairs[:, ::-1]
-    found, lost = nodes.copy(), ~on
+    new_nodes, lost = nodes.copy(), ~on
     if on.any():
-        found[on] = beside(solids, first[on], nodes[on], cells)
+        new_nodes[on] = beside(solids, first[on], nodes[on], cells)
         other = beside(solids, partner[first[on]], nodes[on], cells)
-        lost[on] = (found[on] != other).any(axis=1)
+        lost[on] = (new_nodes[on] != other).any(axis=1)
     without = deck.lacks_section(run.positions[rows])
     stay = lost & without
     if stay.any():
@@ -296,8 +293,8 @@ def _on_faces(
             f"{run.run.source(row)}: {int(stay.sum())} elements {run.run.type.name} without a section, such as "
             f"element {int(run.run.labels[row])}, are on faces that are cut: they stay on the old nodes"
         )
-        found[stay] = nodes[stay]
-    return found, lost & ~without
+        new_nodes[stay] = nodes[stay]
+    return new_nodes, lost & ~without
 
 
 def _interface_type(run: Run) -> InterfaceType | None:
@@ -314,20 +311,20 @@ def _unknown_element(run: Run, row: int, reason: str) -> DeckError:
 def _write_interface(
     deck: Deck,
     rewriting: Rewriting,
-    pieces: Cut,
+    cut_mesh: Cut,
     kind: InterfaceType,
     sides: IntArray,
     elset: str,
     values: Mapping[Items, IntArray],
 ) -> None:
     """Write elements, sets and properties, part by part."""
-    cells = {group.family.number: group for group in pieces.cells}
+    cells = {group.family.number: group for group in cut_mesh.cells}
     nodes = element_nodes(kind, deck.solids, sides[:, 0], sides[:, 1], cells)
     positions = deck.positions[deck.solids.element[sides[:, 0]]]
     number = int(max(other.elements.max() for other in deck.owners if len(other.elements))) + 1
     for owner in deck.first.values():
-        mine = (positions >= owner.element_offset) & (positions < owner.element_offset + len(owner.elements))
-        groups = [(items, rows[mine[rows]]) for items, rows in values.items() if mine[rows].any()]
+        inside = (positions >= owner.element_offset) & (positions < owner.element_offset + len(owner.elements))
+        groups = [(items, rows[inside[rows]]) for items, rows in values.items() if inside[rows].any()]
         if not groups:
             continue
         if elset.upper() in owner.mesh.elsets:
@@ -350,16 +347,16 @@ def _write_interface(
 
 
 def _values(
-    kind: InterfaceType, sections: Sections, sides: tuple[Faces, Faces], given: Mapping[str, float]
+    kind: InterfaceType, sections: Sections, sides: tuple[Faces, Faces], properties: Mapping[str, float]
 ) -> dict[Items, IntArray]:
-    """Return the elements by their properties, which those between like solids have in common."""
+    """Return the rows of elements by their properties."""
     (below, first), (above, second) = (sections.sides(faces) for faces in sides)
-    found: dict[Items, list[IntArray]] = {}
-    pairs, which = np.unique(np.column_stack([first, second]), axis=0, return_inverse=True)
-    for place, (lower, upper) in enumerate(pairs.tolist()):
-        rows = np.flatnonzero(which.ravel() == place)
-        found.setdefault(tuple(element_values(kind, given, below[lower], above[upper]).items()), []).append(rows)
-    return {items: np.sort(np.concatenate(rows)) for items, rows in found.items()}
+    groups: dict[Items, list[IntArray]] = {}
+    pairs, number = np.unique(np.column_stack([first, second]), axis=0, return_inverse=True)
+    for index, (lower, upper) in enumerate(pairs.tolist()):
+        rows = np.flatnonzero(number.ravel() == index)
+        groups.setdefault(tuple(element_values(kind, properties, below[lower], above[upper]).items()), []).append(rows)
+    return {items: np.sort(np.concatenate(rows)) for items, rows in groups.items()}
 
 
 def _two_sides(deck: Deck, sides: IntArray) -> tuple[Faces, Faces]:
@@ -370,16 +367,17 @@ def _two_sides(deck: Deck, sides: IntArray) -> tuple[Faces, Faces]:
     return Faces(sides[:, 0], normals, above=False), Faces(sides[:, 1], normals, above=True)
 
 
-def _ties(deck: Deck, pieces: Cut) -> list[str]:
-    """Return warnings of ties to a cut surface: which of two nodes in one place a node follows is not decided."""
-    doubled = np.zeros(len(deck.solids.points) + 1, dtype=bool)
-    doubled[pieces.origins] = True
-    found = []
+def _ties(deck: Deck, cut_mesh: Cut) -> list[str]:
+    """Return warnings of ties to a cut surface, where a tied node follows one of two coincident nodes."""
+    doubled = mask_of(cut_mesh.origins, len(deck.solids.points) + 1)
+    warnings = []
     for row in (row for block in deck.blocks if block.name == "TIE" for row in block.rows()):
         surface = deck.surface(row.name(1, "surface"), f"{row.source}: *TIE")
         if surface is None or surface[1].options.text("TYPE") != "ELEMENT":
             continue
         if doubled[deck.solids.nodes[deck.faces_of(*surface)]].any():
             name = row.name(1, "surface")
-            found.append(f"{row.source}: *TIE: nodes of {name} are doubled; a node tied there follows one of each two")
-    return found
+            warnings.append(
+                f"{row.source}: *TIE: nodes of {name} are doubled; a node tied there follows one of each two"
+            )
+    return warnings

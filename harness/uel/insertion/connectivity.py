@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Interface element types, and the nodes that an element needs between two solids.
+"""Interface element types, and their connectivity between two solids.
 
-The types come from the tables of built-in elements and of the project's own. A standard element takes the nodes of both
-faces; one that owns both solids takes all their nodes, each solid turned so that its face is where the table wants it.
+The types are those of the tables of built-in elements and of the kernels. A standard element has the nodes of both
+faces; an element that owns both solids has all their nodes, each solid permuted so that its face is as in the table.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ from uel.usersub.layout import element_layouts
 
 @dataclass(frozen=True, slots=True)
 class InterfaceType:
-    """An interface element.
+    """Interface element type.
 
     jtype   n of a user element Un of the project; 0 for an element of Abaqus
-    face    family of the faces between which it lies
+    face    family of its faces
     nodes   number of nodes
-    bottom  local nodes of its bottom face, from 0: corners, then middles; `top` those opposite
-    solid   family of the two solids that it owns, None where it has the nodes of the faces alone
-    here    whether this program runs it, too
+    bottom  local nodes of its bottom face, from 0: corners, then midside nodes; `top`: opposite nodes
+    solid   family of the two solids that it owns, None for a standard element
+    here    whether the harness supports it
     """
 
     name: str
@@ -51,23 +51,23 @@ class InterfaceType:
 @cache
 def known_types() -> dict[str, InterfaceType]:
     """Return the interface elements by their names."""
-    found = {
+    types = {
         name: InterfaceType(name, 0, kind.face, kind.nodes, kind.bottom, kind.top) for name, kind in COHESIVE.items()
     }
-    found["COH3D6"] = InterfaceType("COH3D6", 0, TRI3, 6, (0, 1, 2), (3, 4, 5), here=False)
+    types["COH3D6"] = InterfaceType("COH3D6", 0, TRI3, 6, (0, 1, 2), (3, 4, 5), here=False)
     for jtype, layout in element_layouts().items():
         bottom, top = layout.faces
         if bottom:
             face = FAMILIES[layout.dimension - 1, len(bottom)]
             owns = layout.nodes > 2 * len(bottom)
             solid = FAMILIES[layout.dimension, layout.nodes // 2] if owns else None
-            found[f"U{jtype}"] = InterfaceType(f"U{jtype}", jtype, face, layout.nodes, bottom, top, solid)
-    return found
+            types[f"U{jtype}"] = InterfaceType(f"U{jtype}", jtype, face, layout.nodes, bottom, top, solid)
+    return types
 
 
 @cache
 def interface_types() -> dict[str, InterfaceType]:
-    """Return the types that can be inserted: not U3 and U10, which know their neighbours by numbers."""
+    """Return the types that can be inserted: all but U3 and U10, whose properties are element numbers."""
     layouts = element_layouts()
     return {
         name: kind
@@ -77,20 +77,20 @@ def interface_types() -> dict[str, InterfaceType]:
 
 
 def fitting(faces: set[Family], solids: set[Family]) -> list[InterfaceType]:
-    """Return the types that fit between all these faces of all these solids, the recommended one first."""
-    found = [
+    """Return the types for these faces and solids, the recommended one first."""
+    types = [
         kind
         for kind in interface_types().values()
         if {kind.face} == faces and (not kind.solid or {kind.solid} == solids)
     ]
-    # stabilised ones, then standard ones of the project, then those of Abaqus
-    return sorted(found, key=lambda kind: (kind.solid is None, not kind.jtype))
+    # stabilised elements, then standard ones of the project, then those of Abaqus
+    return sorted(types, key=lambda kind: (kind.solid is None, not kind.jtype))
 
 
 def face_nodes(solids: Solids, faces: IntArray) -> IntArray:
-    """Return the nodes of faces of one family, (faces, nodes): corners with the normal out of the solid, then middles.
+    """Return the nodes of faces of one family, (faces, nodes): corners, with the outward normal, then midside nodes.
 
-    In the plane, the normal of an edge is its direction turned by 90 degrees, counter-clockwise; in space, corners are
+    In the plane, the normal of an edge is its direction rotated by 90 degrees, counter-clockwise; in space, corners are
     counter-clockwise seen from outside.
     """
     size, corners = int(solids.sizes[faces[0]]), int(solids.corners[faces[0]])
@@ -99,7 +99,7 @@ def face_nodes(solids: Solids, faces: IntArray) -> IntArray:
     outward = points.mean(axis=1) - solids.centroids[solids.element[faces]]
     inward = np.sum(face_normals(points) * outward, axis=1) < 0.0
     back = list(range(corners - 1, -1, -1))
-    # the middle after a corner is that of the edge to the next corner
+    # a midside node is on the edge from its corner to the next one
     middles = [corners + (corner - 1) % corners for corner in back] if corners > 2 else [2]
     order = back + middles if size > corners else back
     return np.where(inward[:, None], nodes[:, order], nodes)
@@ -112,81 +112,72 @@ def face_normals(corners: FloatArray) -> FloatArray:
         along = corners[:, 1] - corners[:, 0]
         normal = np.stack([-along[:, 1], along[:, 0], np.zeros(len(along))], axis=1)
     else:
-        # of a quadrilateral the diagonals, of a triangle two edges
+        # diagonals of a quadrilateral, edges of a triangle
         normal = np.cross(corners[:, 2] - corners[:, 0], corners[:, count - 1] - corners[:, 1])
         normal = normal if count == 4 else np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    found: FloatArray = normal / np.linalg.norm(normal, axis=1)[:, None]
-    return found
+    return np.asarray(normal / np.linalg.norm(normal, axis=1)[:, None])
 
 
 def element_nodes(
     kind: InterfaceType, solids: Solids, faces: IntArray, opposite: IntArray, after: Mapping[int, Cells]
 ) -> IntArray:
-    """Return the nodes of interface elements, (faces, nodes of the type), by their numbers after the cut.
+    """Return the connectivity of interface elements, (faces, nodes of the type), after the cut.
 
     Parameters
     ----------
     kind
         Their type.
     solids
-        Before the cut.
+        Solids before the cut.
     faces, opposite
-        Faces of the solids below, and those of the solids above.
+        Faces of the solids below and above.
     after
-        Cells after the cut, by the number of their family.
+        Cells after the cut, by family number.
     """
     below, above = solids.element[faces], solids.element[opposite]
     along = face_nodes(solids, faces)
-    found = np.full((len(faces), kind.nodes), NONE)
-    for upper, (number, place) in enumerate(((below, kind.bottom), (above, kind.top))):
+    connectivity = np.full((len(faces), kind.nodes), NONE)
+    for upper, (number, face_nodes_of) in enumerate(((below, kind.bottom), (above, kind.top))):
         old, new = _rows(solids, after, number)
         local = _local(old, along)
         if kind.solid is None:
-            found[:, list(place)] = np.take_along_axis(new, local, axis=1)
+            connectivity[:, list(face_nodes_of)] = np.take_along_axis(new, local, axis=1)
         else:
             half = kind.solid.nodes if upper else 0
-            order = _turned(kind.solid, local, tuple(node - half for node in place))
-            found[:, half : half + kind.solid.nodes] = np.take_along_axis(new, order, axis=1)
-    return found
+            order = _permutation(kind.solid, local, tuple(node - half for node in face_nodes_of))
+            connectivity[:, half : half + kind.solid.nodes] = np.take_along_axis(new, order, axis=1)
+    return connectivity
 
 
 def attached(
     kind: InterfaceType, solids: Solids, nodes: IntArray, after: Mapping[int, Cells]
 ) -> tuple[IntArray, NDArray[np.bool_]]:
-    """Return the nodes after the cut of interface elements that a mesh has, and which of them lie between no solids.
+    """Return the new connectivity of existing interface elements, and the mask of those not between solids.
 
-    nodes: theirs before the cut, (elements, nodes of the type).
+    nodes: (elements, nodes of the type) before the cut.
     """
-    found, lost = nodes.copy(), np.zeros(len(nodes), dtype=bool)
-    for upper, place in enumerate((kind.bottom, kind.top)):
-        corners = [node for node, _ in zip(place, range(kind.face.corners), strict=False)]
+    connectivity, lost = nodes.copy(), np.zeros(len(nodes), dtype=bool)
+    for upper, face_nodes_of in enumerate((kind.bottom, kind.top)):
+        corners = [node for node, _ in zip(face_nodes_of, range(kind.face.corners), strict=False)]
         faces = solids.faces_at(nodes[:, corners])
         lost |= faces == NONE
         rows = np.flatnonzero(faces != NONE)
         old, new = _rows(solids, after, solids.element[faces[rows]])
         half = kind.nodes // 2
-        own = np.array(place) if kind.solid is None else upper * half + np.arange(half)
-        local = _local(old, nodes[np.ix_(rows, own)])
-        found[np.ix_(rows, own)] = np.take_along_axis(new, local, axis=1)
-    return found, lost
+        columns = np.array(face_nodes_of) if kind.solid is None else upper * half + np.arange(half)
+        local = _local(old, nodes[np.ix_(rows, columns)])
+        connectivity[np.ix_(rows, columns)] = np.take_along_axis(new, local, axis=1)
+    return connectivity, lost
 
 
 def beside(solids: Solids, faces: IntArray, nodes: IntArray, after: Mapping[int, Cells]) -> IntArray:
-    """Return the nodes after the cut of elements on faces of solids, as those solids have them.
-
-    Parameters
-    ----------
-    faces
-        (elements,) numbers of the faces.
-    nodes
-        (elements, k) nodes of the elements before the cut, which are on these faces.
-    """
+    """Return the new connectivity of elements on faces (elements,) of solids; nodes: (elements, k) before the cut."""
     old, new = _rows(solids, after, solids.element[faces])
     return np.take_along_axis(new, _local(old, nodes), axis=1)
 
 
 def _rows(solids: Solids, after: Mapping[int, Cells], numbers: IntArray) -> tuple[IntArray, IntArray]:
-    """Return the nodes of solids before and after the cut, filled with -1 where there are types with fewer nodes."""
+    """Return the nodes of solids before and after the cut, padded with -1."""
     widest = max(group.nodes.shape[1] for group in solids.cells)
     old, new = np.full((2, len(numbers), widest), NONE)
     for group in solids.cells:
@@ -197,23 +188,23 @@ def _rows(solids: Solids, after: Mapping[int, Cells], numbers: IntArray) -> tupl
     return old, new
 
 
-def _local(rows: IntArray, wanted: IntArray) -> IntArray:
-    """Return the column of each wanted node in each row."""
-    return np.stack([np.argmax(rows == column[:, None], axis=1) for column in wanted.T], axis=1)
+def _local(rows: IntArray, nodes: IntArray) -> IntArray:
+    """Return the column of each node in its row."""
+    return np.stack([np.argmax(rows == column[:, None], axis=1) for column in nodes.T], axis=1)
 
 
-def _turned(family: Family, local: IntArray, place: Face) -> IntArray:
-    """Return the order of a solid's nodes that brings those of a face to `place`; local: (faces, nodes of the face)."""
+def _permutation(family: Family, local: IntArray, targets: Face) -> IntArray:
+    """Return the permutation of the nodes of solids that moves a face, local (faces, nodes), to the targets."""
     middles, beside = _edges(family)
-    corners = sum(node < family.corners for node in place)
+    corners = sum(node < family.corners for node in targets)
     face = local[:, :corners]
     order = np.full((len(local), family.nodes), NONE)
-    for k, target in enumerate(place[:corners]):
+    for k, target in enumerate(targets[:corners]):
         order[:, target] = face[:, k]
-        # of the corners next to this one, that which is not on the face
+        # the adjacent corner that is not on the face
         near = np.array(beside)[face[:, k]]
         on_face = np.any(near[:, :, None] == face[:, None, :], axis=2)
-        opposite = next(node for node in beside[target] if node not in place)
+        opposite = next(node for node in beside[target] if node not in targets)
         order[:, opposite] = near[np.arange(len(near)), np.argmin(on_face, axis=1)]
     for a in range(family.corners):
         for b in beside[a]:
@@ -224,7 +215,7 @@ def _turned(family: Family, local: IntArray, place: Face) -> IntArray:
 
 @cache
 def _edges(family: Family) -> tuple[IntArray, list[list[int]]]:
-    """Return the node in the middle of the edge between two corners, -1 without one, and each corner's neighbours."""
+    """Return the midside node between two corners, -1 without one, and the adjacent corners of each corner."""
     middles = np.full((family.corners, family.corners), NONE)
     beside: list[set[int]] = [set() for _ in range(family.corners)]
     for face in family.faces:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Meshes of other programs as the text of a deck: nodes, elements, and their groups as sets."""
+"""Meshes of other programs as a deck: nodes, elements, and groups as sets."""
 
 from __future__ import annotations
 
@@ -21,32 +21,21 @@ from uel.model.arrays import IntArray
 from uel.model.element_types import CONTINUUM, FAMILIES, ContinuumType
 
 DECKS = (".inp", "")
-"""Endings of the names of decks."""
+"""File name extensions of decks."""
 _DEFAULTS = ("CPS3", "CPS4", "CPS6", "CPS8", "C3D4", "C3D6", "C3D8", "C3D10", "C3D15", "C3D20")
 
 
 def is_mesh(file: Path) -> bool:
-    """Report whether a file is a mesh of another program, by the ending of its name."""
+    """Return whether a file is a mesh of another program, by its extension."""
     return file.suffix.lower() not in DECKS
 
 
 def read_mesh(file: Path, types: Sequence[str]) -> list[str]:
     """Write the lines of a deck with the nodes, elements and sets of a mesh that meshio reads.
 
-    Groups of solids become element sets, groups of faces, edges and points node sets; the dimension of the solids is
-    the largest that cells of the mesh have.
-
-    Parameters
-    ----------
-    file
-        The mesh.
-    types
-        Continuum elements in place of CPS4, C3D8, ...: each for the cells that have its nodes.
-
-    Raises
-    ------
-    UsageError
-        The file cannot be read, has cells of which there are no elements, or two groups that would be one set.
+    Groups of solids become element sets, groups of faces, edges and points node sets; solids are the cells of the
+    largest dimension. types: continuum elements in place of CPS4, C3D8, ..., by their number of nodes. Raises
+    UsageError for an unreadable file, cells without an element type, or groups with equal set names.
     """
     chosen = _types(types)
     mesh = _load(file)
@@ -84,14 +73,14 @@ def read_mesh(file: Path, types: Sequence[str]) -> list[str]:
 
 
 _DIMENSIONS = {family.cell: family.dimension for family in FAMILIES.values()} | {"vertex": 0}
-"""Dimension of each cell by its name in meshio."""
+"""Dimension of cells by their name in meshio."""
 _FULL = ("quad9", "hexahedron27", "wedge18", "pyramid14")
-"""Quadratic cells with nodes in the middle of faces, too."""
+"""Quadratic cells with midface nodes."""
 _DIMENSIONS |= {name: 2 if name == "quad9" else 3 for name in (*_FULL, "pyramid", "pyramid13")}
 
 
 def _types(names: Sequence[str]) -> list[ContinuumType]:
-    """Return the types of solids, those that are named first."""
+    """Return the types of solids, the named ones first."""
     chosen = []
     for name in (*names, *_DEFAULTS):
         if name.upper() not in CONTINUUM:
@@ -107,19 +96,19 @@ def _load(file: Path) -> Any:
         read_whole(file)
     except OSError as error:
         raise UsageError(f"cannot read {file}: {error.strerror or type(error).__name__}") from None
-    said = io.StringIO()
+    printed = io.StringIO()
     try:
-        # it prints what it cannot read, and ends the program
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+        # meshio prints errors, and exits
+        with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
             return meshio.read(file)
     except (Exception, SystemExit) as error:
-        words = [line.strip() for line in (said.getvalue() or str(error)).splitlines() if line.strip()]
+        words = [line.strip() for line in (printed.getvalue() or str(error)).splitlines() if line.strip()]
         reason = words[-1] if words and not isinstance(error, SystemExit) else " ".join(words)
         raise UsageError(f"cannot read the mesh {file}: {reason or type(error).__name__}") from None
 
 
 def _oriented(nodes: IntArray, points: np.ndarray, kind: ContinuumType) -> IntArray:
-    """Return the nodes of cells, with those that run clockwise in the plane turned over."""
+    """Return the connectivity of cells, with clockwise ones in the plane reversed."""
     if kind.dimension == 3:
         return nodes
     corners = points[nodes[:, : kind.corners], :2]
@@ -127,8 +116,7 @@ def _oriented(nodes: IntArray, points: np.ndarray, kind: ContinuumType) -> IntAr
     area = (corners[:, :, 0] * following[:, :, 1] - corners[:, :, 1] * following[:, :, 0]).sum(axis=1)
     back = [0, *range(kind.corners - 1, 0, -1)]
     middles = [kind.corners + (corner - 1) % kind.corners for corner in back] if kind.nodes > kind.corners else []
-    found: IntArray = np.where((area < 0.0)[:, None], nodes[:, back + middles], nodes)
-    return found
+    return np.where((area < 0.0)[:, None], nodes[:, back + middles], nodes)
 
 
 def _sets(file: Path, mesh: Any, solid: Sequence[bool], starts: Sequence[int], used: set[int]) -> list[str]:
@@ -147,44 +135,41 @@ def _sets(file: Path, mesh: Any, solid: Sequence[bool], starts: Sequence[int], u
     for name, members in mesh.point_sets.items():
         nodes.setdefault(name, []).append(np.asarray(members, dtype=np.int64).ravel())
     lines: list[str] = []
-    for name, parts in _by_label(file, nodes).items():
-        labels = np.unique(np.concatenate(parts))
-        kept = [label + 1 for label in labels.tolist() if label in used]
-        if kept:
-            lines += [keyword("NSET", NSET=name), *wrapped(kept)]
-    for name, parts in _by_label(file, elements).items():
-        lines += [keyword("ELSET", ELSET=name), *wrapped(np.unique(np.concatenate(parts)).tolist())]
+    for name, members_of in _by_label(file, nodes).items():
+        labels = np.unique(np.concatenate(members_of))
+        labels_used = [label + 1 for label in labels.tolist() if label in used]
+        if labels_used:
+            lines += [keyword("NSET", NSET=name), *wrapped(labels_used)]
+    for name, members_of in _by_label(file, elements).items():
+        lines += [keyword("ELSET", ELSET=name), *wrapped(np.unique(np.concatenate(members_of)).tolist())]
     return lines
 
 
 def _by_label(file: Path, groups: Mapping[str, list[IntArray]]) -> dict[str, list[IntArray]]:
-    """Rename groups so that Abaqus reads them without quotes; blanks do not count: 'ply 1' becomes PLY_1.
-
-    Raises UsageError where two groups have one name.
-    """
-    found: dict[str, str] = {}
+    """Rename groups so that Abaqus reads them without quotes: 'ply 1' becomes PLY_1. Raises UsageError for clashes."""
+    group_of: dict[str, str] = {}
     for name in groups:
         label = re.sub(r"[^\w.-]", "_", name.strip(), flags=re.ASCII).upper()
         label = label if re.match("[A-Z_]", label) else f"_{label}"
-        if found.setdefault(label, name) != name:
-            raise UsageError(f"{file}: groups '{found[label]}' and '{name}' are both {label} in a deck; rename one")
-    return {label: groups[name] for label, name in found.items()}
+        if group_of.setdefault(label, name) != name:
+            raise UsageError(f"{file}: groups '{group_of[label]}' and '{name}' are both {label} in a deck; rename one")
+    return {label: groups[name] for label, name in group_of.items()}
 
 
 def _groups(mesh: Any) -> Mapping[str, Sequence[Any]]:
-    """Return the cells of each group, block by block; groups that Gmsh gives numbers only are PHYSICAL-number."""
-    found: dict[str, Sequence[Any]] = {
+    """Return the cells of each group, by block; unnamed groups of Gmsh are PHYSICAL-number."""
+    groups: dict[str, Sequence[Any]] = {
         name: members for name, members in mesh.cell_sets.items() if not name.startswith("gmsh:")
     }
     numbers = mesh.cell_data.get("gmsh:physical")
     if numbers is None:
-        return found
+        return groups
     dimensions = [_DIMENSIONS.get(block.type, -1) for block in mesh.cells]
     named = {(int(tag), int(dimension)): name for name, (tag, dimension) in mesh.field_data.items()}
     for block, tags in enumerate(numbers):
         for tag in np.unique(tags).tolist():
             name = named.get((tag, dimensions[block]))
             if tag and name not in mesh.cell_sets:
-                members = found.setdefault(name or f"PHYSICAL-{tag}", [None] * len(mesh.cells))
+                members = groups.setdefault(name or f"PHYSICAL-{tag}", [None] * len(mesh.cells))
                 members[block] = np.flatnonzero(tags == tag)  # type: ignore[index]
-    return found
+    return groups

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Solids beside which elements that own them would be wrong: the rule of `uel.elements.interfaces.neighbour_solids`."""
+"""Check of the solids that stabilised elements own, by `uel.elements.interfaces.neighbour_solids`."""
 
 from __future__ import annotations
 
@@ -28,28 +28,20 @@ from uel.model.steps import Load
 
 
 def check_neighbours(deck: Deck, sections: Sections, kind: InterfaceType, sides: IntArray) -> list[str]:
-    """Check the solids that elements of a type will own; sides: their faces below and above, (faces, 2).
+    """Check the solids that elements of a type will own; sides: (faces, 2) faces below and above.
 
-    Returns
-    -------
-    list of str
-        A warning, with its place, for each reason why results may be wrong.
-
-    Raises
-    ------
-    DeckError
-        With the place of each reason why results would be wrong.
+    Returns warnings where results may be wrong. Raises DeckError where they would be wrong.
     """
     if kind.solid is None:
         return []
     states = _read_states(deck)
-    found: dict[str, Finding] = {}
+    findings: dict[str, Finding] = {}
     for neighbours in _neighbours(deck, sections, kind, sides.ravel()):
-        found |= {str(each): each for each in find_faults(neighbours, states)}
-    errors = [DeckError(each.source, each.message) for each in found.values() if each.wrong]
+        findings |= {str(finding): finding for finding in find_faults(neighbours, states)}
+    errors = [DeckError(finding.source, finding.message) for finding in findings.values() if finding.wrong]
     if errors:
         raise all_of(errors)
-    return list(found)
+    return list(findings)
 
 
 def _neighbours(deck: Deck, sections: Sections, kind: InterfaceType, faces: IntArray) -> Iterator[Neighbours]:
@@ -72,21 +64,21 @@ def _neighbours(deck: Deck, sections: Sections, kind: InterfaceType, faces: IntA
 
 
 def _read_states(deck: Deck) -> States:
-    """Return the temperatures and initial stresses of the instances that stand for all."""
+    """Return the temperatures and initial stresses of the first instances."""
     problems, root = Problems(), deck.structure.root
     initial = read_initial_values(root, "TEMPERATURE", deck.flat, problems, None)
     stresses = read_initial_stresses(root, deck.flat, problems)
-    given = [load for scope in deck.structure.steps for block in scope.blocks for load in _temperatures(deck, block)]
+    loads = [load for scope in deck.structure.steps for block in scope.blocks for load in _temperatures(deck, block)]
     problems.check()
     count = len(deck.flat.mesh.labels)
     return States(
-        [(deck.node_of[nodes], place) for nodes, place in changed_temperatures(initial, given, count)],
-        [(deck.element_of[elements], place) for elements, place in initially_stressed(stresses)],
+        [(deck.node_of[nodes], source) for nodes, source in changed_temperatures(initial, loads, count)],
+        [(deck.element_of[elements], source) for elements, source in initially_stressed(stresses)],
     )
 
 
 def _temperatures(deck: Deck, block: Block) -> Iterator[Load]:
-    """Yield the entries of *TEMPERATURE; one with an amplitude counts as given by a routine."""
+    """Yield the entries of *TEMPERATURE; an entry with an amplitude is treated like one of UTEMP."""
     if block.name != "TEMPERATURE":
         return
     varies = block.options.has("AMPLITUDE") or block.options.flag("USER")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Properties of the elements that are inserted: given by name, or those of the solids that an element owns."""
+"""Properties of inserted elements: from the command line, or from the solids that an element owns."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _OF_ABAQUS = ("THICKNESS", "ALPHAN", "ALPHAT", *_LAW, "VISCOSITY", "ETA", "POWER
 
 
 def read_values(words: Sequence[str]) -> dict[str, float]:
-    """Return the values by name from NAME=VALUE; an underscore stands for a blank. Raises UsageError."""
+    """Return the values by name from NAME=VALUE; an underscore is a blank. Raises UsageError."""
     values: dict[str, float] = {}
     for word in words:
         name, _, text = word.partition("=")
@@ -47,7 +47,7 @@ def names_of(kind: InterfaceType) -> tuple[str, ...]:
 
 
 def required_names(kind: InterfaceType) -> tuple[str, ...]:
-    """Names of the properties that have to be given: those without a default that sections of solids do not have."""
+    """Return the names of required properties: without a default, and not in the sections of solids."""
     if not kind.jtype:
         return ("ALPHAN", *_LAW)
     names = tuple(item.name for item in element_layouts()[kind.jtype].reals if item.required)
@@ -56,7 +56,7 @@ def required_names(kind: InterfaceType) -> tuple[str, ...]:
 
 
 def check_values(kind: InterfaceType, values: Mapping[str, float]) -> None:
-    """Raise UsageError for a name that the type lacks, a law that is not complete, or a value out of its range."""
+    """Raise UsageError for an unknown property, an incomplete law, or a value out of range."""
     known = names_of(kind)
     for name in values:
         if name not in known:
@@ -74,27 +74,27 @@ def check_values(kind: InterfaceType, values: Mapping[str, float]) -> None:
         check_law_uses(kind.jtype, values, _law_of(values))
 
 
-def _law_of(given: Mapping[str, float]) -> int:
-    """Return LAW, if it is not given: a mixed mode criterion with an exponent needs the law that has one."""
-    return int(given.get("LAW", 2 if given.get("ETA") or given.get("POWER") else 1))
+def _law_of(values: Mapping[str, float]) -> int:
+    """Return LAW; its default is the law with an exponent if a mixed mode criterion has one."""
+    return int(values.get("LAW", 2 if values.get("ETA") or values.get("POWER") else 1))
 
 
-def element_values(kind: InterfaceType, given: Mapping[str, float], below: Side, above: Side) -> dict[str, float]:
-    """Return the properties of an element: given ones, then those of its solids. Raises UsageError."""
+def element_values(kind: InterfaceType, properties: Mapping[str, float], below: Side, above: Side) -> dict[str, float]:
+    """Return the properties of an element, completed by those of its solids. Raises UsageError."""
     known = names_of(kind)
-    values = ({"LAW": float(_law_of(given))} if "LAW" in known else {}) | dict(given)
-    if given.get("ALPHAN") and not given.get("ALPHAT"):
-        values["ALPHAT"] = given["ALPHAN"]
+    values = ({"LAW": float(_law_of(properties))} if "LAW" in known else {}) | dict(properties)
+    if properties.get("ALPHAN") and not properties.get("ALPHAT"):
+        values["ALPHAT"] = properties["ALPHAN"]
     if "THICKNESS" in known and "THICKNESS" not in values:
         if None in (below.thickness, above.thickness) or below.thickness != above.thickness:
-            given_ones = " and ".join(f"{_number(side.thickness)} {_place(side)}" for side in (below, above))
-            raise UsageError(f"{kind.name} needs THICKNESS=VALUE: the sections on its sides have {given_ones}")
+            thicknesses = " and ".join(f"{_number(side.thickness)} {_location(side)}" for side in (below, above))
+            raise UsageError(f"{kind.name} needs THICKNESS=VALUE: the sections on its sides have {thicknesses}")
         values["THICKNESS"] = below.thickness or 1.0
     if "PLANE" in known and "PLANE" not in values:
         if below.plane is None or below.plane != above.plane:
-            places = " and ".join(_place(side) for side in (below, above))
+            locations = " and ".join(_location(side) for side in (below, above))
             which = "PLANE=0 (plane stress) or 1 (plane strain)"
-            raise UsageError(f"{kind.name} needs {which}: its sides differ or do not say it {places}")
+            raise UsageError(f"{kind.name} needs {which}: its sides differ or do not say it {locations}")
         values["PLANE"] = below.plane
     if kind.solid:
         for word, side in (("BOTTOM", below), ("TOP", above)):
@@ -114,12 +114,12 @@ def _number(value: float | None) -> str:
     return "no thickness" if value is None else f"{value:g}"
 
 
-def _place(side: Side) -> str:
-    return f"({side.place or 'without a section'})"
+def _location(side: Side) -> str:
+    return f"({side.location or 'without a section'})"
 
 
 def property_lines(kind: InterfaceType, elset: str, material: str, values: Mapping[str, float]) -> list[str]:
-    """Write the keyword that gives elements of a set their properties, with their names as comments."""
+    """Write the property keyword of an element set, with names as comments."""
     if kind.jtype:
         return uel_property(kind.jtype, elset, values)
     return traction_section(elset, material, values.get("THICKNESS"))
@@ -127,17 +127,13 @@ def property_lines(kind: InterfaceType, elset: str, material: str, values: Mappi
 
 def definition_lines(kind: InterfaceType) -> list[str]:
     """Write *USER ELEMENT of a type of the project; nothing for those of Abaqus."""
-    if not kind.jtype:
-        return []
-    return user_element(kind.jtype)
+    return user_element(kind.jtype) if kind.jtype else []
 
 
 def material_lines(kind: InterfaceType, name: str, values: Mapping[str, float]) -> list[str]:
-    """Write material and section controls of elements of Abaqus, in no part; nothing for the project's own."""
+    """Write material and section controls of elements of Abaqus; nothing for those of the project."""
     if kind.jtype:
         return []
-    stiffness = values["ALPHAN"]
-    law = Cohesive(stiffness, values["ALPHAT"], *(values[each] for each in _LAW))
-    numbers = (values.get(each, 0.0) for each in ("VISCOSITY", "ETA", "POWER"))
-    viscosity, eta, power = numbers
+    law = Cohesive(values["ALPHAN"], values["ALPHAT"], *(values[each] for each in _LAW))
+    viscosity, eta, power = (values.get(each, 0.0) for each in ("VISCOSITY", "ETA", "POWER"))
     return traction_material(name, Interface(kind.name, law, viscosity=viscosity, eta=eta, power=power))

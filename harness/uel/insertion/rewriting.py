@@ -1,15 +1,15 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The text of a deck with a cut mesh: what does not change stays as it is written, with its comments.
+"""Text of a deck with a cut mesh; unchanged lines stay, with their comments.
 
-What happens where a node is doubled:
+Where a node is duplicated:
 
-- elements: the solids on the other side of the cut get the new number, and so do interface elements next to them;
-- node sets, and surfaces made of nodes: they get the new nodes too, so boundary conditions and constraints hold both;
-- concentrated loads, fluxes and films: they stay on the old node alone, for the load must not be doubled; those on the
-  nodes of an element set stay on one node of these elements;
-- *EQUATION and *MPC: one for each double of the first node, which is eliminated; of another node that is doubled too
-  they take the double on the same side;
+- elements: solids on the other side of the cut get the new node, and so do adjacent interface elements;
+- node sets, and surfaces of nodes, get the new nodes too: boundary conditions and constraints apply to both;
+- concentrated loads, fluxes and films stay on the old node, so that the load is not doubled; loads on the nodes of an
+  element set stay on one node of these elements;
+- *EQUATION and *MPC are repeated for each duplicate of the first node, which is eliminated; their other nodes are
+  replaced by the duplicates on the same side;
 - springs, masses and trusses stay on the old node.
 """
 
@@ -35,33 +35,33 @@ from uel.model.arrays import IntArray
 from uel.model.mesh import full_name
 
 _NODAL = ("BOUNDARY", "INITIAL CONDITIONS", "TEMPERATURE", "FIELD", "PRESSURE STRESS", "KINEMATIC COUPLING")
-"""Keywords whose data lines begin with a node or node set, and hold for its doubles."""
+"""Keywords whose data lines begin with a node or node set, and apply to its duplicates."""
 _LOADS = ("CLOAD", "CFLUX", "CECHARGE", "CFILM", "CRADIATE")
 _NODE_BLOCKS = ("NODE", *(entry.name for entry in GENERATING if entry.name != "ELGEN"))
 _LOADED = "-OLD"
-"""Ending of the name of a set of the old nodes alone."""
+"""Suffix of the names of sets of old nodes."""
 
 
 @dataclass(slots=True)
 class Edits:
-    """Changes of the text, by the identity of the block.
+    """Changes of the text, by block identity.
 
-    lines  new lines in place of a data line, by its place among those of the block
-    whole  new lines in place of the whole block
-    after  lines after the block
+    lines   replacement of a data line, by its index in the block
+    blocks  replacement of a block
+    after   lines after the block
     """
 
     lines: dict[tuple[int, int], list[str]] = field(default_factory=dict)
-    whole: dict[int, list[str]] = field(default_factory=dict)
+    blocks: dict[int, list[str]] = field(default_factory=dict)
     after: dict[int, list[str]] = field(default_factory=dict)
 
     def append(self, block: Block, lines: Sequence[str]) -> None:
-        """Put lines after a block."""
+        """Add lines after a block."""
         self.after.setdefault(id(block), []).extend(lines)
 
 
 class Rewriting:
-    """Editor that turns a cut into edits of the deck."""
+    """Editor of a deck for a cut."""
 
     def __init__(self, deck: Deck, cut: Cut) -> None:
         self._deck, self._cut = deck, cut
@@ -73,11 +73,11 @@ class Rewriting:
         self._doubled[list(self._copies)] = True
         self._doubled = self._doubled[deck.node_of]
         self._owners = {id(block): owner for owner in deck.first.values() for block in owner.blocks}
-        self._order = {id(block): place for place, block in enumerate(deck.blocks)}
+        self._order = {id(block): index for index, block in enumerate(deck.blocks)}
         self._number_nodes()
 
     def _number_nodes(self) -> None:
-        """Label the new nodes, on from the largest label of their part."""
+        """Label the new nodes, from the largest label of their part on."""
         self._labels = np.concatenate([self._deck.flat.mesh.labels, np.zeros(len(self._cut.origins), dtype=np.int64)])
         self._new: dict[str, IntArray] = {}
         for owner in self._deck.first.values():
@@ -89,15 +89,14 @@ class Rewriting:
 
     def labels(self, nodes: IntArray) -> IntArray:
         """Return the labels of nodes, old or new."""
-        found: IntArray = self._labels[nodes]
-        return found
+        return np.asarray(self._labels[nodes])
 
     def write_nodes(self) -> None:
-        """Write *NODE of the new nodes of each part, after all others of it."""
+        """Write *NODE of the new nodes of each part, after its other nodes."""
         for name, nodes in self._new.items():
             owner = self._owner(name)
             local = owner.points[self._cut.origins[nodes - self._count] - owner.node_offset]
-            # every digit: the doubles are in the same place
+            # all digits: duplicates coincide
             rows = zip(self._labels[nodes].tolist(), local.tolist(), strict=True)
             lines = ["** nodes doubled by uel insert", "*NODE", *(", ".join(map(repr, (n, *x))) for n, x in rows)]
             if any(block.name == "SYSTEM" for block in owner.blocks):
@@ -105,7 +104,7 @@ class Rewriting:
             self.edits.append(self._last(owner, *_NODE_BLOCKS), lines)
 
     def write_elements(self, new: dict[int, IntArray]) -> None:
-        """Write the connectivity of elements that changes; new: nodes by position of the element in the whole model."""
+        """Write the new connectivity of elements; new: nodes by element position."""
         self._changed = new
         for owner in self._deck.first.values():
             rows = {
@@ -126,17 +125,17 @@ class Rewriting:
         labels, nodes, lines = owner.mesh.connectivity(block, kind)
         ends = [*lines[1:].tolist(), len(block.lines)]
         for row in np.flatnonzero(np.isin(labels, list(new))).tolist():
-            found = self._labels[new[int(labels[row])]]
-            if len(found) == nodes.shape[1]:
+            connectivity = self._labels[new[int(labels[row])]]
+            if len(connectivity) == nodes.shape[1]:
                 first = int(lines[row])
-                self.edits.lines[id(block), first] = element_lines(int(labels[row]), found)
+                self.edits.lines[id(block), first] = element_lines(int(labels[row]), connectivity)
                 for other in range(first + 1, ends[row]):
                     self.edits.lines[id(block), other] = []
 
     def _rewrite_generated(self, owner: Owner, block: Block, new: dict[int, IntArray]) -> None:
-        """Write *ELGEN as *ELEMENT where elements that it makes change."""
-        places = {block.source_of(index) for index in range(len(block.lines))}
-        runs = [run for run in owner.mesh.runs if len(run.labels) and run.source(0) in places]
+        """Replace *ELGEN by *ELEMENT where generated elements change."""
+        sources = {block.source_of(index) for index in range(len(block.lines))}
+        runs = [run for run in owner.mesh.runs if len(run.labels) and run.source(0) in sources]
         if not any(np.isin(run.labels, list(new)).any() for run in runs):
             return
         name = block.options.text("ELSET")
@@ -147,12 +146,12 @@ class Rewriting:
         for run in runs:
             lines.append(keyword("ELEMENT", TYPE=run.type.name, **({"ELSET": quoted(name)} if name else {})))
             for label, nodes in zip(run.labels.tolist(), run.nodes, strict=True):
-                found = self._labels[new[label]] if label in new else nodes
-                lines += element_lines(label, found)
-        self.edits.whole[id(block)] = lines
+                connectivity = self._labels[new[label]] if label in new else nodes
+                lines += element_lines(label, connectivity)
+        self.edits.blocks[id(block)] = lines
 
     def write_sets(self) -> None:
-        """Write the doubles into the node sets, and sets of the old nodes for loads."""
+        """Add the duplicates to the node sets, and write sets of old nodes for loads."""
         loaded = self._rename_loads()
         flat = self._deck.flat
         for owner in self._deck.first.values():
@@ -177,40 +176,40 @@ class Rewriting:
                     self.edits.append(max(last, key=lambda block: self._order[id(block)]), lines)
 
     def _one_each(self, members: IntArray, present: set[int] | None) -> list[tuple[int, int]]:
-        """Return each node with itself or, where a set has only doubles of it, with one of these."""
-        found = []
+        """Return each node with itself or, where a set has only duplicates of it, with one of these."""
+        pairs = []
         for node in members.tolist():
-            own = int(self._deck.node_of[node])
-            nodes = (own, *self._copies.get(own, []))
-            found.append((node, next((each for each in nodes if present is None or each in present), own)))
-        return found
+            old = int(self._deck.node_of[node])
+            nodes = (old, *self._copies.get(old, []))
+            pairs.append((node, next((each for each in nodes if present is None or each in present), old)))
+        return pairs
 
     def _nodes_after(self, owner: Owner, blocks: Sequence[Block]) -> set[int]:
-        """Return the nodes that the elements of *NSET, ELSET= have after the cut."""
+        """Return the nodes of *NSET, ELSET= after the cut."""
         elements = [self._deck.flat.elements(b.options.text("ELSET"), b.source, owner.name) for b in blocks]
         positions = self._deck.element_of[np.concatenate(elements)]
-        found: set[int] = set()
+        node_set: set[int] = set()
         for run in self._deck.runs:
             for row in np.flatnonzero(np.isin(run.positions, positions)).tolist():
                 nodes = self._changed.get(int(run.positions[row]), run.nodes[row])
-                found |= set(nodes.tolist())
-        return found
+                node_set |= set(nodes.tolist())
+        return node_set
 
     def _set_lines(self, owner: Owner, name: str, members: Sequence[tuple[int, int]]) -> list[str]:
-        """Write *NSET of nodes: each with the old node of whose instance it is."""
+        """Write *NSET of pairs of an old node, whose instance counts, and the node."""
         lines: list[str] = []
         of: dict[str, list[int]] = {}
         for old, node in members:
-            place = self._deck.owner_of_node(old).name
-            of.setdefault("" if place == owner.name else place, []).append(int(self._labels[node]))
+            instance_name = self._deck.owner_of_node(old).name
+            of.setdefault("" if instance_name == owner.name else instance_name, []).append(int(self._labels[node]))
         for instance, labels in of.items():
             options = {"NSET": quoted(name)} | ({"INSTANCE": quoted(instance)} if instance else {})
             lines += [keyword("NSET", **options), *wrapped(labels)]
         return lines
 
     def _rename_loads(self) -> set[str]:
-        """Move loads on sets whose nodes are doubled to sets of the old nodes; return the names of the former."""
-        found: set[str] = set()
+        """Move loads on sets with duplicated nodes to sets of the old nodes; return the names of the former."""
+        renamed: set[str] = set()
         for block in self._deck.blocks:
             if block.name not in _LOADS:
                 continue
@@ -225,18 +224,18 @@ class Rewriting:
                         if k in self._deck.flat.nsets
                     )
                     first = self._first_name(key)
-                    found.add(first)
+                    renamed.add(first)
                     self.edits.lines[id(block), index] = [", ".join([quoted(f"{name}{_LOADED}"), *row.fields[1:]])]
-        return found
+        return renamed
 
     def _first_name(self, key: str) -> str:
-        """Return the name of a set of an instance in the instance that stands for its part."""
+        """Return the name of a set in the first instance of its part."""
         instance, dot, name = key.rpartition(".")
         first = self._deck.first.get(self._deck.part_of.get(instance, ""))
         return f"{first.name}.{name}" if dot and first is not None else key
 
     def write_nodal_lines(self) -> None:
-        """Repeat data lines that name single nodes for their doubles."""
+        """Repeat data lines of single nodes for their duplicates."""
         for block in self._deck.blocks:
             nodal = block.name in _NODAL or (block.name == "SURFACE" and block.options.text("TYPE") == "NODE")
             if not nodal or (
@@ -251,18 +250,18 @@ class Rewriting:
                     self.edits.lines[id(block), index] = [block.lines[index], *again]
 
     def _copies_of_label(self, block: Block, name: str, row: Row) -> list[str]:
-        """Return the names of the doubles of a single node, as its data line writes them."""
+        """Return the names of the duplicates of a single node, in the style of its data line."""
         instance, _, label = name.rpartition(".")
         if not is_integer(label) and not is_integer(name):
             return []
-        # those of steps belong to the whole model
+        # blocks of steps refer to the model
         owner = self._owners.get(id(block), self._deck.owners[-1])
         node = int(self._deck.flat.nodes(name, row.source, owner.name)[0])
         before = f"{instance}." if instance and not is_integer(name) else ""
         return [f"{before}{self._labels[copy]}" for copy in self._copies.get(int(self._deck.node_of[node]), [])]
 
     def write_equations(self) -> None:
-        """Write *EQUATION and *MPC with nodes that are doubled."""
+        """Write *EQUATION and *MPC with duplicated nodes."""
         for owner in self._deck.first.values():
             for block in owner.blocks:
                 if block.name == "EQUATION":
@@ -280,12 +279,12 @@ class Rewriting:
     def _equations(self, owner: Owner, block: Block) -> None:
         rows = list(_numbered_rows(block))
         while rows:
-            place, head = rows.pop(0)
-            count, places = head.integer(0, "number of terms"), [place]
+            index0, head = rows.pop(0)
+            count, indices = head.integer(0, "number of terms"), [index0]
             terms: list[tuple[IntArray, tuple[str, ...]]] = []
             while rows and len(terms) < count:
                 index, row = rows.pop(0)
-                places.append(index)
+                indices.append(index)
                 for start in range(0, len(row), TERM_FIELDS):
                     terms.append((self._nodes(owner, row, start), row.fields[start + 1 : start + TERM_FIELDS]))
             if not any(self._doubled[nodes].any() for nodes, _ in terms):
@@ -297,15 +296,15 @@ class Rewriting:
                     ", ".join([self._reference(owner, *node), *rest])
                     for node, (_, rest) in zip(nodes, terms, strict=True)
                 ]
-            for index in places:
+            for index in indices:
                 self.edits.lines[id(block), index] = []
-            self.edits.lines[id(block), places[0]] = lines
+            self.edits.lines[id(block), indices[0]] = lines
 
     def _nodes(self, owner: Owner, row: Row, index: int) -> IntArray:
         return self._deck.flat.nodes(row.name(index, "node or node set"), row.source, owner.name)
 
     def _tuples(self, sets: Sequence[IntArray]) -> Iterator[list[tuple[int, int]]]:
-        """Yield the old and present node of each term, for each node of the first set and each of its doubles."""
+        """Yield the old and new node of each term, for each node of the first set and each of its duplicates."""
         size = len(sets[0])
         for nodes in zip(*(np.resize(each, size).tolist() for each in sets), strict=True):
             first = int(self._deck.node_of[nodes[0]])
@@ -313,19 +312,19 @@ class Rewriting:
                 yield [(nodes[0], number), *((node, self._same_side(node, number)) for node in nodes[1:])]
 
     def _same_side(self, node: int, other: int) -> int:
-        """Choose, among a node and its doubles, the one whose solids lie in the direction of those of another node."""
-        own = int(self._deck.node_of[node])
-        candidates = [own, *self._copies.get(own, [])]
+        """Return, of a node and its duplicates, the one with solids on the same side as another node."""
+        old = int(self._deck.node_of[node])
+        candidates = [old, *self._copies.get(old, [])]
         if len(candidates) == 1 or not self._cut.towards[other].any():
-            return own
+            return old
         towards = self._cut.towards[candidates]
         length = np.maximum(np.linalg.norm(towards, axis=1), np.finfo(float).tiny)
         return candidates[int(np.argmax(np.round(towards @ self._cut.towards[other] / length, 12)))]
 
     def _reference(self, owner: Owner, old: int, node: int) -> str:
-        """Return the name of a node in a keyword of an owner."""
-        place = self._deck.owner_of_node(old).name
-        return full_name("" if place == owner.name else place, int(self._labels[node]))
+        """Return the name of a node in the scope of an owner."""
+        instance_name = self._deck.owner_of_node(old).name
+        return full_name("" if instance_name == owner.name else instance_name, int(self._labels[node]))
 
     def _owner(self, name: str) -> Owner:
         return next(owner for owner in self._deck.owners if owner.name == name)
@@ -335,12 +334,12 @@ class Rewriting:
         return max((block for block in owner.blocks if block.name in names), key=lambda block: self._order[id(block)])
 
     def after_elements(self, owner: Owner, lines: Sequence[str]) -> None:
-        """Put lines after all nodes and elements of an owner."""
+        """Add lines after all nodes and elements of an owner."""
         self.edits.append(self._last(owner, *_NODE_BLOCKS, "ELEMENT", "ELGEN"), lines)
 
     def after_model(self, lines: Sequence[str]) -> None:
-        """Put lines at the end of the model's data."""
-        steps = [place for place, block in enumerate(self._deck.blocks) if block.name == "STEP"]
+        """Add lines at the end of the model data."""
+        steps = [index for index, block in enumerate(self._deck.blocks) if block.name == "STEP"]
         last = steps[0] - 1 if steps else -1
         self.edits.append(self._deck.blocks[last], lines)
 
@@ -348,20 +347,20 @@ class Rewriting:
         """Return the deck with all edits."""
         lines: list[str] = []
         edits = self.edits
-        last = {id(passage.block): place for place, passage in enumerate(self._deck.passages) if passage.block}
-        for place, passage in enumerate(self._deck.passages):
+        last = {id(passage.block): index0 for index0, passage in enumerate(self._deck.passages) if passage.block}
+        for index0, passage in enumerate(self._deck.passages):
             block = passage.block
             if block is None:
                 lines += passage.lines
                 continue
-            if id(block) in edits.whole:
-                lines += edits.whole[id(block)] if passage.first < 0 else []
+            if id(block) in edits.blocks:
+                lines += edits.blocks[id(block)] if passage.first < 0 else []
             elif passage.first < 0:
                 lines += _without_input(block, passage.lines)
             else:
                 for index, line in enumerate(passage.lines, start=passage.first):
                     lines += edits.lines.get((id(block), index), [line])
-            if last[id(block)] == place:
+            if last[id(block)] == index0:
                 lines += edits.after.get(id(block), [])
         return "\n".join(lines) + "\n"
 
@@ -374,27 +373,27 @@ def element_lines(label: int, nodes: IntArray) -> list[str]:
 
 
 def _numbered_rows(block: Block) -> Iterator[tuple[int, Row]]:
-    """Iterate over data lines that hold something, with their indices."""
+    """Iterate over the data lines that are not blank, with their indices."""
     return ((index, block.row(index)) for index, line in enumerate(block.lines) if line.strip(", \t"))
 
 
 def _defines(block: Block, name: str) -> bool:
-    """Report whether a block gives nodes to a node set."""
+    """Return whether a block adds nodes to a node set."""
     options = [option for option in ("NSET", "NEW SET") if block.options.known(option)]
     return block.name in ("NSET", *_NODE_BLOCKS) and any(block.options.text(option) == name for option in options)
 
 
 def _without_input(block: Block, lines: Sequence[str]) -> Sequence[str]:
-    """Drop INPUT= from a keyword line, whose data lines follow it now."""
+    """Drop INPUT= from a keyword line, whose data lines now follow it."""
     if not (block.options.known("INPUT") and block.options.has("INPUT")):
         return lines
     fields = split_fields("".join(line for line in lines if not line.startswith("**")))
-    kept = [
+    others = [
         field
         for field in fields
         if not (field and "INPUT".startswith(compact(field.partition("=")[0])) and "=" in field)
     ]
-    return [", ".join(kept)]
+    return [", ".join(others)]
 
 
 def quoted(name: str) -> str:

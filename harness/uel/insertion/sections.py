@@ -1,12 +1,11 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Thickness, state of stress and elastic constants that solids give the elements between them, face by face.
+"""Thickness, state of stress and elastic constants of the solids at each face.
 
-An element that owns its solids has the axes of the plies by one angle: in the plane from x, in space from the direction
-s about the normal of the interface. Where the directions of an *ORIENTATION differ from point to point, as in every
-curved laminate, the angle is that in the middle of each face, so faces have as many sets of properties as angles.
-Angles that differ by 180 degrees are alike, for the materials are orthotropic. Of solids with layers, the layer at the
-interface counts.
+The axes of the plies of an element that owns its solids are given by an angle: in the plane from x, in space from the
+direction s about the normal of the interface. Where an *ORIENTATION varies, as in curved laminates, the angle is that
+at the centre of each face, with one set of properties per angle. Angles are modulo 180 degrees, since the materials are
+orthotropic. In layered solids the layer at the interface counts.
 """
 
 from __future__ import annotations
@@ -37,9 +36,9 @@ from uel.model.local_systems import SystemKind, UndefinedDirectionsError
 from uel.model.properties import CompositeSection, ElasticType, Material, Orientation, SolidLayer, SolidSection
 
 PARALLEL = 1e-4
-"""Radians between an axis of a material and the normal of the interface that are rounding."""
+"""Angle (rad) between a material axis and the normal of the interface that is rounding."""
 _DECIMALS = 4
-"""Decimals of angles in degrees: coordinates of seven digits give no more."""
+"""Decimals of angles in degrees, the accuracy of coordinates with seven digits."""
 _PLANES = {Tensor.PLANE_STRESS: 0, Tensor.PLANE_STRAIN: 1, Tensor.SOLID: None}
 _NAMES = ("E1", "E2", "E3", "NU12", "NU13", "NU23", "G12", "G13", "G23")
 
@@ -48,27 +47,27 @@ _NAMES = ("E1", "E2", "E3", "NU12", "NU13", "NU23", "G12", "G13", "G23")
 class Side:
     """Data of the solids on one side of an interface.
 
-    thickness  out of the plane; None if it is not known
+    thickness  out of the plane; None if unknown
     plane      0 plane stress, 1 plane strain; None in space
-    constants  elastic constants by name (E1, NU12, G12, ...), with ANGLE; {} if they are not known
-    why        why they are not known
-    place      of the section in the deck, '' without one
+    constants  elastic constants by name (E1, NU12, G12, ...), with ANGLE; {} if unknown
+    why        reason for unknown constants
+    location   of the section in the deck, '' without one
     """
 
     thickness: float | None
     plane: int | None
     constants: Mapping[str, float]
     why: str
-    place: str = ""
+    location: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Faces:
     """Faces of the solids on one side of an interface.
 
-    numbers  (k,) of the faces among those of all solids
-    normals  (k, 3) unit normals of the interface there, from the solids below to those above
-    above    whether these are the solids above
+    numbers  (k,) numbers of the faces in `Solids`
+    normals  (k, 3) unit normals of the interface, from below to above
+    above    whether the faces are those of the solids above
     """
 
     numbers: IntArray
@@ -93,13 +92,13 @@ class _Moduli:
 
     @property
     def isotropic(self) -> bool:
-        """True if the axes do not matter."""
+        """Whether the material is isotropic."""
         e, nu, g = self.young[0], self.ratios[0], self.shear[0]
         alike = self.young == (e,) * 3 and self.ratios == (nu,) * 3 and self.shear == (g,) * 3
         return alike and math.isclose(g, e / (2.0 * (1.0 + nu)), rel_tol=1e-12)
 
     def renamed(self, order: tuple[int, ...]) -> _Moduli:
-        """Reorder the axes: nu_ij is nu_ji E_i/E_j."""
+        """Return the moduli with permuted axes: nu_ij = nu_ji E_i/E_j."""
         pairs = {(0, 1): 0, (0, 2): 1, (1, 2): 2}
         new = [(order[i], order[j]) for i, j in pairs]
         ratios = [
@@ -132,11 +131,11 @@ class Sections:
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings about sections that are odd but understood."""
+        """Warnings about sections."""
         return list(self._oblique.values())
 
     def section(self, number: int, type: ElementType) -> SolidSection | CompositeSection | str:
-        """Return the section of solids of a type, by its number in the deck; or why there is none."""
+        """Return the section of solids of a type, by its number in the deck; or the reason why it is unknown."""
         key = number, type.name
         if key not in self._made:
             self._made[key] = self._make(number, type)
@@ -156,32 +155,26 @@ class Sections:
         return made
 
     def kinds(self, faces: IntArray) -> Iterator[tuple[int, ElementType, IntArray]]:
-        """Yield section, -1 for none, type and rows of faces (k,) for each kind of solids that has faces."""
+        """Yield section (-1: none), element type and rows of faces (k,) of each pair of these."""
         deck = self._deck
         numbers = deck.solids.element[faces]
         pairs = np.column_stack([deck.sections[numbers], deck.run_index[numbers]])
-        found, which = np.unique(pairs, axis=0, return_inverse=True)
+        unique_pairs, which = np.unique(pairs, axis=0, return_inverse=True)
         rows: dict[tuple[int, ElementType], list[IntArray]] = {}
-        for place, (section, run) in enumerate(found.tolist()):
-            rows.setdefault((section, deck.runs[run].run.type), []).append(np.flatnonzero(which.ravel() == place))
-        for (section, type), parts in rows.items():
-            yield section, type, np.sort(np.concatenate(parts))
+        for index, (section, run) in enumerate(unique_pairs.tolist()):
+            rows.setdefault((section, deck.runs[run].run.type), []).append(np.flatnonzero(which.ravel() == index))
+        for (section, type), row_sets in rows.items():
+            yield section, type, np.sort(np.concatenate(row_sets))
 
     def sides(self, faces: Faces) -> tuple[list[Side], IntArray]:
-        """Return the data of the solids at each face.
-
-        Returns
-        -------
-        sides, (k,)
-            Different ones, and which of them each face has.
-        """
-        found: list[Side] = []
+        """Return the distinct sides of faces, and the index (k,) of the side of each face."""
+        unique_sides: list[Side] = []
         which = np.zeros(len(faces.numbers), dtype=np.int64)
         for section, type, rows in self.kinds(faces.numbers):
             for side, inside in self._sides_of(section, type, faces.take(rows)):
-                which[rows[inside]] = len(found)
-                found.append(side)
-        return found, which
+                which[rows[inside]] = len(unique_sides)
+                unique_sides.append(side)
+        return unique_sides, which
 
     def _sides_of(self, number: int, type: ElementType, faces: Faces) -> Iterator[tuple[Side, IntArray]]:
         """Yield the sides of the faces of solids of a section and a type, each with its rows."""
@@ -198,14 +191,14 @@ class Sections:
         if isinstance(section, str):
             yield Side(thickness, plane, {}, section, str(block.source)), every
             return
-        place = f"(*SOLID SECTION at {block.source})"
+        location = f"(*SOLID SECTION at {block.source})"
         if isinstance(section, SolidSection):
             layers = [(SolidLayer(1.0, 1, section.material, section.orientation), every)]
         else:
             layers = []
             for layer, rows in self._layers(section, faces):
                 if layer is None:
-                    why = f"the interface runs across the layers of element {self._name(faces, rows)} {place}"
+                    why = f"the interface runs across the layers of element {self._name(faces, rows)} {location}"
                     yield Side(thickness, plane, {}, why, str(block.source)), rows
                 else:
                     layers.append((layer, rows))
@@ -214,13 +207,13 @@ class Sections:
                 for constants, inside in self._constants(owner, section, layer, faces.take(rows)):
                     yield Side(thickness, plane, constants, "", str(block.source)), rows[inside]
             except ValueError as error:
-                yield Side(thickness, plane, {}, f"{error} {place}", str(block.source)), rows
+                yield Side(thickness, plane, {}, f"{error} {location}", str(block.source)), rows
 
     def _name(self, faces: Faces, rows: IntArray) -> str:
         return self._deck.name(int(self._deck.solids.element[faces.numbers[rows[0]]]))
 
     def _layers(self, section: CompositeSection, faces: Faces) -> Iterator[tuple[SolidLayer | None, IntArray]]:
-        """Yield the layer of a solid at each face, None where the face crosses them."""
+        """Yield the layer of a solid at each face, None where the face crosses the layers."""
         first, last = STACK_FACES[section.direction]
         side = self._deck.solids.side[faces.numbers]
         for layer, rows in (
@@ -234,9 +227,9 @@ class Sections:
     def _constants(
         self, owner: Owner, section: SolidSection | CompositeSection, layer: SolidLayer, faces: Faces
     ) -> Iterator[tuple[dict[str, float], IntArray]]:
-        """Yield the elastic constants of a layer in the axes of an element that owns it, each with its rows.
+        """Yield the elastic constants of a layer in the axes of its interface element, each with its rows.
 
-        Raises ValueError, which says why they are not known.
+        Raises ValueError if they are unknown.
         """
         moduli = _moduli(layer.material)
         if moduli.isotropic:
@@ -244,10 +237,10 @@ class Sections:
             return
         orders, angles = self._angles(owner, section, layer, faces)
         self._check_instances(owner, section, layer, faces, angles)
-        found, which = np.unique(np.column_stack([orders, angles]), axis=0, return_inverse=True)
-        for place, (*order, angle) in enumerate(found.tolist()):
+        unique_axes, which = np.unique(np.column_stack([orders, angles]), axis=0, return_inverse=True)
+        for index, (*order, angle) in enumerate(unique_axes.tolist()):
             renamed = moduli.renamed(tuple(map(int, order)))
-            yield renamed.named(angle + 0.0), np.flatnonzero(which.ravel() == place)
+            yield renamed.named(angle + 0.0), np.flatnonzero(which.ravel() == index)
 
     def _check_instances(
         self,
@@ -257,7 +250,7 @@ class Sections:
         faces: Faces,
         angles: FloatArray,
     ) -> None:
-        """Check that the plies of all instances of a part have the same angles; raises DeckError."""
+        """Raise DeckError if the ply angles of the instances of a part differ."""
         deck = self._deck
         part = deck.part_of.get(owner.name)
         for other in deck.owners:
@@ -266,12 +259,12 @@ class Sections:
             turn = other.placement.turn(np.eye(3)).T @ owner.placement.turn(np.eye(3))
             moved = Faces(faces.numbers, faces.normals @ turn.T, faces.above)
             here = self._orientations[other.name]
-            own = layer.orientation and here.get(layer.orientation.name, layer.orientation)
-            placed = SolidLayer(layer.thickness, layer.points, layer.material, own, layer.angle)
+            orientation = layer.orientation and here.get(layer.orientation.name, layer.orientation)
+            placed = SolidLayer(layer.thickness, layer.points, layer.material, orientation, layer.angle)
             _, others = self._angles(other, section, placed, moved)
-            apart = np.abs((others - angles + 90.0) % 180.0 - 90.0)
-            if (apart > 10.0**-_DECIMALS * 2).any():
-                row = int(np.argmax(apart))
+            difference = np.abs((others - angles + 90.0) % 180.0 - 90.0)
+            if (difference > 10.0**-_DECIMALS * 2).any():
+                row = int(np.argmax(difference))
                 raise deck.structure.instances[other.name].head.error(
                     f"instance {other.name} is turned against {owner.name}, so the plies at element "
                     f"{self._name(faces, np.array([row]))} have the angle {others[row]:g} in {other.name} and "
@@ -281,7 +274,7 @@ class Sections:
     def _angles(
         self, owner: Owner, section: SolidSection | CompositeSection, layer: SolidLayer, faces: Faces
     ) -> tuple[IntArray, FloatArray]:
-        """Return the order of a material's axes, (k, 3), the one across last, and the first's angle, (k,), at faces."""
+        """Return the order (k, 3) of the material axes, the normal one last, and the angle (k,) of the first."""
         axes = self._axes(owner, section, layer, faces)
         if self._deck.solids.cells[0].family.dimension == 2:
             if np.any(np.abs(axes[:, 2, 2]) < math.cos(PARALLEL)):
@@ -296,7 +289,7 @@ class Sections:
         return orders, _half_turn(np.arctan2(np.sum(first * t, axis=1), np.sum(first * s, axis=1)))
 
     def _check_normal(self, cosines: FloatArray, faces: Faces, section: SolidSection | CompositeSection) -> None:
-        """Check that an axis of the material is normal to the interface; raises ValueError."""
+        """Raise ValueError unless a material axis is normal to the interface."""
         tilt = np.degrees(np.arccos(np.minimum(cosines, 1.0)))
         row = int(tilt.argmax())
         where = f"at element {self._name(faces, np.array([row]))} the closest one is {tilt[row]:.3g} degrees off"
@@ -309,7 +302,7 @@ class Sections:
     def _axes(
         self, owner: Owner, section: SolidSection | CompositeSection, layer: SolidLayer, faces: Faces
     ) -> FloatArray:
-        """Return the axes (k, 3, 3) of a material, in rows, in the middles of faces of an instance."""
+        """Return the material axes (k, 3, 3), in rows, at the centres of faces of an instance."""
         deck, orientation = self._deck, layer.orientation
         shape = len(faces.numbers), 3, 3
         if orientation is None:
@@ -320,7 +313,7 @@ class Sections:
             axes = self._local_axes(owner, orientation, faces)
         if layer.angle is None:
             return axes
-        # the stack goes from the first layer to the last
+        # stack direction: from the first layer to the last
         last = deck.solids.side[faces.numbers] == STACK_FACES[_direction_of(section)][1]
         outward = -faces.normals if faces.above else faces.normals
         upright = np.where(last[:, None], outward, -outward)
@@ -331,7 +324,7 @@ class Sections:
             raise ValueError(f"orientation {orientation.name}: {error}; it is not in element {name}") from None
 
     def _local_axes(self, owner: Owner, orientation: Orientation, faces: Faces) -> FloatArray:
-        """Return the axes of an orientation that differs from point to point."""
+        """Return the axes of an orientation that varies in space."""
         deck, system = self._deck, orientation.system
         assert system is not None
         if system.kind is SystemKind.USER:
@@ -360,7 +353,7 @@ def _direction_of(section: SolidSection | CompositeSection) -> int:
 
 
 def _thickness(block: Block) -> float | None:
-    """Return the thickness out of the plane of a section keyword, None where it has none."""
+    """Return the out-of-plane thickness of a section keyword, None without one."""
     if block.name != "SOLID SECTION":
         return None
     row = next(block.rows(), None)
@@ -368,7 +361,7 @@ def _thickness(block: Block) -> float | None:
 
 
 def _moduli(material: Material) -> _Moduli:
-    """Return the moduli of a material; ValueError says why they are not known."""
+    """Return the moduli of a material. Raises ValueError if they are unknown."""
     elastic = material.elastic
     if elastic is None:
         raise ValueError(f"material {material.name} has no *ELASTIC")
@@ -380,7 +373,7 @@ def _moduli(material: Material) -> _Moduli:
             return _Moduli((young,) * 3, (ratio,) * 3, (young / (2.0 * (1.0 + ratio)),) * 3)
         case ElasticType.LAMINA:
             e1, e2, nu12, *g = elastic.constants
-            # plane stress has no use for the constants along the third axis
+            # plane stress does not use the constants along the third axis
             return _Moduli((e1, e2, 0.0), (nu12, 0.0, 0.0), (g[0], g[1], g[2]))
         case ElasticType.ENGINEERING_CONSTANTS:
             c = elastic.constants
@@ -390,7 +383,7 @@ def _moduli(material: Material) -> _Moduli:
 
 
 def _half_turn(radians: FloatArray) -> FloatArray:
-    """Reduce angles to degrees above -90 and up to 90: half a turn leaves an orthotropic material as it is."""
+    """Reduce angles to degrees above -90 and up to 90, modulo 180 degrees."""
     degrees = np.round(np.degrees(radians), _DECIMALS)
     return np.asarray(np.round(90.0 - (90.0 - degrees) % 180.0, _DECIMALS))
 

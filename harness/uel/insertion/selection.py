@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Selection of the faces to cut, of the solid below each, and of the cut faces that are an initial crack."""
+"""Selection of the faces to cut, of the solid below each, and of initial cracks."""
 
 from __future__ import annotations
 
@@ -12,23 +12,22 @@ from numpy.typing import NDArray
 
 from uel.errors import UsageError
 from uel.insertion.assembly import Deck
-from uel.insertion.cut import NONE
+from uel.insertion.cut import NONE, mask_of
 from uel.model.arrays import IntArray
 
 Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
-    """Places to cut, as the user names them.
+class CutRequest:
+    """Faces to cut, by the names of the command line.
 
-    between   pairs of element sets: the first is below
+    between   pairs of element sets: the first one is below
     surfaces  surfaces of elements, which are below
-    nodes     node sets: faces all of whose nodes are in one
-    plies     element sets from the lowest to the highest, between any two of which is cut; () for the sets of the
-              sections; None for no plies
-    inside    element sets between all elements of which is cut
-    crack     sets or surfaces: what is cut there gets no elements
+    nodes     node sets: faces with all nodes in one set
+    plies     element sets from bottom to top, cut between any two of them; (): the sets of the sections; None: no plies
+    inside    element sets, cut between all their elements
+    crack     sets or surfaces whose cut faces get no elements
     """
 
     between: Sequence[tuple[str, str]] = ()
@@ -43,11 +42,11 @@ class Wanted:
 class Selection:
     """Faces by their pairs in `Solids.pairs`.
 
-    cuts   (pairs,) which are separated
-    crack  (pairs,) which of them get no element
-    below  (pairs,) 0 or 1: which of the pair belongs to the solid below
-    plies  between which plies is cut, and how many faces there
-    meets  (pairs,) which of the faces between plies have an edge, in the plane a node, in common with two others
+    cuts       (pairs,) mask of separated pairs
+    crack      (pairs,) mask of pairs without an element
+    below      (pairs,) 0 or 1: face of the pair in the solid below
+    plies      cut pairs of plies, and their numbers of faces
+    branching  (pairs,) mask of faces between plies with an edge, in the plane a node, common to two others
     """
 
     cuts: Mask
@@ -55,10 +54,10 @@ class Selection:
     below: IntArray
     oriented: Mask = field(repr=False)
     plies: list[tuple[str, str, int]] = field(default_factory=list)
-    meets: Mask = field(default_factory=lambda: np.zeros(0, dtype=bool))
+    branching: Mask = field(default_factory=lambda: np.zeros(0, dtype=bool))
 
     def add(self, which: Mask, below: IntArray | None = None) -> None:
-        """Cut along more faces; those that had no direction yet take this one."""
+        """Add faces to cut; `below` applies to those without a direction."""
         if below is not None:
             new = which & ~self.oriented
             self.below[new] = below[new]
@@ -66,59 +65,59 @@ class Selection:
         self.cuts |= which
 
 
-def select(deck: Deck, wanted: Wanted) -> Selection:
-    """Find the faces that are wanted. Raises UsageError where a name is unknown or names no face between two solids."""
+def select(deck: Deck, request: CutRequest) -> Selection:
+    """Select the faces of a request. Raises UsageError for an unknown name, or one without faces between solids."""
     solids = deck.solids
     sides = solids.element[solids.pairs]
-    found = Selection(
+    selection = Selection(
         np.zeros(len(sides), dtype=bool),
         np.zeros(len(sides), dtype=bool),
         _upwards(deck),
         np.zeros(len(sides), dtype=bool),
     )
-    for lower, upper in wanted.between:
+    for lower, upper in request.between:
         first, second = (_solids(deck, name, "--between") for name in (lower, upper))
         if np.any(first & second):
             shared = deck.name(int(np.argmax(first & second)))
             raise UsageError(f"--between {lower} {upper}: element {shared} is in both sets")
         forward, backward = first[sides[:, 0]] & second[sides[:, 1]], first[sides[:, 1]] & second[sides[:, 0]]
-        _take(found, f"--between {lower} {upper}", forward | backward, backward.astype(np.int64))
-    for name in wanted.surfaces:
+        _take(selection, f"--between {lower} {upper}", forward | backward, backward.astype(np.int64))
+    for name in request.surfaces:
         faces = _surface(deck, name, "--surface")
-        _take(found, f"--surface {name}", faces[:, 0] | faces[:, 1], (~faces[:, 0]).astype(np.int64))
-    for name in wanted.nodes:
+        _take(selection, f"--surface {name}", faces[:, 0] | faces[:, 1], (~faces[:, 0]).astype(np.int64))
+    for name in request.nodes:
         nodes = deck.nodes_of(name, "--nodes")
         if nodes is None:
             raise deck.unknown("--nodes", "node set", name, deck.flat.nsets)
-        _take(found, f"--nodes {name}", _within(deck, nodes))
-    for name in wanted.inside:
+        _take(selection, f"--nodes {name}", _within(deck, nodes))
+    for name in request.inside:
         inside = _solids(deck, name, "--all")
-        _take(found, f"--all {name}", inside[sides].all(axis=1))
-    if wanted.plies is not None:
-        plies, names = _plies(deck, wanted.plies)
+        _take(selection, f"--all {name}", inside[sides].all(axis=1))
+    if request.plies is not None:
+        plies, names = _plies(deck, request.plies)
         ply = plies[sides]
         different = (ply[:, 0] != ply[:, 1]) & np.all(ply != NONE, axis=1)
-        below = (ply[:, 0] > ply[:, 1]).astype(np.int64) if wanted.plies else None
-        _take(found, " ".join(["--plies", *wanted.plies]), different, below)
+        below = (ply[:, 0] > ply[:, 1]).astype(np.int64) if request.plies else None
+        _take(selection, " ".join(["--plies", *request.plies]), different, below)
         pairs, counts = np.unique(np.sort(ply[different], axis=1), axis=0, return_counts=True)
-        found.plies = [(names[a], names[b], n) for (a, b), n in zip(pairs.tolist(), counts.tolist(), strict=True)]
-        found.meets = _meeting(deck, different)
-    for name in wanted.crack:
-        faces = _crack(deck, name) & found.cuts
+        selection.plies = [(names[a], names[b], n) for (a, b), n in zip(pairs.tolist(), counts.tolist(), strict=True)]
+        selection.branching = _meeting(deck, different)
+    for name in request.crack:
+        faces = _crack(deck, name) & selection.cuts
         if not faces.any():
             raise UsageError(f"--crack {name}: none of the faces that are cut is there")
-        found.crack |= faces
-    return found
+        selection.crack |= faces
+    return selection
 
 
-def _take(found: Selection, option: str, which: Mask, below: IntArray | None = None) -> None:
+def _take(selection: Selection, option: str, which: Mask, below: IntArray | None = None) -> None:
     if not which.any():
         raise UsageError(f"{option}: no two solids share a face there")
-    found.add(which, below)
+    selection.add(which, below)
 
 
 def _upwards(deck: Deck) -> IntArray:
-    """Find which solid of each pair is below by its position: along z, where that is the same y, then x."""
+    """Return the lower solid of each pair by position: along z, if equal along y, then x."""
     solids = deck.solids
     centroids = solids.centroids[solids.element[solids.pairs]]
     ahead = centroids[:, 1] - centroids[:, 0]
@@ -126,7 +125,7 @@ def _upwards(deck: Deck) -> IntArray:
     below = np.zeros(len(ahead), dtype=np.int64)
     undecided = np.ones(len(ahead), dtype=bool)
     for axis in (2, 1, 0):
-        # smaller differences are those of the digits of the coordinates
+        # smaller differences are rounding of the coordinates
         clear = undecided & (np.abs(ahead[:, axis]) > 1e-3 * size)
         below[clear] = (ahead[clear, axis] < 0.0).astype(np.int64)
         undecided &= ~clear
@@ -137,73 +136,65 @@ def _solids(deck: Deck, name: str, option: str) -> Mask:
     numbers = deck.solids_of(name, option)
     if numbers is None:
         raise deck.unknown(option, "element set", name, deck.flat.elsets)
-    found = np.zeros(deck.solids.count, dtype=bool)
-    found[numbers] = True
-    return found
+    return mask_of(numbers, deck.solids.count)
 
 
 def _within(deck: Deck, nodes: IntArray) -> Mask:
-    """Return the pairs of faces whose nodes all are among these."""
-    inside = np.zeros(len(deck.solids.points) + 1, dtype=bool)
-    inside[nodes] = True
-    inside[NONE] = True
-    found: Mask = inside[deck.solids.nodes[deck.solids.pairs[:, 0]]].all(axis=1)
-    return found
+    """Return the mask of the pairs of faces with all nodes among these."""
+    inside = mask_of(np.append(nodes, NONE), len(deck.solids.points) + 1)
+    return np.asarray(inside[deck.solids.nodes[deck.solids.pairs[:, 0]]].all(axis=1))
 
 
 def _surface(deck: Deck, name: str, option: str) -> Mask:
-    """Mask the faces (pairs, 2) that belong to a surface of elements."""
+    """Return the mask (pairs, 2) of the faces in a surface of elements."""
     at = deck.surface(name, option)
     if at is None:
         raise deck.unknown(option, "surface", name, deck.surface_names())
     block = at[1]
     if block.options.text("TYPE") != "ELEMENT":
         raise UsageError(f"{option} {name}: expected a surface of elements (TYPE=ELEMENT), see {block.source}")
-    found: Mask = deck.faces_of(*at)[deck.solids.pairs]
-    return found
+    return np.asarray(deck.faces_of(*at)[deck.solids.pairs])
 
 
 def _plies(deck: Deck, names: Sequence[str]) -> tuple[IntArray, Sequence[str]]:
-    """Assign a ply to each solid, (solids,), -1 for none; return the plies' names too, as given or by section."""
-    found = np.full(deck.solids.count, NONE)
+    """Return the ply (solids,) of each solid, -1 for none, and the names of the plies."""
+    ply_of = np.full(deck.solids.count, NONE)
     if not names:
-        found = deck.sections.copy()
-        if len(np.unique(found[found != NONE])) < 2:
+        ply_of = deck.sections.copy()
+        if len(np.unique(ply_of[ply_of != NONE])) < 2:
             raise UsageError("--plies: the deck has no two sections of solids; name the element sets of the plies")
-        return found, [f"{block.options.text('ELSET')} ({block.source})" for _, block in deck.section_blocks]
-    for place, name in enumerate(names):
+        return ply_of, [f"{block.options.text('ELSET')} ({block.source})" for _, block in deck.section_blocks]
+    for index, name in enumerate(names):
         inside = _solids(deck, name, "--plies")
-        twice = inside & (found != NONE)
+        twice = inside & (ply_of != NONE)
         if twice.any():
             number = int(np.argmax(twice))
-            raise UsageError(f"--plies: element {deck.name(number)} is in {names[found[number]]} and in {name}")
-        found[inside] = place
-    return found, names
+            raise UsageError(f"--plies: element {deck.name(number)} is in {names[ply_of[number]]} and in {name}")
+        ply_of[inside] = index
+    return ply_of, names
 
 
 def _meeting(deck: Deck, cuts: Mask) -> Mask:
-    """Mask of the faces of a cut that have an edge, in the plane a node, in common with two others of it."""
+    """Return the mask of the faces of a cut with an edge, in the plane a node, common to two others."""
     solids = deck.solids
     rows = np.flatnonzero(cuts)
     faces = solids.pairs[rows, 0]
     corners = solids.corners[faces]
-    found = np.zeros(len(cuts), dtype=bool)
     edges, owners = [], []
     for count in np.unique(corners).tolist():
         here = rows[corners == count]
         nodes = solids.nodes[faces[corners == count], :count]
         ends = nodes[:, :, None] if count == 2 else np.stack([nodes, np.roll(nodes, -1, axis=1)], axis=2)
         ends = np.sort(ends, axis=2).reshape(len(here) * count, -1)
-        # nodes of the plane stand for edges
+        # edges, in the plane nodes
         edges.append(np.column_stack([ends[:, 0], ends[:, -1]]))
         owners.append(np.repeat(here, count))
-    _, which, counts = np.unique(np.concatenate(edges), axis=0, return_inverse=True, return_counts=True)
-    found[np.concatenate(owners)[counts[which.ravel()] > 2]] = True
-    return found
+    _, edge, counts = np.unique(np.concatenate(edges), axis=0, return_inverse=True, return_counts=True)
+    return mask_of(np.concatenate(owners)[counts[edge.ravel()] > 2], len(cuts))
 
 
 def _crack(deck: Deck, name: str) -> Mask:
-    """Return the pairs of faces in a node set, at the elements of a set, or in a surface."""
+    """Return the mask of the pairs of faces in a node set, at the elements of a set, or in a surface."""
     nodes = deck.nodes_of(name, "--crack")
     if nodes is not None:
         return _within(deck, nodes)
@@ -214,7 +205,4 @@ def _crack(deck: Deck, name: str) -> Mask:
     if numbers is None:
         known = (deck.flat.nsets, deck.flat.elsets, deck.surface_names())
         raise deck.unknown("--crack", "node set, element set or surface", name, *known)
-    inside = np.zeros(deck.solids.count, dtype=bool)
-    inside[numbers] = True
-    found: Mask = inside[deck.solids.element[deck.solids.pairs]].any(axis=1)
-    return found
+    return np.asarray(mask_of(numbers, deck.solids.count)[deck.solids.element[deck.solids.pairs]].any(axis=1))

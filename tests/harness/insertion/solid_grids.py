@@ -10,7 +10,7 @@ import numpy as np
 from small_decks import body_lines
 
 from uel.insertion.command import insert
-from uel.insertion.selection import Wanted
+from uel.insertion.selection import CutRequest
 from uel.model.element_types import CONTINUUM
 
 # a square into two triangles, a cube into two wedges or six tetrahedra, by places 0 or 1 along each direction
@@ -107,8 +107,8 @@ LAW = ("SIGMAMAX=30", "TAUMAX=60", "GIC=0.26", "GIIC=1.")
 
 
 def inserted(deck: Path, output: Path, values=LAW, *, files=(), **wanted):
-    """Write a deck with elements inserted; keywords as of Wanted and insert."""
+    """Write a deck with elements inserted; keywords as of CutRequest and insert."""
     options = {name: wanted.pop(name) for name in ("element", "elset", "solids") if name in wanted}
-    text, done = insert([*files, deck], Wanted(**wanted), values=values, **options)
+    text, done = insert([*files, deck], CutRequest(**wanted), values=values, **options)
     output.write_text(text)
     return done
