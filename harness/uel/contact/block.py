@@ -35,7 +35,7 @@ OPEN, STICKING, SLIPPING = 0, 1, 2
 """Status of a point; without friction a closed one counts as sticking."""
 
 ROUNDING: Final = 1e-12
-"""Relative error of clearances and contact forces that does not change a status."""
+"""Relative error of clearances and contact forces that is rounding."""
 
 
 class ContactBlock(Contributor):
@@ -73,7 +73,7 @@ class ContactBlock(Contributor):
         self._scale = 0.0
         self._output = (start, np.zeros(m), np.zeros((m, pair.dimension - 1)))
         self._penetration = self._force = self._stiffness = np.zeros(m)
-        self._equations = self._own_places = np.zeros((m, 0), dtype=np.int32)
+        self._equations = self._own_positions = np.zeros((m, 0), dtype=np.int32)
         self._find: Find | None = None
         self._multipliers = np.zeros(m, dtype=np.int32)
         self._pattern = (self._equations, self._equations)
@@ -94,9 +94,7 @@ class ContactBlock(Contributor):
         self._equations = self._equations_of(self.rows, self._motion.nodes)
 
     def track(self, now: CurrentPass) -> bool:
-        """Find, before a pass, the point of the main surface opposite each contact point. Return whether the matrix has
-        entries for them, if it is wanted.
-        """
+        """Project the contact points before a pass; return whether the matrix, if any, has the entries for them."""
         assert self._find is not None
         if not now.has_forces:
             return True
@@ -112,7 +110,7 @@ class ContactBlock(Contributor):
         return False
 
     def couplings(self) -> NDArray[np.int32]:
-        """Return (r, unknowns) unknowns that points couple, now or soon."""
+        """Return (r, unknowns) coupled unknowns of the points, those of neighbouring pieces included."""
         return self._equations_of(*self._motion.links())
 
     def _equations_of(self, points: IntArray, nodes: IntArray) -> NDArray[np.int32]:
@@ -122,10 +120,10 @@ class ContactBlock(Contributor):
         return np.stack([*columns, *multipliers], axis=1).astype(np.int32)
 
     def locate(self, indptr: NDArray[np.int32], indices: NDArray[np.int32]) -> None:
-        """Store the CSR pattern of the matrix, which has the couplings."""
+        """Set the CSR pattern of the matrix."""
         self._pattern = indptr, indices
-        own = np.concatenate([self._equations[:, : self.pair.dimension], self._equations[:, -1:]], axis=1)
-        self._own_places = _binding.scatter_map(own, indptr, indices)
+        equations = np.concatenate([self._equations[:, : self.pair.dimension], self._equations[:, -1:]], axis=1)
+        self._own_positions = _binding.scatter_map(equations, indptr, indices)
 
     def contribute(self, now: CurrentPass) -> BlockReport:
         """Run one pass, and report its changes and the energies of bonds."""
@@ -137,17 +135,16 @@ class ContactBlock(Contributor):
     def _respond(self, now: CurrentPass) -> None:
         """Add the contact forces and their derivatives.
 
-        The status of the points changes in passes that follow a solve, but never twice in an iteration: it depends on
-        the status at the end of the one before.
+        The status of a point changes at most once in an iteration: it depends on that at the end of the previous one.
         """
         call, residual, data = now.call, now.columns[0], now.data
         if data is not None and not self._scale:
-            self._scale = scale_of_multipliers(data, self._own_places, self.pair.dimension)
+            self._scale = scale_of_multipliers(data, self._own_positions, self.pair.dimension)
         count = self._equations.shape[1] - self.direct
-        moved, change = now.u[self._equations[:, :count]], now.du[self._equations[:, :count]]
-        found = self._motion.clearances(moved, nlgeom=call.flags.nlgeom)
-        clearance, before = found.value, self._status_before(call)
-        small = ROUNDING * float(np.abs(moved).max()) + 8.0 * found.rounding
+        displacement, change = now.u[self._equations[:, :count]], now.du[self._equations[:, :count]]
+        clearances = self._motion.clearances(displacement, nlgeom=call.flags.nlgeom)
+        clearance, before = clearances.value, self._status_before(call)
+        small = ROUNDING * float(np.abs(displacement).max()) + 8.0 * clearances.rounding
         if self.direct:
             multiplier = now.u[self._equations[:, count]] * self._scale
             closed = self._closed(before, clearance, multiplier, small)
@@ -158,46 +155,45 @@ class ContactBlock(Contributor):
             closed = before != OPEN
         closed &= self._motion.above
         force = np.where(closed, multiplier, 0.0)
-        slips = self._motion.slips(moved, change, self._slip)
+        slips = self._motion.slips(displacement, change, self._slip)
         sticks = np.ones(len(force)) if self._bonds is None else self._bonds.damage
         friction = Friction(self.pair, force, np.where(closed[:, None], slips.value, 0.0), closed, sticks, small)
-        self._add(residual, data, (found, slips), (multiplier, force, closed), friction)
+        self._add(residual, data, (clearances, slips), (multiplier, force, closed), friction)
         normal, shear = force, friction.force
         if self._bonds is not None:
-            since = self._motion.slips(moved, change, self._bonds.slip)
+            since = self._motion.slips(displacement, change, self._bonds.slip)
             pulled = self._bonds.bonded & self._motion.above & (~closed if self.direct else clearance >= 0.0)
             bonding = self._bonds.respond(call.time_increment, clearance, since, self._motion.areas, pulled)
-            self._add_bonds(residual, data, found, bonding)
+            self._add_bonds(residual, data, clearances, bonding)
             normal, shear = normal - bonding.normal, shear + bonding.shear
         if call.flags.request is Request.NORMAL:
             after = np.where(closed, np.where(friction.slips, SLIPPING, STICKING), OPEN)
             self._status_trial = before if call.iteration == 0 else after
             self._slip_trial, self._force = friction.elastic, multiplier
             self._output = (clearance, normal, np.einsum("mat,mt->ma", slips.axes, shear))
-            missed = closed & self.direct & (np.abs(clearance) > small)
-            self._penetration = np.where(missed, clearance, 0.0)
+            violated = closed & self.direct & (np.abs(clearance) > small)
+            self._penetration = np.where(violated, clearance, 0.0)
 
     def _penalty(self, clearance: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return contact forces (m,) of a stiffness, negative without contact,
-        and their derivatives by the overclosure.
+        """Return penalty forces (m,), negative without contact, and their derivatives by the overclosure.
 
         PENALTY=NONLINEAR: the stiffness grows linearly with the overclosure between two of its values (Abaqus Analysis
         User's Guide, "Contact constraint enforcement methods in Abaqus/Standard").
         """
-        given = self.pair.property
-        assert given.stiffness is not None
-        deep = given.clearance - clearance
-        upper = given.clearance + STIFFENED * self.pair.length
-        range_ = (1.0 - STIFFENING) * upper
-        share = np.clip((deep - STIFFENING * upper) / range_, 0.0, 1.0)
-        grown = 0.5 * range_ * share**2 + np.maximum(deep - upper, 0.0)
-        stiffness, later = given.stiffness * self._motion.areas, 1.0 - given.initial
-        return stiffness * (given.initial * deep + later * grown), stiffness * (given.initial + later * share)
+        contact = self.pair.property
+        assert contact.stiffness is not None
+        depth = contact.clearance - clearance
+        upper = contact.clearance + STIFFENED * self.pair.length
+        width = (1.0 - STIFFENING) * upper
+        fraction = np.clip((depth - STIFFENING * upper) / width, 0.0, 1.0)
+        integral = 0.5 * width * fraction**2 + np.maximum(depth - upper, 0.0)
+        stiffness, growth = contact.stiffness * self._motion.areas, 1.0 - contact.initial
+        return stiffness * (contact.initial * depth + growth * integral), stiffness * (
+            contact.initial + growth * fraction
+        )
 
     def _status_before(self, call: Call) -> IntArray:
-        """Return the status at the end of the previous iteration,
-        in the first pass that at the start of the increment.
-        """
+        """Return the status at the end of the previous iteration, in the first pass at the start of the increment."""
         if call.iteration == 0:
             self._before = self._status
         elif call.iteration != self._iteration:
@@ -206,9 +202,7 @@ class ContactBlock(Contributor):
         return self._before
 
     def _closed(self, before: IntArray, clearance: FloatArray, force: FloatArray, small: float) -> NDArray[np.bool_]:
-        """Return the mask of closed points: they open under tension,
-        and open ones close at a penetration above rounding.
-        """
+        """Return the mask of closed points: points open under tension, and close at a penetration above rounding."""
         tension = ROUNDING * np.abs(force).max() + small * self._scale
         return np.where(before == OPEN, clearance < -small, force >= -tension)
 
@@ -220,35 +214,33 @@ class ContactBlock(Contributor):
         state: tuple[FloatArray, FloatArray, NDArray[np.bool_]],
         friction: Friction,
     ) -> None:
-        """Add the contributions of contact and friction at points with this motion, multipliers (or forces),
-        and status.
-        """
+        """Add the contributions of contact and friction; state: multipliers or penalty forces, forces, closed."""
         multiplier, force, closed = state
         clearances, slips = motion
-        normal, pushed = clearances.gradient, clearances.pushed
-        tangents, scale = slips.carried, self._scale
+        normal, conjugate = clearances.gradient, clearances.conjugate
+        tangents, scale = slips.conjugate, self._scale
         count = normal.shape[1]
-        right = np.zeros(self._equations.shape)
-        right[:, :count] = force[:, None] * pushed - np.einsum("mt,mtu->mu", friction.force, tangents)
+        forces = np.zeros(self._equations.shape)
+        forces[:, :count] = force[:, None] * conjugate - np.einsum("mt,mtu->mu", friction.force, tangents)
         if self.direct:
-            right[:, count] = np.where(closed, scale * clearances.value, -multiplier)
-        np.add.at(residual, self._equations, right)
+            forces[:, count] = np.where(closed, scale * clearances.value, -multiplier)
+        np.add.at(residual, self._equations, forces)
         if data is None:
             return
         if self.direct:
-            data[self._own_places[~closed, -1, -1]] += scale
-        # those that are open have no other entries
+            data[self._own_positions[~closed, -1, -1]] += scale
+        # open points have no other entries
         points = np.flatnonzero(closed)
         equations = self._equations[points]
         matrix = np.zeros((len(points), equations.shape[1], equations.shape[1]))
         along, by_slip = tangents[points], friction.by_slip[points]
         matrix[:, :count, :count] = np.einsum("mtu,mts,msv->muv", along, by_slip, slips.by[points])
-        if slips.turned is not None:
-            matrix[:, :count, :count] += slips.turned(points, friction.force[points])
+        if slips.stiffness_of is not None:
+            matrix[:, :count, :count] += slips.stiffness_of(points, friction.force[points])
         if clearances.curvature is not None:
             matrix[:, :count, :count] -= clearances.curvature(points, force[points])
-        # what the contact force does, by the contact force
-        by_force = np.einsum("mt,mtu->mu", friction.by_force[points], along) - pushed[points]
+        # derivative of the nodal forces by the contact force
+        by_force = np.einsum("mt,mtu->mu", friction.by_force[points], along) - conjugate[points]
         if self.direct:
             matrix[:, :count, count] = scale * by_force
             matrix[:, count, :count] = -scale * normal[points]
@@ -264,22 +256,22 @@ class ContactBlock(Contributor):
         assert self._bonds is not None
         points = np.flatnonzero(self._bonds.bonded & self._motion.above)
         normal, shear, slips = bonding.normal[points], bonding.shear[points], bonding.slips
-        moved = np.concatenate([clearances.pushed[points, None], slips.carried[points]], axis=1)
+        directions = np.concatenate([clearances.conjugate[points, None], slips.conjugate[points]], axis=1)
         forces = np.concatenate([normal[:, None], shear], axis=1)
-        equations = self._equations[points, : moved.shape[2]]
-        np.add.at(residual, equations, -np.einsum("mt,mtu->mu", forces, moved))
+        equations = self._equations[points, : directions.shape[2]]
+        np.add.at(residual, equations, -np.einsum("mt,mtu->mu", forces, directions))
         if data is None:
             return
         change = np.concatenate([clearances.gradient[points, None], slips.by[points]], axis=1)
-        matrix = np.einsum("mtu,mts,msv->muv", moved, bonding.by[points], change)
-        if slips.turned is not None:
-            matrix += slips.turned(points, shear)
+        matrix = np.einsum("mtu,mts,msv->muv", directions, bonding.by[points], change)
+        if slips.stiffness_of is not None:
+            matrix += slips.stiffness_of(points, shear)
         if clearances.curvature is not None:
             matrix += clearances.curvature(points, normal)
         np.add.at(data, _binding.scatter_map(equations, *self._pattern), matrix)
 
     def _changes(self) -> ContactChanges:
-        """Return the changes in the last iteration, and the errors of the constraints at its end."""
+        """Return the status changes in the last iteration, and the constraint errors at its end."""
         before, after = self._before, self._status_trial
         switched = (before == OPEN) != (after == OPEN)
         return ContactChanges(
@@ -319,8 +311,8 @@ class ContactBlock(Contributor):
 
     def kept(self) -> Saved:
         """Return the committed state, not copied."""
-        kept: Saved = {"status": self._status, "slip": self._slip, "scale": self._scale, "motion": self._motion.kept()}
-        return kept if self._bonds is None else {**kept, "bonds": self._bonds.kept()}
+        saved: Saved = {"status": self._status, "slip": self._slip, "scale": self._scale, "motion": self._motion.kept()}
+        return saved if self._bonds is None else {**saved, "bonds": self._bonds.kept()}
 
     def resume(self, saved: Saved) -> None:
         """Restore the state that `kept` returned. Raises ValueError if it is not of these points."""

@@ -1,11 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Surface-based cohesive behaviour: the bond of the points of a contact pair that are in contact at the start.
+"""Surface-based cohesive behaviour of points in contact at the start.
 
-The tractions follow from the clearance and from the slip since the start, by the law of the cohesive elements with a
-thickness of one. Closed points have the contact force in place of the normal traction; friction is in parallel to the
-bond, and sticks with a stiffness that grows with the damage (Abaqus Analysis User's Guide, "Contact cohesive
-behavior").
+The tractions follow from clearance and slip since the start, by the law of cohesive elements of unit thickness. Closed
+points have the contact force in place of the normal traction; friction acts in parallel, and its sticking stiffness
+grows with the damage (Abaqus Analysis User's Guide, "Contact cohesive behavior").
 """
 
 from __future__ import annotations
@@ -24,15 +23,15 @@ from uel.model.restart import Saved
 from uel.usersub import _points
 
 TRACTION, DAMAGE, DISSIPATED, VISCOUS, CRITERION = slice(3, 6), 6, slice(7, 10), 10, 12
-"""Places in the state of a point (`_points.POINT_REALS`)."""
+"""Indices in the state of a point (`_points.POINT_REALS`)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Bonding:
     """Response of the bonds of m points; zero without a bond.
 
-    slips   since the start
-    normal  (m,) forces that pull the surfaces together
+    slips   slips since the start
+    normal  (m,) attractive normal forces
     shear   (m, t) forces, in the components of the slips
     by      (m, 1 + t, 1 + t) derivatives of normal and shear by clearance and slip
     """
@@ -105,10 +104,10 @@ class Bonds:
         frame = np.zeros((m, dimension, 1 + slips.axes.shape[2]))
         frame[:, 0, 0], frame[:, 1:, 1:] = 1.0, slips.axes
         by = np.einsum("mia,mij,mjb->mab", frame, tangents[:, :dimension, :dimension], frame)
-        # the tangent plane turns, and with it a traction that does not depend on the direction of the slip
+        # rotation of the tangent plane, and of an isotropic shear traction with it
         across = np.eye(slips.axes.shape[2]) - np.einsum("mat,mas->mts", slips.axes, slips.axes)
-        left = np.where(self.bonded, 1.0 - states[:, DAMAGE], 0.0)
-        by[:, 1:, 1:] += (self._shear * left)[:, None, None] * across
+        intact = np.where(self.bonded, 1.0 - states[:, DAMAGE], 0.0)
+        by[:, 1:, 1:] += (self._shear * intact)[:, None, None] * across
         normal = areas * np.where(pulled, tractions[:, 0], 0.0)
         shear = areas[:, None] * np.einsum("mat,ma->mt", slips.axes, tractions[:, 1:dimension])
         return Bonding(slips, normal, shear, areas[:, None, None] * by)
@@ -137,7 +136,7 @@ class Bonds:
         """Variables (m,) by their names in Abaqus, NaN without a bond."""
         damage = self._cohesion.damage
         names = {} if damage is None else {"CSDMG": DAMAGE, f"CS{damage.criterion}CRT": CRITERION}
-        return {name: np.where(self.bonded, self._state_trial[:, place], np.nan) for name, place in names.items()}
+        return {name: np.where(self.bonded, self._state_trial[:, index], np.nan) for name, index in names.items()}
 
     def commit(self) -> None:
         """Commit the trial state at the end of a converged increment."""
@@ -154,7 +153,7 @@ class Bonds:
 
 
 def _isotropic(cohesion: Cohesion) -> bool:
-    """Return whether the tractions do not depend on the direction of the slip."""
+    """Return whether the tractions are independent of the direction of the slip."""
     first, second = directions(cohesion.stiffness, 3)[1:]
     damage = cohesion.damage
     if damage is None or first != second:

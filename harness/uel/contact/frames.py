@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Axes that turn with a face, and the components of a vector along them, with first and second derivatives.
+"""Axes that rotate with a face, and the components of a vector along them, with first and second derivatives.
 
-A jet holds vectors that depend on k variables. The variables are the components of the tangents of the face at the
-anchor point, and of the vector d from there to the secondary node. All of them are linear in the displacements, so that
-derivatives by the displacements follow with a constant matrix.
+A jet has vectors that depend on k variables: the components of the tangents of the face at the anchor point, and of the
+vector d from there to the secondary node. They are linear in the displacements: a constant matrix gives the derivatives
+by the displacements.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from uel.elements.rotations import PERMUTATION
 from uel.model.arrays import FloatArray
 
 TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
-"""Matrix that turns a vector of the plane by a right angle."""
+"""Rotation by a right angle in the plane."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,12 +34,12 @@ class Jet:
 
     def times(self, factors: FloatArray) -> Jet:
         """Return the vectors times constants (m,)."""
-        one = factors[:, None]
-        return Jet(one * self.value, one[..., None] * self.first, one[..., None, None] * self.second)
+        column = factors[:, None]
+        return Jet(column * self.value, column[..., None] * self.first, column[..., None, None] * self.second)
 
-    def turned(self) -> Jet:
-        """Return vectors of the plane, turned by a right angle."""
-        return Jet(*(np.einsum("de,me...->md...", TURN, part) for part in (self.value, self.first, self.second)))
+    def rotated(self) -> Jet:
+        """Return vectors of the plane, rotated by a right angle."""
+        return Jet(*(np.einsum("de,me...->md...", TURN, array) for array in (self.value, self.first, self.second)))
 
     def unit(self) -> Jet:
         """Return the vectors over their lengths."""
@@ -71,41 +71,41 @@ def cross(a: Jet, b: Jet) -> Jet:
 
 
 def make_variables(vectors: Sequence[FloatArray], *, constant: bool = False) -> list[Jet]:
-    """Return jets of vectors (m, d), whose components are the variables; constant: without variables."""
+    """Return jets of vectors (m, d) whose components are the variables; constant: without derivatives."""
     m, dimension = vectors[0].shape
     count = 0 if constant else len(vectors) * dimension
-    found = []
+    jets = []
     for number, vector in enumerate(vectors):
         first = np.zeros((m, dimension, count))
         if not constant:
             first[:, :, number * dimension : (number + 1) * dimension] = np.eye(dimension)
-        found.append(Jet(vector, first, np.zeros((m, dimension, count, count))))
-    return found
+        jets.append(Jet(vector, first, np.zeros((m, dimension, count, count))))
+    return jets
 
 
-def combine(tangents: Sequence[Jet], parts: FloatArray) -> Jet:
+def combine(tangents: Sequence[Jet], factors: FloatArray) -> Jet:
     """Return the vectors with these components (m, d) along the tangents of a face and the normal to them."""
-    base = [*tangents, tangents[0].turned() if len(tangents) == 1 else cross(*tangents)]
-    total = base[0].times(parts[:, 0])
+    base = [*tangents, tangents[0].rotated() if len(tangents) == 1 else cross(*tangents)]
+    total = base[0].times(factors[:, 0])
     for number, vector in enumerate(base[1:], start=1):
-        total = total + vector.times(parts[:, number])
+        total = total + vector.times(factors[:, number])
     return total
 
 
 def turning_axes(tangents: Sequence[Jet], normal: FloatArray, first: FloatArray) -> list[Jet]:
-    """Return the unit normal and the directions of slip, which turn with the face.
+    """Return the unit normal and the directions of slip, which rotate with the face.
 
     Parameters
     ----------
     tangents
-        One or two of the face.
+        One or two tangents of the face.
     normal, first
         (m, d) components along the base of `combine` of the normal and, in space, of a vector whose part across it is
         the first direction.
     """
     n = combine(tangents, normal).unit()
     if len(tangents) == 1:
-        return [n, n.turned()]
+        return [n, n.rotated()]
     second = cross(n, combine(tangents, first)).unit()
     return [n, cross(second, n), second]
 

@@ -13,7 +13,7 @@ from uel.model.arrays import FloatArray
 from uel.model.contact import ContactPair, SlidingPair
 
 NONE: Final = 1e-200
-"""Part of a stiffness that is none."""
+"""Fraction of a stiffness that is zero."""
 
 
 class Friction:
@@ -28,16 +28,16 @@ class Friction:
         sticks: FloatArray,
         small: float,
     ) -> None:
-        """Compute the friction of closed points; sticks: (m,) part of the stiffness of sticking points.
+        """Compute the friction of closed points; sticks: (m,) factor of the sticking stiffness.
 
-        small: rounding of the slip; an increment after one with slip begins with sticking on every processor.
+        small: rounding of the slip, below which a point sticks on every processor after an increment with slip.
         """
-        given, directions = pair.property, slip.shape[1]
-        coefficient = given.friction
-        most = (given.elastic_slip or given.slip_tolerance * pair.length) / np.maximum(sticks, NONE)
+        contact, directions = pair.property, slip.shape[1]
+        coefficient = contact.friction
+        most = (contact.elastic_slip or contact.slip_tolerance * pair.length) / np.maximum(sticks, NONE)
         size = np.linalg.norm(slip, axis=1)
         self.slips = closed & (coefficient > 0.0) & (size > most + small)
-        # length of the slip at which the force would reach its limit
+        # slip at the friction limit
         reach = np.where(self.slips, size, most)[:, None]
         along = slip / reach
         limit = coefficient * np.maximum(force, 0.0)[:, None]

@@ -3,11 +3,10 @@
 """Motion of contact points in small sliding: clearances and slips, with their derivatives by the displacements.
 
 The clearance of a point is g = n . d: d from the anchor point to the secondary node, n the normal of the tangent plane.
-Without NLGEOM both are those of the mesh, and g is linear. With NLGEOM the plane goes with the face: n = v / |v|, and v
-has constant components along the tangents a1, a2 of the face at the anchor point and their product. The slip is what d
-has along directions e1, e2 that turn with n, so that bodies that move together do not slip, whatever their clearance.
-What g and the slip lose to the turning face are moments: their derivatives move the forces along the face to where the
-node is.
+Without NLGEOM both are those of the mesh, and g is linear. With NLGEOM the plane moves with the face: n = v / |v|,
+where v has constant components along the tangents a1, a2 of the face at the anchor point and their product. The slip is
+the change of d along directions e1, e2 that rotate with n, so that bodies that move together do not slip. The
+derivatives of g and slip by the rotation of the face are moments: they shift the forces along the face to the node.
 """
 
 from __future__ import annotations
@@ -32,14 +31,14 @@ class Clearances:
 
     value     (m,)
     gradient  (m, u)
-    pushed    (m, u) forces on the unknowns for a contact force of one
-    curvature gives their derivatives (r, u, u) for some points (r,) and their contact forces (r,); None: zero
-    rounding  error that the arithmetic makes
+    conjugate (m, u) nodal forces of a unit contact force
+    curvature function of points (r,) and contact forces (r,): derivatives (r, u, u) of nodal forces; None: zero
+    rounding  rounding error
     """
 
     value: FloatArray
     gradient: FloatArray
-    pushed: FloatArray
+    conjugate: FloatArray
     curvature: Callable[[IntArray, FloatArray], FloatArray] | None
     rounding: float
 
@@ -50,23 +49,23 @@ class Slips:
 
     value    (m, t)
     by       (m, t, u) derivatives by the unknowns
-    carried  (m, t, u) the motions along which a friction force does work
-    turned   gives the derivatives (r, u, u) of what friction forces (r, t) on some points (r,) do; None: zero
+    conjugate  (m, t, u) the motions along which a friction force does work
+    stiffness_of  function of points (r,) and friction forces (r, t): derivatives (r, u, u) of nodal forces; None: zero
     axes     (m, directions, t) local tangent directions
     """
 
     value: FloatArray
     by: FloatArray
-    carried: FloatArray
-    turned: Callable[[IntArray, FloatArray], FloatArray] | None
+    conjugate: FloatArray
+    stiffness_of: Callable[[IntArray, FloatArray], FloatArray] | None
     axes: FloatArray
 
 
 class Motion(Protocol):
     """Motion of the points of a pair.
 
-    nodes      (m, n) secondary node of each point, then those that move it, which may change
-    components of the slip
+    nodes       (m, n) secondary node of each point, then main nodes, which may change
+    components  number of components of the slip
     """
 
     nodes: IntArray
@@ -87,27 +86,24 @@ class Motion(Protocol):
         """Return (m,) clearances before the analysis."""
 
     def track(self, u: FloatArray, du: FloatArray, find: Find, *, first: bool) -> None:
-        """Find the places opposite the points at displacements u, du after the start of an increment (n,).
-
-        find: numbers of the unknowns; first: in an increment.
-        """
+        """Project the points at u, du (n,); find: numbers of unknowns; first: first pass of an increment."""
 
     @property
     def known(self) -> bool:
-        """Whether `links` has the present nodes of each point."""
+        """Whether `links` has the current nodes of each point."""
 
     def reach(self) -> None:
-        """Update `links` to the present nodes."""
+        """Update `links` to the current nodes."""
 
     def links(self) -> tuple[IntArray, IntArray]:
-        """Return points (r,) and nodes (r, n) that are linked, or may soon be."""
+        """Return points (r,) and nodes (r, n) that are coupled, or may be after small motions."""
 
-    def clearances(self, moved: FloatArray, *, nlgeom: bool) -> Clearances:
+    def clearances(self, u: FloatArray, *, nlgeom: bool) -> Clearances:
         """Compute the clearances at unknowns (m, u) of the points."""
 
-    def slips(self, moved: FloatArray, change: FloatArray, elastic: FloatArray) -> Slips:
-        """Compute the slips at unknowns (m, u), changed in the increment,
-        which began with this elastic slip (m, components).
+    def slips(self, u: FloatArray, change: FloatArray, elastic: FloatArray) -> Slips:
+        """Compute the slips at unknowns (m, u) with their increment, from an elastic slip (m, components) at the
+        start.
         """
 
     def commit(self) -> None:
@@ -126,9 +122,7 @@ def displacements(count: int, dimension: int) -> tuple[tuple[int, int], ...]:
 
 
 class SmallSliding:
-    """The points of a pair move with the same nodes all the time; displacements (m, u) are those of one node after the
-    other.
-    """
+    """Points of a pair in small sliding, with constant nodes; displacements (m, u) are ordered by node."""
 
     known = True
 
@@ -140,17 +134,17 @@ class SmallSliding:
         self.above = np.ones(len(pair.nodes), dtype=np.bool_)
         self._shape = *pair.nodes.shape, dimension
         self._clearances = pair.clearances
-        self._places = coordinates[pair.nodes][:, :, :dimension]
+        self._coordinates = coordinates[pair.nodes][:, :, :dimension]
         self._normals = pair.normals[:, :dimension]
-        # the tangents of the face and d are these sums over the nodes
+        # the tangents of the face and d are linear in the nodal coordinates
         sums = np.concatenate([pair.slopes[..., : dimension - 1], pair.shares[..., None]], axis=2)
         self._sums = np.einsum("mna,de->madne", sums, np.eye(dimension)).reshape(
             len(sums), dimension**2, sums.shape[1] * dimension
         )
-        base = self._base(self._vectors(self._places)[:-1])
-        self._parts = np.asarray(np.linalg.solve(base, self._normals[..., None])[..., 0], dtype=np.float64)
+        base = self._base(self._vectors(self._coordinates)[:-1])
+        self._normal_components = np.asarray(np.linalg.solve(base, self._normals[..., None])[..., 0], dtype=np.float64)
         self._first = np.asarray(np.linalg.solve(base, self._first_direction()[..., None])[..., 0], dtype=np.float64)
-        directions = [axis.value for axis in self._axes(self._places, constant=True)[0][1:]]
+        directions = [axis.value for axis in self._axes(self._coordinates, constant=True)[0][1:]]
         self._tangents = np.stack([self._along(direction) for direction in directions], axis=1)
         self._now: Jet | None = None
 
@@ -172,27 +166,27 @@ class SmallSliding:
         """Return points (m,) and their nodes (m, n)."""
         return np.arange(len(self.nodes)), self.nodes
 
-    def clearances(self, moved: FloatArray, *, nlgeom: bool) -> Clearances:
+    def clearances(self, u: FloatArray, *, nlgeom: bool) -> Clearances:
         """Compute the clearances at displacements."""
         self._now = None
-        return self.finite(moved) if nlgeom else self.linear(moved)
+        return self.finite(u) if nlgeom else self.linear(u)
 
-    def slips(self, moved: FloatArray, change: FloatArray, elastic: FloatArray) -> Slips:
-        """Compute the slips, after `clearances`. With NLGEOM they change by the change in the increment of the parts of
-        d along axes that turn with the face, without it by the displacement along the axes of the mesh.
+    def slips(self, u: FloatArray, change: FloatArray, elastic: FloatArray) -> Slips:
+        """Compute the slips, after `clearances`: with NLGEOM from the change of d along axes that rotate with the
+        face.
         """
         axes = np.broadcast_to(np.eye(self.components), (len(change), self.components, self.components))
         now = self._now
         if now is None:
             tangents = self._tangents
             return Slips(elastic + np.einsum("mtu,mu->mt", tangents, change), tangents, tangents, None, axes)
-        then = components(*self._axes(self._at(moved - change), constant=True))
+        then = components(*self._axes(self._positions(u - change), constant=True))
         by = np.einsum("mtk,mku->mtu", now.first[:, 1:], self._sums)
 
-        def turned(points: IntArray, forces: FloatArray) -> FloatArray:
+        def stiffness_of(points: IntArray, forces: FloatArray) -> FloatArray:
             return self._curved(points, np.einsum("mt,mtkl->mkl", forces, now.second[points, 1:]))
 
-        return Slips(elastic + now.value[:, 1:] - then.value[:, 1:], by, by, turned, axes)
+        return Slips(elastic + now.value[:, 1:] - then.value[:, 1:], by, by, stiffness_of, axes)
 
     def commit(self) -> None:
         """Do nothing: there is no history."""
@@ -204,22 +198,22 @@ class SmallSliding:
     def resume(self, saved: Saved) -> None:
         """Do nothing: there is no history."""
 
-    def linear(self, moved: FloatArray) -> Clearances:
+    def linear(self, u: FloatArray) -> Clearances:
         """Compute the clearances in small displacements."""
         gradient = self._along(self._normals)
-        value = self._clearances + np.einsum("mu,mu->m", gradient, moved)
-        return Clearances(value, gradient, gradient, None, float(np.finfo(float).eps * np.abs(moved).max()))
+        value = self._clearances + np.einsum("mu,mu->m", gradient, u)
+        return Clearances(value, gradient, gradient, None, float(np.finfo(float).eps * np.abs(u).max()))
 
-    def finite(self, moved: FloatArray) -> Clearances:
+    def finite(self, u: FloatArray) -> Clearances:
         """Compute the clearances in large displacements."""
-        places = self._at(moved)
-        self._now = now = components(*self._axes(places))
+        positions = self._positions(u)
+        self._now = now = components(*self._axes(positions))
         gradient = np.einsum("mk,mku->mu", now.first[:, 0], self._sums)
 
         def bent(points: IntArray, force: FloatArray) -> FloatArray:
             return self._curved(points, force[:, None, None] * now.second[points, 0])
 
-        rounding = float(np.finfo(float).eps) * float(np.abs(places).max())
+        rounding = float(np.finfo(float).eps) * float(np.abs(positions).max())
         return Clearances(now.value[:, 0], gradient, gradient, bent, rounding)
 
     def _curved(self, points: IntArray, matrix: FloatArray) -> FloatArray:
@@ -227,20 +221,20 @@ class SmallSliding:
         sums = self._sums[points]
         return np.asarray(np.einsum("mku,mkv->muv", sums, np.einsum("mkl,mlv->mkv", matrix, sums)))
 
-    def _at(self, moved: FloatArray) -> FloatArray:
-        """Return (m, n, dimension) places of the nodes at displacements."""
-        return np.asarray(self._places + moved.reshape(self._shape))
+    def _positions(self, u: FloatArray) -> FloatArray:
+        """Return (m, n, dimension) current coordinates of the nodes."""
+        return np.asarray(self._coordinates + u.reshape(self._shape))
 
-    def _vectors(self, places: FloatArray) -> list[FloatArray]:
+    def _vectors(self, positions: FloatArray) -> list[FloatArray]:
         """Return the tangents (m, dimension) of the face at the anchor point, then d."""
         m, dimension = self._shape[0], self._shape[2]
-        found = np.einsum("mku,mu->mk", self._sums, flat_rows(places)).reshape(m, dimension, dimension)
-        return [found[:, number] for number in range(found.shape[1])]
+        vectors = np.einsum("mku,mu->mk", self._sums, flat_rows(positions)).reshape(m, dimension, dimension)
+        return [vectors[:, number] for number in range(vectors.shape[1])]
 
-    def _axes(self, places: FloatArray, *, constant: bool = False) -> tuple[list[Jet], Jet]:
+    def _axes(self, positions: FloatArray, *, constant: bool = False) -> tuple[list[Jet], Jet]:
         """Return normal and directions of slip, and d; constant: without derivatives."""
-        *tangents, apart = make_variables(self._vectors(places), constant=constant)
-        return turning_axes(tangents, self._parts, self._first), apart
+        *tangents, gap = make_variables(self._vectors(positions), constant=constant)
+        return turning_axes(tangents, self._normal_components, self._first), gap
 
     def _first_direction(self) -> FloatArray:
         """Return the (m, dimension) first direction of slip before the analysis.
@@ -265,6 +259,6 @@ class SmallSliding:
 
 
 def _across(vectors: FloatArray, normals: FloatArray) -> FloatArray:
-    """Return the parts of vectors (m, 3) across normals (m, 3), scaled to length one."""
-    found = vectors - np.einsum("md,md->m", normals, vectors)[:, None] * normals
-    return np.asarray(found / np.linalg.norm(found, axis=1)[:, None])
+    """Return the normalized parts of vectors (m, 3) perpendicular to normals (m, 3)."""
+    across = vectors - np.einsum("md,md->m", normals, vectors)[:, None] * normals
+    return np.asarray(across / np.linalg.norm(across, axis=1)[:, None])

@@ -24,17 +24,17 @@ def nodal_fields(contacts: Sequence[ContactBlock], count: int) -> dict[str, Floa
     # directions of friction: one in the plane
     shear = np.concatenate([np.pad(pair.output[2], ((0, 0), (0, 2)))[:, :2] for pair in contacts])
     order = np.argsort(-clearance, kind="stable")
-    found = {}
+    fields = {}
     for name, values in (
         ("COPEN", clearance),
         ("CPRESS", pressure),
         ("CSHEAR1", shear[:, 0]),
         ("CSHEAR2", shear[:, 1]),
     ):
-        found[name] = np.full(count, np.nan)
-        found[name][nodes[order]] = values[order]
+        fields[name] = np.full(count, np.nan)
+        fields[name][nodes[order]] = values[order]
     for pair in contacts:
         for name, values in pair.bonds.items():
-            of_nodes = found.setdefault(name, np.full(count, np.nan))
+            of_nodes = fields.setdefault(name, np.full(count, np.nan))
             of_nodes[pair.secondary] = np.fmax(of_nodes[pair.secondary], values)
-    return found
+    return fields
