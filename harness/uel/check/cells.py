@@ -66,8 +66,8 @@ def gradient_integrals(points: FloatArray) -> FloatArray | None:
     powers = _powers(key, simplex=simplex)
     weights_of = np.linalg.inv(np.prod(natural[:, None, :] ** powers, axis=2))
     total, volume = np.zeros((nodes, dimensions)), 0.0
-    for place, weight in _rule(dimensions, simplex=simplex):
-        slopes = weights_of.T @ _slopes(place, powers)
+    for natural_point, weight in _rule(dimensions, simplex=simplex):
+        slopes = weights_of.T @ _slopes(natural_point, powers)
         jacobian = points.T @ slopes
         size = float(np.linalg.det(jacobian))
         if size <= 0.0:
@@ -88,32 +88,31 @@ def _powers(key: tuple[int, int], *, simplex: bool) -> np.ndarray:
     else:
         # serendipity: at most one factor is a square, and the other ones are linear
         chosen = (np.where(every > 1, every, 0).sum(axis=1) <= 2) | (nodes == 9)
-    powers: np.ndarray = every[chosen]
-    return powers
+    return np.asarray(every[chosen])
 
 
-def _slopes(place: FloatArray, powers: np.ndarray) -> FloatArray:
+def _slopes(natural_point: FloatArray, powers: np.ndarray) -> FloatArray:
     """Return derivatives (monomials, dimensions) of the monomials at a place."""
     columns = []
-    for direction in range(len(place)):
+    for direction in range(len(natural_point)):
         lower = powers.copy()
         lower[:, direction] = np.maximum(lower[:, direction] - 1, 0)
-        columns.append(powers[:, direction] * np.prod(place**lower, axis=1))
+        columns.append(powers[:, direction] * np.prod(natural_point**lower, axis=1))
     return np.array(columns).T
 
 
 def _rule(dimensions: int, *, simplex: bool) -> list[tuple[FloatArray, float]]:
     """Return the places and weights of an integration rule; in simplices that of the box that collapses to them."""
-    places, weights = np.polynomial.legendre.leggauss(POINTS)
+    gauss, weights = np.polynomial.legendre.leggauss(POINTS)
     rule = []
     for chosen in product(range(POINTS), repeat=dimensions):
-        place, weight = places[list(chosen)], float(np.prod(weights[list(chosen)]))
+        point, weight = gauss[list(chosen)], float(np.prod(weights[list(chosen)]))
         if simplex:
-            left = 1.0
-            place, weight = (place + 1.0) / 2.0, weight / 2.0**dimensions
+            remaining = 1.0
+            point, weight = (point + 1.0) / 2.0, weight / 2.0**dimensions
             for direction in range(dimensions):
-                weight *= left
-                place[direction] *= left
-                left -= place[direction]
-        rule.append((place, weight))
+                weight *= remaining
+                point[direction] *= remaining
+                remaining -= point[direction]
+        rule.append((point, weight))
     return rule

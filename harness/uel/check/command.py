@@ -18,8 +18,8 @@ from rich.console import Console, Group
 
 from uel.check.examine import examine
 from uel.check.finding import Conclusion
-from uel.check.isolated import Tell, call_isolated, examine_isolated
-from uel.check.progress import Progress, Running, untold
+from uel.check.isolated import ShowProgress, call_isolated, examine_isolated
+from uel.check.progress import Progress, Running, no_progress
 from uel.check.report import as_json, error_as_json, table
 from uel.check.shuffle import report, shuffle
 from uel.errors import UelError, tell_failure
@@ -32,10 +32,10 @@ WIDEST: Final = 10_000
 """Columns if neither a terminal nor COLUMNS gives their number: tables are as wide as their texts."""
 
 
-def check(options: argparse.Namespace, console: Console, *, apart: bool) -> int:
+def check(options: argparse.Namespace, console: Console, *, isolated: bool) -> int:
     """Run the checks and print what they found; returns the exit code, see CODES.
 
-    apart: in a separate process, which user code may end; a terminal shows what it does.
+    isolated: in a separate process, which user code may end; a terminal shows what it does.
     """
     if not console.is_terminal and "COLUMNS" not in os.environ:
         console = Console(file=console.file, width=WIDEST)
@@ -49,21 +49,23 @@ def check(options: argparse.Namespace, console: Console, *, apart: bool) -> int:
         how = {"seed": options.seed, "increments": options.increments}
         limit = options.call_limit
         limit_calls(limit)
-        with display(shown=apart and not options.quiet) as tell:
+        with display(shown=isolated and not options.quiet) as show:
             if options.shuffle:
-                look_at_order = partial(call_isolated, tell_order, call_limit=limit, tell=tell) if apart else tell_order
-                passed, told = look_at_order(deck, user, **how)
+                run_order = (
+                    partial(call_isolated, examine_order, call_limit=limit, show=show) if isolated else examine_order
+                )
+                passed, shown_result = run_order(deck, user, **how)
                 conclusion = Conclusion.PASSED if passed else Conclusion.FAILED
             else:
-                look = partial(examine_isolated, call_limit=limit, tell=tell) if apart else examine
-                outcome = look(deck, user, **how, skip=options.skip)
-                conclusion, told = outcome.conclusion, table(outcome)
+                run = partial(examine_isolated, call_limit=limit, show=show) if isolated else examine
+                outcome = run(deck, user, **how, skip=options.skip)
+                conclusion, shown_result = outcome.conclusion, table(outcome)
     except UelError as error:
         tell_failure(error)
         if options.json:
             _write(options.json, error_as_json(error))
         return CODES[Conclusion.NOTHING]
-    console.print(told)
+    console.print(shown_result)
     if options.json and not _write(options.json, as_json(outcome)):
         return CODES[Conclusion.NOTHING]
     return CODES[conclusion]
@@ -97,17 +99,17 @@ def _clear(file: Path | None, *, shuffle: bool) -> None:
 
 
 @contextmanager
-def display(*, shown: bool, console: Console | None = None) -> Iterator[Tell | None]:
+def display(*, shown: bool, console: Console | None = None) -> Iterator[ShowProgress | None]:
     """Yield a function that shows the current check on a terminal; None if nothing is to be shown."""
     if not shown:
         yield None
         return
     with (console or Console(stderr=True)).status("uel check") as status:
-        yield lambda what: status.update(f"uel check: {what}")
+        yield lambda activity: status.update(f"uel check: {activity}")
 
 
-def tell_order(
-    deck: Path, user: list[Path], *, seed: int, increments: int, progress: Progress = untold
+def examine_order(
+    deck: Path, user: list[Path], *, seed: int, increments: int, progress: Progress = no_progress
 ) -> tuple[bool, Group]:
     """Check the calling order only; returns whether all passed, and the report. Raises UelError."""
     progress(Running("calls of all elements in random orders"), None)

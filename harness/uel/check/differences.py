@@ -40,9 +40,9 @@ def differences(state: ElementState, scales: FloatArray) -> Differences:
     here = state.evaluate(matrix=False).rhs[0]
     matrix, error, smooth = np.zeros((n, n)), np.full((n, n), np.inf), np.zeros(n, dtype=np.bool_)
     for column in range(n):
-        found = _column(state, here, column, float(scales[column]))
-        if found is not None:
-            matrix[:, column], error[:, column], smooth[column] = found
+        result = _column(state, here, column, float(scales[column]))
+        if result is not None:
+            matrix[:, column], error[:, column], smooth[column] = result
     return Differences(matrix, error, smooth)
 
 

@@ -71,9 +71,9 @@ class ElementState:
         """Return the state of an element that was elsewhere from the start: U + shift (n,)."""
         return replace(self, u=self.u + shift)
 
-    def part(self, share: float) -> ElementState:
+    def part(self, fraction: float) -> ElementState:
         """Return the state at this fraction of the increment of displacements."""
-        return replace(self, u=self.u - (1.0 - share) * self.du, du=share * self.du)
+        return replace(self, u=self.u - (1.0 - fraction) * self.du, du=fraction * self.du)
 
     def settled(self) -> ElementState:
         """Return the next increment, in which nothing moves."""
@@ -127,10 +127,10 @@ class ElementState:
         expected = self.evaluate(matrix=False).rhs
         for value in CHANGES:
             try:
-                found = self.with_svars(self.single.svars + value * chosen).evaluate(matrix=False).rhs
+                rhs = self.with_svars(self.single.svars + value * chosen).evaluate(matrix=False).rhs
             except KernelError:
                 return True
-            if not np.array_equal(found, expected):
+            if not np.array_equal(rhs, expected):
                 return True
         return False
 

@@ -11,7 +11,7 @@ from typing import Final
 
 from uel.check.checks import CHECKS, Check
 from uel.check.finding import Conclusion, Finding, Verdict, failed, not_applicable
-from uel.check.progress import Progress, Running, untold
+from uel.check.progress import Progress, Running, no_progress
 from uel.check.recording import Recording, record_leniently
 from uel.check.shuffle import TypeVerdict, shuffle_recording
 from uel.check.subject import Subject, subject_of
@@ -87,9 +87,9 @@ class Examination:
     @property
     def conclusion(self) -> Conclusion:
         """Worst conclusion of all types: a failure, then one of which nothing was looked at."""
-        found = {report.conclusion for report in self.types}
+        conclusions = {report.conclusion for report in self.types}
         worst = Conclusion.FAILED, Conclusion.NOTHING, Conclusion.PASSED
-        return next((one for one in worst if one in found), Conclusion.NOTHING)
+        return next((conclusion for conclusion in worst if conclusion in conclusions), Conclusion.NOTHING)
 
     @property
     def passed(self) -> bool:
@@ -104,7 +104,7 @@ def examine(
     seed: int = 1,
     increments: int = 3,
     skip: Collection[str] = (),
-    progress: Progress = untold,
+    progress: Progress = no_progress,
 ) -> Examination:
     """Run the first increments of a deck and check every user element type in it.
 
@@ -187,8 +187,8 @@ def _run(check: Check, subject: Subject, before: Mapping[str, Finding]) -> Findi
             f"no element returns from a call by itself: {subject.refusal}; fix that, or take a deck in which one does"
         )
     if check.forces and subject.idle:
-        told = any(other.forces and other.name in before for other in CHECKS)
-        return not_applicable(IDLE) if told else failed(IDLE, IDLE_ADVICE)
+        reported = any(other.forces and other.name in before for other in CHECKS)
+        return not_applicable(IDLE) if reported else failed(IDLE, IDLE_ADVICE)
     try:
         return check.function(subject)
     except KernelError as error:

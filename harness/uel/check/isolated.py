@@ -46,12 +46,12 @@ class EndedError(UelError):
         self.interrupted = interrupted
 
 
-Tell = Callable[[str], None]
+ShowProgress = Callable[[str], None]
 """Function that is told now and then what is being done."""
 
 
 def examine_isolated(
-    deck: Path, user: list[Path], *, call_limit: float = CALL_LIMIT, tell: Tell | None = None, **options: Any
+    deck: Path, user: list[Path], *, call_limit: float = CALL_LIMIT, show: ShowProgress | None = None, **options: Any
 ) -> Examination:
     """Run `examine` in a separate process; if user code ends it, keep what was found and fail the check that ran.
 
@@ -59,7 +59,7 @@ def examine_isolated(
     """
     sanitized = sanitizer.applies_to(user)
     try:
-        return call_isolated(examine, deck, user, call_limit=call_limit, tell=tell, sanitized=sanitized, **options)
+        return call_isolated(examine, deck, user, call_limit=call_limit, show=show, sanitized=sanitized, **options)
     except EndedError as end:
         running, outcome = end.snapshot.running, end.snapshot.outcome
         if running is None or not running.check:
@@ -74,7 +74,7 @@ def call_isolated(
     function: Callable[..., T],
     *arguments: Any,
     call_limit: float = CALL_LIMIT,
-    tell: Tell | None = None,
+    show: ShowProgress | None = None,
     sanitized: bool = False,
     **options: Any,
 ) -> T:
@@ -89,12 +89,12 @@ def call_isolated(
 
         def meanwhile() -> None:
             running = _snapshot(file).running
-            if tell is not None and running is not None:
-                tell(str(running))
+            if show is not None and running is not None:
+                show(str(running))
 
         with messages.open("w", encoding="utf-8") as stream:
             words = [str(task), str(file)]
-            look = meanwhile if tell else None
+            look = meanwhile if show else None
             end = run_isolated(
                 "uel.check.worker", words, call_limit, sanitized=sanitized, errors=stream, meanwhile=look
             )

@@ -62,8 +62,8 @@ class UelDeck(pytest.File):
         config = self.config
         try:
             users = [Path(user) for user in config.getoption("--uel")]
-            given = config.getoption("--uel-call-limit")
-            limit = CALL_LIMIT if given is None else given
+            option = config.getoption("--uel-call-limit")
+            limit = CALL_LIMIT if option is None else option
             outcome = examine_isolated(
                 self.path, users, increments=config.getoption("--uel-increments"), call_limit=limit
             )
@@ -74,8 +74,8 @@ class UelDeck(pytest.File):
                 yield UelCheck.from_parent(self, name=f"{report.type}-{name}", report=report, finding=finding)
             if report.unseen:
                 # if all tests were skipped, pytest would pass
-                missing = failed(report.unseen, "To pass, a deck has to load each type of element.")
-                yield UelCheck.from_parent(self, name=f"{report.type}-looked-at", report=report, finding=missing)
+                idle = failed(report.unseen, "To pass, a deck has to load each type of element.")
+                yield UelCheck.from_parent(self, name=f"{report.type}-looked-at", report=report, finding=idle)
 
 
 class UelCheck(pytest.Item):

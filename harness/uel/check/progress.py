@@ -16,18 +16,18 @@ class Running:
     check is '' before the first element type.
     """
 
-    what: str
+    activity: str
     check: str = ""
 
     def __str__(self) -> str:
-        return self.what
+        return self.activity
 
 
 Progress = Callable[[Running, Any], None]
 """Function that is told what begins, and what has been found until then."""
 
 
-def untold(running: Running, outcome: Any) -> None:
+def no_progress(running: Running, outcome: Any) -> None:
     """Ignore the progress: nobody asks for it."""
 
 

@@ -153,30 +153,30 @@ def record_leniently(deck: Path, user: Sequence[Path], increments: int) -> Recor
             again = record(deck, user, increments, strict=False, build=Build(zero_locals=True))
             if again.failure is None:
                 return replace(again, unset=str(error), build=Build(zero_locals=True))
-    error = _with_place(error, deck, user, increments)
+    error = _with_location(error, deck, user, increments)
     if recording is None:
         raise error
     return replace(recording, failure=error, stopped=str(error))
 
 
-def _with_place(error: ElementError, deck: Path, user: Sequence[Path], increments: int) -> ElementError:
+def _with_location(error: ElementError, deck: Path, user: Sequence[Path], increments: int) -> ElementError:
     """Add file and line to the error, if a build that stops at the first mistake tells them."""
     if names_line(str(error)):
         return error
-    told = ""
+    message_of_debug = ""
     trapping = trap(True)
     try:
         failure: UelError | None = record(deck, user, increments, strict=False, build=Build(debug=True)).failure
-        told = str(failure or "")
+        message_of_debug = str(failure or "")
     except UelError as raised:
-        told = str(raised)
+        message_of_debug = str(raised)
     finally:
         trap(trapping)
-    if not names_line(told):
+    if not names_line(message_of_debug):
         return error
     kind, number = error.element_type, error.element
     message = str(error).removeprefix(f"element {number} (type {kind}): ")
-    placed = type(error)(number, kind, f"{message}; in a build with run-time checks: {told}")
+    placed = type(error)(number, kind, f"{message}; in a build with run-time checks: {message_of_debug}")
     for note in getattr(error, "__notes__", ()):
         placed.add_note(note)
     return placed

@@ -55,7 +55,7 @@ class Elements:
         self.library = library
         blocks = Contributors.of(recording.model, library, strict=strict).elements
         for block, equations in zip(blocks, recording.equations, strict=True):
-            self.singles += [Single(part) for part in block.split(strict=strict)]
+            self.singles += [Single(element) for element in block.split(strict=strict)]
             self.equations += list(equations)
         # columns of RHS
         self._columns = max((event.nrhs for event in recording.events if isinstance(event, Pass)), default=1)

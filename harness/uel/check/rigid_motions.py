@@ -64,22 +64,21 @@ class Body:
     def small_rotations(self) -> list[FloatArray]:
         """Return displacements (n,) of unit rotations about the nodes' centre, without second-order terms."""
         arms = self.points - self.points.mean(axis=0)
-        found = []
+        motions = []
         for number, (i, j) in enumerate(PLANES.get(self.dimensions, ())):
             motion = self.turning[number].copy()
             here_i, here_j = (self.displacement & (self.axis == k) for k in (i, j))
             motion[here_i] = -arms[self.local[here_i], j]
             motion[here_j] = arms[self.local[here_j], i]
-            found.append(motion)
-        return found
+            motions.append(motion)
+        return motions
 
     def rotations(self, angle: float) -> list[tuple[FloatArray, FloatArray]]:
         """Return displacements (n,) of finite rotations, each with the matrix (n, n) that turns the forces."""
         arms = self.points - self.points.mean(axis=0)
-        found = []
+        motions = []
         for number, (i, j) in enumerate(PLANES.get(self.dimensions, ())):
-            turn = np.eye(self.dimensions)
-            turn[[i, i, j, j], [i, j, i, j]] = np.cos(angle), -np.sin(angle), np.sin(angle), np.cos(angle)
+            turn = plane_rotation(self.dimensions, i, j, angle)
             moved = arms @ turn.T - arms
             motion = angle * self.turning[number]
             motion[self.displacement] = moved[self.local[self.displacement], self.axis[self.displacement]]
@@ -88,8 +87,15 @@ class Body:
             axes = np.where(self.displacement, self.axis, 0)
             forces = np.where(both, turn[axes[:, None], axes[None, :]], 0.0)
             forces[~self.displacement, ~self.displacement] = 1.0
-            found.append((motion, forces))
-        return found
+            motions.append((motion, forces))
+        return motions
+
+
+def plane_rotation(dimensions: int, i: int, j: int, angle: float) -> FloatArray:
+    """Return the rotation (dimensions, dimensions) of axis i towards axis j (rad)."""
+    rotation = np.eye(dimensions)
+    rotation[[i, i, j, j], [i, j, i, j]] = np.cos(angle), -np.sin(angle), np.sin(angle), np.cos(angle)
+    return rotation
 
 
 def uniform_strains(body: Body) -> FloatArray:
@@ -149,7 +155,7 @@ def makes_inertia(state: ElementState, body: Body) -> bool:
     here = state.quiet().evaluate(matrix=False).rhs[0]
     for direction in range(body.dimensions):
         motion = body.size * body.translation(direction)
-        moved, carried = (one.evaluate(matrix=False).rhs[0] for one in _elsewhere(state.quiet(), motion))
+        moved, carried = (moved.evaluate(matrix=False).rhs[0] for moved in _elsewhere(state.quiet(), motion))
         size = max(float(np.abs(here).max()), float(np.abs(moved).max()))
         if np.abs(moved - here).max() > ALIKE * size >= np.abs(carried - here).max():
             return True

@@ -91,36 +91,36 @@ def shuffle_recording(recording: Recording, seed: int, *, strict: bool = True) -
         verdicts.setdefault(group.type, TypeVerdict(group.type, 0)).elements += len(group.labels)
     for number in range(1, ORDERS + 1):
         random = np.random.default_rng([seed, number])
-        for expected, (elements, found) in zip(
+        for expected, (elements, results) in zip(
             ordered, replay(recording, random.permutation, strict=strict), strict=True
         ):
-            _compare(elements, expected, found, f"random order {number}", verdicts)
+            _compare(elements, expected, results, f"random order {number}", verdicts)
     return Shuffled(recording, seed, tuple(verdicts.values()))
 
 
 def _compare(
-    elements: Elements, expected: Results, found: Results, order: str, verdicts: dict[str, TypeVerdict]
+    elements: Elements, expected: Results, results: Results, order: str, verdicts: dict[str, TypeVerdict]
 ) -> None:
-    call = found.made.call
+    call = results.made.call
     where = f"step {call.step}, increment {call.increment}"
-    for position, error in found.refusals.items():
+    for position, error in results.refusals.items():
         verdict = verdicts[str(elements.types[position])]
         verdict.refusal = verdict.refusal or error
     # a static analysis asks for the mass matrix but does not use it
     if call.flags.request is not Request.MASS:
-        for kind, count in zip(*np.unique(elements.types[found.called], return_counts=True), strict=True):
+        for kind, count in zip(*np.unique(elements.types[results.called], return_counts=True), strict=True):
             verdicts[str(kind)].calls += int(count)
     # compare bits, so that -0.0 and NaN are distinguished too
-    unequal = np.flatnonzero(expected.values.view(np.int64) != found.values.view(np.int64))
+    unequal = np.flatnonzero(expected.values.view(np.int64) != results.values.view(np.int64))
     positions, firsts = np.unique(np.searchsorted(elements.starts, unequal, side="right") - 1, return_index=True)
     for position, index in zip(positions.tolist(), unequal[firsts].tolist(), strict=True):
-        if not found.called[position]:
+        if not results.called[position]:
             continue
         verdict = verdicts[str(elements.types[position])]
         verdict.different.add(elements.names[position])
         if not verdict.first:
             entry = elements.entry(position, index - int(elements.starts[position]))
-            values = f"{expected.values[index]:.17g} in Abaqus' order, {found.values[index]:.17g} in {order}"
+            values = f"{expected.values[index]:.17g} in Abaqus' order, {results.values[index]:.17g} in {order}"
             verdict.first = f"element {elements.names[position]}, {where}: {entry} is {values}"
 
 
@@ -152,5 +152,5 @@ def advice_on_order(kind: TypeVerdict, *, ours: bool) -> str:
         f"{kind.type}: it depends on what calls of other elements leave: give those elements lower "
         f"numbers, and {THREADS}."
     )
-    own_solids = {"U3": "U4", "U10": "U8"}.get(kind.type) if ours else None
-    return f"{advice} {own_solids} is the same element without this dependence." if own_solids else advice
+    replacement = {"U3": "U4", "U10": "U8"}.get(kind.type) if ours else None
+    return f"{advice} {replacement} is the same element without this dependence." if replacement else advice

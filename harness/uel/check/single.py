@@ -25,15 +25,15 @@ class Returned:
 
     def flat(self, columns: int) -> FloatArray:
         """Return all values one after the other, as `entry` counts them; RHS is padded to this number of columns."""
-        missing = np.zeros((columns - len(self.rhs), self.rhs.shape[1]))
-        parts = [self.rhs, missing, self.amatrx.T]
-        return np.concatenate([part.ravel() for part in parts] + [self.svars, self.energy, [self.pnewdt]])
+        padding = np.zeros((columns - len(self.rhs), self.rhs.shape[1]))
+        arrays = [self.rhs, padding, self.amatrx.T]
+        return np.concatenate([array.ravel() for array in arrays] + [self.svars, self.energy, [self.pnewdt]])
 
 
-def first_difference(expected: Returned, found: Returned) -> str:
+def first_difference(expected: Returned, returned: Returned) -> str:
     """Name the first entry whose bits differ, in a sentence; '' if there is none."""
     columns, n = expected.rhs.shape
-    values = expected.flat(columns), found.flat(columns)
+    values = expected.flat(columns), returned.flat(columns)
     unequal = np.flatnonzero(values[0].view(np.int64) != values[1].view(np.int64))
     if not len(unequal):
         return ""
@@ -75,14 +75,12 @@ class Single:
     @property
     def svars(self) -> FloatArray:
         """State variables (nsvars,) at the start of the increment."""
-        svars: FloatArray = self.block.state(0).svars[0]
-        return svars
+        return np.asarray(self.block.state(0).svars[0])
 
     @property
     def energy(self) -> FloatArray:
         """ENERGY (8,) at the start of the increment."""
-        energy: FloatArray = self.block.state(0).energy[0]
-        return energy
+        return np.asarray(self.block.state(0).energy[0])
 
     def twin(self, *, strict: bool) -> Single:
         """Copy the element in its committed state; calls of the copy do not affect this one."""

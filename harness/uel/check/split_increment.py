@@ -12,30 +12,31 @@ from uel.check.single import Returned
 from uel.elements import Call
 
 
-def in_pieces(state: ElementState, ends: list[float]) -> Iterator[Returned]:
+def subdivide(state: ElementState, ends: list[float]) -> Iterator[Returned]:
     """Make the increment of a state in parts that end at these fractions of it; yields what each part returns.
 
     Fractions above 1 continue at the rates of the increment: displacements, time, loads and fields.
     """
     single, before = state.single.twin(strict=False), 0.0
     for number, end in enumerate(ends):
-        share, left = end - before, 1.0 - end
-        call = _part(state.call, number, share, left)
-        yield replace(state, single=single, call=call, u=state.u - left * state.du, du=share * state.du).evaluate()
+        fraction, rest = end - before, 1.0 - end
+        call = _part_call(state.call, number, fraction, rest)
+        yield replace(state, single=single, call=call, u=state.u - rest * state.du, du=fraction * state.du).evaluate()
         single.block.commit()
         before = end
 
 
-def _part(call: Call, number: int, share: float, left: float) -> Call:
-    """Return the call of a part of an increment; share: its size over the increment's; left: the share after it."""
+def _part_call(call: Call, number: int, fraction: float, rest: float) -> Call:
+    """Return the call of a part of an increment; fraction: its size over the increment's; rest: the share after it."""
     loads, fields, size = call.distributed, call.predefined, call.time_increment
     return replace(
         call,
         increment=call.increment + number,
-        time_increment=share * size,
-        step_time=call.step_time - left * size,
-        total_time=call.total_time - left * size,
-        distributed=loads and replace(loads, end=loads.end - left * loads.increment, increment=share * loads.increment),
+        time_increment=fraction * size,
+        step_time=call.step_time - rest * size,
+        total_time=call.total_time - rest * size,
+        distributed=loads
+        and replace(loads, end=loads.end - rest * loads.increment, increment=fraction * loads.increment),
         predefined=fields
-        and replace(fields, end=fields.end - left * fields.increment, increment=share * fields.increment),
+        and replace(fields, end=fields.end - rest * fields.increment, increment=fraction * fields.increment),
     )

@@ -43,14 +43,14 @@ def variables_of(library: Library) -> list[Variable] | None:
         return None
     command = [nm, "--print-size", "--defined-only", str(library.file)]
     text = subprocess.run(command, capture_output=True, text=True, check=False).stdout
-    known = {"uel": library.uel, "uelmat": library.uelmat}
-    entry = next((match for match in _ANY.finditer(text) if known[match[2]]), None)
+    addresses = {"uel": library.uel, "uelmat": library.uelmat}
+    entry = next((match for match in _ANY.finditer(text) if addresses[match[2]]), None)
     if entry is None:
         return None
-    base = (known[entry[2]] or 0) - int(entry[1], 16)
-    found = [(int(match[1], 16), int(match[2], 16), match[4]) for match in _SYMBOL.finditer(text)]
+    base = (addresses[entry[2]] or 0) - int(entry[1], 16)
+    symbols = [(int(match[1], 16), int(match[2], 16), match[4]) for match in _SYMBOL.finditer(text)]
     variables, total = [], 0
-    for offset, size, symbol in sorted(found, key=lambda item: item[1]):
+    for offset, size, symbol in sorted(symbols, key=lambda item: item[1]):
         total += size
         if total <= MOST:
             variables.append(Variable(readable(symbol), base + offset, size))

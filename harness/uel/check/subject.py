@@ -67,7 +67,7 @@ class Subject:
     patches     for the patch test
     library     the user routines
     refusal     why no element returns from a call by itself; '' where one does
-    strange     the first entry of SVARS or ENERGY, or PNEWDT, that is not finite in the run, as a sentence; '' if none
+    not_finite  message about the first value of SVARS, ENERGY or PNEWDT that is not finite; '' without one
     """
 
     type: str
@@ -82,7 +82,7 @@ class Subject:
     patches: tuple[Patch, ...]
     library: Library
     refusal: str
-    strange: str
+    not_finite: str
     _differences: dict[int, Differences] = field(default_factory=dict)
     _quiet: dict[int, ElementState] = field(default_factory=dict)
     _magnitudes: list[FloatArray] = field(default_factory=list)
@@ -130,12 +130,11 @@ class Subject:
         KernelError
             The element does not return.
         """
-        found: FloatArray = np.abs(self.differences(state).matrix)
+        quotients: FloatArray = np.abs(self.differences(state).matrix)
         if not state.inertia:
-            return found
+            return quotients
         others = self.largest_stiffness
-        largest: FloatArray = np.maximum.reduce([np.abs(state.evaluate().amatrx), found, YIELDING * others])
-        return largest
+        return np.asarray(np.maximum.reduce([np.abs(state.evaluate().amatrx), quotients, YIELDING * others]))
 
     def quiet(self, state: ElementState) -> ElementState:
         """Return one of the states without inertia, see `ElementState.quiet`; the same object each time."""
@@ -144,8 +143,7 @@ class Subject:
     @property
     def usual_forces(self) -> FloatArray:
         """Forces (n,) that AMATRX makes of the displacements of the run, at its states."""
-        forces: FloatArray = self.largest_stiffness @ self.scales
-        return forces
+        return np.asarray(self.largest_stiffness @ self.scales)
 
     @property
     def largest_stiffness(self) -> FloatArray:
@@ -232,13 +230,13 @@ def subject_of(recording: Recording, kind: str, order: TypeVerdict, seed: int) -
     states: list[tuple[ElementState, Returned]] = []
     refusals: list[str] = []
     patches: tuple[Patch, ...] = ()
-    strange = ""
+    not_finite = ""
     with closing(replay(recording, abaqus_order, strict=False)) as passes:
         for elements, results in passes:
             if results.made is made[0]:
                 patches = _patches(recording, group, elements, made[0])
             refusals += [str(results.refusals[k]) for k in results.refusals if elements.types[k] == kind]
-            strange = strange or _strange(elements, results, kind)
+            not_finite = not_finite or _first_not_finite(elements, results, kind)
             if id(results.made) in chosen:
                 states += _states(elements, kind, results.made, made[-1])
             if results.made is made[-1]:
@@ -246,10 +244,10 @@ def subject_of(recording: Recording, kind: str, order: TypeVerdict, seed: int) -
         errors = [_error_of(state) for state, _ in states]
         refusal = "" if not all(errors) else [*refusals, *errors, "it is not called in the run"][0]
         states = [pair for pair, error in zip(states, errors, strict=True) if not error]
-        yield _subject(recording, group, states, order, seed, patches, elements.library, refusal, strange)
+        yield _subject(recording, group, states, order, seed, patches, elements.library, refusal, not_finite)
 
 
-def _strange(elements: Elements, results: Results, kind: str) -> str:
+def _first_not_finite(elements: Elements, results: Results, kind: str) -> str:
     """Name the first value, returned by an element of a type in a pass, that is not finite; '' if there is none."""
     if not results.made.normal or np.isfinite(results.values).all():
         return ""
@@ -266,13 +264,13 @@ def _strange(elements: Elements, results: Results, kind: str) -> str:
 def _patches(recording: Recording, group: ElementGroup, elements: Elements, made: Pass) -> tuple[Patch, ...]:
     """Choose some of the nodes that are surrounded by elements of the type."""
     assert group.definition is not None
-    found = list(patches_of(recording.model, group.type, group.definition.coordinates))
-    if not found:
+    nodes = list(patches_of(recording.model, group.type, group.definition.coordinates))
+    if not nodes:
         return ()
-    spread = np.unique(np.linspace(0, len(found) - 1, PATCHES).astype(int))
+    spread = np.unique(np.linspace(0, len(nodes) - 1, PATCHES).astype(int))
     return tuple(
         Patch(node, tuple(state_of(elements.singles[k], made, elements.equations[k]) for k in positions))
-        for node, positions in (found[k] for k in spread)
+        for node, positions in (nodes[k] for k in spread)
     )
 
 
@@ -320,11 +318,11 @@ def _subject(
     patches: tuple[Patch, ...],
     library: Library,
     refusal: str,
-    strange: str,
+    not_finite: str,
 ) -> Subject:
     assert group.definition is not None
     definition = group.definition
-    states, returned = tuple(state for state, _ in called), tuple(found for _, found in called)
+    states, returned = tuple(state for state, _ in called), tuple(result for _, result in called)
     dofs = np.array([dof for _, dof in definition.dofs])
     scales = np.max([np.zeros(len(dofs)), *(deformations(state.u, dofs) for state in states)], axis=0)
     size = diagonal(recording.model.mesh.coordinates[group.nodes[0]])
@@ -345,7 +343,7 @@ def _subject(
         patches,
         library,
         refusal,
-        strange,
+        not_finite,
     )
 
 

@@ -27,9 +27,9 @@ def first_largest(values: FloatArray) -> int:
 
 def ranked(values: FloatArray) -> list[int]:
     """Return the indices of values (n,), the largest first; equal ones in their order."""
-    left, found = np.argsort(-values, kind="stable").tolist(), []
-    while left:
-        same = [index for index in left if values[index] >= (1.0 - EQUAL) * values[left[0]]]
-        found += sorted(same)
-        left = left[len(same) :]
-    return found
+    remaining, ranking = np.argsort(-values, kind="stable").tolist(), []
+    while remaining:
+        same = [index for index in remaining if values[index] >= (1.0 - EQUAL) * values[remaining[0]]]
+        ranking += sorted(same)
+        remaining = remaining[len(same) :]
+    return ranking

@@ -42,4 +42,4 @@ def check_elements(options: argparse.Namespace) -> int:
 
     from uel.check.command import check  # noqa: PLC0415
 
-    return check(options, Console(), apart=options.apart)
+    return check(options, Console(), isolated=options.apart)

@@ -146,7 +146,7 @@ def slow(*, progress):
 def test_tells_what_is_done(monkeypatch):
     monkeypatch.setenv("PYTHONPATH", PATHS)
     told = []
-    call_isolated(slow, tell=told.append)
+    call_isolated(slow, show=told.append)
     assert told[-1] == "a long check"
 
 

@@ -11,6 +11,7 @@ from typing import Final
 from uel.check.checks import (
     compiler,
     debug,
+    deck_run,
     energy,
     history,
     increments,
@@ -20,7 +21,6 @@ from uel.check.checks import (
     memory,
     no_time,
     order,
-    own_run,
     patch_test,
     pnewdt,
     repeat,
@@ -59,7 +59,7 @@ class Check:
 
 
 CHECKS: Final = (
-    Check("run", own_run.check, calls=False),
+    Check("run", deck_run.check, calls=False),
     Check("values", values.check, calls=False),
     Check("compiler", compiler.check, calls=False),
     Check("resources", resources.check),

@@ -31,22 +31,22 @@ def check_capacity(subject: Subject, state: ElementState) -> Finding | None:
     """
     still = state.still()
     with guard_values({UNSET: float("nan")}):
-        given = still.asked(Request.MASS).evaluate().amatrx
+        capacity = still.asked(Request.MASS).evaluate().amatrx
     rates = _of_rates(subject, still)
     judged = []
     for dof in np.unique(subject.dofs[(subject.dofs > 3) & ~np.isin(subject.dofs, ROTATIONS)]).tolist():
         block = np.ix_(subject.dofs == dof, subject.dofs == dof)
-        if not given[block].any():
+        if not capacity[block].any():
             continue
         judged.append(str(dof))
-        one, other = float(given[block].sum()), float(rates[block].sum())
-        if abs(one - other) > TOLERANCE * max(np.abs(given[block]).sum(), np.abs(rates[block]).sum()):
+        sum_, in_rhs = float(capacity[block].sum()), float(rates[block].sum())
+        if abs(sum_ - in_rhs) > TOLERANCE * max(np.abs(capacity[block]).sum(), np.abs(rates[block]).sum()):
             return failed(
-                f"{still}: the entries of AMATRX with LFLAGS(3) = 4 for dof {dof} add up to {one:.6g}, the capacity in "
-                f"RHS to {other:.6g}",
+                f"{still}: the entries of AMATRX with LFLAGS(3) = 4 for dof {dof} add up to {sum_:.6g}, the capacity "
+                f"in RHS to {in_rhs:.6g}",
                 "The capacity matrix is -dRHS/d(rate of dof): both have the same density, specific heat, thickness and "
                 "integration points, and add up to the heat that one degree takes.",
-                figure=one - other,
+                figure=sum_ - in_rhs,
             )
     return passed(f"capacity of dof {', '.join(judged)} (4)") if judged else None
 

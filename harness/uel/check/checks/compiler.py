@@ -27,18 +27,18 @@ def check(subject: Subject) -> Finding:
     if not recording.user or not all(map(is_source, recording.user)):
         return not_applicable("there are no user sources to compile")
     try:
-        found = suspicions(recording.user, (recording.model.deck.resolve().parent,))
+        diagnostics = suspicions(recording.user, (recording.model.deck.resolve().parent,))
     except CompileError as error:
         return not_applicable(f"with all warnings on it does not compile: {error}")
-    certain = [one for one in found if one.certain]
-    told = [one for one in found if not one.certain]
-    entries = tuple(map(str, found))
+    certain = [entry for entry in diagnostics if entry.certain]
+    suspected = [entry for entry in diagnostics if not entry.certain]
+    entries = tuple(map(str, diagnostics))
     if certain:
         return failed(_listed(certain), ADVICE, entries=entries)
-    message = f"nothing certain; worth a look:\n{_listed(told)}" if told else "no warnings"
+    message = f"nothing certain; worth a look:\n{_listed(suspected)}" if suspected else "no warnings"
     return Finding(Verdict.PASSED, message, entries=entries)
 
 
-def _listed(found: Sequence[Suspicion]) -> str:
-    more = f"\nand {len(found) - MOST} more" if len(found) > MOST else ""
-    return "\n".join(map(str, found[:MOST])) + more
+def _listed(entries: Sequence[Suspicion]) -> str:
+    more = f"\nand {len(entries) - MOST} more" if len(entries) > MOST else ""
+    return "\n".join(map(str, entries[:MOST])) + more

@@ -87,5 +87,4 @@ def _slope(subject: Subject, state: ElementState) -> FloatArray:
 def _sped(state: ElementState, shift: FloatArray) -> FloatArray:
     """Return RHS with other velocities and nothing else changed."""
     motion = Motion(state.motion.velocity + shift, state.motion.acceleration)
-    column: FloatArray = replace(state, motion=motion).evaluate(matrix=False).rhs[0]
-    return column
+    return np.asarray(replace(state, motion=motion).evaluate(matrix=False).rhs[0])

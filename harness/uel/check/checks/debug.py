@@ -65,8 +65,8 @@ def check(subject: Subject) -> Finding:
 
 def _first(recording: Recording) -> tuple[Event, ...]:
     """Return the events up to the last pass to be repeated."""
-    places = [k for k, event in enumerate(recording.events) if isinstance(event, Pass)]
-    return recording.events[: places[min(PASSES, len(places)) - 1] + 1]
+    passes = [k for k, event in enumerate(recording.events) if isinstance(event, Pass)]
+    return recording.events[: passes[min(PASSES, len(passes)) - 1] + 1]
 
 
 def _replayed(recording: Recording, kind: str, build: Build) -> _Replayed:
@@ -94,14 +94,16 @@ def _difference(zeros: _Replayed, marked: _Replayed) -> str:
             wrong = ~(np.abs(first - second) <= ROUNDING * scale) & np.isfinite(first)
         if wrong.any():
             row, column = np.argwhere(wrong)[0].tolist()
-            one, other = first[row, column], second[row, column]
-            return f"{zeros.names[column]} is {one:.10g} where such variables are zero, {other:.10g} where they are NaN"
+            value, other = first[row, column], second[row, column]
+            return (
+                f"{zeros.names[column]} is {value:.10g} where such variables are zero, {other:.10g} where they are NaN"
+            )
     return ""
 
 
-def _line(recording: Recording, kind: str, known: KernelError | None = None) -> str:
+def _line(recording: Recording, kind: str, error: KernelError | None = None) -> str:
     """Return the line where calculation with NaN begins, to end a sentence; '' if the known error has a place."""
-    if known is not None and names_line(str(known)):
+    if error is not None and names_line(str(error)):
         return ""
     trapping = trap(True)
     try:

@@ -15,7 +15,7 @@ from uel.check.finding import Finding, failed, not_applicable, passed
 from uel.check.subject import NOT_MOVING, Subject
 from uel.check.tie_breaking import exceeds
 
-SHARES: Final = 1.0, 0.1, 0.01, 0.001
+FRACTIONS: Final = 1.0, 0.1, 0.01, 0.001
 """Fractions of the increment: the work is from the trapezoidal rule, which is accurate for small increments."""
 
 STEPS: Final = tuple(10.0 ** (-0.5 * k) for k in range(15, -1, -1))
@@ -60,11 +60,11 @@ def check(subject: Subject) -> Finding:
         return lost
     figure, message, judged = 0.0, "", 0
     for state in subject.all_states:
-        parts = [part for share in SHARES for part in _stored_and_work(state, share)]
-        if not parts:
+        pairs_at = [pair for fraction in FRACTIONS for pair in _stored_and_work(state, fraction)]
+        if not pairs_at:
             continue
         judged += 1
-        stored, work = min(parts, key=_deviation)
+        stored, work = min(pairs_at, key=_deviation)
         if exceeds(_deviation((stored, work)), figure):
             figure = _deviation((stored, work))
             message = f"{state}: ENERGY(1) to (7) grow by {stored:.5g}, the work of the forces is {work:.5g}"
@@ -103,9 +103,11 @@ def _on_entry(state: ElementState) -> tuple[float, float]:
     An ageing element loses energy with time, and a viscous one turns it into another kind.
     """
     call = state.call
-    left = (1.0 - INSTANT) * call.time_increment
+    rest = (1.0 - INSTANT) * call.time_increment
     still = state.part(0.0).called(
-        time_increment=INSTANT * call.time_increment, step_time=call.step_time - left, total_time=call.total_time - left
+        time_increment=INSTANT * call.time_increment,
+        step_time=call.step_time - rest,
+        total_time=call.total_time - rest,
     )
     return float(state.single.energy[STORED].sum()), float(still.evaluate().energy[STORED].sum())
 
@@ -129,17 +131,17 @@ def _depends_on_time(state: ElementState) -> bool:
     return bool(np.abs(slower - here).max() > 1e-9 * np.abs(here).max())
 
 
-def _stored_and_work(state: ElementState, share: float) -> Iterator[tuple[float, float]]:
+def _stored_and_work(state: ElementState, fraction: float) -> Iterator[tuple[float, float]]:
     """Yield the growth of the energy over a part of the increment, and the work of the internal forces by two sums.
 
     Parts in which both are zero are left out.
     """
-    start, end = state.part(0.0).evaluate(), state.part(share).evaluate()
+    start, end = state.part(0.0).evaluate(), state.part(fraction).evaluate()
     stored = float(end.energy[STORED].sum() - start.energy[STORED].sum())
     rounding = 1e-10 * float(np.abs(start.energy[STORED]).sum())
-    forces, motion = -0.5 * (start.rhs[0] + end.rhs[0]), share * state.du
+    forces, motion = -0.5 * (start.rhs[0] + end.rhs[0]), fraction * state.du
     least = LEAST * float(np.abs(forces) @ np.abs(motion)) + rounding
-    by_step = [-float(state.part(step * share).evaluate().rhs[0] @ motion) for step in STEPS]
+    by_step = [-float(state.part(step * fraction).evaluate().rhs[0] @ motion) for step in STEPS]
     at_start = -float(start.rhs[0] @ motion)
     for work in (float(forces @ motion), float(np.trapezoid([at_start, *by_step], [0.0, *STEPS]))):
         if max(abs(work), abs(stored)) > least:

@@ -85,11 +85,11 @@ def _judge(states: tuple[ElementState, ...], unwritten: np.ndarray) -> Finding:
         if any(state.depends_on(~unwritten) for state in states):
             return passed("RHS depends on state variables that are written")
         return passed("RHS depends on no state variable")
-    alone = {place: np.arange(len(unwritten)) == place for place in np.flatnonzero(unwritten).tolist()}
-    read = [place for place, chosen in alone.items() if any(state.depends_on(chosen) for state in states)]
+    alone = {index: np.arange(len(unwritten)) == index for index in np.flatnonzero(unwritten).tolist()}
+    read = [index for index, chosen in alone.items() if any(state.depends_on(chosen) for state in states)]
     if any(_writes(state, read) for state in states):
         return passed("RHS depends on state variables that are written")
-    names = tuple(f"SVARS({place + 1})" for place in read)
+    names = tuple(f"SVARS({index + 1})" for index in read)
     more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
     message = f"RHS depends on {', '.join(names[:SHOWN])}{more} on entry, and no call writes any of them"
     advice = (
@@ -132,12 +132,12 @@ def _negative_zeros(svars: FloatArray) -> FloatArray:
     return np.where(svars == 0.0, -0.0, svars)
 
 
-def _writes(state: ElementState, places: list[int]) -> bool:
+def _writes(state: ElementState, indices: list[int]) -> bool:
     """Report whether a call changes a state variable whose value on entry is far from the usual ones."""
-    for place, value in product(places, CHANGES):
-        given = state.single.svars
-        given[place] += value
+    for index, value in product(indices, CHANGES):
+        svars = state.single.svars
+        svars[index] += value
         with suppress(KernelError):
-            if (state.with_svars(given).evaluate(matrix=False).svars[places] != given[places]).any():
+            if (state.with_svars(svars).evaluate(matrix=False).svars[indices] != svars[indices]).any():
                 return True
     return False

@@ -10,11 +10,11 @@ import numpy as np
 
 from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed, not_applicable, passed
-from uel.check.split_increment import in_pieces
+from uel.check.split_increment import subdivide
 from uel.check.subject import NOT_MOVING, Subject
 from uel.model.arrays import FloatArray
 
-PIECES: Final = 1, 2, 8, 16
+PARTS: Final = 1, 2, 8, 16
 """Numbers of parts in which the increment is made."""
 
 CLOSER: Final = 0.75
@@ -43,7 +43,7 @@ def check(subject: Subject) -> Finding:
         )
     largest = 0.0
     for state in states:
-        once, twice, eight, sixteen = (_in_pieces(state, pieces) for pieces in PIECES)
+        once, twice, eight, sixteen = (_final_forces(state, parts) for parts in PARTS)
         size = max(float(np.abs(once).max()), float(np.abs(sixteen).max()), 1e-300)
         first, last = (float(np.abs(pair).max()) / size for pair in (twice - once, sixteen - eight))
         largest = max(largest, first)
@@ -69,8 +69,7 @@ def _depends_on_number(state: ElementState) -> bool:
     return not np.array_equal(later.evaluate(matrix=False).rhs, state.evaluate(matrix=False).rhs)
 
 
-def _in_pieces(state: ElementState, pieces: int) -> FloatArray:
+def _final_forces(state: ElementState, parts: int) -> FloatArray:
     """Return the forces at the end of the increment, made in equal parts from its start."""
-    *_, last = in_pieces(state, [k / pieces for k in range(1, pieces + 1)])
-    forces: FloatArray = last.rhs[0]
-    return forces
+    *_, last = subdivide(state, [k / parts for k in range(1, parts + 1)])
+    return np.asarray(last.rhs[0])

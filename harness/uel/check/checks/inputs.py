@@ -24,7 +24,7 @@ def check(subject: Subject) -> Finding:
         for state in subject.states:
             state.evaluate()
             for change in made():
-                changes.setdefault(change.argument, f"{state}: {_says(change)}")
+                changes.setdefault(change.argument, f"{state}: {_described(change)}")
     if not changes:
         return passed(f"no input argument is changed at {len(subject.states)} states")
     first, *others = changes
@@ -37,6 +37,6 @@ def check(subject: Subject) -> Finding:
     return failed(f"{changes[first]}{more}", advice, entries=tuple(changes))
 
 
-def _says(change: Change) -> str:
+def _described(change: Change) -> str:
     name = change.argument if change.argument in SCALARS else f"entry {change.entry} of {change.argument}"
     return f"{name} is {change.before:.6g} before the call and {change.after:.6g} after it"

@@ -43,19 +43,18 @@ def check(subject: Subject) -> Finding:
     return failed(message, advice, entries=names)
 
 
-def _mine(state: ElementState) -> np.ndarray:
+def _on_element(state: ElementState) -> np.ndarray:
     """Return the mask (loads,) of the loads on the state's element that have a magnitude."""
     loads = state.call.distributed
     if loads is None:
         return np.zeros(0, dtype=np.bool_)
-    mine: np.ndarray = (loads.elements == state.single.block.first) & (loads.kinds > 0) & (loads.end != 0.0)
-    return mine
+    return np.asarray((loads.elements == state.single.block.first) & (loads.kinds > 0) & (loads.end != 0.0))
 
 
 def _kinds(state: ElementState) -> list[int]:
     """Return the types of these loads."""
     loads = state.call.distributed
-    return [] if loads is None else sorted(set(loads.kinds[_mine(state)].tolist()))
+    return [] if loads is None else sorted(set(loads.kinds[_on_element(state)].tolist()))
 
 
 def _changes(state: ElementState, kind: int) -> bool:
@@ -63,9 +62,9 @@ def _changes(state: ElementState, kind: int) -> bool:
     loads = state.call.distributed
     assert loads is not None
     # DDLMAG stays: the load is ADLMAG, not its change in this increment
-    more = replace(loads, end=np.where(_mine(state) & (loads.kinds == kind), TWICE, 1.0) * loads.end)
+    more = replace(loads, end=np.where(_on_element(state) & (loads.kinds == kind), TWICE, 1.0) * loads.end)
     try:
-        found = state.called(distributed=more).evaluate(matrix=False).rhs
+        rhs = state.called(distributed=more).evaluate(matrix=False).rhs
     except KernelError:
         return True
-    return not np.array_equal(found, state.evaluate(matrix=False).rhs)
+    return not np.array_equal(rhs, state.evaluate(matrix=False).rhs)

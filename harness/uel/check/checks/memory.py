@@ -23,7 +23,7 @@ POISONS: Final = float("nan"), 7.3, -2.9e5
 """Values that are put there."""
 
 REALS: Final = "TIME", "PARAMS", "ADLMAG", "DDLMAG"
-WHOLES: Final = "JPROPS", "LFLAGS", "JDLTYP"
+INTEGER_ARRAYS: Final = "JPROPS", "LFLAGS", "JDLTYP"
 """Other arrays, otherwise surrounded by 0."""
 
 INTEGERS: Final = 1, 7, -290000
@@ -61,20 +61,20 @@ def check_filled(subject: Subject) -> Finding:
 
 def check_outside(subject: Subject) -> Finding:
     """Check that the guards around each argument are intact after a call, whatever it asks for."""
-    with room(ROOM), writes_outside() as found:
+    with room(ROOM), writes_outside() as written:
         for state in subject.states:
-            for what, called in _requests(state.strictly()):
+            for request, called in _requests(state.strictly()):
                 try:
                     called.evaluate()
                 except OutsideError as error:
-                    return failed(f"{error}{what}", OUTSIDE)
+                    return failed(f"{error}{request}", OUTSIDE)
                 except KernelError as error:
                     # an element may refuse what it is not asked for in a run
-                    if not what:
+                    if not request:
                         return failed(str(error), OUTSIDE)
-                for name, entry in found().items():
+                for name, entry in written().items():
                     size = _sizes(subject).get(name, "")
-                    return failed(f"{state}{what}: writes outside {name}: entry {entry}{size}", OUTSIDE)
+                    return failed(f"{state}{request}: writes outside {name}: entry {entry}{size}", OUTSIDE)
     return passed(f"nothing is written outside the arguments at {len(subject.states)} states")
 
 
@@ -113,7 +113,7 @@ def _poisons() -> Iterator[tuple[str, AbstractContextManager[None]]]:
     for array in REALS:
         for poison in POISONS:
             yield array, around({array: poison})
-    for array in WHOLES:
+    for array in INTEGER_ARRAYS:
         for number in INTEGERS:
             yield array, around({array: number})
 

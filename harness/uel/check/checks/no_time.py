@@ -20,7 +20,7 @@ def check(subject: Subject) -> Finding:
         return _check(subject, outside)
 
 
-def _whole(state: ElementState) -> ElementState:
+def _strict_unless_faulty(state: ElementState) -> ElementState:
     """Return the state with writes outside arrays as errors, or unchanged if it makes such a write anyway."""
     strict = state.strictly()
     try:
@@ -32,9 +32,9 @@ def _whole(state: ElementState) -> ElementState:
 
 def _check(subject: Subject, outside: Callable[[], dict[str, int]]) -> Finding:
     for state in subject.states:
-        still, known = _whole(state.part(0.0)), outside()
+        still, earlier = _strict_unless_faulty(state.part(0.0)), outside()
         still.evaluate()
-        known |= outside()
+        earlier |= outside()
         # in dynamic steps this is the call for the initial accelerations; AMATRX of other calls is divided by DTIME
         first = still.asked(Request.INITIAL_ACCELERATION) if state.dynamic else still
         for name, called in (
@@ -44,7 +44,11 @@ def _check(subject: Subject, outside: Callable[[], dict[str, int]]) -> Finding:
             try:
                 called.evaluate()
                 reason = next(
-                    (f"writes outside {name}: entry {entry}" for name, entry in outside().items() if name not in known),
+                    (
+                        f"writes outside {name}: entry {entry}"
+                        for name, entry in outside().items()
+                        if name not in earlier
+                    ),
                     "",
                 )
             except KernelError as error:

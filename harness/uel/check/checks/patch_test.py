@@ -75,7 +75,7 @@ def check(subject: Subject) -> Finding:
     bodies = [(state, body_of(subject, state)) for state in states]
     if any(body is not None and makes_inertia(state, body) for state, body in bodies):
         return not_applicable(INERTIA)
-    return _at_nodes(subject) if subject.patches else _alone(subject)
+    return _at_nodes(subject) if subject.patches else _single_elements(subject)
 
 
 def _at_nodes(subject: Subject) -> Finding:
@@ -84,21 +84,23 @@ def _at_nodes(subject: Subject) -> Finding:
     for patch in subject.patches:
         # of one size in all elements
         sized = _size(subject, patch.states[0])
-        for members in zip(*(_fields(subject, state, sized) for state in patch.states), strict=False):
-            ratio = _left(subject, patch, members)
-            names.append(members[0].name)
+        for fields in zip(*(_fields(subject, state, sized) for state in patch.states), strict=False):
+            ratio = _unbalanced(subject, patch, fields)
+            names.append(fields[0].name)
             if exceeds(ratio, figure):
                 figure = ratio
                 node = subject.recording.model.mesh.name(patch.node)
                 message = (
-                    f"node {node}, {patch.states[0].origin}: the forces of its {len(members)} elements do not balance "
-                    f"for {members[0].name} times a constant: {100 * ratio:.3g} % is left"
+                    f"node {node}, {patch.states[0].origin}: the forces of its {len(fields)} elements do not balance "
+                    f"for {fields[0].name} times a constant: {100 * ratio:.3g} % is left"
                 )
     if not names:
         return not_applicable(NO_FIELD)
     if figure <= TOLERANCE:
         return passed(f"forces balance at {len(subject.patches)} nodes, to {figure:.1e}", figure, TOLERANCE)
-    if _alone(subject).verdict is Verdict.PASSED and all(_scattered(subject, patch) for patch in subject.patches):
+    if _single_elements(subject).verdict is Verdict.PASSED and all(
+        _scaled(subject, patch) for patch in subject.patches
+    ):
         return passed(
             "forces of single elements are those of a uniform stress or flux, which differs from element to element by "
             "a factor: they do not balance",
@@ -106,24 +108,24 @@ def _at_nodes(subject: Subject) -> Finding:
     return failed(message, ADVICE, figure=figure, limit=TOLERANCE)
 
 
-def _left(subject: Subject, patch: Patch, members: tuple[_Field, ...]) -> float:
+def _unbalanced(subject: Subject, patch: Patch, fields: tuple[_Field, ...]) -> float:
     """Return the unbalanced force at a node, over the largest force of a single element there."""
     sums: dict[int, float] = {}
     largest = 0.0
-    for state, field in zip(patch.states, members, strict=True):
-        mine = field.rows & (state.single.block.group.nodes[0][subject.local_nodes] == patch.node)
+    for state, field in zip(patch.states, fields, strict=True):
+        at_node = field.rows & (state.single.block.group.nodes[0][subject.local_nodes] == patch.node)
         forces = field.forces(state)
-        for row in np.flatnonzero(mine).tolist():
+        for row in np.flatnonzero(at_node).tolist():
             dof = int(subject.dofs[row])
             sums[dof] = sums.get(dof, 0.0) + float(forces[row])
             largest = max(largest, abs(float(forces[row])))
     return max(map(abs, sums.values()), default=0.0) / (largest or 1.0)
 
 
-def _alone(subject: Subject) -> Finding:
+def _single_elements(subject: Subject) -> Finding:
     """Check the nodal forces of single elements against those of a uniform stress or flux in their cell."""
     figure, message, judged = 0.0, "", 0
-    for state in {one.single.name: one for one in reversed(subject.states)}.values():
+    for state in {state.single.name: state for state in reversed(subject.states)}.values():
         fields = list(_fields(subject, state, _size(subject, state)))
         if not _resisted(subject, state, fields):
             continue
@@ -149,33 +151,33 @@ def _alone(subject: Subject) -> Finding:
     return failed(message, ADVICE, figure=figure, limit=TOLERANCE)
 
 
-def _scattered(subject: Subject, patch: Patch) -> bool:
+def _scaled(subject: Subject, patch: Patch) -> bool:
     """Report whether the elements' stresses differ by one factor for all gradients: their stiffness scatters."""
     size = _size(subject, patch.states[0])
     stresses: list[dict[bytes, list[FloatArray]]] = []
     for state in patch.states:
-        mine: dict[bytes, list[FloatArray]] = {}
+        by_rows: dict[bytes, list[FloatArray]] = {}
         for field in _fields(subject, state, size):
-            found = _stress(subject, state, field)
-            if found is None:
+            fit = _stress(subject, state, field)
+            if fit is None:
                 return False
-            mine.setdefault(field.rows.tobytes(), []).append(found[0])
-        stresses.append(mine)
+            by_rows.setdefault(field.rows.tobytes(), []).append(fit[0])
+        stresses.append(by_rows)
     for kind, first in stresses[0].items():
-        one = np.array(first).ravel()
-        for other in (np.array(mine.get(kind, [])).ravel() for mine in stresses[1:]):
-            if len(other) != len(one):
+        reference = np.array(first).ravel()
+        for other in (np.array(by_rows.get(kind, [])).ravel() for by_rows in stresses[1:]):
+            if len(other) != len(reference):
                 return False
-            factor = float(one @ other) / max(float(one @ one), 1e-300)
-            if np.abs(other - factor * one).max() > TOLERANCE * np.abs(other).max():
+            factor = float(reference @ other) / max(float(reference @ reference), 1e-300)
+            if np.abs(other - factor * reference).max() > TOLERANCE * np.abs(other).max():
                 return False
     return True
 
 
 def _deviation(subject: Subject, state: ElementState, field: _Field) -> float | None:
     """Return the deviation of nodal forces from those of any uniform stress, over the largest; None without a cell."""
-    found = _stress(subject, state, field)
-    return None if found is None else found[1]
+    fit = _stress(subject, state, field)
+    return None if fit is None else fit[1]
 
 
 def _stress(subject: Subject, state: ElementState, field: _Field) -> tuple[FloatArray, float] | None:
@@ -187,15 +189,15 @@ def _stress(subject: Subject, state: ElementState, field: _Field) -> tuple[Float
     integrals = gradient_integrals(subject.coordinates(state)[nodes])
     if integrals is None:
         return None
-    largest, left, stresses = float(np.abs(forces[field.rows]).max()), 0.0, []
+    largest, remainder, stresses = float(np.abs(forces[field.rows]).max()), 0.0, []
     for dof in np.unique(subject.dofs[field.rows]).tolist():
-        mine = np.zeros(len(nodes))
+        nodal = np.zeros(len(nodes))
         rows = np.flatnonzero(field.rows & (subject.dofs == dof))
-        mine[local[rows]] = forces[rows]
-        stress = np.linalg.lstsq(integrals, mine, rcond=None)[0]
+        nodal[local[rows]] = forces[rows]
+        stress = np.linalg.lstsq(integrals, nodal, rcond=None)[0]
         stresses.append(stress)
-        left = max(left, float(np.abs(mine - integrals @ stress).max()))
-    return np.concatenate(stresses), left / (largest or 1.0)
+        remainder = max(remainder, float(np.abs(nodal - integrals @ stress).max()))
+    return np.concatenate(stresses), remainder / (largest or 1.0)
 
 
 def _resisted(subject: Subject, state: ElementState, fields: list[_Field]) -> bool:
@@ -206,9 +208,9 @@ def _resisted(subject: Subject, state: ElementState, fields: list[_Field]) -> bo
     if np.isin(subject.dofs, ROTATIONS).any():
         return False
     for within in (True, False):
-        mine = [field for field in fields if field.within is within]
-        for rows in {field.rows.tobytes(): field.rows for field in mine}.values():
-            alike = [field for field in mine if np.array_equal(field.rows, rows)]
+        of_kind = [field for field in fields if field.within is within]
+        for rows in {field.rows.tobytes(): field.rows for field in of_kind}.values():
+            alike = [field for field in of_kind if np.array_equal(field.rows, rows)]
             values = np.array([np.where(rows, field.values, 0.0) for field in alike])
             energies = -values @ np.array([field.forces(state) for field in alike]).T
             eigenvalues = np.linalg.eigvalsh(0.5 * (energies + energies.T))

@@ -27,18 +27,18 @@ ADVICE: Final = (
 
 def check_perturbation(subject: Subject, states: list[ElementState], flags: Flags) -> Finding:
     """Check RHS without loads on the element, at each of the states as a base state."""
-    known = flags.request is Request.PERTURBATION
-    change = (subject.scales if known else 0.0) * np.linspace(-1.0, 1.0, len(subject.scales))
+    perturbed = flags.request is Request.PERTURBATION
+    change = (subject.scales if perturbed else 0.0) * np.linspace(-1.0, 1.0, len(subject.scales))
     for state in states:
         still = replace(state, du=np.zeros_like(state.u)).called(distributed=None)
         forces = still.evaluate()
         linear = replace(still.called(flags=flags), du=change)
-        found, expected = linear.evaluate().rhs[0], -forces.amatrx @ change
-        row = first_largest(np.abs(found - expected))
-        deviation = float(abs(found[row] - expected[row]))
+        rhs, expected = linear.evaluate().rhs[0], -forces.amatrx @ change
+        row = first_largest(np.abs(rhs - expected))
+        deviation = float(abs(rhs[row] - expected[row]))
         if deviation > TOLERANCE * max(float(np.abs(forces.rhs[0]).max()), float(np.abs(expected).max()), 1e-300):
             return failed(
-                f"{state}: RHS({row + 1}) is {found[row]:.6g} with LFLAGS(3) = {flags.request} and LFLAGS(4) = 1, not "
+                f"{state}: RHS({row + 1}) is {rhs[row]:.6g} with LFLAGS(3) = {flags.request} and LFLAGS(4) = 1, not "
                 f"{expected[row]:.6g}",
                 ADVICE,
                 figure=deviation,

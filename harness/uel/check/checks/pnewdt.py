@@ -15,7 +15,7 @@ UNTOUCHED: Final = 1e30
 
 def check(subject: Subject) -> Finding:
     """Check that PNEWDT is positive, and asks for no smaller increment if nothing has moved in this one."""
-    found: list[float] = []
+    values: list[float] = []
     for state in subject.all_states:
         value = state.evaluate().pnewdt
         if not value > 0.0:
@@ -31,7 +31,7 @@ def check(subject: Subject) -> Finding:
             )
             return failed(f"{state}: PNEWDT is {still:g} with DU = 0", advice, figure=still, limit=1.0)
         if value < UNTOUCHED:
-            found.append(value)
-    if not found:
+            values.append(value)
+    if not values:
         return passed(f"never set at {len(subject.all_states)} states")
-    return passed(f"from {min(found):g} to {max(found):g} where it is set", min(found), 0.0)
+    return passed(f"from {min(values):g} to {max(values):g} where it is set", min(values), 0.0)

@@ -46,7 +46,7 @@ def check(subject: Subject) -> Finding:
     others = subject.states[0], subject.states[-1], *subject.random[:2]
     alone = [other.asked(Request.RESIDUAL) for other in others]
     shorter = [other.called(time_increment=OTHER * other.call.time_increment) for other in others]
-    for between, what, advice in (
+    for between, when, advice in (
         (others, "after calls other than in the run", ADVICE),
         (alone, "after calls with LFLAGS(3) = 5", RESIDUALS),
         (shorter, "after calls with another DTIME", TIMES),
@@ -55,7 +55,7 @@ def check(subject: Subject) -> Finding:
             first = state.evaluate() if carries_on else returned
             _call(between)
             if difference := first_difference(first, state.evaluate()):
-                return failed(f"{state}: the same call returns different values {what}: {difference}", advice)
+                return failed(f"{state}: the same call returns different values {when}: {difference}", advice)
     before = "just before" if carries_on else "in the run"
     return passed(f"the same bits as {before} at {len(subject.states)} states after other calls")
 

@@ -13,7 +13,7 @@ import numpy as np
 from uel.check.checks.capacity import TRANSIENT, check_capacity
 from uel.check.checks.damping import check_damping
 from uel.check.checks.perturbation import check_perturbation
-from uel.check.checks.turned import check_turned
+from uel.check.checks.rotated_mass import check_rotated_mass
 from uel.check.element_calls import DYNAMIC, ElementState
 from uel.check.finding import Finding, Verdict, failed, not_applicable, passed
 from uel.check.recording import Pass
@@ -49,10 +49,10 @@ def check(subject: Subject) -> Finding:
 
 
 def _findings(subject: Subject) -> Iterator[Finding]:
-    given = [event.call.flags for event in subject.recording.events if isinstance(event, Pass)]
+    all_flags = [event.call.flags for event in subject.recording.events if isinstance(event, Pass)]
     # the first pass of an increment, and the two of damping, make the same request as the others
-    asked = list(dict.fromkeys(replace(flags, extrapolated=False, damping=Damping.NONE) for flags in given))
-    requests = {(flags.procedure, flags.request) for flags in asked}
+    distinct = list(dict.fromkeys(replace(flags, extrapolated=False, damping=Damping.NONE) for flags in all_flags))
+    requests = {(flags.procedure, flags.request) for flags in distinct}
     moving = [state for state in subject.states if state.dynamic]
     static = [state for state in subject.all_states if not state.dynamic]
     if static and any(request is Request.RESIDUAL and kind not in DYNAMIC for kind, request in requests):
@@ -70,7 +70,7 @@ def _findings(subject: Subject) -> Iterator[Finding]:
             yield _half_increment(subject, moving[0])
     # perturbations start from the last state of the steps before
     base = [state.part(0.0) for state in subject.states if not state.dynamic][-1:]
-    for flags in asked:
+    for flags in distinct:
         request = flags.request
         if flags.linear and request in (Request.NORMAL, Request.PERTURBATION):
             yield check_perturbation(subject, static, flags)
@@ -146,15 +146,15 @@ def _weights(subject: Subject, states: list[ElementState]) -> Finding:
             continue
         normal = there.evaluate().rhs[0] - here.evaluate().rhs[0]
         settled = there.settled().evaluate().rhs[0] - here.settled().evaluate().rhs[0]
-        for found, factor, what in (
+        for change, factor, when in (
             (normal, 1.0 + alpha, "in the increment in which U changes"),
             (settled, 1.0, "in the increment after that"),
         ):
-            row = first_largest(np.abs(found - factor * initial))
-            deviation = float(abs(found[row] - factor * initial[row]))
+            row = first_largest(np.abs(change - factor * initial))
+            deviation = float(abs(change[row] - factor * initial[row]))
             if deviation > LINEAR * float(np.abs(initial).max()):
                 return failed(
-                    f"{state}: {what}, RHS({row + 1}) of a normal call changes by {found[row]:.6g}, not by "
+                    f"{state}: {when}, RHS({row + 1}) of a normal call changes by {change[row]:.6g}, not by "
                     f"{factor * initial[row]:.6g}; alpha is {alpha:g}",
                     "RHS of *DYNAMIC is -M A + (1 + alpha) G - alpha times the G of the last increment, which SVARS "
                     "keep; PARAMS(1) is alpha. With LFLAGS(3) = 6 it is G, the static residual.",
@@ -185,7 +185,7 @@ def _mass(subject: Subject, state: ElementState) -> Finding:
         )
     row, column = np.unravel_index(first_largest(np.abs(mass - inertia)), mass.shape)
     deviation = float(abs(mass[row, column] - inertia[row, column]))
-    wrong = _indefinite(state, mass) or check_turned(subject, state, state.asked(Request.MASS))
+    wrong = _indefinite(state, mass) or check_rotated_mass(subject, state, state.asked(Request.MASS))
     if wrong is None and deviation > LINEAR * max(size, float(np.abs(mass).max())):
         return failed(
             f"{state}: AMATRX({row + 1},{column + 1}) is {mass[row, column]:.6g} with LFLAGS(3) = 4; "
@@ -208,7 +208,7 @@ def _mass_alone(subject: Subject, state: ElementState, flags: Flags) -> Finding:
             f"{state}: AMATRX with LFLAGS(3) = 4 is the stiffness, as with 1",
             "Test LFLAGS(3) at the beginning of UEL: with 4, AMATRX is the mass matrix, or zero without mass.",
         )
-    return _indefinite(state, mass) or check_turned(subject, state, asking) or passed("mass (4)")
+    return _indefinite(state, mass) or check_rotated_mass(subject, state, asking) or passed("mass (4)")
 
 
 def _written(states: list[ElementState]) -> Finding | None:

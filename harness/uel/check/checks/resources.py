@@ -37,17 +37,17 @@ def check(subject: Subject) -> Finding:
         files = _files()
         _call(state)
         opened.append(sorted(name for number, name in _files().items() if number not in files))
-    taken: list[int] = []
+    allocations: list[int] = []
     for _ in range(ROUNDS):
         bytes_ = allocated()
         _call(state)
-        taken.append(allocated() - bytes_)
+        allocations.append(allocated() - bytes_)
     fewest = min(opened, key=len)
     if len(fewest) >= CALLS:
         message = f"{state}: {CALLS} equal calls leave {len(fewest)} files open, {fewest[0]} among them"
         return failed(message, "CLOSE what a call opens; open files that all calls use in UEXTERNALDB, once.")
-    if min(taken) >= CALLS * LEAST:
-        message = f"{state}: {CALLS} equal calls allocate {min(taken)} bytes that they do not free"
+    if min(allocations) >= CALLS * LEAST:
+        message = f"{state}: {CALLS} equal calls allocate {min(allocations)} bytes that they do not free"
         return failed(message, "DEALLOCATE (free, delete) what a call allocates, or allocate it once and keep it.")
     return passed(f"{CALLS} equal calls leave no file open and no memory allocated")
 

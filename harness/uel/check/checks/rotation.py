@@ -30,15 +30,15 @@ def check(subject: Subject) -> Finding:
     """Rotate from the start of the analysis, with linear kinematics, or finite ones where the step has NLGEOM."""
     states = subject.resting
     bodies = [body_of(subject, state) for state in states]
-    known = [(state, body) for state, body in zip(states, bodies, strict=True) if body is not None]
-    if not known:
+    pairs = [(state, body) for state, body in zip(states, bodies, strict=True) if body is not None]
+    if not pairs:
         return not_applicable(NO_BODY if states else AT_REST)
-    if known[0][1].dimensions == 1:
+    if pairs[0][1].dimensions == 1:
         return not_applicable("one dimension: it is for elements that can rotate, with COORDINATES=2 or 3")
-    if any(makes_inertia(*pair) for pair in known):
+    if any(makes_inertia(*pair) for pair in pairs):
         return not_applicable(INERTIA)
-    first, small = (max(_linear(subject, *pair, angle) for pair in known) for angle in (TINY, None))
-    return _judge(states[0], first, small, max(_turned(subject, *pair) for pair in known))
+    first, small = (max(_linear(subject, *pair, angle) for pair in pairs) for angle in (TINY, None))
+    return _judge(states[0], first, small, max(_finite(subject, *pair) for pair in pairs))
 
 
 def _judge(state: ElementState, first: float, small: float, finite: float) -> Finding:
@@ -51,7 +51,7 @@ def _judge(state: ElementState, first: float, small: float, finite: float) -> Fi
         return passed(f"linear kinematics, forces unchanged to {small:.1e}", small, TOLERANCE)
     if small <= TOLERANCE:
         message = (
-            f"{state}: the step has NLGEOM, but a rotation by {degrees} degrees {_says(finite)}; the kinematics are "
+            f"{state}: the step has NLGEOM, but a rotation by {degrees} degrees {_effect(finite)}; the kinematics are "
             "linear"
         )
         advice = (
@@ -61,7 +61,7 @@ def _judge(state: ElementState, first: float, small: float, finite: float) -> Fi
         return failed(message, advice, figure=finite if np.isfinite(finite) else None, limit=TOLERANCE)
     if first <= TOLERANCE:
         message = (
-            f"{state}: a rotation by {degrees} degrees in one increment {_says(finite)}, an infinitesimal one causes "
+            f"{state}: a rotation by {degrees} degrees in one increment {_effect(finite)}, an infinitesimal one causes "
             "none"
         )
         advice = (
@@ -71,8 +71,8 @@ def _judge(state: ElementState, first: float, small: float, finite: float) -> Fi
         )
         return failed(message, advice, figure=finite if np.isfinite(finite) else None, limit=TOLERANCE)
     message = (
-        f"{state}: a small rigid rotation {_says(first)}, and one by {degrees} degrees, with its second-order "
-        f"terms, {_says(finite)}"
+        f"{state}: a small rigid rotation {_effect(first)}, and one by {degrees} degrees, with its second-order "
+        f"terms, {_effect(finite)}"
     )
     advice = (
         "Check the strain-displacement matrix: shear takes both derivatives, du/dy + dv/dx, the shape functions sum "
@@ -83,7 +83,7 @@ def _judge(state: ElementState, first: float, small: float, finite: float) -> Fi
     return failed(message, advice, figure=min(first, finite), limit=TOLERANCE)
 
 
-def _says(share: float) -> str:
+def _effect(share: float) -> str:
     """Describe the effect of a rotation, as the end of a sentence."""
     if not np.isfinite(share):
         return "ends the analysis"
@@ -92,8 +92,7 @@ def _says(share: float) -> str:
 
 def _forces(state: ElementState) -> FloatArray:
     """Return RHS (n,) without loads on the element, which need not rotate with it."""
-    forces: FloatArray = state.called(distributed=None).evaluate().rhs[0]
-    return forces
+    return np.asarray(state.called(distributed=None).evaluate().rhs[0])
 
 
 def _linear(subject: Subject, state: ElementState, body: Body, angle: float | None) -> float:
@@ -106,15 +105,15 @@ def _linear(subject: Subject, state: ElementState, body: Body, angle: float | No
     return largest
 
 
-def _turned(subject: Subject, state: ElementState, body: Body) -> float:
+def _finite(subject: Subject, state: ElementState, body: Body) -> float:
     """Return the largest relative deviation of forces from rotated ones, for finite rotations; or infinity."""
     here, largest = _forces(state), 0.0
-    for motion, turn in body.rotations(float(ANGLE)):
+    for motion, rotation in body.rotations(float(ANGLE)):
         try:
-            turned = _forces(state.moved(motion))
+            rotated = _forces(state.moved(motion))
         except KernelError:
             # with linear kinematics this is a large strain, which a material may refuse
             return np.inf
-        change = np.abs(turned - turn @ here)
+        change = np.abs(rotated - rotation @ here)
         largest = max(largest, relative(change, subject.stiffness(state), motion)[0])
     return largest

@@ -24,10 +24,10 @@ EQUAL: Final = 1e-6
 
 def check(subject: Subject) -> Finding:
     """Check that, if extension is isotropic, shear is not a factor of 2 or 4 off an isotropic material."""
-    found = body_at_rest(subject)
-    if isinstance(found, Finding):
-        return found
-    state, body = found
+    at_rest = body_at_rest(subject)
+    if isinstance(at_rest, Finding):
+        return at_rest
+    state, body = at_rest
     planes = list(combinations(range(body.dimensions), 2))
     moduli = _moduli(subject, state, body)
     isotropic = _isotropic(moduli, body.dimensions)
@@ -91,5 +91,4 @@ def _moduli(subject: Subject, state: ElementState, body: Body) -> FloatArray:
     """Return the work of unit strains, first normal and then engineering shear strains, on each other's forces."""
     matrix = subject.differences(state).matrix if state.dynamic else state.evaluate().amatrx
     strains = uniform_strains(body)
-    work: FloatArray = strains @ matrix @ strains.T
-    return work
+    return np.asarray(strains @ matrix @ strains.T)

@@ -12,7 +12,7 @@ import numpy as np
 from uel.check.checks.tangent import kinds
 from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed, not_applicable, passed
-from uel.check.split_increment import in_pieces
+from uel.check.split_increment import subdivide
 from uel.check.subject import NOT_MOVING, Subject
 from uel.check.tie_breaking import first_largest
 from uel.errors import KernelError
@@ -115,8 +115,8 @@ def _without_time(subject: Subject, state: ElementState) -> Finding | None:
     # fluxes at an earlier time, as in the Crank-Nicolson scheme, are those of U minus a part of DU: a smaller DU leads
     # away from those at the start
     earlier = fast.carried(-state.du).evaluate(matrix=False).rhs[0] - before
-    part = float(earlier @ change) / max(float(earlier @ earlier), 1e-300)
-    if -1.0 < part < 0.0 and np.abs(change - part * earlier).max() <= TOLERANCE * size:
+    fraction = float(earlier @ change) / max(float(earlier @ earlier), 1e-300)
+    if -1.0 < fraction < 0.0 and np.abs(change - fraction * earlier).max() <= TOLERANCE * size:
         return None
     message = (
         f"{state}: RHS({row + 1}) is {before[row]:.6g}, and {before[row] + change[row]:.6g} with a tenth of DU and "
@@ -141,18 +141,18 @@ def _stiffness(subject: Subject, state: ElementState) -> FloatArray:
 
 def _jump(subject: Subject, state: ElementState, parts: int, beyond: float) -> _Jump:
     """Compute the jump at the end of the increment, made in equal parts with another part after them."""
-    *_, last, next_one = in_pieces(state, [*(k / parts for k in range(1, parts + 1)), 1.0 + beyond / parts])
+    *_, last, next_one = subdivide(state, [*(k / parts for k in range(1, parts + 1)), 1.0 + beyond / parts])
     before, after = last.rhs[0], next_one.rhs[0]
     kind, least = kinds(subject.dofs), SILENT * subject.usual_forces
-    own = SMOOTH * beyond / parts * (_stiffness(subject, state) @ np.abs(state.du))
+    smooth_change = SMOOTH * beyond / parts * (_stiffness(subject, state) @ np.abs(state.du))
     worst = _Jump(0.0, 0, 0.0, 0.0)
-    for one in np.unique(kind):
-        mine = kind == one
-        size = float(np.maximum(np.abs(before), np.abs(after))[mine].max())
-        if size <= float(least[mine].max()):
+    for unit in np.unique(kind):
+        of_unit = kind == unit
+        size = float(np.maximum(np.abs(before), np.abs(after))[of_unit].max())
+        if size <= float(least[of_unit].max()):
             continue
-        change: FloatArray = np.where(mine, np.abs(after - before), 0.0)
+        change: FloatArray = np.where(of_unit, np.abs(after - before), 0.0)
         row = first_largest(change)
-        if change[row] > max(worst.ratio * size, float(own[mine].max())):
+        if change[row] > max(worst.ratio * size, float(smooth_change[of_unit].max())):
             worst = _Jump(float(change[row]) / size, row, float(before[row]), float(after[row]))
     return worst

@@ -39,9 +39,9 @@ def check(subject: Subject) -> Finding:
         return passed(f"unsymmetric, as UNSYMM says: {100 * figure:.3g} % of the largest entry", figure)
     if all(state.call.unsymmetric for state in subject.states):
         return passed(f"unsymmetric, which coupled temperature steps use as it is: {100 * figure:.3g} %", figure)
-    place = subject.definition.source
+    location = subject.definition.source
     advice = (
-        f"Add UNSYMM to *USER ELEMENT ({place}), or make AMATRX symmetric if it should be. Without UNSYMM Abaqus "
+        f"Add UNSYMM to *USER ELEMENT ({location}), or make AMATRX symmetric if it should be. Without UNSYMM Abaqus "
         "solves with the symmetric part only, and the rest of AMATRX is lost."
     )
     return failed(message, advice, figure=figure, limit=TOLERANCE, entries=(entry,))

@@ -32,7 +32,7 @@ class _Worst:
 
     state: ElementState
     amatrx: FloatArray
-    found: Differences
+    differences: Differences
     deviation: FloatArray
 
 
@@ -42,13 +42,13 @@ def check(subject: Subject) -> Finding:
     columns = 0
     for state in subject.all_states:
         amatrx = state.evaluate().amatrx
-        found = subject.differences(state)
-        columns += int(found.smooth.sum())
-        scale = block_scales(np.maximum(np.abs(amatrx), np.abs(found.matrix)), subject.dofs)
-        surplus = np.where(found.smooth, np.abs(amatrx - found.matrix) - 10.0 * found.error, 0.0)
+        quotients = subject.differences(state)
+        columns += int(quotients.smooth.sum())
+        scale = block_scales(np.maximum(np.abs(amatrx), np.abs(quotients.matrix)), subject.dofs)
+        surplus = np.where(quotients.smooth, np.abs(amatrx - quotients.matrix) - 10.0 * quotients.error, 0.0)
         deviation = np.maximum(surplus, 0.0) / scale
         if worst is None or exceeds(float(deviation.max()), float(worst.deviation.max())):
-            worst = _Worst(state, amatrx, found, deviation)
+            worst = _Worst(state, amatrx, quotients, deviation)
     if worst is None or not columns:
         return not_applicable(
             "RHS has a kink, or no value next to that of the run, at every state tried: take smaller increments, or "
@@ -65,8 +65,8 @@ def check(subject: Subject) -> Finding:
     more = f" and {len(entries) - SHOWN} more" if len(entries) > SHOWN else ""
     message = (
         f"{worst.state}: {entries[0]} is {worst.amatrx[row, column]:.6g}, differences of RHS give "
-        f"{worst.found.matrix[row, column]:.6g}; {len(entries)} of {worst.amatrx.size} entries are wrong by up to "
-        f"{100 * figure:.3g} % of the largest: {', '.join(entries[:SHOWN])}{more}"
+        f"{worst.differences.matrix[row, column]:.6g}; {len(entries)} of {worst.amatrx.size} entries are wrong by up "
+        f"to {100 * figure:.3g} % of the largest: {', '.join(entries[:SHOWN])}{more}"
     )
     return failed(message, _advice(worst, subject), figure=figure, limit=TOLERANCE, entries=entries)
 
@@ -88,35 +88,35 @@ def block_scales(magnitude: FloatArray, dofs: np.ndarray) -> FloatArray:
 
 
 def _advice(worst: _Worst, subject: Subject) -> str:
-    smooth = worst.found.smooth
-    given, found = worst.amatrx[:, smooth], worst.found.matrix[:, smooth]
-    size = float(np.abs(found).max())
+    smooth = worst.differences.smooth
+    amatrx, expected = worst.amatrx[:, smooth], worst.differences.matrix[:, smooth]
+    size = float(np.abs(expected).max())
     # another matrix explains the deviation if it leaves far less of it
-    limit = min(ALIKE * size, 0.1 * float(np.abs(given - found).max()))
-    if np.abs(given + found).max() < limit:
+    limit = min(ALIKE * size, 0.1 * float(np.abs(amatrx - expected).max()))
+    if np.abs(amatrx + expected).max() < limit:
         return "The sign is wrong: AMATRX is -dRHS/dU, and RHS is external minus internal force."
-    if not given.any():
+    if not amatrx.any():
         return _advice_on_zero(worst.state, subject)
-    if smooth.all() and np.abs(given.T - found).max() < limit:
+    if smooth.all() and np.abs(amatrx.T - expected).max() < limit:
         return "AMATRX is transposed: AMATRX(i,j) is -dRHS(i)/dU(j), so row i belongs to the force."
-    factor = float((given * found).sum() / max(float((found**2).sum()), 1e-300))
-    if np.abs(given - factor * found).max() < limit:
+    factor = float((amatrx * expected).sum() / max(float((expected**2).sum()), 1e-300))
+    if np.abs(amatrx - factor * expected).max() < limit:
         return (
             f"AMATRX is {factor:.6g} times what it should be: look for a weight, thickness or Jacobian that only one "
             "of RHS and AMATRX has."
         )
-    missing = _missing_coupling(given, found, subject.dofs, subject.dofs[smooth])
+    missing = _missing_coupling(amatrx, expected, subject.dofs, subject.dofs[smooth])
     if missing:
         return f"AMATRX is zero for {missing}: add the derivatives of these forces with respect to these unknowns."
     return (
-        f"{_concerned(worst, subject.dofs)}Differentiate RHS again for these entries: what is missing is usually a "
+        f"{_wrong_blocks(worst, subject.dofs)}Differentiate RHS again for these entries: what is missing is usually a "
         "term from DU, from the derivative of the state, or from SVARS that change within the increment. Newton's "
         "method needs the derivative of the RHS that this call returns; an approximate AMATRX costs iterations and "
         "cutbacks, not accuracy."
     )
 
 
-def _concerned(worst: _Worst, dofs: np.ndarray) -> str:
+def _wrong_blocks(worst: _Worst, dofs: np.ndarray) -> str:
     """Name the dofs to which the wrong entries belong, in a sentence; '' if these are all, or too many to name."""
     kind = kinds(dofs)
     rows, columns = np.nonzero(worst.deviation > TOLERANCE)
@@ -137,11 +137,11 @@ def _advice_on_zero(state: ElementState, subject: Subject) -> str:
     )
 
 
-def _missing_coupling(given: FloatArray, found: FloatArray, rows: np.ndarray, columns: np.ndarray) -> str:
+def _missing_coupling(amatrx: FloatArray, expected: FloatArray, rows: np.ndarray, columns: np.ndarray) -> str:
     """Name dofs between which AMATRX is zero and should not be, as the end of a sentence; '' if there are none."""
     for force in np.unique(rows):
         for unknown in np.unique(columns):
             block = np.ix_(rows == force, columns == unknown)
-            if not given[block].any() and np.abs(found[block]).max() > ALIKE * np.abs(found).max():
+            if not amatrx[block].any() and np.abs(expected[block]).max() > ALIKE * np.abs(expected).max():
                 return f"the forces at dof {force} and the unknowns at dof {unknown}"
     return ""

@@ -75,7 +75,7 @@ def _changes(
                 state.evaluate()
             after = [variable.bytes() for variable in variables]
             for variable, old, new in zip(variables, before, after, strict=True):
-                if places := (np.flatnonzero(old != new) // WORD).tolist():
-                    changed[side].setdefault(variable.name, set()).update(places)
+                if words := (np.flatnonzero(old != new) // WORD).tolist():
+                    changed[side].setdefault(variable.name, set()).update(words)
             before = after
     return changed

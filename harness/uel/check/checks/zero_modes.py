@@ -38,10 +38,10 @@ class _Stiffness:
 
 def check(subject: Subject) -> Finding:
     """Check the eigenvalues of the symmetric part of AMATRX for the displacements, at rest."""
-    found = body_at_rest(subject)
-    if isinstance(found, Finding):
-        return found
-    state, body = found
+    at_rest = body_at_rest(subject)
+    if isinstance(at_rest, Finding):
+        return at_rest
+    state, body = at_rest
     chosen = body.displacement | body.turning.any(axis=0)
     name, limit, matrix = "AMATRX", TOLERANCE, state.evaluate().amatrx
     if state.dynamic:
@@ -127,18 +127,18 @@ def _suppressed(subject: Subject, body: Body) -> bool:
     for patch in subject.patches:
         nodes = np.unique([state.single.block.group.nodes[0] for state in patch.states])
         moved = np.unique(subject.dofs[body.displacement | body.turning.any(axis=0)])
-        place = {(node, dof): k for k, (node, dof) in enumerate(product(nodes.tolist(), moved.tolist()))}
-        total = np.zeros((len(place), len(place)))
-        used = np.zeros(len(place), dtype=np.bool_)
+        index_of = {(node, dof): k for k, (node, dof) in enumerate(product(nodes.tolist(), moved.tolist()))}
+        total = np.zeros((len(index_of), len(index_of)))
+        used = np.zeros(len(index_of), dtype=np.bool_)
         for state in patch.states:
-            own = state.single.block.group.nodes[0][subject.local_nodes]
-            rows = [place.get((int(node), int(dof)), -1) for node, dof in zip(own, subject.dofs, strict=True)]
-            mine = np.flatnonzero(np.array(rows) >= 0)
-            there = np.array(rows)[mine]
+            nodes_at = state.single.block.group.nodes[0][subject.local_nodes]
+            rows = [index_of.get((int(node), int(dof)), -1) for node, dof in zip(nodes_at, subject.dofs, strict=True)]
+            local_rows = np.flatnonzero(np.array(rows) >= 0)
+            global_rows = np.array(rows)[local_rows]
             still = state.still().quiet()
             matrix = still.evaluate().amatrx if not still.dynamic else differences(still, subject.scales).matrix
-            total[np.ix_(there, there)] += matrix[np.ix_(mine, mine)]
-            used[there] = True
+            total[np.ix_(global_rows, global_rows)] += matrix[np.ix_(local_rows, local_rows)]
+            used[global_rows] = True
         limit = DIFFERENCES if patch.states[0].dynamic else TOLERANCE
         matrix = total[np.ix_(used, used)]
         values = np.linalg.eigvalsh(0.5 * (matrix + matrix.T)) / (np.abs(matrix).max() or 1.0)

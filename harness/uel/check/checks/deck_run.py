@@ -11,7 +11,7 @@ from uel.check.subject import Subject
 from uel.errors import ConvergenceError, ElementError, SingularMatrixError, UelError
 from uel.model.model import Model
 
-OF_AN_ELEMENT: Final = (
+ELEMENT_FAILED: Final = (
     "Run the deck with `uel run` and look at the printed messages. NaN usually comes from a division by zero or "
     "the root of a negative number at a state far from equilibrium: return PNEWDT < 1 there, and Abaqus tries a "
     "smaller increment."
@@ -29,7 +29,7 @@ DIVERGED: Final = (
     "iterations to .msg."
 )
 
-OTHERWISE: Final = "Run the deck with `uel run`: it has to complete before more can be said."
+OTHER: Final = "Run the deck with `uel run`: it has to complete before more can be said."
 
 
 def check(subject: Subject) -> Finding:
@@ -44,8 +44,8 @@ def check(subject: Subject) -> Finding:
     if not _concerns(failure, subject.type, recording.model):
         return not_applicable(f"another type of element ended it, fix that first: {failure}")
     if isinstance(failure, ElementError) and failure.element_type == subject.type:
-        return failed(str(failure), OF_AN_ELEMENT)
-    advice = OTHERWISE
+        return failed(str(failure), ELEMENT_FAILED)
+    advice = OTHER
     if isinstance(failure, SingularMatrixError):
         advice = SINGULAR
     elif isinstance(failure, ConvergenceError):
@@ -65,9 +65,9 @@ def _blamed(failure: UelError, model: Model) -> set[str]:
         return {failure.element_type}
     if not isinstance(failure, SingularMatrixError):
         return set()
-    found = set()
+    types = set()
     for group in model.groups:
         for local, dof in group.definition.dofs if group.definition else ():
             if dof == failure.dof and failure.node in map(model.mesh.name, group.nodes[:, local].tolist()):
-                found.add(group.type)
-    return found
+                types.add(group.type)
+    return types

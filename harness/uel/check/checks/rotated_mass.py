@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The mass matrix of an element that stands in another direction: part of `requests`."""
+"""Mass matrix of a rotated element: part of `requests`."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ import numpy as np
 
 from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed
-from uel.check.rigid_motions import PLANES, ROTATIONS, Body, body_of
+from uel.check.rigid_motions import PLANES, ROTATIONS, Body, body_of, plane_rotation
 from uel.check.subject import Subject
 from uel.check.tie_breaking import first_largest
 from uel.model.arrays import FloatArray
 
 ANGLE: Final = 0.5
-"""Angle of the turn (rad): no multiple of a symmetry."""
+"""Angle of the rotation (rad): no symmetry of an element."""
 
 SEED: Final = 1
 """Seed of the random displacements."""
@@ -31,10 +31,10 @@ ADVICE: Final = (
 )
 
 
-def check_turned(subject: Subject, state: ElementState, asking: ElementState) -> Finding | None:
-    """Return a finding if the forces turn with the element's coordinates and the mass matrix does not.
+def check_rotated_mass(subject: Subject, state: ElementState, asking: ElementState) -> Finding | None:
+    """Return a finding if the forces rotate with the coordinates of the element and the mass matrix does not.
 
-    state: of a step in which RHS has internal forces; asking: of the call that asks for the mass matrix.
+    state: with internal forces in RHS; asking: with the request of the mass matrix.
     """
     body = body_of(subject, state)
     if body is None or body.dimensions == 1 or not _complete(subject, body):
@@ -43,23 +43,22 @@ def check_turned(subject: Subject, state: ElementState, asking: ElementState) ->
     size = float(np.abs(mass).max())
     motion = subject.scales * np.random.default_rng(SEED).uniform(-1.0, 1.0, len(subject.scales))
     for i, j in PLANES[body.dimensions]:
-        turn = np.eye(body.dimensions)
-        turn[[i, i, j, j], [i, j, i, j]] = np.cos(ANGLE), -np.sin(ANGLE), np.sin(ANGLE), np.cos(ANGLE)
-        unknowns = _of_unknowns(subject, body, turn)
+        rotation = plane_rotation(body.dimensions, i, j, ANGLE)
+        transformation = _transformation(subject, body, rotation)
         forces = _forces(state, motion)
-        turned = _forces(_placed(subject, state, turn), unknowns @ motion)
-        if np.abs(turned - unknowns @ forces).max() > TOLERANCE * np.abs(forces).max():
-            # a fixed direction: axisymmetric, on a foundation, with axes that are chosen by global ones
+        rotated_forces = _forces(_rotated(subject, state, rotation), transformation @ motion)
+        if np.abs(rotated_forces - transformation @ forces).max() > TOLERANCE * np.abs(forces).max():
+            # fixed directions: axisymmetric, on a foundation, or with axes from the global ones
             continue
-        expected = unknowns @ mass @ unknowns.T
-        found = _placed(subject, asking, turn).evaluate().amatrx
-        row, column = np.unravel_index(first_largest(np.abs(found - expected)), mass.shape)
-        deviation = float(abs(found[row, column] - expected[row, column]))
+        expected = transformation @ mass @ transformation.T
+        rotated_mass = _rotated(subject, asking, rotation).evaluate().amatrx
+        row, column = np.unravel_index(first_largest(np.abs(rotated_mass - expected)), mass.shape)
+        deviation = float(abs(rotated_mass[row, column] - expected[row, column]))
         if deviation > TOLERANCE * size:
             axis = next(k for k in range(3) if k not in (i, j))
             return failed(
                 f"{asking}: if the element is turned about axis {axis + 1} by {np.degrees(ANGLE):.0f} degrees, entry "
-                f"({row + 1},{column + 1}) of its mass matrix is {found[row, column]:.6g}, and has to be "
+                f"({row + 1},{column + 1}) of its mass matrix is {rotated_mass[row, column]:.6g}, and has to be "
                 f"{expected[row, column]:.6g}",
                 ADVICE,
                 figure=deviation / size,
@@ -69,7 +68,7 @@ def check_turned(subject: Subject, state: ElementState, asking: ElementState) ->
 
 
 def _complete(subject: Subject, body: Body) -> bool:
-    """Report whether all other unknowns are rotations of nodes that have them about all axes."""
+    """Return whether all other unknowns are nodal rotations about all axes."""
     rotations = np.isin(subject.dofs, ROTATIONS)
     if not (body.displacement | rotations).all():
         return False
@@ -77,29 +76,28 @@ def _complete(subject: Subject, body: Body) -> bool:
     return counts[:2] == [0, 0] if body.dimensions == 2 else len(set(counts)) == 1
 
 
-def _of_unknowns(subject: Subject, body: Body, turn: FloatArray) -> FloatArray:
-    """Return the matrix (n, n) that turns displacements and rotations of the nodes, and their forces."""
+def _transformation(subject: Subject, body: Body, rotation: FloatArray) -> FloatArray:
+    """Return the matrix (n, n) that rotates nodal displacements, rotations, and forces."""
     dofs, local = subject.dofs, subject.local_nodes
     rotations = np.isin(dofs, ROTATIONS)
     axes = np.where(rotations, dofs - ROTATIONS[0], np.where(body.displacement, body.axis, 0))
     alike = (local[:, None] == local[None, :]) & (rotations[:, None] == rotations[None, :])
     if body.dimensions == 2:
-        # nodes rotate about the axis of the turn
+        # nodes rotate about the axis of rotation
         axes = np.where(rotations, 0, axes)
-        return np.where(alike, np.where(rotations[:, None], 1.0, turn[axes[:, None], axes[None, :]]), 0.0)
-    return np.where(alike, turn[axes[:, None], axes[None, :]], 0.0)
+        return np.where(alike, np.where(rotations[:, None], 1.0, rotation[axes[:, None], axes[None, :]]), 0.0)
+    return np.where(alike, rotation[axes[:, None], axes[None, :]], 0.0)
 
 
-def _placed(subject: Subject, state: ElementState, turn: FloatArray) -> ElementState:
-    """Return the state of an element whose coordinates are turned about the origin."""
+def _rotated(subject: Subject, state: ElementState, rotation: FloatArray) -> ElementState:
+    """Return the state of an element with rotated coordinates."""
     coordinates = subject.recording.model.mesh.coordinates.copy()
-    count = len(turn)
-    coordinates[:, :count] = coordinates[:, :count] @ turn.T
+    count = len(rotation)
+    coordinates[:, :count] = coordinates[:, :count] @ rotation.T
     return replace(state, single=state.single.placed(coordinates))
 
 
 def _forces(state: ElementState, motion: FloatArray) -> FloatArray:
-    """Return RHS (n,) that displacements cause in the element at the start of its increment."""
+    """Return the RHS (n,) of displacements at the start of the increment."""
     still = state.still().quiet()
-    change: FloatArray = still.moved(motion).evaluate().rhs[0] - still.evaluate().rhs[0]
-    return change
+    return np.asarray(still.moved(motion).evaluate().rhs[0] - still.evaluate().rhs[0])
