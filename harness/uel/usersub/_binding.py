@@ -22,20 +22,8 @@ ARRAYS: Final = ("RHS", "AMATRX", "SVARS", "ENERGY", "PROPS", "COORDS", "U", "DU
 
 
 POINT_ROUTINES: Final = (
-    "",
-    "UMAT",
-    "USDFLD",
-    "UMATHT",
-    "HETVAL",
-    "DFLUX",
-    "FILM",
-    "UHYPER",
-    "UANISOHYPER_INV",
-    "UHARD",
-    "UCREEPNETWORK",
-    "UTRSNETWORK",
-    "UVARM",
-    "CREEP",
+    *("", "UMAT", "USDFLD", "UMATHT", "HETVAL", "DFLUX", "FILM", "UHYPER", "UANISOHYPER_INV", "UHARD"),
+    *("UCREEPNETWORK", "UTRSNETWORK", "UVARM", "CREEP"),
 )
 """Routines of points, in the order of fortran/host/driver/driver.f90."""
 
@@ -97,12 +85,12 @@ def evaluate(
         residual.T,
         matrix,
     )
-    left = fault == Fault.LEFT
+    ended_by_user = fault == Fault.LEFT
     return Outcome(
         _FAULTS[fault],
         position - 1,
-        "" if left else ARRAYS[array - 1],
-        POINT_ROUTINES[array] if left else "",
+        "" if ended_by_user else ARRAYS[array - 1],
+        POINT_ROUTINES[array] if ended_by_user else "",
         item,
         flux.T,
         pnewdt,
@@ -143,15 +131,15 @@ def fill_stack(number: float | None) -> None:
 
 def exchange_around(argument: int, number: float) -> float:
     """Surround an argument (from 0) with a number in watched calls from now on; return the one before."""
-    held = np.array([number], dtype=np.float64)
-    host.host_exchange_around(argument, held)
-    return float(held[0])
+    value = np.array([number], dtype=np.float64)
+    host.host_exchange_around(argument, value)
+    return float(value[0])
 
 
 def take_outside() -> dict[int, int]:
     """Return the arguments (from 0) outside which something was written since the last call, with the entry, from 1."""
-    found, entries = host.host_take_outside()
-    return {k: int(entries[k]) for k in np.flatnonzero(found).tolist()}
+    written, entries = host.host_take_outside()
+    return {k: int(entries[k]) for k in np.flatnonzero(written).tolist()}
 
 
 def allocated() -> int:
@@ -216,16 +204,16 @@ def scatter_map(equations: Int32Array, indptr: Int32Array, indices: Int32Array) 
     equations (m, ndofel) from 0; the matrix has all their entries, columns ascending in each row.
     """
     m, n = equations.shape
-    places = np.zeros((m, n, n), dtype=np.int32)
+    positions = np.zeros((m, n, n), dtype=np.int32)
     if m:
-        host.host_scatter_map(equations.T, indptr, indices, places.T)
+        host.host_scatter_map(equations.T, indptr, indices, positions.T)
     # the driver walks matrices by columns, so that this is a view
-    return places.transpose(0, 2, 1)
+    return positions.transpose(0, 2, 1)
 
 
-def add_matrices(matrices: FloatArray, places: Int32Array, matrix: FloatArray) -> None:
+def add_matrices(matrices: FloatArray, positions: Int32Array, matrix: FloatArray) -> None:
     """Add matrices of elements, each by columns, to matrix (nnz,); places, from 1, has the same shape (m, n, n)."""
-    host.host_add_matrices(matrices.T, places.T, matrix)
+    host.host_add_matrices(matrices.T, positions.T, matrix)
 
 
 def external_database(
@@ -294,12 +282,14 @@ def address_of(elements: str) -> int:
 
 def take_messages() -> list[RawMessage]:
     """Return the messages of STDB_ABQERR since the last call, oldest first."""
-    found: list[RawMessage] = []
+    messages: list[RawMessage] = []
     while True:
         level, (element, step, increment), text = host.host_take_message()
         if not level:
-            return found
-        found.append(RawMessage(level, int(element), int(step), int(increment), text.decode(errors="replace").rstrip()))
+            return messages
+        messages.append(
+            RawMessage(level, int(element), int(step), int(increment), text.decode(errors="replace").rstrip())
+        )
 
 
 def open_job(name: str, directory: str, file6: str, file7: str, *, alone: bool) -> int:

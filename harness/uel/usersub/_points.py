@@ -23,7 +23,7 @@ def uvarm(
     names: tuple[str, str],
     axes: FloatArray,
     counts: tuple[int, int, int, int],
-    place: tuple[int, int],
+    step_increment: tuple[int, int],
     clock: tuple[float, float, float],
     arrays: BlockArrays,
     hidden: int,
@@ -42,12 +42,12 @@ def uvarm(
     count = arrays.svars.shape[1] - hidden
     svars = np.ascontiguousarray(arrays.svars[:, :count]).reshape(m, points, count // points)
     history = arrays.history if arrays.history.shape[1] == points else np.zeros((m, points, 1))
-    left, element, point = host.host_uvarm_pass(
+    ended, element, point = host.host_uvarm_pass(
         address,
         padded(names),
         axes.transpose(2, 3, 1, 0),
         (*counts, int(local)),
-        place,
+        step_increment,
         clock,
         arrays.labels,
         arrays.coords.T,
@@ -55,7 +55,7 @@ def uvarm(
         history.T,
         uvar.T,
     )
-    return (element, point) if left else (0, 0)
+    return (element, point) if ended else (0, 0)
 
 
 def sdvini(address: int, arrays: BlockArrays, statev: FloatArray, family: int) -> tuple[int, int]:
@@ -63,8 +63,8 @@ def sdvini(address: int, arrays: BlockArrays, statev: FloatArray, family: int) -
 
     statev (m, points, NSTATV), contiguous, is changed; family: its number for built-in elements, else 0.
     """
-    left, element, point = host.host_sdvini_pass(address, family, arrays.labels, arrays.coords.T, statev.T)
-    return (element, point) if left else (0, 0)
+    ended, element, point = host.host_sdvini_pass(address, family, arrays.labels, arrays.coords.T, statev.T)
+    return (element, point) if ended else (0, 0)
 
 
 def sigini(address: int, element_type: str, arrays: BlockArrays, sigma: FloatArray, family: int) -> tuple[int, int]:
@@ -74,8 +74,8 @@ def sigini(address: int, element_type: str, arrays: BlockArrays, sigma: FloatArr
     analysis, 0 if it did not.
     """
     of_points = arrays.labels, arrays.coords.T, sigma.T
-    left, element, point = host.host_sigini_pass(address, element_type, family, *of_points)
-    return (element, point) if left else (0, 0)
+    ended, element, point = host.host_sigini_pass(address, element_type, family, *of_points)
+    return (element, point) if ended else (0, 0)
 
 
 def orient(
@@ -88,34 +88,34 @@ def orient(
     """
     axes = np.zeros((len(nodes), points, 3, 3))
     of_points = arrays.labels, nodes.T, arrays.coords.T
-    left, element, point = host.host_orient_pass(address, name, family, *of_points, axes.T)
-    return (axes, element, point) if left else (axes, 0, 0)
+    ended, element, point = host.host_orient_pass(address, name, family, *of_points, axes.T)
+    return (axes, element, point) if ended else (axes, 0, 0)
 
 
-def user_values(address: int, asked: UserValues, values: FloatArray) -> int:
+def user_values(address: int, request: UserValues, values: FloatArray) -> int:
     """Call a routine for all nodes or points; return the number, from 1, of the call that ended the analysis, else 0.
 
     values (n,) are those of the deck, and become those of the routine.
     """
-    moment = (asked.step, asked.increment), (*asked.time, asked.size)
-    coords = np.ascontiguousarray(asked.coords)
-    temperatures = np.zeros((len(values), 2)) if asked.temperatures is None else asked.temperatures
-    routine = 1 + VALUE_ROUTINES.index(asked.routine)
-    left, last = host.host_value_pass(routine, address, *moment, asked.numbers.T, coords.T, temperatures.T, values)
-    return last if left else 0
+    moment = (request.step, request.increment), (*request.time, request.size)
+    coords = np.ascontiguousarray(request.coords)
+    temperatures = np.zeros((len(values), 2)) if request.temperatures is None else request.temperatures
+    routine = 1 + VALUE_ROUTINES.index(request.routine)
+    ended, last = host.host_value_pass(routine, address, *moment, request.numbers.T, coords.T, temperatures.T, values)
+    return last if ended else 0
 
 
-def user_amplitude(address: int, asked: AskedAmplitude) -> tuple[float, FloatArray, NDArray[np.int32], bool]:
+def user_amplitude(address: int, request: AskedAmplitude) -> tuple[float, FloatArray, NDArray[np.int32], bool]:
     """Call UAMP: the value (NaN where it sets none), the state, lFlagsDefine, and whether it ended the analysis."""
-    clock = (*asked.time, asked.size, asked.old)
-    info = (int(not asked.increment), int(asked.increment > 0), asked.cutbacks, asked.step, asked.increment)
-    counts = len(asked.properties), len(asked.state), len(asked.sensors)
+    clock = (*request.time, request.size, request.old)
+    info = (int(not request.increment), int(request.increment > 0), request.cutbacks, request.step, request.increment)
+    counts = len(request.properties), len(request.state), len(request.sensors)
     # an array has one entry more than UAMP is told, because none may be empty
-    properties, state = np.append(asked.properties, 0.0), np.append(asked.state, 0.0)
-    sensors = np.array([*asked.sensors.values(), 0.0]), padded((*asked.sensors, ""))
-    arguments = asked.name, clock, properties, state, info, *sensors, counts
-    value, define, left = host.host_uamp_call(address, *arguments, np.nan)
-    return float(value), state[: len(asked.state)], define, bool(left)
+    properties, state = np.append(request.properties, 0.0), np.append(request.state, 0.0)
+    sensors = np.array([*request.sensors.values(), 0.0]), padded((*request.sensors, ""))
+    arguments = request.name, clock, properties, state, info, *sensors, counts
+    value, define, ended = host.host_uamp_call(address, *arguments, np.nan)
+    return float(value), state[: len(request.state)], define, bool(ended)
 
 
 POINT_REALS: Final = 13

@@ -109,8 +109,8 @@ class BlockArrays:
     def of(self, rows: IntArray) -> BlockArrays:
         """Copy the arrays of some of the elements."""
         shared = ("jprops", "props")
-        own = {one.name: getattr(self, one.name)[rows] for one in fields(self) if one.name not in shared}
-        return replace(self, **own)
+        selected = {field.name: getattr(self, field.name)[rows] for field in fields(self) if field.name not in shared}
+        return replace(self, **selected)
 
 
 @dataclass(frozen=True, slots=True)

@@ -45,12 +45,12 @@ def set_guard_values(values: Mapping[str, float]) -> FloatArray:
     names = [*ARRAYS, UNSET]
     positions = {names.index(name): value for name, value in values.items()}
     # exchanging any value returns the present one
-    held = np.zeros(len(names))
-    _binding.exchange_guard_values(held)
-    chosen = held.copy()
+    before = np.zeros(len(names))
+    _binding.exchange_guard_values(before)
+    chosen = before.copy()
     chosen[list(positions)] = list(positions.values())
     _binding.exchange_guard_values(chosen)
-    return held
+    return before
 
 
 @contextmanager
@@ -81,8 +81,8 @@ def guard_values(values: Mapping[str, float]) -> Iterator[None]:
     values
         As in `set_guard_values`.
     """
-    held = set_guard_values(values)
+    before = set_guard_values(values)
     try:
         yield
     finally:
-        _binding.exchange_guard_values(held)
+        _binding.exchange_guard_values(before)

@@ -104,11 +104,11 @@ def without_user(name: str) -> str:
         return ""
     layout = element_layouts().get(int(number))
     if layout is None:
-        known = ", ".join(f"U{number}" for number in element_layouts())
-        return f"no --user was given: name the file that has {name}; this project itself has {known}"
+        types = ", ".join(f"U{number}" for number in element_layouts())
+        return f"no --user was given: name the file that has {name}; this project itself has {types}"
     where = "the plane" if layout.dimension == PLANE else "space"
-    own = f"{layout.meaning} ({layout.nodes} nodes in {where})"
-    return f"no --user was given, so {name} is that of this project: {own}; another {name} needs its file, by --user"
+    kind = f"{layout.meaning} ({layout.nodes} nodes in {where})"
+    return f"no --user was given, so {name} is that of this project: {kind}; another {name} needs its file, by --user"
 
 
 def read_layouts(text: str) -> dict[int, ElementLayout]:

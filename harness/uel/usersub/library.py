@@ -33,10 +33,10 @@ ENTRY_POINTS: Final = (
     *("DFLUX", "FILM", "UTEMP", "UHYPER", "UANISOHYPER_INV", "UMESHMOTION", "VUEL", "VUMAT", "VDLOAD", "VUSDFLD"),
     *("VEXTERNALDB", "UCREEPNETWORK", "UTRSNETWORK"),
 )
-"""Names by which Abaqus calls user routines; looked up in a user's file to say what it contains."""
+"""User routines of Abaqus, looked up in a user's file."""
 
 _STOP_ANALYSIS, _CONCLUDE_STEP = 4, 5
-"""Places in lFlagsDefine of UAMP."""
+"""Indices in lFlagsDefine of UAMP."""
 
 
 class Library:
@@ -58,65 +58,34 @@ class Library:
         self._inbox = inbox
         addresses = {entry: _address(handle, entry) for entry in ENTRY_POINTS}
         self.entry_points = tuple(entry for entry, address in addresses.items() if address)
-        self.uel = addresses["UEL"]
-        self.uelmat = addresses["UELMAT"]
-        self.uexternaldb = addresses["UEXTERNALDB"]
-        self.umat = addresses["UMAT"]
-        self.umatht = addresses["UMATHT"]
-        self.uhyper = addresses["UHYPER"]
-        self.uanisohyper_inv = addresses["UANISOHYPER_INV"]
-        self.uhard = addresses["UHARD"]
-        self.ucreepnetwork = addresses["UCREEPNETWORK"]
-        self.utrsnetwork = addresses["UTRSNETWORK"]
-        self.creep = addresses["CREEP"]
-        self.hetval = addresses["HETVAL"]
-        self.uvarm = addresses["UVARM"]
-        self.sdvini = addresses["SDVINI"]
-        self.sigini = addresses["SIGINI"]
-        self.orient = addresses["ORIENT"]
-        self.disp = addresses["DISP"]
-        self.dload = addresses["DLOAD"]
-        self.dflux = addresses["DFLUX"]
-        self.film = addresses["FILM"]
-        self.utemp = addresses["UTEMP"]
-        self.ufield = addresses["UFIELD"]
-        self.uamp = addresses["UAMP"]
-        self.usdfld = addresses["USDFLD"]
+        of = addresses.__getitem__
+        self.uel, self.uelmat, self.uexternaldb = map(of, ("UEL", "UELMAT", "UEXTERNALDB"))
+        self.umat, self.umatht, self.uhard, self.creep = map(of, ("UMAT", "UMATHT", "UHARD", "CREEP"))
+        self.uhyper, self.uanisohyper_inv = map(of, ("UHYPER", "UANISOHYPER_INV"))
+        self.ucreepnetwork, self.utrsnetwork = map(of, ("UCREEPNETWORK", "UTRSNETWORK"))
+        self.hetval, self.uvarm, self.usdfld = map(of, ("HETVAL", "UVARM", "USDFLD"))
+        self.sdvini, self.sigini, self.orient = map(of, ("SDVINI", "SIGINI", "ORIENT"))
+        self.disp, self.dload, self.dflux, self.film = map(of, ("DISP", "DLOAD", "DFLUX", "FILM"))
+        self.utemp, self.ufield, self.uamp = map(of, ("UTEMP", "UFIELD", "UAMP"))
 
     def variables(self, jtype: int) -> PointVariables | None:
-        """Return the meaning of the SVARS of an element type.
-
-        Parameters
-        ----------
-        jtype
-            JTYPE: n of type Un.
-
-        Returns
-        -------
-        PointVariables | None
-            None if the library does not contain the project's elements, or if these have no such type.
-        """
+        """Return the meaning of the SVARS of an element type, None if it is none of the project."""
         return layout.variables(jtype) if self.is_own else None
 
     def is_continuum(self, jtype: int, integers: IntArray) -> bool:
-        """Report whether elements are continuum elements of the project whose stress no other element reads.
+        """Return whether elements are continuum elements of the project whose stress no other element reads.
 
-        Parameters
-        ----------
-        jtype
-            JTYPE: n of type Un.
-        integers
-            JPROPS.
+        integers: JPROPS.
         """
         return self.is_own and layout.is_continuum(jtype, integers)
 
     @property
     def is_own(self) -> bool:
-        """True if it has the elements of the project."""
+        """Whether the library has the elements of the project."""
         return hasattr(self._handle, layout.MARKER)
 
     def shares_stress(self, jtype: int, integers: IntArray) -> bool:
-        """Report whether elements of the project store stress for others, or take it; arguments of `is_continuum`."""
+        """Return whether elements of the project store stress for others, or read it; integers: JPROPS."""
         return self.is_own and layout.shares_stress(jtype, integers)
 
     def external_database(
@@ -149,66 +118,41 @@ class Library:
 
     @property
     def contents(self) -> str:
-        """Names of its user routines, or that it has none, for messages."""
+        """Names of its user routines, for messages."""
         if self.entry_points:
             return ", ".join(self.entry_points)
         if any(self.name.lower().endswith(suffix) for suffix in (*C.suffixes, *CPP.suffixes)):
             return 'no user routine (in C its name is uel_ or FOR_NAME(uel), in C++ it is extern "C" as well)'
         return "no user routine"
 
-    def user_values(self, asked: UserValues) -> FloatArray:
-        """Return the values that DISP, DLOAD, UTEMP or UFIELD makes of those of the deck.
+    def user_values(self, request: UserValues) -> FloatArray:
+        """Call DISP, DLOAD, UTEMP or UFIELD, which the job must have, once for each node or point.
 
-        Parameters
-        ----------
-        asked
-            Routine, and the nodes or points for each of which it is called once. The job must have the routine.
-
-        Returns
-        -------
-        FloatArray
-            (n,) in the order of the calls; the value of the deck where the routine does not set one.
-
-        Raises
-        ------
-        UelError
-            The routine ends the analysis, or does not return within the limit of a call.
+        Returns the values (n,), those of the deck where the routine sets none. Raises UelError if the routine ends the
+        analysis, or does not return within the limit of a call.
         """
         routines = {"DISP": self.disp, "DLOAD": self.dload, "UTEMP": self.utemp, "UFIELD": self.ufield}
-        address = routines[asked.routine]
+        address = routines[request.routine]
         assert address is not None
-        made = np.array(asked.values)
-        failed = _points.user_values(address, asked, made)
+        made = np.array(request.values)
+        failed = _points.user_values(address, request, made)
         if failed:
-            first, second = asked.numbers[failed - 1, :2].tolist()
-            location = f"element {first}" if asked.routine == "DLOAD" else f"node {first}"
-            location += f", dof {second}" if asked.routine == "DISP" else ""
-            raise UelError(f"{self.name}: {asked.routine} {self.stop_reason()} ({location}, step {asked.step})")
+            first, second = request.numbers[failed - 1, :2].tolist()
+            location = f"element {first}" if request.routine == "DLOAD" else f"node {first}"
+            location += f", dof {second}" if request.routine == "DISP" else ""
+            raise UelError(f"{self.name}: {request.routine} {self.stop_reason()} ({location}, step {request.step})")
         return made
 
-    def user_amplitude(self, asked: AskedAmplitude) -> GivenAmplitude:
-        """Call UAMP.
+    def user_amplitude(self, request: AskedAmplitude) -> GivenAmplitude:
+        """Call UAMP, which the job must have.
 
-        Parameters
-        ----------
-        asked
-            Arguments of the call, which it does not change. The job must have UAMP.
-
-        Returns
-        -------
-        GivenAmplitude
-            The value, the state variables after the call, and lFlagsDefine(6), which ends the step.
-
-        Raises
-        ------
-        UelError
-            UAMP ends the analysis, also by lFlagsDefine(5), does not return within the limit of a call, or does not
-            give a finite number.
+        Returns the value, the state variables after the call, and lFlagsDefine(6), which ends the step. Raises UelError
+        if UAMP ends the analysis, also by lFlagsDefine(5), does not return in time, or sets no finite number.
         """
         assert self.uamp is not None
-        value, state, define, left = _points.user_amplitude(self.uamp, asked)
-        location = f"amplitude {asked.name}, step {asked.step}, increment {asked.increment}"
-        if left:
+        value, state, define, ended = _points.user_amplitude(self.uamp, request)
+        location = f"amplitude {request.name}, step {request.step}, increment {request.increment}"
+        if ended:
             raise UelError(f"{self.name}: UAMP {self.stop_reason()} ({location})")
         if define[_STOP_ANALYSIS]:
             raise UelError(f"{self.name}: UAMP stopped the analysis by lFlagsDefine(5) ({location})")
@@ -219,13 +163,13 @@ class Library:
     def stop_reason(self) -> str:
         """Return the reason why a user routine ended the analysis, as the end of a sentence."""
         if text := self._inbox.last_error():
-            return f"stopped the analysis: {self._with_place(text)}"
+            return f"stopped the analysis: {self._with_location(text)}"
         if lines := self._inbox.last_lines():
             return f"stopped the analysis (XIT); last printed: {' / '.join(lines)}"
         return "stopped the analysis (XIT) without a message"
 
-    def _with_place(self, text: str) -> str:
-        """Add file and line, and the routine if it is another one, to a text about a signal: 'in UEL: what it was'."""
+    def _with_location(self, text: str) -> str:
+        """Add file and line, and the routine if it differs, to the message of a signal, 'in UEL: ...'."""
         line = innermost(_binding.take_frames(), self._handle._name, self.file)
         head, colon, tail = text.partition(": ")
         if line is None or not colon:
@@ -258,12 +202,12 @@ def load(
     debug: bool = False,
     rank: int = 0,
 ) -> Library:
-    """Load user routines: files in Fortran, C or C++ (compiled, or taken from the cache) or a shared library.
+    """Load user routines: files in Fortran, C or C++ (compiled, or from the cache) or a shared library.
 
     Parameters
     ----------
     user
-        The files in the order of compilation, or one .so; None, or no file, takes the project's own kernels.
+        The files in the order of compilation, or one .so; None, or no file: the kernels of the project.
     job
         Name of the job, for GETJOBNAME and for the files of units 6 and 7, JOB.unit6 and JOB.unit7.
     output_dir
@@ -277,7 +221,7 @@ def load(
         Compile with run-time checks, which end a call with file and line, and, unless `zero_locals`, with NaN or other
         conspicuous values in uninitialised variables; with AddressSanitizer, if its runtime is in this process.
     rank
-        Number of this process among those that run the job, from 0: each has files of units 6 and 7 of its own.
+        Rank of this process in the job: each rank has its own files of units 6 and 7.
 
     Returns
     -------
@@ -304,9 +248,9 @@ def load(
 
 
 def compile_ahead(user: Sequence[Path], *, deck: Path, zero_locals: bool = False, debug: bool = False) -> str:
-    """Compile files for the jobs that follow, which find them in the cache; arguments and CompileError as in `load`.
+    """Compile files into the cache, for later jobs; arguments and CompileError as in `load`.
 
-    Returns a digest of all that the user's files consist of, the same on any machine; '' without files.
+    Returns a digest of the user's files, the same on any machine; '' without files.
     """
     if not user:
         return ""
@@ -317,7 +261,7 @@ def compile_ahead(user: Sequence[Path], *, deck: Path, zero_locals: bool = False
 
 
 def _include(deck: Path | None) -> tuple[Path, ...]:
-    """Return the folders in which INCLUDE lines are looked up after those of the sources."""
+    """Return the folders of INCLUDE lines besides those of the sources."""
     return () if deck is None else (deck.resolve().parent,)
 
 
@@ -334,7 +278,7 @@ def _shared_library(files: Sequence[Path], include: Sequence[Path], **how: bool)
 
 
 def _is_shared(files: Sequence[Path]) -> bool:
-    """Report whether the files are a shared library; raises CompileError if they are neither that nor sources."""
+    """Return whether the files are a shared library. Raises CompileError if they are neither that nor sources."""
     for file in files:
         if not file.is_file():
             raise CompileError(file, "not a file" if file.exists() else "no such file")
@@ -348,7 +292,7 @@ def _is_shared(files: Sequence[Path]) -> bool:
 
 
 def _open(shared: Path, name: str) -> ctypes.CDLL:
-    """Load a copy, so that data of modules and COMMON blocks start afresh in every job of this process."""
+    """Load a copy, so that data of modules and COMMON blocks are new in every job of this process."""
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder) / shared.name
         shutil.copyfile(shared, copy)

@@ -55,8 +55,8 @@ class Inbox:
 
     def __init__(self, job: str, directory: Path, rank: int = 0) -> None:
         directory.mkdir(parents=True, exist_ok=True)
-        own = f".{rank}" if rank else ""
-        self._files = {".dat": directory / f"{job}.unit6{own}", ".msg": directory / f"{job}.unit7{own}"}
+        suffix = f".{rank}" if rank else ""
+        self._files = {".dat": directory / f"{job}.unit6{suffix}", ".msg": directory / f"{job}.unit7{suffix}"}
         self._read = dict.fromkeys(self._files, 0)
         self._sent: list[Message] = []
         folder = str(directory.resolve())
@@ -115,15 +115,15 @@ class Inbox:
             self.warn(f"{_LOCKED}: the last text printed there is lost")
         for file, path in self._files.items():
             try:
-                left = path.stat().st_size - self._read[file]
+                unread = path.stat().st_size - self._read[file]
             except FileNotFoundError:
                 continue
-            if left <= 0:
+            if unread <= 0:
                 continue
             with path.open("rb") as stream:
                 stream.seek(self._read[file])
-                text = stream.read(min(left, MOST))
-            if left > MOST:
+                text = stream.read(min(unread, MOST))
+            if unread > MOST:
                 self.warn(f"more was printed than is read at once: what is left at the end stays in {path.name}")
             self._read[file] += len(text)
             self._sent.append(Message(file, "print", text.decode(errors="replace")))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A number passed where a routine expects an array: the routine then reads something else after it."""
+"""Numbers passed to array arguments, beyond which the routine reads other data."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import Final
 
-from uel.usersub.compilation.compatibility import LONGEST, Repair
+from uel.usersub.compilation.compatibility import LONGEST, Repair, edit_line
 from uel.usersub.compilation.diagnostics import warnings_of
 
 HINT: Final = "the routine also reads the memory after it, which holds something else: pass an array"
@@ -22,10 +22,10 @@ _ZERO: Final = r"[-+]?(?:0+\.?0*|\.0+)(?:[de][-+]?\d+)?"
 _ZERO_ARGUMENT: Final = re.compile(rf"(?P<before>[\s(,]*)(?P<value>{_ZERO}|[a-z]\w*)(?=\s*[,)])", re.IGNORECASE)
 
 _ENOUGH: Final = 100
-"""Zeros instead of one: more than the coordinates of a point, for which codes pass it."""
+"""Zeros in place of one: more than the coordinates of a point, for which codes pass it."""
 
 
-def array_wanted(message: str) -> str | None:
+def array_argument(message: str) -> str | None:
     """Return the name of the array argument for which, by gfortran's message, a single value is passed."""
     match = _RANK.search(message)
     return match and match[1]
@@ -42,12 +42,12 @@ def is_constant(text: str, line: int, column: int) -> bool:
 
 
 def constants_for_arrays(output: str, texts: Mapping[str, str]) -> Iterator[str]:
-    """Yield sentences on what gfortran's output says about constants; texts of the files by bare name.
+    """Yield messages on constants passed to arrays, from gfortran's output; texts: the files by bare name.
 
-    The memory after a variable may be what is meant; after a constant come other constants. Zeros are mended.
+    The memory after a variable may be intended; after a constant there are other constants. Zeros are repaired.
     """
     for file, line, column, message, _ in warnings_of(output):
-        argument, text = array_wanted(message), texts.get(file, "")
+        argument, text = array_argument(message), texts.get(file, "")
         if argument and is_constant(text, line, column) and pass_zeros(text, line, column) is None:
             source = " ".join(text.splitlines()[line - 1].split())
             yield (
@@ -59,27 +59,26 @@ def constants_for_arrays(output: str, texts: Mapping[str, str]) -> Iterator[str]
 def zeros_for_arrays(output: str) -> Iterator[Repair]:
     """Yield repairs that pass zeros where the constant zero is passed for an array.
 
-    Routines that take a point, such as the centre of an element, get its first coordinate so. What follows the constant
-    in Abaqus is not known, but zero everywhere is what is meant.
+    Routines that take a point, such as the centre of an element, are called so. The memory after the constant in Abaqus
+    is unknown, but zeros are intended.
     """
     for file, line, column, message, _ in warnings_of(output):
-        if argument := array_wanted(message):
+        if argument := array_argument(message):
             note = f"zero is passed for the argument '{argument}', which is an array; the copy passes an array of zeros"
             yield Repair(file, line, partial(pass_zeros, line=line, column=column), note)
 
 
 def pass_zeros(text: str, line: int, column: int) -> str | None:
     """Replace the constant zero at a column, or after it, by an array of zeros; None if the argument is none."""
-    lines = text.splitlines(keepends=True)
-    row = lines[line - 1] if 1 <= line <= len(lines) else ""
-    match = _ZERO_ARGUMENT.match(row, column - 1)
-    if match is None or not _is_zero(match["value"], text):
-        return None
-    changed = f"{row[: match.start('value')]}spread({match['value']},1,{_ENOUGH}){row[match.end() :]}"
-    if len(changed.rstrip()) > LONGEST:
-        return None
-    lines[line - 1] = changed
-    return "".join(lines)
+
+    def change(row: str) -> str | None:
+        match = _ZERO_ARGUMENT.match(row, column - 1)
+        if match is None or not _is_zero(match["value"], text):
+            return None
+        changed = f"{row[: match.start('value')]}spread({match['value']},1,{_ENOUGH}){row[match.end() :]}"
+        return changed if len(changed.rstrip()) <= LONGEST else None
+
+    return edit_line(text, line, change)
 
 
 def _is_zero(value: str, text: str) -> bool:

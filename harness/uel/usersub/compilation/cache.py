@@ -78,7 +78,7 @@ def find(name: str, folders: Sequence[Path]) -> Built | None:
                 continue
             entry, library = json.loads(text), file.with_suffix(".so")
             if entry["modules"] == modules and _digest(library) == entry["library"] and _as_read(entry, folders):
-                return Built(library, tuple(map(str, entry["notes"])), _digest_of_own(entry))
+                return Built(library, tuple(map(str, entry["notes"])), _digest_of_user_files(entry))
         except (OSError, ValueError, LookupError, TypeError):
             # damaged, or from another version
             continue
@@ -94,7 +94,7 @@ def keep(name: str, library: Path, notes: Sequence[str], read: Iterable[Path], f
         "library": _digest(library),
         "modules": _modules(folders),
         "notes": list(notes),
-        "read": sorted(set(_places(read, folders))),
+        "read": sorted(set(_hashed(read, folders))),
     }
     text = json.dumps(entry, indent=1)
     stem = _stem(name, text.encode())
@@ -107,21 +107,21 @@ def keep(name: str, library: Path, notes: Sequence[str], read: Iterable[Path], f
                 partial.replace(cache / f"{stem}.so")
                 partial.write_text(text, encoding="utf-8")
                 partial.replace(cache / f"{stem}.json")
-            return Built(cache / f"{stem}.so", tuple(notes), _digest_of_own(entry))
+            return Built(cache / f"{stem}.so", tuple(notes), _digest_of_user_files(entry))
         except OSError:
             pass
-    return keep_for_now(name, library, notes, _digest_of_own(entry))
+    return keep_for_now(name, library, notes, _digest_of_user_files(entry))
 
 
-def _digest_of_own(entry: dict[str, Any]) -> str:
+def _digest_of_user_files(entry: dict[str, Any]) -> str:
     """Return the digest of the files of an entry that are in the search folders, and of the modules there."""
     # one may be in several of them, by other names
-    own = {
+    user_files = {
         (Path(name).name, digest)
         for folder_number, name, digest in entry["read"]
         if digest and folder_number != _ABSOLUTE
     }
-    return hashlib.sha256(json.dumps([entry["modules"], sorted(own)]).encode()).hexdigest()
+    return hashlib.sha256(json.dumps([entry["modules"], sorted(user_files)]).encode()).hexdigest()
 
 
 def _stem(name: str, text: bytes) -> str:
@@ -147,7 +147,7 @@ def dependencies(text: str) -> list[str]:
     return [_ESCAPED.sub(r"\1\2", name) for name in _BETWEEN.split(names.strip()) if name]
 
 
-def _places(read: Iterable[Path], folders: Sequence[Path]) -> Iterator[tuple[int, str, str]]:
+def _hashed(read: Iterable[Path], folders: Sequence[Path]) -> Iterator[tuple[int, str, str]]:
     """Return search folder by number, name in it, and hash of each file; '' for files that would have come first."""
     for file in read:
         within = [(k, str(file.relative_to(folder))) for k, folder in enumerate(folders) if file.is_relative_to(folder)]

@@ -71,63 +71,32 @@ class Repair:
 
 def repairs(errors: str) -> Iterator[Repair]:
     """Yield repairs of what gfortran refuses in a file, from its messages."""
-    for match in _COMPARED_LOGICALS.finditer(errors):
-        line, operator = int(match["line"]), match["operator"]
-        change = partial(compare_logicals, line=line, column=int(match["column"]), operator=operator)
-        note = f"logicals compared with {operator}; the copy has .eqv. or .neqv."
-        yield Repair(Path(match["file"]).name, line, change, note)
-    for match in _IMPORTED_TWICE.finditer(errors):
-        line, name, module = int(match["line"]), match["name"], match["module"]
-        change = partial(rename_import, line=line, module=module, name=name)
-        note = f"{name} of module {module} has the name of the program unit that uses it; the copy renames it"
-        yield Repair(Path(match["file"]).name, line, change, note)
-    for match in _REAL_BOUND.finditer(errors):
-        line = int(match["line"])
-        change = partial(whole_bound, line=line)
-        yield Repair(
-            Path(match["file"]).name, line, change, "a real number as an array bound; the copy has int() of it"
-        )
-    for match in _OWN_RESULT.finditer(errors):
-        line, name = int(match["line"]), match["name"]
-        note = f"the function {name} calls itself and has no RESULT; the copy has one"
-        yield Repair(Path(match["file"]).name, line, partial(name_result, line=line, name=name), note)
-    for match in _UNTYPED.finditer(errors):
-        line = int(match["line"])
-        yield Repair(Path(match["file"]).name, line, partial(type_constants, line=line), TYPED)
-    for match in _MIXED_SIGN.finditer(errors):
-        line = int(match["line"])
-        change = partial(sign_of_one_kind, line=line, column=int(match["column"]))
-        yield Repair(Path(match["file"]).name, line, change, "SIGN of two kinds of numbers; the copy has one kind")
-    for match in _CAPITAL_DIRECTIVE.finditer(errors):
-        line, name = int(match["line"]), match["name"]
-        note = f"#{name} in capitals; the copy has #{name.lower()}"
-        yield Repair(Path(match["file"]).name, line, partial(lower_directive, line=line, name=name), note)
-    for match in _SINGLE_QUOTES.finditer(errors):
-        line = int(match["line"])
-        note = "#include with single quotes; the copy has double ones"
-        yield Repair(Path(match["file"]).name, line, partial(double_quotes, line=line), note)
+    for pattern, change, note in _REPAIRS:
+        for match in pattern.finditer(errors):
+            groups = match.groupdict()
+            lower = groups.get("name", "").lower()
+            apply = partial(change, match)
+            yield Repair(Path(match["file"]).name, int(match["line"]), apply, note.format(**groups, lower=lower))
+
+
+def edit_line(text: str, line: int, change: Callable[[str], str | None]) -> str | None:
+    """Return the text with a changed line (from 1); None without this line, or without a change of it."""
+    lines = text.splitlines(keepends=True)
+    changed = change(lines[line - 1]) if 1 <= line <= len(lines) else None
+    if changed is None or changed == lines[line - 1]:
+        return None
+    lines[line - 1] = changed
+    return "".join(lines)
 
 
 def double_quotes(text: str, line: int) -> str | None:
     """Put double quotes around the file of an #include; None without single ones in the line."""
-    lines = text.splitlines(keepends=True)
-    row = lines[line - 1] if 1 <= line <= len(lines) else ""
-    changed = re.sub(r"^(\s*#\s*include\s*)'([^'\"]+)'", r'\1"\2"', row)
-    if changed == row:
-        return None
-    lines[line - 1] = changed
-    return "".join(lines)
+    return edit_line(text, line, partial(re.sub, r"^(\s*#\s*include\s*)'([^'\"]+)'", r'\1"\2"'))
 
 
 def lower_directive(text: str, line: int, name: str) -> str | None:
-    """Write the preprocessor's directive of this name in small letters; None without it in the line."""
-    lines = text.splitlines(keepends=True)
-    row = lines[line - 1] if 1 <= line <= len(lines) else ""
-    changed = re.sub(rf"^(\s*#\s*){name}\b", lambda match: match[1] + name.lower(), row)
-    if changed == row:
-        return None
-    lines[line - 1] = changed
-    return "".join(lines)
+    """Write a preprocessor directive in lower case; None without it in the line."""
+    return edit_line(text, line, partial(re.sub, rf"^(\s*#\s*){name}\b", lambda match: match[1] + name.lower()))
 
 
 def sign_of_one_kind(text: str, line: int, column: int) -> str | None:
@@ -135,18 +104,19 @@ def sign_of_one_kind(text: str, line: int, column: int) -> str | None:
 
     None if the call is not on one line. Only the sign of the second argument matters.
     """
-    lines = text.splitlines(keepends=True)
-    row = lines[line - 1] if 1 <= line <= len(lines) else ""
-    for call in reversed(list(_SIGN.finditer(row, 0, column))):
-        end = _unmatched(row, range(call.end(), len(row)), ")", "(")
-        if end is None or end < column - 1:
-            continue
-        comma = next((k for k in range(call.end(), end) if row[k] == "," and _balanced(row[call.end() : k])), None)
-        if comma is None:
-            return None
-        lines[line - 1] = f"{row[: comma + 1]}real({row[comma + 1 : end]}, kind({row[call.end() : comma]})){row[end:]}"
-        return "".join(lines)
-    return None
+
+    def change(row: str) -> str | None:
+        for call in reversed(list(_SIGN.finditer(row, 0, column))):
+            end = _unmatched(row, range(call.end(), len(row)), ")", "(")
+            if end is None or end < column - 1:
+                continue
+            commas = (k for k in range(call.end(), end) if row[k] == "," and _balanced(row[call.end() : k]))
+            if (comma := next(commas, None)) is None:
+                return None
+            return f"{row[: comma + 1]}real({row[comma + 1 : end]}, kind({row[call.end() : comma]})){row[end:]}"
+        return None
+
+    return edit_line(text, line, change)
 
 
 def _balanced(text: str) -> bool:
@@ -172,25 +142,20 @@ def name_result(text: str, line: int, name: str) -> str | None:
     return None
 
 
-def whole_bound(text: str, line: int) -> str | None:
+def integer_bound(text: str, line: int) -> str | None:
     """Convert array bounds of a declaration, which may be real, to integers; None without one."""
-    lines = text.splitlines(keepends=True)
-    if not 1 <= line <= len(lines):
-        return None
-    row, end = lines[line - 1], 0
-    pieces: list[str] = []
-    for match in _DECLARED.finditer(row):
-        last = _unmatched(row, range(match.end() + 1, len(row)), ")", "(")
-        if match.end() < end or last is None:
-            continue
-        bounds = row[match.end() + 1 : last]
-        pieces += [row[end : match.end() + 1], *map(_whole, _bounds(bounds))]
-        end = last
-    changed = "".join(pieces) + row[end:]
-    if changed == row:
-        return None
-    lines[line - 1] = changed
-    return "".join(lines)
+
+    def change(row: str) -> str:
+        converted, end = "", 0
+        for match in _DECLARED.finditer(row):
+            last = _unmatched(row, range(match.end() + 1, len(row)), ")", "(")
+            if match.end() < end or last is None:
+                continue
+            converted += row[end : match.end() + 1] + "".join(map(_integer, _bounds(row[match.end() + 1 : last])))
+            end = last
+        return converted + row[end:]
+
+    return edit_line(text, line, change)
 
 
 def _bounds(text: str) -> Iterator[str]:
@@ -203,7 +168,7 @@ def _bounds(text: str) -> Iterator[str]:
     yield text[start:]
 
 
-def _whole(bound: str) -> str:
+def _integer(bound: str) -> str:
     """Put int() around a bound that names or numbers may make real, unless it has one."""
     bare = bound.strip()
     real = _NAME.search(bare) or _REAL_NUMBER.search(bare)
@@ -221,9 +186,9 @@ def hidden_types(text: str, file: str) -> Iterator[Repair]:
     """
     for line, row in enumerate(text.splitlines(), 1):
         for name, kind, _ in _bare_constants(row) or ():
-            whole = name[0].lower() in "ijklmn"
+            implicit_integer = name[0].lower() in "ijklmn"
             declared = rf"^(?!\s*[c*!])[^!\n]*\b(?:real|double\s*precision|integer)\b[^!\n]*\b{name}\b"
-            if whole != (kind == "integer") and not re.search(declared, text, re.IGNORECASE | re.MULTILINE):
+            if implicit_integer != (kind == "integer") and not re.search(declared, text, re.IGNORECASE | re.MULTILINE):
                 yield Repair(file, line, partial(type_constants, line=line), TYPED)
                 break
 
@@ -233,21 +198,20 @@ def type_constants(text: str, line: int) -> str | None:
 
     None if it is not one line of plain constants.
     """
-    lines = text.splitlines(keepends=True)
-    row = lines[line - 1].rstrip("\r\n") if 1 <= line <= len(lines) else ""
-    constants = _bare_constants(row)
-    if not constants or _continued(lines, line):
+    if _continued(text.splitlines(), line):
         return None
-    kinds: dict[str, list[str]] = {}
-    for name, kind, _ in constants:
-        kinds.setdefault(kind, []).append(name)
-    typed = "; ".join(f"{kind} {', '.join(names)}" for kind, names in kinds.items())
-    values = ", ".join(f"{name}={value}" for name, _, value in constants)
-    changed = f"{row[: len(row) - len(row.lstrip())]}{typed}; parameter ({values})"
-    if len(changed) > LONGEST:
-        return None
-    lines[line - 1] = f"{changed}\n"
-    return "".join(lines)
+
+    def change(row: str) -> str | None:
+        constants = _bare_constants(row.rstrip("\r\n"))
+        kinds: dict[str, list[str]] = {}
+        for name, kind, _ in constants or ():
+            kinds.setdefault(kind, []).append(name)
+        typed = "; ".join(f"{kind} {', '.join(names)}" for kind, names in kinds.items())
+        values = ", ".join(f"{name}={value}" for name, _, value in constants or ())
+        changed = f"{row[: len(row) - len(row.lstrip())]}{typed}; parameter ({values})"
+        return f"{changed}\n" if constants and len(changed) <= LONGEST else None
+
+    return edit_line(text, line, change)
 
 
 def _bare_constants(row: str) -> list[tuple[str, str, str]] | None:
@@ -272,32 +236,30 @@ def _continued(lines: list[str], line: int) -> bool:
 
 
 def rename_import(text: str, line: int, module: str, name: str) -> str | None:
-    """Rename what has this name in a plain `use module`, so that the unit keeps its own; None without such a line."""
-    lines = text.splitlines(keepends=True)
-    row = lines[line - 1].rstrip() if 1 <= line <= len(lines) else ""
-    if re.fullmatch(rf"\s*use\s+{module}", row, re.IGNORECASE) is None:
-        return None
-    lines[line - 1] = f"{row}, of_{module} => {name}\n"
-    return "".join(lines)
+    """Rename an entity in a plain `use module`, so that the program unit keeps its name; None without such a line."""
+
+    def change(row: str) -> str | None:
+        plain = re.fullmatch(rf"\s*use\s+{module}", row.rstrip(), re.IGNORECASE)
+        return f"{row.rstrip()}, of_{module} => {name}\n" if plain else None
+
+    return edit_line(text, line, change)
 
 
 def compare_logicals(text: str, line: int, column: int, operator: str) -> str | None:
     """Write one comparison of logicals as .eqv. or .neqv.; None if that could change its meaning.
 
     line and column are those of the first operand, from 1. `.eqv.` binds less than `.and.`, `.eq.` more: the comparison
-    has to stand alone between its parentheses.
+    has to be alone between its parentheses.
     """
-    lines = text.splitlines(keepends=True)
-    if not 1 <= line <= len(lines):
-        return None
-    row = lines[line - 1]
-    pattern = "|".join(re.escape(spelling) for spelling in _SPELLINGS[operator.lower()])
-    match = re.compile(pattern, re.IGNORECASE).search(row, column - 1)
-    if match is None or _WEAKER.search(_alone(row, match.start(), match.end()) or ".and."):
-        return None
-    standard = _STANDARD[match[0].lower()]
-    lines[line - 1] = f"{row[: match.start()]} {standard} {row[match.end() :].lstrip(' ')}"
-    return "".join(lines)
+
+    def change(row: str) -> str | None:
+        pattern = "|".join(re.escape(spelling) for spelling in _SPELLINGS[operator.lower()])
+        match = re.compile(pattern, re.IGNORECASE).search(row, column - 1)
+        if match is None or _WEAKER.search(_alone(row, match.start(), match.end()) or ".and."):
+            return None
+        return f"{row[: match.start()]} {_STANDARD[match[0].lower()]} {row[match.end() :].lstrip(' ')}"
+
+    return edit_line(text, line, change)
 
 
 def _alone(row: str, start: int, end: int) -> str | None:
@@ -307,10 +269,51 @@ def _alone(row: str, start: int, end: int) -> str | None:
     return None if first is None or last is None else row[first + 1 : last]
 
 
-def _unmatched(row: str, columns: range, wanted: str, other: str) -> int | None:
+def _unmatched(row: str, columns: range, bracket: str, other: str) -> int | None:
     depth = 0
     for column in columns:
-        depth += (row[column] == other) - (row[column] == wanted)
+        depth += (row[column] == other) - (row[column] == bracket)
         if depth < 0:
             return column
     return None
+
+
+_REPAIRS: Final[tuple[tuple[re.Pattern[str], Callable[[re.Match[str], str], str | None], str], ...]] = (
+    (
+        _COMPARED_LOGICALS,
+        lambda m, text: compare_logicals(text, int(m["line"]), int(m["column"]), m["operator"]),
+        "logicals compared with {operator}; the copy has .eqv. or .neqv.",
+    ),
+    (
+        _IMPORTED_TWICE,
+        lambda m, text: rename_import(text, int(m["line"]), m["module"], m["name"]),
+        "{name} of module {module} has the name of the program unit that uses it; the copy renames it",
+    ),
+    (
+        _REAL_BOUND,
+        lambda m, text: integer_bound(text, int(m["line"])),
+        "a real number as an array bound; the copy has int() of it",
+    ),
+    (
+        _OWN_RESULT,
+        lambda m, text: name_result(text, int(m["line"]), m["name"]),
+        "the function {name} calls itself and has no RESULT; the copy has one",
+    ),
+    (_UNTYPED, lambda m, text: type_constants(text, int(m["line"])), TYPED),
+    (
+        _MIXED_SIGN,
+        lambda m, text: sign_of_one_kind(text, int(m["line"]), int(m["column"])),
+        "SIGN of two kinds of numbers; the copy has one kind",
+    ),
+    (
+        _CAPITAL_DIRECTIVE,
+        lambda m, text: lower_directive(text, int(m["line"]), m["name"]),
+        "#{name} in capitals; the copy has #{lower}",
+    ),
+    (
+        _SINGLE_QUOTES,
+        lambda m, text: double_quotes(text, int(m["line"])),
+        "#include with single quotes; the copy has double ones",
+    ),
+)
+"""Errors of gfortran, the changes of the text that avoid them, and notes on these."""

@@ -42,7 +42,7 @@ _SEARCH_VARIABLES: Final = (
 )
 """Environment variables that change where compilers look for files."""
 _INCLUDE = re.compile(r"^\s*#?\s*include\s*['\"<]([^'\">]+)['\">]", re.IGNORECASE | re.MULTILINE)
-_WHOLE: Final = re.compile(r"assumed[- ]size array '(\w+)'", re.IGNORECASE)
+_ASSUMED_SIZE: Final = re.compile(r"assumed[- ]size array '(\w+)'", re.IGNORECASE)
 _EXTENSION: Final = "an extension of Abaqus' compiler, written in standard Fortran in a copy"
 
 Flags = Mapping[Language, tuple[str, ...]]
@@ -83,8 +83,8 @@ def build(
         if any(file.stat().st_mtime > began for file in read):
             # nobody knows which version of a file the compiler saw if it was changed meanwhile
             return cache.keep_for_now(name, library, notes)
-        known = {file.resolve() for paths in sources.values() for file in paths}
-        return cache.keep(name, library, notes, [file for file in read if file.resolve() not in known], folders)
+        source_files = {file.resolve() for paths in sources.values() for file in paths}
+        return cache.keep(name, library, notes, [file for file in read if file.resolve() not in source_files], folders)
 
 
 def digest_of_sources(files: Sequence[Path], include: Sequence[Path] = ()) -> str:
@@ -138,17 +138,17 @@ def _without_implicit_types(
     copies, texts = _supplied(supply, work / "declared")
     for path, text in texts.items():
         path.write_text(without_implicit(text, free=path.suffix.lower() == ".f90"), encoding="latin-1")
-    said = ""
+    messages = ""
     for file in files:
         if language_of(file) is FORTRAN:
             text = _read(file)
             free = is_free_form(file, text)
             (copies / file.name).write_text(without_implicit(text, free=free), encoding="latin-1")
             search = [f"-I{folder}" for folder in (copies, *folders, work)]
-            asked = ("-fsyntax-only", "-fimplicit-none", "-fmax-errors=0", f"-J{copies}", SILENT)
-            command = [FORTRAN.compiler, *FORTRAN.flags, *(FREE if free else FIXED), *asked, *search, file.name]
-            said += _run(command, copies).stderr
-    return said
+            options = ("-fsyntax-only", "-fimplicit-none", "-fmax-errors=0", f"-J{copies}", SILENT)
+            command = [FORTRAN.compiler, *FORTRAN.flags, *(FREE if free else FIXED), *options, *search, file.name]
+            messages += _run(command, copies).stderr
+    return messages
 
 
 def _folders(files: Sequence[Path], include: Sequence[Path]) -> list[Path]:
@@ -175,13 +175,13 @@ def _key(compilers: Iterable[str], texts: Sequence[str]) -> str:
         for compiler in compilers
     ]
     flags = [*FIXED, *FREE, *linker.FLAGS, *(flag for language in LANGUAGES for flag in language.flags)]
-    found_through = [f"{name}={os.environ.get(name)}" for name in _SEARCH_VARIABLES]
-    told = [
+    search = [f"{name}={os.environ.get(name)}" for name in _SEARCH_VARIABLES]
+    rules = [
         _read(Path(__file__).with_name(name)) for name in ("compatibility.py", "argument_ranks.py", "diagnostics.py")
     ]
-    machine = [platform.machine(), linker.bundled_lapack(), *found_through]
-    parts = [*versions, *flags, *machine, *told, *HEADERS.values(), *texts]
-    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+    machine = [platform.machine(), linker.bundled_lapack(), *search]
+    content = [*versions, *flags, *machine, *rules, *HEADERS.values(), *texts]
+    return hashlib.sha256("\0".join(content).encode()).hexdigest()[:16]
 
 
 def _scan(
@@ -259,8 +259,8 @@ def _compile(
     open_bounds: bool,
 ) -> tuple[Path, list[str]]:
     """Build the library in the folder work, with notes for the user; the compilers list beside it what they read."""
-    objects, notes, said = _objects(files, folders, supply, sources, work, flags, open_bounds=open_bounds)
-    notes += dict.fromkeys(argument_ranks.constants_for_arrays(said, _texts(sources)))
+    objects, notes, messages = _objects(files, folders, supply, sources, work, flags, open_bounds=open_bounds)
+    notes += dict.fromkeys(argument_ranks.constants_for_arrays(messages, _texts(sources)))
     library = work / "user.so"
     language, libraries = linking([language_of(file) for file in files])
     libraries += linker.lapack_flags(objects, language.compiler)
@@ -287,7 +287,7 @@ def _objects(
     search = [f"-I{folder}" for folder in (*folders, headers)]
     objects: list[Path] = []
     notes: list[str] = []
-    said = ""
+    messages = ""
     for number, file in enumerate(files):
         language = language_of(file)
         output = work / f"{number}.o"
@@ -295,12 +295,12 @@ def _objects(
         command += ["-MD", "-MF", f"{number}.d"]
         if language is FORTRAN:
             command += [*(FREE if is_free_form(file, _read(file)) else FIXED), f"-J{work}"]
-        compile_ = _compile_opened if language is FORTRAN and open_bounds else _compile_one
+        compile_ = _compile_opened if language is FORTRAN and open_bounds else _compile_file
         noted, output_text = compile_(command, file, sources, work / f"changed{number}")
         notes += noted
-        said += output_text
+        messages += output_text
         objects.append(output)
-    return objects, notes, said
+    return objects, notes, messages
 
 
 def _supplied(supply: Mapping[str, str | Path], folder: Path) -> tuple[Path, dict[Path, str]]:
@@ -321,19 +321,19 @@ def _compile_opened(
     """Compile a file with open bounds, except those of arrays used as a whole, which the compiler names."""
     text = _read(file)
     free = is_free_form(file, text)
-    whole: frozenset[str] = frozenset()
+    closed: frozenset[str] = frozenset()
     while True:
-        opened = with_open_bounds(text, free=free, but=whole)
+        opened = with_open_bounds(text, free=free, but=closed)
         try:
-            return _compile_one(command, file, sources, folder, {file.name: opened} if opened != text else None)
+            return _compile_file(command, file, sources, folder, {file.name: opened} if opened != text else None)
         except CompileError as error:
-            declared = whole | {name.lower() for name in _WHOLE.findall(str(error))}
-            if declared == whole:
-                return _compile_one(command, file, sources, folder)
-            whole = declared
+            declared = closed | {name.lower() for name in _ASSUMED_SIZE.findall(str(error))}
+            if declared == closed:
+                return _compile_file(command, file, sources, folder)
+            closed = declared
 
 
-def _compile_one(
+def _compile_file(
     command: Sequence[str],
     file: Path,
     sources: dict[str, list[Path]],
@@ -347,7 +347,7 @@ def _compile_one(
     """
     copies = dict(changed_texts or {})
     notes: list[str] = []
-    said = ""
+    messages = ""
     if language_of(file) is FORTRAN:
         for repair in hidden_types(_read(file), file.name):
             _repair(repair, sources, copies, notes)
@@ -362,11 +362,11 @@ def _compile_one(
         errors = compiled.stderr
         if not compiled.returncode:
             # what the compiler says of the user's text counts
-            said = said or errors
+            messages = messages or errors
         proposed = repairs(errors) if compiled.returncode else argument_ranks.zeros_for_arrays(errors)
         changed = [_repair(repair, sources, copies, notes) for repair in proposed]
         if not compiled.returncode and not any(changed):
-            return notes, said
+            return notes, messages
         if not any(changed):
             raise CompileError(file, first_error(errors, _texts(sources)))
 

@@ -15,7 +15,7 @@ _ERROR = re.compile(r"(?:Fatal )?Error: ")
 # gcc and g++ begin with all of it, and the source follows
 _C_ERROR = re.compile(r"^(?P<file>[^:\n]+):(?P<line>\d+):(?P<column>\d+): (?:fatal )?error: (?P<sentence>.*)$")
 _C_CONTEXT = re.compile(r"^ *\d* \| ")
-_PLACE: Final = re.compile(r"^(?P<file>[^\s:][^:\n]*):(?P<line>\d+):(?P<column>\d+):\s*(?P<rest>.*)$")
+_LOCATED: Final = re.compile(r"^(?P<file>[^\s:][^:\n]*):(?P<line>\d+):(?P<column>\d+):\s*(?P<rest>.*)$")
 _WARNING: Final = re.compile(r"^(?:Warning|Error): (?P<text>.*?)(?: \[(?P<option>-W[\w=+-]+)\])?$")
 _C_WARNING: Final = re.compile(r"^warning: (?P<text>.*?)(?: \[(?P<option>-W[\w=+-]+)\])?$")
 
@@ -81,8 +81,8 @@ def first_error(output: str, texts: Mapping[str, str]) -> str:
             return _message(match["sentence"], match, context, texts)
         if match := _ERROR.match(line):
             return _message(line[match.end() :], location, context, texts)
-        if own := _LOCATION.match(line):
-            location, context = own, []
+        if found_location := _LOCATION.match(line):
+            location, context = found_location, []
         elif line.strip():
             context = [*context, line]
     if twice := _TWICE.search(output):
@@ -142,19 +142,19 @@ def warnings_of(output: str) -> Iterator[tuple[str, int, int, str, str]]:
     """Yield the bare file name, line, column, text and option of each message of gfortran, gcc or g++."""
     location: re.Match[str] | None = None
     for row in output.splitlines():
-        if match := _PLACE.match(row):
-            if said := _C_WARNING.match(match["rest"]):
-                yield (*_where(match), said["text"], said["option"] or "")
+        if match := _LOCATED.match(row):
+            if warning := _C_WARNING.match(match["rest"]):
+                yield (*_coordinates(match), warning["text"], warning["option"] or "")
             elif not match["rest"] and location is None:
                 # the first of several locations is (1)
                 location = match
-        elif said := _WARNING.match(row):
+        elif warning := _WARNING.match(row):
             if location is not None:
-                yield (*_where(location), said["text"], said["option"] or "")
+                yield (*_coordinates(location), warning["text"], warning["option"] or "")
             location = None
         elif row.startswith("note: "):
             location = None
 
 
-def _where(location: re.Match[str]) -> tuple[str, int, int]:
+def _coordinates(location: re.Match[str]) -> tuple[str, int, int]:
     return Path(location["file"]).name, int(location["line"]), int(location["column"])

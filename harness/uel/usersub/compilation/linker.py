@@ -37,12 +37,12 @@ def lapack_flags(objects: Sequence[Path], compiler: str) -> list[str]:
     The system's libraries are used if they exist, else the OpenBLAS in scipy's wheel, whose names have a prefix:
     the references in the objects are then renamed.
     """
-    wanted = {name for file in objects for name in _symbols("-u", file)}
+    undefined = {name for file in objects for name in _symbols("-u", file)}
     bundled = _bundled_openblas()
     if bundled is None:
-        return _system_lapack(compiler) if wanted & {f"{routine}_" for routine in _COMMON} else []
+        return _system_lapack(compiler) if undefined & {f"{routine}_" for routine in _COMMON} else []
     offered = {name.removeprefix(_PREFIX) for name in _symbols("-D", bundled) if name.startswith(_PREFIX)}
-    needed = sorted(wanted & offered)
+    needed = sorted(undefined & offered)
     if not needed:
         return []
     if system := _system_lapack(compiler):
@@ -54,19 +54,9 @@ def lapack_flags(objects: Sequence[Path], compiler: str) -> list[str]:
 
 
 _COMMON: Final = (
-    "dgesv",
-    "dgetrf",
-    "dgetri",
-    "dgetrs",
-    "dgemm",
-    "dgemv",
-    "dsyev",
-    "dgeev",
-    "dgesvd",
-    "dposv",
-    "dpotrf",
+    *("dgesv", "dgetrf", "dgetri", "dgetrs", "dgemm", "dgemv", "dsyev", "dgeev", "dgesvd", "dposv", "dpotrf"),
 )
-"""Routines that reveal the use of LAPACK if no list of its names is at hand."""
+"""Routines that indicate the use of LAPACK if no list of its names is available."""
 
 
 def _system_lapack(compiler: str) -> list[str]:
@@ -96,7 +86,7 @@ def _symbols(option: str, file: Path) -> Iterator[str]:
 
 
 def undefined_routine(message: str) -> str:
-    """Put the dynamic linker's message in the user's terms."""
+    """Return the message of the dynamic linker in terms of the user."""
     match = re.search(r"undefined symbol: (\w+)", message)
     if match is None:
         return f"cannot be loaded: {message}"

@@ -18,7 +18,7 @@ _NAMED: Final = re.compile(r", [^,]+ line \d+")
 _MODULE: Final = re.compile(r"^__\w+?_MOD_")
 
 
-class _Found(ctypes.Structure):
+class _SymbolInfo(ctypes.Structure):
     """Dl_info of the dynamic linker."""
 
     _fields_ = (
@@ -35,7 +35,7 @@ def names_line(message: str) -> bool:
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class SourceLine:
     """Routine in upper case, bare name of the file, line."""
 
     routine: str
@@ -43,7 +43,7 @@ class Place:
     line: int
 
 
-def innermost(addresses: Sequence[int], loaded: str, library: Path) -> Place | None:
+def innermost(addresses: Sequence[int], loaded: str, library: Path) -> SourceLine | None:
     """Return the source line of the first address in a library, loaded from a copy; None if its line is not known."""
     offsets = _offsets(addresses, loaded)
     tool = shutil.which("addr2line")
@@ -54,14 +54,14 @@ def innermost(addresses: Sequence[int], loaded: str, library: Path) -> Place | N
     for routine, where in zip(rows[::2], rows[1::2], strict=False):
         if match := _LINE.match(where):
             name = _MODULE.sub("", routine).removesuffix("_").upper()
-            return Place(name, Path(match["file"]).name, int(match["line"]))
+            return SourceLine(name, Path(match["file"]).name, int(match["line"]))
     return None
 
 
 def _offsets(addresses: Sequence[int], loaded: str) -> list[int]:
     """Return the addresses in a loaded library, relative to its beginning."""
     look_up = getattr(ctypes.CDLL(None), "dladdr", None)
-    symbol = _Found()
+    symbol = _SymbolInfo()
     offsets = []
     for address in addresses if look_up else ():
         assert look_up is not None

@@ -115,8 +115,10 @@ def suspicions(files: Sequence[Path], include: Sequence[Path] = ()) -> list[Susp
         A file cannot be read or does not compile.
     """
     opinion = listen(files, include)
-    told = _Told(opinion, _checked_lines(files, include))
-    suspicions = dict.fromkeys([*told.warnings(), *told.misspelt(), *told.truncated(), *told.single_precision()])
+    diagnosis = _Diagnosis(opinion, _checked_lines(files, include))
+    suspicions = dict.fromkeys(
+        [*diagnosis.warnings(), *diagnosis.misspelt(), *diagnosis.truncated(), *diagnosis.single_precision()]
+    )
     names = [file.name for file in files]
     order = {name: number for number, name in enumerate(names)}
     return sorted(suspicions, key=lambda one: (not one.certain, order.get(one.file, len(names)), one.line))
@@ -131,7 +133,7 @@ def _checked_lines(files: Sequence[Path], include: Sequence[Path]) -> set[tuple[
     return {(Path(name.decode(errors="replace")).name, int(line)) for line, name in _CHECKED.findall(library)}
 
 
-class _Told:
+class _Diagnosis:
     """The compilers' texts, read."""
 
     def __init__(self, opinion: Opinion, checked: set[tuple[str, int]]) -> None:
@@ -230,10 +232,14 @@ class _Told:
                 "use one type in both",
                 certain,
             )
-        if argument := argument_ranks.array_wanted(text):
+        if argument := argument_ranks.array_argument(text):
             constant = argument_ranks.is_constant(self._opinion.texts.get(file, ""), line, column)
-            what = "a constant" if constant else "a single value"
-            return f"{what} is passed for the argument '{argument}', which is an array", argument_ranks.HINT, constant
+            actual_argument = "a constant" if constant else "a single value"
+            return (
+                f"{actual_argument} is passed for the argument '{argument}', which is an array",
+                argument_ranks.HINT,
+                constant,
+            )
         if option.endswith("uninitialized") and self._internal(file, text):
             return None
         if option == "-Wuninitialized":
@@ -246,8 +252,8 @@ class _Told:
     def _internal(self, file: str, text: str) -> bool:
         """Report whether a warning names a variable that the compiler made, such as bounds of an intermediate array."""
         match = re.match(r"'(\w+)", text)
-        known = self._opinion.texts.get(file, "")
-        return match is not None and re.search(rf"\b{match[1]}\b", known, re.IGNORECASE) is None
+        text_of_file = self._opinion.texts.get(file, "")
+        return match is not None and re.search(rf"\b{match[1]}\b", text_of_file, re.IGNORECASE) is None
 
     def _of_reals(self, file: str, line: int, column: int) -> bool:
         """Report whether a quotient of integers is part of a real variable's value, and of no index or argument."""
