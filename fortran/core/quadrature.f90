@@ -5,7 +5,7 @@ module core_quadrature
   use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: gauss_abscissa, outer_abscissa, line_points, line_weights, gauss_point
+  public :: gauss_abscissa, outer_abscissa, line_points, line_weights, gauss_point, triangle_point
   public :: gauss_rule, newton_cotes_rule
 
   real(dp), parameter :: gauss_abscissa = 0.577350269189625764509148780501957_dp
@@ -66,5 +66,42 @@ contains
       weight = weight*w(at)
     end do
   end subroutine gauss_point
+
+  !> Point k of a rule on a triangle of three or six nodes, next to node k or, as the seventh, in the middle, and its weight. Gauss:
+  !> three points of degree 2 or seven of degree 5 (J. Radon, Monatshefte fuer Mathematik und Physik 52 (1948) 286). Newton-Cotes:
+  !> the nodes, degree 1, or the nodes and the middle, degree 3.
+  pure subroutine triangle_point(nodes, rule, k, parent, weight)
+    integer, intent(in) :: nodes, rule, k
+    real(dp), intent(out) :: parent(2)    !< area coordinates of nodes 2 and 3
+    real(dp), intent(out) :: weight       !< their sum is 1/2
+    real(dp), parameter :: root = sqrt(15.0_dp)
+    real(dp), parameter :: inner(3) = [1.0_dp/6.0_dp, (6.0_dp - root)/21.0_dp, (6.0_dp + root)/21.0_dp]
+    real(dp), parameter :: gauss(2) = [(155.0_dp - root)/2400.0_dp, (155.0_dp + root)/2400.0_dp]
+    real(dp), parameter :: closed(2) = [1.0_dp/40.0_dp, 1.0_dp/15.0_dp]
+    real(dp) :: near, area(3)
+    integer :: corner
+
+    if (k > 6) then
+      parent = 1.0_dp/3.0_dp
+      weight = merge(9.0_dp/80.0_dp, 9.0_dp/40.0_dp, rule == gauss_rule)
+      return
+    end if
+    if (k <= 3) then
+      ! two area coordinates are small and alike
+      near = 0.0_dp
+      if (rule == gauss_rule) near = merge(inner(1), inner(2), nodes == 3)
+      corner = k
+      weight = 1.0_dp/6.0_dp
+      if (nodes == 6) weight = merge(gauss(1), closed(1), rule == gauss_rule)
+    else
+      ! node 4 is between nodes 1 and 2: across from corner 3
+      near = merge(inner(3), 0.5_dp, rule == gauss_rule)
+      corner = 1 + mod(k - 2, 3)
+      weight = merge(gauss(2), closed(2), rule == gauss_rule)
+    end if
+    area = near
+    area(corner) = 1.0_dp - 2.0_dp*near
+    parent = area(2:3)
+  end subroutine triangle_point
 
 end module core_quadrature

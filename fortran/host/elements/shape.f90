@@ -7,6 +7,8 @@
 !> Numbers beyond those are families with integration points of their own (define_rule), of sections with layers.
 module host_shape
   use core_serendipity, only: brick_places, quad_places, serendipity_functions
+  use core_simplex, only: quadratic_simplex, quadratic_wedge, simplex_functions, tetrahedron_points, triangle_points, &
+                          wedge_functions
   use host_kinds, only: dp, i4
   use host_messages, only: add_message
   use host_protect, only: escape
@@ -256,75 +258,6 @@ contains
     end do
   end subroutine gauss_points
 
-  !> Points of a triangle: its middle, three, exact for polynomials of degree 2, or six for those of degree 4 (D.A. Dunavant,
-  !> Int. J. for Numerical Methods in Engineering 21 (1985) 1129).
-  pure subroutine triangle_points(points, parent, weight, known)
-    integer, intent(in) :: points
-    real(dp), intent(out) :: parent(:, :), weight(:)
-    logical, intent(out) :: known
-    real(dp), parameter :: near(3) = [1.0_dp/6, 0.445948490915965_dp, 0.091576213509771_dp]
-    real(dp), parameter :: area(3) = [1.0_dp/3, 0.223381589678011_dp, 0.109951743655322_dp]
-    integer :: kind, p
-    known = any(points == [1, 3, 6])
-    parent = 1.0_dp/3
-    weight = 0.5_dp
-    if (points == 1) return
-    do p = 1, points
-      kind = 1
-      if (points == 6) kind = merge(2, 3, p <= 3)
-      weight(p) = 0.5_dp*area(kind)
-      parent(:, p) = near(kind)
-      if (mod(p, 3) == 2) parent(1, p) = 1 - 2*near(kind)
-      if (mod(p, 3) == 0) parent(2, p) = 1 - 2*near(kind)
-    end do
-  end subroutine triangle_points
-
-  !> Points of a tetrahedron: its middle; four, exact for polynomials of degree 2, the first near node 1, and so on; or
-  !> fifteen for those of degree 5 (A.H. Stroud, Approximate Calculation of Multiple Integrals, 1971, T3: 5-1).
-  pure subroutine tetrahedron_points(points, parent, weight, known)
-    integer, intent(in) :: points
-    real(dp), intent(out) :: parent(:, :), weight(:)
-    logical, intent(out) :: known
-    real(dp), parameter :: four = (5 - sqrt(5.0_dp))/20, root = sqrt(15.0_dp)
-    real(dp), parameter :: near(2) = [(7 - root)/34, (7 + root)/34], edge = (5 - root)/20
-    real(dp), parameter :: volume(2) = [2665 + 14*root, 2665 - 14*root]/37800
-    real(dp) :: corner(4)
-    integer :: i, j, k
-    known = any(points == [1, 4, 15])
-    parent = 0.25_dp
-    weight = 1.0_dp/6
-    select case (points)
-    case (4)
-      weight = 1.0_dp/24
-      do k = 1, 4
-        corner = four
-        corner(k) = 1 - 3*four
-        parent(:, k) = corner(2:)
-      end do
-    case (15)
-      weight(1) = 16.0_dp/(6*135)
-      do i = 1, 2
-        do k = 1, 4
-          corner = near(i)
-          corner(k) = 1 - 3*near(i)
-          parent(:, 4*i - 3 + k) = corner(2:)
-          weight(4*i - 3 + k) = volume(i)/6
-        end do
-      end do
-      k = 9
-      do i = 1, 3
-        do j = i + 1, 4
-          k = k + 1
-          corner = edge
-          corner([i, j]) = 0.5_dp - edge
-          parent(:, k) = corner(2:)
-          weight(k) = 10.0_dp/(6*189)
-        end do
-      end do
-    case default   ! the middle
-    end select
-  end subroutine tetrahedron_points
-
   !> Points of a wedge: its middle, or those of a triangle, one layer after the other at two or three Gauss points across.
   pure subroutine wedge_points(points, parent, weight, known)
     integer, intent(in) :: points
@@ -372,86 +305,6 @@ contains
       dn = 0
     end select
   end subroutine shape_functions
-
-  !> Linear functions of a triangle or tetrahedron.
-  pure subroutine simplex_functions(parent, n, dn)
-    real(dp), intent(in) :: parent(:)
-    real(dp), intent(out) :: n(:), dn(:, :)
-    integer :: k
-    n = [1 - sum(parent), parent]
-    dn = 0
-    dn(1, :) = -1
-    do k = 1, size(parent)
-      dn(k + 1, k) = 1
-    end do
-  end subroutine simplex_functions
-
-  !> Quadratic functions of a triangle or tetrahedron.
-  pure subroutine quadratic_simplex(parent, n, dn)
-    real(dp), intent(in) :: parent(:)
-    real(dp), intent(out) :: n(:), dn(:, :)
-    integer, parameter :: ends(2, 6) = reshape([1, 2, 2, 3, 3, 1, 1, 4, 2, 4, 3, 4], [2, 6])
-    real(dp) :: linear(size(parent) + 1), slope(size(parent) + 1, size(parent))
-    integer :: corners, k
-    call simplex_functions(parent, linear, slope)
-    corners = size(linear)
-    do k = 1, corners
-      n(k) = linear(k)*(2*linear(k) - 1)
-      dn(k, :) = (4*linear(k) - 1)*slope(k, :)
-    end do
-    do k = 1, size(n) - corners
-      associate (a => ends(1, k), b => ends(2, k))
-        n(corners + k) = 4*linear(a)*linear(b)
-        dn(corners + k, :) = 4*(linear(a)*slope(b, :) + linear(b)*slope(a, :))
-      end associate
-    end do
-  end subroutine quadratic_simplex
-
-  !> Functions of a wedge: linear ones of the triangle 1-2-3 and of the third coordinate.
-  pure subroutine wedge_functions(parent, n, dn)
-    real(dp), intent(in) :: parent(:)
-    real(dp), intent(out) :: n(:), dn(:, :)
-    real(dp) :: linear(3), slope(3, 2)
-    integer :: first, side
-    call simplex_functions(parent(:2), linear, slope)
-    do side = -1, 1, 2
-      first = merge(0, 3, side < 0)
-      n(first + 1:first + 3) = linear*(1 + side*parent(3))/2
-      dn(first + 1:first + 3, :2) = slope*(1 + side*parent(3))/2
-      dn(first + 1:first + 3, 3) = side*linear/2
-    end do
-  end subroutine wedge_functions
-
-  !> Functions of a wedge with midside nodes: of both triangles, then of the edges between them.
-  pure subroutine quadratic_wedge(parent, n, dn)
-    real(dp), intent(in) :: parent(:)
-    real(dp), intent(out) :: n(:), dn(:, :)
-    real(dp) :: linear(3), slope(3, 2), of_triangle(6), its_slope(6, 2), across, by_third
-    integer :: corner, edge, side
-    call simplex_functions(parent(:2), linear, slope)
-    call quadratic_simplex(parent(:2), of_triangle, its_slope)
-    do side = -1, 1, 2
-      corner = merge(0, 3, side < 0)
-      edge = corner + 6
-      across = (1 + side*parent(3))/2
-      by_third = 0.5_dp*side
-      n(corner + 1:corner + 3) = of_triangle(:3)*across
-      n(edge + 1:edge + 3) = of_triangle(4:)*across
-      dn(corner + 1:corner + 3, :2) = its_slope(:3, :)*across
-      dn(edge + 1:edge + 3, :2) = its_slope(4:, :)*across
-      dn(corner + 1:corner + 3, 3) = of_triangle(:3)*by_third
-      dn(edge + 1:edge + 3, 3) = of_triangle(4:)*by_third
-    end do
-    across = 1 - parent(3)**2
-    by_third = -2*parent(3)
-    n(13:) = linear*across
-    dn(13:, :2) = slope*across
-    dn(13:, 3) = linear*by_third
-    ! a corner function is the linear one across minus half of that of the midside node
-    n(:6) = n(:6) - [n(13:), n(13:)]/2
-    dn(:3, :) = dn(:3, :) - dn(13:, :)/2
-    dn(4:6, :) = dn(4:6, :) - dn(13:, :)/2
-  end subroutine quadratic_wedge
 
   !> Displacement patterns without strain in the middle of an element with 4 or 8 nodes, 1 and -1 at the nodes: xy; and yz, xz, xy,
   !> xyz.
