@@ -20,7 +20,7 @@ Row = Mapping[str, Any]
 
 KEYS = {
     "ranges": {"permitted", "expected"},
-    "families": {"variables"},
+    "families": {"meaning", "variables"},
     "reals": {"name", "elements", "unit", "range", "meaning"},
     "integers": {"name", "elements", "meaning"},
     "variables": {"prefix", "items"},
@@ -33,9 +33,12 @@ MORE_KEYS = {
     "families": {"own"},
     "reals": {"symbol", "default", "laws"},
     "integers": {"symbol", "highest", "default", "laws"},
-    "elements": {"bottom", "top"},
+    "elements": {"bottom", "top", "solids"},
 }
 """What it may have."""
+
+CORNERS = {(3, 3): 3, (3, 6): 3}
+"""Corners of a face by dimension and number of nodes where they are not four, or all nodes of a line."""
 
 HEAD = """\
 ! SPDX-FileCopyrightText: The uel-harness authors
@@ -75,7 +78,7 @@ module abaqus_layout
   !> edges that begin there.
   type, public :: faces_item
     integer :: jtype
-    integer :: solid               !< nodes of each of its own quads or bricks, the bottom one first; 0 without
+    integer :: solids(2)           !< number of nodes of its own solids, the bottom one first; 0 without
     integer :: bottom(4), top(4)
     integer :: bottom_middles(4), top_middles(4)
   end type faces_item
@@ -151,12 +154,21 @@ def check_properties(data: Row) -> None:
 def check_elements(data: Row) -> None:
     """Raise ValueError for a family without such variables, an element out of order, or one of an unknown family."""
     for name, family in data["families"].items():
-        for key, table in family.items():
-            check_name(f"families.{name}: {key}", table, data["variables"])
-    for number, row in enumerate(data["elements"], start=1):
-        if row["type"] != f"U{number}":
-            raise ValueError(f"elements {row['type']}: expected U{number}, the types in the order of their numbers")
-        check_name(f"elements {row['type']}: family", row["family"], data["families"])
+        for key in ("variables", "own"):
+            if key in family:
+                check_name(f"families.{name}: {key}", family[key], data["variables"])
+    last = 0
+    for row in data["elements"]:
+        where = f"elements {row['type']}"
+        number = row["type"].removeprefix("U")
+        if not number.isdecimal() or int(number) <= last:
+            raise ValueError(f"{where}: expected U and a number above {last}, the types in the order of their numbers")
+        last = int(number)
+        check_name(f"{where}: family", row["family"], data["families"])
+        owns = "own" in data["families"][row["family"]]
+        if owns != ("solids" in row) or (owns and sum(row["solids"]) != row["nodes"]):
+            expected = f"expected solids = [nodes below, nodes above], together {row['nodes']}, if it owns any"
+            raise ValueError(f"{where}: {expected}")
 
 
 def check_keys(where: str, table: str, row: Row) -> None:
@@ -223,7 +235,10 @@ def body(data: Row) -> Iterator[str]:
     yield ""
     yield from table_of("type(element_item)", "elements", [element(row, data) for row in data["elements"]])
     yield ""
-    yield from table_of("type(faces_item)", "faces", [(faces(row, data), "") for row in data["elements"]])
+    yield from table_of("type(faces_item)", "faces", [(faces(row), "") for row in data["elements"]])
+    yield ""
+    yield "  character(len=*), parameter, public :: names_of_types = &"
+    yield f"    '{types(data)}'"
     yield ""
 
 
@@ -277,11 +292,24 @@ def element(row: Row, data: Row) -> tuple[str, str]:
     return f"element_item({', '.join(map(str, fields))})", row["meaning"]
 
 
-def faces(row: Row, data: Row) -> str:
+def faces(row: Row) -> str:
     """Write the constructor of the nodes of the faces."""
-    solid = row["nodes"] // 2 if "own" in data["families"][row["family"]] else 0
-    nodes = [(row.get(side, []) + 8 * [0])[part : part + 4] for part in (0, 4) for side in ("bottom", "top")]
-    return f"faces_item({row['type'][1:]}, {solid}, {', '.join(map(str, nodes))})"
+    corners = CORNERS.get((row["dimension"], len(row.get("bottom", ()))), 4)
+    parts = [slice(corners), slice(corners, None)]
+    nodes = [(row.get(side, [])[part] + 4 * [0])[:4] for part in parts for side in ("bottom", "top")]
+    return f"faces_item({row['type'][1:]}, {row.get('solids', [0, 0])}, {', '.join(map(str, nodes))})"
+
+
+def types(data: Row) -> str:
+    """Name the element types in a few words: consecutive numbers as a range."""
+    numbers = [int(row["type"][1:]) for row in data["elements"]]
+    runs: list[list[int]] = []
+    for number in numbers:
+        if runs and number == runs[-1][-1] + 1:
+            runs[-1].append(number)
+        else:
+            runs.append([number])
+    return ", ".join(f"U{run[0]}" if len(run) == 1 else f"U{run[0]} to U{run[-1]}" for run in runs)
 
 
 if __name__ == "__main__":

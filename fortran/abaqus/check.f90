@@ -7,10 +7,12 @@ module abaqus_check
     too_brittle_mixed, late_secant, no_root
   use abaqus_layout, only: elements, faces, reals, integers, expectations, every_continuum, with_solids, next_to_solids, &
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
-    p_betan, p_betat, p_shapen, p_shapet, p_friction, j_law, j_closure
+    p_betan, p_betat, p_shapen, p_shapet, p_friction, j_law, j_closure, j_formulation_bottom, &
+    j_formulation_top
   use abaqus_properties, only: unknowns_of, variables_of, real_position, integer_position, unpack, recommend, &
     by_eigenvalues, by_equation_21, consistent_closure, complete_closure
   use cohesive_parameters, only: ppr_law
+  use elements_bulk_solid, only: has_formulation, reduced_integration
   use abaqus_report, only: fatal
   implicit none(type, external)
   private
@@ -19,9 +21,9 @@ module abaqus_check
 contains
 
   !> True if the counts fit the element type and every property is in its range; if not, a message has been sent.
-  function call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, props, jprops, values, &
+  function call_is_good(itype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, props, jprops, values, &
     options) result(good)
-    integer, intent(in) :: jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload
+    integer, intent(in) :: itype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload
     real(dp), intent(in) :: props(*)
     integer, intent(in) :: jprops(*)
     real(dp), intent(out) :: values(size(reals))         !< properties by their rows in the layout, if the counts fit
@@ -29,24 +31,25 @@ contains
     logical :: good
 
     good = .false.
-    associate (element => elements(jtype))
+    associate (element => elements(itype))
       if (.not. count_fits('NODES = %I', nnode, element%nodes)) return
-      if (.not. count_fits('number of unknowns %I', ndofel, unknowns_of(jtype))) return
+      if (.not. count_fits('number of unknowns %I', ndofel, unknowns_of(itype))) return
       if (.not. count_fits('PROPERTIES = %I', nprops, element%reals)) return
       if (.not. count_fits('I PROPERTIES = %I', njprop, element%integers)) return
-      if (nsvars < variables_of(jtype)) then
-        call fatal(jtype, jelem, 'VARIABLES = %I: expected at least %I', [nsvars, variables_of(jtype)], [real(dp) ::])
+      if (nsvars < variables_of(itype)) then
+        call fatal(itype, jelem, 'VARIABLES = %I: expected at least %I', [nsvars, variables_of(itype)], [real(dp) ::])
       else if (mcrd < element%dimension .or. mcrd > 3) then
-        call fatal(jtype, jelem, 'COORDINATES = %I: expected %I', [mcrd, element%dimension], [real(dp) ::])
+        call fatal(itype, jelem, 'COORDINATES = %I: expected %I', [mcrd, element%dimension], [real(dp) ::])
       else if (ndload /= 0) then
-        call fatal(jtype, jelem, 'does not take distributed loads: load its nodes', [integer ::], [real(dp) ::])
+        call fatal(itype, jelem, 'does not take distributed loads: load its nodes', [integer ::], [real(dp) ::])
       else
-        call unpack(jtype, props, jprops, values, options)
-        good = reals_are_good(jtype, jelem, values)
-        if (good) good = integers_are_good(jtype, jelem, options)
+        call unpack(itype, props, jprops, values, options)
+        good = reals_are_good(itype, jelem, values)
+        if (good) good = integers_are_good(itype, jelem, options)
         if (.not. good) return
-        call recommend(jtype, values, options)
-        if (iand(element%family, every_continuum) == 0) good = options_fit(jtype, jelem, values, options)
+        call recommend(itype, values, options)
+        if (iand(element%family, with_solids) /= 0) good = formulations_fit(itype, jelem, options)
+        if (good .and. iand(element%family, every_continuum) == 0) good = options_fit(itype, jelem, values, options)
       end if
     end associate
 
@@ -58,22 +61,22 @@ contains
 
       count_fits = found == expected
       if (.not. count_fits) then
-        call fatal(jtype, jelem, '*USER ELEMENT has ' // what // ': expected %I', [found, expected], [real(dp) ::])
+        call fatal(itype, jelem, '*USER ELEMENT has ' // what // ': expected %I', [found, expected], [real(dp) ::])
       end if
     end function count_fits
 
   end function call_is_good
 
   !> True if every real property is in its range.
-  function reals_are_good(jtype, jelem, values) result(good)
-    integer, intent(in) :: jtype, jelem
+  function reals_are_good(itype, jelem, values) result(good)
+    integer, intent(in) :: itype, jelem
     real(dp), intent(in) :: values(:)
     logical :: good
     integer :: i
 
     good = .true.
     do i = 1, size(reals)
-      if (iand(reals(i)%families, elements(jtype)%family) == 0) cycle
+      if (iand(reals(i)%families, elements(itype)%family) == 0) cycle
       select case (reals(i)%rule)
       case (positive)
         good = values(i) > 0.0_dp
@@ -81,7 +84,7 @@ contains
         good = values(i) >= 0.0_dp
       case (estimated)
         good = values(i) >= 0.0_dp .or. is(values(i), by_equation_21) .or. (is(values(i), by_eigenvalues) &
-          .and. iand(elements(jtype)%family, with_solids) /= 0)
+          .and. iand(elements(itype)%family, with_solids) /= 0)
       case (below_one)
         good = values(i) >= 0.0_dp .and. values(i) < 1.0_dp
       case (up_to_one)
@@ -94,7 +97,7 @@ contains
         good = abs(values(i)) <= huge(1.0_dp)
       end select
       if (good) cycle
-      call refuse_real(jtype, jelem, i, values(i), ': expected ' // trim(expectations(reals(i)%rule)))
+      call refuse_real(itype, jelem, i, values(i), ': expected ' // trim(expectations(reals(i)%rule)))
       return
     end do
   end function reals_are_good
@@ -107,38 +110,77 @@ contains
   end function is
 
   !> Sends the message 'PROPS(position) NAME = value' and a text.
-  subroutine refuse_real(jtype, jelem, row, value, text)
-    integer, intent(in) :: jtype, jelem
+  subroutine refuse_real(itype, jelem, row, value, text)
+    integer, intent(in) :: itype, jelem
     integer, intent(in) :: row                !< of the property in the layout
     real(dp), intent(in) :: value
     character(len=*), intent(in) :: text
 
-    call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ' = %R' // text, [real_position(jtype, row)], [value])
+    call fatal(itype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ' = %R' // text, [real_position(itype, row)], [value])
   end subroutine refuse_real
 
   !> True if every integer property is in its range.
-  function integers_are_good(jtype, jelem, options) result(good)
-    integer, intent(in) :: jtype, jelem
+  function integers_are_good(itype, jelem, options) result(good)
+    integer, intent(in) :: itype, jelem
     integer, intent(in) :: options(:)
     logical :: good
     integer :: i
 
     good = .true.
     do i = 1, size(integers)
-      if (iand(integers(i)%families, elements(jtype)%family) == 0) cycle
+      if (iand(integers(i)%families, elements(itype)%family) == 0) cycle
       if (integers(i)%highest == any_integer) cycle
       good = options(i) >= integers(i)%lowest .and. options(i) <= integers(i)%highest
       if (good) cycle
-      call fatal(jtype, jelem, 'JPROPS(%I) ' // trim(integers(i)%name) // ' = %I: expected %I to %I', &
-        [integer_position(jtype, i), options(i), integers(i)%lowest, integers(i)%highest], [real(dp) ::])
+      call fatal(itype, jelem, 'JPROPS(%I) ' // trim(integers(i)%name) // ' = %I: expected %I to %I', &
+        [integer_position(itype, i), options(i), integers(i)%lowest, integers(i)%highest], [real(dp) ::])
       return
     end do
   end function integers_are_good
 
+  !> True if the solids of a self-contained element have their formulations.
+  function formulations_fit(itype, jelem, options) result(good)
+    integer, intent(in) :: itype, jelem
+    integer, intent(in) :: options(:)
+    logical :: good
+    integer, parameter :: rows(2) = [j_formulation_bottom, j_formulation_top]
+    integer :: side
+
+    do side = 1, 2
+      associate (dim => elements(itype)%dimension, nodes => faces(itype)%solids(side))
+        good = has_formulation(dim, nodes, options(rows(side)))
+        if (good) cycle
+        call fatal(itype, jelem, 'JPROPS(%I) ' // trim(integers(rows(side))%name) // ' = %I: a ' // trim(solid_name(dim, nodes)) &
+          // ' of %I nodes does not have it; expected 0' // trim(merge(' or 3', '     ', has_formulation(dim, nodes, &
+          reduced_integration))), [integer_position(itype, rows(side)), options(rows(side)), nodes], [real(dp) ::])
+        return
+      end associate
+    end do
+  end function formulations_fit
+
+  !> Shape of a solid with so many nodes.
+  pure function solid_name(dim, nodes) result(name)
+    integer, intent(in) :: dim, nodes
+    character(len=11) :: name
+
+    select case (10*nodes + dim)
+    case (32, 62)
+      name = 'triangle'
+    case (42, 82)
+      name = 'quad'
+    case (43, 103)
+      name = 'tetrahedron'
+    case (63, 153)
+      name = 'wedge'
+    case default
+      name = 'brick'
+    end select
+  end function solid_name
+
   !> True if the properties fit each other: both beta come from one estimate; only the consistent law allows an infinite initial
   !> stiffness (0), in both directions, and friction, but not a PPR law that falls infinitely fast at its end.
-  function options_fit(jtype, jelem, values, options) result(good)
-    integer, intent(in) :: jtype, jelem
+  function options_fit(itype, jelem, values, options) result(good)
+    integer, intent(in) :: itype, jelem
     real(dp), intent(in) :: values(:)
     integer, intent(in) :: options(:)
     logical :: good
@@ -147,35 +189,35 @@ contains
     integer :: i
 
     consistent = any(options(j_closure) == [consistent_closure, complete_closure])
-    good = options(j_closure) /= complete_closure .or. iand(elements(jtype)%family, next_to_solids) == 0
+    good = options(j_closure) /= complete_closure .or. iand(elements(itype)%family, next_to_solids) == 0
     if (.not. good) then
-      call fatal(jtype, jelem, 'JPROPS(%I) CLOSURE = 3, the complete form, requires an element that has the nodes of its ' // &
-        'solids; expected 1 or 2', [integer_position(jtype, j_closure)], [real(dp) ::])
+      call fatal(itype, jelem, 'JPROPS(%I) CLOSURE = 3, the complete form, requires an element that has the nodes of its ' // &
+        'solids; expected 1 or 2', [integer_position(itype, j_closure)], [real(dp) ::])
       return
     end if
     infinite = consistent .and. .not. maxval(values(alphas)) > 0.0_dp
     good = .not. (any_is(by_eigenvalues) .and. any_is(by_equation_21))
     if (.not. good) then
       i = merge(p_betan, p_betat, is(values(p_betan), by_equation_21))
-      call refuse_real(jtype, jelem, i, values(i), ', equation (21), but the other beta is 0 or -1, local eigenvalues: ' // &
+      call refuse_real(itype, jelem, i, values(i), ', equation (21), but the other beta is 0 or -1, local eigenvalues: ' // &
         'expected one estimate for both')
       return
     end if
     do i = 1, 2
       good = infinite .or. values(alphas(i)) > 0.0_dp
       if (good) cycle
-      call refuse_real(jtype, jelem, alphas(i), values(alphas(i)), ': expected a positive value; 0, an infinite ' // &
+      call refuse_real(itype, jelem, alphas(i), values(alphas(i)), ': expected a positive value; 0, an infinite ' // &
         'stiffness, requires the consistent law (CLOSURE = 1 or 3) and 0 in both directions')
       return
     end do
     good = consistent .or. .not. values(p_friction) > 0.0_dp
-    if (.not. good) call refuse_real(jtype, jelem, p_friction, values(p_friction), &
+    if (.not. good) call refuse_real(itype, jelem, p_friction, values(p_friction), &
       ': without the consistent law (CLOSURE = 1 or 3), expected 0')
     if (.not. good .or. .not. consistent .or. options(j_law) /= ppr_law) return
     do i = 1, 2
       good = values(shapes(i)) >= 2.0_dp .or. .not. values(shapes(i)) > 0.0_dp
       if (good) cycle
-      call refuse_real(jtype, jelem, shapes(i), values(shapes(i)), ': with the consistent law, expected zero or at ' // &
+      call refuse_real(itype, jelem, shapes(i), values(shapes(i)), ': with the consistent law, expected zero or at ' // &
         'least 2; below 2, the law falls infinitely fast at its end')
       return
     end do
@@ -191,51 +233,53 @@ contains
   end function options_fit
 
   !> Sends the message for the status of a kernel; self-contained elements count their quads or bricks in status%item.
-  subroutine report_status(jtype, jelem, status)
-    integer, intent(in) :: jtype, jelem
+  subroutine report_status(itype, jelem, status)
+    integer, intent(in) :: itype, jelem
     type(status_type), intent(in) :: status
-    integer :: row
-    character(len=8) :: side, solid
+    integer :: row, nodes
+    character(len=8) :: side
 
     side = ' '
-    if (iand(elements(jtype)%family, with_solids) /= 0) then
-      if (status%item == 1) side = 'bottom'
-      if (status%item == 2) side = 'top'
+    nodes = elements(itype)%nodes
+    if (iand(elements(itype)%family, with_solids) /= 0 .and. any(status%item == [1, 2])) then
+      side = merge('bottom ', 'top    ', status%item == 1)
+      nodes = faces(itype)%solids(status%item)
     end if
     select case (status%code)
     case (too_brittle, late_secant)
       row = merge(p_gic, p_giic, status%item == 1)
-      call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ' = %R, ' // trim(sentence(status%code)) // &
-        '; expected more than %R', [real_position(jtype, row)], [status%value, status%expected])
+      call fatal(itype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ' = %R, ' // trim(sentence(status%code)) // &
+        '; expected more than %R', [real_position(itype, row)], [status%value, status%expected])
     case (too_brittle_mixed)
-      call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(p_alphan)%name) // ' = %R, ' // &
+      call fatal(itype, jelem, 'PROPS(%I) ' // trim(reals(p_alphan)%name) // ' = %R, ' // &
         trim(sentence(status%code)) // ' where mode II has %I per cent of the energy; expected more than %R', &
-        [real_position(jtype, p_alphan), status%item], [status%value, status%expected])
+        [real_position(itype, p_alphan), status%item], [status%value, status%expected])
     case (small_beta)
       row = merge(p_betan, p_betat, status%item == 1)
-      call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ': beta = %R, ' // &
+      call fatal(itype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ': beta = %R, ' // &
         trim(sentence(status%code)) // '; expected more than %R, or 0 for the estimate', &
-        [real_position(jtype, row)], [status%value, status%expected])
+        [real_position(itype, row)], [status%value, status%expected])
     case (no_root)
-      call fatal(jtype, jelem, 'point or mode %I: ' // trim(sentence(status%code)), [status%item], [real(dp) ::])
+      call fatal(itype, jelem, 'point or mode %I: ' // trim(sentence(status%code)), [status%item], [real(dp) ::])
     case (zero_length)
-      call fatal(jtype, jelem, trim(sentence(status%code)), [integer ::], [real(dp) ::])
+      call fatal(itype, jelem, trim(sentence(status%code)), [integer ::], [real(dp) ::])
     case (faces_apart)
-      associate (top => faces(jtype)%top, bottom => faces(jtype)%bottom)
-        if (elements(jtype)%dimension == 3) then
-          call fatal(jtype, jelem, trim(sentence(status%code)) // ': nodes %I to %I must lie on %I to %I' // &
-            trim(merge(', and the middle nodes on each other', repeat(' ', 36), faces(jtype)%top_middles(1) > 0)) // &
-            '; they are %R apart, expected at most %R', [top(1), top(4), bottom(1), bottom(4)], [status%value, status%expected])
+      associate (top => faces(itype)%top, bottom => faces(itype)%bottom)
+        if (elements(itype)%dimension == 3) then
+          call fatal(itype, jelem, trim(sentence(status%code)) // ': nodes ' // repeat('%I, ', count(top > 0) - 1) // &
+            '%I must lie on ' // repeat('%I, ', count(top > 0) - 1) // '%I' // &
+            trim(merge(', and the middle nodes on each other', repeat(' ', 36), faces(itype)%top_middles(1) > 0)) // &
+            '; they are %R apart, expected at most %R', [pack(top, top > 0), pack(bottom, bottom > 0)], &
+            [status%value, status%expected])
           return
         end if
-        call fatal(jtype, jelem, trim(sentence(status%code)) // ': node %I must lie on %I and %I on %I' // &
+        call fatal(itype, jelem, trim(sentence(status%code)) // ': node %I must lie on %I and %I on %I' // &
           trim(merge(', and the middle nodes on each other', repeat(' ', 36), top(3) > 0)) // &
           '; they are %R apart, expected at most %R', [top(1), bottom(1), top(2), bottom(2)], [status%value, status%expected])
       end associate
     case default
-      solid = merge(' brick', ' quad ', elements(jtype)%dimension == 3)
-      call fatal(jtype, jelem, trim(adjustl(trim(side) // solid)) // ' ' // trim(sentence(status%code)) // &
-        '; it is %R', [integer ::], [status%value])
+      call fatal(itype, jelem, trim(adjustl(trim(side) // ' ' // solid_name(elements(itype)%dimension, nodes))) // ' ' // &
+        trim(sentence(status%code)) // '; it is %R', [integer ::], [status%value])
     end select
   end subroutine report_status
 

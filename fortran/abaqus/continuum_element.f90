@@ -17,8 +17,7 @@ module abaqus_continuum_element
   use core_strains, only: condense
   use materials_linear_elasticity, only: plane_strain
   use materials_spectral_norm, only: spectral_norm
-  use elements_bulk_solid, only: solid_gradient
-  use elements_continuum_solid, only: incompatible_modes, modes_of_brick, solid_points, solid_shape, solid_strains
+  use elements_continuum_solid, only: modes_of, solid_gradient, solid_points, solid_shape, solid_strains
   use elements_interface_faces, only: central_frame
   use elements_solid_faces, only: face_nodes, face_places, gauss_of_face, middle_place, serves
   use abaqus_bulk_exchange, only: bulk_record, store_bulk
@@ -50,7 +49,7 @@ module abaqus_continuum_element
 
   !> What is the same in all points and passes of a call.
   type :: element_call
-    integer :: jtype, jelem
+    integer :: itype, jelem
     integer :: dim, nodes, strains   !< as many Gauss points as nodes
     integer :: components            !< of the stress of the material
     integer :: of_material(6)        !< the strains among them
@@ -66,9 +65,9 @@ contains
   !>
   !> ENERGY(2) grows by the work of the stress, by the trapezoidal rule: the strain energy of an elastic material; for an inelastic
   !> one it includes the work of the inelastic strain, since the material does not separate the two.
-  subroutine evaluate_continuum(jtype, jelem, values, options, coords, u, predef, npredf, materiallib, finite, with_tangent, &
+  subroutine evaluate_continuum(itype, jelem, values, options, coords, u, predef, npredf, materiallib, finite, with_tangent, &
     svars, energy, pnewdt, residual, tangent, good)
-    integer, intent(in) :: jtype, jelem
+    integer, intent(in) :: itype, jelem
     real(dp), intent(in) :: values(:)              !< properties by their rows in the layout
     integer, intent(in) :: options(:)
     real(dp), intent(in) :: coords(:, :), u(:)     !< coords: original ones, (2 or 3, nodes)
@@ -85,11 +84,11 @@ contains
 
     residual = 0.0_dp
     tangent = 0.0_dp
-    associate (dim => elements(jtype)%dimension, plane => options(j_plane))
-      this = element_call(jtype, jelem, dim, elements(jtype)%nodes, 3*(dim - 1), merge(3 + plane, 6, dim == 2), &
+    associate (dim => elements(itype)%dimension, plane => options(j_plane))
+      this = element_call(itype, jelem, dim, elements(itype)%nodes, 3*(dim - 1), merge(3 + plane, 6, dim == 2), &
         [1, 2, merge(4, 3, dim == 2 .and. plane == plane_strain), 4, 5, 6], options(j_formulation), &
         merge(options(j_face), options(j_brick_face), dim == 2), finite, with_tangent, npredf)
-      modes = merge(modes_of_brick, 0, this%formulation == incompatible_modes)
+      modes = modes_of(dim, plane, this%formulation)
       ! those of the face follow the Gauss points
       places = this%nodes
       if (this%face /= 0) places = places + middle_place(dim)
@@ -101,8 +100,8 @@ contains
 
   !> RHS of the stresses in SVARS, at the displacements to which they belong: of the start of an increment, where incompatible modes
   !> are in equilibrium; `good` is false after a message.
-  subroutine continuum_forces_at(jtype, jelem, values, options, coords, u, finite, svars, residual, good)
-    integer, intent(in) :: jtype, jelem
+  subroutine continuum_forces_at(itype, jelem, values, options, coords, u, finite, svars, residual, good)
+    integer, intent(in) :: itype, jelem
     real(dp), intent(in) :: values(:)              !< properties by their rows in the layout
     integer, intent(in) :: options(:)
     real(dp), intent(in) :: coords(:, :), u(:)     !< coords: original ones, (2 or 3, nodes)
@@ -111,17 +110,17 @@ contains
     real(dp), intent(out) :: residual(:)
     logical, intent(out) :: good
 
-    associate (dim => elements(jtype)%dimension)
-      call sum_stresses(jtype, jelem, dim, elements(jtype)%nodes, 3*(dim - 1), size(u) + merge(modes_of_brick, 0, &
-        options(j_formulation) == incompatible_modes), options(j_formulation), finite, &
+    associate (dim => elements(itype)%dimension)
+      call sum_stresses(itype, jelem, dim, elements(itype)%nodes, 3*(dim - 1), &
+        size(u) + modes_of(dim, options(j_plane), options(j_formulation)), options(j_formulation), finite, &
         merge(values(p_thickness), 1.0_dp, dim == 2), values(p_angle), coords(1:dim, :), u, svars, residual, good)
     end associate
   end subroutine continuum_forces_at
 
   !> The same with its sizes.
-  subroutine sum_stresses(jtype, jelem, dim, nodes, strains, n, formulation, finite, thickness, angle, coordinates, u, svars, &
+  subroutine sum_stresses(itype, jelem, dim, nodes, strains, n, formulation, finite, thickness, angle, coordinates, u, svars, &
     residual, good)
-    integer, intent(in) :: jtype, jelem, dim, nodes, strains
+    integer, intent(in) :: itype, jelem, dim, nodes, strains
     integer, intent(in) :: n                       !< unknowns, with those of the modes
     integer, intent(in) :: formulation
     logical, intent(in) :: finite
@@ -139,7 +138,7 @@ contains
     call solid_strains(dim, n, strains, formulation, coordinates, solid_points(dim), b, volume, status)
     good = status%code == ok
     if (.not. good) then
-      call report_status(jtype, jelem, status)
+      call report_status(itype, jelem, status)
       return
     end if
     to_ply = ply_strains(strains, angle, coordinates)
@@ -155,7 +154,7 @@ contains
     if (good) then
       residual = turn_forces(dim, nodes, turn, residual)
     else
-      call report_status(jtype, jelem, status_type(inside_out, 0, 0.0_dp, 0.0_dp))
+      call report_status(itype, jelem, status_type(inside_out, 0, 0.0_dp, 0.0_dp))
     end if
   end subroutine sum_stresses
 
@@ -186,7 +185,7 @@ contains
     call solid_strains(dim, n, strains, this%formulation, coordinates, parents, b, volume, status)
     good = status%code == ok
     if (.not. good) then
-      call report_status(this%jtype, this%jelem, status)
+      call report_status(this%itype, this%jelem, status)
       return
     end if
     to_ply = ply_strains(strains, angle, coordinates)
@@ -305,7 +304,7 @@ contains
     character(len=*), intent(in) :: why
     real(dp), intent(inout) :: pnewdt
 
-    call warn(this%jtype, this%jelem, why // '; a smaller increment is needed', [integer ::], [real(dp) ::])
+    call warn(this%itype, this%jelem, why // '; a smaller increment is needed', [integer ::], [real(dp) ::])
     pnewdt = min(pnewdt, smaller)
   end subroutine reduce_increment
 
@@ -378,11 +377,11 @@ contains
     type(element_call), intent(in) :: this
 
     if (this%dim == 2) then
-      call fatal(this%jtype, this%jelem, 'JPROPS(%I) PLANE = %I, but the material has a different number of stress ' // &
+      call fatal(this%itype, this%jelem, 'JPROPS(%I) PLANE = %I, but the material has a different number of stress ' // &
         'components: use TENSOR=PSTRESS with PLANE = 0 and TENSOR=PSTRAIN with PLANE = 1', &
-        [integer_position(this%jtype, j_plane), this%components - 3], [real(dp) ::])
+        [integer_position(this%itype, j_plane), this%components - 3], [real(dp) ::])
     else
-      call fatal(this%jtype, this%jelem, 'the material has fewer than six stress components: use TENSOR=THREED', &
+      call fatal(this%itype, this%jelem, 'the material has fewer than six stress components: use TENSOR=THREED', &
         [integer ::], [real(dp) ::])
     end if
   end subroutine refuse_tensor

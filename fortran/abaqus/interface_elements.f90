@@ -4,21 +4,23 @@
 module abaqus_interface_elements
   use core_kinds, only: dp
   use core_status, only: status_type, ok, sentence
-  use materials_linear_elasticity, only: engineering_constants, plane_stiffness, solid_stiffness
+  use core_cells, only: corners_of, is_linear
+  use materials_linear_elasticity, only: engineering_constants, plane_stiffness, solid_stiffness, plane_expansion, solid_expansion
   use cohesive_parameters, only: law_parameters, bilinear_law, ppr_law
   use cohesive_ppr, only: prepare_ppr
+  use elements_bulk_solid, only: solid_type
   use elements_interface_bulk, only: stabilisation_type
   use elements_interface_faces, only: central_frame
   use elements_interface_kernel, only: integrate_interface, interface_forces
   use elements_interface_point, only: interface_options, interface_point
   use abaqus_layout, only: elements, faces, reals, own_variables, interface_variables, surface_variables, &
-    standard, standard_3d, next_to_quads, next_to_bricks, o_betan, o_betat, o_gamman, o_gammat, &
+    standard, standard_3d, next_to_quads, next_to_bricks, o_betan, o_betat, o_gamman, o_gammat, o_temp0_bottom, o_temp0_top, &
     p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
     p_shapen, p_shapet, p_blend, p_betan, p_betat, p_gammabot, p_friction, &
     p_e1_bottom, p_e2_bottom, p_e3_bottom, p_nu12_bottom, p_nu13_bottom, p_nu23_bottom, p_g12_bottom, p_g13_bottom, &
     p_g23_bottom, p_angle_bottom, p_e1_top, p_e2_top, p_e3_top, p_nu12_top, p_nu13_top, p_nu23_top, p_g12_top, p_g13_top, &
-    p_g23_top, p_angle_top, &
-    j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, &
+    p_g23_top, p_angle_top, p_expansion1_bottom, p_expansion2_bottom, p_expansion3_bottom, p_expansion1_top, p_expansion2_top, &
+    p_expansion3_top, j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, j_formulation_bottom, j_formulation_top, &
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
     v_maxn, v_maxt, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, w_dissi, w_dissii, w_sn, w_st, w_dmax, &
     w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt
@@ -26,6 +28,7 @@ module abaqus_interface_elements
     paper_closure
   use abaqus_check, only: report_status
   use abaqus_long_elements, only: warn_if_long
+  use abaqus_temperatures, only: expands
   use abaqus_raised_beta, only: warn_if_raised
   use abaqus_report, only: fatal
   use abaqus_neighbours, only: stress_of_neighbours
@@ -52,13 +55,14 @@ contains
   !> Evaluates every type but U1 and U9; `good` is false after a message. SVARS and ENERGY come back with their end values:
   !> ENERGY(2) is what the law and, in the
   !> complete form, the gap store, ENERGY(4) what damage and friction have dissipated, ENERGY(5) what the viscous overstress has.
-  subroutine evaluate_interface(jtype, jelem, values, options, coords, u, dtime, finite, with_tangent, svars, energy, residual, &
-    tangent, good)
-    integer, intent(in) :: jtype, jelem
+  subroutine evaluate_interface(itype, jelem, values, options, coords, u, temperatures, dtime, finite, with_tangent, svars, &
+    energy, residual, tangent, good)
+    integer, intent(in) :: itype, jelem
     real(dp), intent(in) :: values(:)              !< properties by their rows in the layout
     integer, intent(in) :: options(:)
     real(dp), intent(in) :: coords(:, :)           !< (2 or 3, nodes)
     real(dp), intent(in) :: u(:)
+    real(dp), intent(in) :: temperatures(:, :)     !< (2, nodes) at the end of the increment, and its change
     real(dp), intent(in) :: dtime
     logical, intent(in) :: finite                  !< large rotations
     logical, intent(in) :: with_tangent            !< else it is zero
@@ -68,73 +72,74 @@ contains
     type(law_parameters) :: law
     type(interface_options) :: choice
     type(stabilisation_type) :: stabilisation
-    type(interface_point), dimension(elements(jtype)%points) :: old, new
+    type(interface_point), dimension(elements(itype)%points) :: old, new
     type(engineering_constants) :: materials(2)
+    type(solid_type) :: solids(2)
     type(status_type) :: status
-    real(dp) :: energies(3), stress(3, 3, elements(jtype)%points), original(elements(jtype)%dimension, size(coords, 2))
-    real(dp), dimension(3*(elements(jtype)%dimension - 1), 3*(elements(jtype)%dimension - 1), 2) :: stiffness
-    real(dp) :: thickness
-    integer :: nodes(nodes_of_face(jtype), 2), n, dim
+    real(dp) :: energies(3), stress(3, 3, elements(itype)%points), original(elements(itype)%dimension, size(coords, 2))
+    real(dp) :: thickness, initial(2)
+    integer :: nodes(nodes_of_face(itype), 2), n, dim
 
     call prepare_law(values, options, law, status)
     good = status%code == ok
     if (.not. good) then
-      call report_status(jtype, jelem, status)
+      call report_status(itype, jelem, status)
       return
     end if
     choice = chosen(values, options, finite)
     stabilisation = stabilisation_of(values, choice%complete)
-    dim = elements(jtype)%dimension
+    dim = elements(itype)%dimension
     original = coords(1:dim, :)
-    thickness = thickness_of(jtype, values)
-    n = elements(jtype)%points
-    nodes = face_nodes(jtype)
+    thickness = thickness_of(itype, values)
+    n = elements(itype)%points
+    nodes = face_nodes(itype)
     old = points_from(svars, n, dim)
-    associate (solid => faces(jtype)%solid)
-      select case (elements(jtype)%family)
-      case (standard, standard_3d)
-        call integrate_interface(dim, n, nodes, solid, law, choice, thickness, original, u, dtime, with_tangent, old, new, &
-          residual, tangent, energies, status)
-      case (next_to_quads, next_to_bricks)
-        call stress_of_neighbours(jtype, jelem, dim, n, options, choice, original, reshape(u, [dim, size(u)/dim]), stabilisation, &
-          stress, good)
+    select case (elements(itype)%family)
+    case (standard, standard_3d)
+      call integrate_interface(dim, n, nodes, law, choice, thickness, original, u, dtime, with_tangent, old, new, residual, &
+        tangent, energies, status)
+    case (next_to_quads, next_to_bricks)
+      call stress_of_neighbours(itype, jelem, dim, n, options, choice, original, reshape(u, [dim, size(u)/dim]), stabilisation, &
+        stress, good)
+      if (.not. good) return
+      call integrate_interface(dim, n, nodes, law, choice, thickness, original, u, dtime, with_tangent, old, new, residual, &
+        tangent, energies, status, stabilisation, neighbours=stress)
+    case default
+      associate (own => svars(variables_of_points(itype) + 1:variables_of_points(itype) + own_variables))
+        call find_initial(itype, jelem, own, temperatures(1, :) - temperatures(2, :), values, initial, good)
         if (.not. good) return
-        call integrate_interface(dim, n, nodes, solid, law, choice, thickness, original, u, dtime, with_tangent, old, new, &
-          residual, tangent, energies, status, stabilisation, neighbours=stress)
-      case default
         materials = materials_of_solids(values)
-        call elasticity_of_solids(jtype, jelem, materials, options(j_plane), original(:, nodes(:, 1)), original(:, nodes(:, 2)), &
-          stiffness, good)
+        call find_solids(itype, jelem, materials, options, original(:, nodes(:, 1)), original(:, nodes(:, 2)), &
+          temperatures(1, :), initial, solids, good)
         if (.not. good) return
-        call warn_if_long(jtype, jelem, nodes, original, materials, law, old)
-        associate (own => svars(variables_of_points(jtype) + 1:variables_of_points(jtype) + own_variables))
-          if (stabilisation%local) call recall(own, stabilisation)
-          call integrate_interface(dim, n, nodes, solid, law, choice, thickness, original, u, dtime, with_tangent, old, new, &
-            residual, tangent, energies, status, stabilisation, stiffness)
-          own([o_betat, o_betan]) = stabilisation%beta
-          own([o_gammat, o_gamman]) = stabilisation%gamma_bottom
-        end associate
-      end select
-    end associate
+        call warn_if_long(itype, jelem, nodes, original, materials, law, old)
+        if (stabilisation%local) call recall(own, stabilisation)
+        call integrate_interface(dim, n, nodes, law, choice, thickness, original, u, dtime, with_tangent, old, new, residual, &
+          tangent, energies, status, stabilisation, solids)
+        own([o_betat, o_betan]) = stabilisation%beta
+        own([o_gammat, o_gamman]) = stabilisation%gamma_bottom
+        own([o_temp0_bottom, o_temp0_top]) = initial
+      end associate
+    end select
     good = status%code == ok
     if (good) then
-      call warn_if_raised(jtype, jelem, stabilisation%estimate, stabilisation%beta)
+      call warn_if_raised(itype, jelem, stabilisation%estimate, stabilisation%beta)
       call write_state(new, dim, svars)
       energy = 0.0_dp
       energy([2, 4, 5]) = energies
     else
-      call report_status(jtype, jelem, status)
+      call report_status(itype, jelem, status)
     end if
   end subroutine evaluate_interface
 
   !> RHS of the tractions in SVARS, at the displacements to which they belong: of the start of an increment; `good` is false after a
   !> message.
-  subroutine interface_forces_at(jtype, jelem, values, options, coords, u, finite, svars, residual, good)
-    integer, intent(in) :: jtype, jelem
+  subroutine interface_forces_at(itype, jelem, values, options, coords, u, temperatures, finite, svars, residual, good)
+    integer, intent(in) :: itype, jelem
     real(dp), intent(in) :: values(:)              !< properties by their rows in the layout
     integer, intent(in) :: options(:)
     real(dp), intent(in) :: coords(:, :)           !< (2 or 3, nodes)
-    real(dp), intent(in) :: u(:)
+    real(dp), intent(in) :: u(:), temperatures(:)  !< temperatures: of the nodes
     logical, intent(in) :: finite                  !< large rotations
     real(dp), intent(in) :: svars(*)
     real(dp), intent(out) :: residual(:)
@@ -142,29 +147,29 @@ contains
     type(interface_options) :: choice
     type(stabilisation_type) :: stabilisation
     type(status_type) :: status
-    real(dp), dimension(3*(elements(jtype)%dimension - 1), 3*(elements(jtype)%dimension - 1), 2) :: stiffness
-    real(dp) :: original(elements(jtype)%dimension, size(coords, 2))
-    integer :: nodes(nodes_of_face(jtype), 2)
+    type(solid_type) :: solids(2)
+    real(dp) :: original(elements(itype)%dimension, size(coords, 2))
+    integer :: nodes(nodes_of_face(itype), 2)
 
     choice = chosen(values, options, finite)
     stabilisation = stabilisation_of(values, choice%complete)
-    nodes = face_nodes(jtype)
-    associate (dim => elements(jtype)%dimension, points => elements(jtype)%points, n => variables_of_points(jtype))
+    nodes = face_nodes(itype)
+    associate (dim => elements(itype)%dimension, points => elements(itype)%points, n => variables_of_points(itype))
       original = coords(1:dim, :)
       good = .true.
       if (choice%complete) then
-        call elasticity_of_solids(jtype, jelem, materials_of_solids(values), options(j_plane), original(:, nodes(:, 1)), &
-          original(:, nodes(:, 2)), stiffness, good)
+        call find_solids(itype, jelem, materials_of_solids(values), options, original(:, nodes(:, 1)), original(:, nodes(:, 2)), &
+          temperatures, svars(n + [o_temp0_bottom, o_temp0_top]), solids, good)
         if (good) call recall(svars(n + 1:n + own_variables), stabilisation)
         ! before the first increment that is kept there are neither tractions nor displacements
         choice%complete = stabilisation%known
       end if
       if (.not. good) return
-      call interface_forces(dim, points, nodes, faces(jtype)%solid, choice, thickness_of(jtype, values), original, u, &
-        points_from(svars, points, dim), residual, status, stabilisation, stiffness)
+      call interface_forces(dim, points, nodes, choice, thickness_of(itype, values), original, u, points_from(svars, points, dim), &
+        residual, status, stabilisation, solids)
     end associate
     good = status%code == ok
-    if (.not. good) call report_status(jtype, jelem, status)
+    if (.not. good) call report_status(itype, jelem, status)
   end subroutine interface_forces_at
 
   !> Options of the kernel.
@@ -190,12 +195,12 @@ contains
   end function stabilisation_of
 
   !> Thickness out of the plane; 1 in space.
-  pure function thickness_of(jtype, values) result(thickness)
-    integer, intent(in) :: jtype
+  pure function thickness_of(itype, values) result(thickness)
+    integer, intent(in) :: itype
     real(dp), intent(in) :: values(:)
     real(dp) :: thickness
 
-    thickness = merge(values(p_thickness), 1.0_dp, elements(jtype)%dimension == 2)
+    thickness = merge(values(p_thickness), 1.0_dp, elements(itype)%dimension == 2)
   end function thickness_of
 
   !> Takes beta and gamma that an earlier increment has left: the eigenvalue problem takes longer than all the rest, and they do not
@@ -248,39 +253,84 @@ contains
     materials = [ &
       engineering_constants(e1=values(p_e1_bottom), e2=values(p_e2_bottom), e3=values(p_e3_bottom), nu12=values(p_nu12_bottom), &
         nu13=values(p_nu13_bottom), nu23=values(p_nu23_bottom), g12=values(p_g12_bottom), angle=values(p_angle_bottom), &
-        g13=values(p_g13_bottom), g23=values(p_g23_bottom)), &
+        g13=values(p_g13_bottom), g23=values(p_g23_bottom), &
+        expansion=values([p_expansion1_bottom, p_expansion2_bottom, p_expansion3_bottom])), &
       engineering_constants(e1=values(p_e1_top), e2=values(p_e2_top), e3=values(p_e3_top), nu12=values(p_nu12_top), &
         nu13=values(p_nu13_top), nu23=values(p_nu23_top), g12=values(p_g12_top), angle=values(p_angle_top), &
-        g13=values(p_g13_top), g23=values(p_g23_top))]
+        g13=values(p_g13_top), g23=values(p_g23_top), &
+        expansion=values([p_expansion1_top, p_expansion2_top, p_expansion3_top]))]
   end function materials_of_solids
 
-  !> Their stiffness; `good` is false after a message.
-  subroutine elasticity_of_solids(jtype, jelem, materials, plane, bottom, top, stiffness, good)
-    integer, intent(in) :: jtype, jelem
+  !> The solids with these materials; `good` is false after a message.
+  subroutine find_solids(itype, jelem, materials, options, bottom, top, temperatures, initial, solids, good)
+    integer, intent(in) :: itype, jelem
     type(engineering_constants), intent(in) :: materials(2)
-    integer, intent(in) :: plane
+    integer, intent(in) :: options(:)
     real(dp), intent(in) :: bottom(:, :), top(:, :)     !< original coordinates of the faces
-    real(dp), intent(out) :: stiffness(:, :, :)
+    real(dp), intent(in) :: temperatures(:)             !< of all nodes
+    real(dp), intent(in) :: initial(2)                  !< temperatures of the solids
+    type(solid_type), intent(out) :: solids(2)
     logical, intent(out) :: good
-    integer, parameter :: ratio(2) = [p_nu12_bottom, p_nu12_top]
+    integer, parameter :: ratio(2) = [p_nu12_bottom, p_nu12_top], formulation(2) = [j_formulation_bottom, j_formulation_top]
     type(status_type) :: status
-    integer :: side
+    real(dp) :: frame(3, 3)
+    integer :: side, first, corners
 
     do side = 1, 2
-      if (size(bottom, 1) == 2) then
-        call plane_stiffness(materials(side), plane, stiffness(:, :, side), status)
-      else
-        call solid_stiffness(materials(side), central_frame(size(bottom, 2), bottom, top), stiffness(:, :, side), status)
-      end if
+      associate (solid => solids(side))
+        solid%nodes = faces(itype)%solids(side)
+        solid%formulation = options(formulation(side))
+        solid%plane = options(j_plane)
+        if (size(bottom, 1) == 2) then
+          call plane_stiffness(materials(side), solid%plane, solid%stiffness(1:3, 1:3), status)
+          solid%expansion(1:3) = plane_expansion(materials(side), solid%plane)
+        else
+          frame = central_frame(size(bottom, 2), bottom, top)
+          call solid_stiffness(materials(side), frame, solid%stiffness, status)
+          solid%expansion = solid_expansion(materials(side), frame)
+        end if
+        first = merge(1, 1 + faces(itype)%solids(1), side == 1)
+        corners = corners_of(size(bottom, 1), solid%nodes)
+        solid%heating(1:corners) = temperatures(first:first + corners - 1) - initial(side)
+      end associate
       good = status%code == ok
       if (.not. good) then
-        call fatal(jtype, jelem, 'PROPS(%I) ' // trim(reals(ratio(side))%name) // ' = %R and its neighbours: ' // &
+        call fatal(itype, jelem, 'PROPS(%I) ' // trim(reals(ratio(side))%name) // ' = %R and its neighbours: ' // &
           trim(sentence(status%code)) // '; %R must be positive', &
-          [real_position(jtype, ratio(side))], [materials(side)%nu12, status%value])
+          [real_position(itype, ratio(side))], [materials(side)%nu12, status%value])
         return
       end if
     end do
-  end subroutine elasticity_of_solids
+  end subroutine find_solids
+
+  !> Initial temperatures of the solids: those that an earlier increment has left or, in the first one, the means of the corners at
+  !> its start; `good` is false after a message.
+  subroutine find_initial(itype, jelem, own, start, values, initial, good)
+    integer, intent(in) :: itype, jelem
+    real(dp), intent(in) :: own(:)           !< SVARS of the element
+    real(dp), intent(in) :: start(:)         !< temperatures of all nodes at the start of the increment
+    real(dp), intent(in) :: values(:)
+    real(dp), intent(out) :: initial(2)
+    logical, intent(out) :: good
+    integer :: side, first, corners
+
+    good = .true.
+    initial = own([o_temp0_bottom, o_temp0_top])
+    if (own(o_betan) > 0.0_dp) return
+    do side = 1, 2
+      corners = corners_of(elements(itype)%dimension, faces(itype)%solids(side))
+      first = merge(1, 1 + faces(itype)%solids(1), side == 1)
+      associate (at_corners => start(first:first + corners - 1))
+        initial(side) = sum(at_corners)/corners
+        if (is_linear(elements(itype)%dimension, faces(itype)%solids(side)) .or. .not. expands(values)) cycle
+        good = maxval(abs(at_corners - initial(side))) <= sqrt(epsilon(1.0_dp))*maxval(abs(at_corners))
+        if (good) cycle
+        call fatal(itype, jelem, 'initial temperatures from %R to %R at the corners of one of its solids: expected one for ' // &
+          'all corners of a solid with midside nodes', [integer ::], [minval(at_corners), maxval(at_corners)])
+        return
+      end associate
+    end do
+  end subroutine find_initial
 
   !> Committed state of n points.
   pure function points_from(svars, n, dim) result(points)

@@ -22,8 +22,8 @@ module abaqus_long_elements
 contains
 
   !> The message, if the element is the first one of the job that calls for it.
-  subroutine warn_if_long(jtype, jelem, faces, coordinates, materials, law, points)
-    integer, intent(in) :: jtype, jelem
+  subroutine warn_if_long(itype, jelem, faces, coordinates, materials, law, points)
+    integer, intent(in) :: itype, jelem
     integer, intent(in) :: faces(:, :)                       !< nodes of the bottom and the top face, a column each
     real(dp), intent(in) :: coordinates(:, :)                !< original ones, (2 or 3, nodes)
     type(engineering_constants), intent(in) :: materials(2)  !< of the solids below and above
@@ -37,7 +37,7 @@ contains
     if (k == 0) return
     call measure_zone(faces, coordinates, materials, law, points(k)%history%dissipated, length, zone, share)
     if (least_elements*length <= zone) return
-    call warn(jtype, jelem, 'fails and is %R long, the process zone at most %R (%I per cent mode II): expected at least ' // &
+    call warn(itype, jelem, 'fails and is %R long, the process zone at most %R (%I per cent mode II): expected at least ' // &
       '%I elements in it; with fewer the load comes out too high. Told once in a job', &
       [nint(100.0_dp*share), least_elements], [length, zone])
     told = .true.

@@ -23,8 +23,8 @@ module abaqus_neighbours
 contains
 
   !> Weighted nominal stress of each point, and beta and gamma with (21) and (22) put in; `good` is false after a message.
-  subroutine stress_of_neighbours(jtype, jelem, dim, points, given, options, coordinates, u, stabilisation, stress, good)
-    integer, intent(in) :: jtype, jelem
+  subroutine stress_of_neighbours(itype, jelem, dim, points, given, options, coordinates, u, stabilisation, stress, good)
+    integer, intent(in) :: itype, jelem
     integer, intent(in) :: dim, points                 !< points: also nodes of a face
     integer, intent(in) :: given(:)                    !< integer properties by their rows in the layout
     type(interface_options), intent(in) :: options
@@ -38,18 +38,18 @@ contains
     integer :: slot(2), matching(points, 2), nodes(points, 2), side, k
 
     stress = 0.0_dp
-    nodes(:, 1) = faces(jtype)%bottom(1:points)
-    nodes(:, 2) = faces(jtype)%top(1:points)
+    nodes(:, 1) = faces(itype)%bottom(1:points)
+    nodes(:, 2) = faces(itype)%top(1:points)
     call measure_interface(dim, points, points, coordinates(:, nodes(:, 1)), coordinates(:, nodes(:, 2)), gauss_rule, places, &
       status)
     good = status%code == ok
     if (.not. good) then
-      call report_status(jtype, jelem, status)
+      call report_status(itype, jelem, status)
       return
     end if
     do side = 1, 2
       slot(side) = slot_of_bulk(jelem + given(offset_rows(side)))
-      call check_neighbour(jtype, jelem, dim, points, given(offset_rows(side)), side, slot(side), coordinates(:, nodes(:, side)), &
+      call check_neighbour(itype, jelem, dim, points, given(offset_rows(side)), side, slot(side), coordinates(:, nodes(:, side)), &
         u(:, nodes(:, side)), places(1), matching(:, side), good)
       if (.not. good) return
     end do
@@ -85,8 +85,8 @@ contains
 
   !> Checks that an element has been evaluated with the displacements of this iteration, and that its face is the interface's, with
   !> the element below it (side 1) or above it.
-  subroutine check_neighbour(jtype, jelem, dim, points, offset, side, slot, coordinates, u, place, matching, good)
-    integer, intent(in) :: jtype, jelem, dim, points, offset, side, slot
+  subroutine check_neighbour(itype, jelem, dim, points, offset, side, slot, coordinates, u, place, matching, good)
+    integer, intent(in) :: itype, jelem, dim, points, offset, side, slot
     real(dp), intent(in) :: coordinates(dim, points), u(dim, points)   !< of the nodes of that face of the interface
     type(interface_place), intent(in) :: place                         !< a point of the interface
     integer, intent(out) :: matching(points)                           !< node of the face of the element, from 1
@@ -101,10 +101,10 @@ contains
     shared = merge('edge', 'face', dim == 2)
     good = .false.
     matching = 0
-    position = integer_position(jtype, offset_rows(side))
+    position = integer_position(itype, offset_rows(side))
     property = 'JPROPS(%I) ' // trim(integers(offset_rows(side))%name) // ' = %I'
     if (slot == 0) then
-      call fatal(jtype, jelem, trim(property) // ': bulk element %I has not been evaluated before; it must be a ' // bulk // &
+      call fatal(itype, jelem, trim(property) // ': bulk element %I has not been evaluated before; it must be a ' // bulk // &
         ' with FACE, have a lower number than the interface element, and the job must run on one thread', &
         [position, offset, jelem + offset], [real(dp) ::])
       return
@@ -112,7 +112,7 @@ contains
     associate (record => records(slot))
       matching = match(dim, points, record, coordinates)
       if (any(matching == 0) .or. .not. lies_on(side, record, place)) then
-        call fatal(jtype, jelem, trim(property) // ': bulk element %I is not a neighbour: its face %I does not lie on ' // &
+        call fatal(itype, jelem, trim(property) // ': bulk element %I is not a neighbour: its face %I does not lie on ' // &
           'that ' // shared // ' of the interface', [position, offset, jelem + offset, record%face], [real(dp) ::])
         return
       end if
@@ -121,7 +121,7 @@ contains
         good = good .and. all(abs(record%displacement(1:dim, matching(k)) - u(:, k)) <= round_off*maxval(abs(u)))
       end do
     end associate
-    if (.not. good) call fatal(jtype, jelem, trim(property) // ': bulk element %I has not been evaluated before the ' // &
+    if (.not. good) call fatal(itype, jelem, trim(property) // ': bulk element %I has not been evaluated before the ' // &
       'interface element in this iteration: give bulk elements lower numbers and run on one thread', &
       [position, offset, jelem + offset], [real(dp) ::])
   end subroutine check_neighbour

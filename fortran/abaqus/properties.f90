@@ -9,7 +9,7 @@ module abaqus_properties
     p_betan, p_betat, j_law, j_closure
   implicit none(type, external)
   private
-  public :: unknowns_of, variables_of, variables_of_points, nodes_of_face, face_nodes
+  public :: row_of, unknowns_of, variables_of, variables_of_points, nodes_of_face, face_nodes
   public :: real_position, integer_position, unpack, recommend, delamination_layout_version
 
   ! values that choose among laws and estimates; 0 stands for what the element is made for, see `recommend`
@@ -21,47 +21,56 @@ module abaqus_properties
 
 contains
 
-  !> Number of unknowns of Un; 0 where there is no such type.
-  pure function unknowns_of(jtype) result(number)
+  !> Row of Un in `elements`, the itype of the procedures below; 0 where there is no such type.
+  pure function row_of(jtype) result(itype)
     integer, intent(in) :: jtype
+    integer :: itype
+
+    do itype = size(elements), 1, -1
+      if (elements(itype)%jtype == jtype) return
+    end do
+  end function row_of
+
+  !> Number of unknowns.
+  pure function unknowns_of(itype) result(number)
+    integer, intent(in) :: itype
     integer :: number
 
-    number = 0
-    if (jtype >= 1 .and. jtype <= size(elements)) number = elements(jtype)%dimension*elements(jtype)%nodes
+    number = elements(itype)%dimension*elements(itype)%nodes
   end function unknowns_of
 
-  !> Number of SVARS of Un, VARIABLES of *USER ELEMENT; 0 where there is no such type.
-  pure function variables_of(jtype) result(number)
-    integer, intent(in) :: jtype
+  !> Number of SVARS, VARIABLES of *USER ELEMENT; 0 for row 0.
+  pure function variables_of(itype) result(number)
+    integer, intent(in) :: itype
     integer :: number
 
     number = 0
-    if (jtype >= 1 .and. jtype <= size(elements)) number = variables_of_points(jtype) + elements(jtype)%own
+    if (itype > 0) number = variables_of_points(itype) + elements(itype)%own
   end function variables_of
 
-  !> Number of SVARS of the points of Un.
-  pure function variables_of_points(jtype) result(number)
-    integer, intent(in) :: jtype
+  !> Number of SVARS of the points.
+  pure function variables_of_points(itype) result(number)
+    integer, intent(in) :: itype
     integer :: number
 
-    number = elements(jtype)%points*elements(jtype)%variables
+    number = elements(itype)%points*elements(itype)%variables
   end function variables_of_points
 
-  !> Number of nodes of each face of the interface element Un.
-  pure function nodes_of_face(jtype) result(number)
-    integer, intent(in) :: jtype
+  !> Number of nodes of each face of an interface element.
+  pure function nodes_of_face(itype) result(number)
+    integer, intent(in) :: itype
     integer :: number
 
-    number = count(faces(jtype)%bottom > 0) + count(faces(jtype)%bottom_middles > 0)
+    number = count(faces(itype)%bottom > 0) + count(faces(itype)%bottom_middles > 0)
   end function nodes_of_face
 
   !> Nodes of its bottom and its top face, a column each.
-  pure function face_nodes(jtype) result(nodes)
-    integer, intent(in) :: jtype
-    integer :: nodes(nodes_of_face(jtype), 2)
+  pure function face_nodes(itype) result(nodes)
+    integer, intent(in) :: itype
+    integer :: nodes(nodes_of_face(itype), 2)
 
-    nodes(:, 1) = present_of(size(nodes, 1), [faces(jtype)%bottom, faces(jtype)%bottom_middles])
-    nodes(:, 2) = present_of(size(nodes, 1), [faces(jtype)%top, faces(jtype)%top_middles])
+    nodes(:, 1) = present_of(size(nodes, 1), [faces(itype)%bottom, faces(itype)%bottom_middles])
+    nodes(:, 2) = present_of(size(nodes, 1), [faces(itype)%top, faces(itype)%top_middles])
   end function face_nodes
 
   !> The entries that are not zero, as the intrinsic pack, which allocates memory in each call.
@@ -80,31 +89,31 @@ contains
   end function present_of
 
   !> Position in PROPS of the property in a row of `reals`.
-  pure function real_position(jtype, row) result(position)
-    integer, intent(in) :: jtype, row
+  pure function real_position(itype, row) result(position)
+    integer, intent(in) :: itype, row
     integer :: position
 
-    position = count(iand(reals(1:row)%families, elements(jtype)%family) /= 0)
+    position = count(iand(reals(1:row)%families, elements(itype)%family) /= 0)
   end function real_position
 
   !> Position in JPROPS of the property in a row of `integers`.
-  pure function integer_position(jtype, row) result(position)
-    integer, intent(in) :: jtype, row
+  pure function integer_position(itype, row) result(position)
+    integer, intent(in) :: itype, row
     integer :: position
 
-    position = count(iand(integers(1:row)%families, elements(jtype)%family) /= 0)
+    position = count(iand(integers(1:row)%families, elements(itype)%family) /= 0)
   end function integer_position
 
-  !> Properties by their rows in `reals` and `integers`; 0 where Un has no such property.
-  pure subroutine unpack(jtype, props, jprops, values, options)
-    integer, intent(in) :: jtype
-    real(dp), intent(in) :: props(elements(jtype)%reals)
-    integer, intent(in) :: jprops(elements(jtype)%integers)
+  !> Properties by their rows in `reals` and `integers`; 0 where the element has no such property.
+  pure subroutine unpack(itype, props, jprops, values, options)
+    integer, intent(in) :: itype
+    real(dp), intent(in) :: props(elements(itype)%reals)
+    integer, intent(in) :: jprops(elements(itype)%integers)
     real(dp), intent(out) :: values(size(reals))
     integer, intent(out) :: options(size(integers))
     integer :: row, position, family
 
-    family = elements(jtype)%family
+    family = elements(itype)%family
     values = 0.0_dp
     position = 0
     do row = 1, size(reals)
@@ -123,16 +132,16 @@ contains
 
   !> Puts what a zero stands for in its place: the bilinear law and, in a self-contained element, the consistent closure and beta
   !> from the local eigenvalues, in U3 and U10, which follow the paper, its closure and (21).
-  pure subroutine recommend(jtype, values, options)
-    integer, intent(in) :: jtype
+  pure subroutine recommend(itype, values, options)
+    integer, intent(in) :: itype
     real(dp), intent(inout) :: values(size(reals))
     integer, intent(inout) :: options(size(integers))
     integer, parameter :: betas(2) = [p_betan, p_betat]
     logical :: follows_paper
 
-    if (iand(elements(jtype)%family, interfaces) /= 0 .and. options(j_law) == 0) options(j_law) = 1
-    if (iand(elements(jtype)%family, stabilised) == 0) return
-    follows_paper = iand(elements(jtype)%family, next_to_solids) /= 0
+    if (iand(elements(itype)%family, interfaces) /= 0 .and. options(j_law) == 0) options(j_law) = 1
+    if (iand(elements(itype)%family, stabilised) == 0) return
+    follows_paper = iand(elements(itype)%family, next_to_solids) /= 0
     if (options(j_closure) == 0) options(j_closure) = merge(paper_closure, consistent_closure, follows_paper)
     where (.not. abs(values(betas)) > 0.0_dp) values(betas) = merge(by_equation_21, by_eigenvalues, follows_paper)
   end subroutine recommend

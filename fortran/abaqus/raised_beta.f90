@@ -17,8 +17,8 @@ module abaqus_raised_beta
 contains
 
   !> The message, if the element is the first one of the job that calls for it.
-  subroutine warn_if_raised(jtype, jelem, estimate, beta)
-    integer, intent(in) :: jtype, jelem
+  subroutine warn_if_raised(itype, jelem, estimate, beta)
+    integer, intent(in) :: itype, jelem
     real(dp), intent(in) :: estimate(2)    !< (tau, n), stress/length; 0 where beta has not been raised
     real(dp), intent(in) :: beta(2)        !< that acts
     integer, parameter :: rows(2) = [p_betat, p_betan]
@@ -27,9 +27,9 @@ contains
     if (told) return
     do i = 2, 1, -1
       if (.not. estimate(i) > 0.0_dp) cycle
-      call warn(jtype, jelem, 'PROPS(%I) ' // trim(reals(rows(i))%name) // ': the estimate of beta is %R, too small for ' // &
+      call warn(itype, jelem, 'PROPS(%I) ' // trim(reals(rows(i))%name) // ': the estimate of beta is %R, too small for ' // &
         'the softening slope of the law; raised to %R. Elements that fail should be shorter. Told once in a job', &
-        [real_position(jtype, rows(i))], [estimate(i), beta(i)])
+        [real_position(itype, rows(i))], [estimate(i), beta(i)])
       told = .true.
       return
     end do

@@ -12,10 +12,10 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   use core_kinds, only: dp
   use abaqus_check, only: call_is_good
   use abaqus_interface_elements, only: evaluate_interface, interface_forces_at
-  use abaqus_layout, only: elements, every_continuum, reals, integers
+  use abaqus_layout, only: elements, every_continuum, names_of_types, reals, integers
   use abaqus_lflags, only: asks_for_nothing, asks_for_tangent, give_answer, large_displacements, weight_of_start
-  use abaqus_properties, only: variables_of
-  use abaqus_report, only: fatal
+  use abaqus_properties, only: row_of, variables_of
+  use abaqus_report, only: fatal, refuse_type
   use abaqus_temperatures, only: warn_if_heated
   implicit none(type, external)
   integer, intent(in) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, npredf, mlvarx
@@ -23,37 +23,40 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   real(dp), intent(inout) :: rhs(mlvarx, *), amatrx(ndofel, ndofel), svars(*), energy(8), pnewdt
   real(dp), intent(in) :: props(*), coords(mcrd, nnode), u(ndofel), du(mlvarx, *), v(ndofel), a(ndofel), time(2), dtime
   real(dp), intent(in) :: params(*), adlmag(mdload, *), predef(2, npredf, nnode), ddlmag(mdload, *), period
-  real(dp) :: residual(ndofel), tangent(ndofel, ndofel), state(variables_of(jtype)), energies(8), values(size(reals))
-  real(dp) :: before(ndofel), weight
+  real(dp) :: residual(ndofel), tangent(ndofel, ndofel), state(variables_of(row_of(jtype))), energies(8), values(size(reals))
+  real(dp) :: before(ndofel), temperatures(2, nnode), weight
   logical :: good
-  integer :: n, options(size(integers))
+  integer :: n, itype, options(size(integers))
 
   rhs(1:ndofel, 1:nrhs) = 0.0_dp
   amatrx = 0.0_dp
-  if (jtype < 1 .or. jtype > size(elements)) then
-    call fatal(jtype, jelem, 'is not an element of this file, which has U1 to U%I', [size(elements)], [real(dp) ::])
+  itype = row_of(jtype)
+  if (itype == 0) then
+    call refuse_type(jtype, jelem, 'is not an element of this file, which has ' // names_of_types)
     return
-  else if (iand(elements(jtype)%family, every_continuum) /= 0) then
-    call fatal(jtype, jelem, 'takes its stress from a material: specify MATERIAL= on *UEL PROPERTY', &
+  else if (iand(elements(itype)%family, every_continuum) /= 0) then
+    call fatal(itype, jelem, 'takes its stress from a material: specify MATERIAL= on *UEL PROPERTY', &
       [integer ::], [real(dp) ::])
     return
   end if
-  good = call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, props, jprops, &
+  good = call_is_good(itype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, props, jprops, &
     values, options)
   if (.not. good) return
   if (asks_for_nothing(lflags)) return
-  call warn_if_heated(jtype, jelem, npredf, predef)
+  call warn_if_heated(itype, jelem, values, npredf, predef)
+  temperatures = 0.0_dp
+  if (npredf > 0) temperatures = predef(:, 1, :)
 
   n = size(state)
   state = svars(1:n)
   weight = weight_of_start(lflags, params)
   if (abs(weight) > 0.0_dp) then
-    call interface_forces_at(jtype, jelem, values, options, coords, u - du(1:ndofel, 1), large_displacements(lflags), state, &
-      before, good)
+    call interface_forces_at(itype, jelem, values, options, coords, u - du(1:ndofel, 1), &
+      temperatures(1, :) - temperatures(2, :), large_displacements(lflags), state, before, good)
     if (.not. good) return
   end if
-  call evaluate_interface(jtype, jelem, values, options, coords, u, dtime, large_displacements(lflags), asks_for_tangent(lflags), &
-    state, energies, residual, tangent, good)
+  call evaluate_interface(itype, jelem, values, options, coords, u, temperatures, dtime, large_displacements(lflags), &
+    asks_for_tangent(lflags), state, energies, residual, tangent, good)
   if (.not. good) return
   if (abs(weight) > 0.0_dp) then
     residual = (1.0_dp - weight)*residual + weight*before

@@ -14,8 +14,8 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   use abaqus_continuum_element, only: evaluate_continuum, continuum_forces_at
   use abaqus_layout, only: elements, every_continuum, reals, integers
   use abaqus_lflags, only: asks_for_nothing, asks_for_tangent, give_answer, large_displacements, weight_of_start
-  use abaqus_properties, only: variables_of
-  use abaqus_report, only: fatal
+  use abaqus_properties, only: row_of, variables_of
+  use abaqus_report, only: refuse_type
   implicit none(type, external)
   integer, intent(in) :: ndofel, nrhs, nsvars, nprops, mcrd, nnode, jtype, kstep, kinc, jelem, ndload, npredf, mlvarx
   integer, intent(in) :: mdload, njprop, jdltyp(mdload, *), lflags(*), jprops(*)
@@ -23,21 +23,21 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   real(dp), intent(in) :: props(*), coords(mcrd, nnode), u(ndofel), du(mlvarx, *), v(ndofel), a(ndofel), time(2), dtime
   real(dp), intent(in) :: params(*), adlmag(mdload, *), predef(2, npredf, nnode), ddlmag(mdload, *), period
   integer, intent(in) :: materiallib(*)
-  real(dp) :: residual(ndofel), tangent(ndofel, ndofel), state(variables_of(jtype)), energies(8), values(size(reals))
+  real(dp) :: residual(ndofel), tangent(ndofel, ndofel), state(variables_of(row_of(jtype))), energies(8), values(size(reals))
   real(dp) :: before(ndofel), weight
-  integer :: options(size(integers)), n
+  integer :: options(size(integers)), n, itype
   logical :: good
 
   rhs(1:ndofel, 1:nrhs) = 0.0_dp
   amatrx = 0.0_dp
-  good = jtype >= 1 .and. jtype <= size(elements)
-  if (good) good = iand(elements(jtype)%family, every_continuum) /= 0
+  itype = row_of(jtype)
+  good = itype > 0
+  if (good) good = iand(elements(itype)%family, every_continuum) /= 0
   if (.not. good) then
-    call fatal(jtype, jelem, 'is not an element with a material: specify MATERIAL= for U1 and U9 only', &
-      [integer ::], [real(dp) ::])
+    call refuse_type(jtype, jelem, 'is not an element with a material: specify MATERIAL= for U1 and U9 only')
     return
   end if
-  good = call_is_good(jtype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, props, jprops, &
+  good = call_is_good(itype, jelem, ndofel, nsvars, nprops, mcrd, nnode, njprop, ndload, props, jprops, &
     values, options)
   if (.not. good) return
   if (asks_for_nothing(lflags)) return
@@ -47,11 +47,11 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   energies = energy
   weight = weight_of_start(lflags, params)
   if (abs(weight) > 0.0_dp) then
-    call continuum_forces_at(jtype, jelem, values, options, coords, u - du(1:ndofel, 1), large_displacements(lflags), state, &
+    call continuum_forces_at(itype, jelem, values, options, coords, u - du(1:ndofel, 1), large_displacements(lflags), state, &
       before, good)
     if (.not. good) return
   end if
-  call evaluate_continuum(jtype, jelem, values, options, coords, u, predef, npredf, materiallib, large_displacements(lflags), &
+  call evaluate_continuum(itype, jelem, values, options, coords, u, predef, npredf, materiallib, large_displacements(lflags), &
     asks_for_tangent(lflags), state, energies, pnewdt, residual, tangent, good)
   if (.not. good) return
   if (abs(weight) > 0.0_dp) then

@@ -1,72 +1,233 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A continuum element next to an interface: traction from its displacements, area or volume, local eigenvalue. Quads have four or
-!> eight nodes, bricks eight or 20.
+!> A continuum element next to an interface, as that element itself computes it: strains by its displacements at any place and at
+!> its integration points, area or volume, and the bound of the traction on its face.
 !>
-!> The interface is the face where the last parent coordinate (eta, zeta) is 1 in the element below it and -1 in that above; the
-!> other parent coordinates are those of the interface.
+!> A traction is bounded by the energy of the element only if it is made of the strains that have this energy. Quads and bricks with
+!> full integration have the strain of the place, with the part of the incompatible modes, which are condensed, or with the mean
+!> volume strain. All others have the polynomial through the strains at their integration points: quads and bricks with reduced
+!> integration (the uniform strain of one point, or 2 x 2 (x 2) points), triangles, tetrahedra and wedges.
 module elements_bulk_solid
+  use core_cells, only: cell_functions, cell_point, corners_of, is_linear, is_multilinear, is_product, point_shares, points_of_cell
   use core_kinds, only: dp
-  use core_quadrature, only: gauss_point
   use core_rotation, only: traction_operator
-  use core_serendipity, only: quad8_gradient, brick_gradient
-  use core_shape_functions, only: quad_gradient
-  use core_status, only: status_type, ok, inside_out
+  use core_status, only: status_type, ok, inside_out, not_positive_definite
   use core_strains, only: strain_matrix
+  use core_symmetric, only: invert_definite
+  use elements_continuum_solid, only: incompatible_modes, mean_volume, modes_of, solid_gradient, solid_points, solid_strains
   use elements_face_eigenvalue, only: face_eigenvalue
   implicit none(type, external)
   private
-  public :: solid_gradient, solid_traction, solid_size, solid_face_eigenvalue
+  public :: solid_type, has_formulation, heating_at, strains_at, solid_traction, solid_size, solid_face_eigenvalue
+
+  !> Formulation besides those of elements_continuum_solid: reduced integration.
+  integer, parameter, public :: reduced_integration = 3
+
+  !> An elastic solid beside an interface.
+  type :: solid_type
+    integer :: nodes = 0
+    integer :: formulation = 0
+    integer :: plane = 0                     !< plane_stress or plane_strain, in the plane
+    real(dp) :: stiffness(6, 6) = 0.0_dp     !< D, global axes, stress; in the plane the first three rows and columns
+    real(dp) :: expansion(6) = 0.0_dp        !< thermal strain, global axes, 1/temperature; in the plane the first three
+    real(dp) :: heating(8) = 0.0_dp          !< change of temperature of the corners
+  end type solid_type
 
 contains
 
-  !> Matrix that takes the displacements of an element to sigma.n in the components of a frame at a point.
-  pure subroutine solid_traction(dim, nodes, coordinates, point, frame, stiffness, matrix, status)
-    integer, intent(in) :: dim, nodes
-    real(dp), intent(in) :: coordinates(dim, nodes)
-    real(dp), intent(in) :: point(dim)                            !< parent coordinates
-    real(dp), intent(in) :: frame(3, 3)                           !< rows tau, n and zero, or s, n and t
-    real(dp), intent(in) :: stiffness(3*(dim - 1), 3*(dim - 1))   !< D, stress
-    real(dp), intent(out) :: matrix(dim, dim*nodes)
-    type(status_type), intent(out) :: status                      !< inside_out with the Jacobian
-    real(dp) :: gradient(dim, nodes), by_strain(dim, 3*(dim - 1))
-    integer :: a
+  !> Whether elements with so many nodes have a formulation.
+  pure logical function has_formulation(dim, nodes, formulation)
+    integer, intent(in) :: dim, nodes, formulation
 
-    call solid_gradient(dim, nodes, coordinates, point, gradient, status)
-    by_strain = matmul(traction_operator(dim, frame), stiffness)
-    if (dim == 2) then
-      do a = 1, nodes
-        matrix(:, 2*a - 1) = by_strain(:, 1)*gradient(1, a) + by_strain(:, 3)*gradient(2, a)
-        matrix(:, 2*a) = by_strain(:, 2)*gradient(2, a) + by_strain(:, 3)*gradient(1, a)
-      end do
+    select case (formulation)
+    case (incompatible_modes, mean_volume)
+      has_formulation = is_multilinear(dim, nodes)
+    case (reduced_integration)
+      has_formulation = is_product(dim, nodes)
+    case default
+      has_formulation = .true.
+    end select
+  end function has_formulation
+
+  !> Number of integration points.
+  pure integer function points_of(dim, solid)
+    integer, intent(in) :: dim
+    type(solid_type), intent(in) :: solid
+
+    points_of = points_of_cell(dim, solid%nodes, solid%formulation == reduced_integration)
+  end function points_of
+
+  !> Change of temperature that the thermal strain of a solid has at a place: the mean of its corners, or with midside nodes the
+  !> linear function between them, as in Abaqus.
+  pure function heating_at(dim, solid, place) result(heating)
+    integer, intent(in) :: dim
+    type(solid_type), intent(in) :: solid
+    real(dp), intent(in) :: place(dim)      !< parent coordinates
+    real(dp) :: heating
+    real(dp), dimension(corners_of(dim, solid%nodes)) :: shape
+    real(dp) :: slope(size(shape), dim)
+
+    shape = 1.0_dp/size(shape)
+    if (.not. is_linear(dim, solid%nodes)) call cell_functions(dim, size(shape), place, shape, slope)
+    heating = dot_product(shape, solid%heating(1:size(shape)))
+  end function heating_at
+
+  !> Strains by displacements, transposed, at places and, on request, at the integration points with their areas or volumes.
+  pure subroutine strains_at(dim, solid, coordinates, places, b, status, b_points, volumes)
+    integer, intent(in) :: dim
+    type(solid_type), intent(in) :: solid
+    real(dp), intent(in) :: coordinates(dim, solid%nodes)
+    real(dp), intent(in) :: places(:, :)             !< (dim, places) parent coordinates
+    real(dp), intent(out) :: b(dim*solid%nodes, 3*(dim - 1), size(places, 2))
+    type(status_type), intent(out) :: status         !< inside_out with the Jacobian; not_positive_definite
+    real(dp), intent(out), optional :: b_points(:, :, :), volumes(:)
+    real(dp) :: own(dim*solid%nodes, 3*(dim - 1), points_of(dim, solid)), own_volumes(points_of(dim, solid))
+    real(dp) :: shares(points_of(dim, solid))
+    logical :: reduced
+    integer :: i, k
+
+    b = 0.0_dp
+    if (any(solid%formulation == [incompatible_modes, mean_volume])) then
+      call assumed_strains(dim, dim*solid%nodes + modes_of(dim, solid%plane, solid%formulation), solid, coordinates, places, b, &
+        own, own_volumes, status)
     else
-      do a = 1, nodes
-        matrix(:, 3*a - 2) = by_strain(:, 1)*gradient(1, a) + by_strain(:, 4)*gradient(2, a) + by_strain(:, 5)*gradient(3, a)
-        matrix(:, 3*a - 1) = by_strain(:, 2)*gradient(2, a) + by_strain(:, 4)*gradient(1, a) + by_strain(:, 6)*gradient(3, a)
-        matrix(:, 3*a) = by_strain(:, 3)*gradient(3, a) + by_strain(:, 5)*gradient(1, a) + by_strain(:, 6)*gradient(2, a)
+      reduced = solid%formulation == reduced_integration
+      if (present(b_points) .or. reduced .or. .not. is_product(dim, solid%nodes)) then
+        call strains_at_points(dim, solid, reduced, coordinates, own, own_volumes, status)
+        if (status%code /= ok) return
+      end if
+      do k = 1, size(places, 2)
+        if (reduced .or. .not. is_product(dim, solid%nodes)) then
+          shares = point_shares(dim, solid%nodes, reduced, places(:, k))
+          do i = 1, size(shares)
+            b(:, :, k) = b(:, :, k) + shares(i)*own(:, :, i)
+          end do
+        else
+          call plain_strains(dim, solid%nodes, coordinates, places(:, k), b(:, :, k), status)
+          if (status%code /= ok) return
+        end if
       end do
     end if
-  end subroutine solid_traction
+    if (present(b_points)) b_points = own
+    if (present(volumes)) volumes = own_volumes
+  end subroutine strains_at
+
+  !> The same with incompatible modes or the mean volume strain. The modes take the values that leave no force on them:
+  !> b - b_modes inverse(K_mm) K_mu.
+  pure subroutine assumed_strains(dim, n, solid, coordinates, places, b, b_points, volumes, status)
+    integer, intent(in) :: dim
+    integer, intent(in) :: n             !< unknowns, with those of the modes
+    type(solid_type), intent(in) :: solid
+    real(dp), intent(in) :: coordinates(dim, 2**dim), places(:, :)
+    real(dp), intent(out) :: b(dim*2**dim, 3*(dim - 1), size(places, 2)), b_points(dim*2**dim, 3*(dim - 1), 2**dim)
+    real(dp), intent(out) :: volumes(2**dim)
+    type(status_type), intent(out) :: status
+    real(dp) :: all_places(dim, 2**dim + size(places, 2)), everything(n, 3*(dim - 1), 2**dim + size(places, 2))
+    real(dp) :: jacobians(2**dim + size(places, 2)), by_strain(n, 3*(dim - 1))
+    real(dp) :: matrix(n - dim*2**dim, n), inverse(n - dim*2**dim, n - dim*2**dim), values(dim*2**dim, n - dim*2**dim)
+    integer :: k, m, points
+    logical :: good
+
+    m = dim*2**dim
+    points = 2**dim
+    all_places(:, 1:points) = solid_points(dim)
+    all_places(:, points + 1:) = places
+    call solid_strains(dim, n, 3*(dim - 1), solid%formulation, coordinates, all_places, everything, jacobians, status)
+    if (status%code /= ok) return
+    if (.not. minval(jacobians) > 0.0_dp) then
+      status = status_type(inside_out, 0, minval(jacobians), 0.0_dp)
+      return
+    end if
+    volumes = jacobians(1:points)
+    if (n > m) then
+      matrix = 0.0_dp
+      do k = 1, points
+        by_strain = matmul(everything(:, :, k), solid%stiffness(1:3*(dim - 1), 1:3*(dim - 1)))
+        matrix = matrix + volumes(k)*matmul(everything(m + 1:, :, k), transpose(by_strain))
+      end do
+      call invert_definite(matrix(:, m + 1:), inverse, good)
+      if (.not. good) then
+        status = status_type(not_positive_definite, 0, 0.0_dp, 0.0_dp)
+        return
+      end if
+      values = matmul(transpose(matrix(:, 1:m)), inverse)
+      do k = 1, size(all_places, 2)
+        everything(1:m, :, k) = everything(1:m, :, k) - matmul(values, everything(m + 1:, :, k))
+      end do
+    end if
+    b_points = everything(1:m, :, 1:points)
+    b = everything(1:m, :, points + 1:)
+  end subroutine assumed_strains
+
+  !> Strains of the displacements at the integration points; the one point of a quad of four or a brick of eight nodes has the mean
+  !> of the element.
+  pure subroutine strains_at_points(dim, solid, reduced, coordinates, b, volumes, status)
+    integer, intent(in) :: dim
+    type(solid_type), intent(in) :: solid
+    logical, intent(in) :: reduced
+    real(dp), intent(in) :: coordinates(dim, solid%nodes)
+    real(dp), intent(out) :: b(:, :, :), volumes(:)
+    type(status_type), intent(out) :: status
+    real(dp) :: parent(dim), weight, part(size(b, 1), size(b, 2))
+    logical :: uniform
+    integer :: k, at
+
+    b = 0.0_dp
+    volumes = 0.0_dp
+    uniform = reduced .and. is_multilinear(dim, solid%nodes)
+    do k = 1, points_of_cell(dim, solid%nodes, reduced .and. .not. uniform)
+      call cell_point(dim, solid%nodes, reduced .and. .not. uniform, k, parent, weight)
+      call plain_strains(dim, solid%nodes, coordinates, parent, part, status)
+      if (status%code /= ok) return
+      at = merge(1, k, uniform)
+      volumes(at) = volumes(at) + weight*status%value
+      if (uniform) part = (weight*status%value)*part
+      b(:, :, at) = b(:, :, at) + part
+    end do
+    if (uniform) b = b/volumes(1)
+  end subroutine strains_at_points
+
+  !> Strains of the displacements at a place; the value of the status is the Jacobian.
+  pure subroutine plain_strains(dim, nodes, coordinates, parent, b, status)
+    integer, intent(in) :: dim, nodes
+    real(dp), intent(in) :: coordinates(dim, nodes), parent(dim)
+    real(dp), intent(out) :: b(dim*nodes, 3*(dim - 1))
+    type(status_type), intent(out) :: status
+    real(dp) :: gradient(dim, nodes)
+
+    call solid_gradient(dim, nodes, coordinates, parent, gradient, status)
+    call strain_matrix(dim, dim, nodes, transpose(gradient), b)
+  end subroutine plain_strains
+
+  !> Matrix that takes the strain of a solid to sigma.n in the components of a frame.
+  pure function solid_traction(dim, solid, frame) result(matrix)
+    integer, intent(in) :: dim
+    type(solid_type), intent(in) :: solid
+    real(dp), intent(in) :: frame(3, 3)          !< rows tau, n and zero, or s, n and t
+    real(dp) :: matrix(dim, 3*(dim - 1))
+
+    matrix = matmul(traction_operator(dim, frame), solid%stiffness(1:3*(dim - 1), 1:3*(dim - 1)))
+  end function solid_traction
 
   !> Area or volume.
-  pure subroutine solid_size(dim, nodes, coordinates, value, status)
-    integer, intent(in) :: dim, nodes
-    real(dp), intent(in) :: coordinates(dim, nodes)
+  pure subroutine solid_size(dim, solid, coordinates, value, status)
+    integer, intent(in) :: dim
+    type(solid_type), intent(in) :: solid
+    real(dp), intent(in) :: coordinates(dim, solid%nodes)
     real(dp), intent(out) :: value
     type(status_type), intent(out) :: status        !< inside_out with the area or a Jacobian
-    real(dp) :: gradient(dim, nodes), point(dim), weight
-    integer :: k, per_side
+    real(dp) :: gradient(dim, solid%nodes), parent(dim), weight
+    integer :: k
 
     value = 0.0_dp
-    if (dim == 2 .and. nodes == 4) then
+    if (dim == 2 .and. solid%nodes == 4) then
       value = quad_area(coordinates(:, 1:4))
       status = status_type(merge(ok, inside_out, value > 0.0_dp), 0, value, 0.0_dp)
       return
     end if
-    per_side = points_per_side(dim, nodes)
-    do k = 1, per_side**dim
-      call gauss_point(dim, per_side, k, point, weight)
-      call solid_gradient(dim, nodes, coordinates, point, gradient, status)
+    do k = 1, points_of_cell(dim, solid%nodes, .false.)
+      call cell_point(dim, solid%nodes, .false., k, parent, weight)
+      call solid_gradient(dim, solid%nodes, coordinates, parent, gradient, status)
       if (status%code /= ok) return
       value = value + weight*status%value
     end do
@@ -83,83 +244,43 @@ contains
     area = 0.5_dp*(diagonal_13(1)*diagonal_24(2) - diagonal_13(2)*diagonal_24(1))
   end function quad_area
 
-  !> lambda of a face, see elements_face_eigenvalue; with as many points along each direction as an edge has nodes. The traction of
-  !> a point is that of the samples in the element that stand for it.
-  pure subroutine solid_face_eigenvalue(dim, nodes, coordinates, points, samples, shares, frames, areas, stiffness, lambda, &
-    joint, status)
-    integer, intent(in) :: dim, nodes
-    real(dp), intent(in) :: coordinates(dim, nodes)
-    integer, intent(in) :: points                     !< of the face
-    real(dp), intent(in) :: samples(:, :, :)          !< (dim, samples, points) parent coordinates
-    real(dp), intent(in) :: shares(:, :)              !< (samples, points) of the samples
-    real(dp), intent(in) :: frames(3, 3, points)
-    real(dp), intent(in) :: areas(points)             !< of the face that each of them stands for
-    real(dp), intent(in) :: stiffness(3*(dim - 1), 3*(dim - 1))   !< D, stress
+  !> lambda of a face, see elements_face_eigenvalue. The traction of a point is that of the samples in the solid that stand for it.
+  pure subroutine solid_face_eigenvalue(dim, solid, coordinates, samples, shares, frames, areas, lambda, joint, status)
+    integer, intent(in) :: dim
+    type(solid_type), intent(in) :: solid
+    real(dp), intent(in) :: coordinates(dim, solid%nodes)
+    real(dp), intent(in) :: samples(:, :)             !< (dim, samples) parent coordinates
+    real(dp), intent(in) :: shares(:, :)              !< (samples, points of the face)
+    real(dp), intent(in) :: frames(:, :, :)           !< of the points
+    real(dp), intent(in) :: areas(:)                  !< of the face that each of them stands for
     real(dp), intent(out) :: lambda(2)                !< of shear and normal traction, stress/length
     real(dp), intent(out) :: joint                    !< of both, see there
     type(status_type), intent(out) :: status          !< inside_out with the Jacobian
-    real(dp) :: energy(dim*nodes, dim*nodes), traction(dim*points, dim*nodes), part(dim, dim*nodes)
+    real(dp), dimension(dim*solid%nodes, 3*(dim - 1), size(samples, 2)) :: b
+    real(dp), dimension(dim*solid%nodes, 3*(dim - 1), points_of(dim, solid)) :: b_points
+    real(dp) :: volumes(points_of(dim, solid)), by_strain(dim*solid%nodes, 3*(dim - 1))
+    real(dp) :: energy(dim*solid%nodes, dim*solid%nodes), traction(dim*size(areas), dim*solid%nodes)
     integer :: i, k
 
     lambda = 0.0_dp
     joint = 2.0_dp
-    call strain_energy(dim, nodes, coordinates, stiffness, energy, status)
+    call strains_at(dim, solid, coordinates, samples, b, status, b_points, volumes)
     if (status%code /= ok) return
+    energy = 0.0_dp
+    do k = 1, size(volumes)
+      by_strain = matmul(b_points(:, :, k), solid%stiffness(1:3*(dim - 1), 1:3*(dim - 1)))
+      energy = energy + volumes(k)*matmul(by_strain, transpose(b_points(:, :, k)))
+    end do
     traction = 0.0_dp
-    do k = 1, points
+    do k = 1, size(areas)
       do i = 1, size(shares, 1)
         if (.not. abs(shares(i, k)) > 0.0_dp) cycle
-        call solid_traction(dim, nodes, coordinates, samples(:, i, k), frames(:, :, k), stiffness, part, status)
-        if (status%code /= ok) return
-        traction(dim*(k - 1) + 1:dim*k, :) = traction(dim*(k - 1) + 1:dim*k, :) + (sqrt(areas(k))*shares(i, k))*part
+        traction(dim*(k - 1) + 1:dim*k, :) = traction(dim*(k - 1) + 1:dim*k, :) &
+          + (sqrt(areas(k))*shares(i, k))*matmul(solid_traction(dim, solid, frames(:, :, k)), transpose(b(:, :, i)))
       end do
     end do
-    call face_eigenvalue(coordinates, energy, traction, lambda, joint, status)
+    call face_eigenvalue(coordinates, energy, traction, 3*(dim - 1)*size(volumes) <= dim*(solid%nodes) - 3*(dim - 1), lambda, &
+      joint, status)
   end subroutine solid_face_eigenvalue
-
-  !> Stiffness matrix, in the plane for thickness 1.
-  pure subroutine strain_energy(dim, nodes, coordinates, stiffness, energy, status)
-    integer, intent(in) :: dim, nodes
-    real(dp), intent(in) :: coordinates(dim, nodes), stiffness(3*(dim - 1), 3*(dim - 1))
-    real(dp), intent(out) :: energy(dim*nodes, dim*nodes)
-    type(status_type), intent(out) :: status
-    real(dp) :: gradient(dim, nodes), b(dim*nodes, 3*(dim - 1)), point(dim), weight
-    integer :: k, per_side
-
-    energy = 0.0_dp
-    per_side = points_per_side(dim, nodes)
-    do k = 1, per_side**dim
-      call gauss_point(dim, per_side, k, point, weight)
-      call solid_gradient(dim, nodes, coordinates, point, gradient, status)
-      if (status%code /= ok) return
-      call strain_matrix(dim, dim, nodes, transpose(gradient), b)
-      energy = energy + (weight*status%value)*matmul(b, matmul(stiffness, transpose(b)))
-    end do
-  end subroutine strain_energy
-
-  !> Of the rule of full integration: as many along each direction as an edge has nodes.
-  pure integer function points_per_side(dim, nodes)
-    integer, intent(in) :: dim, nodes
-
-    points_per_side = merge(2, 3, nodes == 2**dim)
-  end function points_per_side
-
-  !> Derivatives of the shape functions by position; the value of the status is the Jacobian.
-  pure subroutine solid_gradient(dim, nodes, coordinates, point, gradient, status)
-    integer, intent(in) :: dim, nodes
-    real(dp), intent(in) :: coordinates(dim, nodes), point(dim)
-    real(dp), intent(out) :: gradient(dim, nodes)
-    type(status_type), intent(out) :: status
-    real(dp) :: jacobian
-
-    if (dim == 3) then
-      call brick_gradient(nodes, coordinates, point, gradient, jacobian)
-    else if (nodes == 4) then
-      call quad_gradient(coordinates, point, gradient, jacobian)
-    else
-      call quad8_gradient(coordinates, point, gradient, jacobian)
-    end if
-    status = status_type(merge(ok, inside_out, jacobian > 0.0_dp), 0, jacobian, 0.0_dp)
-  end subroutine solid_gradient
 
 end module elements_bulk_solid

@@ -5,23 +5,53 @@
 !> The unknowns are the displacements of the nodes, one node after the other, then the incompatible modes, which are found in the
 !> element. The 2 x 2 (x 2) Gauss points have the order of Abaqus' CPS4 and C3D8.
 module elements_continuum_solid
+  use core_cells, only: cell_gradient, is_product
   use core_kinds, only: dp
   use core_quadrature, only: gauss_point
-  use core_serendipity, only: brick_places, quad_places
-  use core_status, only: status_type, ok
+  use core_serendipity, only: brick_gradient, brick_places, quad_places, quad8_gradient
+  use core_shape_functions, only: quad_gradient
+  use core_status, only: status_type, ok, inside_out
   use core_strains, only: mean_volume_strain, mode_matrix, set_volume_strain, strain_matrix
-  use elements_bulk_solid, only: solid_gradient
   implicit none(type, external)
   private
-  public :: incompatible_modes, mean_volume, modes_of_brick
-  public :: node_places, solid_points, solid_shape, solid_strains
+  public :: incompatible_modes, mean_volume, modes_of
+  public :: solid_gradient, node_places, solid_points, solid_shape, solid_strains
 
   !> Formulations other than strains of the displacements alone, 0: those of C3D8I and of C3D8 in Abaqus.
   integer, parameter :: incompatible_modes = 1
   integer, parameter :: mean_volume = 2
-  integer, parameter :: modes_of_brick = 13
 
 contains
+
+  !> Number of incompatible modes: those of CPS4I, CPE4I and C3D8I.
+  pure integer function modes_of(dim, plane, formulation)
+    integer, intent(in) :: dim
+    integer, intent(in) :: plane           !< 0 for plane stress, 1 for plane strain
+    integer, intent(in) :: formulation
+
+    modes_of = 0
+    if (formulation == incompatible_modes) modes_of = merge(4 + plane, 13, dim == 2)
+  end function modes_of
+
+  !> Derivatives of the shape functions by position in any continuum element; the value of the status is the Jacobian.
+  pure subroutine solid_gradient(dim, nodes, coordinates, point, gradient, status)
+    integer, intent(in) :: dim, nodes
+    real(dp), intent(in) :: coordinates(dim, nodes), point(dim)
+    real(dp), intent(out) :: gradient(dim, nodes)
+    type(status_type), intent(out) :: status
+    real(dp) :: jacobian
+
+    if (.not. is_product(dim, nodes)) then
+      call cell_gradient(dim, nodes, coordinates, point, gradient, jacobian)
+    else if (dim == 3) then
+      call brick_gradient(nodes, coordinates, point, gradient, jacobian)
+    else if (nodes == 4) then
+      call quad_gradient(coordinates, point, gradient, jacobian)
+    else
+      call quad8_gradient(coordinates, point, gradient, jacobian)
+    end if
+    status = status_type(merge(ok, inside_out, jacobian > 0.0_dp), 0, jacobian, 0.0_dp)
+  end subroutine solid_gradient
 
   !> Parent coordinates of the nodes.
   pure function node_places(dim) result(places)

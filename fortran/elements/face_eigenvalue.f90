@@ -25,11 +25,15 @@ contains
   !> Neither matrix sees the rigid displacements R, so energy may be replaced by energy + c R transpose(R), which is
   !> positive definite; with L its Cholesky factor and W = inverse(L) transpose(t), lambda is the largest
   !> eigenvalue of transpose(W) W, which only has the size of the face.
-  pure subroutine face_eigenvalue(coordinates, energy, traction, lambda, joint, status)
+  !>
+  !> Elements with few integration points have more displacements without energy, which leave no traction either: a small
+  !> multiple of the unit matrix makes their energy positive. It changes lambda by no more than its share of the stiffness.
+  pure subroutine face_eigenvalue(coordinates, energy, traction, hourglass, lambda, joint, status)
     real(dp), intent(in) :: coordinates(:, :)   !< (2 or 3, nodes), length
     real(dp), intent(in) :: energy(:, :)        !< stiffness matrix of the element
     real(dp), intent(in) :: traction(:, :)      !< (dim*points, unknowns) sigma.n sqrt(weight) of the points of the face;
                                                 !< the second one of each point is normal
+    logical, intent(in) :: hourglass            !< there may be such displacements
     real(dp), intent(out) :: lambda(2)          !< (tau, n)
     real(dp), intent(out) :: joint              !< of both
     type(status_type), intent(out) :: status    !< not_positive_definite, or no_root
@@ -50,6 +54,9 @@ contains
     do i = 1, size(rigid, 2)
       rigid(:, i) = rigid(:, i)/norm2(rigid(:, i))
       shifted = shifted + shift*matmul(rigid(:, i:i), transpose(rigid(:, i:i)))
+    end do
+    do i = 1, merge(n, 0, hourglass)
+      shifted(i, i) = shifted(i, i) + 1.0e-12_dp*shift
     end do
     lambda = 0.0_dp
     joint = 2.0_dp

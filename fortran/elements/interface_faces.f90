@@ -4,14 +4,15 @@
 !>
 !> In the plane, faces are edges of two or three nodes, the middle node last: tau runs along the mid-line of the original
 !> coordinates, from the first node to the second, and n is tau rotated by +90 degrees: bottom to top. In space, they are
-!> quadrilaterals of four or eight nodes, corners and then midside nodes counter-clockwise seen from the top: n is normal to the
-!> mid-surface, s the projection of the global x axis on it, or of the z axis where x is within 0.1 degrees of n (Abaqus' local
-!> directions), and t = n x s. Faces may be curved: each point has its own frame.
+!> triangles of three or six nodes or quadrilaterals of four or eight, corners and then midside nodes counter-clockwise seen
+!> from the top: n is normal to the mid-surface, s the projection of the global x axis on it, or of the z axis where x is within
+!> 0.1 degrees of n (Abaqus' local directions), and t = n x s. Faces may be curved: each point has its own frame.
 module elements_interface_faces
+  use core_cells, only: cell_functions, corners_of
   use core_kinds, only: dp
-  use core_quadrature, only: line_points, line_weights
+  use core_quadrature, only: line_points, line_weights, triangle_point
   use core_rotation, only: cross, line_frame, surface_frame
-  use core_serendipity, only: serendipity_functions, quad_places
+  use core_serendipity, only: quad_places
   use core_shape_functions, only: line_shape, line_slope
   use core_status, only: status_type, zero_length, faces_apart, ok
   implicit none(type, external)
@@ -30,11 +31,11 @@ module elements_interface_faces
 contains
 
   !> Integration points on the mid-line or mid-surface of two coincident faces: on a line from its first to its second node, on a
-  !> surface each next to the node of its number, with eight nodes a ninth point in the middle.
+  !> surface each next to the node of its number, with midside nodes one more in the middle.
   pure subroutine measure_interface(dim, nodes, points, bottom, top, rule, places, status)
     integer, intent(in) :: dim                                    !< 2 or 3
     integer, intent(in) :: nodes                                  !< of a face
-    integer, intent(in) :: points                                 !< as many as nodes, on surfaces of eight nodes nine
+    integer, intent(in) :: points                                 !< as many as nodes, on surfaces with midside nodes one more
     real(dp), intent(in) :: bottom(dim, nodes), top(dim, nodes)   !< original coordinates
     integer, intent(in) :: rule
     type(interface_place), intent(out) :: places(points)
@@ -106,29 +107,38 @@ contains
     place%area = w(k)*place%area
   end subroutine place_on_line
 
-  !> Point k of a quadrilateral, next to node k or in the middle.
+  !> Point k of a surface, next to node k or in the middle.
   pure subroutine place_on_surface(nodes, middle, rule, k, place, status)
     integer, intent(in) :: nodes, rule, k
     real(dp), intent(in) :: middle(3, nodes)
     type(interface_place), intent(inout) :: place
     type(status_type), intent(inout) :: status
-    real(dp), dimension(merge(2, 3, nodes == 4)) :: s, w
-    real(dp) :: slopes(3, 2), upright
+    real(dp), dimension(merge(2, 3, nodes <= 4)) :: s, w
+    real(dp) :: slopes(3, 2), weight, upright
     integer :: at(2)
 
-    s = line_points(size(s), rule)
-    w = line_weights(size(s), rule)
-    at = 0
-    if (k <= nodes) at = quad_places(:, k)
-    at = 1 + (at + 1)*(size(s) - 1)/2
-    place%parent = s(at)
+    if (corners_of(2, nodes) == 3) then
+      call triangle_point(nodes, rule, k, place%parent, weight)
+    else
+      s = line_points(size(s), rule)
+      w = line_weights(size(s), rule)
+      at = 0
+      if (k <= nodes) at = quad_places(:, k)
+      at = 1 + (at + 1)*(size(s) - 1)/2
+      place%parent = s(at)
+      weight = product(w(at))
+    end if
     place%position = matmul(middle, face_shape(3, nodes, place%parent))
     slopes = matmul(middle, face_slope(3, nodes, place%parent))
     call surface_frame(slopes(:, 1), slopes(:, 2), place%frame, place%area)
     ! a midside node too close to a corner, or a corner beyond the line of its neighbours, folds the surface back
-    upright = dot_product(place%frame(2, :), cross(middle(:, 3) - middle(:, 1), middle(:, 4) - middle(:, 2)))
+    if (corners_of(2, nodes) == 3) then
+      upright = dot_product(place%frame(2, :), cross(middle(:, 2) - middle(:, 1), middle(:, 3) - middle(:, 1)))
+    else
+      upright = dot_product(place%frame(2, :), cross(middle(:, 3) - middle(:, 1), middle(:, 4) - middle(:, 2)))
+    end if
     if (.not. upright > 0.0_dp) status = status_type(zero_length, 0, upright, 0.0_dp)
-    place%area = product(w(at))*place%area
+    place%area = weight*place%area
   end subroutine place_on_surface
 
   !> Frame in the middle of the surface between two faces in space.
@@ -136,9 +146,9 @@ contains
     integer, intent(in) :: nodes       !< of a face
     real(dp), intent(in) :: bottom(3, nodes), top(3, nodes)
     real(dp) :: frame(3, 3)
-    real(dp), parameter :: parent(2) = 0.0_dp
-    real(dp) :: slopes(3, 2), area
+    real(dp) :: slopes(3, 2), area, parent(2)
 
+    parent = merge(1.0_dp/3.0_dp, 0.0_dp, corners_of(2, nodes) == 3)
     slopes = matmul(0.5_dp*(bottom + top), face_slope(3, nodes, parent))
     call surface_frame(slopes(:, 1), slopes(:, 2), frame, area)
   end function central_frame
@@ -153,7 +163,7 @@ contains
     if (dim == 2) then
       shape = line_shape(nodes, parent(1))
     else
-      call serendipity_functions(2, nodes, quad_places(:, 1:nodes), parent, shape, slope)
+      call cell_functions(2, nodes, parent, shape, slope)
     end if
   end function face_shape
 
@@ -167,7 +177,7 @@ contains
     if (dim == 2) then
       slope(:, 1) = line_slope(nodes, parent(1))
     else
-      call serendipity_functions(2, nodes, quad_places(:, 1:nodes), parent, shape, slope)
+      call cell_functions(2, nodes, parent, shape, slope)
     end if
   end function face_slope
 

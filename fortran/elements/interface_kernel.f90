@@ -18,7 +18,8 @@ module elements_interface_kernel
   use core_status, only: status_type, ok
   use cohesive_parameters, only: law_parameters
   use cohesive_law, only: check_law, check_beta, raise_beta
-  use elements_interface_bulk, only: stabilisation_type, stabilise, bulk_operator
+  use elements_bulk_solid, only: solid_type
+  use elements_interface_bulk, only: stabilisation_type, stabilise, bulk_operators
   use cohesive_shear, only: mode_of
   use elements_interface_faces, only: interface_place, measure_interface, jump_operator, separation_at
   use elements_interface_point, only: interface_options, interface_point, point_response, standard_point, &
@@ -32,15 +33,14 @@ contains
 
   !> Residual (external minus internal force), tangent and state at the end of the increment.
   !>
-  !> Without stabilisation it is the standard element. The stabilised one takes the bulk stress from its own quads or bricks, whose
-  !> stiffness it receives, or from its neighbours. In the latter case its tangent holds the bulk stress constant, since the
+  !> Without stabilisation it is the standard element. The stabilised one takes the bulk stress from its own solids or from its
+  !> neighbours. In the latter case its tangent holds the bulk stress constant, since the
   !> derivative of that stress involves nodes that the element does not own.
-  pure subroutine integrate_interface(dim, points, faces, solid, law, options, thickness, coordinates, u, dtime, with_tangent, &
-    old, new, residual, tangent, energies, status, stabilisation, stiffness, neighbours)
+  pure subroutine integrate_interface(dim, points, faces, law, options, thickness, coordinates, u, dtime, with_tangent, &
+    old, new, residual, tangent, energies, status, stabilisation, solids, neighbours)
     integer, intent(in) :: dim                                !< 2 or 3
     integer, intent(in) :: points                             !< integration points
     integer, intent(in) :: faces(:, :)                        !< nodes of the bottom and the top face, a column each
-    integer, intent(in) :: solid                              !< nodes of each of its own elements, the bottom one first; 0 without
     type(law_parameters), intent(in) :: law
     type(interface_options), intent(in) :: options
     real(dp), intent(in) :: thickness                         !< out of the plane, length; 1 in space
@@ -56,13 +56,14 @@ contains
     type(status_type), intent(out) :: status                  !< its item is the point, the mode or the side
     type(stabilisation_type), intent(inout), optional :: stabilisation   !< beta and gamma, or what they follow from; on exit those
                                                                          !< that act
-    real(dp), intent(in), optional :: stiffness(:, :, :)         !< D of the bottom and the top element, global axes, stress
+    type(solid_type), intent(in), optional :: solids(2)          !< its own, bottom and top, in the order of its nodes
     real(dp), intent(in), optional :: neighbours(3, 3, points)   !< weighted nominal stress of each point: its product with the
                                                                  !< original normal is the traction per original area
     type(interface_place) :: places(points)
     type(stabilisation_type) :: used
     type(point_response) :: response
     type(interface_place) :: here
+    real(dp) :: bulk_of_points(dim, size(u), points), thermal(dim, points)
     real(dp), dimension(dim, size(u)) :: jump, bulk, by_displacement
     real(dp), dimension(size(u)) :: moved, original, shifted, force
     real(dp) :: turning(3, dim, dim, size(faces, 1)), bulk_traction(3), gap(3), separation(3), area
@@ -85,13 +86,18 @@ contains
     call measure_interface(dim, nodes, points, bottom, top, options%rule, places, status)
     if (status%code /= ok) return
     if (present(stabilisation)) then
-      if (present(stiffness) .and. .not. stabilisation%known) then
-        call stabilise(stabilisation, options%sampling, dim, solid, points, faces, coordinates, stiffness, used, status)
+      if (present(solids) .and. .not. stabilisation%known) then
+        call stabilise(stabilisation, options%sampling, dim, solids, points, faces, coordinates, used, status)
         if (status%code /= ok) return
         stabilisation = used
       end if
       if (options%consistent_law .and. .not. stabilisation%known) call suit_law(law, stabilisation, status)
       if (status%code /= ok) return
+      if (present(solids)) then
+        call bulk_operators(options%sampling, dim, places, stabilisation%gamma_bottom, solids, faces, coordinates, &
+          bulk_of_points, thermal, status)
+        if (status%code /= ok) return
+      end if
     end if
 
     do k = 1, points
@@ -107,11 +113,9 @@ contains
       jump = jump_operator(dim, places(k), nodes, faces, size(u))
       gap = 0.0_dp
       if (present(stabilisation)) then
-        if (present(stiffness)) then
-          call bulk_operator(options%sampling, dim, places(k), stabilisation%gamma_bottom, solid, stiffness, coordinates, bulk, &
-            status)
-          if (status%code /= ok) return
-          bulk_traction(1:dim) = matmul(bulk, moved)
+        if (present(solids)) then
+          bulk = bulk_of_points(:, :, k)
+          bulk_traction(1:dim) = matmul(bulk, moved) - thermal(:, k)
         else
           bulk_traction = matmul(here%frame, matmul(neighbours(:, :, k), places(k)%frame(2, :)))
         end if
@@ -129,7 +133,7 @@ contains
       if (options%finite) then
         force = matmul(new(k)%traction(1:dim), jump)
         jump = by_displacements(dim, nodes, faces, places(k)%frame, here%frame, turning, shifted, jump)
-        if (present(stiffness)) then
+        if (present(solids)) then
           if (options%complete) force = force + matmul(gap(1:dim), bulk)
           bulk = by_displacements(dim, nodes, faces, places(k)%frame, here%frame, turning, shifted, bulk)
         end if
@@ -139,7 +143,7 @@ contains
       if (options%complete) residual = residual - area*matmul(gap(1:dim), bulk)
       if (.not. with_tangent) cycle
       by_displacement = matmul(response%by_jump(1:dim, 1:dim), jump)
-      if (present(stiffness)) by_displacement = by_displacement + matmul(response%by_bulk(1:dim, 1:dim), bulk)
+      if (present(solids)) by_displacement = by_displacement + matmul(response%by_bulk(1:dim, 1:dim), bulk)
       call add_product(area, jump, by_displacement, tangent)
       if (.not. options%complete) cycle
       do i = 1, dim
@@ -150,12 +154,11 @@ contains
   end subroutine integrate_interface
 
   !> Residual of tractions that are known, such as those at the start of an increment, at the displacements that they belong to.
-  pure subroutine interface_forces(dim, points, faces, solid, options, thickness, coordinates, u, known, residual, status, &
-    stabilisation, stiffness)
+  pure subroutine interface_forces(dim, points, faces, options, thickness, coordinates, u, known, residual, status, &
+    stabilisation, solids)
     integer, intent(in) :: dim                                !< 2 or 3
     integer, intent(in) :: points                             !< integration points
     integer, intent(in) :: faces(:, :)                        !< nodes of the bottom and the top face, a column each
-    integer, intent(in) :: solid                              !< nodes of each of its own elements
     type(interface_options), intent(in) :: options
     real(dp), intent(in) :: thickness                         !< out of the plane, length; 1 in space
     real(dp), intent(in) :: u(:)                              !< displacements, length
@@ -164,10 +167,11 @@ contains
     real(dp), intent(out) :: residual(size(u))                !< force
     type(status_type), intent(out) :: status
     type(stabilisation_type), intent(in), optional :: stabilisation   !< of the complete form: beta and gamma that acted
-    real(dp), intent(in), optional :: stiffness(:, :, :)              !< of the complete form: D of bottom and top, stress
+    type(solid_type), intent(in), optional :: solids(2)               !< of the complete form: its own, bottom and top
     type(interface_place) :: places(points), here
     real(dp) :: turning(3, dim, dim, size(faces, 1)), gap(3), area
     real(dp), dimension(size(u)) :: original, shifted, moved
+    real(dp) :: bulk_of_points(dim, size(u), points), thermal(dim, points)
     real(dp), dimension(dim, size(u)) :: jump, bulk
     real(dp), dimension(dim, size(faces, 1)) :: bottom, top
     integer :: k, nodes
@@ -180,6 +184,11 @@ contains
     if (status%code /= ok) return
     original = about_mean(dim, reshape(coordinates, [size(u)]))
     shifted = about_mean(dim, reshape(coordinates, [size(u)]) + u)
+    if (options%complete) then
+      call bulk_operators(options%sampling, dim, places, stabilisation%gamma_bottom, solids, faces, coordinates, bulk_of_points, &
+        thermal, status)
+      if (status%code /= ok) return
+    end if
     do k = 1, points
       here = places(k)
       moved = u
@@ -193,9 +202,8 @@ contains
       if (options%finite) jump = by_displacements(dim, nodes, faces, places(k)%frame, here%frame, turning, shifted, jump)
       residual = residual - area*matmul(known(k)%traction(1:dim), jump)
       if (.not. options%complete) cycle
-      call bulk_operator(options%sampling, dim, places(k), stabilisation%gamma_bottom, solid, stiffness, coordinates, bulk, status)
-      if (status%code /= ok) return
-      gap(1:dim) = (known(k)%traction(1:dim) - matmul(bulk, moved))/stabilisation%beta(mode_of(1:dim))
+      bulk = bulk_of_points(:, :, k)
+      gap(1:dim) = (known(k)%traction(1:dim) - matmul(bulk, moved) + thermal(:, k))/stabilisation%beta(mode_of(1:dim))
       if (options%finite) bulk = by_displacements(dim, nodes, faces, places(k)%frame, here%frame, turning, shifted, bulk)
       residual = residual - area*matmul(gap(1:dim), bulk)
     end do

@@ -9,7 +9,7 @@ module materials_linear_elasticity
   use core_symmetric, only: eigenvalues
   implicit none(type, external)
   private
-  public :: engineering_constants, plane_stiffness, solid_stiffness, young_modulus
+  public :: engineering_constants, plane_stiffness, solid_stiffness, plane_expansion, solid_expansion, young_modulus
   public :: plane_stress, plane_strain
 
   integer, parameter :: plane_stress = 0
@@ -24,6 +24,7 @@ module materials_linear_elasticity
     real(dp) :: g12                !< shear modulus, stress
     real(dp) :: angle              !< of axis 1 from the global x axis, in space from the first axis, counter-clockwise, degrees
     real(dp) :: g13 = 0.0_dp, g23 = 0.0_dp   !< shear moduli in space, stress
+    real(dp) :: expansion(3) = 0.0_dp        !< thermal expansion along the axes, 1/temperature
   end type engineering_constants
 
 contains
@@ -109,6 +110,42 @@ contains
     to_local = strain_rotation(ply_axes(frame, material%angle))
     stiffness = matmul(transpose(to_local), matmul(stiffness, to_local))
   end subroutine solid_stiffness
+
+  !> Strain (e11, e22, 2 e12) of a body that is free in the plane and one degree warmer, in global axes. In plane strain the
+  !> expansion along 3, which is prevented, adds what the stress along 3 makes of it.
+  pure function plane_expansion(material, plane) result(strain)
+    type(engineering_constants), intent(in) :: material
+    integer, intent(in) :: plane                 !< plane_stress or plane_strain
+    real(dp) :: strain(3)
+    real(dp) :: along, across, c, s
+
+    along = material%expansion(1)
+    across = material%expansion(2)
+    if (plane == plane_strain) then
+      along = along + material%nu13*material%e3/material%e1*material%expansion(3)
+      across = across + material%nu23*material%e3/material%e2*material%expansion(3)
+    end if
+    c = cos(material%angle*degree)
+    s = sin(material%angle*degree)
+    strain = [c*c*along + s*s*across, s*s*along + c*c*across, 2.0_dp*c*s*(along - across)]
+  end function plane_expansion
+
+  !> Strain (e11, e22, e33, 2 e12, 2 e13, 2 e23) of a free body that is one degree warmer, in global axes.
+  pure function solid_expansion(material, frame) result(strain)
+    type(engineering_constants), intent(in) :: material
+    real(dp), intent(in) :: frame(3, 3)          !< as in `solid_stiffness`
+    real(dp) :: strain(6)
+    real(dp) :: axes(3, 3), tensor(3, 3)
+    integer :: i, j
+
+    axes = ply_axes(frame, material%angle)
+    do j = 1, 3
+      do i = 1, 3
+        tensor(i, j) = sum(material%expansion*axes(:, i)*axes(:, j))
+      end do
+    end do
+    strain = [tensor(1, 1), tensor(2, 2), tensor(3, 3), 2.0_dp*tensor(1, 2), 2.0_dp*tensor(1, 3), 2.0_dp*tensor(2, 3)]
+  end function solid_expansion
 
   !> Young's modulus along a direction in the plane of axes 1 and 2.
   pure function young_modulus(material, direction) result(modulus)

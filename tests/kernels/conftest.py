@@ -3,9 +3,8 @@
 """Single elements of the project's kernels, driven as a job would drive them."""
 
 import ctypes
-import importlib.util
+import importlib
 import subprocess
-import sys
 from pathlib import Path
 from typing import ClassVar
 
@@ -47,9 +46,13 @@ PLIES_3D = {
 }
 # the closure and the estimate of beta that `reference.py` has
 PAPER = {"CLOSURE": 2, "BETAN": -2.0, "BETAT": -2.0}
-DEFAULTS = {1: {"THICKNESS": 2.0}, 2: LAW, 3: LAW | PAPER, 4: LAW | PAPER | PLIES, 5: LAW, 6: LAW | PAPER | PLIES}
-DEFAULTS |= {7: LAW_3D, 8: LAW_3D | PAPER | PLIES_3D, 9: {}, 10: LAW_3D | PAPER}
-DEFAULTS |= {11: LAW_3D, 12: LAW_3D | PAPER | PLIES_3D}
+DEFAULTS = {1: {"THICKNESS": 2.0}, 2: LAW, 3: LAW | PAPER, 5: LAW, 7: LAW_3D, 9: {}, 10: LAW_3D | PAPER}
+DEFAULTS |= dict.fromkeys((11, 13, 14), LAW_3D)
+DEFAULTS |= {
+    jtype: (LAW | PLIES if layout.dimension == 2 else LAW_3D | PLIES_3D) | PAPER
+    for jtype, layout in element_layouts().items()
+    if layout.solids
+}
 TENSORS = {(1, 0): "PSTRESS", (1, 1): "PSTRAIN", (9, 0): "THREED"}  # of continuum elements, by type and PLANE
 ENGINEERING = (1.2e5, 1.05e4, 1.05e4, 0.3, 0.3, 0.51, 5.52e3, 5.52e3, 3.48e3)
 PLY_MATERIAL = Material("PLY", SOURCE, Elastic(ElasticType.ENGINEERING_CONSTANTS, ENGINEERING, SOURCE))
@@ -239,18 +242,7 @@ def element_of():
 @pytest.fixture(scope="session")
 def program():
     """Module of a program of fortran/ that the build calls: program(name)."""
-
-    folder = Path(__file__).parents[2] / "fortran"
-    # one of them imports another
-    sys.path.append(str(folder))
-
-    def program(name):
-        spec = importlib.util.spec_from_file_location(name, folder / f"{name}.py")
-        module = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(module)
-        return module
-
-    return program
+    return importlib.import_module
 
 
 @pytest.fixture(scope="session")

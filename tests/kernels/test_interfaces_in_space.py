@@ -337,8 +337,18 @@ def test_bad_geometry_and_properties(element):
     concave = np.where((seven == [1.0, 1.0, 0.0]).all(axis=1, keepdims=True), [0.2, 0.2, 0.0], seven)
     for jtype, coordinates, values, message in (
         (8, upside_down, {}, "U8 element 42: bottom brick is inside out or degenerate"),
-        (8, apart, {}, "the two faces .* do not coincide: nodes 9 to 12 must lie on 5 to 8; they are 1.0.*E-02 apart"),
-        (7, seven + np.repeat([0.0, 0.01], 4)[:, None], {}, "U7 element 42: .* nodes 5 to 8 must lie on 1 to 4"),
+        (
+            8,
+            apart,
+            {},
+            "the two faces .* do not coincide: nodes 9, 10, 11, 12 must lie on 5, 6, 7, 8; they are 1.0.*E-02 apart",
+        ),
+        (
+            7,
+            seven + np.repeat([0.0, 0.01], 4)[:, None],
+            {},
+            "U7 element 42: .* nodes 5, 6, 7, 8 must lie on 1, 2, 3, 4",
+        ),
         (7, np.zeros((8, 3)), {}, "U7 element 42: the interface has no length"),
         (7, concave, {}, "U7 element 42: .*folds back on itself"),
         (8, flat, {"NU12 TOP": 4.0}, r"PROPS\(30\) NU12 TOP = 4.*not positive definite"),

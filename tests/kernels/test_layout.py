@@ -57,7 +57,8 @@ def test_names_of_svars():
     assert (layout.variables(11).points, layout.variables(11).top) == (9, (4, 5, 6, 7, 12, 13, 14, 15))
     assert layout.variables(12).bottom == (4, 5, 6, 7, 12, 13, 14, 15)
     assert layout.variables(12).top == (20, 21, 22, 23, 28, 29, 30, 31)
-    assert layout.variables(13) is None
+    assert layout.variables(15) is None
+    assert layout.variables(34).bottom == (2, 1) and layout.variables(34).top == (3, 4)
 
 
 @pytest.mark.parametrize("jtype", [2, 3, 4, 5, 6])
@@ -73,7 +74,7 @@ def test_labels_of_the_variables_that_decks_print(jtype):
 
 def test_library_names_svars_of_these_elements_only(library, tmp_path):
     assert library.variables(2) == layout.variables(2)
-    assert library.variables(13) is None
+    assert library.variables(15) is None
     other = tmp_path / "other.f"
     other.write_text("      subroutine uel(rhs)\n      real*8 rhs\n      end\n")
     stranger = usersub.load(other, job="other", output_dir=tmp_path)
@@ -95,7 +96,12 @@ ETA = 'name = "ETA"\nelements = "interfaces"\nunit = "1"\nrange = "exponent"\n'
         ("laws = [4]", "laws = [5]", "reals SHAPEN: laws: '5', expected one of 1, 2, 3, 4"),
         ('"next_to_solids", "with_solids"]', '"interfaces"]', "sets.stabilised: 'interfaces', expected one of"),
         ('variables = "brick"', 'variables = "bricks"', "families.continuum_3d: variables: 'bricks', expected one of"),
-        ('type = "U12"', 'type = "U13"', "elements U13: expected U12, the types in the order of their numbers"),
+        ('type = "U12"', 'type = "U11"', "elements U11: expected U and a number above 11, the types in the order"),
+        (
+            "solids = [3, 3]",
+            "solids = [3, 4]",
+            r"elements U33: expected solids = \[nodes below, nodes above\], together 6,",
+        ),
         ('family = "continuum"', 'family = "quad"', "elements U1: family: 'quad', expected one of continuum, "),
         ('{ name = "E11", unit = "1", ', '{ name = "E11", ', "variables.continuum E11: no unit"),
     ],

@@ -193,10 +193,18 @@ def moved(node, place):
     ("jtype", "change", "message"),
     [
         (11, moved(slice(None), 0.0), "U11 element 42: the interface has no length or area"),
-        (11, moved(15, [0.01, 0.5, 0.0]), "U11 .* nodes 5 to 8 must lie on 1 to 4, and the middle nodes on each other"),
+        (
+            11,
+            moved(15, [0.01, 0.5, 0.0]),
+            "U11 .* nodes 5, 6, 7, 8 must lie on 1, 2, 3, 4, and the middle nodes on each other",
+        ),
         # a middle between the quarter point and the corner folds the edge back
         (11, moved([8, 12], [0.05, 0.0, 0.0]), "U11 element 42: .*folds back on itself"),
-        (12, moved(28, [0.5, 0.01, 0]), "U12 .* nodes 21 to 24 must lie on 5 to 8, and the middle nodes on each other"),
+        (
+            12,
+            moved(28, [0.5, 0.01, 0]),
+            "U12 .* nodes 21, 22, 23, 24 must lie on 5, 6, 7, 8, and the middle nodes on each other",
+        ),
         (12, moved([12, 28], [0.05, 0.0, 0.0]), "U12 element 42: .*folds back on itself"),
         (12, moved(slice(0, 4), [[0, 0, 3], [1, 0, 3], [1, 1, 3], [0, 1, 3]]), "U12 element 42: bottom brick is"),
         (12, moved(36, [0.0, 0.0, -0.9]), "U12 element 42: top brick is inside out"),

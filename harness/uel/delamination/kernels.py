@@ -7,6 +7,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from uel.delamination.keywords import captions, keyword, wrapped
+from uel.elements.interfaces.neighbour_solids import formulation_of
+from uel.model.element_types import BUILT_IN, ContinuumType
 from uel.usersub.layout import element_layouts
 
 
@@ -29,6 +31,13 @@ def uel_property(jtype: int, elset: str, values: Mapping[str, float], **options:
     reals = [float(values.get(item.name, 0.0)) for item in layout.reals]
     integers = [int(values.get(item.name, 0)) for item in layout.integers]
     return [*captions(names), keyword("UEL PROPERTY", ELSET=elset, **options), *wrapped([*reals, *integers])]
+
+
+def formulations(solids: str) -> dict[str, float]:
+    """Return FORMULATION BOTTOM and TOP of an element between built-in solids of a type."""
+    kind = BUILT_IN[solids]
+    number = float(formulation_of(kind)) if isinstance(kind, ContinuumType) else 0.0
+    return {f"FORMULATION {side}": number for side in ("BOTTOM", "TOP")}
 
 
 def state_labels(jtype: int, *names: str) -> list[str]:

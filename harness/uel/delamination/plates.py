@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uel.delamination.blocks import Interface, cohesive_section, law_values
-from uel.delamination.kernels import uel_property, user_element
+from uel.delamination.kernels import formulations, uel_property, user_element
 from uel.delamination.keywords import element_block, keyword, node_block, number, table, wrapped
 from uel.delamination.materials import SolidPly
 from uel.delamination.mesh import cut
@@ -210,7 +210,7 @@ def property_blocks(laminate: Laminate) -> list[str]:
     interface = laminate.interface
     if interface.built_in:
         return lines + cohesive_section(interface)
-    values = law_values(interface)
+    values = law_values(interface) | formulations(laminate.bricks)
     for side, ply in (("BOTTOM", laminate.lower[-1]), ("TOP", laminate.upper[0])):
         values |= {f"{constant} {side}": value for constant, value in ply.constants.items()}
         values[f"ANGLE {side}"] = ply.angle

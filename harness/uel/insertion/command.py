@@ -21,9 +21,9 @@ from uel.insertion.connectivity import (
     element_nodes,
     face_nodes,
     face_normals,
-    fitting,
     interface_types,
     known_types,
+    recommended,
 )
 from uel.insertion.cut import NONE, Cells, Cut, cut, mask_of
 from uel.insertion.meshes import is_mesh, read_mesh
@@ -40,7 +40,7 @@ from uel.insertion.rewriting import Rewriting, quoted
 from uel.insertion.sections import Faces, Sections
 from uel.insertion.selection import CutRequest, Selection, select
 from uel.model.arrays import IntArray
-from uel.model.element_types import BUILT_IN, DISCRETE, FAMILIES, ContinuumType, Family
+from uel.model.element_types import BUILT_IN, DISCRETE, FAMILIES, ContinuumType
 
 Items = tuple[tuple[str, float], ...]
 """Properties of an element by name."""
@@ -50,8 +50,7 @@ Items = tuple[tuple[str, float], ...]
 class Insertion:
     """Result of an insertion.
 
-    kind        type of the elements, '' without any
-    elements    number of elements
+    kinds       number of elements of each type
     doubled     number of new nodes
     crack       number of faces of the initial crack
     closed      number of faces without duplicated nodes, which get no element
@@ -59,13 +58,17 @@ class Insertion:
     plies       cut pairs of plies, and their numbers of faces
     """
 
-    kind: str
-    elements: int
+    kinds: Mapping[str, int]
     doubled: int
     crack: int
     closed: int
     warnings: tuple[str, ...]
     plies: tuple[tuple[str, str, int], ...] = ()
+
+    @property
+    def elements(self) -> int:
+        """Number of elements of all types."""
+        return sum(self.kinds.values())
 
     def lines(self, elset: str) -> list[str]:
         """Return the report to the user."""
@@ -78,11 +81,24 @@ class Insertion:
             lines.append(
                 f"warning: {self.closed} faces get no element: the mesh around them holds all their nodes together"
             )
-        if self.kind and not known_types()[self.kind].here:
-            lines.append(f"warning: {self.kind} runs in Abaqus, not here")
-        made = f"{self.elements} elements {self.kind} in {elset}" if self.elements else "no elements"
+        lines += [f"warning: {kind} runs in Abaqus, not here" for kind in self.kinds if not known_types()[kind].here]
+        made = ", ".join(f"{count} elements {kind}" for kind, count in self.kinds.items())
+        made = f"{made} in {elset}" if made else "no elements"
         crack = f", {self.crack} faces of an initial crack" if self.crack else ""
         return [*lines, f"{made}{crack}, {self.doubled} nodes doubled"]
+
+
+@dataclass(frozen=True, slots=True)
+class _Interface:
+    """Elements of one type.
+
+    sides       (elements, 2) faces of the solids below and above
+    properties  rows of the elements by the properties that they have in common
+    """
+
+    kind: InterfaceType
+    sides: IntArray
+    properties: Mapping[Items, IntArray]
 
 
 def insert(
@@ -103,7 +119,7 @@ def insert(
     request
         Faces to cut.
     element
-        Type of the interface elements; '' for the recommended one.
+        Type of the interface elements; '' for the recommended one at each face.
     elset
         Element set of the interface elements.
     solids
@@ -125,14 +141,16 @@ def insert(
     chosen, closed = _with_elements(deck, selection, cut_mesh)
     if not len(chosen) and not selection.crack.any():
         raise UsageError("no face gets an element: nothing there can open")
-    kind = _kind(deck, chosen, element) if len(chosen) else None
-    properties: dict[Items, IntArray] = {}
     warnings: list[str] = []
-    if kind is not None:
-        check_values(kind, properties_given)
-        sections, sides = Sections(deck), _two_sides(deck, chosen)
-        warnings += check_neighbours(deck, sections, kind, chosen)
-        properties = _values(kind, sections, sides, properties_given)
+    interfaces: list[_Interface] = []
+    if len(chosen):
+        sections = Sections(deck)
+        for kind, rows in _kinds(deck, chosen, element).items():
+            check_values(kind, properties_given)
+            sides = chosen[rows]
+            warnings += check_neighbours(deck, sections, kind, sides)
+            values_of = _values(kind, sections, _two_sides(deck, sides), properties_given)
+            interfaces.append(_Interface(kind, sides, values_of))
         warnings += sections.warnings
     if request.plies is not None and not request.plies:
         warnings += _meeting(deck, selection)
@@ -142,11 +160,10 @@ def insert(
     rewriting.write_sets()
     rewriting.write_nodal_lines()
     rewriting.write_equations()
-    if kind is not None:
-        _write_interface(deck, rewriting, cut_mesh, kind, chosen, elset, properties)
+    if interfaces:
+        _write_interfaces(deck, rewriting, cut_mesh, interfaces, elset)
     done = Insertion(
-        kind.name if kind is not None else "",
-        len(chosen),
+        {each.kind.name: len(each.sides) for each in interfaces},
         len(cut_mesh.origins),
         int(np.sum(selection.crack)),
         closed,
@@ -187,8 +204,11 @@ def _with_elements(deck: Deck, selection: Selection, cut_mesh: Cut) -> tuple[Int
     return sides[opens], int(np.sum(~opens))
 
 
-def _kind(deck: Deck, sides: IntArray, name: str) -> InterfaceType:
-    """Return the requested or recommended element type. Raises UsageError, or DeckError if none fits."""
+def _kinds(deck: Deck, sides: IntArray, name: str) -> dict[InterfaceType, IntArray]:
+    """Return the requested or recommended element types with their rows.
+
+    Raises UsageError for an unknown type, DeckError for one that does not fit.
+    """
     known = interface_types()
     if name and name.upper() not in known:
         reason = ""
@@ -196,44 +216,31 @@ def _kind(deck: Deck, sides: IntArray, name: str) -> InterfaceType:
             reason = f": {name.upper()} knows its neighbours by their numbers, which no mesh promises"
         raise UsageError(f"--element {name}: expected one of {', '.join(known)}{reason}")
     solids = deck.solids
-    faces = _face_families(deck, sides[:, 0])
     numbers = solids.element[sides]
-    families = {family.number: family for family in FAMILIES.values()}
     for number in numbers.ravel()[np.unique(deck.run_index[numbers], return_index=True)[1]].tolist():
-        kind = BUILT_IN.get(deck.run_of(number)[0].run.type.name)
-        if isinstance(kind, ContinuumType) and kind.axisymmetric:
+        built_in = BUILT_IN.get(deck.run_of(number)[0].run.type.name)
+        if isinstance(built_in, ContinuumType) and built_in.axisymmetric:
             raise deck.error(number, "is axisymmetric, and no interface element here is")
-    around = {families[int(number)] for number in np.unique(solids.families[numbers])}
-    fits = fitting(set(faces), around)
-    if not name and fits:
-        return fits[0]
-    if not name:
-        odd = next((k for k, face in enumerate(faces) if face is not faces[0]), 0)
-        first = f", and not those of element {deck.name(int(numbers[0, 0]))}" if odd else ""
-        raise deck.error(
-            int(numbers[odd, 0]),
-            f"no interface element fits between its faces of {faces[odd].nodes} nodes{first}; the types are "
-            + ", ".join(f"{kind.name} ({kind.face.nodes} nodes)" for kind in known.values()),
-        )
-    chosen = known[name.upper()]
-    for k, face in enumerate(faces):
-        if face is not chosen.face:
-            message = f"has a face of {face.nodes} nodes there; {chosen.name} fits between faces of {chosen.face.nodes}"
-            raise deck.error(int(numbers[k, 0]), message)
-    if chosen.solid is not None and around != {chosen.solid}:
-        odd = int(np.argmax(solids.families[numbers].ravel() != chosen.solid.number))
-        message = f"{chosen.name} owns the solids on both sides, which need {chosen.solid.nodes} nodes"
-        raise deck.error(int(numbers.ravel()[odd]), message)
-    return chosen
-
-
-def _face_families(deck: Deck, faces: IntArray) -> list[Family]:
-    """Return the family of each face."""
-    solids = deck.solids
+    families = {family.number: family for family in FAMILIES.values()}
     flat = solids.cells[0].family.dimension - 1
-    sizes = solids.sizes[faces]
-    by_size = {size: FAMILIES[flat, size] for size in np.unique(sizes).tolist()}
-    return [by_size[size] for size in sizes.tolist()]
+    combinations, which = np.unique(
+        np.column_stack([solids.sizes[sides[:, 0]], solids.families[numbers]]), axis=0, return_inverse=True
+    )
+    kinds: dict[InterfaceType, list[IntArray]] = {}
+    for index, (size, below, above) in enumerate(combinations.tolist()):
+        rows = np.flatnonzero(which.ravel() == index)
+        first = int(numbers[rows[0], 0])
+        face = FAMILIES[flat, size]
+        kind = known[name.upper()] if name else recommended(face, families[below], families[above])
+        if kind.face is not face:
+            message = f"has a face of {face.nodes} nodes there; {kind.name} fits between faces of {kind.face.nodes}"
+            raise deck.error(first, message)
+        if kind.solids and kind.solids != (families[below], families[above]):
+            owned = " and ".join(str(each.nodes) for each in kind.solids)
+            message = f"{kind.name} owns the solids on both sides, which need {owned} nodes"
+            raise deck.error(first, message)
+        kinds.setdefault(kind, []).append(rows)
+    return {kind: np.sort(np.concatenate(rows)) for kind, rows in kinds.items()}
 
 
 def _changed(deck: Deck, cut_mesh: Cut, warnings: list[str]) -> dict[int, IntArray]:
@@ -308,42 +315,45 @@ def _unknown_element(run: Run, row: int, reason: str) -> DeckError:
     return DeckError(run.run.source(row), f"element {label} ({run.run.type.name}) has a node that is doubled; {reason}")
 
 
-def _write_interface(
-    deck: Deck,
-    rewriting: Rewriting,
-    cut_mesh: Cut,
-    kind: InterfaceType,
-    sides: IntArray,
-    elset: str,
-    values: Mapping[Items, IntArray],
+def _write_interfaces(
+    deck: Deck, rewriting: Rewriting, cut_mesh: Cut, interfaces: Sequence[_Interface], elset: str
 ) -> None:
     """Write elements, sets and properties, part by part."""
     cells = {group.family.number: group for group in cut_mesh.cells}
-    nodes = element_nodes(kind, deck.solids, sides[:, 0], sides[:, 1], cells)
-    positions = deck.positions[deck.solids.element[sides[:, 0]]]
     number = int(max(other.elements.max() for other in deck.owners if len(other.elements))) + 1
     for owner in deck.first.values():
-        inside = (positions >= owner.element_offset) & (positions < owner.element_offset + len(owner.elements))
-        groups = [(items, rows[inside[rows]]) for items, rows in values.items() if inside[rows].any()]
+        groups = []
+        for each in interfaces:
+            positions = deck.positions[deck.solids.element[each.sides[:, 0]]]
+            inside = (positions >= owner.element_offset) & (positions < owner.element_offset + len(owner.elements))
+            nodes = element_nodes(each.kind, deck.solids, each.sides[:, 0], each.sides[:, 1], cells)
+            groups += [
+                (each.kind, dict(items), nodes[rows[inside[rows]]])
+                for items, rows in each.properties.items()
+                if inside[rows].any()
+            ]
         if not groups:
             continue
         if elset.upper() in owner.mesh.elsets:
             raise UsageError(f"--elset {elset}: the deck has an element set of this name; give another one")
-        definition = owner.mesh.definitions.get(kind.name)
-        if definition is not None and definition.nodes != kind.nodes:
-            raise UsageError(f"--element {kind.name}: the deck defines another {kind.name}, at {definition.source}")
         names = [elset.upper()] if len(groups) == 1 else [f"{elset.upper()}-{k}" for k in range(1, len(groups) + 1)]
-        lines = ["** interface elements, by uel insert", *(definition_lines(kind) if definition is None else [])]
+        lines = ["** interface elements, by uel insert"]
+        for kind in dict.fromkeys(kind for kind, _, _ in groups):
+            definition = owner.mesh.definitions.get(kind.name)
+            if definition is not None and definition.nodes != kind.nodes:
+                raise UsageError(f"--element {kind.name}: the deck defines another {kind.name}, at {definition.source}")
+            lines += definition_lines(kind) if definition is None else []
         properties: list[str] = []
         first = number
-        for name, (items, rows) in zip(names, groups, strict=True):
-            lines += element_block(kind.name, quoted(name), rewriting.labels(nodes[rows]), first)
-            first += len(rows)
-            properties += property_lines(kind, quoted(name), quoted(elset), dict(items))
+        for name, (kind, items, nodes) in zip(names, groups, strict=True):
+            lines += element_block(kind.name, quoted(name), rewriting.labels(nodes), first)
+            first += len(nodes)
+            properties += property_lines(kind, quoted(name), quoted(elset), items)
         if len(names) > 1:
             lines += [keyword("ELSET", ELSET=quoted(elset)), *map(quoted, names)]
         rewriting.after_elements(owner, [*lines, *properties])
-    rewriting.after_model(material_lines(kind, quoted(elset), dict(next(iter(values)))))
+    for each in interfaces:
+        rewriting.after_model(material_lines(each.kind, quoted(elset), dict(next(iter(each.properties)))))
 
 
 def _values(

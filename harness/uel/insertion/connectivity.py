@@ -29,7 +29,7 @@ class InterfaceType:
     face    family of its faces
     nodes   number of nodes
     bottom  local nodes of its bottom face, from 0: corners, then midside nodes; `top`: opposite nodes
-    solid   family of the two solids that it owns, None for a standard element
+    solids  families of the solids below and above that it owns; () for a standard element
     here    whether the harness supports it
     """
 
@@ -39,7 +39,7 @@ class InterfaceType:
     nodes: int
     bottom: Face
     top: Face
-    solid: Family | None = None
+    solids: tuple[Family, ...] = ()
     here: bool = True
 
     @property
@@ -59,9 +59,8 @@ def known_types() -> dict[str, InterfaceType]:
         bottom, top = layout.faces
         if bottom:
             face = FAMILIES[layout.dimension - 1, len(bottom)]
-            owns = layout.nodes > 2 * len(bottom)
-            solid = FAMILIES[layout.dimension, layout.nodes // 2] if owns else None
-            types[f"U{jtype}"] = InterfaceType(f"U{jtype}", jtype, face, layout.nodes, bottom, top, solid)
+            solids = tuple(FAMILIES[layout.dimension, nodes] for nodes in layout.solids)
+            types[f"U{jtype}"] = InterfaceType(f"U{jtype}", jtype, face, layout.nodes, bottom, top, solids)
     return types
 
 
@@ -76,15 +75,15 @@ def interface_types() -> dict[str, InterfaceType]:
     }
 
 
-def fitting(faces: set[Family], solids: set[Family]) -> list[InterfaceType]:
-    """Return the types for these faces and solids, the recommended one first."""
+def recommended(face: Family, below: Family, above: Family) -> InterfaceType:
+    """Return the recommended type between two solids with this face; a standard element fits any."""
     types = [
         kind
         for kind in interface_types().values()
-        if {kind.face} == faces and (not kind.solid or {kind.solid} == solids)
+        if kind.face is face and (not kind.solids or kind.solids == (below, above))
     ]
     # stabilised elements, then standard ones of the project, then those of Abaqus
-    return sorted(types, key=lambda kind: (kind.solid is None, not kind.jtype))
+    return min(types, key=lambda kind: (not kind.solids, not kind.jtype))
 
 
 def face_nodes(solids: Solids, faces: IntArray) -> IntArray:
@@ -140,12 +139,12 @@ def element_nodes(
     for upper, (number, face_nodes_of) in enumerate(((below, kind.bottom), (above, kind.top))):
         old, new = _rows(solids, after, number)
         local = _local(old, along)
-        if kind.solid is None:
+        if not kind.solids:
             connectivity[:, list(face_nodes_of)] = np.take_along_axis(new, local, axis=1)
         else:
-            half = kind.solid.nodes if upper else 0
-            order = _permutation(kind.solid, local, tuple(node - half for node in face_nodes_of))
-            connectivity[:, half : half + kind.solid.nodes] = np.take_along_axis(new, order, axis=1)
+            start, family = kind.solids[0].nodes if upper else 0, kind.solids[upper]
+            order = _permutation(family, local, tuple(node - start for node in face_nodes_of))
+            connectivity[:, start : start + family.nodes] = np.take_along_axis(new, order, axis=1)
     return connectivity
 
 
@@ -163,8 +162,9 @@ def attached(
         lost |= faces == NONE
         rows = np.flatnonzero(faces != NONE)
         old, new = _rows(solids, after, solids.element[faces[rows]])
-        half = kind.nodes // 2
-        columns = np.array(face_nodes_of) if kind.solid is None else upper * half + np.arange(half)
+        columns = np.array(face_nodes_of)
+        if kind.solids:
+            columns = (kind.solids[0].nodes if upper else 0) + np.arange(kind.solids[upper].nodes)
         local = _local(old, nodes[np.ix_(rows, columns)])
         connectivity[np.ix_(rows, columns)] = np.take_along_axis(new, local, axis=1)
     return connectivity, lost

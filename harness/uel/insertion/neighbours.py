@@ -32,7 +32,7 @@ def check_neighbours(deck: Deck, sections: Sections, kind: InterfaceType, sides:
 
     Returns warnings where results may be wrong. Raises DeckError where they would be wrong.
     """
-    if kind.solid is None:
+    if not kind.solids:
         return []
     states = _read_states(deck)
     findings: dict[str, Finding] = {}

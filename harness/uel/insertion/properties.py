@@ -12,7 +12,7 @@ from uel.delamination.blocks import Interface, traction_material, traction_secti
 from uel.delamination.kernels import uel_property, user_element
 from uel.delamination.materials import Cohesive
 from uel.errors import UsageError
-from uel.insertion.connectivity import InterfaceType, known_types
+from uel.insertion.connectivity import InterfaceType
 from uel.insertion.sections import Side
 from uel.usersub.layout import check_law_uses, element_layouts
 
@@ -52,7 +52,7 @@ def required_names(kind: InterfaceType) -> tuple[str, ...]:
         return ("ALPHAN", *_LAW)
     names = tuple(item.name for item in element_layouts()[kind.jtype].reals if item.required)
     law = tuple(name for name in names if name != "THICKNESS" and not name.endswith((" BOTTOM", " TOP")))
-    return law if kind.solid else ("ALPHAN", *law)
+    return law if kind.solids else ("ALPHAN", *law)
 
 
 def check_values(kind: InterfaceType, values: Mapping[str, float]) -> None:
@@ -64,11 +64,10 @@ def check_values(kind: InterfaceType, values: Mapping[str, float]) -> None:
     needed = required_names(kind)
     missing = [name for name in needed if name not in values]
     if missing:
-        owners = ", ".join(each.name for each in known_types().values() if each.solid)
-        why = f": a stiffness, which only {owners} can do without, between quads and bricks" * ("ALPHAN" in missing)
+        why = ": a stiffness, which only stabilised elements can do without" * ("ALPHAN" in missing)
         raise UsageError(f"{kind.name} needs {', '.join(f'{name}=VALUE' for name in missing)}{why}")
     for name in (*needed, "THICKNESS"):
-        if values.get(name, 1.0) <= 0.0 and not (kind.solid and name == "ALPHAN"):
+        if values.get(name, 1.0) <= 0.0 and not (kind.solids and name == "ALPHAN"):
             raise UsageError(f"{name}={values[name]:g}: expected a value above 0")
     if kind.jtype:
         check_law_uses(kind.jtype, values, _law_of(values))
@@ -96,9 +95,10 @@ def element_values(kind: InterfaceType, properties: Mapping[str, float], below: 
             which = "PLANE=0 (plane stress) or 1 (plane strain)"
             raise UsageError(f"{kind.name} needs {which}: its sides differ or do not say it {locations}")
         values["PLANE"] = below.plane
-    if kind.solid:
+    if kind.solids:
         for word, side in (("BOTTOM", below), ("TOP", above)):
             values = {f"{name} {word}": value for name, value in side.constants.items()} | values
+            values = {f"FORMULATION {word}": float(side.formulation)} | values
             required = (item.name for item in element_layouts()[kind.jtype].reals if item.required)
             missing = [name for name in required if name.endswith(f" {word}") and name not in values]
             if missing:

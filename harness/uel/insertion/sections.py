@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Thickness, state of stress and elastic constants of the solids at each face.
+"""Thickness, state of stress, formulation and constants of the solids at each face.
 
 The axes of the plies of an element that owns its solids are given by an angle: in the plane from x, in space from the
 direction s about the normal of the interface. Where an *ORIENTATION varies, as in curved laminates, the angle is that
@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from uel.deck.sections.solids import make_section
 from uel.deck.sections.user_elements import ElementType
 from uel.elements.families.composite import turned_directions
 from uel.elements.interfaces.neighbour_plies import STACK_FACES
-from uel.elements.interfaces.neighbour_solids import OBLIQUE
+from uel.elements.interfaces.neighbour_solids import OBLIQUE, constant_expansion, formulation_of
 from uel.errors import DeckError, Source
 from uel.insertion.assembly import Deck
 from uel.model.arrays import FloatArray, IntArray
@@ -40,18 +40,22 @@ PARALLEL = 1e-4
 _DECIMALS = 4
 """Decimals of angles in degrees, the accuracy of coordinates with seven digits."""
 _PLANES = {Tensor.PLANE_STRESS: 0, Tensor.PLANE_STRAIN: 1, Tensor.SOLID: None}
-_NAMES = ("E1", "E2", "E3", "NU12", "NU13", "NU23", "G12", "G13", "G23")
+_NAMES = (
+    *("E1", "E2", "E3", "NU12", "NU13", "NU23", "G12", "G13", "G23"),
+    *("EXPANSION1", "EXPANSION2", "EXPANSION3"),
+)
 
 
 @dataclass(frozen=True, slots=True)
 class Side:
     """Data of the solids on one side of an interface.
 
-    thickness  out of the plane; None if unknown
-    plane      0 plane stress, 1 plane strain; None in space
-    constants  elastic constants by name (E1, NU12, G12, ...), with ANGLE; {} if unknown
-    why        reason for unknown constants
-    location   of the section in the deck, '' without one
+    thickness    out of the plane; None if unknown
+    plane        0 plane stress, 1 plane strain; None in space
+    constants    constants of the material by name (E1, NU12, G12, EXPANSION1, ...), with ANGLE; {} if unknown
+    why          reason for unknown constants
+    location     of the section in the deck, '' without one
+    formulation  of the solids, a value of FORMULATION BOTTOM or TOP
     """
 
     thickness: float | None
@@ -59,6 +63,7 @@ class Side:
     constants: Mapping[str, float]
     why: str
     location: str = ""
+    formulation: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,17 +89,19 @@ Three = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class _Moduli:
-    """Moduli along the axes of a material, contraction ratios (12, 13, 23), shear moduli (12, 13, 23)."""
+    """Moduli along the axes of a material, contraction ratios (12, 13, 23), shear moduli (12, 13, 23), expansion."""
 
     young: Three
     ratios: Three
     shear: Three
+    expansion: Three
 
     @property
     def isotropic(self) -> bool:
         """Whether the material is isotropic."""
         e, nu, g = self.young[0], self.ratios[0], self.shear[0]
         alike = self.young == (e,) * 3 and self.ratios == (nu,) * 3 and self.shear == (g,) * 3
+        alike = alike and self.expansion == (self.expansion[0],) * 3
         return alike and math.isclose(g, e / (2.0 * (1.0 + nu)), rel_tol=1e-12)
 
     def renamed(self, order: tuple[int, ...]) -> _Moduli:
@@ -107,11 +114,18 @@ class _Moduli:
         ]
         shear = [self.shear[pairs[min(i, j), max(i, j)]] for i, j in new]
         first, second, third = (self.young[axis] for axis in order)
-        return _Moduli((first, second, third), (ratios[0], ratios[1], ratios[2]), (shear[0], shear[1], shear[2]))
+        along, across, normal = (self.expansion[axis] for axis in order)
+        return _Moduli(
+            (first, second, third),
+            (ratios[0], ratios[1], ratios[2]),
+            (shear[0], shear[1], shear[2]),
+            (along, across, normal),
+        )
 
     def named(self, angle: float) -> dict[str, float]:
         """Return the properties by name."""
-        return dict(zip(_NAMES, (*self.young, *self.ratios, *self.shear), strict=True)) | {"ANGLE": angle}
+        values = (*self.young, *self.ratios, *self.shear, *self.expansion)
+        return dict(zip(_NAMES, values, strict=True)) | {"ANGLE": angle}
 
 
 class Sections:
@@ -171,9 +185,11 @@ class Sections:
         unique_sides: list[Side] = []
         which = np.zeros(len(faces.numbers), dtype=np.int64)
         for section, type, rows in self.kinds(faces.numbers):
+            kind = BUILT_IN.get(type.name)
+            formulation = formulation_of(kind) if isinstance(kind, ContinuumType) else 0
             for side, inside in self._sides_of(section, type, faces.take(rows)):
                 which[rows[inside]] = len(unique_sides)
-                unique_sides.append(side)
+                unique_sides.append(replace(side, formulation=formulation))
         return unique_sides, which
 
     def _sides_of(self, number: int, type: ElementType, faces: Faces) -> Iterator[tuple[Side, IntArray]]:
@@ -367,17 +383,20 @@ def _moduli(material: Material) -> _Moduli:
         raise ValueError(f"material {material.name} has no *ELASTIC")
     if elastic.table is not None:
         raise ValueError(f"material {material.name} depends on temperature or fields")
+    # one that takes more than three constants matters only where temperatures change: `find_faults` refuses it there
+    along = constant_expansion(material)
+    expansion = (0.0, 0.0, 0.0) if along is None else (float(along[0]), float(along[1]), float(along[2]))
     match elastic.type:
         case ElasticType.ISOTROPIC:
             young, ratio = elastic.constants[:2]
-            return _Moduli((young,) * 3, (ratio,) * 3, (young / (2.0 * (1.0 + ratio)),) * 3)
+            return _Moduli((young,) * 3, (ratio,) * 3, (young / (2.0 * (1.0 + ratio)),) * 3, expansion)
         case ElasticType.LAMINA:
             e1, e2, nu12, *g = elastic.constants
             # plane stress does not use the constants along the third axis
-            return _Moduli((e1, e2, 0.0), (nu12, 0.0, 0.0), (g[0], g[1], g[2]))
+            return _Moduli((e1, e2, 0.0), (nu12, 0.0, 0.0), (g[0], g[1], g[2]), expansion)
         case ElasticType.ENGINEERING_CONSTANTS:
             c = elastic.constants
-            return _Moduli((c[0], c[1], c[2]), (c[3], c[4], c[5]), (c[6], c[7], c[8]))
+            return _Moduli((c[0], c[1], c[2]), (c[3], c[4], c[5]), (c[6], c[7], c[8]), expansion)
         case _:
             raise ValueError(f"material {material.name} has *ELASTIC, TYPE={elastic.type.value}")
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from uel.delamination.kernels import uel_property, user_element
+from uel.delamination.kernels import formulations, uel_property, user_element
 from uel.delamination.keywords import element_block, keyword, node_block, node_set, number, table, text, wrapped
 from uel.delamination.materials import TABLE_2, SolidPly
 from uel.delamination.steps import Output
@@ -221,6 +221,7 @@ def _interface(column: Column, labels: IntArray, owner: int) -> list[str]:
     for side in ("BOTTOM", "TOP"):
         # the ply in its own axes, which ANGLE turns
         values |= {f"{name} {side}": value for name, value in PLY.constants.items()}
+    values |= formulations(column.block) if column.block not in _TENSORS else {}
     lines = user_element(column.jtype)
     lines += element_block(f"U{column.jtype}", "INTERFACE", nodes[None], 3)
     return [*lines, *uel_property(column.jtype, "INTERFACE", values)]

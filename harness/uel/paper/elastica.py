@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from uel.delamination.blocks import bending_section
-from uel.delamination.kernels import uel_property, user_element
+from uel.delamination.kernels import formulations, uel_property, user_element
 from uel.delamination.keywords import element_block, node_block, node_set, number, text
 from uel.delamination.plates import faces
 from uel.delamination.steps import Output, static_step
@@ -29,7 +29,7 @@ _PLY = {"E1": MODULUS, "E2": MODULUS, "G12": MODULUS / 2.0}
 _SOLIDS = {f"{name} {side}": value for name, value in _PLY.items() for side in ("BOTTOM", "TOP")}
 TYPES = {
     "U2": _LAW | {"ALPHAN": 1.0e4, "ALPHAT": 1.0e4, "INTEGRATION": 1},
-    "U4": _LAW | _SOLIDS | {"CLOSURE": 1, "BETAN": -1.0, "BETAT": -1.0},
+    "U4": _LAW | _SOLIDS | formulations("CPS4R") | {"CLOSURE": 1, "BETAN": -1.0, "BETAT": -1.0},
 }
 """Interface elements with their properties: the standard one, the consistent one with an infinite stiffness."""
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from uel.delamination.blocks import Interface, bending_section, cohesive_section, law_values
-from uel.delamination.kernels import uel_property, user_element
+from uel.delamination.kernels import formulations, uel_property, user_element
 from uel.delamination.keywords import element_block, node_block, node_set, number, text
 from uel.delamination.materials import Cohesive
 from uel.delamination.plates import faces
@@ -105,4 +105,6 @@ def _properties(interface: Interface) -> list[str]:
         for side, modulus in moduli.items()
         for name, share in (("E1", 1.0), ("E2", 1.0), ("G12", 0.5))
     }
-    return uel_property(int(interface.type[1:]), "INTERFACE", law_values(interface) | plies | {"THICKNESS": 1.0})
+    return uel_property(
+        int(interface.type[1:]), "INTERFACE", law_values(interface) | plies | formulations("CPS4R") | {"THICKNESS": 1.0}
+    )

@@ -9,8 +9,8 @@ The build makes the Fortran module abaqus_layout of the same file, and checks it
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final
 
@@ -62,6 +62,9 @@ class ElementLayout:
     faces     nodes, from 0, of the bottom and the top face of an interface element: left, right, middle; in space
               counter-clockwise seen from the top, corners and then middles
     meaning   what the element is
+    family    what all elements with these properties and variables are
+    solids    number of nodes of its own solids below and above; () without
+    tensor    value of TENSOR of a continuum element, '' of others
     """
 
     jtype: int
@@ -74,11 +77,21 @@ class ElementLayout:
     points: int
     faces: tuple[tuple[int, ...], tuple[int, ...]]
     meaning: str
+    family: str
+    solids: tuple[int, ...]
+    tensor: str
 
     @property
     def svars(self) -> int:
         """Number of SVARS, VARIABLES= of *USER ELEMENT."""
         return self.points * len(self.variables) + len(self.own)
+
+    @property
+    def corners(self) -> int:
+        """Number of corners of each face of an interface element."""
+        if self.dimension == PLANE:
+            return 2
+        return 3 if len(self.faces[0]) in (3, 6) else 4
 
     @property
     def unsymmetric(self) -> bool:
@@ -133,6 +146,9 @@ def read_layouts(text: str) -> dict[int, ElementLayout]:
             points=row["points"],
             faces=(_from_zero(row.get("bottom", ())), _from_zero(row.get("top", ()))),
             meaning=row["meaning"],
+            family=family["meaning"],
+            solids=tuple(row.get("solids", ())),
+            tensor="" if "bottom" in row else "PSTRESS" if row["dimension"] == PLANE else "THREED",
         )
     return layouts
 
@@ -188,18 +204,40 @@ def markdown() -> str:
 
 
 def _markdown_lines() -> Iterator[str]:
+    families: dict[str, list[ElementLayout]] = {}
     for layout in element_layouts().values():
-        counts = f"NODES={layout.nodes}, PROPERTIES={len(layout.reals)}, I PROPERTIES={len(layout.integers)}"
-        counts += f", VARIABLES={layout.svars}" + ", UNSYMM" * layout.unsymmetric
-        yield from (f"### U{layout.jtype}: {layout.meaning}", "", counts, "")
-        yield from _table("PROPS", "unit", [(i, i.unit) for i in layout.reals])
-        yield from _table("JPROPS", "", [(i, "") for i in layout.integers])
-        title = f"SVARS of each of {layout.points} points"
-        yield from _table(title, "unit", [(i, i.unit) for i in layout.variables])
-        if layout.own:
-            before = layout.points * len(layout.variables)
-            own = [replace(item, position=before + item.position) for item in layout.own]
-            yield from _table("SVARS of the element", "unit", [(i, i.unit) for i in own])
+        families.setdefault(layout.family, []).append(layout)
+    for family, layouts in families.items():
+        yield from (f"### {family[0].upper()}{family[1:]}", "")
+        yield from _types(layouts)
+        yield from (*(f"    {_user_element(layout)}" for layout in layouts), "")
+        one = layouts[0]
+        yield from _table("PROPS", "unit", [(i, i.unit) for i in one.reals])
+        yield from _table("JPROPS", "", [(i, "") for i in one.integers])
+        yield from _table("SVARS of each point", "unit", [(i, i.unit) for i in one.variables])
+        if one.own:
+            yield from _table("SVARS after those of the points", "unit", [(i, i.unit) for i in one.own])
+
+
+def _types(layouts: Sequence[ElementLayout]) -> Iterator[str]:
+    """Write the table of the element types of a family."""
+    interfaces = bool(layouts[0].faces[0])
+    columns = ["type", "element", "points", *(["nodes of the bottom face", "of the top face"] if interfaces else [])]
+    yield "| " + " | ".join(columns) + " |"
+    yield "|" + "---|" * len(columns)
+    for layout in layouts:
+        faces = [", ".join(str(node + 1) for node in face) for face in layout.faces if face]
+        yield "| " + " | ".join([f"U{layout.jtype}", layout.meaning, str(layout.points), *faces]) + " |"
+    yield ""
+
+
+def _user_element(layout: ElementLayout) -> str:
+    """Write *USER ELEMENT of a type."""
+    text = f"*USER ELEMENT, TYPE=U{layout.jtype}, NODES={layout.nodes}, COORDINATES={layout.dimension}"
+    text += f", PROPERTIES={len(layout.reals)}, I PROPERTIES={len(layout.integers)}, VARIABLES={layout.svars}"
+    if layout.tensor:
+        text += f", INTEGRATION={layout.points}, TENSOR={layout.tensor}"
+    return text + ", UNSYMM" * layout.unsymmetric
 
 
 def _table(title: str, unit: str, rows: list[tuple[Item, str]]) -> Iterator[str]:

@@ -19,6 +19,11 @@ PLY = {"E1": 138e3, "E2": 10.5e3, "E3": 10.5e3, "NU12": 0.3, "NU13": 0.3, "NU23"
 PLY_3D = PLY | {"G13": 6.3e3, "G23": 3.5e3}
 LAW = {"SIGMAMAX": 30.0, "TAUMAX": 60.0, "GIC": 0.26, "GIIC": 1.002}
 ELASTIC = "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n138000., 10500., 10500., 0.3, 0.3, 0.45, 6300., 6300.\n3500."
+FORMULATIONS = {
+    kind: {"FORMULATION BOTTOM": number, "FORMULATION TOP": number}
+    for kind, number in (("CPS4", 0), ("CPE4", 2), ("C3D8I", 1), ("U1", 0))
+}
+"""Properties beside solids of a type."""
 SQUARE = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
 
 
@@ -44,7 +49,7 @@ def quads(kind="CPE4", orientation="", section="1.", nodes=range(1, 9), step="",
         "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 1., 1.\n4, 0., 1.\n5, 0., 1.\n6, 1., 1.\n7, 1., 2.\n8, 0., 2.",
         "9, 0., -1.\n10, 1., -1.",
         f"*ELEMENT, TYPE={kind}, ELSET=SOLIDS\n1, 1, 2, 3, 4\n2, 5, 6, 7, 8",
-        *interface_lines(4, nodes, PLY, **{"PLANE": 1} | values),
+        *interface_lines(4, nodes, PLY, **{"PLANE": 1} | FORMULATIONS[kind] | values),
         f"*MATERIAL, NAME=PLY\n{ELASTIC}",
         f"*SOLID SECTION, ELSET=SOLIDS, MATERIAL=PLY{', ORIENTATION=O' if orientation else ''}\n{section}",
         orientation,
@@ -63,7 +68,9 @@ def user_quads(tensor="PSTRAIN", thickness=1.0, **values):
         "*ELEMENT, TYPE=U1, ELSET=SOLIDS",
     ]
     properties = f"*UEL PROPERTY, ELSET=SOLIDS, MATERIAL=PLY\n{thickness}, {int(tensor == 'PSTRAIN')}, 0"
-    text = quads(section="", **values).replace("*ELEMENT, TYPE=CPE4, ELSET=SOLIDS", "\n".join(solids))
+    text = quads(section="", **FORMULATIONS["U1"] | values).replace(
+        "*ELEMENT, TYPE=CPE4, ELSET=SOLIDS", "\n".join(solids)
+    )
     return text.replace("*SOLID SECTION, ELSET=SOLIDS, MATERIAL=PLY", properties)
 
 
@@ -80,7 +87,7 @@ def bricks(axes=None, turned=0.0, **values):
         *(f"{k}, {x:.12g}, {y:.12g}, {z:.12g}" for k, (x, y, z) in enumerate(corners, 1)),
         "*ELEMENT, TYPE=C3D8I, ELSET=SOLIDS",
         *("1, 1, 2, 3, 4, 5, 6, 7, 8", "2, 9, 10, 11, 12, 13, 14, 15, 16"),
-        *interface_lines(8, range(1, 17), PLY_3D, **values),
+        *interface_lines(8, range(1, 17), PLY_3D, **FORMULATIONS["C3D8I"] | values),
         f"*MATERIAL, NAME=PLY\n{ELASTIC}",
         f"*SOLID SECTION, ELSET=SOLIDS, MATERIAL=PLY{', ORIENTATION=O' if orientation else ''}",
         *orientation,
@@ -280,20 +287,42 @@ def test_a_job_is_refused_with_all_reasons(tmp_path):
     assert any("E1 TOP = 13800" in note for note in caught.value.__notes__)
 
 
-def test_a_job_with_thermal_strains_is_refused(tmp_path):
-    """Heated, a free block has tractions from -4 to 28 MPa with U4 where 0 is right."""
+def test_another_expansion_is_wrong_where_the_temperature_changes(tmp_path):
+    """Heated, a free block has tractions from -4 to 28 MPa with U4 that does not expand, where 0 is right."""
+    expanding = f"{ELASTIC}\n*EXPANSION, TYPE=ORTHO\n1e-6, 2e-5, 3e-5"
+    heated = quads(step="*TEMPERATURE\n8, 100.").replace(ELASTIC, expanding)
     deck = tmp_path / "deck.inp"
-    heated = quads(step="*TEMPERATURE\n8, 100.").replace(ELASTIC, f"{ELASTIC}\n*EXPANSION\n1e-5")
     deck.write_text(heated)
-    with pytest.raises(DeckError, match=r"U4 does not know thermal strains: material PLY of the CPE4 beside it"):
+    expected = (
+        r"U4 element 3: EXPANSION1 TOP = 0, but the CPE4 element 2 above .* has 1e-06 there .*temperature changes"
+    )
+    with pytest.raises(DeckError, match=expected):
         run(deck, output_dir=tmp_path)
+    assert compared(tmp_path, heated.replace("8, 100.", "9, 100.")) == []
+    given = {f"EXPANSION{k} {side}": a for side in ("BOTTOM", "TOP") for k, a in ((1, 1e-6), (2, 2e-5), (3, 3e-5))}
+    agreeing = quads(step="*TEMPERATURE\n8, 100.", **given).replace(ELASTIC, expanding)
+    assert compared(tmp_path, agreeing) == []
 
 
-def test_a_job_beside_one_point_is_refused(tmp_path):
-    """Ahead of a crack the tractions are 43.3, -7.7, +6.1, -5.8, -6.6 MPa beside C3D8R, smooth beside C3D8I."""
+@pytest.mark.parametrize(("kind", "mine", "wrong"), [("C3D8R", 1, True), ("C3D8", 1, False), ("C3D8I", 3, True)])
+def test_another_formulation(tmp_path, kind, mine, wrong):
+    """Ahead of a crack tractions are 43.3, -7.7, +6.1, -5.8, -6.6 MPa beside C3D8R with that of full integration."""
+    names = ["full integration", "incompatible modes", "the mean volume strain", "reduced integration"]
+    theirs = {"C3D8R": 3, "C3D8": 2, "C3D8I": 1}[kind]
+    text = bricks(**{"FORMULATION BOTTOM": mine, "FORMULATION TOP": theirs}).replace("C3D8I", kind)
+    ((found, weight, _),) = compared(tmp_path, text)
+    assert weight == wrong
+    assert re.match(
+        rf"U8 element 3: FORMULATION BOTTOM = {mine}, {names[mine]}, but the {kind} element 1 below .* has "
+        rf"{names[theirs]}; expected {theirs}$",
+        found,
+    )
+
+
+def test_a_job_with_another_formulation_is_refused(tmp_path):
     deck = tmp_path / "deck.inp"
     deck.write_text(bricks().replace("C3D8I", "C3D8R"))
-    with pytest.raises(DeckError, match=r"C3D8R beside U8 \(element 1\) has the stress of its middle"):
+    with pytest.raises(DeckError, match="U8 element 3: FORMULATION BOTTOM = 1, incompatible modes, but the C3D8R"):
         run(deck, output_dir=tmp_path)
 
 
@@ -305,15 +334,15 @@ def test_doubts_are_warnings(tmp_path):
 
 
 def test_elements_say_once_that_their_temperature_changes(tmp_path):
-    """In Abaqus nobody else does. Whether the plies expand they do not know: here they do not, and the job runs."""
+    """In Abaqus nobody else does. Here the plies do not expand either, and the job runs."""
     deck = tmp_path / "deck.inp"
     deck.write_text(quads(step="*TEMPERATURE\n8, 100.").replace("*STATIC\n1.,", "*STATIC\n0.5,"))
     result = run(deck, output_dir=tmp_path)
     found = [text for text in result.warnings if "temperature" in text]
     assert len(found) == 1
     assert re.search(
-        r"U4 element 3: the temperature of its node 8 changes by 50.*, to 50.*: its traction has no thermal strains. "
-        r"If the plies expand, take the standard element",
+        r"U4 element 3: the temperature of its node 8 changes by 50.*, to 50.*, and its solids do not expand: "
+        r"give EXPANSION1 BOTTOM to EXPANSION3 TOP if the plies do",
         found[0],
     )
     # a temperature that stays

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from solid_grids import grid
 
-from uel.insertion.connectivity import element_nodes, face_nodes, face_normals, fitting, interface_types
+from uel.insertion.connectivity import element_nodes, face_nodes, face_normals, interface_types, recommended
 from uel.insertion.cut import Cells, Solids, cut
 from uel.model.element_types import CONTINUUM, FAMILIES
 
@@ -165,7 +165,8 @@ def test_interface_elements_lie_between_their_solids(kind, seed):
     for size in np.unique(sizes):
         chosen = sides[sizes == size]
         face = FAMILIES[mesh.family.dimension - 1, int(size)]
-        for element in fitting({face}, {mesh.family}):
+        both = (mesh.family, mesh.family)
+        for element in (each for each in interface_types().values() if each.face is face and each.solids in ((), both)):
             nodes = element_nodes(element, solids, chosen[:, 0], chosen[:, 1], cells)
             bottom, top = nodes[:, list(element.bottom)], nodes[:, list(element.top)]
             assert np.array_equal(points[bottom], points[top])
@@ -179,24 +180,27 @@ def test_interface_elements_lie_between_their_solids(kind, seed):
             corners = points[bottom[:, : face.corners]]
             towards = solids.centroids[solids.element[chosen[:, 1]]] - corners.mean(axis=1)
             assert np.all(np.einsum("ij,ij->i", face_normals(corners), towards) > 0)
-            if element.solid is not None:
-                half = element.solid.nodes
+            if element.solids:
+                half = element.solids[0].nodes
                 for part, side in ((nodes[:, :half], 0), (nodes[:, half:], 1)):
                     own = cells[mesh.family.number].nodes[solids.element[chosen[:, side]]]
                     assert np.array_equal(np.sort(part, axis=1), np.sort(own, axis=1))
-                    assert_oriented(element.solid, points, part)
+                    assert_oriented(element.solids[0], points, part)
 
 
 def assert_oriented(family, points, elements):
     """Positive area or volume in the numbering of the family, and middles in the middles of its edges."""
     x = points[elements]
     if family.dimension == 2:
-        a, b, c, d = (x[:, k, :2] for k in range(4))
-        e, f = c - a, d - b
+        # of a triangle two edges, of a quad the diagonals
+        e, f = (x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]) if family.corners == 3 else (x[:, 2] - x[:, 0], x[:, 3] - x[:, 1])
         assert np.all(e[:, 0] * f[:, 1] - e[:, 1] * f[:, 0] > 0)
     else:
-        for k in range(4):
-            edges = [x[:, (k + 1) % 4] - x[:, k], x[:, (k + 3) % 4] - x[:, k], x[:, k + 4] - x[:, k]]
+        # edges of the first face, and that which leaves it
+        size = 3 if family.corners == 4 else family.corners // 2
+        for k in range(1 if family.corners == 4 else size):
+            away = 3 if family.corners == 4 else k + size
+            edges = [x[:, node] - x[:, k] for node in ((k + 1) % size, (k + size - 1) % size, away)]
             assert np.all(np.einsum("ij,ij->i", np.cross(edges[0], edges[1]), edges[2]) > 0)
     for face in family.faces:
         corners = sum(node < family.corners for node in face)
@@ -208,10 +212,13 @@ def assert_oriented(family, points, elements):
 def test_types_that_fit_come_with_the_recommended_one_first():
     quad, brick = CONTINUUM["CPS4"].family, CONTINUUM["C3D20"].family
     line = FAMILIES[1, 2]
-    assert [kind.name for kind in fitting({line}, {quad})] == ["U4", "U2", "COH2D4"]
-    assert [kind.name for kind in fitting({FAMILIES[2, 8]}, {brick})] == ["U12", "U11"]
-    assert [kind.name for kind in fitting({line}, {quad, CONTINUUM["CPS3"].family})] == ["U2", "COH2D4"]
-    assert fitting({line, FAMILIES[1, 3]}, {quad}) == []
+    triangle, wedge = CONTINUUM["CPS3"].family, CONTINUUM["C3D6"].family
+    assert recommended(line, quad, quad).name == "U4"
+    assert recommended(FAMILIES[2, 8], brick, brick).name == "U12"
+    assert [recommended(line, *pair).name for pair in ((quad, triangle), (triangle, quad))] == ["U43", "U34"]
+    # wedges on each other by quadrilaterals: the standard element
+    assert [recommended(FAMILIES[2, size], wedge, wedge).name for size in (3, 4)] == ["U606", "U7"]
+    assert recommended(FAMILIES[1, 3], quad, quad).name == "U5"
     assert "U3" not in interface_types()
 
 

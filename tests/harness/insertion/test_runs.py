@@ -62,10 +62,11 @@ def node_lines(lines, count):
 
 
 ELEMENTS = {
-    **{"CPS4": ("U2", "U4", "COH2D4"), "CPS3": ("U2",), "CPS8": ("U5", "U6"), "CPS6": ("U5",)},
-    **{"C3D8": ("U7", "U8", "COH3D8"), "C3D20": ("U11", "U12")},
+    **{"CPS4": ("U2", "U4", "COH2D4"), "CPS3": ("U2", "U33"), "CPS8": ("U5", "U6"), "CPS6": ("U5", "U66")},
+    **{"CPS4R": ("U4",), "CPE4I": ("U4",), "CPS8R": ("U6",), "C3D8R": ("U8",), "C3D8I": ("U8",), "C3D20R": ("U12",)},
+    **{"C3D8": ("U7", "U8", "COH3D8"), "C3D20": ("U11", "U12"), "C3D4": ("U13", "U404"), "C3D10": ("U14", "U1010")},
 }
-OWNERS = ("U4", "U6", "U8", "U12")
+OWNERS = ("U4", "U6", "U8", "U12", "U33", "U66", "U404", "U1010")
 PAIRS = [(kind, element) for kind, elements in ELEMENTS.items() for element in elements]
 
 
@@ -94,7 +95,7 @@ def test_doubles_that_are_tied_give_the_result_of_the_uncut_mesh(tmp_path, kind,
     before = displacements(deck, tmp_path)
     cut = tmp_path / "cut.inp"
     done = inserted(deck, cut, values_of(element), between=[("LOW", "HIGH")], element=element)
-    assert done.kind == element
+    assert list(done.kinds) == [element]
     origins = tied(cut, len(mesh.nodes))
     after = displacements(cut, tmp_path)
     assert len(after) == len(before) + done.doubled
@@ -120,7 +121,7 @@ def test_an_infinitely_stiff_interface_passes_the_patch_test(tmp_path, kind, ele
     cut = tmp_path / "cut.inp"
     # every solid by itself
     done = inserted(deck, cut, values_of(element), inside=["BODY"])
-    assert done.kind == element
+    assert list(done.kinds) == [element]
     assert len(mesh.nodes) + done.doubled == mesh.elements.size
     before, after = displacements(deck, tmp_path), displacements(cut, tmp_path)
     scale = np.abs(before).max()
@@ -128,7 +129,9 @@ def test_an_infinitely_stiff_interface_passes_the_patch_test(tmp_path, kind, ele
     assert np.abs(after[: len(before)] - before).max() < 1e-10 * scale
 
 
-@pytest.mark.parametrize(("kind", "element"), [(k, e) for k, e in PAIRS if e not in OWNERS])
+@pytest.mark.parametrize(
+    ("kind", "element"), [(k, e) for k, e in PAIRS if e not in OWNERS and k not in ("C3D4", "C3D10")]
+)
 def test_an_interface_adds_its_compliance(tmp_path, kind, element):
     """Of a column under a stress s: s H/E of the solids (nu = 0), s/k of the interface."""
     mesh = block(kind, distort=0.0)

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Properties and nodes of self-contained interface elements against the solids beside them.
 
-U4, U6, U8 and U12 have the elastic constants, the state of stress and the nodes of their solids a second time. Nothing
-in Abaqus compares the two: with moduli ten times too small, tractions are halved without a word. `uel run` knows both.
+Those that own their solids have the formulation, the constants, the state of stress and the nodes of the solids a
+second time. Nothing in Abaqus compares the two: with moduli ten times too small, tractions are halved without a word.
+`uel run` knows both.
 """
 
 from __future__ import annotations
@@ -17,10 +18,15 @@ from numpy.typing import NDArray
 
 from uel.elements.interfaces.neighbour_plies import Ply, SolidFaces, plies_at
 from uel.elements.interfaces.neighbour_solids import (
+    FORMULATIONS,
     NONE,
     OBLIQUE,
+    REDUCED,
     Finding,
+    changed_nodes,
+    constant_expansion,
     examine,
+    formulation_of,
     group_starts,
     owns_solids,
     solids_of,
@@ -77,7 +83,7 @@ def compare(model: Model, groups: Iterable[ElementGroup]) -> list[Finding]:
     model
         The model.
     groups
-        Those of its groups that are elements of the project; others than U4, U6, U8 and U12 are left out.
+        Those of its groups that are elements of the project; those that own no solids are left out.
 
     Returns
     -------
@@ -90,7 +96,7 @@ def compare(model: Model, groups: Iterable[ElementGroup]) -> list[Finding]:
             continue
         if not isinstance(group.section, UserProperty):
             continue
-        sides = solids_of(model, group).T
+        sides = solids_of(model, group)
         for side in (0, 1):
             found += _strangers(model, group, side, np.flatnonzero(sides[side] == NONE))
             for start, beside in zip(group_starts(model), model.groups, strict=True):
@@ -132,12 +138,12 @@ def _strangers(model: Model, group: ElementGroup, side: int, rows: IntArray) -> 
     if not len(rows) or not solids:
         return
     assert group.definition is not None
-    row, half = int(rows[0]), group.nodes.shape[1] // 2
-    own = group.nodes[row, side * half : (side + 1) * half]
-    face = group.nodes[row, list(element_layouts()[group.definition.number].faces[side])]
+    row, layout = int(rows[0]), element_layouts()[group.definition.number]
+    start = side * layout.solids[0]
+    own = group.nodes[row, start : start + layout.solids[side]]
+    face = group.nodes[row, list(layout.faces[side])]
     word, where = _SIDES[side]
-    first = 1 + side * half
-    text = f"{_named(model, group, row)}: its nodes {first} to {first + half - 1} are {_labels(model, own)}"
+    text = f"{_named(model, group, row)}: its nodes {start + 1} to {start + len(own)} are {_labels(model, own)}"
     shared = [np.isin(beside.nodes, face).sum(axis=1) for beside in solids]
     for beside, common in zip(solids, shared, strict=True):
         if (common == len(face)).any():
@@ -178,7 +184,22 @@ class _Pair:
         if tensor in _PLANES and thickness and abs(given["THICKNESS"] - thickness) > TOLERANCE * thickness:
             text = f"has a thickness of {thickness:g}"
             yield self._finding(0, f"THICKNESS = {given['THICKNESS']:g}", text, wrong=False)
+        yield from self._formulation(given)
         yield from self._moduli(given)
+
+    def _formulation(self, given: dict[str, float]) -> Iterator[Finding]:
+        """Compare the formulation: the stress of another one is not that of the solid, nor bounded by its energy."""
+        kind = self.beside.built_in
+        if isinstance(kind, ContinuumType):
+            theirs = formulation_of(kind)
+        else:
+            theirs = int(_given(self.beside).get("FORMULATION", 0.0))
+        name = f"FORMULATION {_SIDES[self.side][0]}"
+        mine = int(given[name])
+        if mine != theirs:
+            text = f"has {FORMULATIONS[theirs]}; expected {theirs}"
+            wrong = REDUCED in (mine, theirs)
+            yield self._finding(0, f"{name} = {mine}, {FORMULATIONS[mine]}", text, wrong=wrong)
 
     def _moduli(self, given: dict[str, float]) -> Iterator[Finding]:
         """Compare elastic constants along the axes of the ply that an element has."""
@@ -188,7 +209,7 @@ class _Pair:
         axes = self._axes(np.radians(given[f"ANGLE {_SIDES[self.side][0]}"]))
         assert self.group.definition is not None
         layout = element_layouts()[self.group.definition.number]
-        corners = list(layout.faces[self.side][: 2 * layout.dimension - 2])
+        corners = list(layout.faces[self.side][: layout.corners])
         outward = axes[:, 2] * (1.0 if self.side == 0 else -1.0)
         faces = SolidFaces(self.beside, self.solids, self.group.nodes[self.rows][:, corners], outward)
         for ply in plies_at(self.model, faces, tensor):
@@ -228,11 +249,33 @@ class _Pair:
                 at = int(np.flatnonzero(apart[numbers])[0])
                 has = f"has {theirs[numbers[at]]:.6g} there (material {material.name})"
                 return self._finding(at, f"{name} {word} = {value:g} at {angle}", has)
+        different = self._expansion_of(ply, turns, given)
+        if different is not None:
+            return different
         turned = _is_turned(straight, tensor)
         if turned.any():
             at = int(np.flatnonzero(turned[numbers])[0])
             return self._finding(at, angle, f"has its material ({material.name}) along other axes")
         return None
+
+    def _expansion_of(self, ply: Ply, turns: FloatArray, given: dict[str, float]) -> Finding | None:
+        """Compare the expansion where temperatures change; turns: (m, 3, 3), from the element's axes to the ply's."""
+        along = constant_expansion(ply.material)
+        heated = np.isin(self.group.nodes[self.rows], changed_nodes(self.model)).any(axis=1)
+        if along is None or not heated.any():
+            return None
+        word = _SIDES[self.side][0]
+        theirs = np.einsum("mai,a->mi", turns**2, along)
+        mine = np.array([given[f"EXPANSION{axis} {word}"] for axis in (1, 2, 3)])
+        axes = 2 if given.get("PLANE") == 0.0 else 3
+        apart = abs(theirs - mine)[:, :axes] > TOLERANCE * max(abs(along).max(), abs(mine).max())
+        rows = np.flatnonzero(heated & apart.any(axis=1))
+        if not len(rows):
+            return None
+        at = int(rows[0])
+        axis = int(apart[at].argmax())
+        has = f"has {theirs[at, axis]:.6g} there (material {ply.material.name}), and its temperature changes"
+        return self._finding(at, f"EXPANSION{axis + 1} {word} = {mine[axis]:g}", has)
 
     def _axes(self, angle: float) -> FloatArray:
         """Return the axes (m, 3, 3) of the plies of the elements, in rows."""
@@ -242,10 +285,13 @@ class _Pair:
         layout = element_layouts()[self.group.definition.number]
         if layout.dimension == 2:
             return np.broadcast_to(turn, (len(self.rows), 3, 3))
-        corners = [self.group.nodes[self.rows][:, np.array(face[:4])] for face in layout.faces]
+        corners = [self.group.nodes[self.rows][:, np.array(face[: layout.corners])] for face in layout.faces]
         middle = self.model.mesh.coordinates[corners[0]] + self.model.mesh.coordinates[corners[1]]
-        along = middle[:, 1] + middle[:, 2] - middle[:, 0] - middle[:, 3]
-        normal = _unit(np.cross(along, middle[:, 2] + middle[:, 3] - middle[:, 0] - middle[:, 1]))
+        # half-way along the edges of a quadrilateral, along two edges of a triangle
+        last = middle[:, -1] - middle[:, 0]
+        along = middle[:, 1] - middle[:, 0] + (middle[:, 2] - middle[:, 3] if layout.corners == 4 else 0.0)
+        across = last + (middle[:, 2] - middle[:, 1] if layout.corners == 4 else 0.0)
+        normal = _unit(np.cross(along, across))
         # Abaqus' local directions: the projection of x, or of z where x is within 0.1 degrees of the normal
         steep = abs(normal[:, 0]) > np.cos(np.radians(0.1))
         beside = np.where(steep[:, None], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0])

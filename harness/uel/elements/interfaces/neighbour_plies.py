@@ -109,7 +109,8 @@ def _ply(model: Model, faces: SolidFaces, layer: SolidLayer, upright: FloatArray
     """Return the material of a layer with its axes; `upright` is the stack direction (k, 3)."""
     material, orientation = layer.material, layer.orientation
     same = np.broadcast_to(np.eye(3), (len(rows), 3, 3))
-    if orientation is None or (material.elastic and material.elastic.type is ElasticType.ISOTROPIC):
+    isotropic = material.elastic and material.elastic.type is ElasticType.ISOTROPIC
+    if orientation is None or (isotropic and (material.expansion is None or material.expansion.isotropic)):
         return Ply(rows, material, same)
     try:
         axes = _directions(model, faces, orientation)

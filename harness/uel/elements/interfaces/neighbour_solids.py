@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Solids beside which a self-contained interface element is wrong or doubtful.
 
-U4, U6, U8 and U12 compute the traction of their solids themselves: from the displacements of all their nodes, with the
-strains of full integration and with elastic constants among their properties. So they do not know what else makes a
-stress in a solid: thermal strains, initial stress, inelastic strains, the strain normal to a plane, an electrical
-field, or stresses that the solid computes at fewer points. The standard elements have no such limits.
+Those that own their solids compute their traction themselves: from the displacements of all their nodes, with the
+formulation, the elastic constants and the expansion among their properties. So they do not know what else makes a
+stress in a solid: initial stress, inelastic strains, the strain normal to a plane, an electrical field, a temperature
+that is an unknown, or an interpolation of its own. The standard elements have no such limits.
 
 This is the only place that says beside what these elements can stand. `find_faults` is the rule; `examine` applies it
 to a model that has the elements, and `uel insert` to a deck before it has them.
@@ -22,10 +22,19 @@ import numpy as np
 from uel.errors import Source
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.dofs import TEMPERATURE
-from uel.model.element_types import BUILT_IN, HEX8, HEX20, QUAD4, QUAD8, ContinuumShellType, ContinuumType
+from uel.model.element_types import (
+    BUILT_IN,
+    HEX8,
+    HEX20,
+    QUAD4,
+    QUAD8,
+    ContinuumShellType,
+    ContinuumType,
+    Tensor,
+)
 from uel.model.mesh import ElementGroup, full_name
 from uel.model.model import Model
-from uel.model.properties import CompositeSection, Material, Section, SolidSection, materials_of
+from uel.model.properties import Material, Section, materials_of
 from uel.model.steps import InitialStress, InitialValue, Load
 from uel.usersub.layout import element_layouts
 
@@ -92,6 +101,25 @@ class States:
     stresses: Sequence[tuple[IntArray, Source]] = ()
 
 
+FORMULATIONS: Final = ("full integration", "incompatible modes", "the mean volume strain", "reduced integration")
+"""Values of FORMULATION BOTTOM and TOP, in words."""
+MODES: Final = 1
+MEAN_VOLUME: Final = 2
+REDUCED: Final = 3
+
+
+def formulation_of(kind: ContinuumType) -> int:
+    """Return the value of FORMULATION BOTTOM or TOP for a built-in element on that side."""
+    if kind.incompatible:
+        return MODES
+    product = kind.family in (QUAD4, QUAD8, HEX8, HEX20)
+    if product and kind.points < kind.family.full_points:
+        return REDUCED
+    if kind.family in (QUAD4, HEX8) and kind.tensor is not Tensor.PLANE_STRESS:
+        return MEAN_VOLUME
+    return 0
+
+
 def owns_solids(jtype: int) -> bool:
     """Return whether elements Un of the project are interface elements that own the solids on both sides."""
     layout = element_layouts().get(jtype)
@@ -117,26 +145,21 @@ def examine(model: Model, groups: Iterable[ElementGroup]) -> list[Finding]:
     model
         The model.
     groups
-        Those of its groups that are elements of the project; others than U4, U6, U8 and U12 are left out.
+        Those of its groups that are elements of the project; those that own no solids are left out.
 
     Returns
     -------
     list of Finding
         Each of them once; empty where the elements have the tractions of their solids.
     """
-    states = States(
-        changed_temperatures(
-            model.initial_temperatures, [entry for step in model.steps for entry in step.fields], len(model.mesh.labels)
-        ),
-        initially_stressed(model.initial_stresses),
-    )
+    states = States(_changes(model), initially_stressed(model.initial_stresses))
     starts = group_starts(model)
     owned: dict[int, IntArray] = {}
     for group in groups:
         if group.definition is not None and owns_solids(group.definition.number):
             jtype = group.definition.number
             others = owned.get(jtype, np.zeros(0, dtype=np.int64))
-            owned[jtype] = np.unique(np.concatenate([others, solids_of(model, group).ravel()]))
+            owned[jtype] = np.unique(np.concatenate([others, *solids_of(model, group)]))
     found: dict[str, Finding] = {}
     for jtype, solids in owned.items():
         alike: dict[tuple[str, Source], Neighbours] = {}
@@ -160,7 +183,7 @@ def group_starts(model: Model) -> list[int]:
     return starts
 
 
-def solids_of(model: Model, group: ElementGroup) -> IntArray:
+def solids_of(model: Model, group: ElementGroup) -> tuple[IntArray, IntArray]:
     """Find the solids that interface elements own, by their nodes.
 
     Parameters
@@ -168,18 +191,25 @@ def solids_of(model: Model, group: ElementGroup) -> IntArray:
     model
         The model.
     group
-        Elements U4, U6, U8 or U12 of the project.
+        Elements of the project that own their solids.
 
     Returns
     -------
-    (m, 2) positions in the model of the solids below and above, -1 where no solid has these nodes.
+    (m,), (m,)
+        Positions in the model of the solids below and above, -1 where no solid has these nodes.
     """
-    half = group.nodes.shape[1] // 2
-    wanted = np.sort(group.nodes[:, : 2 * half].reshape(-1, half), axis=1)
+    assert group.definition is not None
+    below, above = element_layouts()[group.definition.number].solids
+    return _with_nodes(model, group, slice(0, below)), _with_nodes(model, group, slice(below, below + above))
+
+
+def _with_nodes(model: Model, group: ElementGroup, part: slice) -> IntArray:
+    """Find the solids that have some of the nodes of each element of a group, whatever their order."""
+    wanted = np.sort(group.nodes[:, part], axis=1)
     found = np.full(len(wanted), NONE)
     order = np.lexsort(wanted.T[::-1])
     for start, beside in zip(group_starts(model), model.groups, strict=True):
-        if beside is group or beside.nodes.shape[1] != half or not _is_solid(beside):
+        if beside is group or beside.nodes.shape[1] != wanted.shape[1] or not _is_solid(beside):
             continue
         own = np.sort(beside.nodes, axis=1)
         rows, number = np.unique(np.concatenate([own, wanted[order]]), axis=0, return_inverse=True)
@@ -188,7 +218,7 @@ def solids_of(model: Model, group: ElementGroup) -> IntArray:
         position[number[: len(own)]] = start + np.arange(len(own))
         there = position[number[len(own) :]]
         found[order[there != NONE]] = there[there != NONE]
-    return found.reshape(-1, 2)
+    return found
 
 
 def _is_solid(group: ElementGroup) -> bool:
@@ -232,6 +262,17 @@ def changed_temperatures(
     return found
 
 
+def _changes(model: Model) -> list[tuple[IntArray, Source]]:
+    """Return the nodes of a model whose temperature differs from the initial one, with the place of each entry."""
+    given = [entry for step in model.steps for entry in step.fields]
+    return changed_temperatures(model.initial_temperatures, given, len(model.mesh.labels))
+
+
+def changed_nodes(model: Model) -> IntArray:
+    """Return the nodes of a model whose temperature differs from the initial one."""
+    return np.unique(np.concatenate([np.zeros(0, dtype=np.int64), *(nodes for nodes, _ in _changes(model))]))
+
+
 def initially_stressed(stresses: Iterable[InitialStress]) -> list[tuple[IntArray, Source]]:
     """Return the elements with *INITIAL CONDITIONS, TYPE=STRESS, and the place of each entry that is not zero."""
     return [
@@ -247,7 +288,7 @@ def find_faults(solids: Neighbours, states: States) -> list[Finding]:
     Parameters
     ----------
     solids
-        Of one type and section, beside elements U4, U6, U8 or U12.
+        Of one type and section, beside elements that own them.
     states
         What the deck gives them.
     """
@@ -272,7 +313,7 @@ def _instead(solids: Neighbours) -> str:
 
 
 def _formulation(solids: Neighbours) -> Iterator[Finding]:
-    """Check the type of the solids: points, state of stress, further unknowns."""
+    """Check the type of the solids: interpolation, state of stress, further unknowns."""
     kind = BUILT_IN.get(solids.type)
     if not isinstance(kind, ContinuumType):
         return
@@ -281,20 +322,9 @@ def _formulation(solids: Neighbours) -> Iterator[Finding]:
         message = f"{here} has the stresses of a shell, where {_type(solids)} takes those of a solid"
         yield Finding(f"{message}; {_instead(solids)}", place, wrong=True)
         return
-    full = kind.family in (QUAD4, QUAD8, HEX8, HEX20) and kind.points >= kind.family.full_points
-    if kind.hourglass_control:
-        message = f"{here} has the stress of its middle, where {_type(solids)} takes that of full integration"
-        controls = solids.section.controls if isinstance(solids.section, SolidSection | CompositeSection) else None
-        if controls is not None and controls.enhanced:
-            yield Finding(f"{message}: tractions may oscillate", place, wrong=False)
-        else:
-            plain = solids.type.replace("R", "", 1)
-            others = " or ".join(name for name in (plain, f"{plain}I") if name in BUILT_IN)
-            other = f"U{standard_type(solids.jtype)} in place of {_type(solids)}"
-            yield Finding(f"{message}: tractions oscillate; take {others}, or {other}", place, wrong=True)
-    elif not full:
-        message = f"{here} is integrated at {kind.points} points, where {_type(solids)} takes full integration"
-        yield Finding(f"{message}: its stabilisation may be too small for tall elements", place, wrong=False)
+    if kind.modified:
+        message = f"{here} has an interpolation of its own, which {_type(solids)} does not know"
+        yield Finding(f"{message}; {_instead(solids)}", place, wrong=True)
     if kind.generalised:
         message = f"{here} strains normal to the plane, where {_type(solids)} takes plane strain"
         yield Finding(f"{message}; {_instead(solids)}", place, wrong=True)
@@ -326,16 +356,25 @@ def _material(solids: Neighbours, material: Material) -> Iterator[Finding]:
 
 
 def _temperature(solids: Neighbours, material: Material, states: States) -> Iterator[Finding]:
-    """Check for thermal strains."""
+    """Check for thermal strains that no three constants and PREDEF give."""
     if material.expansion is None or not material.expansion.table[:, 1:].any():
         return
     kind = BUILT_IN.get(solids.type)
+    of = f"material {material.name} of the {solids.type} beside it has *EXPANSION ({material.expansion.source})"
+    if isinstance(kind, ContinuumType) and kind.coupled:
+        message = f"{_type(solids)} knows temperatures of *TEMPERATURE, not those of {solids.type}: {of}"
+        yield Finding(f"{message}; {_instead(solids)}", solids.section.source, wrong=True)
+        return
     place = next((place for nodes, place in states.temperatures if np.isin(solids.nodes, nodes).any()), None)
-    if place is None and isinstance(kind, ContinuumType) and kind.coupled:
-        place = solids.section.source
-    if place is not None:
-        message = (
-            f"{_type(solids)} does not know thermal strains: material {material.name} of the {solids.type} beside it "
-            f"has *EXPANSION ({material.expansion.source}), and its temperature changes"
-        )
-        yield Finding(f"{message}; {_instead(solids)}, or leave out the temperature", place, wrong=True)
+    if place is None or constant_expansion(material) is not None:
+        return
+    message = f"{_type(solids)} has one expansion along each axis of a ply, at all temperatures: {of}, which is another"
+    yield Finding(f"{message}; {_instead(solids)}", place, wrong=True)
+
+
+def constant_expansion(material: Material) -> FloatArray | None:
+    """Return the expansion (3,) along the axes of a material, zero without any; None if it takes more than these."""
+    if material.expansion is None:
+        return np.zeros(3)
+    table = material.expansion.table
+    return None if len(table) > 1 or table[:, 4:].any() else np.array(table[0, 1:4])
