@@ -8,7 +8,7 @@ from uel.contact.finite_sliding import FiniteSliding, normals_of
 from uel.contact.nodal_fields import nodal_fields
 from uel.contact.rigid_surface import RigidSurface
 from uel.contact.shape_functions import monomials
-from uel.contact.surface_finite_sliding import FACING, SurfaceSliding
+from uel.contact.surface_finite_sliding import FACING, SurfaceSliding, square_samples, triangle_samples
 
 __all__ = [
     "FACING",
@@ -20,4 +20,6 @@ __all__ = [
     "monomials",
     "nodal_fields",
     "normals_of",
+    "square_samples",
+    "triangle_samples",
 ]

@@ -16,6 +16,7 @@ from typing import Final
 import numpy as np
 from scipy import sparse
 
+from uel.contact import square_samples, triangle_samples
 from uel.deck.contact.anchor_points import EDGE, EQUAL, find_anchors, natural_gradients, nodal_normals, shape_functions
 from uel.model.arrays import FloatArray, IntArray
 
@@ -86,16 +87,7 @@ def _points(
     corners = faces.shape[1]
     if corners == 2:
         return _on_lines(faces, normals, main, coordinates)
-    middles = (np.arange(ALONG) + 0.5) / ALONG
-    if corners == 4:
-        x, y = np.meshgrid(2 * middles - 1, 2 * middles - 1)
-        natural, weight = np.stack([x.ravel(), y.ravel()], axis=1), 4.0 / ALONG**2
-    else:
-        # centroids of equal triangles
-        x, y = np.meshgrid(np.arange(ALONG), np.arange(ALONG))
-        upward = np.stack([x, y], axis=-1)[x + y < ALONG] + 1 / 3
-        downward = np.stack([x, y], axis=-1)[x + y < ALONG - 1] + 2 / 3
-        natural, weight = np.concatenate([upward, downward]) / ALONG, 0.5 / ALONG**2
+    natural, weight = square_samples(ALONG) if corners == 4 else triangle_samples(ALONG)
     face, natural = np.repeat(np.arange(len(faces)), len(natural)), np.tile(natural, (len(faces), 1))
     tangents = np.einsum("pka,pkd->pad", natural_gradients(natural, corners), coordinates[faces[face]])
     return face, natural, weight * np.linalg.norm(np.cross(tangents[:, 0], tangents[:, 1]), axis=1)
