@@ -1,3 +1,3 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks of user elements with the calls of a deck: one file per check, on a run that is recorded and replayed."""
+"""Checks of user elements on the recorded and replayed calls of a deck, one file per check."""

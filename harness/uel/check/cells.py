@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Integrals of the gradients of the shape functions of the usual cells: nodal forces of a uniform stress."""
+"""Integrals of the shape function gradients of common cells: nodal forces of a uniform stress."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ _CORNERS: Final = {
 def gradient_integrals(points: FloatArray) -> FloatArray | None:
     """Return the integrals (nodes, dimensions) of dN/dx over the cell of nodes (nodes, dimensions) in Abaqus' order.
 
-    A uniform stress s has the nodal forces of their products with s. None if the nodes make no cell, or a degenerate or
+    Their products with a uniform stress are its nodal forces. None if the nodes are no known cell, or a degenerate or
     inverted one.
     """
     nodes, dimensions = points.shape
@@ -78,7 +78,7 @@ def gradient_integrals(points: FloatArray) -> FloatArray | None:
 
 
 def _powers(key: tuple[int, int], *, simplex: bool) -> np.ndarray:
-    """Return exponents (nodes, dimensions) of the monomials that the shape functions are made of."""
+    """Return the exponents (nodes, dimensions) of the monomials of the shape functions."""
     dimensions, nodes = key
     quadratic = key in _EDGES
     every = np.array(list(product(range(3 if quadratic else 2), repeat=dimensions)))
@@ -92,7 +92,7 @@ def _powers(key: tuple[int, int], *, simplex: bool) -> np.ndarray:
 
 
 def _slopes(natural_point: FloatArray, powers: np.ndarray) -> FloatArray:
-    """Return derivatives (monomials, dimensions) of the monomials at a place."""
+    """Return the derivatives (monomials, dimensions) of the monomials at a point."""
     columns = []
     for direction in range(len(natural_point)):
         lower = powers.copy()
@@ -102,7 +102,7 @@ def _slopes(natural_point: FloatArray, powers: np.ndarray) -> FloatArray:
 
 
 def _rule(dimensions: int, *, simplex: bool) -> list[tuple[FloatArray, float]]:
-    """Return the places and weights of an integration rule; in simplices that of the box that collapses to them."""
+    """Return points and weights of an integration rule; for simplices that of the collapsed box."""
     gauss, weights = np.polynomial.legendre.leggauss(POINTS)
     rule = []
     for chosen in product(range(POINTS), repeat=dimensions):

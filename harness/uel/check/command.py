@@ -33,7 +33,7 @@ WIDEST: Final = 10_000
 
 
 def check(options: argparse.Namespace, console: Console, *, isolated: bool) -> int:
-    """Run the checks and print what they found; returns the exit code, see CODES.
+    """Run the checks and print the findings; returns the exit code, see CODES.
 
     isolated: in a separate process, which user code may end; a terminal shows what it does.
     """
@@ -72,7 +72,7 @@ def check(options: argparse.Namespace, console: Console, *, isolated: bool) -> i
 
 
 def _write(file: Path, findings: str) -> bool:
-    """Write the findings for other programs; if that fails, say so."""
+    """Write the findings as JSON; an error is reported."""
     try:
         file.write_text(findings, encoding="utf-8")
     except OSError as error:
@@ -82,7 +82,7 @@ def _write(file: Path, findings: str) -> bool:
 
 
 def _clear(file: Path | None, *, shuffle: bool) -> None:
-    """Remove the findings of an earlier run, so that they are never taken for those of this one. Raises UelError."""
+    """Remove the findings of an earlier run, so that they are not mistaken for current ones. Raises UelError."""
     if file is None:
         return
     if shuffle:

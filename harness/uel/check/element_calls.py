@@ -26,7 +26,7 @@ CHANGES: Final = 1e-3, 1.0, 1e3, -1e-3, -1.0, -1e3
 
 @dataclass(frozen=True, slots=True)
 class ElementState:
-    """The arguments of a call of one element, which is in its state at the start of the increment.
+    """Arguments of a call of one element in its state at the start of the increment.
 
     u, du, motion  (n,) of the element: estimate of the end of the increment, the increment, velocity and acceleration
     origin         where the state comes from, for messages
@@ -50,7 +50,7 @@ class ElementState:
         return self.single.evaluate(self.call, self.u, self.du, self.motion, matrix=matrix, nrhs=self.nrhs)
 
     def influence(self, surroundings: AbstractContextManager[None], expected: Returned) -> str:
-        """Describe how surroundings of the call change what it returns, in a sentence; '' if they do not."""
+        """Describe an effect of the surroundings of the call on its results, in a sentence; '' for none."""
         with surroundings:
             try:
                 return first_difference(expected, self.evaluate())
@@ -64,11 +64,11 @@ class ElementState:
         return replace(self, u=self.u + shift, du=self.du + shift, motion=motion)
 
     def moved_on(self, shift: FloatArray) -> ElementState:
-        """Make a further increment, shift (n,), from the end of this one; the element keeps the state of its start."""
+        """Return a further increment, shift (n,), from the end of this one; the element state is that at its start."""
         return replace(self.moved(shift), du=shift)
 
     def carried(self, shift: FloatArray) -> ElementState:
-        """Return the state of an element that was elsewhere from the start: U + shift (n,)."""
+        """Return the state with U + shift (n,) from the start."""
         return replace(self, u=self.u + shift)
 
     def part(self, fraction: float) -> ElementState:
@@ -76,7 +76,7 @@ class ElementState:
         return replace(self, u=self.u - (1.0 - fraction) * self.du, du=fraction * self.du)
 
     def settled(self) -> ElementState:
-        """Return the next increment, in which nothing moves."""
+        """Return the next increment with zero displacement increments."""
         still = replace(self, single=self.single.twin(strict=False))
         still.evaluate()
         still.single.block.commit()
@@ -104,7 +104,7 @@ class ElementState:
         return replace(self.part(0.0), motion=zero).called(distributed=None)
 
     def called(self, **changes: Any) -> ElementState:
-        """Change arguments that all elements share, fields of Call."""
+        """Change common arguments of all elements, fields of Call."""
         return replace(self, call=replace(self.call, **changes))
 
     def asked(self, request: Request) -> ElementState:
@@ -123,7 +123,7 @@ class ElementState:
         return replace(self, single=single)
 
     def depends_on(self, chosen: np.ndarray) -> bool:
-        """Report whether RHS changes with these state variables (nsvars,) on entry. Raises KernelError."""
+        """Return whether RHS changes with these state variables (nsvars,) on entry. Raises KernelError."""
         expected = self.evaluate(matrix=False).rhs
         for value in CHANGES:
             try:

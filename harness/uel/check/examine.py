@@ -111,28 +111,20 @@ def examine(
     Parameters
     ----------
     deck
-        A deck with user elements.
+        Deck with user elements.
     user
-        The user's file, or several in the order of compilation; none takes the project's own elements.
+        User files in the order of compilation; none: the elements of the project.
     seed
         Of random orders of calls and random displacements.
     increments
-        To be run at most.
+        Largest number of increments.
     skip
         Names of checks to leave out.
     progress
-        Gets told what begins, with what has been found until then.
+        Called at the start of each task, with the findings so far.
 
-    Returns
-    -------
-    Examination
-        A report for each type of user element.
-
-    Raises
-    ------
-    UelError
-        Nothing can be checked: the deck or the user's file is wrong, the first call of the elements fails, the deck has
-        no user elements, or there is no check of a name to be skipped.
+    Raises UelError if nothing can be checked: the deck or the user file is wrong, the first call of the elements fails,
+    the deck has no user elements, or a name to skip is unknown.
     """
     files = (user,) if isinstance(user, Path) else tuple(user)
     known = [check.name for check in CHECKS]

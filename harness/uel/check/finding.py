@@ -28,8 +28,8 @@ class Conclusion(StrEnum):
 class Finding:
     """Outcome of one check for one element type.
 
-    message  what was found and how far it is off; for a failure with element, state and entries
-    figure   the number that was judged (the message says what it is); None if there is none
+    message  finding and deviation; for a failure with element, state and entries
+    figure   checked number, explained in the message; None if there is none
     limit    of the figure
     entries  of the element's arrays that are wrong, as 'AMATRX(1,2)'
     advice   what to change; '' unless the check failed
@@ -44,12 +44,12 @@ class Finding:
 
 
 def passed(message: str, figure: float | None = None, limit: float | None = None) -> Finding:
-    """Return the finding that all is well; parameters are entries of `Finding`."""
+    """Return the finding of a passed check; parameters are entries of `Finding`."""
     return Finding(Verdict.PASSED, message, figure, limit)
 
 
 def not_applicable(reason: str) -> Finding:
-    """Return the finding of a check that does not apply; reason: why, and with which deck it would."""
+    """Return the finding of a check that does not apply; reason: why, and a deck to which it applies."""
     return Finding(Verdict.NOT_APPLICABLE, reason)
 
 
@@ -61,5 +61,5 @@ def failed(
     limit: float | None = None,
     entries: tuple[str, ...] = (),
 ) -> Finding:
-    """Return the finding of a mistake; parameters are entries of `Finding`."""
+    """Return the finding of a failed check; parameters are entries of `Finding`."""
     return Finding(Verdict.FAILED, message, figure, limit, entries, advice)

@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The checks in a separate process: if user code ends it, what was found until then is kept.
+"""Checks in a separate process: if user code ends it, the findings so far are kept.
 
-The process (worker.py) writes what it has found so far to a file before each part of its work, so that it loses only
-the check that was running.
+The process (worker.py) writes its findings to a file before each task, so that only the current check is lost.
 """
 
 from __future__ import annotations
@@ -38,7 +37,7 @@ T = TypeVar("T")
 
 
 class EndedError(UelError):
-    """User code ended the process, or a user interrupted it; snapshot has what was found until then."""
+    """User code ended the process, or a user interrupted it; snapshot has the findings so far."""
 
     def __init__(self, reason: str, snapshot: Snapshot, *, interrupted: bool = False) -> None:
         super().__init__(reason)
@@ -53,7 +52,7 @@ ShowProgress = Callable[[str], None]
 def examine_isolated(
     deck: Path, user: list[Path], *, call_limit: float = CALL_LIMIT, show: ShowProgress | None = None, **options: Any
 ) -> Examination:
-    """Run `examine` in a separate process; if user code ends it, keep what was found and fail the check that ran.
+    """Run `examine` in a separate process; if user code ends it, keep the findings and fail the current check.
 
     call_limit: seconds that one call of a user routine may take. Raises UelError, also if no check had begun.
     """

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Patches of the patch test: nodes of the deck that elements of one type surround."""
+"""Patches of the patch test: nodes of the deck surrounded by elements of one type."""
 
 from __future__ import annotations
 

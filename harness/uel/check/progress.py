@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Progress of the checks: the one that runs, for messages in case it ends the process."""
+"""Progress of the checks, for messages if a check ends the process."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 
 @dataclass(frozen=True, slots=True)
 class Running:
-    """A part of the work: what it is, as the end of a sentence, and the check that fails if it ends the process.
+    """Running task: description, as the end of a sentence, and the check that fails if it ends the process.
 
     check is '' before the first element type.
     """
@@ -28,16 +28,16 @@ Progress = Callable[[Running, Any], None]
 
 
 def no_progress(running: Running, outcome: Any) -> None:
-    """Ignore the progress: nobody asks for it."""
+    """Ignore the progress."""
 
 
 @dataclass(frozen=True, slots=True)
 class Snapshot:
     """Progress of a process.
 
-    running   what it was doing; None at its end
-    outcome   result, or what had been found until then
-    error     message of the UelError that ended the work; '' if none did
+    running   current task; None at its end
+    outcome   result, or the findings so far
+    error     message of the UelError that ended the process; '' for none
     notes     of that error
     """
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Recording: the passes of an ordinary run, kept so that the calls of its elements can be repeated."""
+"""Recording of a run, from which the calls of its elements can be repeated."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ from uel.usersub import Library, names_line, trap
 
 @dataclass(frozen=True, slots=True)
 class Pass:
-    """Pass over all elements: U, DU, V and A (n,) of the system, whether AMATRX was wanted, and NRHS."""
+    """Pass over all elements: U, DU, V and A (n,) of the system, whether AMATRX is requested, and NRHS."""
 
     call: Call
     u: FloatArray
@@ -49,7 +49,9 @@ class Pass:
 
     @property
     def normal(self) -> bool:
-        """True if it asks for RHS and AMATRX of an iteration of a general step; in a linear one RHS is a change."""
+        """True if it requests RHS and AMATRX in an iteration of a general step; in a linear step RHS is a
+        perturbation.
+        """
         return self.call.flags.request is Request.NORMAL and not self.call.flags.linear and self.matrix
 
 
@@ -89,15 +91,15 @@ class Recording:
     """A run of a deck as the user routines saw it.
 
     user        the user's files, none for the project's elements
-    events      in the order in which they happened
+    events      in chronological order
     equations   (m, unknowns of an element) position in U of each element unknown, per group
     increments  that converged
-    stopped     why the run ended before the increments asked for; '' if it did not, or if the deck has no more
+    stopped     reason for an end before the requested increments; '' if there is none or the deck has no more
     failure     error of an element that ended the run, None if none did
-    ending      error of any kind that ended it; None where INC= of a step did, and all attempts converged
-    unset       error that ends a run in which local variables without a value hold what earlier calls have left; '' if
-                there is none. If there is one, they are zero in this run and in all further calls.
-    build       with which calls are repeated
+    ending      any error that ended the run; None if INC= of a step did and all attempts converged
+    unset       error that ends a run with the previous contents in uninitialised local variables; '' if there is none,
+                else these are zero in this run and in all further calls
+    build       used to repeat the calls
     """
 
     model: Model
@@ -114,9 +116,9 @@ class Recording:
 
 @contextmanager
 def opened(model: Model, user: Sequence[Path], build: Build = _ORDINARY) -> Iterator[Library]:
-    """Load the user routines afresh; what they print goes to a folder that is removed.
+    """Load the user routines anew, with their printed output in a temporary folder.
 
-    An error inside gets notes of what the deck and the compilers warned of before.
+    The warnings of the deck and the compilers are added to an error as notes.
     """
     with tempfile.TemporaryDirectory() as folder:
         library = usersub.load(
@@ -226,7 +228,7 @@ def _general(events: Sequence[Event]) -> Pass:
 
 
 class _RecordedSystem(System):
-    """A system that keeps what its elements are called with."""
+    """System that records the arguments of its elements."""
 
     def __init__(self, model: Model, contributors: Contributors, events: list[Event]) -> None:
         super().__init__(model.mesh, contributors, model.equations)
@@ -256,7 +258,7 @@ class _RecordedSystem(System):
 
 
 class _RecordedRoutines:
-    """Keeper of the calls of user routines that a procedure makes."""
+    """User routines that record the calls of a procedure."""
 
     def __init__(self, library: Library, events: list[Event]) -> None:
         self.sdvini, self.sigini, self.orient = library.sdvini, library.sigini, library.orient

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Repeat the calls of a recorded run, element by element in any order, and keep what each element returns."""
+"""Replay of the calls of a recorded run, element by element in any order, with the results of each element."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Order = Callable[[int], IntArray]
 
 
 def abaqus_order(count: int) -> IntArray:
-    """Return ascending element numbers, as Abaqus calls user elements on one thread."""
+    """Return elements in ascending order, in which Abaqus calls user elements on one thread."""
     return np.arange(count)
 
 
@@ -43,7 +43,7 @@ class Results:
 
 
 class Elements:
-    """All elements of a model, each in its own block; positions are those in Abaqus' order.
+    """All elements of a model, each in a separate block; positions are those in Abaqus' order.
 
     types, names  of each element; a name is the number, or INSTANCE.number
     starts        (elements + 1,) first entry of each element in Results.values
@@ -95,7 +95,7 @@ class Elements:
 def replay(
     recording: Recording, order: Order, *, strict: bool = True
 ) -> Generator[tuple[Elements, Results], None, None]:
-    """Repeat all calls with freshly loaded user routines; yields each pass, whose `made` is that of the run.
+    """Repeat all calls with newly loaded user routines; yields each pass, whose `made` is that of the run.
 
     strict: an element that writes outside an array is refused.
     """

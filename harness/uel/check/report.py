@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The outcome of the checks as a table and as JSON."""
+"""Findings of the checks as a table and as JSON."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _STYLES: Final = {Verdict.PASSED: "green", Verdict.FAILED: "bold red", Verdict.N
 
 
 def table(outcome: Examination) -> Group:
-    """Make a table for each element type, with what to change; then how the run ended, and warnings about the deck."""
+    """Return a table with advice for each element type, the end of the run, and warnings about the deck."""
     parts: list[Table | Text] = []
     for report in outcome.types:
         title = f"{outcome.deck.name}: {report.type}, elements: {report.elements}, states: {report.states}"
@@ -53,7 +53,7 @@ def _advice(report: TypeReport) -> list[Text]:
 
 
 def as_json(outcome: Examination) -> str:
-    """Write all findings as JSON, for other programs."""
+    """Return all findings as JSON."""
     data = {
         "deck": str(outcome.deck),
         "user": [str(file) for file in outcome.user],
@@ -72,5 +72,5 @@ def as_json(outcome: Examination) -> str:
 
 
 def error_as_json(error: UelError) -> str:
-    """Write the reason why nothing could be checked as JSON, for other programs."""
+    """Return the error that prevented the checks as JSON."""
     return json.dumps({"conclusion": Conclusion.NOTHING, "passed": False, "error": str(error)}, indent=2) + "\n"

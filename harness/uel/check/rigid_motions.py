@@ -27,7 +27,7 @@ ALIKE: Final = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Body:
-    """An element whose nodes have displacements.
+    """Element whose nodes have displacements.
 
     points        (nodes, dimensions) coordinates
     displacement  (n,) True where an unknown is a displacement
@@ -43,7 +43,7 @@ class Body:
 
     @property
     def dimensions(self) -> int:
-        """Directions in which the nodes move."""
+        """Number of displacement directions."""
         return int(self.points.shape[1])
 
     @property
@@ -53,7 +53,7 @@ class Body:
 
     @property
     def coincident(self) -> bool:
-        """Nodes with displacements coincide, as those of interface elements do."""
+        """True if nodes with displacements coincide, as in interface elements."""
         points = np.unique(self.points[np.unique(self.local[self.displacement])].round(12), axis=0)
         return len(points) < len(set(self.local[self.displacement].tolist()))
 
@@ -149,7 +149,7 @@ def _with_own_rotations(subject: Subject, body: Body) -> Body:
 
 
 def makes_inertia(state: ElementState, body: Body) -> bool:
-    """Report whether a translation in a dynamic increment causes forces without V and A: inertia of DU."""
+    """Return whether a translation in a dynamic increment causes forces with V = A = 0: inertia from DU."""
     if not state.dynamic:
         return False
     here = state.quiet().evaluate(matrix=False).rhs[0]
@@ -163,7 +163,7 @@ def makes_inertia(state: ElementState, body: Body) -> bool:
 
 
 def _elsewhere(state: ElementState, motion: FloatArray) -> tuple[ElementState, ElementState]:
-    """Return the state of an element that has moved within the increment, and of one that was there from the start."""
+    """Return the states of an element translated within the increment, and from the start."""
     return state.moved(motion), state.carried(motion)
 
 
@@ -175,7 +175,7 @@ INERTIA: Final = "the element computes inertia from DU, not from A: take a deck 
 
 
 def body_at_rest(subject: Subject) -> tuple[ElementState, Body] | Finding:
-    """Return the first state without displacements and its body, or a finding if there is none, or inertia of DU."""
+    """Return the first state without displacements and its body, or a finding if there is none, or inertia from DU."""
     state = next(iter(subject.resting), None)
     if state is None:
         return not_applicable(AT_REST)

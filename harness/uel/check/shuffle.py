@@ -1,11 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Dependence of an element on the calling order.
+"""Dependence of elements on the calling order.
 
 Abaqus calls user elements by ascending number on one thread, and in no fixed order on several threads or processes.
-The calls of a run are repeated with the elements in random order, a new one in every pass, and each element has to
-return the same bits. The results of elements are compared, not their sums, which round differently in another order.
-Simultaneous calls of two elements, as threads make them, are not tried.
+The calls of a run are repeated in a new random order in every pass, and each element has to return the same bits.
+Results of elements are compared, not their sums, whose round-off depends on the order. Concurrent calls are not tested.
 """
 
 from __future__ import annotations
@@ -37,7 +36,7 @@ class TypeVerdict:
 
     elements   of this type in the model
     calls      number of calls compared
-    different  names of the elements that returned something else in a random order
+    different  names of the elements whose results depend on the order
     first      the first difference, as a sentence
     refusal    error with which an element ended a call, None if none did
     """
@@ -79,7 +78,7 @@ class Shuffled:
 
 
 def shuffle(deck: Path, user: Sequence[Path] = (), *, seed: int = 1, increments: int = 3) -> Shuffled:
-    """Replay the first increments of a deck in random orders. Raises UelError if it fails in Abaqus' order."""
+    """Replay the first increments of a deck in random orders. Raises UelError if they fail in Abaqus' order."""
     return shuffle_recording(record(deck, user, increments), seed)
 
 
@@ -125,7 +124,7 @@ def _compare(
 
 
 def report(outcome: Shuffled) -> Group:
-    """Return the table of the verdicts, and what to do about failures."""
+    """Return the table of verdicts with advice about failures."""
     recording = outcome.recording
     passes = sum(isinstance(event, Pass) and event.call.flags.request is not Request.MASS for event in recording.events)
     title = f"{recording.model.deck.name}: {ORDERS} random orders (seed {outcome.seed}) against Abaqus' order"

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Single element, called by itself."""
+"""Single element, called separately."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def entry(index: int, n: int, columns: int, svars: int) -> str:
 
 
 class Single:
-    """An element in its own block, with its own unknowns."""
+    """Element in a separate block, with local unknowns."""
 
     def __init__(self, block: ElementBlock) -> None:
         n = len(block.unknowns)
@@ -87,13 +87,13 @@ class Single:
         return Single(self.block.split(strict=strict)[0])
 
     def placed(self, coordinates: FloatArray) -> Single:
-        """Copy the element in its committed state, with other coordinates (nodes of the model, 3)."""
+        """Copy the element in its committed state, with new coordinates (nodes of the model, 3)."""
         return Single(self.block.split(strict=False, coordinates=coordinates)[0])
 
     def evaluate(
         self, call: Call, u: FloatArray, du: FloatArray, motion: Motion | None, *, matrix: bool = True, nrhs: int = 1
     ) -> Returned:
-        """Call it with its own U, DU, V and A (n,); AMATRX is zero unless it is wanted. Raises KernelError."""
+        """Call the element with local U, DU, V and A (n,); AMATRX is zero unless requested. Raises KernelError."""
         n = len(self.block.unknowns)
         # -0.0 + x has the bits of x for every x
         residual, values = np.full((nrhs, n), -0.0), np.full(n * n, -0.0)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""An increment made in equal parts, each of which starts from the state that the one before has left."""
+"""Subdivision of an increment, each part starting from the state at the end of the previous one."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from uel.elements import Call
 
 
 def subdivide(state: ElementState, ends: list[float]) -> Iterator[Returned]:
-    """Make the increment of a state in parts that end at these fractions of it; yields what each part returns.
+    """Subdivide the increment of a state at the given fractions; yields the results of each part.
 
     Fractions above 1 continue at the rates of the increment: displacements, time, loads and fields.
     """
@@ -27,7 +27,7 @@ def subdivide(state: ElementState, ends: list[float]) -> Iterator[Returned]:
 
 
 def _part_call(call: Call, number: int, fraction: float, rest: float) -> Call:
-    """Return the call of a part of an increment; fraction: its size over the increment's; rest: the share after it."""
+    """Return the call of a part of an increment; fraction: its relative size; rest: the fraction after it."""
     loads, fields, size = call.distributed, call.predefined, call.time_increment
     return replace(
         call,

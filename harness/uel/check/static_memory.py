@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Variables of user routines that outlive a call: SAVE, COMMON, modules, initial values in declarations."""
+"""Static variables of user routines: SAVE, COMMON, modules, initial values in declarations."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ _ANY: Final = re.compile(r"^([0-9a-f]+) (?:[0-9a-f]+ )?[A-Za-z] (uel|uelmat)_$",
 
 @dataclass(frozen=True, slots=True)
 class Variable:
-    """Variable in memory: its name as in the user's source, its address and its size."""
+    """Static variable: name in the user's source, address and size."""
 
     name: str
     address: int
     size: int
 
     def bytes(self) -> NDArray[np.uint8]:
-        """Copy its present bytes."""
+        """Copy the current bytes."""
         return np.frombuffer(ctypes.string_at(self.address, self.size), dtype=np.uint8)
 
 

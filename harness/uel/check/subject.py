@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The subject of the checks: the elements of one type, with states from the run of the deck and random ones."""
+"""Subject of the checks: the elements of one type, with states from the run of the deck and random ones."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ YIELDING: Final = 1e-4
 
 @dataclass(frozen=True, slots=True)
 class Patch:
-    """A node surrounded by elements of one type, with the states of these elements in the first pass."""
+    """Node surrounded by elements of one type, with their states in the first pass."""
 
     node: int
     states: tuple[ElementState, ...]
@@ -55,18 +55,18 @@ class Patch:
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """A user element type of a deck.
+    """User element type of a deck.
 
     recording   the run of the deck
     elements    of this type in the model
-    states      from the run; the first ones are of the first pass, before anything has moved
-    returned    what they returned in the run
-    random      the same with random displacements, as large as the deformations of the run
+    states      from the run; the first ones are of the first pass, without displacements
+    returned    their results in the run
+    random      the same with random displacements of the magnitude of the deformations in the run
     scales      (n,) size of a displacement, rotation or temperature in this run, for each unknown
     order       outcome of random calling orders
     patches     for the patch test
     library     the user routines
-    refusal     why no element returns from a call by itself; '' where one does
+    refusal     reason why no element returns from a separate call; '' if one does
     not_finite  message about the first value of SVARS, ENERGY or PNEWDT that is not finite; '' without one
     """
 
@@ -88,47 +88,18 @@ class Subject:
     _magnitudes: list[FloatArray] = field(default_factory=list)
 
     def differences(self, state: ElementState) -> Differences:
-        """Return the differences of RHS at a state, made once for each state.
-
-        Parameters
-        ----------
-        state
-            One of those of this subject, or what `quiet` makes of it.
-
-        Returns
-        -------
-        Differences
-            -dRHS/dU (n, n), by the unknowns of the element.
-
-        Raises
-        ------
-        KernelError
-            The element does not return at the state itself.
-        """
+        """Return -dRHS/dU (n, n) by finite differences at a state or its `quiet` state, cached. Raises KernelError."""
         if id(state) not in self._differences:
             self._differences[id(state)] = differences(state, self.scales)
         return self._differences[id(state)]
 
     def stiffness(self, state: ElementState) -> FloatArray:
-        """Return magnitudes of the stiffness: the larger of AMATRX and the differences of RHS, as either may be wrong.
+        """Return magnitudes (n, n) of the stiffness: the larger of AMATRX and the differences of RHS, as either may be
+        wrong.
 
-        Without inertia these are the differences, because AMATRX of a dynamic step includes mass. Else they are at
-        least a fraction of those at the other states, so that rounding does not count where an element yields.
-
-        Parameters
-        ----------
-        state
-            One of those of this subject, or what `quiet` makes of it.
-
-        Returns
-        -------
-        FloatArray
-            (n, n): force on the unknown of the row by a displacement of that of the column.
-
-        Raises
-        ------
-        KernelError
-            The element does not return.
+        Without inertia these are the differences, because AMATRX of a dynamic step includes mass. Otherwise they are at
+        least a fraction of those at the other states, so that round-off does not count where an element yields. Raises
+        KernelError.
         """
         quotients: FloatArray = np.abs(self.differences(state).matrix)
         if not state.inertia:
@@ -142,7 +113,7 @@ class Subject:
 
     @property
     def usual_forces(self) -> FloatArray:
-        """Forces (n,) that AMATRX makes of the displacements of the run, at its states."""
+        """Forces (n,): AMATRX times the displacements of the run, at its states."""
         return np.asarray(self.largest_stiffness @ self.scales)
 
     @property
@@ -154,7 +125,7 @@ class Subject:
 
     @property
     def carries_on(self) -> bool:
-        """UEXTERNALDB hands data on from increment to increment, which after the run are those of its end."""
+        """True if UEXTERNALDB passes data from increment to increment; after the run these are of its end."""
         if self.library.uexternaldb is None:
             return False
         pairs = zip(self.states, self.returned, strict=True)
@@ -162,7 +133,7 @@ class Subject:
 
     @property
     def idle(self) -> bool:
-        """RHS and AMATRX are zero at all states: nothing can be said about the forces."""
+        """True if RHS and AMATRX are zero at all states, so that forces cannot be checked."""
         for state in self.all_states:
             try:
                 returned = state.evaluate()
@@ -197,18 +168,7 @@ class Subject:
         return np.array([dof for _, dof in self.definition.dofs])
 
     def coordinates(self, state: ElementState) -> FloatArray:
-        """Return the original coordinates of the nodes of an element.
-
-        Parameters
-        ----------
-        state
-            Of the element.
-
-        Returns
-        -------
-        FloatArray
-            (nodes, COORDINATES= of *USER ELEMENT) in the unit of the deck.
-        """
+        """Return the original coordinates (nodes, COORDINATES= of *USER ELEMENT) of an element."""
         nodes = state.single.block.group.nodes[0]
         return self.recording.model.mesh.coordinates[nodes, : self.definition.coordinates]
 
@@ -304,7 +264,7 @@ def diagonal(coordinates: FloatArray) -> float:
 
 
 def deformations(u: FloatArray, dofs: np.ndarray) -> FloatArray:
-    """Return the variation (n,) of the displacements from node to node, for each unknown that of its dof."""
+    """Return the variation (n,) of the displacements among the nodes, for each unknown that of its dof."""
     ranges = {dof: float(np.ptp(u[dofs == dof])) for dof in np.unique(dofs).tolist()}
     return np.array([ranges[dof] for dof in dofs.tolist()])
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Ties between equal values: a message names the same one on every processor, whatever the last bits are."""
+"""Ties between values equal up to round-off: messages name the same one on every processor."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ EQUAL: Final = 1e-6
 
 
 def exceeds(value: float, largest: float) -> bool:
-    """Report whether a value exceeds the largest one so far by more than rounding."""
+    """Return whether a value exceeds the largest so far by more than round-off."""
     return value > (1.0 + EQUAL) * largest
 
 
@@ -26,7 +26,7 @@ def first_largest(values: FloatArray) -> int:
 
 
 def ranked(values: FloatArray) -> list[int]:
-    """Return the indices of values (n,), the largest first; equal ones in their order."""
+    """Return the indices of values (n,) in descending order, stable for equal ones."""
     remaining, ranking = np.argsort(-values, kind="stable").tolist(), []
     while remaining:
         same = [index for index in remaining if values[index] >= (1.0 - EQUAL) * values[remaining[0]]]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The separate process, which user code may end (`uel.running.worker`), calls a function by its words TASK SNAPSHOT."""
+"""Entry point TASK SNAPSHOT of the separate process, which user code may end (`uel.running.worker`)."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ INTERRUPTED: Final = 130
 
 
 def main(words: Sequence[str]) -> int:
-    """Call the function of the file TASK, and keep its outcome in the file SNAPSHOT; returns the exit code."""
+    """Call the function of the file TASK and save its outcome in the file SNAPSHOT; returns the exit code."""
     task, file = map(Path, words)
     function, arguments, options, call_limit = pickle.loads(task.read_bytes())
     limit_calls(call_limit)

@@ -45,10 +45,10 @@ from uel.check.subject import Subject
 class Check:
     """A check: its name on the command line and in the table, and its function.
 
-    function  judges one element type; a KernelError from it is a failure if the element returns at random displacements
-    calls     it calls elements, so it needs a state
-    forces    it judges RHS and AMATRX, so it needs one at which they are not all zero
-    unless    name of another check whose failure would explain one of this check too; '' for none
+    function  checks one element type; its KernelError is a failure if the element returns at random displacements
+    calls     calls elements, so needs a state
+    forces    checks RHS and AMATRX, so needs a state at which they are not all zero
+    unless    name of another check whose failure would also explain a failure of this one; '' for none
     """
 
     name: str

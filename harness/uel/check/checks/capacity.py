@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The capacity that LFLAGS(3) = 4 returns in steps of heat transfer, against RHS: part of `requests`."""
+"""Capacity matrix of LFLAGS(3) = 4 in heat transfer steps against RHS: part of `requests`."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ TOLERANCE: Final = 1e-6
 
 
 def check_capacity(subject: Subject, state: ElementState) -> Finding | None:
-    """Compare the sums for each dof that is no displacement: one matrix may be lumped and the other consistent.
+    """Compare the sums for each dof other than displacements, since one matrix may be lumped and the other consistent.
 
     None if the element has no such dof, or returns no capacity with LFLAGS(3) = 4.
     """

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compiler diagnostics of the user's files: certain mistakes, and suspicions."""
+"""Compiler diagnostics of the user's files: certain mistakes and suspicions."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ADVICE: Final = (
 
 
 def check(subject: Subject) -> Finding:
-    """Check that the compiler is certain of no mistake."""
+    """Check that the compiler reports no certain mistake."""
     recording = subject.recording
     if not recording.user or not all(map(is_source, recording.user)):
         return not_applicable("there are no user sources to compile")

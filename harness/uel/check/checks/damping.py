@@ -85,6 +85,6 @@ def _slope(subject: Subject, state: ElementState) -> FloatArray:
 
 
 def _sped(state: ElementState, shift: FloatArray) -> FloatArray:
-    """Return RHS with other velocities and nothing else changed."""
+    """Return RHS with only the velocities changed."""
     motion = Motion(state.motion.velocity + shift, state.motion.acceleration)
     return np.asarray(replace(state, motion=motion).evaluate(matrix=False).rhs[0])

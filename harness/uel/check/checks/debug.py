@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The calls of the run in a build with run-time checks, in which uninitialised variables hold NaN."""
+"""Replay of the run in a build with run-time checks, in which uninitialised variables are NaN."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class _Replayed:
 
 
 def check(subject: Subject) -> Finding:
-    """Check that run-time checks find nothing, and that local variables without a value have no effect."""
+    """Check that run-time checks find nothing and that uninitialised local variables have no effect."""
     recording = subject.recording
     if not recording.user or not all(map(is_source, recording.user)):
         return not_applicable("there are no user sources to compile")
@@ -102,7 +102,7 @@ def _difference(zeros: _Replayed, marked: _Replayed) -> str:
 
 
 def _line(recording: Recording, kind: str, error: KernelError | None = None) -> str:
-    """Return the line where calculation with NaN begins, to end a sentence; '' if the known error has a place."""
+    """Return the line of the first operation on NaN, as the end of a sentence; '' if the error already has a line."""
     if error is not None and names_line(str(error)):
         return ""
     trapping = trap(True)

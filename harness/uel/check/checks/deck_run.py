@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The run of the deck completes the increments asked for."""
+"""Completion of the requested increments of the deck."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ OTHER: Final = "Run the deck with `uel run`: it has to complete before more can 
 
 
 def check(subject: Subject) -> Finding:
-    """Check that the run converged in all increments asked for, or all that the deck has, and in at least one."""
+    """Check that the run converged in all requested increments, or all of the deck, and in at least one."""
     recording = subject.recording
     failure, done = recording.failure or recording.ending, recording.increments
     if failure is None and done:
@@ -54,13 +54,13 @@ def check(subject: Subject) -> Finding:
 
 
 def _concerns(failure: UelError, kind: str, model: Model) -> bool:
-    """Report whether elements of a type are to blame; if no user element is, all are."""
+    """Return whether the failure is attributed to this element type; without attribution, to all types."""
     blamed = _blamed(failure, model) & {group.type for group in model.groups if group.definition is not None}
     return not blamed or kind in blamed
 
 
 def _blamed(failure: UelError, model: Model) -> set[str]:
-    """Return the type of the element that failed, or types of those at the unconstrained node and dof."""
+    """Return the type of the failed element, or the types at the unconstrained node and dof."""
     if isinstance(failure, ElementError):
         return {failure.element_type}
     if not isinstance(failure, SingularMatrixError):

@@ -47,7 +47,7 @@ ADVICE_ON_TIME: Final = (
 
 
 def check(subject: Subject) -> Finding:
-    """Check that the sum of ENERGY(1) to ENERGY(7) grows by the work of the internal forces."""
+    """Check that the increase of the sum of ENERGY(1) to ENERGY(7) is the work of the internal forces."""
     reason = _reason_against(subject)
     if reason:
         return not_applicable(reason)
@@ -113,7 +113,7 @@ def _on_entry(state: ElementState) -> tuple[float, float]:
 
 
 def _lost(subject: Subject, pairs: list[tuple[float, float]]) -> Finding | None:
-    """Return a finding if a call in which nothing moves changes the energy."""
+    """Return a finding if a call without displacement increments changes the energy."""
     rounding = 1e-10 * max(abs(energy) for pair in pairs for energy in pair)
     for state, (entry, start) in zip(subject.states, pairs, strict=True):
         if abs(start - entry) > TOLERANCE * max(abs(start), abs(entry)) + rounding:
@@ -132,7 +132,7 @@ def _depends_on_time(state: ElementState) -> bool:
 
 
 def _stored_and_work(state: ElementState, fraction: float) -> Iterator[tuple[float, float]]:
-    """Yield the growth of the energy over a part of the increment, and the work of the internal forces by two sums.
+    """Yield the increase of energy over parts of the increment, and the work of the internal forces by two sums.
 
     Parts in which both are zero are left out.
     """

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""State variables that the forces depend on are written."""
+"""Update of the state variables on which the forces depend."""
 
 from __future__ import annotations
 
@@ -133,7 +133,7 @@ def _negative_zeros(svars: FloatArray) -> FloatArray:
 
 
 def _writes(state: ElementState, indices: list[int]) -> bool:
-    """Report whether a call changes a state variable whose value on entry is far from the usual ones."""
+    """Return whether a call changes a state variable whose value on entry is far out of its range."""
     for index, value in product(indices, CHANGES):
         svars = state.single.svars
         svars[index] += value

@@ -62,7 +62,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _depends_on_number(state: ElementState) -> bool:
-    """Report whether RHS depends on KINC, apart from the first increment, which an element may treat differently."""
+    """Return whether RHS depends on KINC beyond the first increment, which an element may treat differently."""
     if state.call.increment < 2:
         return False
     later = state.called(increment=state.call.increment + LATER)
@@ -70,6 +70,6 @@ def _depends_on_number(state: ElementState) -> bool:
 
 
 def _final_forces(state: ElementState, parts: int) -> FloatArray:
-    """Return the forces at the end of the increment, made in equal parts from its start."""
+    """Return the forces at the end of the increment, divided into equal parts."""
     *_, last = subdivide(state, [k / parts for k in range(1, parts + 1)])
     return np.asarray(last.rhs[0])

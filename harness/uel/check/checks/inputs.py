@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arguments that Abaqus passes in only."""
+"""Input arguments of Abaqus."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SCALARS: Final = (
 
 
 def check(subject: Subject) -> Finding:
-    """Check that the inputs have the same values after a call as before."""
+    """Check that a call leaves its inputs unchanged."""
     changes: dict[str, str] = {}
     with watched_inputs() as made:
         for state in subject.states:

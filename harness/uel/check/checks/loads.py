@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Distributed loads of the deck reach the elements."""
+"""Distributed loads of the deck."""
 
 from __future__ import annotations
 
@@ -52,13 +52,13 @@ def _on_element(state: ElementState) -> np.ndarray:
 
 
 def _kinds(state: ElementState) -> list[int]:
-    """Return the types of these loads."""
+    """Return the load types."""
     loads = state.call.distributed
     return [] if loads is None else sorted(set(loads.kinds[_on_element(state)].tolist()))
 
 
 def _changes(state: ElementState, kind: int) -> bool:
-    """Report whether RHS depends on loads of a type."""
+    """Return whether RHS depends on loads of a type."""
     loads = state.call.distributed
     assert loads is not None
     # DDLMAG stays: the load is ADLMAG, not its change in this increment

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Local variables that are used before they get a value."""
+"""Local variables used before they are set."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ ADVICE: Final = (
 
 
 def check(subject: Subject) -> Finding:
-    """Check that leftovers in the memory of local variables have no effect."""
+    """Check that uninitialised local variables have no effect."""
     if error := subject.recording.unset:
         message = (
             f"the deck runs only if local variables without a value are zero, as in the other checks; else {error}"

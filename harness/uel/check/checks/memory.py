@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Memory checks: output that an element leaves unwritten, and writes and reads outside its arrays."""
+"""Memory checks: unset output, and reads and writes outside the arrays."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ OUTSIDE: Final = (
 
 
 def check_filled(subject: Subject) -> Finding:
-    """Check that RHS and AMATRX hold no NaN after a call before which they held NaN."""
+    """Check that RHS and AMATRX, NaN on entry, hold no NaN after a call."""
     for state in subject.states:
         with guard_values({UNSET: float("nan")}):
             try:
@@ -60,7 +60,7 @@ def check_filled(subject: Subject) -> Finding:
 
 
 def check_outside(subject: Subject) -> Finding:
-    """Check that the guards around each argument are intact after a call, whatever it asks for."""
+    """Check that the guards around each argument are intact after calls with any request."""
     with room(ROOM), writes_outside() as written:
         for state in subject.states:
             for request, called in _requests(state.strictly()):
@@ -79,7 +79,7 @@ def check_outside(subject: Subject) -> Finding:
 
 
 def _requests(state: ElementState) -> Iterator[tuple[str, ElementState]]:
-    """Yield the call itself, then all other requests of Abaqus with a description; KINC = 0 is in no_time.py."""
+    """Yield the call, then all other requests of Abaqus with a description; for KINC = 0 see no_time.py."""
     yield "", state
     for request in REQUESTS:
         yield f" with LFLAGS(3) = {request}", state.asked(request)

@@ -21,7 +21,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _strict_unless_faulty(state: ElementState) -> ElementState:
-    """Return the state with writes outside arrays as errors, or unchanged if it makes such a write anyway."""
+    """Return the state with writes outside arrays as errors, unchanged if the normal call makes such a write."""
     strict = state.strictly()
     try:
         strict.evaluate()

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Patch test: fields that are linear in space leave no force at an interior node of the mesh.
+"""Patch test: linear fields cause no force at an interior node of the mesh.
 
-Without such a node in the deck, a single element has to distribute the forces of a uniform stress or flux as the shape
-functions of its cell do.
+Without such a node in the deck, the nodal forces of a single element have to be those of a uniform stress or flux by
+the shape functions of its cell.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ ADVICE: Final = (
 
 @dataclass(frozen=True, slots=True)
 class _Field:
-    """A linear field: its name, values (n,) and judged unknowns (n,); within: it is the motion of an increment."""
+    """Linear field: name, values (n,) and checked unknowns (n,); within: it is applied within an increment."""
 
     name: str
     values: FloatArray
@@ -68,7 +68,7 @@ class _Field:
 
 
 def check(subject: Subject) -> Finding:
-    """Apply each gradient from rest, as large as those of the run, at nodes of the deck, or else to single elements."""
+    """Apply each gradient from rest, scaled to those of the run, at nodes of the deck, else to single elements."""
     states = [state for patch in subject.patches for state in patch.states] or list(subject.states)
     if any(state.call.predefined is not None for state in states):
         return not_applicable("predefined fields, which cause forces of their own: take a deck without them")
@@ -109,7 +109,7 @@ def _at_nodes(subject: Subject) -> Finding:
 
 
 def _unbalanced(subject: Subject, patch: Patch, fields: tuple[_Field, ...]) -> float:
-    """Return the unbalanced force at a node, over the largest force of a single element there."""
+    """Return the unbalanced force at a node over the largest force of one of its elements."""
     sums: dict[int, float] = {}
     largest = 0.0
     for state, field in zip(patch.states, fields, strict=True):
@@ -152,7 +152,7 @@ def _single_elements(subject: Subject) -> Finding:
 
 
 def _scaled(subject: Subject, patch: Patch) -> bool:
-    """Report whether the elements' stresses differ by one factor for all gradients: their stiffness scatters."""
+    """Return whether the stresses of the elements differ by one factor for all gradients: random stiffness."""
     size = _size(subject, patch.states[0])
     stresses: list[dict[bytes, list[FloatArray]]] = []
     for state in patch.states:
@@ -201,7 +201,7 @@ def _stress(subject: Subject, state: ElementState, field: _Field) -> tuple[Float
 
 
 def _resisted(subject: Subject, state: ElementState, fields: list[_Field]) -> bool:
-    """Report whether each gradient but rotations costs energy: a volume, not an interface, a shell or a membrane.
+    """Return whether every gradient but rotations stores energy: a solid, not an interface, shell or membrane.
 
     The symmetric part of the energies (fields, fields) of each kind of unknown has no other zero.
     """
@@ -222,7 +222,7 @@ def _resisted(subject: Subject, state: ElementState, fields: list[_Field]) -> bo
 
 
 def _size(subject: Subject, state: ElementState) -> float:
-    """Return the length over which a field changes by its size in the run."""
+    """Return the length over which a field varies by its magnitude in the run."""
     return diagonal(subject.coordinates(state))
 
 

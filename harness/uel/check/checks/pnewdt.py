@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""PNEWDT, by which an element asks for another time increment."""
+"""PNEWDT, the requested change of the time increment."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ UNTOUCHED: Final = 1e30
 
 
 def check(subject: Subject) -> Finding:
-    """Check that PNEWDT is positive, and asks for no smaller increment if nothing has moved in this one."""
+    """Check that PNEWDT is positive and requests no smaller increment without displacement increments."""
     values: list[float] = []
     for state in subject.all_states:
         value = state.evaluate().pnewdt

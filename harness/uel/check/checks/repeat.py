@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Repeatability: equal input gives equal output, whatever calls come in between."""
+"""Repeatability: equal input gives equal output, independent of calls in between."""
 
 from __future__ import annotations
 
@@ -38,9 +38,9 @@ RESIDUALS: Final = (
 
 
 def check(subject: Subject) -> Finding:
-    """Repeat calls as in the iterations of an increment: other U in between, SVARS on entry always those of its start.
+    """Repeat calls as in the iterations of an increment: other U in between, SVARS on entry those of its start.
 
-    Where UEXTERNALDB hands data on, a call is compared with the same call just before the others.
+    If UEXTERNALDB passes data on, a call is compared with the same call just before the others.
     """
     carries_on = subject.carries_on
     others = subject.states[0], subject.states[-1], *subject.random[:2]
@@ -61,7 +61,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _call(states: Iterable[ElementState]) -> None:
-    """Call the elements and ignore what they return."""
+    """Call the elements and ignore their results."""
     for state in states:
         with suppress(KernelError):
             state.evaluate()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""LFLAGS(3): what a call asks for, as far as the procedures of the deck do."""
+"""Requests by LFLAGS(3) that occur in the procedures of the deck."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ LINEAR: Final = 1e-6
 
 
 def check(subject: Subject) -> Finding:
-    """Check that the answer to each request that the deck makes agrees with normal calls."""
+    """Check that the result of each request agrees with normal calls."""
     findings = list(_findings(subject))
     wrong = next((finding for finding in findings if finding.verdict is Verdict.FAILED), None)
     if wrong is not None:
@@ -212,7 +212,7 @@ def _mass_alone(subject: Subject, state: ElementState, flags: Flags) -> Finding:
 
 
 def _written(states: list[ElementState]) -> Finding | None:
-    """Return a finding if calls of a dynamic step that end no increment write SVARS."""
+    """Return a finding if calls of a dynamic step that do not end an increment write SVARS."""
     for state in states:
         for request in (Request.RESIDUAL, Request.MASS):
             with watched_inputs() as made:
@@ -250,7 +250,7 @@ def _indefinite(state: ElementState, mass: FloatArray) -> Finding | None:
 
 
 def _stiffness(state: ElementState, flags: Flags) -> Finding:
-    """Check the stiffness alone, for a perturbation of the state that earlier steps have left."""
+    """Check the stiffness alone, for a perturbation of the state at the end of the earlier steps."""
     normal = state.evaluate().amatrx
     with guard_values({UNSET: float("nan")}):
         alone = state.called(flags=flags).evaluate().amatrx
@@ -272,12 +272,12 @@ def _accelerations(subject: Subject, state: ElementState) -> FloatArray:
 
 
 def _accelerated(state: ElementState, shift: FloatArray) -> ElementState:
-    """Return the state with a shift added to its accelerations and nothing else changed."""
+    """Return the state with a shift of only its accelerations."""
     return replace(state, motion=Motion(state.motion.velocity, state.motion.acceleration + shift))
 
 
 def _inertia(subject: Subject, state: ElementState, heaviest: float) -> FloatArray:
-    """Return (n, n) -dRHS/dA, in which RHS is linear; heaviest: mass by which the change of RHS is above rounding."""
+    """Return -dRHS/dA (n, n), RHS being linear in A; heaviest: mass for which the change of RHS exceeds round-off."""
     here = state.evaluate().rhs[0]
     steps = np.maximum(_accelerations(subject, state), float(np.abs(here).max()) / heaviest if heaviest else 0.0)
     columns = [(here - _accelerated(state, step).evaluate().rhs[0]) / step.sum() for step in np.diag(steps)]

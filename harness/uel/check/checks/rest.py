@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rest: no displacements, no loads, no fields, no forces."""
+"""Rest: no forces without displacements, loads and fields."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ MECHANICAL: Final = 6
 
 
 def check(subject: Subject) -> Finding:
-    """Check RHS with U = 0 and DU = 0 before anything has happened."""
+    """Check RHS with U = 0 and DU = 0 at the start of the analysis."""
     states = [state for state in subject.resting if state.call.predefined is None]
     mechanical = subject.dofs <= MECHANICAL
     if not states or not mechanical.any():

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A rigid rotation adds no force, or turns the forces with it."""
+"""Rigid rotation: no forces, or forces that rotate with the element."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def _effect(share: float) -> str:
 
 
 def _forces(state: ElementState) -> FloatArray:
-    """Return RHS (n,) without loads on the element, which need not rotate with it."""
+    """Return RHS (n,) without loads, which need not rotate with the element."""
     return np.asarray(state.called(distributed=None).evaluate().rhs[0])
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The shear modulus of an otherwise isotropic element: engineering shear strains against tensor ones."""
+"""Shear modulus of an otherwise isotropic element: engineering against tensor shear strains."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ EQUAL: Final = 1e-6
 
 
 def check(subject: Subject) -> Finding:
-    """Check that, if extension is isotropic, shear is not a factor of 2 or 4 off an isotropic material."""
+    """Check that, with isotropic extension, shear does not differ by a factor of 2 or 4 from an isotropic material."""
     at_rest = body_at_rest(subject)
     if isinstance(at_rest, Finding):
         return at_rest
@@ -45,7 +45,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _isotropic(moduli: FloatArray, count: int) -> float:
-    """Return the isotropic shear modulus from the extensions in this number of directions; 0 if these differ."""
+    """Return the isotropic shear modulus from the extensions in the given number of directions; 0 if they differ."""
     normal = moduli[:count, :count]
     along, across = np.diag(normal), normal[~np.eye(count, dtype=np.bool_)]
     coupling = np.abs(moduli[:count, count:]).max(initial=0.0)
@@ -56,7 +56,7 @@ def _isotropic(moduli: FloatArray, count: int) -> float:
 
 
 def _judge(state: ElementState, isotropic: float, moduli: dict[tuple[int, int], float]) -> Finding:
-    """Judge the shear moduli in the planes of two directions."""
+    """Check the shear moduli in the coordinate planes."""
     for (i, j), modulus in moduli.items():
         for factor in MISTAKES:
             if abs(modulus - factor * isotropic) <= EQUAL * isotropic:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Forces are continuous from increment to increment: the next one begins with the state that this one has left."""
+"""Continuity of the forces: an increment starts from the state at the end of the previous one."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ forces of the terms of an element cancel, the rest of its RHS is no scale for it
 
 @dataclass(frozen=True, slots=True)
 class _Jump:
-    """Change of forces across the end of an increment: the largest over the largest force of its kind, and its row."""
+    """Largest jump of the forces across the end of an increment, over the largest force of its kind; its row."""
 
     ratio: float
     row: int
@@ -91,7 +91,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _has_history(state: ElementState) -> bool:
-    """Report whether RHS depends on SVARS, in this increment or, as they are now, in the next one."""
+    """Return whether RHS depends on SVARS, in this increment or, with their present values, in the next one."""
     every = np.ones(len(state.single.svars))
     try:
         return state.depends_on(every) or state.later().depends_on(every)
@@ -101,7 +101,7 @@ def _has_history(state: ElementState) -> bool:
 
 
 def _without_time(subject: Subject, state: ElementState) -> Finding | None:
-    """Return a finding if forces depend on DU, which is not a rate, and on no state to which it could be added."""
+    """Return a finding if forces depend on DU other than as a rate, without a state to add it to."""
     fast, slow = (
         replace(state, du=share * state.du).called(time_increment=share * state.call.time_increment)
         for share in (1.0, SLOWER)

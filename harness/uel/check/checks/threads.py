@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Thread safety: two elements do not write the same memory, which threads would do at the same time."""
+"""Thread safety: no two elements write the same memory."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Changes = dict[str, set[int]]
 
 
 def check(subject: Subject) -> Finding:
-    """Check that calls of two elements change different bytes of the variables that outlive a call, or none."""
+    """Check that calls of two elements change different bytes of static variables, or none."""
     variables = variables_of(subject.library)
     if variables is None:
         return not_applicable("the symbols of the library cannot be read (nm is missing, or the library is stripped)")
@@ -55,7 +55,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _growing(subject: Subject, state: ElementState, seed: int) -> Iterator[ElementState]:
-    """Yield ever larger random displacements: a variable that keeps the largest value of all calls then changes too."""
+    """Yield growing random displacements, so that a variable with the maximum over all calls changes too."""
     rng = np.random.default_rng(seed)
     for number in range(ROUNDS):
         shift = GROWTH**number * subject.scales * rng.uniform(-1.0, 1.0, len(subject.scales))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A rigid translation adds no force."""
+"""Rigid translation: no forces."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def check(subject: Subject) -> Finding:
 
 
 def _added(subject: Subject, state: ElementState, motion: FloatArray) -> tuple[float, int, float]:
-    """Return the largest force that a motion adds, over what the stiffness makes of its parts; its row; the force."""
+    """Return the largest added force, over the sum of |stiffness| |motion|; its row; the force."""
     here = state.evaluate()
     # in dynamics an element may compute inertia from DU: then it was elsewhere from the start
     moved = state.carried(motion) if state.dynamic else state.moved(motion)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Finite values: the results of UEL beside RHS and AMATRX."""
+"""Finite values of SVARS, ENERGY and PNEWDT."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Zero modes of AMATRX before anything has moved: only rigid-body motions."""
+"""Zero modes of AMATRX at the start of the analysis: only rigid-body motions."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ def _judge(
 
 
 def _advice(stiffness: _Stiffness, uniform: FloatArray, count: int) -> str:
-    """Return the advice for an element with this number of deformations that cost no energy."""
+    """Return the advice for an element with this number of zero-energy deformation modes."""
     symmetric = 0.5 * (stiffness.matrix + stiffness.matrix.T)
     values = np.linalg.eigvalsh(uniform @ symmetric @ uniform.T)
     if values[0] <= SHEARED * values[-1]:
@@ -123,7 +123,7 @@ def _advice(stiffness: _Stiffness, uniform: FloatArray, count: int) -> str:
 
 
 def _suppressed(subject: Subject, body: Body) -> bool:
-    """Report whether the elements around a node of the deck together have only rigid-body motions as zero modes."""
+    """Return whether the elements around a node of the deck together have only rigid-body motions as zero modes."""
     for patch in subject.patches:
         nodes = np.unique([state.single.block.group.nodes[0] for state in patch.states])
         moved = np.unique(subject.dofs[body.displacement | body.turning.any(axis=0)])
@@ -155,6 +155,6 @@ def _rigid(body: Body) -> FloatArray:
 
 
 def _resisted(amatrx: FloatArray, rigid: FloatArray) -> float:
-    """Return the largest force of a rigid-body motion, over what its parts would make."""
+    """Return the largest force of a rigid-body motion, over the sum of |stiffness| |motion|."""
     forces, costs = np.abs(amatrx @ rigid.T).max(axis=0), (np.abs(amatrx) @ np.abs(rigid.T)).max(axis=0)
     return float(np.max(forces / np.where(costs > 0.0, costs, 1.0)))
