@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The user's side of a job: compile a file of user routines as Abaqus does, load it and call it.
+"""User routines of a job: compiled as in Abaqus, loaded and called.
 
-XIT, STDB_ABQERR, STOP, a segmentation fault, division of integers by zero and a call that takes too long end the call,
-and the caller gets an error with the reason. What still ends the whole process: an error inside the Fortran library
-(reading a missing file), an abort because of damaged memory, and STOP in a library that the user compiled himself. The
-slate (harness/uel/shared_progress.py) tells another process where that was.
+XIT, STDB_ABQERR, STOP, a segmentation fault, an integer division by zero and a time-out end the call, and the caller
+gets an error with the reason. Errors of the Fortran library (reading a missing file), an abort because of damaged
+memory, and STOP in a library compiled by the user end the process; the slate (harness/uel/shared_progress.py) tells
+another process the location.
 """
 
 from uel.usersub._binding import allocated, limit_calls, set_rank, set_threads, share_slate, trap

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The element loop, the integration rules and the state of the compiled host, typed.
+"""Typed interface to the element loop, the integration rules and the state of the compiled host.
 
 Its materials are in `_materials`, what is called at points in `_points`.
 """
@@ -105,52 +105,52 @@ def exchange_guard_values(values: FloatArray) -> None:
 
 
 def exchange_room(entries: int) -> int:
-    """Set the least number of entries of guards after the arrays from now on; return the one before."""
+    """Set the least number of entries of the guards after the arrays; return the former one."""
     room = np.array([entries], dtype=np.int32)
     host.host_exchange_room(room)
     return int(room[0])
 
 
 def watch_inputs(on: bool) -> bool:
-    """Let `evaluate` note from now on which inputs the elements change, or not; returns whether it did before."""
+    """Set whether `evaluate` detects changes of inputs by the elements; return the former setting."""
     global _watching
     before, _watching = _watching, on
     return before
 
 
 def take_changes() -> tuple[Int32Array, FloatArray]:
-    """Return first entries (37,) of arguments that were changed since the last call (0: none), and values (37, 2)."""
+    """Return the first changed entries (37,) of the arguments since the last call (0: none), and values (37, 2)."""
     entries, values = host.host_take_changes()
     return entries, values.T
 
 
 def fill_stack(number: float | None) -> None:
-    """Fill local variables with a number at the start of watched calls of elements from now on; None: leave them."""
+    """Fill local variables with a number at the start of watched calls of elements; None: do not fill them."""
     host.host_fill_stack(int(number is not None), number or 0.0)
 
 
 def exchange_around(argument: int, number: float) -> float:
-    """Surround an argument (from 0) with a number in watched calls from now on; return the one before."""
+    """Surround an argument (from 0) with a number in watched calls; return the former one."""
     value = np.array([number], dtype=np.float64)
     host.host_exchange_around(argument, value)
     return float(value[0])
 
 
 def take_outside() -> dict[int, int]:
-    """Return the arguments (from 0) outside which something was written since the last call, with the entry, from 1."""
+    """Return the arguments (from 0) with writes outside since the last call, and the entry, from 1."""
     written, entries = host.host_take_outside()
     return {k: int(entries[k]) for k in np.flatnonzero(written).tolist()}
 
 
 def allocated() -> int:
-    """Return the bytes that this process has allocated; negative if the C library does not tell."""
+    """Return the bytes allocated by this process; negative if the C library does not provide them."""
     return int(host.host_allocated())
 
 
 def bare_loop(
     called: Called, arrays: BlockArrays, moment: Moment, u: FloatArray, du: FloatArray, residual: FloatArray
 ) -> None:
-    """Call the elements from a plain loop: what `evaluate` is measured against."""
+    """Call the elements from a plain loop, the reference for the run time of `evaluate`."""
     ndofel = arrays.equations.shape[1]
     host.host_bare_loop(
         address=called.address,
@@ -187,7 +187,7 @@ def linear_pass(
     fields: UnknownFields,
     residual: FloatArray,
 ) -> Outcome:
-    """Add the forces of elements that are linear to residual (n,): what a pass over them would, without calling them.
+    """Add the forces of linear elements to residual (n,) without calling the elements.
 
     matrices (m, ndofel, ndofel), each by columns; equations (m, ndofel), from 1; first, floor (ndofel,): the
     entry of U, from 1, that is taken out of each one before the product, 0 for none. ENERGY(2) is what they store.
@@ -303,77 +303,48 @@ def open_job(name: str, directory: str, file6: str, file7: str, *, alone: bool) 
 
 
 def set_threads(number: int) -> None:
-    """Let so many threads call the elements of the jobs of this process from now on, where that is possible."""
+    """Set the number of threads that call the elements of the jobs of this process, where possible."""
     host.host_set_threads(number)
 
 
 def set_rank(rank: int, ranks: int) -> None:
-    """Tell user routines the number of this process, from 0, among those that run its jobs (GETRANK, GETNUMCPUS)."""
+    """Set rank and number of the processes of the job for user routines (GETRANK, GETNUMCPUS)."""
     host.host_set_rank(rank, ranks)
 
 
 def limit_calls(seconds: float) -> None:
-    """Limit the time of each call of a user routine.
-
-    Parameters
-    ----------
-    seconds
-        Wall-clock time of one call, in all jobs of this process from now on; 0: no limit. A call that takes longer is
-        ended, and whoever made it gets an error.
-    """
+    """Set the time limit (s, wall clock) of each call of a user routine, after which it ends with an error; 0: none."""
     host.host_limit_calls(seconds)
 
 
 def trap(on: bool) -> bool:
-    """Let calls of user routines stop at the operation that makes a NaN or an infinity.
-
-    Parameters
-    ----------
-    on
-        Whether they stop there from now on: at an invalid operation, a division by zero and an overflow.
-
-    Returns
-    -------
-    bool
-        The former setting.
-    """
+    """Set whether user routines stop at the operation that makes a NaN or an infinity; return the former setting."""
     return bool(host.host_trap(int(on)))
 
 
 def sanitizing() -> bool:
-    """Report whether the runtime of AddressSanitizer is in this process, see harness/uel/running/sanitizer.py."""
+    """Return whether this process has the runtime of AddressSanitizer, see harness/uel/running/sanitizer.py."""
     return bool(host.host_sanitizing())
 
 
 def sanitize(on: bool) -> None:
-    """Say whether the library called from now on is built with AddressSanitizer."""
+    """Set whether the current library is built with AddressSanitizer."""
     host.host_sanitize(int(on))
 
 
 def take_frames() -> list[int]:
-    """Return the addresses of the calls that the last signal ended, innermost first; forgets them."""
+    """Return and clear the addresses of the call stack at the last signal, innermost first."""
     addresses, count = host.host_take_frames()
     return [int(address) for address in addresses[:count]]
 
 
 def share_slate(descriptor: int) -> bool:
-    """Let another process, which has the file of the slate open too, see where user code is.
-
-    Parameters
-    ----------
-    descriptor
-        Of the file, at least as long as `uel.shared_progress.Slate`: from now on calls are noted in it.
-
-    Returns
-    -------
-    bool
-        False if that fails.
-    """
+    """Note calls on the slate, an open file as long as `uel.shared_progress.Slate`; False if that fails."""
     return not host.host_share(descriptor)
 
 
 def set_loading(begins: bool) -> None:
-    """Note on the slate that constructors of user code may run, or that they have run."""
+    """Note on the slate whether constructors of user code may be running."""
     host.host_loading(int(begins))
 
 

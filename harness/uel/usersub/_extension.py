@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The compiled host (fortran/host), which only this module imports; what calls it is typed Python.
+"""Import of the compiled host (fortran/host), whose typed interface is in `_binding` and its siblings.
 
 The extension is loaded with RTLD_GLOBAL: user libraries find XIT, MATERIAL_LIB_MECH and the rest in it by name.
 """

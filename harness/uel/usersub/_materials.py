@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Materials of the compiled host, typed: the procedures of fortran/host/entry/materials.f90."""
+"""Typed interface to the materials of the compiled host (fortran/host/entry/materials.f90)."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def define_hyperelastic(
 
 
 def set_networks(number: int, networks: Sequence[tuple[float, int, Sequence[float]]], statev: int) -> None:
-    """Give a hyperelastic material networks that creep: ratio, law and constants of each, as the host has them."""
+    """Add creeping networks to a hyperelastic material: ratio, law and constants of each."""
     ratios, laws, constants = zip(*networks, strict=True)
     padded = np.array([[*row, *[0.0] * (5 - len(row))] for row in constants])
     host.host_set_networks(number, np.array(ratios), np.array(laws, np.int32), padded.T, statev)
@@ -52,7 +52,7 @@ def set_networks(number: int, networks: Sequence[tuple[float, int, Sequence[floa
 def set_network_routine(
     number: int, network: int, address: int, name: str, constants: FloatArray, *, shifts: bool
 ) -> None:
-    """Let UCREEPNETWORK give the creep of a network, from 1, or, if it shifts, UTRSNETWORK its reduced time."""
+    """Set UCREEPNETWORK for the creep of a network, from 1, or UTRSNETWORK for its reduced time."""
     padded = np.append(constants, 0.0)
     host.host_set_network_routine(number, network, address, name, shifts, padded, len(constants))
 
@@ -75,7 +75,7 @@ def define_anisotropic(ntens: int, directions: FloatArray, holzapfel: Sequence[f
 
 
 def set_user_invariants(number: int, uanisohyper: int, name: str, statev: int, constants: FloatArray) -> None:
-    """Let UANISOHYPER_INV at an address give the energy of a material of `define_anisotropic`."""
+    """Set UANISOHYPER_INV for the strain energy of a material of `define_anisotropic`."""
     host.host_set_user_invariants(number, uanisohyper, name, statev, np.append(constants, 0.0), len(constants))
 
 
@@ -93,12 +93,12 @@ def compliance(constants: Sequence[float]) -> FloatArray:
 
 
 def set_prestressed(number: int) -> None:
-    """Give points of a material of the host's library, other than UMAT's, a history for initial stresses."""
+    """Add initial stresses to the history of a material other than UMAT's."""
     host.host_set_prestressed(number)
 
 
 def set_backstresses(number: int, backstresses: FloatArray, growth: tuple[float, float]) -> None:
-    """Let the yield surface of a plastic material move, and grow exponentially beside its table.
+    """Add backstresses, and exponential isotropic hardening, to a plastic material.
 
     backstresses (k, 2) C and gamma; growth: Q and b.
     """
@@ -108,7 +108,7 @@ def set_backstresses(number: int, backstresses: FloatArray, growth: tuple[float,
 def set_user_hardening(
     number: int, uhard: int, name: str, constants: tuple[float, float], statev: int, properties: FloatArray
 ) -> None:
-    """Let UHARD at an address give the yield stress of an isotropic material.
+    """Set UHARD for the yield stress of an isotropic material.
 
     constants: Young's modulus and Poisson's ratio; properties: PROPS.
     """
@@ -116,7 +116,7 @@ def set_user_hardening(
 
 
 def set_prony(number: int, constants: tuple[float, float], moduli: tuple[float, float], terms: FloatArray) -> None:
-    """Let stresses of an isotropic material relax.
+    """Add a Prony series to an isotropic material.
 
     constants: long-term Young's modulus and Poisson's ratio; moduli: instantaneous shear and bulk modulus; terms (n, 3)
     g, k, tau.
@@ -125,12 +125,12 @@ def set_prony(number: int, constants: tuple[float, float], moduli: tuple[float, 
 
 
 def set_creep(number: int, constants: tuple[float, float], law: tuple[float, float, float], *, by_time: bool) -> None:
-    """Let an isotropic material creep: Young's modulus and Poisson's ratio; A, n and m of time or strain hardening."""
+    """Add creep to an isotropic material: Young's modulus, Poisson's ratio; A, n, m of time or strain hardening."""
     host.host_set_creep(number, constants, by_time, law)
 
 
 def set_user_creep(number: int, creep: int, name: str, constants: tuple[float, float], statev: int) -> None:
-    """Let CREEP at an address give the creep law of an isotropic material.
+    """Set CREEP for the creep law of an isotropic material.
 
     constants: Young's modulus and Poisson's ratio.
     """
@@ -138,7 +138,7 @@ def set_user_creep(number: int, creep: int, name: str, constants: tuple[float, f
 
 
 def set_dependence(number: int, constants: int, turn: FloatArray, table: FloatArray) -> None:
-    """Let the elastic constants of a material depend on temperature and field variables.
+    """Set elastic constants that depend on temperature and field variables.
 
     table (k, constants + variables); turn (6, 6) stress components in global axes to those of the material.
     """
@@ -146,12 +146,12 @@ def set_dependence(number: int, constants: int, turn: FloatArray, table: FloatAr
 
 
 def set_local(number: int) -> None:
-    """Let a material of the host's library take strains and give stresses in the directions of each point."""
+    """Evaluate a material in the local directions of each point."""
     host.host_set_local(number)
 
 
 def set_user_field(number: int, address: int, names: tuple[str, str], statev: int, room: int, axes: FloatArray) -> None:
-    """Let USDFLD give the field variables of a material; names: of the material and its orientation.
+    """Set USDFLD for the field variables of a material; names: of the material and its orientation.
 
     room: values at the end of the history of which the `statev` STATEV are the first.
     """
@@ -159,7 +159,7 @@ def set_user_field(number: int, address: int, names: tuple[str, str], statev: in
 
 
 def set_user_output(number: int, address: int, names: tuple[str, str], counts: tuple[int, int, int, int]) -> None:
-    """Let UVARM give output variables of a material in elements that call it themselves; names as set_user_field.
+    """Set UVARM for output variables of a material in elements that call it; names as in set_user_field.
 
     counts: NUVARM and the values of the history for UVAR, then NSTATV and the values at its end for STATEV.
     """
@@ -179,7 +179,7 @@ def define_user_material(
 
 
 def define_empty_material() -> int:
-    """Add a material to the host's library that has nothing yet."""
+    """Add a material without properties to the host's library."""
     return int(host.host_define_empty_material())
 
 
@@ -229,10 +229,10 @@ def set_diffusion(
 
 
 def set_hetval(number: int, address: int, name: str, statev: int) -> None:
-    """Let HETVAL generate heat in a material with `set_thermal`; its name and number of STATEV."""
+    """Set HETVAL for heat generation in a material with `set_thermal`; its name and number of STATEV."""
     host.host_set_user_thermal(number, 0, address, name, statev, np.zeros(1), 0)
 
 
 def set_umatht(number: int, address: int, name: str, statev: int, constants: FloatArray) -> None:
-    """Let UMATHT conduct and store heat in a material with `set_thermal`; its name, number of STATEV and PROPS."""
+    """Set UMATHT for the thermal behaviour of a material with `set_thermal`; its name, number of STATEV, PROPS."""
     host.host_set_user_thermal(number, 1, address, name, statev, np.append(constants, 0.0), len(constants))

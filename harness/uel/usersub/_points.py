@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""User routines of points, nodes and amplitudes, and points of contact: fortran/host/entry/points.f90, typed."""
+"""Typed interface to user routines of points, nodes and amplitudes (fortran/host/entry/points.f90)."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ def orient(
 
 
 def user_values(address: int, request: UserValues, values: FloatArray) -> int:
-    """Call a routine for all nodes or points; return the number, from 1, of the call that ended the analysis, else 0.
+    """Call a routine for all nodes or points; return the call, from 1, that ended the analysis, else 0.
 
     values (n,) are those of the deck, and become those of the routine.
     """

@@ -36,7 +36,7 @@ class Called(NamedTuple):
 
 
 class Moment(NamedTuple):
-    """Arguments of a pass that are the same for all blocks, under Abaqus' names; iteration is for messages."""
+    """Arguments of a pass that all blocks share, under Abaqus' names; iteration is for messages."""
 
     kstep: int
     kinc: int
@@ -49,7 +49,7 @@ class Moment(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """End of a pass over a block; made in each pass, and a tuple takes half the time of a frozen data class.
+    """Outcome of a pass over a block; a tuple, as it takes half the time of a frozen data class.
 
     position  element of the fault (from 0; -1 unknown)
     array, item  array of the fault and entry, from 1 (beyond its ends for a write outside); or
@@ -71,7 +71,7 @@ class Outcome(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class UnknownFields:
-    """Fields that the forces of an element count in.
+    """Fields to which the forces of an element belong.
 
     of      (ndofel,) field of each unknown, from 1; 0: none
     number  of all fields
@@ -100,7 +100,7 @@ class BlockArrays:
 
     @cached_property
     def reversed(self) -> ReversedArrays:
-        """Arrays with the driver's shapes; made once, for each pass takes them."""
+        """Arrays with the driver's shapes, cached for the passes."""
         integers = self.labels, self.jprops, self.equations.T, self.map.T
         start = self.svars.T, self.energy.T, self.history.T
         end = self.svars_trial.T, self.energy_trial.T, self.history_trial.T
@@ -115,7 +115,7 @@ class BlockArrays:
 
 @dataclass(frozen=True, slots=True)
 class LoadArrays:
-    """Distributed loads of the elements of a block, C order; m elements, or one that stands for all.
+    """Distributed loads of the elements of a block, C order; m elements, or 1 if all are equal.
 
     counts  (m,) number of loads on each element
     kinds   (m, most) JDLTYP
@@ -129,7 +129,7 @@ class LoadArrays:
 
 @dataclass(frozen=True, slots=True)
 class RawMessage:
-    """A text sent with STDB_ABQERR; level is its LOP."""
+    """Message of STDB_ABQERR; level is its LOP."""
 
     level: int
     element: int

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Content of memory that a user element must not read: the guards around its arrays, RHS and AMATRX on entry."""
+"""Values in memory that a user element must not read: guards around its arrays, RHS and AMATRX on entry."""
 
 from __future__ import annotations
 
@@ -25,22 +25,10 @@ AS_GOOD_AS_ZERO: Final = 1e-300
 
 
 def set_guard_values(values: Mapping[str, float]) -> FloatArray:
-    """Let guards hold other values until the `guard_values` around the call ends.
+    """Set other values of guards until the enclosing `guard_values` ends; return the former ones.
 
-    Parameters
-    ----------
-    values
-        New values by name: one of ARRAYS for the guards around that array, or UNSET. The others keep theirs.
-
-    Returns
-    -------
-    FloatArray
-        Their old values, in the order of ARRAYS, then UNSET.
-
-    Raises
-    ------
-    ValueError
-        A name is unknown; all guards keep their values.
+    values: by name, one of ARRAYS for the guards around that array, or UNSET; others are unchanged. The former values
+    are in the order of ARRAYS, then UNSET. Raises ValueError for an unknown name, with all values unchanged.
     """
     names = [*ARRAYS, UNSET]
     positions = {names.index(name): value for name, value in values.items()}
@@ -60,8 +48,8 @@ def room(entries: int) -> Iterator[None]:
     Parameters
     ----------
     entries
-        Fewest entries of such a guard within the context. By itself a guard has as many as its array, but at least 100
-        and at most 20,000.
+        Fewest entries of such a guard within the context. By default a guard has the size of its array, but at least
+        100 and at most 20,000 entries.
     """
     before = _binding.exchange_room(entries)
     try:
@@ -72,14 +60,9 @@ def room(entries: int) -> Iterator[None]:
 
 @contextmanager
 def guard_values(values: Mapping[str, float]) -> Iterator[None]:
-    """Let guards hold other values, then restore the old ones.
+    """Set other values of guards within the context, by name as in `set_guard_values`.
 
-    A guard reports a write only where it changes the bits of the guard.
-
-    Parameters
-    ----------
-    values
-        As in `set_guard_values`.
+    A guard detects a write only if it changes the bits of the guard.
     """
     before = set_guard_values(values)
     try:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Watched calls of user elements: which inputs they change, and what their local variables hold."""
+"""Watched calls of user elements: changes of inputs, contents of local variables."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _MARK: Final = -559038737.0
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """An argument whose entry (from 1) has another value after a call than before; there may be more such entries."""
+    """First entry (from 1) of an argument that a call has changed."""
 
     argument: str
     entry: int

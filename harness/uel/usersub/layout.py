@@ -28,7 +28,7 @@ PLANE: Final = 2
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """A property or state variable.
+    """Property or state variable.
 
     position  in PROPS, in JPROPS, or among the SVARS of a point or of the element; from 1
     unit      '' for an option
@@ -49,7 +49,7 @@ class Item:
 
 @dataclass(frozen=True, slots=True)
 class ElementLayout:
-    """An element type Un of the project.
+    """Element type Un of the project.
 
     jtype     n
     dimension 2 or 3
@@ -111,7 +111,7 @@ def element_layouts() -> dict[int, ElementLayout]:
 
 
 def without_user(name: str) -> str:
-    """Return what a type Un is in a job without a user's file, in words; '' for a type that is built in."""
+    """Describe a type Un in a job without a user's file; '' for a built-in type."""
     number = name[1:] if name[:1] == "U" else ""
     if not number.isdecimal():
         return ""
@@ -154,7 +154,7 @@ def read_layouts(text: str) -> dict[int, ElementLayout]:
 
 
 def check_law_uses(jtype: int, values: Mapping[str, float], law: int) -> None:
-    """Raise UsageError for a property that the law of a number ignores; values are by name."""
+    """Raise UsageError for a property that the law of this number ignores; values by name."""
     layout = element_layouts()[jtype]
     for item in layout.reals:
         # 0 is the default, LAW 1
@@ -166,7 +166,7 @@ def check_law_uses(jtype: int, values: Mapping[str, float], law: int) -> None:
 
 
 def variables(jtype: int) -> PointVariables | None:
-    """Return the meaning of the SVARS of an element type of the project, None if it has no such type."""
+    """Return the meaning of the SVARS of an element type of the project, None for others."""
     layout = element_layouts().get(jtype)
     if layout is None:
         return None
@@ -180,7 +180,7 @@ def variables(jtype: int) -> PointVariables | None:
 
 
 def is_continuum(jtype: int, integers: IntArray) -> bool:
-    """Report whether elements of a type of the project, with these JPROPS, are continuum ones that store no stress."""
+    """Return whether elements of a type of the project, with these JPROPS, are continuum ones that store no stress."""
     layout = element_layouts().get(jtype)
     if layout is None or layout.faces[0]:
         return False
@@ -189,7 +189,7 @@ def is_continuum(jtype: int, integers: IntArray) -> bool:
 
 
 def shares_stress(jtype: int, integers: IntArray) -> bool:
-    """Report whether elements of a type of the project, with these JPROPS, store stress for others, or take it."""
+    """Return whether elements of a type of the project, with these JPROPS, store stress for others, or read it."""
     layout = element_layouts().get(jtype)
     if layout is None:
         return False
@@ -253,7 +253,7 @@ def _table(title: str, unit: str, rows: list[tuple[Item, str]]) -> Iterator[str]
 
 
 def _families(names: str | Iterable[str], sets: Mapping[str, list[str]]) -> set[str]:
-    """Families that a family or a set of families stands for, or a list of them."""
+    """Expand families and sets of families, or a list of them."""
     if isinstance(names, str):
         return _families(sets[names], sets) if names in sets else {names}
     return set().union(*(_families(name, sets) for name in names))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A loaded library of user routines."""
+"""Loaded library of user routines."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class Library:
         self.utemp, self.ufield, self.uamp = map(of, ("UTEMP", "UFIELD", "UAMP"))
 
     def variables(self, jtype: int) -> PointVariables | None:
-        """Return the meaning of the SVARS of an element type, None if it is none of the project."""
+        """Return the meaning of the SVARS of an element type of the project, None for others."""
         return layout.variables(jtype) if self.is_own else None
 
     def is_continuum(self, jtype: int, integers: IntArray) -> bool:
@@ -81,7 +81,7 @@ class Library:
 
     @property
     def is_own(self) -> bool:
-        """Whether the library has the elements of the project."""
+        """True if the library has the elements of the project."""
         return hasattr(self._handle, layout.MARKER)
 
     def shares_stress(self, jtype: int, integers: IntArray) -> bool:
@@ -178,11 +178,11 @@ class Library:
         return f"{head}, {line.file} line {line.line}{inside}: {tail}"
 
     def messages(self) -> list[Message]:
-        """Take the texts of user routines since the last call: STDB_ABQERR, then what was printed to units 6 and 7."""
+        """Return the messages since the last call: STDB_ABQERR, then the output to units 6 and 7."""
         return self._inbox.take()
 
     def warn(self, text: str) -> None:
-        """Add a warning of our own to the messages."""
+        """Add a warning of the harness to the messages."""
         self._inbox.warn(text)
 
     def close(self) -> None:

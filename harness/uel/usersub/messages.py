@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Texts from user routines: STDB_ABQERR, and what they print to units 6 (.dat) and 7 (.msg)."""
+"""Messages of user routines: STDB_ABQERR, and output to units 6 (.dat) and 7 (.msg)."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _KINDS = {1: "note", -1: "warning", -2: "error", -3: "error"}
 
 @dataclass(frozen=True, slots=True)
 class Message:
-    """Text from a user routine.
+    """Message of a user routine.
 
     file      '.msg' or '.dat': where Abaqus puts it
     kind      'note', 'warning', 'error' (STDB_ABQERR) or 'print' (written to unit 6 or 7)
@@ -109,7 +109,7 @@ class Inbox:
             self._sent.append(Message(".msg", kind, raw.text, raw.element, raw.step, raw.increment))
 
     def _print(self) -> None:
-        """Read what was printed to the units."""
+        """Read the output to the units."""
         if not self._lost and not _binding.flush_units():
             self._lost = True
             self.warn(f"{_LOCKED}: the last text printed there is lost")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Paths of the project's own kernels and of tables beside them, as the build leaves them."""
+"""Paths of the project's kernels and of their tables."""
 
 from __future__ import annotations
 

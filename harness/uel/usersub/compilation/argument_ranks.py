@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers passed to array arguments, beyond which the routine reads other data."""
+"""Constants passed to array arguments, where the routine reads other data behind the constant."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ _ENOUGH: Final = 100
 
 
 def array_argument(message: str) -> str | None:
-    """Return the name of the array argument for which, by gfortran's message, a single value is passed."""
+    """Return the name of the array argument to which, by gfortran's message, a scalar is passed."""
     match = _RANK.search(message)
     return match and match[1]
 
 
 def is_constant(text: str, line: int, column: int) -> bool:
-    """Report whether a number, or the name of a PARAMETER, is at a line and column (from 1), or after it."""
+    """Return whether a number or the name of a PARAMETER is at or behind a line and column (from 1)."""
     rows = text.splitlines()
     match = _ARGUMENT.match(rows[line - 1], column - 1) if 1 <= line <= len(rows) else None
     if match is None or match[1] is None:
@@ -42,7 +42,7 @@ def is_constant(text: str, line: int, column: int) -> bool:
 
 
 def constants_for_arrays(output: str, texts: Mapping[str, str]) -> Iterator[str]:
-    """Yield messages on constants passed to arrays, from gfortran's output; texts: the files by bare name.
+    """Yield messages about constants passed to arrays, from gfortran's output; texts: sources by file name.
 
     The memory after a variable may be intended; after a constant there are other constants. Zeros are repaired.
     """
@@ -57,7 +57,7 @@ def constants_for_arrays(output: str, texts: Mapping[str, str]) -> Iterator[str]
 
 
 def zeros_for_arrays(output: str) -> Iterator[Repair]:
-    """Yield repairs that pass zeros where the constant zero is passed for an array.
+    """Yield repairs that pass an array of zeros for the constant zero.
 
     Routines that take a point, such as the centre of an element, are called so. The memory after the constant in Abaqus
     is unknown, but zeros are intended.
@@ -69,7 +69,7 @@ def zeros_for_arrays(output: str) -> Iterator[Repair]:
 
 
 def pass_zeros(text: str, line: int, column: int) -> str | None:
-    """Replace the constant zero at a column, or after it, by an array of zeros; None if the argument is none."""
+    """Replace the constant zero at or behind a column by an array of zeros; None if there is none."""
 
     def change(row: str) -> str | None:
         match = _ZERO_ARGUMENT.match(row, column - 1)
@@ -82,7 +82,7 @@ def pass_zeros(text: str, line: int, column: int) -> str | None:
 
 
 def _is_zero(value: str, text: str) -> bool:
-    """Report whether a number, or each PARAMETER of that name in the text, is zero."""
+    """Return whether a number, or each PARAMETER of that name, is zero."""
     if not value[0].isalpha():
         return True
     defined = re.compile(rf"^\s*[^!c*\n]*\bparameter\b[^!\n]*\b{value}\s*=\s*([^,)\n]*)", re.IGNORECASE | re.MULTILINE)

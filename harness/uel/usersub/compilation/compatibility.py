@@ -230,7 +230,7 @@ def _bare_constants(row: str) -> list[tuple[str, str, str]] | None:
 
 
 def _continued(lines: list[str], line: int) -> bool:
-    """Report whether a fixed-form statement continues after a line; in free form that ends with &, not a constant."""
+    """Return whether a fixed-form statement continues after a line; in free form that ends with &, not a constant."""
     following = lines[line] if line < len(lines) else ""
     return following[:5] == "     " and following[5:6].strip() not in ("", "0")
 

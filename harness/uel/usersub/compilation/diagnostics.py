@@ -127,7 +127,7 @@ def _missing_module(module: str, name: str, texts: Mapping[str, str]) -> str:
 
 
 def _looks_free(text: str) -> bool:
-    """Report whether statements go on after a & at the end of a line, or many begin in the first five columns.
+    """Return whether statements go on after a & at the end of a line, or many begin in the first five columns.
 
     There fixed form has only labels, and it continues lines by column 6.
     """

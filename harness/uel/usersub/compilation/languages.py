@@ -114,7 +114,7 @@ _ENVIRONMENT_FREE = re.compile(
 
 
 def is_source(file: Path) -> bool:
-    """Report whether a file of user routines needs compiling.
+    """Return whether a file of user routines needs compiling.
 
     Parameters
     ----------

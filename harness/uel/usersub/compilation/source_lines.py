@@ -30,7 +30,7 @@ class _SymbolInfo(ctypes.Structure):
 
 
 def names_line(message: str) -> bool:
-    """Report whether a message has file and line of a mistake in user code."""
+    """Return whether a message has file and line of a mistake in user code."""
     return _NAMED.search(message) is not None
 
 

@@ -187,14 +187,14 @@ class _Diagnosis:
             )
 
     def _declared(self, file: str, unit: Unit | None, name: str) -> bool:
-        """Report whether a name has a declaration, anywhere in the file if the head of its unit is in another one."""
+        """Return whether a name has a declaration, anywhere in the file if the head of its unit is in another one."""
         if unit is not None:
             return name in unit.declared or name in unit.dummies
         declaration = rf"^\s*(?:integer|real|double\s*precision|dimension|common)\b.*\b{name}\b"
         return re.search(declaration, self._opinion.texts.get(file, ""), re.IGNORECASE | re.MULTILINE) is not None
 
     def _is_factor(self, file: str, unit: Unit | None, name: str) -> bool:
-        """Report whether a name is multiplied as a real number wherever it becomes one."""
+        """Return whether a name is multiplied as a real number wherever it becomes one."""
         uses = []
         for other, line, column, text, option in warnings_of(self._opinion.warnings):
             same = other == file and unit_at(self._units[file], line) is unit and option == "-Wconversion-extra"
@@ -250,13 +250,13 @@ class _Diagnosis:
         return (text.replace(" at (1)", ""), hint, certain) if hint else None
 
     def _internal(self, file: str, text: str) -> bool:
-        """Report whether a warning names a variable that the compiler made, such as bounds of an intermediate array."""
+        """Return whether a warning names a variable that the compiler made, such as bounds of an intermediate array."""
         match = re.match(r"'(\w+)", text)
         text_of_file = self._opinion.texts.get(file, "")
         return match is not None and re.search(rf"\b{match[1]}\b", text_of_file, re.IGNORECASE) is None
 
     def _of_reals(self, file: str, line: int, column: int) -> bool:
-        """Report whether a quotient of integers is part of a real variable's value, and of no index or argument."""
+        """Return whether a quotient of integers is part of a real variable's value, and of no index or argument."""
         code = self._code(file, line)
         unit, assigned = unit_at(self._units.get(file, []), line), _ASSIGNED.match(code[6:])
         if assigned is None or column - 1 < 6 + assigned.start(2):

@@ -46,7 +46,7 @@ class Unit:
     read: set[str] = field(default_factory=set)
 
     def single(self, name: str) -> bool:
-        """Report whether a name occurs once, and not in a declaration."""
+        """Return whether a name occurs once and outside declarations."""
         return self.names[name] == 1 and name not in self.declared and name not in self.dummies
 
 
@@ -127,7 +127,7 @@ def statements(text: str, *, free: bool) -> Iterator[tuple[list[int], str]]:
 
 
 def _continues(row: str) -> bool:
-    """Report whether a line of fixed form continues the one before it."""
+    """Return whether a line of fixed form continues the one before it."""
     if row.startswith("\t"):
         return row[1:2].isdigit() and row[1] != "0"
     return len(row) > 5 and not row[:5].strip() and "\t" not in row[:6] and row[5] not in " 0"
