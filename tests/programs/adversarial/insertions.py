@@ -26,7 +26,7 @@ from uel import run
 from uel.deck.reader import read_deck
 from uel.errors import UelError
 from uel.insertion.command import insert
-from uel.insertion.selection import Wanted
+from uel.insertion.selection import CutRequest
 from uel.model.element_types import CONTINUUM
 
 KINDS = (
@@ -59,7 +59,7 @@ class Case:
     """
 
     lines: list[str]
-    wanted: Wanted
+    wanted: CutRequest
     element: str
     values: list[str]
     fixed: set[int]
@@ -345,15 +345,15 @@ class Maker:
             lines += ["*TEMPERATURE", f"{at}ALL, 10."]
         return lines
 
-    def _wanted(self) -> Wanted:
+    def _wanted(self) -> CutRequest:
         ways = [
-            Wanted(between=[("LOW", "HIGH")], crack=["MIDDLE"] if self.rng.random() < 0.05 else []),
-            Wanted(between=[("LOW", "HIGH"), ("LEFT", "RIGHT")]),
-            Wanted(nodes=["MIDDLE"]),
-            Wanted(plies=("LOW", "HIGH")),
-            Wanted(inside=["BODY"]),
-            *([Wanted(surfaces=["SIDE"])] if "surface" in self.notes else []),
-            *([Wanted(plies=())] if "two sections" in self.notes else []),
+            CutRequest(between=[("LOW", "HIGH")], crack=["MIDDLE"] if self.rng.random() < 0.05 else []),
+            CutRequest(between=[("LOW", "HIGH"), ("LEFT", "RIGHT")]),
+            CutRequest(nodes=["MIDDLE"]),
+            CutRequest(plies=("LOW", "HIGH")),
+            CutRequest(inside=["BODY"]),
+            *([CutRequest(surfaces=["SIDE"])] if "surface" in self.notes else []),
+            *([CutRequest(plies=())] if "two sections" in self.notes else []),
         ]
         return ways[int(self.rng.integers(len(ways)))]
 
