@@ -209,7 +209,7 @@ contains
     real(dp), intent(in) :: own(:)
     type(stabilisation_type), intent(inout) :: stabilisation
 
-    stabilisation%known = minval(own) > 0.0_dp
+    stabilisation%known = minval(own([o_betat, o_betan, o_gammat, o_gamman])) > 0.0_dp
     if (.not. stabilisation%known) return
     stabilisation%beta = own([o_betat, o_betan])
     stabilisation%gamma_bottom = own([o_gammat, o_gamman])

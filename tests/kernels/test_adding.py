@@ -82,8 +82,8 @@ LAW = {
 ELEMENT = {
     "properties.toml": [
         (
-            "top = [21, 22, 23, 24, 29, 30, 31, 32]\n",
-            "top = [21, 22, 23, 24, 29, 30, 31, 32]\n"
+            "top = [21, 24, 25, 22, 33, 30, 34, 27]\n",
+            "top = [21, 24, 25, 22, 33, 30, 34, 27]\n"
             '\n[[elements]]\ntype = "U9000"\nmeaning = "U2, left to right"\nfamily = "standard"\n'
             "dimension = 2\nnodes = 4\npoints = 2\nbottom = [1, 2]\ntop = [3, 4]\n",
         ),

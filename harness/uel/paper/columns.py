@@ -39,6 +39,8 @@ LAW = {
 STRONG = {"SIGMAMAX": 1.0e3, "TAUMAX": 1.0e3, "GIC": 1.0e3, "GIIC": 1.0e3}
 FINITE = {"ALPHAN": 1.0e6, "ALPHAT": 1.0e6}
 ELASTIC = (0.0, 0.01)
+EXPANSION = (1.0e-6, 3.0e-5, 3.0e-5)
+"""Of a ply along its axes, 1/K: fibres hardly expand."""
 PAPER = FINITE | {"CLOSURE": 2, "BETAN": -2.0, "BETAT": -2.0}
 
 _SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
@@ -68,6 +70,7 @@ class Column:
     values  properties of the interface element, and of the blocks where they are user elements, by name; others are 0
     moved   displacement of the top at the end along x and along the normal (mm); by default beyond failure
     turned  the lower block has its fibres along y
+    heated  change of temperature during the step (K), in which the plies expand
     """
 
     title: str
@@ -76,6 +79,7 @@ class Column:
     values: Mapping[str, float] = field(default_factory=dict)
     moved: tuple[float, float] = (0.0, 0.05)
     turned: bool = False
+    heated: float = 0.0
 
     @property
     def plies(self) -> tuple[SolidPly, SolidPly]:
@@ -87,6 +91,12 @@ COLUMNS = {
     "u4_zeros": Column("zeros: the recommended element", 4),
     "u4_paper": Column("the paper's law, beta by equation (21)", 4, values=PAPER),
     "u4_complete": Column("complete form", 4, values={"CLOSURE": 3}),
+    "u4_cooled": Column(
+        "cooled by 100 K",
+        4,
+        values={f"EXPANSION{k} {side}": value for side in ("BOTTOM", "TOP") for k, value in enumerate(EXPANSION, 1)},
+        heated=-100.0,
+    ),
     "u4_exponential": Column("exponential law", 4, values={"LAW": 3, "ETA": 2.0}, moved=(0.0, 0.08)),
     "u4_ppr": Column("PPR law", 4, values={"LAW": 4, "SHAPEN": 3.0, "SHAPET": 3.0}),
     "u4_secant": Column("secant matrix", 4, values={"LAW": 1, "TANGENT": 1}),
@@ -168,6 +178,7 @@ def _deck(column: Column) -> list[str]:
     lines.append("** written by python -m uel.paper.decks; units N, mm, MPa")
     lines += node_block(labels, places)
     lines += node_set("BASE", labels[places[:, -1] == -SIDE]) + node_set("TOP", labels[places[:, -1] == SIDE])
+    lines += node_set("ALL", labels) if column.heated else []
     lines += _blocks(column, labels.reshape(2, count))
     lines += _interface(column, labels, owner)
     lines += [
@@ -182,6 +193,7 @@ def _deck(column: Column) -> list[str]:
         *["*BOUNDARY", f"BASE, 1, {dim}"],
         *[keyword("STEP", INC=10 * INCREMENTS, UNSYMM="YES"), "*STATIC", *table([(step, 1.0, 1e-6, step)])],
         *["*BOUNDARY", *(f"TOP, {i}, {i}, {number(value)}" for i, value in enumerate(moved, start=1))],
+        *(["*TEMPERATURE", f"ALL, {number(column.heated)}"] if column.heated else []),
         *output.lines(),
         "*END STEP",
     ]
@@ -206,6 +218,7 @@ def _blocks(column: Column, labels: IntArray) -> list[str]:
             lines += ["*ELASTIC, TYPE=LAMINA", *wrapped([*ply.moduli[:2], ply.ratios[0], *ply.shear])]
         else:
             lines += ["*ELASTIC, TYPE=ENGINEERING CONSTANTS", *wrapped([*ply.moduli, *ply.ratios, *ply.shear])]
+        lines += ["*EXPANSION, TYPE=ORTHO", *wrapped(list(EXPANSION))] if column.heated else []
     return lines
 
 
