@@ -25,6 +25,7 @@ from uel.model.mesh import ElementGroup
 from uel.model.model import Model
 from uel.model.records import ElementState, PointVariables
 from uel.output.points import point_values
+from uel.usersub.layout import element_layouts
 
 _COORDINATES = ("X", "Y", "Z")
 
@@ -48,7 +49,7 @@ def cells_of(group: ElementGroup, variables: PointVariables | None, *, solid: bo
         family = kind.family
     elif variables is not None and variables.kind == "interface":
         nodes = nodes[:, list(variables.bottom)]
-        family = kind.face if isinstance(kind, CohesiveType) else _family(nodes.shape[1], 1, 2)
+        family = _face_of(group, nodes.shape[1])
     elif variables is not None and variables.outline:
         nodes = nodes[:, list(variables.outline)]
         family = _family(nodes.shape[1], 2)
@@ -58,6 +59,14 @@ def cells_of(group: ElementGroup, variables: PointVariables | None, *, solid: bo
     if family is None:
         return Cells("vertex", nodes.reshape(-1, 1), np.repeat(np.arange(elements), count))
     return Cells(family.cell, nodes, np.arange(elements))
+
+
+def _face_of(group: ElementGroup, nodes: int) -> Family | None:
+    """Return the family of the faces of interface elements: three nodes are a line in the plane, else a triangle."""
+    if isinstance(group.built_in, CohesiveType):
+        return group.built_in.face
+    assert group.definition is not None
+    return _family(nodes, element_layouts()[group.definition.number].dimension - 1)
 
 
 def _family(nodes: int, *dimensions: int) -> Family | None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from uel.delamination.kernels import uel_property, user_element
+from uel.delamination.kernels import formulations, uel_property, user_element
 from uel.errors import UelError
 from uel.output import Result
 from uel.running.job import run
@@ -115,7 +115,9 @@ def pulled(
             ]
     if own:
         moduli = {f"{name} {side}": value for name, value in MODULI[dimension].items() for side in ("BOTTOM", "TOP")}
-        lines += uel_property(int(kind[1:]), "INTERFACE", LAW | {"THICKNESS": 1.0} | moduli | values)
+        lines += uel_property(
+            int(kind[1:]), "INTERFACE", LAW | {"THICKNESS": 1.0} | formulations(solid) | moduli | values
+        )
     else:
         lines += COHESIVE.splitlines()
     lines += [*(ply or PLIES[dimension]).splitlines(), *upper.splitlines()]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import uel
-from uel.delamination.kernels import uel_property, user_element
+from uel.delamination.kernels import formulations, uel_property, user_element
 from uel.elements import Request
 from uel.errors import KernelError
 from uel.output import read_interface
@@ -182,7 +182,7 @@ def stack(jtype, quads):
             *(f"*ELEMENT, TYPE=U{jtype}, ELSET=COHESIVE", *interfaces),
             *("*NSET, NSET=LOW", ", ".join(ends[0.0]), "*NSET, NSET=HIGH", ", ".join(ends[2.0])),
             *("*MATERIAL, NAME=M", "*ELASTIC", f"{E}, {NU}", "*SOLID SECTION, ELSET=QUADS, MATERIAL=M", "2.0"),
-            *uel_property(jtype, "COHESIVE", LAW),
+            *uel_property(jtype, "COHESIVE", LAW | formulations(quads)),
             *("*BOUNDARY", "LOW, 2, 2", f"{labels[0.0, 0.0, 0]}, 1, 1", f"{labels[0.0, 2.0, 1]}, 1, 1"),
             *("*STEP", "*STATIC", "1.0, 1.0", "*BOUNDARY", "HIGH, 2, 2, 0.01"),
             *("*OUTPUT, FIELD", "*NODE OUTPUT", "U", "*ELEMENT OUTPUT", "S", "*END STEP", ""),

@@ -14,10 +14,11 @@ from uel.errors import Source
 from uel.model.element_types import CONTINUUM
 from uel.model.mesh import ElementGroup, Mesh
 from uel.model.model import Model
-from uel.model.properties import UserProperty
+from uel.model.properties import UserElement, UserProperty
 from uel.model.records import ElementState, IncrementDone, PointVariables, Record, Solution
 from uel.output.cells import cells_of
 from uel.output.files.field_output import FieldFiles, read_field_mesh
+from uel.usersub.layout import element_layouts, variables
 
 Records = Callable[..., Iterator[Record]]
 
@@ -72,6 +73,20 @@ def test_user_elements_are_drawn_by_their_number_of_nodes(nodes: int, solid: boo
     assert cells.element.tolist() == [0, 1]
 
 
+@pytest.mark.parametrize(
+    ("jtype", "kind"), [(34, "line"), (66, "line3"), (404, "triangle"), (1010, "triangle6"), (8, "quad"), (12, "quad8")]
+)
+def test_interfaces_are_drawn_by_their_bottom_face(jtype: int, kind: str) -> None:
+    """Three nodes are a line in the plane, a triangle in space."""
+    known = element_layouts()[jtype]
+    source = Source("deck.inp", 1)
+    definition = UserElement(jtype, known.nodes, (), source, coordinates=known.dimension)
+    group = replace(group_of(np.arange(2 * known.nodes).reshape(2, -1)), definition=definition)
+    cells = cells_of(group, variables(jtype), solid=known.dimension == 3)
+    assert cells.type == kind
+    assert cells.nodes.tolist() == group.nodes[:, list(known.faces[0])].tolist()
+
+
 VTK_EDGES = {
     # ends of the edges whose middles follow the corners (VTK's file formats)
     **{"triangle6": [(0, 1), (1, 2), (2, 0)], "quad8": [(0, 1), (1, 2), (2, 3), (3, 0)]},
@@ -110,8 +125,9 @@ def test_user_elements_of_another_kind_are_drawn_as_their_nodes() -> None:
 
 
 def test_an_eight_node_interface_is_drawn_between_its_quads() -> None:
-    variables = PointVariables("interface", ("DAMAGE",), 2, bottom=(3, 2), top=(4, 5))
-    cells = cells_of(group_of(np.arange(8)[None, :]), variables, solid=False)
+    damage = PointVariables("interface", ("DAMAGE",), 2, bottom=(3, 2), top=(4, 5))
+    definition = UserElement(4, 8, (), Source("deck.inp", 1))
+    cells = cells_of(replace(group_of(np.arange(8)[None, :]), definition=definition), damage, solid=False)
     assert (cells.type, cells.nodes.tolist()) == ("line", [[3, 2]])
 
 

@@ -196,7 +196,7 @@ def _faces(group: ElementGroup, library: Library) -> tuple[IntArray, IntArray] |
     if isinstance(kind, CohesiveType):
         corners, faces = kind.face.corners, (kind.bottom, kind.top)
     elif group.definition is not None and (known := library.variables(group.definition.number)) is not None:
-        corners, faces = (2 if len(known.bottom) < 4 else 4), (known.bottom, known.top)
+        corners, faces = element_layouts()[group.definition.number].corners, (known.bottom, known.top)
     else:
         return None
     bottom, top = (np.array(face[:corners]) for face in faces)
