@@ -14,7 +14,7 @@ module host_shape
   use host_protect, only: escape
   implicit none (type, external)
   private
-  public :: line2, quad4, rule_t, rule_of, find_rule, is_quadratic, is_multilinear, radius_of, hourglass_shapes, &
+  public :: line2, quad4, tri3, rule_t, rule_of, find_rule, is_quadratic, is_multilinear, radius_of, hourglass_shapes, &
             parent_place, slopes_at_nodes, define_rule
 
   integer, parameter :: line2 = 1, line3 = 2, tri3 = 3, tri6 = 4, quad4 = 5, quad8 = 6, tet4 = 7, hex8 = 8, hex20 = 9, tet10 = 10

@@ -50,7 +50,7 @@ def add_insert(insert: argparse.ArgumentParser) -> None:
         help="initial crack: no elements where these faces are in a node set, at an element set or in a surface",
     )
     insert.add_argument(
-        "--element", default="", metavar="TYPE", help="COH2D4, COH3D8, U2, U4, ... (the recommended one that fits)"
+        "--element", default="", metavar="TYPE", help="COH2D4, COH3D8, U2, U4, ... (the recommended one at each face)"
     )
     insert.add_argument("--elset", default="INTERFACE", metavar="NAME", help="set that takes them (INTERFACE)")
     insert.add_argument(

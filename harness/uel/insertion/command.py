@@ -81,7 +81,6 @@ class Insertion:
             lines.append(
                 f"warning: {self.closed} faces get no element: the mesh around them holds all their nodes together"
             )
-        lines += [f"warning: {kind} runs in Abaqus, not here" for kind in self.kinds if not known_types()[kind].here]
         made = ", ".join(f"{count} elements {kind}" for kind, count in self.kinds.items())
         made = f"{made} in {elset}" if made else "no elements"
         crack = f", {self.crack} faces of an initial crack" if self.crack else ""

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from uel.insertion.cut import NONE, Cells, Solids
 from uel.model.arrays import FloatArray, IntArray
-from uel.model.element_types import COHESIVE, FAMILIES, TRI3, Face, Family
+from uel.model.element_types import COHESIVE, FAMILIES, Face, Family
 from uel.usersub.layout import element_layouts
 
 
@@ -30,7 +30,6 @@ class InterfaceType:
     nodes   number of nodes
     bottom  local nodes of its bottom face, from 0: corners, then midside nodes; `top`: opposite nodes
     solids  families of the solids below and above that it owns; () for a standard element
-    here    whether the harness supports it
     """
 
     name: str
@@ -40,7 +39,6 @@ class InterfaceType:
     bottom: Face
     top: Face
     solids: tuple[Family, ...] = ()
-    here: bool = True
 
     @property
     def dimension(self) -> int:
@@ -54,7 +52,6 @@ def known_types() -> dict[str, InterfaceType]:
     types = {
         name: InterfaceType(name, 0, kind.face, kind.nodes, kind.bottom, kind.top) for name, kind in COHESIVE.items()
     }
-    types["COH3D6"] = InterfaceType("COH3D6", 0, TRI3, 6, (0, 1, 2), (3, 4, 5), here=False)
     for jtype, layout in element_layouts().items():
         bottom, top = layout.faces
         if bottom:

@@ -669,6 +669,7 @@ HEAT: Final = {
 
 COHESIVE: Final = {
     "COH2D4": CohesiveType("COH2D4", LINE2, (0, 1), (3, 2)),
+    "COH3D6": CohesiveType("COH3D6", TRI3, (0, 1, 2), (3, 4, 5)),
     "COH3D8": CohesiveType("COH3D8", QUAD4, (0, 1, 2, 3), (4, 5, 6, 7)),
 }
 """Cohesive elements by their names."""

@@ -64,7 +64,8 @@ def node_lines(lines, count):
 ELEMENTS = {
     **{"CPS4": ("U2", "U4", "COH2D4"), "CPS3": ("U2", "U33"), "CPS8": ("U5", "U6"), "CPS6": ("U5", "U66")},
     **{"CPS4R": ("U4",), "CPE4I": ("U4",), "CPS8R": ("U6",), "C3D8R": ("U8",), "C3D8I": ("U8",), "C3D20R": ("U12",)},
-    **{"C3D8": ("U7", "U8", "COH3D8"), "C3D20": ("U11", "U12"), "C3D4": ("U13", "U404"), "C3D10": ("U14", "U1010")},
+    **{"C3D8": ("U7", "U8", "COH3D8"), "C3D20": ("U11", "U12")},
+    **{"C3D4": ("U13", "U404", "COH3D6"), "C3D10": ("U14", "U1010")},
 }
 OWNERS = ("U4", "U6", "U8", "U12", "U33", "U66", "U404", "U1010")
 PAIRS = [(kind, element) for kind, elements in ELEMENTS.items() for element in elements]

@@ -33,13 +33,18 @@ KINDS = (
     *("CPS4", "CPE4", "CPS4I", "CPS3", "CPS8", "CPE8R", "CPS6", "CPS4R"),
     *("C3D8", "C3D8I", "C3D8R", "C3D6", "C3D4", "C3D10", "C3D15", "C3D20", "C3D20R"),
 )
-ELEMENTS = ("", "U2", "U4", "U5", "U6", "U7", "U8", "U11", "U12", "COH2D4", "COH3D8")
-STANDARD = ("U2", "U5", "U7", "U11", "COH2D4", "COH3D8")
+ELEMENTS = (
+    *("", "U2", "U4", "U5", "U6", "U7", "U8", "U11", "U12", "U13", "U14", "U33", "U34", "U66", "U404", "U608", "U1010"),
+    *("COH2D4", "COH3D6", "COH3D8"),
+)
+STANDARD = ("U2", "U5", "U7", "U11", "U13", "U14", "COH2D4", "COH3D6", "COH3D8")
 FITTING = {
     (2, 2): ("", "U2", "U4", "COH2D4"),
     (2, 3): ("", "U5", "U6"),
     (3, 4): ("", "U7", "U8", "COH3D8"),
     (3, 8): ("", "U11", "U12"),
+    (3, 3): ("", "U13", "U404", "COH3D6"),
+    (3, 6): ("", "U14", "U1010"),
 }
 """Those between faces by the dimension of the solids and the nodes of a face."""
 SYSTEMS = ("RECTANGULAR", "Z RECTANGULAR", "CYLINDRICAL", "SPHERICAL", "NODES", "OFFSET")
@@ -413,22 +418,22 @@ def judge(case: Case, folder: Path) -> str:
         message = str(error)
         return f"refused: {message}" if PLACE.search(message) else f"WRONG: no place: {message}"
     constrained = {"equation", "mpc", "coupling"}.intersection(case.notes)
-    tied = done.kind not in STANDARD and not constrained and not done.crack
+    standard = bool(done.kinds.keys() & set(STANDARD))
+    tied = not standard and not constrained and not done.crack
     cut.write_text(with_ties(without_groups(text), case.fixed) if tied else without_groups(text))
     try:
         after = run(cut, output_dir=folder, quiet=True)
     except UelError as error:
         return f"WRONG: does not run: {str(error).splitlines()[0]}"
-    if done.crack or (constrained and done.kind not in STANDARD):
+    if done.crack or (constrained and not standard):
         return "runs, not compared"
     before_mesh, after_mesh = (read_deck(path).mesh for path in (plain, cut))
     rows = {after_mesh.name(k): k for k in range(len(after_mesh.labels))}
     same = [rows[before_mesh.name(k)] for k in range(len(before_mesh.labels))]
     old, new = before.field("U"), after.field("U")[same]
     apart = np.abs(new - old).max() / np.abs(old).max()
-    return (
-        f"runs, {done.kind}" if apart < (ROUNDING if tied else SOFT) else f"WRONG: {done.kind} {100 * apart:.3g} % off"
-    )
+    kinds = " and ".join(done.kinds)
+    return f"runs, {kinds}" if apart < (ROUNDING if tied else SOFT) else f"WRONG: {kinds} {100 * apart:.3g} % off"
 
 
 def try_case(seed: int) -> tuple[str, Case | None]:

@@ -1,10 +1,10 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Built-in cohesive elements COH2D4 and COH3D8 with traction-separation response.
+!> Built-in cohesive elements COH2D4, COH3D6 and COH3D8 with traction-separation response.
 !>
-!> Nodes of the bottom face, then of the top face: 1 2 and 4 3, or 1 2 3 4 and 5 6 7 8. Integration points lie at the corners of the
-!> mid-surface, so the separation of a point is that of one pair of nodes. The normal points from bottom to top; s is the tangent
-!> from 1 to 2 in the plane, and otherwise the projection of the global 1-axis on the mid-surface (of the 3-axis where the 1-axis is
+!> Nodes of the bottom face, then of the top face: 1 2 and 4 3, 1 2 3 and 4 5 6, or 1 2 3 4 and 5 6 7 8. Integration points lie
+!> at the corners of the mid-surface, so the separation of a point is that of one pair of nodes. The normal points from bottom to
+!> top; s is the tangent from 1 to 2 in the plane, and otherwise the projection of the global 1-axis on the mid-surface (of the 3-axis where the 1-axis is
 !> within 0.1 degrees of the normal), t = n x s.
 !>
 !> With large displacements the frame turns with the mid-surface of the present shape, by the rotation of the polar decomposition of
@@ -29,7 +29,7 @@ module host_cohesive
                          p_cohesive_thickness, p_cohesive_width
   use host_messages, only: add_message
   use host_protect, only: escape
-  use host_shape, only: line2, quad4
+  use host_shape, only: line2, quad4, tri3
   use host_traction_separation, only: cohesive_law, cohesive_point, fine, read_law, update_point
   implicit none (type, external)
   private
@@ -217,9 +217,11 @@ contains
       call line_frame([0.0_dp, 0.0_dp], a(:2), axes(:2, :2), area)
       frame(:2, :) = axes(by_normal(:2), :n)
       area = 0.5_dp*area
-    case (quad4)
+    case (quad4, tri3)
       call surface_frame(a, b, axes, area)
       frame = axes(by_normal, :n)
+      ! each corner of a triangle stands for a third of it
+      if (family == tri3) area = area/6.0_dp
     case default
       call add_message(-3_i4, 'cohesive elements between faces of this family are not known to the host')
       call escape()
@@ -227,8 +229,9 @@ contains
     if (.not. area > 0) call stop_with('the area of the mid-surface is', area, point)
   end subroutine measure
 
-  !> Vectors in the mid-surface at a corner: in the plane from 1 to 2, else half the edges there, the second one counter-clockwise
-  !> from the first; and how much of each node of the mid-surface they have. Zero for other families.
+  !> Vectors in the mid-surface at a corner: in the plane from 1 to 2, in a triangle from 1 to 2 and to 3, else half the edges
+  !> there, the second one counter-clockwise from the first; and how much of each node of the mid-surface they have. Zero for
+  !> other families.
   pure subroutine edges_at(family, n, points, point, x, a, b, by_a, by_b)
     integer, intent(in) :: family, n, points, point
     real(dp), intent(in) :: x(n, 2*points)
@@ -240,6 +243,9 @@ contains
     by_b = 0
     if (family == line2) then
       by_a = [-1.0_dp, 1.0_dp]
+    else if (family == tri3) then
+      by_a = [-1.0_dp, 1.0_dp, 0.0_dp]
+      by_b = [-1.0_dp, 0.0_dp, 1.0_dp]
     else if (family == quad4) then
       by_a(before(point)) = along(point)
       by_a(point) = -along(point)

@@ -264,7 +264,7 @@ def face_nodes(group: ElementGroup, face: str, source: Source, keyword: str) -> 
     elif isinstance(kind, RigidType):
         faces = kind.sides
     elif isinstance(kind, CohesiveType):
-        # as faces 1 and 3 of a quadrilateral, 1 and 2 of a brick (Elements Guide, COH2D4 and COH3D8)
+        # as faces 1 and 3 of a quadrilateral, 1 and 2 of a brick or wedge (Elements Guide, COH2D4, COH3D6 and COH3D8)
         faces = {"S1": kind.bottom, "S3" if kind.dimension == 2 else "S2": kind.top}
     if face not in faces:
         known = ", ".join(faces) or "none"

@@ -23,7 +23,7 @@ class Layer:
     """An element turned out of the global axes, driven by separations in its own axes (n, s[, t])."""
 
     def __init__(self, bound, library, call, element_type, damage, *, stiffness, controls, thickness, gap, density):
-        self.dimension = 3 if element_type == "COH3D8" else 2
+        self.dimension = 2 if element_type == "COH2D4" else 3
         self.call = call
         n = self.dimension
         if n == 2:
@@ -39,9 +39,11 @@ class Layer:
             self.axes = np.array([normal, first, np.cross(normal, first)])
             # a parallelogram, so that the corners have equal areas
             corners = np.array([[0, 0, 0], [0, 2.0, 0.3], [0, 2.5, 1.8], [0, 0.5, 1.5]])
-            bottom = corners @ self.axes
-            top, self.area = bottom, 2.0 * 1.5 - 0.3 * 0.5
-            self.pairs = [(k, k + 4) for k in range(4)]
+            self.area = 2.0 * 1.5 - 0.3 * 0.5
+            if element_type == "COH3D6":
+                corners, self.area = corners[[0, 1, 3]], 0.5 * self.area
+            top = bottom = corners @ self.axes
+            self.pairs = [(k, k + len(corners)) for k in range(len(corners))]
         nodes = np.concatenate([bottom, top + gap * self.axes[0]])
         coordinates = np.zeros((len(nodes), 3))
         coordinates[:, :n] = nodes

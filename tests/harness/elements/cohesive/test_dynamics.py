@@ -96,7 +96,7 @@ def test_a_layer_that_breaks_takes_its_fracture_energy(run_layer):
     np.testing.assert_allclose(np.diff(history["V2[TOP:3]"])[-3:], 0.0, atol=1e-12)
 
 
-@pytest.mark.parametrize("element_type", ["COH2D4", "COH3D8"])
+@pytest.mark.parametrize("element_type", ["COH2D4", "COH3D6", "COH3D8"])
 @pytest.mark.parametrize(("thickness", "gap"), [(1.0, 0.0), (0.25, 0.0), (0.0, 0.3)])
 def test_mass_matrix(layer, element_type, thickness, gap):
     """Density times constitutive thickness per area, that between the faces where it is that of the nodes.

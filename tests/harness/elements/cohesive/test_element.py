@@ -11,7 +11,7 @@ from uel.errors import KernelError
 from uel.model.element_types import COHESIVE
 from uel.model.properties import SectionControls
 
-TYPES = ("COH2D4", "COH3D8")
+TYPES = ("COH2D4", "COH3D6", "COH3D8")
 EXPONENTIAL = ("ENERGY", "EXPONENTIAL", "BK", (0.26, 1.002, 0.8), 1.8)
 
 

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from uel.elements import Flags
 
-TYPES = ("COH2D4", "COH3D8")
+TYPES = ("COH2D4", "COH3D6", "COH3D8")
 
 
 @pytest.fixture
