@@ -190,7 +190,7 @@ def test_demo_that_cannot_write_says_so(tmp_path: Path, capsys: pytest.CaptureFi
             "",
             "no --user was given, so U1 is that of this project: continuum quad, .*4 nodes in the plane",
         ),
-        ("U1", "U99", "no --user was given: name the file that has U99; this project itself has U1, U2, .*U12$"),
+        ("U1", "U99", "no --user was given: name the file that has U99; this project itself has U1, U2, .*U2015$"),
     ],
 )
 def test_user_element_without_a_file(

@@ -536,7 +536,7 @@ def test_rigid_motion(call, dimension):
     """Clearances stay, and nothing slips; the forces of both balance, and so do their moments."""
     rng = np.random.default_rng(7)
     block = pair_of(dimension, None, 0.0, rng)
-    kinematics, places = block._motion, block._motion._places
+    kinematics, places = block._motion, block._motion._coordinates
     rotation = np.linalg.qr(rng.normal(size=(dimension, dimension)))[0]
     rotation[:, 0] *= np.sign(np.linalg.det(rotation))
     at_rest = kinematics.finite(np.zeros(places.shape).reshape(2, -1))
