@@ -4,8 +4,8 @@
 !>
 !> Nodes of the bottom face, then of the top face: 1 2 and 4 3, 1 2 3 and 4 5 6, or 1 2 3 4 and 5 6 7 8. Integration points lie
 !> at the corners of the mid-surface, so the separation of a point is that of one pair of nodes. The normal points from bottom to
-!> top; s is the tangent from 1 to 2 in the plane, and otherwise the projection of the global 1-axis on the mid-surface (of the 3-axis where the 1-axis is
-!> within 0.1 degrees of the normal), t = n x s.
+!> top; s is the tangent from 1 to 2 in the plane, and otherwise the projection of the global 1-axis on the mid-surface (of the
+!> 3-axis where the 1-axis is within 0.1 degrees of the normal), t = n x s.
 !>
 !> With large displacements the frame turns with the mid-surface of the present shape, by the rotation of the polar decomposition of
 !> its deformation; separations are those of the present positions in this frame, less those at the start, and tractions are per
