@@ -274,7 +274,7 @@ contains
     integer, parameter :: ratio(2) = [p_nu12_bottom, p_nu12_top], formulation(2) = [j_formulation_bottom, j_formulation_top]
     type(status_type) :: status
     real(dp) :: frame(3, 3)
-    integer :: side, first, corners
+    integer :: side, at(2)
 
     do side = 1, 2
       associate (solid => solids(side))
@@ -289,9 +289,8 @@ contains
           call solid_stiffness(materials(side), frame, solid%stiffness, status)
           solid%expansion = solid_expansion(materials(side), frame)
         end if
-        first = merge(1, 1 + faces(itype)%solids(1), side == 1)
-        corners = corners_of(size(bottom, 1), solid%nodes)
-        solid%heating(1:corners) = temperatures(first:first + corners - 1) - initial(side)
+        at = corners_of_solid(itype, side)
+        solid%heating(1:at(2) - at(1) + 1) = temperatures(at(1):at(2)) - initial(side)
       end associate
       good = status%code == ok
       if (.not. good) then
@@ -303,6 +302,17 @@ contains
     end do
   end subroutine find_solids
 
+  !> First and last corner of the solid on a side among the nodes of the element.
+  pure function corners_of_solid(itype, side) result(at)
+    integer, intent(in) :: itype, side
+    integer :: at(2)
+
+    associate (solids => faces(itype)%solids)
+      at(1) = merge(1, 1 + solids(1), side == 1)
+      at(2) = at(1) + corners_of(elements(itype)%dimension, solids(side)) - 1
+    end associate
+  end function corners_of_solid
+
   !> Initial temperatures of the solids: those that an earlier increment has left or, in the first one, the means of the corners at
   !> its start; `good` is false after a message.
   subroutine find_initial(itype, jelem, own, start, values, initial, good)
@@ -312,16 +322,15 @@ contains
     real(dp), intent(in) :: values(:)
     real(dp), intent(out) :: initial(2)
     logical, intent(out) :: good
-    integer :: side, first, corners
+    integer :: side, at(2)
 
     good = .true.
     initial = own([o_temp0_bottom, o_temp0_top])
     if (own(o_betan) > 0.0_dp) return
     do side = 1, 2
-      corners = corners_of(elements(itype)%dimension, faces(itype)%solids(side))
-      first = merge(1, 1 + faces(itype)%solids(1), side == 1)
-      associate (at_corners => start(first:first + corners - 1))
-        initial(side) = sum(at_corners)/corners
+      at = corners_of_solid(itype, side)
+      associate (at_corners => start(at(1):at(2)))
+        initial(side) = sum(at_corners)/size(at_corners)
         if (is_linear(elements(itype)%dimension, faces(itype)%solids(side)) .or. .not. expands(values)) cycle
         good = maxval(abs(at_corners - initial(side))) <= sqrt(epsilon(1.0_dp))*maxval(abs(at_corners))
         if (good) cycle
