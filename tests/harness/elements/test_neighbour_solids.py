@@ -10,7 +10,10 @@ import pytest
 from uel.deck.reader import read_deck
 from uel.delamination.kernels import uel_property, user_element
 from uel.elements.interfaces.neighbour_solids import (
+    Neighbours,
+    States,
     examine,
+    find_faults,
     formulation_of,
     owns_solids,
     solids_of,
@@ -146,6 +149,19 @@ def test_other_elements(tmp_path):
     found = examined(tmp_path, quads("CPEG4", section=", REF NODE=9"))
     assert [each.wrong for each, _ in found] == [True, True]
     assert re.match(r"CPEG4 beside U4 \(element 1\) strains normal to the plane", found[0][0].message)
+
+
+def test_elements_with_unknowns_or_shapes_of_their_own(tmp_path):
+    found = examined(tmp_path, quads("CPE4H"))
+    assert [each.wrong for each, _ in found] == [False, False]
+    assert re.match(
+        r"CPE4H beside U4 \(element 1\) has a pressure of its own, .* may differ; take U2", found[0][0].message
+    )
+    group = read_deck(tmp_path / "deck.inp").groups[0]
+    modified = Neighbours(66, "CPS6M", group.section, "1", group.source, np.array([0]), np.arange(6)[None])
+    (finding,) = find_faults(modified, States())
+    assert finding.wrong
+    assert re.match(r"CPS6M beside U66 \(element 1\) has an interpolation of its own, .*; take U5", finding.message)
 
 
 def test_each_finding_once(tmp_path):

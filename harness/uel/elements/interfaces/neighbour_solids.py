@@ -325,6 +325,9 @@ def _formulation(solids: Neighbours) -> Iterator[Finding]:
     if kind.modified:
         message = f"{here} has an interpolation of its own, which {_type(solids)} does not know"
         yield Finding(f"{message}; {_instead(solids)}", place, wrong=True)
+    if kind.pressures:
+        message = f"{here} has a pressure of its own, where {_type(solids)} takes that of the displacements"
+        yield Finding(f"{message}: tractions may differ; {_instead(solids)}", place, wrong=False)
     if kind.generalised:
         message = f"{here} strains normal to the plane, where {_type(solids)} takes plane strain"
         yield Finding(f"{message}; {_instead(solids)}", place, wrong=True)
