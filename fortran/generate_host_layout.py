@@ -43,19 +43,26 @@ def constants(family: str, data: Mapping[str, Any]) -> Iterator[str]:
     begins = tables.get("begins")
     if begins is not None:
         check_name(f"{family}: begins", begins, data)
-    before = 0 if begins is None else sum(size for _, size, _ in entries(begins, "props", data))
-    yield from positions(f"p_{family}", entries(family, "props", data), before)
-    yield from positions(f"j_{family}", entries(family, "jprops", data), 0)
+    for kind in ("props", "jprops"):
+        first = [] if begins is None else entries(begins, kind, data)
+        own = entries(family, kind, data)[len(first) :]
+        yield from positions(f"{kind[0]}_{family}", own, sum(size for _, size, _ in first))
     if "svars" in tables:
         yield from positions(f"s_{family}", [(name.lower(), 1, "") for name in tables["svars"]], 0)
         yield f"  integer, parameter, public :: {family}_values = {len(tables['svars'])}"
 
 
 def entries(family: str, kind: str, data: Mapping[str, Any]) -> list[tuple[str, int, str]]:
-    """Name, size and meaning of each value of a family in an array; the size is 0 if it is any. Raises ValueError."""
-    found = []
+    """Return name, size and meaning of each value in an array, those of `begins` first; size 0 stands for any.
+
+    Raises ValueError.
+    """
+    begins = data[family].get("begins")
+    found = [] if begins is None else entries(begins, kind, data)
     for name, entry in data[family].get(kind, {}).items():
         where, size, meaning = f"{family}.{kind}.{name}", 1, entry
+        if any(name == other for other, _, _ in found):
+            raise ValueError(f"{where}: '{begins}' has a value of this name")
         if found and not found[-1][1]:
             raise ValueError(f"{where}: '{found[-1][0]}' before it has any size")
         if not isinstance(entry, str):

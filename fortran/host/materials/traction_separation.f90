@@ -20,10 +20,14 @@
 module host_traction_separation
   use core_root, only: advance, root_search, search_between, searching
   use host_kinds, only: dp, i4
+  use host_layout, only: j_traction_separation_criterion, j_traction_separation_evolution, j_traction_separation_mixed_mode, &
+                         j_traction_separation_softening, p_traction_separation_evolution, p_traction_separation_max_degradation, &
+                         p_traction_separation_modulus, p_traction_separation_onset, p_traction_separation_power, &
+                         p_traction_separation_table, p_traction_separation_viscosity
   implicit none (type, external)
   private
   public :: cohesive_law, cohesive_point, read_law, update_point
-  public :: fine, too_brittle, n_law_reals, n_law_integers
+  public :: fine, too_brittle
 
   integer(i4), parameter :: maxs = 1, quads = 2, maxe = 3, quade = 4       !< CRITERION=
   integer(i4), parameter :: by_displacement = 1, by_energy = 2             !< TYPE= of *DAMAGE EVOLUTION
@@ -32,8 +36,6 @@ module host_traction_separation
 
   integer, parameter :: fine = 0
   integer, parameter :: too_brittle = 1   !< the fracture energy is below the elastic energy at the onset
-
-  integer, parameter :: n_law_reals = 12, n_law_integers = 4
 
   type :: cohesive_law
     real(dp) :: modulus(3) = 0       !< Enn, Ess, Ett, stress
@@ -79,15 +81,25 @@ module host_traction_separation
 
 contains
 
-  !> The law of the properties of a block, in the order of `cohesive_properties` in harness/uel/elements/families/cohesive.py.
+  !> The law of the properties of a block or of a pair of surfaces: values as traction_separation in built_in.toml.
   pure function read_law(reals, integers) result(law)
-    real(dp), intent(in) :: reals(:)            !< a table of damage goes on behind n_law_reals
-    integer(i4), intent(in) :: integers(n_law_integers)
+    real(dp), intent(in) :: reals(:)
+    integer(i4), intent(in) :: integers(:)
     type(cohesive_law) :: law
-    law = cohesive_law(reals(1:3), reals(4:6), reals(7:9), reals(10), reals(11), reals(12), &
-                       integers(1), integers(2), integers(3), integers(4))
+    law%modulus = reals(p_traction_separation_modulus)
+    law%onset = reals(p_traction_separation_onset)
+    law%evolution = reals(p_traction_separation_evolution)
+    law%power = reals(p_traction_separation_power)
+    law%viscosity = reals(p_traction_separation_viscosity)
+    law%most = reals(p_traction_separation_max_degradation)
+    law%criterion = integers(j_traction_separation_criterion)
+    law%type = integers(j_traction_separation_evolution)
+    law%softening = integers(j_traction_separation_softening)
+    law%mixed = integers(j_traction_separation_mixed_mode)
     if (law%softening == tabular) then
-      law%table = reshape(reals(n_law_reals + 1:), [2, (size(reals) - n_law_reals)/2])
+      associate (table => reals(p_traction_separation_table:))
+        law%table = reshape(table, [2, size(table)/2])
+      end associate
     end if
   end function read_law
 

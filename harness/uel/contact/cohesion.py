@@ -60,7 +60,7 @@ class Bonds:
         moduli, damage = directions(cohesion.stiffness, pair.dimension), cohesion.damage
         viscosity = damage.viscosity if damage else 0.0
         reals, integers = law_properties(moduli, damage, pair.dimension, 1.0, (viscosity, 1.0))
-        self._law, self._shear = (np.array(reals), np.array(integers, dtype=np.int32)), moduli[1]
+        self._law, self._shear = (reals, integers.astype(np.int32)), moduli[1]
         m = len(bonded)
         self.slip = self._slip_trial = np.zeros((m, components))
         self._state = self._state_trial = np.zeros((m, _points.POINT_REALS))

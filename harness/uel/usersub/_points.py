@@ -135,7 +135,7 @@ def traction_separation(
     Parameters
     ----------
     law
-        Data of the law, in the order of `read_law` in fortran/host/materials/traction_separation.f90.
+        Reals and integers of the law: traction_separation in fortran/built_in.toml.
     time
         Length of the increment.
     separations

@@ -2,23 +2,23 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Built-in springs, dashpots, masses and loads that follow their faces. JTYPE:
 !>
-!> 2  SPRINGA: PROPS hold force and elongation in turn, ascending; SVARS elongation, force.
-!> 3  SPRING1, SPRING2: the same between the first unknown and the second, or the ground; SVARS as SPRINGA.
+!> 2  SPRINGA: SVARS hold elongation, force.
+!> 3  SPRING1, SPRING2: the same between the first unknown and the second, or the ground.
 !> 4  MASS.
 !> 5  load on a face of an element. The loads of the call are their magnitudes, with NLGEOM on the present face; ENERGY(8) is their
 !>    work. Column 2 of RHS is the force of their increments.
-!> 6  DASHPOTA, 7  DASHPOT1 and DASHPOT2: as springs, but with the rate of the elongation in place of the elongation in PROPS. In
-!>    static steps it is the increment of the elongation over that of the time, in linear ones there is none; then the damping
-!>    matrix that LFLAGS(7) asks for is the slope at rest.
+!> 6  DASHPOTA, 7  DASHPOT1 and DASHPOT2: as springs, but the force depends on the rate of the elongation. In static steps it is the
+!>    increment of the elongation over that of the time, in linear ones there is none; then the damping matrix that LFLAGS(7) asks
+!>    for is the slope at rest.
 !>
-!> Values of PROPS and JPROPS of masses and faces: built_in.toml. In dynamic analyses SVARS go on with the forces of the last two
-!> increments, those of loads on faces always.
+!> Values of PROPS and JPROPS: spring (also of dashpots), mass and face in built_in.toml. In dynamic analyses SVARS go on with the
+!> forces of the last two increments, those of loads on faces always.
 module host_discrete
   use host_adapter, only: element_t, keep_forces
   use host_bar, only: bar_forces, bar_of, bar_t
   use host_kinds, only: dp, i4
   use host_layout, only: j_face_axisymmetric, j_face_family, j_face_outward, j_face_points, j_face_traction, p_face_depth, &
-                         p_face_direction, p_mass_value
+                         p_face_direction, p_mass_value, p_spring_table
   use host_messages, only: add_message
   use host_followers, only: add_pressure, add_traction
   use host_protect, only: escape
@@ -52,11 +52,11 @@ contains
       select case (element%jtype)
       case (axial_spring)
         bar = bar_of(element%mcrd, element%finite, element%coords, u)
-        call look_up(element%props, bar%elongation, pull, slope)
+        call look_up(element%props(p_spring_table:), bar%elongation, pull, slope)
         call keep_state(bar%elongation, pull, svars, energy(2))
         call bar_forces(element%mcrd, bar, element%request, pull, slope, element%added, element%rhs, element%amatrx)
       case (spring)
-        call look_up(element%props, difference(n, u), pull, slope)
+        call look_up(element%props(p_spring_table:), difference(n, u), pull, slope)
         call keep_state(difference(n, u), pull, svars, energy(2))
         call dof_forces(n, pull, slope, element%rhs, element%amatrx)
       case (axial_dashpot, dashpot)
@@ -81,11 +81,11 @@ contains
     associate (n => element%n, dim => element%mcrd, energy => element%energy)
       if (element%jtype == axial_dashpot) then
         bar = bar_of(dim, element%finite, element%coords, element%u)
-        call look_up(element%props, dot_product(bar%along(:dim), rates(dim + 1:) - rates(:dim)), pull, slope)
+        call look_up(element%props(p_spring_table:), dot_product(bar%along(:dim), rates(dim + 1:) - rates(:dim)), pull, slope)
         call keep_state(bar%elongation, pull, element%svars, energy(5))
         call bar_forces(dim, bar, element%request, pull, slope*by_change, element%added, element%rhs, element%amatrx)
       else
-        call look_up(element%props, difference(n, rates), pull, slope)
+        call look_up(element%props(p_spring_table:), difference(n, rates), pull, slope)
         call keep_state(difference(n, element%u), pull, element%svars, energy(5))
         call dof_forces(n, pull, slope*by_change, element%rhs, element%amatrx)
       end if
@@ -150,25 +150,25 @@ contains
     if (.not. element%finite) stiffness = 0
   end subroutine load_face
 
-  !> Force and its derivative by the elongation, or the rate: proportional where PROPS is one number, else along the table of force
-  !> and elongation, constant outside it.
-  pure subroutine look_up(props, elongation, pull, slope)
-    real(dp), intent(in) :: props(:), elongation
+  !> Force and its derivative by the elongation, or the rate: proportional where the table is one number, else along the table of
+  !> force and elongation, constant outside it.
+  pure subroutine look_up(table, elongation, pull, slope)
+    real(dp), intent(in) :: table(:), elongation
     real(dp), intent(out) :: pull, slope
     integer :: k, n
-    n = size(props)
+    n = size(table)
     slope = 0
     if (n == 1) then
-      slope = props(1)
+      slope = table(1)
       pull = slope*elongation
-    else if (elongation <= props(2)) then
-      pull = props(1)
+    else if (elongation <= table(2)) then
+      pull = table(1)
     else
-      pull = props(n - 1)
+      pull = table(n - 1)
       do k = 2, n - 2, 2
-        if (elongation > props(k + 2)) cycle
-        slope = (props(k + 1) - props(k - 1))/(props(k + 2) - props(k))
-        pull = props(k - 1) + slope*(elongation - props(k))
+        if (elongation > table(k + 2)) cycle
+        slope = (table(k + 1) - table(k - 1))/(table(k + 2) - table(k))
+        pull = table(k - 1) + slope*(elongation - table(k))
         exit
       end do
     end if

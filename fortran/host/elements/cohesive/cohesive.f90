@@ -18,7 +18,7 @@
 !> An element is deleted at the end of the increment in which the damage of all its points has reached MAX DEGRADATION with
 !> none of them in compression (Analysis User's Guide, Maximum degradation and choice of element removal).
 !>
-!> Values of PROPS and JPROPS: built_in.toml. SVARS hold for each point, with a component for each dimension:
+!> Values of PROPS and JPROPS: cohesive in built_in.toml. SVARS hold for each point, with a component for each dimension:
 !> position, separation, traction, damage, energies dissipated by damage, by viscosity, damage without viscosity, strain,
 !> initiation criterion, status; in dynamic analyses then the forces of the last two increments.
 module host_cohesive

@@ -3,15 +3,16 @@
 !> Built-in coupled temperature-displacement elements (CPE4T, CAX4T, C3D8T, ...): a continuum element (host_solid), and heat
 !> conduction with temperatures at its corners.
 !>
-!> The unknowns are the displacements of all nodes, then the temperatures of the corners. JPROPS go on with the family of the
-!> temperatures and their integration points; SVARS with the heat flux of each of these, then the energies of UMATHT. The two
-!> parts interact through thermal expansion, the heat terms of UMAT and HETVAL (host_coupling) and the change of shape, which the
-!> tangent leaves out. The heat is that of host_conduction.
+!> The unknowns are the displacements of all nodes, then the temperatures of the corners. Values of PROPS and JPROPS: coupled in
+!> built_in.toml. SVARS go on with the heat flux of each integration point of the heat, then the energies of UMATHT. The two parts
+!> interact through thermal expansion, the heat terms of UMAT and HETVAL (host_coupling) and the change of shape, which the tangent
+!> leaves out. The heat is that of host_conduction.
 module host_coupled
   use host_adapter, only: element_t
   use host_conduction, only: body_t, conduct, is_steady
   use host_coupling, only: coupling_t
   use host_kinds, only: dp
+  use host_layout, only: j_coupled_heat_family, j_coupled_heat_points, j_solid_family
   use host_shape, only: rule_of
   use host_solid, only: add_solid, describe
   use host_solid_element, only: begins, solid_t
@@ -30,8 +31,8 @@ contains
     integer :: last
     call describe(this, element)
     associate (jprops => element%jprops, n => this%n)
-      coupling%geometry => rule_of(int(jprops(1)), int(jprops(8)))
-      coupling%field => rule_of(int(jprops(9)), int(jprops(8)))
+      coupling%geometry => rule_of(int(jprops(j_solid_family)), int(jprops(j_coupled_heat_points)))
+      coupling%field => rule_of(int(jprops(j_coupled_heat_family)), int(jprops(j_coupled_heat_points)))
       coupling%temperature => element%u(n + 1:)
       coupling%increment => element%du(n + 1:)
       coupling%heat => element%rhs(n + 1:, 1)

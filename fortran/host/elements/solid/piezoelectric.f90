@@ -8,14 +8,14 @@
 !> *PIEZOELECTRIC, d *DIELECTRIC). The forces of the potentials are minus charges: so the matrix is symmetric, as Abaqus
 !> has it.
 !>
-!> PROPS go on with b, for each direction of the field its components as SVARS have them, then d by rows. SVARS hold for each
-!> point E11 ... and S11 ... of host_solid, then the gradient of the potential and the electrical displacement, all in the
-!> directions of *ORIENTATION where the section has one.
+!> Values of PROPS and JPROPS: piezoelectric in built_in.toml. SVARS hold for each point E11 ... and S11 ... of host_solid, then
+!> the gradient of the potential and the electrical displacement, all in the directions of *ORIENTATION where the section has one.
 module host_piezoelectric
   use host_adapter, only: element_t
   use host_kinds, only: dp
   use host_kinematics, only: components, rotated
-  use host_solid, only: add_solid, describe, kinematics_of, of_solid
+  use host_layout, only: j_solid_points, p_piezoelectric_constants
+  use host_solid, only: add_solid, describe, kinematics_of
   use host_solid_element, only: solid_t, values_of_point
   use host_solid_extras, only: extras_t
   use host_solid_kinematics, only: kinematics_t
@@ -27,7 +27,7 @@ contains
 
   subroutine piezoelectric(element)
     type(element_t), intent(inout) :: element
-    real(dp), target :: state(values_of_point(element%mcrd)*element%jprops(2))
+    real(dp), target :: state(values_of_point(element%mcrd)*element%jprops(j_solid_points))
     type(solid_t) :: this
     type(extras_t) :: extras
     call describe(this, element)
@@ -36,8 +36,8 @@ contains
     this%state(1:values_of_point(this%dim), 1:this%rule%points) => state
     call add_solid(this, extras, element, size(state))
     if (.not. element%has_forces) return
-    call add_electricity(this, kinematics_of(this), element%props(of_solid + 1:), element%u(this%n + 1:), element%rhs(:, 1), &
-                         element%amatrx, element%svars, element%energy(7))
+    call add_electricity(this, kinematics_of(this), element%props(p_piezoelectric_constants:), element%u(this%n + 1:), &
+                         element%rhs(:, 1), element%amatrx, element%svars, element%energy(7))
   end subroutine piezoelectric
 
   !> What the potentials add to the forces, the matrix and the stresses; the state that is kept, and the electrical energy.

@@ -5,21 +5,17 @@
 !> An element is composed of kinematics (host_solid_kinematics), the update of its points (host_solid_point) and additions
 !> (host_solid_extras), in the loop of host_solid_integration.
 !>
-!> JPROPS: family of the element (host_shape), integration points, direct strains (host_kinematics), enhanced hourglass
-!> control, integration points of the mass. CPE4, CAX4 and C3D8 replace the volume strain of the points by its mean over the
-!> element, as Abaqus does. CPS4R, CPE4R, CAX4R and C3D8R have the uniform strain and hourglass control (host_hourglass):
-!> enhanced where JPROPS(4) is not zero, else with the stiffness parameter PROPS(3). JPROPS(4) is 1 if the material knows its
-!> moduli, 2 if they are those of its first tangent. JPROPS(6) is the number of incompatible modes (host_incompatible), JPROPS(7)
-!> that of the functions of the pressure of hybrid elements (host_hybrid): if the element has more unknowns than its nodes have
-!> displacements, the others are its pressure. PROPS(1) is the thickness, of axisymmetric elements the angle 2 pi; PROPS(2) is
-!> the density.
+!> Values of PROPS and JPROPS: solid, composite and generalised in built_in.toml.
+!>
+!> CPE4, CAX4 and C3D8 replace the volume strain of the points by its mean over the element, as Abaqus does. CPS4R, CPE4R, CAX4R
+!> and C3D8R have the uniform strain and hourglass control (host_hourglass), enhanced or with the hourglass stiffness parameter. If
+!> the element has more unknowns than its nodes have displacements, the others are its pressure (host_hybrid).
 !>
 !> Large displacements: Cauchy stress, rotated and updated increment by increment with the strain and the rotation at the middle of
 !> the increment (Jaumann rate; Hughes and Winget). The tangent leaves out the change of the volume and of the middle of the
 !> increment. Incompatible modes are part of the deformation gradient (host_incompatible).
 !>
 !> Generalised plane strain (host_planes): behind the displacements of the nodes come the three unknowns of the reference node.
-!> PROPS(4) and PROPS(5) are its place, PROPS(1) is the length of its fibre before any displacement.
 !>
 !> Hyperelastic materials take their stress from the deformation gradient, divided by the stretch of *EXPANSION, the same in all
 !> directions (Analysis User's Guide, Hyperelastic behavior of rubberlike materials). Forces are derivatives of the energy, the
@@ -27,8 +23,7 @@
 !>
 !> The matrix of a stress (host_context) is what the tangent in large displacements has of it, also where displacements are small.
 !>
-!> With layers JPROPS(1) is a family with the points of all layers (host_shape), and material, NPT, LAYER and KSPT of each point
-!> follow; MATERIALLIB is the material of the first layer. Then all materials are in the directions of the points.
+!> With layers MATERIALLIB is the material of the first layer. Then all materials are in the directions of the points.
 !>
 !> The last of the predefined fields is the initial temperature; thermal strain is that of *EXPANSION since then.
 !>
@@ -45,6 +40,9 @@ module host_solid
   use host_inertia, only: mass_matrix
   use host_kinds, only: dp
   use host_kinematics, only: components
+  use host_layout, only: j_composite_layers, j_solid_direct, j_solid_enhanced, j_solid_family, j_solid_mass_points, &
+                         j_solid_modes, j_solid_points, j_solid_pressures, p_generalised_origin, p_solid_density, p_solid_depth, &
+                         p_solid_hourglass
   use host_materials, only: needs_deformation
   use host_mean_dilatation, only: mean_dilatation_t
   use host_planes, only: between_planes_t, planes
@@ -57,10 +55,9 @@ module host_solid
   use host_uniform_kinematics, only: uniform_t
   implicit none (type, external)
   private
-  public :: add_solid, describe, generalised, kinematics_of, of_solid, solid
+  public :: add_solid, describe, generalised, kinematics_of, solid
 
-  integer, parameter :: head = 7      !< values of JPROPS before those of layers
-  integer, parameter :: of_solid = 3  !< values of PROPS before those of other elements
+  integer, parameter :: of_first_tangent = 2   !< enhanced hourglass control with moduli of the first tangent
 
   ! kinematics of the elements of this thread, one after the other
   type(standard_t), target, save :: standard
@@ -78,7 +75,9 @@ contains
     type(extras_t) :: extras
     call describe(this, element)
     this%hybrid = element%n > this%n
-    if (size(element%jprops) > head) this%layers(1:4, 1:this%rule%points) => element%jprops(head + 1:)
+    if (size(element%jprops) >= j_composite_layers) then
+      this%layers(1:4, 1:this%rule%points) => element%jprops(j_composite_layers:)
+    end if
     call add_solid(this, extras, element, size(element%svars))
   end subroutine solid
 
@@ -96,15 +95,15 @@ contains
   subroutine describe(this, element)
     type(solid_t), intent(inout) :: this
     type(element_t), intent(in) :: element
-    this%rule => rule_of(int(element%jprops(1)), int(element%jprops(2)))
+    this%rule => rule_of(int(element%jprops(j_solid_family)), int(element%jprops(j_solid_points)))
     this%material => element%material
     this%dim = this%rule%dim
     this%nodes = this%rule%nodes
     this%n = this%dim*this%nodes
-    this%direct = element%jprops(3)
+    this%direct = element%jprops(j_solid_direct)
     this%flat = this%direct
     call set_strains(this, this%direct + 2*this%dim - 3)
-    this%depth = merge(element%props(1), 1.0_dp, this%dim == 2)
+    this%depth = merge(element%props(p_solid_depth), 1.0_dp, this%dim == 2)
     this%finite = element%finite
     this%request = element%request
     this%x => element%coords
@@ -124,9 +123,9 @@ contains
     integer, intent(in) :: last                !< of SVARS that are described above
     class(kinematics_t), pointer :: kinematics
     integer :: behind, modes
-    modes = element%jprops(6)
+    modes = element%jprops(j_solid_modes)
     behind = last - modes + 1
-    if (element%jprops(4) == 2) then
+    if (element%jprops(j_solid_enhanced) == of_first_tangent) then
       behind = behind - 2
       extras%hourglass%moduli => element%svars(behind:behind + 1)
     end if
@@ -137,9 +136,9 @@ contains
     call keep_forces(element, size(this%state) + 1, behind)
     if (element%has_mass) call add_mass(this, element)
     if (.not. element%has_forces) return
-    extras%hourglass%parameter = element%props(of_solid)
-    extras%hourglass%enhanced = element%jprops(4) /= 0
-    call set_pressure(this, int(element%jprops(7)))
+    extras%hourglass%parameter = element%props(p_solid_hourglass)
+    extras%hourglass%enhanced = element%jprops(j_solid_enhanced) /= 0
+    call set_pressure(this, int(element%jprops(j_solid_pressures)))
     kinematics => kinematics_of(this)
     if (modes > 0) then
       call integrate_with_modes(this, enhanced, element%svars(last - modes + 1:last), element%rhs, element%amatrx, element%energy)
@@ -155,8 +154,8 @@ contains
     type(solid_t), intent(in) :: this
     type(element_t), intent(inout) :: element
     real(dp) :: mass(this%n, this%n)
-    call mass_matrix(rule_of(int(element%jprops(1)), int(element%jprops(5))), this%flat > this%dim, element%props(2)*this%depth, &
-                     this%x, mass)
+    call mass_matrix(rule_of(int(element%jprops(j_solid_family)), int(element%jprops(j_solid_mass_points))), &
+                     this%flat > this%dim, element%props(p_solid_density)*this%depth, this%x, mass)
     element%mass(:this%n, :this%n) = mass
   end subroutine add_mass
 
@@ -185,8 +184,8 @@ contains
     this%direct = 3
     this%flat = 2
     call set_strains(this, 4)
-    between%bounds%origin = element%props(of_solid + 1:)
-    between%bounds%length = element%props(1)
+    between%bounds%origin = element%props(p_generalised_origin)
+    between%bounds%length = element%props(p_solid_depth)
     between%bounds%w = element%u(this%n + 1:)
     between%bounds%dw = element%du(this%n + 1:)
     between%others = planes

@@ -38,7 +38,7 @@ def cohesive_routine(model: Model, group: ElementGroup, section: CohesiveSection
         address=_binding.address_of("cohesive"),
         jtype=kind.nodes,
         mcrd=kind.dimension,
-        svars=kind.face.nodes * (5 * kind.dimension + 5) + hidden,
+        svars=kind.face.nodes * len(cohesive_variables(section, kind).names) + hidden,
         hidden=hidden,
         massive=bool(section.material.density),
         props=reals,
@@ -91,12 +91,10 @@ def cohesive_properties(section: CohesiveSection, kind: CohesiveType) -> tuple[F
 
 def law_properties(
     moduli: Triple, damage: Damage | None, dimension: int, thickness: float, limits: tuple[float, float]
-) -> tuple[list[float], list[int]]:
-    """Encode a traction-separation law for `read_law` in fortran/host/materials/traction_separation.f90.
+) -> tuple[FloatArray, IntArray]:
+    """Return PROPS and JPROPS of a traction-separation law (traction_separation in fortran/built_in.toml).
 
-    Reals: Enn, Ess, Ett, onset (3), evolution (3), exponent, viscosity, largest damage; with SOFTENING=TABULAR then
-    pairs of displacement and damage. Integers: criterion, evolution, softening and mixed mode behaviour, each as its
-    place in a table.
+    The integers are the cases of fortran/host/materials/traction_separation.f90.
 
     Parameters
     ----------
@@ -117,24 +115,43 @@ def law_properties(
         Values are not positive, or a fracture energy is too small.
     """
     onset, values, power = (1.0,) * 3, (1.0,) * 3, 1.0
-    codes = [0, 0, 0, 0]
+    criterion = evolution_type = softening = mixed_mode = 0
     table: tuple[float, ...] = ()
     if damage is not None:
         onset = directions(damage.onset, dimension)
         if min(onset) <= 0:
             raise DeckError(damage.source, f"*DAMAGE INITIATION: onset values must be positive, found {min(onset):g}")
-        codes[0] = _CRITERIA[damage.criterion]
+        criterion = _CRITERIA[damage.criterion]
         evolution = damage.evolution
         if evolution is not None:
             values, power = _evolution_values(evolution, dimension), evolution.power
-            codes[1] = _EVOLUTIONS.index(evolution.type)
-            codes[2] = _SOFTENINGS.index(evolution.softening)
-            codes[3] = _MIXED_MODES.index(evolution.mixed_mode)
+            evolution_type = _EVOLUTIONS.index(evolution.type)
+            softening = _SOFTENINGS.index(evolution.softening)
+            mixed_mode = _MIXED_MODES.index(evolution.mixed_mode)
             if evolution.softening == "TABULAR":
                 table = evolution.values
             if evolution.type == "ENERGY" and thickness > 0:
                 _check_toughness(damage, evolution, moduli, onset, values, thickness, dimension)
-    return [*moduli, *onset, *values, power, *limits, *table], codes
+    viscosity, max_degradation = limits
+    return (
+        built_in.reals(
+            "traction_separation",
+            modulus=moduli,
+            onset=onset,
+            evolution=values,
+            power=power,
+            viscosity=viscosity,
+            max_degradation=max_degradation,
+            table=table,
+        ),
+        built_in.integers(
+            "traction_separation",
+            criterion=criterion,
+            evolution=evolution_type,
+            softening=softening,
+            mixed_mode=mixed_mode,
+        ),
+    )
 
 
 def directions(values: tuple[float, ...], dimension: int) -> Triple:

@@ -44,7 +44,7 @@ from uel.model.mesh import ElementGroup
 from uel.model.model import Model
 from uel.model.properties import CompositeSection, Orientation, SolidLayer, materials_of
 from uel.model.records import PointVariables
-from uel.usersub import Library, _binding
+from uel.usersub import Library, _binding, built_in
 
 ALONG: Final = 1e-6
 """Length below which the projection of a unit vector on a layer has no direction."""
@@ -113,9 +113,7 @@ def composite_routine(
     orientation = section.layers[0].orientation or Orientation("", np.eye(3), section.source)
     axes = PointAxes(of_points + forces, count, False, orientation)
     hidden = forces + VALUES_OF_AXES * count + kind.modes + (2 if enhanced else 0)
-    control = OF_FIRST_TANGENT if enhanced else 0
-    heads = [family, count, kind.direct, control, kind.mass_points, kind.modes, 0]
-    of_layers = np.column_stack([np.array(numbers)[points.number[:, 1] - 1], points.number]).ravel()
+    layers = np.column_stack([np.array(numbers)[points.number[:, 1] - 1], points.number])
     known = all(linearity(material) is Linearity.KNOWN for material in materials)
     return Routine(
         address=_binding.address_of("solid"),
@@ -123,9 +121,21 @@ def composite_routine(
         mcrd=kind.dimension,
         svars=of_points + hidden,
         hidden=hidden,
-        density=1,
-        props=np.array([section_depth(kind, section), materials[0].density, hourglass]),
-        jprops=np.array([*heads, *of_layers]),
+        density=built_in.position("composite", "density"),
+        props=built_in.reals(
+            "composite", depth=section_depth(kind, section), density=materials[0].density, hourglass=hourglass
+        ),
+        jprops=built_in.integers(
+            "composite",
+            family=family,
+            points=count,
+            direct=kind.direct,
+            enhanced=OF_FIRST_TANGENT if enhanced else 0,
+            mass_points=kind.mass_points,
+            modes=kind.modes,
+            pressures=0,
+            layers=layers,
+        ),
         family=family,
         material=numbers[0],
         tensor=int(kind.tensor),
@@ -144,10 +154,8 @@ def composite_routine(
 def composite_variables(kind: ContinuumType, section: CompositeSection, routine: Routine) -> PointVariables:
     """Describe the state variables of a group of bricks with layers."""
     names = tuple(f"{letter}{component}" for letter in "ES" for component in kind.components)
-    points = routine.jprops[1]
-    return PointVariables(
-        "continuum", (*names, *numbered("SDV", routine.statev)), int(points), sections=section.sections
-    )
+    points = int(routine.jprops[built_in.position("composite", "points", "jprops")])
+    return PointVariables("continuum", (*names, *numbered("SDV", routine.statev)), points, sections=section.sections)
 
 
 def layer_axes(

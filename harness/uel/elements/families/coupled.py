@@ -52,7 +52,9 @@ def coupled_block(building: Building, group: ElementGroup) -> ElementBlock:
         address=_binding.address_of("coupled"),
         svars=solid.svars + hidden,
         hidden=solid.hidden + hidden,
-        jprops=np.concatenate([solid.jprops, [kind.thermal_points, kind.family.linear.number]]),
+        jprops=built_in.integers(
+            "coupled", solid.jprops, heat_points=kind.thermal_points, heat_family=kind.family.linear.number
+        ),
         initial_temperatures=_initial_temperatures(model) if material.expansion is not None else None,
     )
     # Abaqus stores the matrix of coupled steps as unsymmetric, UNSYMM or not (Analysis User's Guide, Fully coupled

@@ -58,14 +58,17 @@ def discrete_routine(model: Model, group: ElementGroup, unknowns: int, library: 
         return _truss_routine(group, unknowns, hidden, library)
     section = group.section
     assert isinstance(section, MassSection | RigidSection | SpringSection)
-    mass = section.mass if isinstance(section, MassSection) else 0.0
+    if isinstance(section, SpringSection):
+        props = built_in.reals("spring", table=section.table)
+    else:
+        props = built_in.reals("mass", value=section.mass if isinstance(section, MassSection) else 0.0)
     return Routine(
         address=_binding.address_of("discrete"),
         jtype=kind,
         mcrd=unknowns // 2 if kind in _AXIAL else 3,
         svars=_STATES + hidden,
         hidden=hidden,
-        props=section.table if isinstance(section, SpringSection) else built_in.reals("mass", value=mass),
+        props=props,
         turns=kind is DiscreteKind.AXIAL_SPRING,
         jprops=np.zeros(0, dtype=np.int64),
         forceless=isinstance(section, RigidSection),

@@ -18,7 +18,7 @@ from uel.model.element_types import ContinuumType, Tensor
 from uel.model.mesh import ElementGroup
 from uel.model.properties import Material, SolidSection
 from uel.model.records import PointVariables
-from uel.usersub import _binding
+from uel.usersub import _binding, built_in
 
 _PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
@@ -37,7 +37,7 @@ def piezoelectric_block(building: Building, group: ElementGroup) -> ElementBlock
         address=_binding.address_of("piezoelectric"),
         svars=kind.points * (2 * components + 2 * kind.dimension),
         hidden=0,
-        props=np.concatenate([solid.props, constants.ravel(order="F")]),
+        props=built_in.reals("piezoelectric", solid.props, constants=constants.ravel(order="F")),
         # the matrix does not store the energy: it is that of the enthalpy
         stores=False,
         stress=(),

@@ -40,14 +40,14 @@ from uel.model.properties import (
     materials_of,
 )
 from uel.model.records import PointVariables
-from uel.usersub import Library, _binding
+from uel.usersub import Library, _binding, built_in
 
 HOURGLASS_FRACTION: Final = 0.005
 """Hourglass stiffness parameter over the shear modulus (Abaqus Analysis User's Guide, Section controls)."""
 
 OF_MATERIAL: Final = 1
 OF_FIRST_TANGENT: Final = 2
-"""JPROPS(4): source of the moduli of the enhanced hourglass control."""
+"""`enhanced` of JPROPS: source of the moduli of the enhanced hourglass control."""
 
 _TOO_SOFT: Final = "; the stiffness of small strains is too soft for large ones"
 
@@ -118,12 +118,21 @@ def solid_routine(model: Model, group: ElementGroup, library: Library) -> Routin
         mcrd=kind.dimension,
         svars=of_points + hidden,
         hidden=hidden,
-        density=1,
+        density=built_in.position("solid", "density"),
         internal=kind.modes,
         massive=bool(material.density),
-        props=np.array([section_depth(kind, section), material.density, hourglass]),
-        jprops=np.array(
-            [kind.family.number, kind.points, kind.direct, enhanced, kind.mass_points, kind.modes, kind.pressures]
+        props=built_in.reals(
+            "solid", depth=section_depth(kind, section), density=material.density, hourglass=hourglass
+        ),
+        jprops=built_in.integers(
+            "solid",
+            family=kind.family.number,
+            points=kind.points,
+            direct=kind.direct,
+            enhanced=enhanced,
+            mass_points=kind.mass_points,
+            modes=kind.modes,
+            pressures=kind.pressures,
         ),
         family=kind.family.number,
         material=number,
@@ -260,7 +269,7 @@ def _check_enhanced(kind: ContinuumType, section: SolidSection) -> None:
 
 
 def _enhanced_moduli(kind: ContinuumType, section: SolidSection) -> int:
-    """Return JPROPS(4) of the element: 0 without the enhanced hourglass control, else the source of its moduli."""
+    """Return `enhanced` of JPROPS: 0 without the enhanced hourglass control, else the source of its moduli."""
     if not (kind.hourglass_control and is_enhanced(section)):
         return 0
     return OF_FIRST_TANGENT if _of_tangent(kind, section) else OF_MATERIAL

@@ -29,11 +29,11 @@ from uel.model.steps import ElementLoad, LoadKind, LoadType
 from uel.usersub import Library, _binding, built_in
 
 _TRACTIONS: Final = {LoadKind.TRACTION: 1, LoadKind.SHEAR: 2}
-"""JPROPS(5) of loads other than pressures."""
+"""`traction` of JPROPS for loads other than pressures."""
 SHELL_PRESSURE: Final = 8
 """Terms of the average force that a load normal to a shell is, over the components of its nodal forces."""
 _AT_POINTS: Final = 3
-"""JPROPS(5) of a pressure that differs from point to point, as DLOAD gives it."""
+"""`traction` of JPROPS for a pressure that differs from point to point, as DLOAD gives it."""
 
 
 class FollowerBlock(LoadBlock):
