@@ -33,7 +33,7 @@ def types_of(formulation: Formulation) -> list[str]:
 
 def mark_law(support: Support, law: Law) -> str:
     """Return how elements take a part of their material."""
-    return YES if law in support.laws else IDLE if law in support.idle else NO
+    return YES if law in support.laws else IDLE if law in support.ignored else NO
 
 
 def mark_feature(support: Support, feature: Feature) -> str:
@@ -44,7 +44,7 @@ def mark_feature(support: Support, feature: Feature) -> str:
 def mark_step(support: Support, step: Step) -> str:
     """Return how elements take a procedure."""
     large = support.supports(replace(step, nlgeom=True))
-    if support.rests and not step.procedure.displacements and support.supports(step):
+    if support.mechanical_only and not step.procedure.displacements and support.supports(step):
         return IDLE
     return NO if not support.supports(step) else YES if large else SMALL
 
@@ -107,9 +107,9 @@ def _apart() -> list[str]:
         "| one of | beside one of | expected | families |",
         "|---|---|---|---|",
     ]
-    for rule in dict.fromkeys(rule for support in FORMULATIONS.values() for rule in support.apart):
+    for rule in dict.fromkeys(rule for support in FORMULATIONS.values() for rule in support.exclusions):
         first, *others = map(_listed, rule.sets)
-        having = [each for each, support in FORMULATIONS.items() if rule in support.apart]
+        having = [each for each, support in FORMULATIONS.items() if rule in support.exclusions]
         families = "all" if len(having) > len(Formulation) / 2 else ", ".join(map(label, having))
         lines.append(f"| {_cell(first)} | {_cell(' and '.join(others))} | {_cell(rule.expected)} | {families} |")
     return lines

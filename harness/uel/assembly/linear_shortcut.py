@@ -141,7 +141,7 @@ class LinearShortcut(System):
     def _learn(self, block: ElementBlock, now: CurrentPass) -> BlockReport:
         """Run a normal pass over a block, and keep its matrices if its forces are linear."""
         call = now.call
-        report, matrices = block.evaluate_apart(call, now.u, now.du, now.columns[0])
+        report, matrices = block.evaluate_unassembled(call, now.u, now.du, now.columns[0])
         if now.data is not None:
             block.add_matrices(matrices, now.data)
         if self._matrices[block] is not None:

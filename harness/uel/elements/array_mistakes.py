@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sentences about the mistakes of a user element in its arrays."""
+"""Messages about wrong entries of the arrays of a user element."""
 
 from __future__ import annotations
 
@@ -35,26 +35,26 @@ def wrong_entry(outcome: Outcome, n: int) -> str:
 
 
 def material_point(outcome: Outcome) -> str:
-    """Begin a sentence about a user routine of a point that has ended the call; '' if none has."""
+    """Return the beginning of a message if a user routine of a point has ended the call, else ''."""
     return at_point(outcome.routine, outcome.item) if outcome.routine else ""
 
 
 def at_point(routine: str, point: int) -> str:
-    """Begin a sentence about a user routine of material points; point from 1."""
+    """Return the beginning of a message about a user routine of material points; point from 1."""
     return f"{routine} at integration point {point} "
 
 
 def distortion(outcome: Outcome, points: int) -> str:
-    """Name the fault in the current shape of a built-in element: it is inside out, or crosses the axis (at -index).
+    """Describe the distortion of a built-in element: it is inside out, or crosses the axis (at -index).
 
-    points: of its stress; an element of one point has its volume from more, which are not named.
+    points: points of its stress; those of the volume, if there are more, are not named.
     """
     what = "turns inside out" if outcome.item > 0 else "crosses the axis"
     return f"{what} at its integration point {abs(outcome.item)}" if abs(outcome.item) <= points else what
 
 
 def write_outside(outcome: Outcome, n: int, nrhs: int, sizes: Mapping[str, str]) -> str:
-    """Describe a write outside an array; sizes: those that do not follow from n, the number of unknowns, and NRHS."""
+    """Describe a write outside an array; sizes: of arrays whose size does not follow from n unknowns and NRHS."""
     columns = str(n) if nrhs == 1 else f"{n * nrhs} ({n} x NRHS = {nrhs})"
     known = {"RHS": columns, "DU": columns, "ENERGY": "8", "AMATRX": f"{n * n} ({n} x {n})", **sizes}
     unknown = "" if outcome.position >= 0 else "; the element is unknown, because a repeated pass did not do it"

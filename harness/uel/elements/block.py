@@ -38,15 +38,14 @@ _AT_REST = Motion(np.zeros(1), np.zeros(1))
 class ElementBlock(Contributor):
     """Elements of one group: their committed and trial state, and one pass over them.
 
-    unknowns     in the order of U and RHS; REFERENCE stands for the reference node of the section
+    unknowns     (local node, dof) in the order of U and RHS; REFERENCE is the reference node of the section
     unsymmetric  False: (A + A^T)/2 is assembled
     first        position of the first element of the group in the model
-    rows         (m,) elements of the group that are here, ascending: all of them, or those of this rank
-    parallel     several threads may call its elements at the same time
+    rows         (m,) elements of the group on this rank, ascending
+    parallel     several threads may call the elements at the same time
     strict       a write outside an array is an error, otherwise a warning
     zeros        an entry of RHS or AMATRX that is not set gives a warning and is zero from then on, otherwise an error
-    variables    meaning of the state's SVARS, None if unknown; those of a point of a built-in element continue with
-                 STATEV and UVAR
+    variables    description of SVARS, None if unknown; STATEV and UVAR follow those of a point of a built-in element
     """
 
     def __init__(
@@ -102,7 +101,7 @@ class ElementBlock(Contributor):
         self._forces = np.zeros(len(FIELD_NAMES), dtype=np.int64)
         self._all_terms = np.full(n, -1.0)
         dofs = [dof for _, dof in unknowns]
-        # of each unknown the first one of the same dof, from 1
+        # number, from 1, of the first unknown of the same dof
         self._first = np.array([(dofs.index(dof) + 1) * (dof in routine.free) for dof in dofs], dtype=np.int32)
 
     @property
@@ -127,28 +126,28 @@ class ElementBlock(Contributor):
 
     @property
     def elastic(self) -> bool:
-        """Whether its elements are built in and, in small displacements, have a state linear in the displacements."""
+        """Whether, in small displacements, the state of its built-in elements is linear in the displacements."""
         return self._routine.linear
 
     @property
     def viscous_change(self) -> float:
-        """Largest change of a viscous strain rate in the increment times its length, by the last pass, or 0."""
-        place = self._routine.viscous
-        return 0.0 if place < 0 else float(self._arrays.history_trial[..., place].max(initial=0.0))
+        """Largest change of the viscous strain rate in the last pass, times the time increment, or 0."""
+        column = self._routine.viscous
+        return 0.0 if column < 0 else float(self._arrays.history_trial[..., column].max(initial=0.0))
 
     @property
     def linear(self) -> bool:
-        """Whether its elements, at rest and in small displacements, have forces that are AMATRX times U."""
+        """Whether, at rest and in small displacements, the forces of its elements are AMATRX times U."""
         return self._routine.forces is not Linearity.UNKNOWN
 
     @property
     def assumed_linear(self) -> bool:
-        """Whether `linear` rests on the user's word alone."""
+        """Whether only the user says that its elements are linear."""
         return self._routine.forces is Linearity.ASSUMED
 
     @property
     def can_wait(self) -> bool:
-        """Whether linear elements need not be called at the end of an increment whose state nobody reads."""
+        """Whether linear elements can be left out at the end of an increment whose state is not read."""
         known = self._routine.forces is Linearity.KNOWN and self._routine.stores
         return known and self._uvar is None
 
@@ -163,15 +162,15 @@ class ElementBlock(Contributor):
 
     def holds(self, elements: IntArray) -> NDArray[np.bool_]:
         """Return the mask of the elements (positions in the model) that are in this block on this rank."""
-        found = self.are_of_group(elements)
-        return found if len(self.rows) == self._size else found & np.isin(elements - self.first, self.rows)
+        mask = self.in_group(elements)
+        return mask if len(self.rows) == self._size else mask & np.isin(elements - self.first, self.rows)
 
-    def are_of_group(self, elements: IntArray) -> NDArray[np.bool_]:
+    def in_group(self, elements: IntArray) -> NDArray[np.bool_]:
         """Return the mask of the elements (positions in the model) that belong to this group, on any rank."""
-        found: NDArray[np.bool_] = (elements >= self.first) & (elements < self.first + self._size)
-        return found
+        mask: NDArray[np.bool_] = (elements >= self.first) & (elements < self.first + self._size)
+        return mask
 
-    def places_of(self, elements: IntArray) -> IntArray:
+    def rows_of(self, elements: IntArray) -> IntArray:
         """Return rows, from 0, of elements (positions in the model) that are in this block."""
         rows: IntArray = elements - self.first
         return rows if len(self.rows) == self._size else np.searchsorted(self.rows, rows)
@@ -182,12 +181,12 @@ class ElementBlock(Contributor):
         return owners
 
     def keep(self, rows: IntArray) -> None:
-        """Keep only these elements, before `number`: the others belong to other ranks.
+        """Keep only these elements, those of this rank, before `number`.
 
         Parameters
         ----------
         rows
-            Of the group, from 0, ascending.
+            Elements of the group, from 0, ascending.
         """
         self.group = self.group.take(rows)
         self.rows, self._arrays = rows, self._arrays.of(rows)
@@ -229,7 +228,7 @@ class ElementBlock(Contributor):
         strict
             A write outside an array is an error, otherwise a warning.
         coordinates
-            Other coordinates (nodes of the model, 3) than those of the model.
+            Coordinates (nodes of the model, 3) in place of those of the model.
 
         Returns
         -------
@@ -238,10 +237,10 @@ class ElementBlock(Contributor):
         """
         return [self.part(np.array([k]), coordinates, strict=strict) for k in range(len(self.group.labels))]
 
-    def part(self, places: IntArray, coordinates: FloatArray | None = None, *, strict: bool = True) -> ElementBlock:
-        """Make an unbound block of some of the elements (rows from 0), in their committed state; see `split`."""
+    def part(self, rows: IntArray, coordinates: FloatArray | None = None, *, strict: bool = True) -> ElementBlock:
+        """Return an unbound block of some of the elements (rows from 0), in their committed state; see `split`."""
         part = ElementBlock(
-            self.group.take(places),
+            self.group.take(rows),
             self._coordinates if coordinates is None else coordinates,
             self.unknowns,
             self._routine,
@@ -250,13 +249,13 @@ class ElementBlock(Contributor):
             variables=self.variables,
             strict=strict,
         )
-        part.first = self.first + int(self.rows[places[0]])
+        part.first = self.first + int(self.rows[rows[0]])
         for name in ("svars", "energy", "history"):
-            getattr(part._arrays, name)[:] = getattr(self._arrays, name)[places]
+            getattr(part._arrays, name)[:] = getattr(self._arrays, name)[rows]
         return part
 
     def contribute(self, now: CurrentPass) -> BlockReport:
-        """Run one pass; in a linear step without RHS of built-in elements, whose loads are added elsewhere."""
+        """Run one pass. In a linear step RHS of built-in elements is left out: their loads are added elsewhere."""
         added = now.columns if self.group.definition or not now.call.flags.linear else np.zeros_like(now.columns)
         return self.evaluate(now.call, now.u, now.du, added, now.data, now.motion)
 
@@ -317,14 +316,14 @@ class ElementBlock(Contributor):
             _NO_MATRIX if matrix is None else matrix,
         )
         if call.flags.request is not Request.RESIDUAL:
-            # that may be of half the increment, or a trial
+            # a residual alone may be that of half the increment, or of a line search
             self._last = call
             if self._uvar is not None:
                 self._uvar.move(call, u, self._arrays, self.unknowns)
             if self._routine.outputs:
                 self._end = u.copy()
         self._count_interrupted(outcome)
-        self._mistakes.judge(outcome, len(columns), call)
+        self._mistakes.check(outcome, len(columns), call)
         self._watch.pnewdt(call, outcome.pnewdt)
         energy, damage = outcome.energy, 0.0
         if self._routine.damages:
@@ -332,7 +331,7 @@ class ElementBlock(Contributor):
         return self._report(outcome, energy, damage, call)
 
     def _count_interrupted(self, outcome: Outcome) -> None:
-        """Stop using threads if passes keep being interrupted: each time costs a part of a pass."""
+        """Stop using threads after several interrupted passes in a row, each of which repeats work."""
         self._interrupted = self._interrupted + 1 if outcome.alone else 0
         if self._interrupted == MOST_INTERRUPTED:
             self.parallel = False
@@ -342,23 +341,21 @@ class ElementBlock(Contributor):
                 "one thread has to repeat"
             )
 
-    def evaluate_apart(
+    def evaluate_unassembled(
         self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray
     ) -> tuple[BlockReport, FloatArray]:
-        """Run `evaluate`, but return AMATRX of each element, (m, unknowns, unknowns), columns first,
-        and not their sum.
-        """
+        """Run `evaluate`, but return AMATRX unassembled: (m, unknowns, unknowns), columns first."""
         assembled = self._arrays
         matrices = np.zeros(assembled.map.shape)
-        one_by_one = np.arange(1, matrices.size + 1, dtype=np.int32).reshape(matrices.shape)
-        self._arrays = replace(assembled, map=one_by_one)
+        unassembled = np.arange(1, matrices.size + 1, dtype=np.int32).reshape(matrices.shape)
+        self._arrays = replace(assembled, map=unassembled)
         try:
             return self.evaluate(call, u, du, residual, matrices.reshape(-1)), matrices
         finally:
             self._arrays = assembled
 
     def add_matrices(self, matrices: FloatArray, data: FloatArray) -> None:
-        """Add matrices of the elements, as `evaluate_apart` returns them, to the CSR values (nnz,) of the system."""
+        """Add element matrices, as `evaluate_unassembled` returns them, to the CSR values (nnz,) of the system."""
         if len(matrices):
             _binding.add_matrices(matrices, self._arrays.map, data)
 
@@ -368,9 +365,9 @@ class ElementBlock(Contributor):
         Parameters
         ----------
         matrices
-            Of the elements, as `evaluate_apart` returns them.
+            Of the elements, as `evaluate_unassembled` returns them.
         call
-            Of which only the floor of the flux counts.
+            Only its `flux_floor` is used.
         u
             (n,) all unknowns of the system.
         residual
@@ -379,7 +376,7 @@ class ElementBlock(Contributor):
         Returns
         -------
         BlockReport
-            As of `evaluate`, without PNEWDT; ENERGY(2) if the elements have no other, and none if they have.
+            As from `evaluate`, without PNEWDT; ENERGY(2) if it is the only energy of the elements, otherwise none.
         """
         if not len(self.group.labels):
             return NOTHING
@@ -390,12 +387,12 @@ class ElementBlock(Contributor):
         return self._report(outcome, energy, 0.0, call)
 
     def _report(self, outcome: Outcome, energy: FloatArray, damage: float, call: Call) -> BlockReport:
-        # forces of inertia, which RHS has too, are terms of their own
+        # inertia forces, which are in RHS too, are terms of their own
         own = 2 * self._forces if self._routine.massive and call.flags.dynamic else self._forces
         return BlockReport.of(outcome, own, energy, damage)
 
     def _floor(self, call: Call) -> FloatArray:
-        """Return, by unknown, the force above which an entry of RHS counts in the average flux."""
+        """Return, for each unknown, the force above which an entry of RHS is a term of the average flux."""
         return self._all_terms if call.flux_floor is None else call.flux_floor[self._unknown_fields.of - 1]
 
     def _loads(self, distributed: Distributed | None) -> LoadArrays:
@@ -403,7 +400,7 @@ class ElementBlock(Contributor):
         if distributed is None:
             return NO_LOADS
         mine = self.holds(distributed.elements)
-        return loads_of(distributed, mine, self.places_of(distributed.elements[mine]), len(self.group.labels))
+        return loads_of(distributed, mine, self.rows_of(distributed.elements[mine]), len(self.group.labels))
 
     def stress_matrix(self, call: Call, u: FloatArray, added: FloatArray, matrix: FloatArray) -> None:
         """Add the initial stress matrix into matrix, if the elements have one.
@@ -431,26 +428,26 @@ class ElementBlock(Contributor):
         Parameters
         ----------
         call
-            Of the step; its request is replaced.
+            Arguments of the step; its request is replaced.
         unknowns
             Number of unknowns of the system.
         matrix
             (nnz,) CSR values of the system, changed in place: mass over density, thus volumes (length^3).
         """
-        place = self._routine.density
-        if place < 0:
+        density = self._routine.density
+        if density < 0:
             return
-        given, props = self._arrays, self._arrays.props.copy()
-        props[place] = 1.0
-        self._arrays = replace(given, props=props)
+        arrays, props = self._arrays, self._arrays.props.copy()
+        props[density] = 1.0
+        self._arrays = replace(arrays, props=props)
         zero = np.zeros(unknowns)
         try:
             self.evaluate(call.asking(Request.MASS), zero, zero, zero.copy(), matrix)
         finally:
-            self._arrays = given
+            self._arrays = arrays
 
     def bare_loop(self, call: Call, u: FloatArray, du: FloatArray, residual: FloatArray) -> None:
-        """Call the elements from a plain Fortran loop over the block, and do nothing else: the upper bound of speed.
+        """Call the elements in a plain Fortran loop over the block, to measure the highest possible speed.
 
         Nothing is checked, AMATRX is discarded, and loads, fields, V and A are zero. SVARS and ENERGY become the trial
         state. XIT ends the process.
@@ -468,17 +465,17 @@ class ElementBlock(Contributor):
 
     def _options(self, call: Call, *, assemble: bool) -> tuple[bool, bool, Guards, Entries, bool]:
         symmetric = not (self.unsymmetric or (call.unsymmetric and self.group.definition))
-        # in their first calls routines, and the host, set up what they keep
+        # routines and the host initialise what they save in the first calls
         parallel = self.parallel and self._last is not None and call.flags.request is not Request.OUTPUT_VARIABLES
         return symmetric, assemble, self._mistakes.guards, self._mistakes.entries, parallel
 
     def begin_stressed(self, call: Call, u: FloatArray, residual: FloatArray) -> None:
-        """Pass the stresses of `initial.set_stress` to the material; the state that follows is committed.
+        """Pass the stresses of `initial.set_stress` to the material, and commit the resulting state.
 
         Parameters
         ----------
         call
-            Of the start of the analysis; of its LFLAGS only the procedure is used.
+            Arguments at the start of the analysis; only the procedure of LFLAGS is used.
         u
             (n,) at the start of the analysis.
         residual
@@ -504,27 +501,25 @@ class ElementBlock(Contributor):
         if self._uvar is not None and self._last is not None:
             self._uvar.call(self._last, self.group, arrays)
         elif self._routine.outputs and self._last is not None:
-            still = np.zeros_like(self._end)
-            self.evaluate(self._last.asking(Request.OUTPUT_VARIABLES), self._end, still, still, None)
+            zero = np.zeros_like(self._end)
+            self.evaluate(self._last.asking(Request.OUTPUT_VARIABLES), self._end, zero, zero, None)
             arrays.history[:] = arrays.history_trial
 
     def _keep_trial(self) -> None:
-        """Make the trial state, that of the last pass that keeps one, the committed state."""
+        """Copy the trial state to the committed state."""
         arrays = self._arrays
         arrays.svars[:] = arrays.svars_trial
         arrays.energy[:] = arrays.energy_trial
         arrays.history[:] = arrays.history_trial
 
     def kept(self) -> Saved:
-        """Return the whole committed state, not copied, in the order of the elements in this block."""
+        """Return the committed state, not copied, in the order of the elements of this block."""
         arrays = self._arrays
         uvar = {} if self._uvar is None else {"uvar": self._uvar.values}
         return {"svars": arrays.svars, "energy": arrays.energy, "history": arrays.history, **uvar}
 
     def resume(self, saved: Saved) -> None:
-        """Restore the state that `kept` returned, of all elements or of some rows.
-        Raises ValueError if shapes differ.
-        """
+        """Restore the state that `kept` returned. Raises ValueError if shapes differ."""
         own = self.kept()
         if {name: np.shape(array) for name, array in own.items()} != {name: np.shape(a) for name, a in saved.items()}:
             raise ValueError(f"elements of type {self.group.type}")
@@ -533,7 +528,7 @@ class ElementBlock(Contributor):
         self._keep_committed()
 
     def _keep_committed(self) -> None:
-        """Make the committed state the trial state too."""
+        """Copy the committed state to the trial state."""
         arrays = self._arrays
         arrays.svars_trial[:], arrays.energy_trial[:] = arrays.svars, arrays.energy
         arrays.history_trial[:] = arrays.history
@@ -544,18 +539,18 @@ class ElementBlock(Contributor):
         Parameters
         ----------
         index
-            Of the group in the model.
+            Number of the group in the model, from 0.
         """
         arrays = self._arrays
         return self._state(index, self._extended(arrays.svars, arrays.history), arrays.energy)
 
     def trial(self, index: int) -> ElementState:
-        """Return the trial state, which the last call that keeps one has left, copied.
+        """Return the trial state of the last pass that stores one, copied.
 
         Parameters
         ----------
         index
-            Of the group in the model.
+            Number of the group in the model, from 0.
         """
         arrays = self._arrays
         svars = self._extended(arrays.svars_trial, arrays.history_trial)
@@ -565,7 +560,7 @@ class ElementBlock(Contributor):
         return ElementState(index, svars, energy.copy(), self.variables, self._routine.damages)
 
     def _extended(self, svars: FloatArray, history: FloatArray) -> FloatArray:
-        """Return a copy of SVARS without the hidden ones, with STATEV and UVAR after those of each point."""
+        """Return a copy of SVARS without the hidden ones; STATEV and UVAR follow those of each point."""
         svars = svars[:, : svars.shape[1] - self._routine.hidden]
         kept, points = self._routine.outputs + self._routine.statev, self._routine.history[1]
         parts = [history[:, :, history.shape[2] - kept :]] if kept else []

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Construction of blocks from the model's element groups, with the checks that need no call."""
+"""Construction of the blocks of a model, with the checks that need no call of an element."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def build_blocks(
     Raises
     ------
     DeckError
-        Names all places of groups that cannot be built.
+        Names every group that cannot be built.
     """
     building = Building(model, library, strict, zeros, linear)
     blocks: list[ElementBlock] = []
@@ -62,8 +62,8 @@ def build_blocks(
 
 
 def _too_large(group: ElementGroup) -> DeckError:
-    given = group.definition
-    source, cause = (given.source, f" (VARIABLES={given.variables})") if given else (group.source, "")
+    user = group.definition
+    source, cause = (user.source, f" (VARIABLES={user.variables})") if user else (group.source, "")
     return DeckError(source, f"not enough memory for {len(group.labels)} elements of type {group.type}{cause}")
 
 

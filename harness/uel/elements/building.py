@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Parts that builders of blocks share: their sources, and blocks whose unknowns are dofs of their nodes."""
+"""Functions and data shared by the builders of blocks."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from uel.elements.block import ElementBlock
-from uel.elements.directions import start_axes
+from uel.elements.directions import initial_axes
 from uel.elements.materials.library import has_unsymmetric_tangent
 from uel.elements.routine import Routine
 from uel.model.element_types import BuiltInType, ContinuumShellType, SurfaceType
@@ -23,7 +23,7 @@ from uel.usersub import Library
 
 @dataclass(frozen=True, slots=True)
 class Building:
-    """Sources of a block.
+    """Input of the builders of blocks.
 
     model    the whole deck
     library  the loaded user routines
@@ -49,7 +49,7 @@ def nodal_block(
     *,
     unsymmetric: bool = False,
 ) -> ElementBlock:
-    """Build a block whose unknowns are dofs of its nodes. It is unsymmetric also if the tangent of a material is."""
+    """Build a block whose unknowns are dofs of its nodes; it is unsymmetric if asked, or if a material tangent is."""
     return ElementBlock(
         group,
         building.model.mesh.coordinates,
@@ -70,6 +70,6 @@ def begin_surface_axes(
 ) -> None:
     """Set the initial directions of *ORIENTATION at the points of shells or membranes. Raises DeckError."""
     if routine.axes is not None:
-        axes = start_axes(building.model, group, kind, routine.axes.orientation, building.library)
+        axes = initial_axes(building.model, group, kind, routine.axes.orientation, building.library)
         # the direction that is projected, the next one, and that closest to the normal
         block.initial.begin_axes(np.roll(axes, -routine.axes.orientation.normal, axis=-2))

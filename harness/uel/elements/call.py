@@ -19,11 +19,11 @@ from uel.usersub.exchange import Moment, Outcome
 
 @dataclass(frozen=True, slots=True)
 class Distributed:
-    """Distributed loads on user elements that are active, and pressures on faces.
+    """Active distributed loads on user elements, and pressures on faces.
 
     elements   (k,) positions in the model, ascending; faces come after the elements
-    kinds      (k,) n of type Un, -n of type UnNU, 1 of faces
-    end, increment  (k,) magnitude at the end of the increment and its change; 0 for UnNU
+    kinds      (k,) n for type Un, -n for type UnNU, 1 for faces
+    end, increment  (k,) magnitude at the end of the increment and its increment; 0 for UnNU
     """
 
     elements: IntArray
@@ -34,7 +34,7 @@ class Distributed:
 
 @dataclass(frozen=True, slots=True)
 class Predefined:
-    """Predefined fields (fields, nodes) at the end of the increment and their change; temperature is the first.
+    """Predefined fields (fields, nodes) at the end of the increment and their increments; temperature is the first.
 
     initial  (nodes,) temperature at the start of the analysis
     """
@@ -51,7 +51,7 @@ class Call:
     flags        LFLAGS
     step, increment  KSTEP, KINC
     iteration    equilibrium iteration, for messages; 0 before the first solve
-    flux_floor   (fields,) element nodal force above which an entry is a term of the average flux; None: all entries are
+    flux_floor   (fields,) magnitude above which an element nodal force is a term of the average flux; None: all are
     params       PARAMS: alpha, beta and gamma of a dynamic step
     step_time, total_time  at the end of the increment (Abaqus' manual does not say which end TIME refers to)
     unsymmetric  AMATRX of UEL is used as it is, UNSYMM or not, as in coupled temperature-displacement steps: Abaqus
@@ -81,7 +81,7 @@ class Call:
 
     @property
     def extrapolated(self) -> Self:
-        """Copy of this call as the first one of an increment that starts from an extrapolation."""
+        """Copy of this call for the first pass of an increment that starts from an extrapolation."""
         return replace(self, flags=replace(self.flags, extrapolated=True))
 
     @cached_property
@@ -124,13 +124,13 @@ class Motion:
 
 @dataclass(frozen=True, slots=True)
 class CurrentPass:
-    """The pass that is made: its arguments, and the arrays to which contributors add.
+    """Arguments of a pass, and the arrays to which contributors add.
 
     call     arguments common to all elements
     u, du    (n,) estimate of the end of the increment, and the increment; both include prescribed values
     columns  (NRHS, n) residuals: external minus internal force, and increments of loads
-    data     (nnz,) CSR values, which hold the matrices of the contributors so far; None: no matrix is wanted
-    motion   V and A of all unknowns; None: the model is at rest
+    data     (nnz,) CSR values, to which matrices are added; None: no matrix is assembled
+    motion   V and A of all unknowns; None: zero
     """
 
     call: Call
@@ -142,22 +142,22 @@ class CurrentPass:
 
     @property
     def has_forces(self) -> bool:
-        """Whether it asks for forces: not for a mass, a damping or an initial stress matrix alone."""
+        """Whether forces are assembled, and not a mass, damping or initial stress matrix alone."""
         return self.call.flags.request in (Request.NORMAL, Request.RESIDUAL)
 
 
 class BlockReport(NamedTuple):
-    """Sums of one pass over one block; a tuple as `Outcome` is.
+    """Sums of one pass over one block.
 
     flux        (fields,) sum of |element nodal force| by field
     flux_count  (fields,) number of terms in it
-    pnewdt      smallest PNEWDT returned; large if none was
+    pnewdt      smallest PNEWDT; large if no element sets one
     energy      (8,) sum of ENERGY
-    damage      dissipated by the damage of built-in elements (ALLDMD), for which ENERGY has no entry
+    damage      energy dissipated by damage of built-in elements (ALLDMD), for which ENERGY has no entry
     largest     (fields,) largest |element nodal force| by field
     entries     (fields,) number of element nodal forces
-    contact     changes of a contact pair in the iteration; None of others
-    coupling    errors of distributing couplings; None of others
+    contact     changes of a contact pair in the iteration; None for other contributors
+    coupling    errors of distributing couplings; None for other contributors
     """
 
     flux: FloatArray
@@ -178,4 +178,4 @@ class BlockReport(NamedTuple):
 
 
 NOTHING: Final = BlockReport(np.zeros(1), np.zeros(1, dtype=np.int64), np.inf, np.zeros(8))
-"""Report of a pass in which nothing was called."""
+"""Report of a pass without items."""

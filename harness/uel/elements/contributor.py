@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Interface of all that contributes to the system: elements, loads on faces, heat exchange, contact, couplings."""
+"""Interface of the contributors to the system: elements, loads on faces, heat exchange, contact, couplings."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ Find = Callable[[IntArray, IntArray | int], IntArray]
 
 
 class Contributor(ABC):
-    """Like items that add forces, and the derivatives of these, to the system: elements, faces under a load, contact
-    points, pairs of coupled nodes.
+    """Like items that add forces and their derivatives to the system: elements, loaded faces, contact points, pairs of
+    coupled nodes.
 
-    unknowns  (local node, dof) of each unknown of an item, in the order of its forces; the local node behind the last
-              one is the item itself, which has pressures or multipliers, and REFERENCE the reference node
-    first     number of its first item among the items of the model: elements, then those of the other contributors
-    rows      (m,) number of each item here, from `first` on
+    unknowns  (local node, dof) of each unknown of an item, in the order of its forces. The local node after the last
+              one is the item itself, which has pressures or multipliers; REFERENCE is the reference node
+    first     number of the first item in the model, where elements come before the items of other contributors
+    rows      (m,) number of each item on this rank, less `first`
     """
 
     unknowns: tuple[tuple[int, int], ...]
@@ -45,7 +45,7 @@ class Contributor(ABC):
 
     @property
     def reference(self) -> int:
-        """Index of the node that REFERENCE stands for, -1 without one."""
+        """Index of the reference node, -1 without one."""
         return -1
 
     def number(self, find: Find, equations: NDArray[np.int32]) -> None:
@@ -56,27 +56,27 @@ class Contributor(ABC):
         find
             Numbers of the unknowns of nodes and dofs.
         equations
-            (m, unknowns) numbers of those of the items.
+            (m, unknowns) numbers of the unknowns of the items.
         """
         del find
         self._equations = equations
 
     def couplings(self) -> NDArray[np.int32]:
-        """Return (r, k) numbers of the unknowns that have common entries in the matrix, row by row."""
+        """Return (r, k) numbers of unknowns; those of a row are coupled in the matrix."""
         return self._equations
 
     @abstractmethod
     def locate(self, indptr: NDArray[np.int32], indices: NDArray[np.int32]) -> None:
-        """Locate the entries of `couplings` in a CSR pattern that has them."""
+        """Locate the entries of `couplings` in a CSR pattern."""
 
     def track(self, now: CurrentPass) -> bool:
-        """Prepare for a pass. Return whether the pattern has its `couplings`, if a matrix is wanted."""
+        """Prepare for a pass. Return whether the pattern has the current `couplings`, if a matrix is assembled."""
         del now
         return True
 
     @abstractmethod
     def contribute(self, now: CurrentPass) -> BlockReport:
-        """Add forces and matrices to the arrays of a pass; the state it leads to is kept for `commit`.
+        """Add forces and matrices to the arrays of a pass; store the trial state for `commit`.
 
         Returns
         -------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Directions of *ORIENTATION at the points of continuum elements, at the start of the analysis."""
+"""Initial directions of *ORIENTATION at the integration points of elements."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ def first_element(model: Model, group: ElementGroup) -> int:
     return first
 
 
-def start_axes(
+def initial_axes(
     model: Model, group: ElementGroup, kind: ContinuumType | SurfaceType, orientation: Orientation, library: Library
 ) -> FloatArray:
-    """Compute initial directions (m, points, 3, 3), in rows; global ones if ORIENT is to set them. Raises DeckError."""
+    """Compute initial directions (m, points, 3, 3), in rows; global ones if ORIENT sets them. Raises DeckError."""
     m, system = len(group.labels), orientation.system
     shape = m, kind.points, 3, 3
     if system is None:
@@ -54,11 +54,11 @@ def start_axes(
     try:
         return system.axes(elements, nodes, np.einsum("pk,mkd->mpd", shapes, nodes))
     except UndefinedDirectionsError as error:
-        raise undefined(group, orientation, error) from None
+        raise undefined_directions(group, orientation, error) from None
 
 
-def undefined(group: ElementGroup, orientation: Orientation, error: UndefinedDirectionsError) -> DeckError:
-    """Make the error for points without directions; it names their element."""
+def undefined_directions(group: ElementGroup, orientation: Orientation, error: UndefinedDirectionsError) -> DeckError:
+    """Return the error for a point without directions; it names the element."""
     element, *point = error.row
     at = f", integration point {point[0] + 1}" if point else ""
     message = f"element {group.labels[element]} (type {group.type}){at}: {error}"

@@ -3,17 +3,17 @@
 """Distributing couplings in large displacements: a block of pairs of a coupled node and its reference node.
 
 A coupled node with the weight w at p from the reference node has the force f = w (a + b x p), the reference node -f and
--p x f: in balance in the present place. a and b are multipliers. With the increment dp of p, p in the middle of it p_m,
-and the vector omega of the increment of rotation of the reference node, 2 tan(t/2) along the axis, they enforce
+-p x f: they balance in the current configuration. a and b are multipliers. With the increment dp of p, p_m = p at its
+middle, and the increment of rotation omega of the reference node, 2 tan(t/2) along the axis, they enforce
 
     sum w q = 0,    sum w p_m x q = 0,    q = dp - omega x p_m.
 
-With the places r from the centre of the coupled nodes and T = sum w (r.r I - r r^T), the first says that this centre
-turns about the reference node by the increment of rotation, and with it the second that omega = T_m^-1 sum w r_m x du,
-the increment of J. Hughes and J. Winget from the middle; the forces are those of b = T^-1 times the moment about the
-centre (Abaqus Theory Guide, Distributing coupling elements: Load distribution, Finite motion). Moments are about the
-global axes and no derivatives by rotation vectors, so that the matrix is unsymmetric. Without NLGEOM p is that of the
-mesh, and omega the increment of dofs 4 to 6.
+With the positions r from the centre of the coupled nodes and T = sum w (r.r I - r r^T), the first equation says that
+the centre rotates with the reference node, and then the second that omega = T_m^-1 sum w r_m x du, the midpoint
+increment of J. Hughes and J. Winget; the forces are those of b = T^-1 times the moment about the centre (Abaqus Theory
+Guide, Distributing coupling elements: Load distribution, Finite motion). Moments are about the global axes, and are not
+derivatives by rotation vectors, so that the matrix is unsymmetric. Without NLGEOM p is that of the mesh, and omega the
+increment of dofs 4 to 6.
 """
 
 from __future__ import annotations
@@ -34,38 +34,38 @@ from uel.model.restart import Saved
 from uel.usersub import _binding
 
 # unknowns of a pair: displacements of both nodes, rotations of the reference node, a and b
-_OWN, _FAR, _TURN, _A, _B = (slice(start, start + 3) for start in range(0, 15, 3))
+_COUPLED, _REFERENCE, _ROTATION, _A, _B = (slice(start, start + 3) for start in range(0, 15, 3))
 _COUNT = 15
-_CHOSEN = {2: [0, 1, 3, 4, 8, 9, 10, 14], 3: list(range(_COUNT))}
+_EXISTING = {2: [0, 1, 3, 4, 8, 9, 10, 14], 3: list(range(_COUNT))}
 """Unknowns of a pair that exist in a model in the plane, and in space."""
 
 
 class DistributingBlock(Contributor):
     """All distributing couplings of a model.
 
-    unknowns  of a pair: the reference node is the second one, multipliers are of the coupling, which follows the nodes
-    rows      (m,) coupling of each pair
+    unknowns  those of a pair: the second node is the reference node; the coupling follows, which has the multipliers
+    rows      (m,) number of the coupling of each pair
     """
 
     def __init__(self, model: Model) -> None:
-        """Prepare the couplings of a model that has some."""
-        given = model.couplings
-        counts = [len(coupling.nodes) for coupling in given]
-        self.first, self.rows = 0, np.repeat(np.arange(len(given)), counts)
-        self._references = np.array([coupling.reference for coupling in given])
+        """Prepare the couplings of a model, which has at least one."""
+        couplings = model.couplings
+        counts = [len(coupling.nodes) for coupling in couplings]
+        self.first, self.rows = 0, np.repeat(np.arange(len(couplings)), counts)
+        self._references = np.array([coupling.reference for coupling in couplings])
         self._starts = np.cumsum([0, *counts[:-1]])
-        nodes = np.concatenate([coupling.nodes for coupling in given])
-        self._weights = np.concatenate([coupling.weights for coupling in given])[:, None]
-        places = model.mesh.coordinates
-        self._apart = places[nodes] - places[self._references[self.rows]]
-        self._length = np.sqrt(self._sum(self._weights * self._apart**2).sum(axis=1))
+        nodes = np.concatenate([coupling.nodes for coupling in couplings])
+        self._weights = np.concatenate([coupling.weights for coupling in couplings])[:, None]
+        coordinates = model.mesh.coordinates
+        self._p = coordinates[nodes] - coordinates[self._references[self.rows]]
+        self._length = np.sqrt(self._sum(self._weights * self._p**2).sum(axis=1))
         self._mesh = model.mesh
         self._nodes = np.stack([nodes, self._references[self.rows]], axis=1)
         dofs = range(1, 4), range(4, 7), range(COUPLED, COUPLED + 3), range(COUPLED + 3, COUPLED + 6)
         every = [(node, dof) for node, own in zip((0, 1, 1, 2, 2), (dofs[0], *dofs), strict=True) for dof in own]
-        self._dimension = given[0].dimension
-        self._chosen = np.array(_CHOSEN[self._dimension])
-        self.unknowns = tuple(every[k] for k in self._chosen)
+        self._dimension = couplings[0].dimension
+        self._existing = np.array(_EXISTING[self._dimension])
+        self.unknowns = tuple(every[k] for k in self._existing)
         self._scale = 0.0
         self._last = CouplingErrors((0.0, -1), (0.0, -1))
 
@@ -95,70 +95,69 @@ class DistributingBlock(Contributor):
         if data is not None and not self._scale:
             self._scale = scale_of_multipliers(data, self._scatter, self._dimension)
         end, change = (self._values(values) for values in (now.u, now.du))
-        nlgeom, apart = call.flags.nlgeom, self._apart
-        turned, by_turn = _increment(end[self._starts, _TURN], change[self._starts, _TURN], nlgeom=nlgeom)
-        turned, by_turn = turned[self.rows], by_turn[self.rows]
-        moved = change[:, _OWN] - change[:, _FAR]
-        middle = apart
+        nlgeom, p = call.flags.nlgeom, self._p
+        omega, omega_by = _increment(end[self._starts, _ROTATION], change[self._starts, _ROTATION], nlgeom=nlgeom)
+        omega, omega_by = omega[self.rows], omega_by[self.rows]
+        dp = change[:, _COUPLED] - change[:, _REFERENCE]
+        p_m = p
         if nlgeom:
-            apart = apart + end[:, _OWN] - end[:, _FAR]
-            middle = apart - 0.5 * moved
-        missing = moved - np.cross(turned, middle)
+            p = p + end[:, _COUPLED] - end[:, _REFERENCE]
+            p_m = p - 0.5 * dp
+        q = dp - np.cross(omega, p_m)
         length = self._length[self.rows][:, None]
-        share = self._scale * self._weights
-        force = share * (end[:, _A] + np.cross(end[:, _B], apart) / length)
+        weight = self._scale * self._weights
+        force = weight * (end[:, _A] + np.cross(end[:, _B], p) / length)
         rows = np.concatenate(
-            [force, -force, -np.cross(apart, force), share * missing, share * np.cross(middle, missing) / length],
-            axis=1,
+            [force, -force, -np.cross(p, force), weight * q, weight * np.cross(p_m, q) / length], axis=1
         )
-        np.add.at(now.columns[0], self._equations, rows[:, self._chosen])
+        np.add.at(now.columns[0], self._equations, rows[:, self._existing])
         if call.flags.request is Request.NORMAL:
-            self._last = self._errors(middle, missing)
+            self._last = self._errors(p_m, q)
         if data is None:
             return
-        share, length = share[:, None], length[:, None]
-        at, between, along = (cross_matrices(vectors) for vectors in (apart, middle, end[:, _B]))
+        weight, length = weight[:, None], length[:, None]
+        p_cross, p_m_cross, b_cross = (cross_matrices(vectors) for vectors in (p, p_m, end[:, _B]))
         force_by = np.zeros((len(rows), 3, _COUNT))
-        force_by[:, :, _A], force_by[:, :, _B] = share * np.eye(3), -share * at / length
-        missing_by = np.zeros_like(force_by)
-        missing_by[:, :, _OWN] = np.eye(3)
-        missing_by[:, :, _TURN] = between @ by_turn
-        moment_by, spin_by = np.zeros_like(force_by), np.zeros_like(force_by)
+        force_by[:, :, _A], force_by[:, :, _B] = weight * np.eye(3), -weight * p_cross / length
+        q_by = np.zeros_like(force_by)
+        q_by[:, :, _COUPLED] = np.eye(3)
+        q_by[:, :, _ROTATION] = p_m_cross @ omega_by
+        moment_by, moment_q_by = np.zeros_like(force_by), np.zeros_like(force_by)
         if nlgeom:
-            # places move too
-            force_by[:, :, _OWN] = share * along / length
-            missing_by[:, :, _OWN] -= 0.5 * cross_matrices(turned)
-            moment_by[:, :, _OWN], spin_by[:, :, _OWN] = -cross_matrices(force), -0.5 * cross_matrices(missing)
-        for found in (force_by, missing_by, moment_by, spin_by):
-            found[:, :, _FAR] = -found[:, :, _OWN]
-        moment_by += at @ force_by
-        spin_by = share * (spin_by + between @ missing_by) / length
-        matrix = -np.concatenate([force_by, -force_by, -moment_by, share * missing_by, spin_by], axis=1)
-        np.add.at(data, self._scatter, matrix[:, self._chosen[:, None], self._chosen])
+            # p follows the displacements
+            force_by[:, :, _COUPLED] = weight * b_cross / length
+            q_by[:, :, _COUPLED] -= 0.5 * cross_matrices(omega)
+            moment_by[:, :, _COUPLED], moment_q_by[:, :, _COUPLED] = -cross_matrices(force), -0.5 * cross_matrices(q)
+        for derivatives in (force_by, q_by, moment_by, moment_q_by):
+            derivatives[:, :, _REFERENCE] = -derivatives[:, :, _COUPLED]
+        moment_by += p_cross @ force_by
+        moment_q_by = weight * (moment_q_by + p_m_cross @ q_by) / length
+        matrix = -np.concatenate([force_by, -force_by, -moment_by, weight * q_by, moment_q_by], axis=1)
+        np.add.at(data, self._scatter, matrix[:, self._existing[:, None], self._existing])
 
     def _values(self, values: FloatArray) -> FloatArray:
         """Return (m, 15) values of the unknowns of the pairs; zero for those that do not exist in the plane."""
-        found = np.zeros((len(self.rows), _COUNT))
-        found[:, self._chosen] = values[self._equations]
-        return found
+        of_pairs = np.zeros((len(self.rows), _COUNT))
+        of_pairs[:, self._existing] = values[self._equations]
+        return of_pairs
 
     def _sum(self, values: FloatArray) -> FloatArray:
         """Return sums (couplings, ...) over the pairs of each coupling."""
         return np.asarray(np.add.reduceat(values, self._starts, axis=0))
 
-    def _errors(self, middle: FloatArray, missing: FloatArray) -> CouplingErrors:
-        weighted = self._weights * missing
-        apart = self._sum(weighted)
-        arms = middle - self._sum(self._weights * middle)[self.rows]
-        square = np.einsum("mi,mj->mij", arms, self._weights * arms)
+    def _errors(self, p_m: FloatArray, q: FloatArray) -> CouplingErrors:
+        """Return the largest violations of the constraints, each with its reference node."""
+        weighted = self._weights * q
+        r_m = p_m - self._sum(self._weights * p_m)[self.rows]
+        square = np.einsum("mi,mj->mij", r_m, self._weights * r_m)
         inertia = self._sum(np.trace(square, axis1=1, axis2=2)[:, None, None] * np.eye(3) - square)
         axes = slice(2, 3) if self._dimension == 2 else slice(0, 3)
-        moment = self._sum(np.cross(arms, weighted))[:, axes, None]
+        moment = self._sum(np.cross(r_m, weighted))[:, axes, None]
         turned = np.linalg.solve(inertia[:, axes, axes], moment)[..., 0]
-        found = np.linalg.norm(apart, axis=1) / self._length, np.linalg.norm(turned, axis=1)
-        worst = [int(first_largest(values)) for values in found]
+        errors = np.linalg.norm(self._sum(weighted), axis=1) / self._length, np.linalg.norm(turned, axis=1)
+        worst = [int(first_largest(values)) for values in errors]
         displacement, rotation = (
-            (float(values[k]), int(self._references[k])) for values, k in zip(found, worst, strict=True)
+            (float(values[k]), int(self._references[k])) for values, k in zip(errors, worst, strict=True)
         )
         return CouplingErrors(displacement, rotation)
 
@@ -178,7 +177,9 @@ def _increment(angles: FloatArray, change: FloatArray, *, nlgeom: bool) -> tuple
     """Return omega (k, 3) of an increment that ends at these rotation vectors (k, 3), and its derivatives by them."""
     if not nlgeom:
         return change, np.broadcast_to(np.eye(3), (len(angles), 3, 3))
-    turn = rotation_matrices(angles) @ rotation_matrices(angles - change).transpose(0, 2, 1)
-    omega = -2.0 * np.einsum("ijk,mjk->mi", PERMUTATION, turn) / (1.0 + np.trace(turn, axis1=1, axis2=2))[:, None]
+    rotation = rotation_matrices(angles) @ rotation_matrices(angles - change).transpose(0, 2, 1)
+    omega = (
+        -2.0 * np.einsum("ijk,mjk->mi", PERMUTATION, rotation) / (1.0 + np.trace(rotation, axis1=1, axis2=2))[:, None]
+    )
     by_spin = np.eye(3) - 0.5 * cross_matrices(omega) + 0.25 * omega[:, :, None] * omega[:, None, :]
     return np.asarray(omega, dtype=np.float64), np.asarray(by_spin @ spin_matrices(angles), dtype=np.float64)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arrays that the driver takes beside the unknowns: distributed loads and predefined fields of a block."""
+"""Distributed loads and predefined fields of a block, as arrays for the driver."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from uel.model.mesh import ElementGroup
 from uel.usersub.exchange import LoadArrays
 
 NO_LOADS: Final = LoadArrays(np.zeros(1, np.int32), np.zeros((1, 1), np.int32), np.zeros((1, 1, 2)))
-"""Arrays of a block without loads: one row in all."""
+"""Arrays of a block without loads: a single row."""
 
 
 def loads_of(distributed: Distributed, mine: NDArray[np.bool_], row: IntArray, count: int) -> LoadArrays:
@@ -29,7 +29,7 @@ def loads_of(distributed: Distributed, mine: NDArray[np.bool_], row: IntArray, c
     mine
         Mask of those on elements of the block.
     row
-        The element of each of these, from 0.
+        Element of each of these, from 0.
     count
         Number of elements of the block.
     """
@@ -46,7 +46,7 @@ def loads_of(distributed: Distributed, mine: NDArray[np.bool_], row: IntArray, c
 def fields_of(group: ElementGroup, routine: Routine, predefined: Predefined | None) -> FloatArray:
     """Return PREDEF of the elements, (m, nodes, fields, 2), or (1, nodes, fields, 2) without predefined fields.
 
-    That of built-in elements ends with the initial temperature.
+    The last field of built-in elements is the initial temperature.
     """
     initial = routine.initial_temperatures
     if predefined is None:

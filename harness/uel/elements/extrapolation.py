@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Values at the nodes and at the centroid of built-in continuum elements, from those at the integration points.
 
-The Abaqus Analysis User's Guide says that values are extrapolated, but not how. Here it is by the polynomial in parent
-coordinates that interpolates the values of the points: constant from one point, linear in each direction from two,
-quadratic from three; linear from the three of a triangle and the four of a tetrahedron.
+The Abaqus Analysis User's Guide says that values are extrapolated, but not how. Here the polynomial in parent
+coordinates that interpolates the values of the points is extrapolated: constant for one point, linear for two points in
+a direction, quadratic for three; linear for the three of a triangle and the four of a tetrahedron.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def at_nodes(type: str) -> FloatArray | None:
     kind = BUILT_IN.get(type)
     if not isinstance(kind, SolidType):
         return None
-    return _interpolation(kind, _places(kind.family))
+    return _interpolation(kind, _parent_coordinates(kind.family))
 
 
 def at_centroid(type: str) -> FloatArray | None:
@@ -33,18 +33,20 @@ def at_centroid(type: str) -> FloatArray | None:
     kind = BUILT_IN.get(type)
     if not isinstance(kind, SolidType):
         return None
-    return _interpolation(kind, _places(kind.family)[: kind.corners].mean(axis=0, keepdims=True))
+    return _interpolation(kind, _parent_coordinates(kind.family)[: kind.corners].mean(axis=0, keepdims=True))
 
 
-def _interpolation(kind: SolidType, places: FloatArray) -> FloatArray:
-    """Return (places, points) values of the polynomials that are one at a point and zero at the others."""
+def _interpolation(kind: SolidType, coordinates: FloatArray) -> FloatArray:
+    """Return (k, points) values, at k coordinates, of polynomials that are one at a point and zero at the others."""
     family = kind.family
     _, shapes, _ = _binding.integration_rule(family.number, kind.points, family.nodes, family.dimension)
-    points, powers = shapes @ _places(family), _powers(family, kind.points)
-    return np.asarray(np.linalg.solve(_monomials(points, powers).T, _monomials(places, powers).T).T, dtype=np.float64)
+    points, powers = shapes @ _parent_coordinates(family), _powers(family, kind.points)
+    return np.asarray(
+        np.linalg.solve(_monomials(points, powers).T, _monomials(coordinates, powers).T).T, dtype=np.float64
+    )
 
 
-def _places(family: Family) -> FloatArray:
+def _parent_coordinates(family: Family) -> FloatArray:
     """Return (nodes, dimension) parent coordinates of the nodes."""
     square = np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])
     simplex = np.vstack([np.zeros(family.dimension), np.eye(family.dimension)])
@@ -54,13 +56,13 @@ def _places(family: Family) -> FloatArray:
         corners = square
     else:
         base = square if family.corners == 8 else simplex[:3, :2]
-        corners = np.array([(*place, side) for side in (-1.0, 1.0) for place in base])
-    places = np.vstack([corners, np.zeros((family.nodes - family.corners, family.dimension))])
+        corners = np.array([(*corner, side) for side in (-1.0, 1.0) for corner in base])
+    coordinates = np.vstack([corners, np.zeros((family.nodes - family.corners, family.dimension))])
     for face in family.faces:
         ends = face[: family.face_family(face).corners]
         for k, middle in enumerate(face[len(ends) :]):
-            places[middle] = (places[ends[k]] + places[ends[(k + 1) % len(ends)]]) / 2
-    return places
+            coordinates[middle] = (coordinates[ends[k]] + coordinates[ends[(k + 1) % len(ends)]]) / 2
+    return coordinates
 
 
 def _powers(family: Family, points: int) -> IntArray:
@@ -76,7 +78,7 @@ def _powers(family: Family, points: int) -> IntArray:
     return np.array([(*powers, k) for powers in of_triangle for k in range(points // len(of_triangle))])
 
 
-def _monomials(places: FloatArray, powers: IntArray) -> FloatArray:
-    """Return (places, terms) products of powers of the coordinates."""
-    terms: FloatArray = np.prod(np.asarray(places)[:, None, :] ** powers[None], axis=-1)
+def _monomials(coordinates: FloatArray, powers: IntArray) -> FloatArray:
+    """Return (k, terms) products of powers of k coordinates."""
+    terms: FloatArray = np.prod(np.asarray(coordinates)[:, None, :] ** powers[None], axis=-1)
     return terms

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fields of equilibrium: degrees of freedom that Abaqus checks together."""
+"""Fields of equilibrium: degrees of freedom whose residuals Abaqus checks together."""
 
 from __future__ import annotations
 
@@ -27,8 +27,7 @@ FIELD_NAMES: Final = (
 """Names of the fields; their numbers index the arrays by field."""
 
 REFERENCE: Final = -1
-"""Local number, among the nodes of an element, of the reference node of its section."""
-
+"""Local node number that stands for the reference node of the section of an element."""
 
 _LAST: Final = (
     (DISPLACEMENTS[-1], FIELD_NAMES.index("force")),
@@ -44,8 +43,10 @@ _LAST: Final = (
 
 def field_of(dof: int) -> int:
     """Return the field of a degree of freedom: 1-3 force, 4-7 moment, 8 pore pressure, 9 electrical, 11 to 30
-    temperature, CONCENTRATION concentration. Of unknowns that belong to no node, pressures of hybrid elements are
-    volume, multipliers of contact points contact, those of distributing couplings coupling.
+    temperature, CONCENTRATION concentration.
+
+    Unknowns that belong to no node: pressures of hybrid elements are in the field volume, multipliers of contact points
+    in contact, those of distributing couplings in coupling.
 
     Parameters
     ----------

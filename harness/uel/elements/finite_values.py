@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks for values that are not finite in what user elements return besides RHS and AMATRX."""
+"""Checks for NaN and infinity in PNEWDT, SVARS and ENERGY of user elements."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from uel.usersub import Library
 
 
 class Watch:
-    """Monitor of a block of user elements. Warns once of values that are not finite; the run goes on with them."""
+    """Monitor of a block of user elements. It warns once of a value that is not finite; the run goes on."""
 
     def __init__(self, group: ElementGroup, library: Library) -> None:
         self._group = group
@@ -23,7 +23,7 @@ class Watch:
         self._done = group.definition is None
 
     def pnewdt(self, call: Call, value: float) -> None:
-        """Check the smallest PNEWDT of a pass, or one that is not finite."""
+        """Check PNEWDT of a pass."""
         if not (self._done or math.isfinite(value)):
             alone = len(self._group.labels) == 1
             place = f"step {call.step}, increment {call.increment}, iteration {call.iteration}"

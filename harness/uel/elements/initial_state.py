@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The state in which the elements of a block begin."""
+"""Initial state of the elements of a block."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from uel.elements.array_mistakes import at_point
-from uel.elements.directions import is_user, undefined
+from uel.elements.directions import is_user, undefined_directions
 from uel.elements.routine import Routine
 from uel.errors import KernelError
 from uel.model.arrays import FloatArray, IntArray
@@ -26,9 +26,9 @@ class InitialState:
     Parameters
     ----------
     group, routine, library
-        Of the block.
+        Those of the block.
     arrays
-        Of the block, whose committed and trial states are set.
+        Arrays of the block, whose committed and trial states are set.
     """
 
     def __init__(self, group: ElementGroup, arrays: BlockArrays, routine: Routine, library: Library) -> None:
@@ -67,12 +67,12 @@ class InitialState:
             (k,) elements, as rows of the block from 0.
         values
             Components in Abaqus' order (force/length^2), in the directions of *ORIENTATION; those left out are zero.
-            Or a stress over the elevation, in global directions.
+            Or a stress that varies with the elevation, in global directions.
 
         Raises
         ------
         ValueError
-            The elements take no stress, or lack a component that is not zero; or have an orientation.
+            The elements take no stress, lack a component that is not zero, or have an orientation.
         """
         try:
             if isinstance(values, VerticalStress):
@@ -99,14 +99,14 @@ class InitialState:
         KernelError
             It ends the analysis.
         """
-        states, places = self._routine.stress_of(self._arrays.svars)
-        sigma = np.zeros((*states.shape[:2], len(places)))
+        states, columns = self._routine.stress_of(self._arrays.svars)
+        sigma = np.zeros((*states.shape[:2], len(columns)))
         element, point = _points.sigini(address, self._group.type, self._arrays, sigma, self._routine.family)
         self._check(element, at_point("SIGINI", point))
-        states[:, :, places] = sigma
+        states[:, :, columns] = sigma
 
     def _elevations(self, rows: IntArray) -> FloatArray:
-        """Return the last coordinate (k, points) of the integration points of elements."""
+        """Return the elevation (k, points), the last coordinate, of the integration points of elements."""
         kind, section = self._group.built_in, self._group.section
         if not isinstance(kind, ContinuumType) or not isinstance(section, SolidSection):
             raise ValueError("do not take an initial stress by elevation")
@@ -148,12 +148,12 @@ class InitialState:
         DeckError
             Direction 3 is not normal to the plane of plane elements.
         """
-        given = self._routine.axes
-        assert given is not None
+        layout = self._routine.axes
+        assert layout is not None
         try:
-            given.begin(self._arrays.svars, axes)
+            layout.begin(self._arrays.svars, axes)
         except UndefinedDirectionsError as error:
-            raise undefined(self._group, given.orientation, error) from None
+            raise undefined_directions(self._group, layout.orientation, error) from None
         self._arrays.svars_trial[:] = self._arrays.svars
 
     def set_last(self, values: FloatArray) -> None:
@@ -175,19 +175,19 @@ class InitialState:
         KernelError
             It ends the analysis.
         DeckError
-            It does not give two directions, or not in the plane of plane elements.
+            It does not define two directions, or direction 3 of plane elements is not normal to the plane.
         """
-        given = self._routine.axes
-        if given is None or not is_user(given.orientation) or not len(self._group.labels):
+        layout = self._routine.axes
+        if layout is None or not is_user(layout.orientation) or not len(self._group.labels):
             return
         nodes = labels[self._group.nodes].astype(np.int32)
-        name, family = given.orientation.name, self._routine.family
-        found, element, point = _points.orient(address, name, self._arrays, nodes, family, given.points)
+        name, family = layout.orientation.name, self._routine.family
+        directions, element, point = _points.orient(address, name, self._arrays, nodes, family, layout.points)
         self._check(element, at_point("ORIENT", point))
         try:
-            axes = orthonormal(found)
+            axes = orthonormal(directions)
         except UndefinedDirectionsError as error:
-            raise undefined(self._group, given.orientation, error) from None
+            raise undefined_directions(self._group, layout.orientation, error) from None
         self.begin_axes(axes)
 
     def _check(self, element: int, at: str) -> None:
@@ -196,15 +196,13 @@ class InitialState:
             raise KernelError(element, self._group.type, at + self._library.stop_reason())
 
     def _variables(self) -> FloatArray:
-        """Return the variables (m, points, values) of *INITIAL CONDITIONS, TYPE=SOLUTION,
-        a view of the committed state.
-        """
+        """Return a view (m, points, values) of the committed variables of *INITIAL CONDITIONS, TYPE=SOLUTION."""
         if self._group.definition is not None:
             return self._arrays.svars[:, None, :]
         history = self._arrays.history
         return history[:, :, history.shape[2] - self._routine.statev :]
 
     def _begin(self, state: FloatArray) -> None:
-        """Set the committed and the trial state to this state."""
+        """Set the committed and the trial state."""
         self._variables()[:] = state
         self._arrays.svars_trial[:], self._arrays.history_trial[:] = self._arrays.svars, self._arrays.history

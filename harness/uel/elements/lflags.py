@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""LFLAGS: data of the step for elements, and the request of a call."""
+"""LFLAGS: the step, and the request of a call."""
 
 from __future__ import annotations
 
@@ -16,13 +16,16 @@ class Request(IntEnum):
 
     NORMAL                RHS and AMATRX of an iteration
     STIFFNESS, DAMPING, MASS  AMATRX only: the stiffness, the damping matrix of LFLAGS(7), the mass matrix
-    RESIDUAL              RHS only, of a state that is not kept: line search, half of an increment of *DYNAMIC
+    RESIDUAL              RHS only, of a state that is not stored: line search, half-increment residual of *DYNAMIC
     INITIAL_ACCELERATION  RHS and the mass matrix, at the start of a dynamic step
-    PERTURBATION          RHS of a linear step once DU, the perturbation, is known
-    INITIAL_STRESSES      the host's own, for built-in elements only: RHS and the state for the given stresses
-    BASE_STRESS, ADDED_STRESS  the host's own: AMATRX only, the initial stress matrix of the stresses at U, or of those
-                          that a perturbation DU adds to them
-    OUTPUT_VARIABLES      the host's own: UVARM at the points, after an increment, in whose end U is and DU is zero
+    PERTURBATION          RHS of a linear step for the perturbation DU
+
+    Abaqus does not have the negative requests, which the host makes of built-in elements:
+
+    INITIAL_STRESSES      RHS and the state for the initial stresses
+    BASE_STRESS, ADDED_STRESS  AMATRX only: the initial stress matrix of the stresses at U, or of those that a
+                          perturbation DU adds
+    OUTPUT_VARIABLES      calls of UVARM after an increment: U is that of its end, DU is zero
     """
 
     NORMAL = 1
@@ -39,7 +42,7 @@ class Request(IntEnum):
 
 
 class Damping(IntEnum):
-    """LFLAGS(7): which damping matrix, if one is requested."""
+    """LFLAGS(7): the damping matrix that is requested."""
 
     NONE = 0
     VISCOUS = 1
@@ -48,7 +51,7 @@ class Damping(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Flags:
-    """The LFLAGS by name.
+    """LFLAGS by name.
 
     procedure     LFLAGS(1), `Procedure.lflag`
     nlgeom        LFLAGS(2), large displacements
@@ -79,17 +82,17 @@ class Flags:
         request
             LFLAGS(3).
         damping
-            LFLAGS(7), which damping matrix; of use with Request.DAMPING only.
+            LFLAGS(7), the damping matrix of Request.DAMPING.
         """
         return replace(self, request=request, damping=damping)
 
     @property
     def dynamic(self) -> bool:
-        """Whether a dynamic step asks."""
+        """Whether the step is dynamic."""
         return self.procedure in (11, 12)
 
     @property
     def lflags(self) -> tuple[int, ...]:
         """LFLAGS(1..7)."""
-        told = self.procedure, self.nlgeom, self.request, self.linear, self.extrapolated, 0, self.damping
-        return tuple(map(int, told))
+        values = self.procedure, self.nlgeom, self.request, self.linear, self.extrapolated, 0, self.damping
+        return tuple(map(int, values))

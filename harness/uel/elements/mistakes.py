@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Answers of a block to mistakes of its elements: errors, or warnings after which the run goes on."""
+"""Errors and warnings of a block about mistakes of its elements."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ from uel.usersub.faults import Entries, Fault, Guards
 
 
 class Mistakes:
-    """Judge of the passes over a block.
+    """Checks of the passes over a block: a mistake is an error, or a warning after which the run goes on.
 
-    group    the elements that are here
-    guards   what the driver does about writes outside arrays: strict errors, or a warning
-    entries  what it does about entries of RHS and AMATRX that are not set: errors, or a warning and zeros
+    group    elements on this rank
+    guards   action of the driver on a write outside an array: an error if strict, otherwise a warning
+    entries  action on an entry of RHS or AMATRX that is not set: an error, or a warning and zero
     """
 
     def __init__(
         self, group: ElementGroup, routine: Routine, unknowns: int, library: Library, *, strict: bool, zeros: bool
     ) -> None:
-        """Begin with no mistake; unknowns: of an element, strict and zeros as in `ElementBlock`."""
+        """Start without mistakes; unknowns: number in an element; strict and zeros as in `ElementBlock`."""
         self.group, self._routine, self._unknowns, self._library = group, routine, unknowns, library
         self.guards = Guards.STOP if strict else Guards.NOTICE
         self.entries = Entries.NOTICE if zeros else Entries.STOP
         self._noticed: Outcome | None = None
 
-    def judge(self, outcome: Outcome, nrhs: int, call: Call) -> None:
-        """Raise the error of a pass, or warn of what the run can go on with. Raises ElementError."""
+    def check(self, outcome: Outcome, nrhs: int, call: Call) -> None:
+        """Raise the ElementError of a pass, or give a warning if the run can go on."""
         if outcome.fault is Fault.UNSET and self.entries is not Entries.STOP:
             self.entries = Entries.ZERO
             error = self._error(outcome, nrhs, call)

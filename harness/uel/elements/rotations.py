@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Finite rotations by their rotation vectors, as dofs 4 to 6 are."""
+"""Finite rotations as rotation vectors (dofs 4 to 6)."""
 
 from __future__ import annotations
 
@@ -35,21 +35,21 @@ def _factors(angles: Vectors) -> tuple[Vectors, ...]:
 
 def cross_matrices(vectors: Vectors) -> Vectors:
     """Return (m, 3, 3) matrices of the cross product with vectors (m, 3)."""
-    found: Vectors = np.einsum("iaj,ma->mij", PERMUTATION, vectors)
-    return found
+    matrices: Vectors = np.einsum("iaj,ma->mij", PERMUTATION, vectors)
+    return matrices
 
 
 def rotation_matrices(angles: Vectors) -> Vectors:
     """Return rotation matrices R (m, 3, 3) of rotation vectors (m, 3)."""
     first, second, _ = _factors(angles)
     skew = cross_matrices(angles)
-    found: Vectors = np.eye(3) + first * skew + second * (skew @ skew)
-    return found
+    rotations: Vectors = np.eye(3) + first * skew + second * (skew @ skew)
+    return rotations
 
 
 def spin_matrices(angles: Vectors) -> Vectors:
-    """Return H (m, 3, 3): H dtheta is the spin."""
+    """Return H (m, 3, 3) of rotation vectors (m, 3): H dtheta is the spin of the change dtheta."""
     _, second, third = _factors(angles)
     skew = cross_matrices(angles)
-    found: Vectors = np.eye(3) + second * skew + third * (skew @ skew)
-    return found
+    matrices: Vectors = np.eye(3) + second * skew + third * (skew @ skew)
+    return matrices

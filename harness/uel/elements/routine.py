@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Routine that the driver calls for a block of elements."""
+"""Routine that the driver calls for a block of elements, and its arrays."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from uel.model.properties import Orientation
 from uel.usersub.exchange import Called
 
 VALUES_OF_AXES = 18
-"""Values of SVARS for the directions of a point (fortran/host/elements/axes.f90)."""
+"""SVARS that hold the directions of a point (fortran/host/elements/axes.f90)."""
 
 PARALLEL = 1e-9
 """Largest component of the difference of unit vectors that are parallel."""
@@ -42,29 +42,29 @@ class Routine:
     material  number of the material in the host, 0 without one (then UEL is called, else UELMAT)
     history   values per point and points of the material history; (1, 1) without one
     statev    number of STATEV, which are the last values of the history
-    uvarm     UVARM to call after each increment, None for none, or if the elements call it themselves
-    outputs   number of UVAR that elements which call UVARM themselves keep in the history, before STATEV
-    density   place of the density in PROPS, from 0; -1 without one
-    internal  unknowns within each element, on which no force acts
-    massive   whether forces of inertia are terms of the average flux of their own
-    hidden    number of SVARS at the end that do not belong to a point, which output leaves out
+    uvarm     UVARM to call after each increment; None without one, or if the elements call it themselves
+    outputs   number of UVAR in the history, before STATEV, of elements that call UVARM themselves
+    density   position of the density in PROPS, from 0; -1 without one
+    internal  number of internal unknowns of an element, on which no external force acts
+    massive   whether inertia forces are separate terms of the average flux
+    hidden    number of SVARS at the end that belong to no point; output leaves them out
     tensor    stress components of the material: 3 plane stress, 4 plane strain, 6 three-dimensional; 0 without one
     mcrd      coordinates per node
     family    number of the family of continuum elements (harness/uel/model/element_types.py), 0 for others
-    viscous   place in the material history of the change of a viscous strain rate in the increment, times its length;
-              -1 without one
+    viscous   position in the material history of the change of the viscous strain rate times the time increment; -1
+              without one
     damages   ENERGY(4) is dissipated by damage, not by plasticity
-    linear    the state of built-in elements is linear in small displacements
-    forces    whether the forces are
-    stores    whether linear elements have no ENERGY but ENERGY(2), which is what AMATRX stores
-    free      dofs along which a translation of an element causes no force, as far as that is known
-    axes      the directions of the points, if the material is in them, None if it is not
-    turns     whether the elements have an initial stress matrix; stresses of others do not turn with them
-    forceless whether they have no forces, not even zeros that would count in average forces
-    initial_temperatures  (nodes of the model,) from which elements with temperatures expand; None: those of the
-              predefined fields
-    stress    places of the stress components of a point among its SVARS, in Abaqus' order; the last one is S12 or
-              S23; none: the elements take no initial stress
+    linear    whether, in small displacements, the state of built-in elements is linear in the displacements
+    forces    whether their forces are
+    stores    whether ENERGY(2), the energy of AMATRX, is the only energy of linear elements
+    free      dofs along which a translation of an element is known to cause no force
+    axes      directions of the points, None if the material does not have those of *ORIENTATION
+    turns     whether the elements have an initial stress matrix; stresses of others do not rotate
+    forceless whether the elements have no forces at all, not even zeros that count in the average flux
+    initial_temperatures  (nodes of the model,) at which elements with temperatures have no thermal strain; None: those
+              of the predefined fields
+    stress    positions of the stress components among the SVARS of a point, in Abaqus' order, up to S12 or S23; empty
+              if the elements take no initial stress
     """
 
     address: int
@@ -102,7 +102,7 @@ class Routine:
         return Called(self.address, self.material, self.jtype, self.tensor)
 
     def stress_of(self, svars: FloatArray) -> tuple[FloatArray, IntArray]:
-        """Return SVARS (m, svars) by points (m, points, values), a view, and the places of the stress there.
+        """Return a view (m, points, values) of SVARS (m, svars), and the positions of the stress in it.
 
         Raises ValueError if the elements take no initial stress.
         """
@@ -113,43 +113,43 @@ class Routine:
         return states, np.array(self.stress)
 
     def set_stress(self, svars: FloatArray, rows: IntArray, values: FloatArray) -> None:
-        """Write the stress at all points of elements, rows of their SVARS (elements, svars); values: for all points the
-        same, or (rows, points, components).
+        """Write the stress at all points of some elements (rows) into SVARS (elements, svars).
 
-        Raises ValueError if there is no such stress or component; zeros beyond those are ignored.
+        values: the components of all points, or (rows, points, components). Raises ValueError if the elements have no
+        stress, or lack a component that is not zero.
         """
-        states, places = self.stress_of(svars)
-        count = len(places)
+        states, columns = self.stress_of(svars)
+        count = len(columns)
         if values[..., count:].any():
             names = {3: "S11, S22, S12", 4: "S11, S22, S33, S12"}[count]
             raise ValueError(f"have {names}: component {count + 1} is not zero")
-        given = np.zeros((*values.shape[:-1], count))
-        given[..., : values.shape[-1]] = values[..., :count]
-        states[np.ix_(rows, np.arange(states.shape[1]), places)] = given
+        stress = np.zeros((*values.shape[:-1], count))
+        stress[..., : values.shape[-1]] = values[..., :count]
+        states[np.ix_(rows, np.arange(states.shape[1]), columns)] = stress
 
 
 @dataclass(frozen=True, slots=True)
 class PointAxes:
-    """Layout of the directions of *ORIENTATION in SVARS: at the start and now, for each point.
+    """Layout of the directions of *ORIENTATION in SVARS: initial and current ones of each point.
 
-    place   of the first value, from 0
-    points  of an element
-    plane   direction 3 must be normal to the plane
+    first   position of the first value, from 0
+    points  number of points of an element
+    plane   whether direction 3 must be normal to the plane
     """
 
-    place: int
+    first: int
     points: int
     plane: bool
     orientation: Orientation
 
     def view(self, svars: FloatArray) -> FloatArray:
-        """Return a view (m, points, 2, 3, 3) of the directions in SVARS (m, svars); they are columns."""
+        """Return a view (m, points, 2, 3, 3) of the directions, in columns, in SVARS (m, svars)."""
         count = VALUES_OF_AXES * self.points
-        found: FloatArray = svars[:, self.place : self.place + count].reshape(len(svars), self.points, 2, 3, 3)
-        return found
+        axes: FloatArray = svars[:, self.first : self.first + count].reshape(len(svars), self.points, 2, 3, 3)
+        return axes
 
     def begin(self, svars: FloatArray, axes: FloatArray) -> None:
-        """Write the directions (m, points, 3, 3), in rows, at the start into SVARS (m, svars).
+        """Write the initial directions (m, points, 3, 3), in rows, into SVARS (m, svars).
 
         Raises UndefinedDirectionsError if direction 3 is not normal to the plane of plane elements.
         """
@@ -160,15 +160,16 @@ class PointAxes:
                 raise UndefinedDirectionsError((element, point), "direction 3 must be normal to the plane")
         count = VALUES_OF_AXES * self.points
         both = np.repeat(axes.swapaxes(-1, -2)[:, :, None], 2, axis=2)
-        svars[:, self.place : self.place + count] = both.reshape(len(svars), count)
+        svars[:, self.first : self.first + count] = both.reshape(len(svars), count)
 
 
 @dataclass(frozen=True, slots=True)
 class OutputVariables:
-    """*USER OUTPUT VARIABLES of a material: the address of UVARM, points and variables of each.
+    """*USER OUTPUT VARIABLES of a material: the address of UVARM, points of an element and variables of a point.
 
-    names    of the material and its orientation; axes (3, 3), rows are its directions, if they are the same everywhere
-    plastic  the history of a point begins with its plastic strain
+    names    names of the material and its orientation
+    axes     (3, 3) directions, in rows, if they are the same at all points
+    plastic  whether the history of a point begins with its plastic strain
     """
 
     address: int

@@ -81,8 +81,8 @@ class Limit(NamedTuple):
     reason: str = ""
 
 
-class Apart(NamedTuple):
-    """Laws and features that exclude each other, one in each of these sets, and what is expected instead."""
+class Exclusion(NamedTuple):
+    """Sets of laws and features: one of each set together are not supported; and the input expected instead."""
 
     sets: tuple[frozenset[str], ...]
     expected: str = ""
@@ -92,29 +92,29 @@ class Apart(NamedTuple):
 class Support:
     """A column of the table: what elements of a formulation support.
 
-    section   the class of their section
-    build     the builder of a block of them
-    laws      what their material may have
-    idle      what it may have without effect: the laws of fields that they do not have
-    needs     of each of these it has at least one, besides a law for stresses if there is one among its laws
-    apart     what excludes each other
-    limits    the steps that they do not support
-    features  those that they support
-    rests     whether they have no effect in steps without displacements
-    massive   whether they need a density in *DYNAMIC
-    reasons   why they do not support a law
+    section          class of their section
+    build            builder of a block of them
+    laws             laws that their material may have
+    ignored          laws that it may have without effect: those of fields that they do not have
+    needs            sets of laws: it has at least one of each, besides a law for stresses if `laws` has any
+    exclusions       laws and features that exclude each other
+    limits           steps that they do not support
+    features         features that they support
+    mechanical_only  whether they have no effect in steps without displacements
+    needs_density    whether they need *DENSITY in *DYNAMIC
+    reasons          why they do not support a law
     """
 
     section: type
     build: Callable[[Building, ElementGroup], ElementBlock]
     laws: frozenset[Law] = frozenset()
-    idle: frozenset[Law] = frozenset()
+    ignored: frozenset[Law] = frozenset()
     needs: tuple[frozenset[Law], ...] = ()
-    apart: tuple[Apart, ...] = ()
+    exclusions: tuple[Exclusion, ...] = ()
     limits: tuple[Limit, ...] = ()
     features: frozenset[Feature] = frozenset()
-    rests: bool = True
-    massive: bool = False
+    mechanical_only: bool = True
+    needs_density: bool = False
     reasons: Mapping[Law, str] = field(default_factory=dict)
 
     @property
@@ -155,25 +155,25 @@ _MECHANICAL: Final = _laws(
 _EXPANSION: Final = _laws(Law.EXPANSION, Law.EXPANSION_DIRECTED)
 
 _ALL_RUBBER: Final = _laws(_RUBBER, _INCOMPRESSIBLE)
-_LAWS_APART: Final = (
-    Apart((_laws(Law.VISCOELASTIC), _laws(Law.CREEP))),
-    Apart((_VISCOUS, _laws(_PLASTIC, _ALL_RUBBER, _USER))),
-    Apart((_PLASTIC, _USER)),
-    Apart((_VISCOUS, _laws(Law.BY_FIELDS, _ELASTIC - {Law.ISOTROPIC})), f"{Law.ISOTROPIC} with constant values"),
-    Apart((_PLASTIC, _ELASTIC - {Law.ISOTROPIC, Law.HALF}), Law.ISOTROPIC),
-    Apart((_ALL_RUBBER, _laws(_ELASTIC, _PLASTIC, _USER)), "only one of them"),
-    Apart((_ALL_RUBBER, _laws(Law.EXPANSION_DIRECTED)), "TYPE=ISO"),
-    Apart(
+_LAW_EXCLUSIONS: Final = (
+    Exclusion((_laws(Law.VISCOELASTIC), _laws(Law.CREEP))),
+    Exclusion((_VISCOUS, _laws(_PLASTIC, _ALL_RUBBER, _USER))),
+    Exclusion((_PLASTIC, _USER)),
+    Exclusion((_VISCOUS, _laws(Law.BY_FIELDS, _ELASTIC - {Law.ISOTROPIC})), f"{Law.ISOTROPIC} with constant values"),
+    Exclusion((_PLASTIC, _ELASTIC - {Law.ISOTROPIC, Law.HALF}), Law.ISOTROPIC),
+    Exclusion((_ALL_RUBBER, _laws(_ELASTIC, _PLASTIC, _USER)), "only one of them"),
+    Exclusion((_ALL_RUBBER, _laws(Law.EXPANSION_DIRECTED)), "TYPE=ISO"),
+    Exclusion(
         (_laws(Law.NETWORKS), _STRESSES - {Law.HYPERELASTIC, Law.HYPERELASTIC_0}), f"{Law.HYPERELASTIC} by coefficients"
     ),
-    Apart((_laws(Law.NETWORKS), _EXPANSION)),
+    Exclusion((_laws(Law.NETWORKS), _EXPANSION)),
 )
 _STRESS: Final = frozenset({Feature.STRESS})
-_STRESS_APART: Final = (
-    Apart((_STRESS, _laws(_ALL_RUBBER, Law.HALF, Law.UMAT_0, Law.VISCOELASTIC))),
-    Apart((_STRESS, _laws(Law.BY_FIELDS), _laws(Law.USDFLD))),
+_STRESS_EXCLUSIONS: Final = (
+    Exclusion((_STRESS, _laws(_ALL_RUBBER, Law.HALF, Law.UMAT_0, Law.VISCOELASTIC))),
+    Exclusion((_STRESS, _laws(Law.BY_FIELDS), _laws(Law.USDFLD))),
 )
-_HEAT_APART: Final = (Apart((_laws(Law.HETVAL), _laws(Law.UMATHT))),)
+_HEAT_EXCLUSIONS: Final = (Exclusion((_laws(Law.HETVAL), _laws(Law.UMATHT))),)
 
 _NO_DIFFUSION: Final = Limit(lambda step: step.procedure.concentrations, "they have no concentrations")
 _SMALL_ROTATIONS: Final = Limit(
@@ -216,31 +216,34 @@ LIMITS_OF_LAWS: Final[Mapping[Law, tuple[Limit, ...]]] = {
 """Steps that materials do not support, whatever their elements are."""
 
 _ALL: Final = frozenset(Feature)
-_IDLE: Final = _laws(OF_HEAT, _DIFFUSION, _ELECTRIC)
+_IGNORED: Final = _laws(OF_HEAT, _DIFFUSION, _ELECTRIC)
 _SOLID: Final = Support(
     SolidSection,
     solid_block,
     _laws(_DIRECTED, _FIELDS, _PLASTIC, _VISCOUS, _RUBBER, Law.NETWORKS, Law.UMAT, _EXPANSION, Law.UVARM),
-    idle=_IDLE,
-    apart=(*_LAWS_APART, *_STRESS_APART),
+    ignored=_IGNORED,
+    exclusions=(*_LAW_EXCLUSIONS, *_STRESS_EXCLUSIONS),
     limits=(_NO_DIFFUSION,),
     features=_ALL,
-    massive=True,
+    needs_density=True,
 )
 _PLANE_STRESS: Final = replace(_SOLID, laws=_SOLID.laws - _RUBBER - {Law.NETWORKS} | {Law.LAMINA})
 _HYBRID: Final = replace(
     _SOLID,
     laws=_laws(_SOLID.laws - _VISCOUS, _INCOMPRESSIBLE, Law.HALF, Law.UMAT_0),
-    apart=(*_SOLID.apart, Apart((_laws(Law.HALF), _laws(_PLASTIC, _EXPANSION, Law.BY_FIELDS)), "nu < 0.5")),
+    exclusions=(
+        *_SOLID.exclusions,
+        Exclusion((_laws(Law.HALF), _laws(_PLASTIC, _EXPANSION, Law.BY_FIELDS)), "nu < 0.5"),
+    ),
 )
 _COUPLED: Final = replace(
     _SOLID,
     build=coupled_block,
     laws=_laws(_SOLID.laws - _VISCOUS - {Law.NETWORKS}, OF_HEAT),
-    idle=_laws(_DIFFUSION, _ELECTRIC),
+    ignored=_laws(_DIFFUSION, _ELECTRIC),
     needs=(_laws(Law.CONDUCTIVITY, Law.UMATHT),),
     # points of UMATHT are others than those of the stresses, where USDFLD is called
-    apart=(*_SOLID.apart, *_HEAT_APART, Apart((_laws(Law.USDFLD), _laws(Law.UMATHT)))),
+    exclusions=(*_SOLID.exclusions, *_HEAT_EXCLUSIONS, Exclusion((_laws(Law.USDFLD), _laws(Law.UMATHT)))),
     limits=(_COUPLED_STEPS,),
 )
 _PLANES: Final = replace(
@@ -248,24 +251,24 @@ _PLANES: Final = replace(
     build=generalised_block,
     laws=_SOLID.laws - _RUBBER - {Law.NETWORKS},
     limits=(_NO_DIFFUSION, _NO_MASS),
-    massive=False,
+    needs_density=False,
 )
 _SURFACE: Final = Support(
     ShellSection,
     shell_block,
     _laws(_DIRECTED, Law.LAMINA, _FIELDS, _HARDENING, Law.UMAT, Law.UVARM),
-    idle=_IDLE,
-    apart=_LAWS_APART,
+    ignored=_IGNORED,
+    exclusions=_LAW_EXCLUSIONS,
     limits=(_NO_DIFFUSION,),
     features=frozenset({Feature.VARYING, Feature.ENHANCED}),
-    massive=True,
+    needs_density=True,
 )
 _LINE: Final = Support(
     SolidSection,
     discrete_block,
     _laws(Law.ISOTROPIC, Law.HALF, _FIELDS, Law.PLASTIC, Law.UMAT, Law.UVARM),
-    idle=_IDLE,
-    apart=_LAWS_APART,
+    ignored=_IGNORED,
+    exclusions=_LAW_EXCLUSIONS,
     limits=(_NO_DIFFUSION,),
 )
 _BEAM: Final = replace(_LINE, section=BeamSection, build=beam_block, laws=_laws(_LINE.laws, _EXPANSION))
@@ -286,7 +289,7 @@ FORMULATIONS: Final[Mapping[Formulation, Support]] = {
         SolidSection,
         piezoelectric_block,
         _laws(_DIRECTED, Law.LAMINA, _ELECTRIC),
-        idle=_laws(OF_HEAT, _DIFFUSION),
+        ignored=_laws(OF_HEAT, _DIFFUSION),
         needs=(_laws(Law.DIELECTRIC),),
         limits=(_NO_DIFFUSION, _SMALL_STATICS),
     ),
@@ -294,38 +297,38 @@ FORMULATIONS: Final[Mapping[Formulation, Support]] = {
         CompositeSection,
         composite_block,
         _laws(_DIRECTED, _FIELDS, _HARDENING, Law.UMAT, _EXPANSION),
-        idle=_IDLE,
-        apart=_LAWS_APART,
+        ignored=_IGNORED,
+        exclusions=_LAW_EXCLUSIONS,
         limits=(_NO_DIFFUSION,),
         features=frozenset({Feature.VARYING, Feature.ENHANCED}),
-        massive=True,
+        needs_density=True,
     ),
     Formulation.HEAT: Support(
         SolidSection,
         heat_block,
         _laws(OF_HEAT, Law.USDFLD, Law.UVARM),
-        idle=_laws(_MECHANICAL, _DIFFUSION, _ELECTRIC),
+        ignored=_laws(_MECHANICAL, _DIFFUSION, _ELECTRIC),
         needs=(_laws(Law.CONDUCTIVITY, Law.UMATHT),),
-        apart=_HEAT_APART,
+        exclusions=_HEAT_EXCLUSIONS,
         limits=(_HEAT_STEPS,),
-        rests=False,
+        mechanical_only=False,
         features=frozenset({Feature.VARYING, Feature.ORIENT, Feature.SDVINI}),
     ),
     Formulation.DIFFUSION: Support(
         SolidSection,
         mass_diffusion_block,
         _DIFFUSION,
-        idle=_laws(_MECHANICAL, OF_HEAT, _ELECTRIC),
+        ignored=_laws(_MECHANICAL, OF_HEAT, _ELECTRIC),
         needs=(_laws(Law.DIFFUSIVITY), _laws(Law.SOLUBILITY)),
         limits=(_DIFFUSION_STEPS,),
-        rests=False,
+        mechanical_only=False,
         features=frozenset({Feature.SDVINI}),
     ),
     Formulation.COHESIVE: Support(
         CohesiveSection,
         cohesive_block,
         _laws(Law.TRACTION, Law.DAMAGE),
-        idle=_IDLE,
+        ignored=_IGNORED,
         limits=(_NO_DIFFUSION,),
         reasons={
             Law.UMAT: "Abaqus calls UMAT with separations and tractions; expected *ELASTIC, TYPE=TRACTION with *DAMAGE "
@@ -338,13 +341,13 @@ FORMULATIONS: Final[Mapping[Formulation, Support]] = {
         _SURFACE,
         section=MembraneSection,
         build=membrane_block,
-        apart=(*_LAWS_APART, *_STRESS_APART),
+        exclusions=(*_LAW_EXCLUSIONS, *_STRESS_EXCLUSIONS),
         features=frozenset({Feature.VARYING, Feature.STRESS, Feature.SDVINI}),
     ),
     Formulation.PLANE_BEAM: _BEAM,
     Formulation.BEAM: replace(_BEAM, limits=(_NO_DIFFUSION, _SMALL_ROTATIONS)),
     Formulation.TRUSS: replace(
-        _LINE, features=frozenset({Feature.VARYING, Feature.ORIENT, Feature.SDVINI}), massive=True
+        _LINE, features=frozenset({Feature.VARYING, Feature.ORIENT, Feature.SDVINI}), needs_density=True
     ),
     Formulation.SPRING: _WITHOUT_MATERIAL,
     Formulation.DASHPOT: replace(_WITHOUT_MATERIAL, limits=(_NO_DIFFUSION, _NO_TIME)),
@@ -354,10 +357,10 @@ FORMULATIONS: Final[Mapping[Formulation, Support]] = {
         UserProperty,
         user_block,
         _laws(_DIRECTED, Law.LAMINA, _PLASTIC, _VISCOUS, Law.UMAT),
-        idle=_IDLE,
-        apart=_LAWS_APART,
+        ignored=_IGNORED,
+        exclusions=_LAW_EXCLUSIONS,
         limits=(_NO_DIFFUSION, _NO_BUCKLING),
-        rests=False,
+        mechanical_only=False,
         features=frozenset({Feature.SDVINI}),
     ),
 }
@@ -419,7 +422,7 @@ def elements_of(group: ElementGroup) -> str:
 
 
 def check_support(model: Model, group: ElementGroup, support: Support) -> None:
-    """Raise DeckError for what a group has and elements of its formulation do not support."""
+    """Check the material, features and steps of a group against its formulation. Raises DeckError."""
     elements = elements_of(group)
     stressed = bool(support.stresses) and group.definition is None
     features = dict(_features(model, group, stressed=stressed))
@@ -432,10 +435,10 @@ def check_support(model: Model, group: ElementGroup, support: Support) -> None:
             have = (name for name, other in FORMULATIONS.items() if feature in other.features)
             where = f"{elements} (section at {group.section.source})"
             raise unsupported(source, feature, where, instead=_instead(have))
-    _check_steps(model.steps, support.limits, elements, rests=support.rests)
+    _check_steps(model.steps, support.limits, elements, mechanical_only=support.mechanical_only)
     dynamic = any(step.procedure.inertia for step in model.steps)
     for material in materials_of(group.section):
-        if dynamic and support.massive and not material.density:
+        if dynamic and support.needs_density and not material.density:
             message = f"material {material.name} has no *DENSITY, which {elements} need in *DYNAMIC"
             raise DeckError(material.source, f"{message} (section at {group.section.source})")
 
@@ -443,11 +446,11 @@ def check_support(model: Model, group: ElementGroup, support: Support) -> None:
 def _check_material(
     material: Material, features: Mapping[Feature, Source], support: Support, elements: str, section: Source
 ) -> None:
-    """Raise DeckError for what a material has too much or lacks."""
+    """Check that a material has no law that is not supported and lacks none. Raises DeckError."""
     where, place = f"{elements} (material {material.name}, section at {section})", f" (section at {section})"
     laws = laws_of(material)
     for law, source in laws.items():
-        if law not in support.laws | support.idle:
+        if law not in support.laws | support.ignored:
             have = (name for name, other in FORMULATIONS.items() if law in other.laws)
             raise unsupported(source, law, where, reason=support.reasons.get(law, ""), instead=_instead(have))
     for needed in (support.stresses, *support.needs):
@@ -457,15 +460,15 @@ def _check_material(
             listed = f"{', '.join(words[:-1])} or {words[-1]}" if len(words) > 1 else words[0]
             raise DeckError(material.source, f"material {material.name} has no {listed}, which {elements} need{place}")
     sources: dict[str, Source] = {name: place for part in (features, laws) for name, place in part.items()}
-    for sets, expected in support.apart:
+    for sets, expected in support.exclusions:
         if all(names & sources.keys() for names in sets):
             together = [next(name for name in sources if name in names) for names in sets]
             instead = f"expected {expected}" if expected else ""
             raise unsupported(sources[together[0]], " beside ".join(together), where, instead=instead)
 
 
-def _check_steps(steps: Iterable[Step], limits: Sequence[Limit], where: str, *, rests: bool = False) -> None:
-    """Raise DeckError for a step that is not supported; it names those that are, or NLGEOM if that is the reason."""
+def _check_steps(steps: Iterable[Step], limits: Sequence[Limit], where: str, *, mechanical_only: bool = False) -> None:
+    """Check the steps. Raises DeckError, which names those that are supported, or NLGEOM if that is the reason."""
     for step in (step for step in steps if _exceeds(step, limits)):
         reason = next(limit.reason for limit in limits if limit.refuses(step))
         name, other = name_of(step), replace(step, nlgeom=not step.nlgeom)
@@ -476,7 +479,7 @@ def _check_steps(steps: Iterable[Step], limits: Sequence[Limit], where: str, *, 
             instead = _instead(
                 name
                 for name, each in STEPS.items()
-                if (each.procedure.displacements or not rests)
+                if (each.procedure.displacements or not mechanical_only)
                 and not (_exceeds(each, limits) and _exceeds(replace(each, nlgeom=True), limits))
             )
         raise unsupported(step.source, name, where, reason=reason, instead=instead)
@@ -487,14 +490,14 @@ _MOST_NAMED: Final = 5
 
 
 def _instead(names: Iterable[str]) -> str:
-    """Say what is supported."""
+    """Return the end of a message: the names that are supported."""
     listed = list(names)
     more = f" and {len(listed) - _MOST_NAMED} more" if len(listed) > _MOST_NAMED else ""
     return f"supported: {', '.join(listed[:_MOST_NAMED])}{more}" if listed else ""
 
 
 def _features(model: Model, group: ElementGroup, *, stressed: bool) -> Iterator[tuple[Feature, Source]]:
-    """Yield the features that a group has, each with its place. User elements do not get initial stresses in Abaqus."""
+    """Yield the features of a group, each with its source. User elements get no initial stresses in Abaqus."""
     section = group.section
     for orientation in _orientations(section):
         if orientation.system is not None:

@@ -24,7 +24,7 @@ def known_routines(model: Model) -> list[str]:
     """Return the names that the user can declare safe in a model: user element types, and routines of materials."""
     names = {group.type.upper() for group in model.groups if group.definition is not None}
     for group in model.groups:
-        names |= _called(group)
+        names |= _user_routines(group)
     return sorted(names)
 
 
@@ -81,7 +81,7 @@ def _reason_for_one(group: ElementGroup, library: Library, number: int, safe: Co
             )
         if not library.is_own and kind not in safe:
             return _undeclared(f"elements of type {kind}", [kind], number)
-    missing = sorted(_called(group).difference(safe))
+    missing = sorted(_user_routines(group).difference(safe))
     if missing:
         return _undeclared(f"elements of type {kind}", missing, number)
     for material in materials_of(group.section):
@@ -93,9 +93,9 @@ def _reason_for_one(group: ElementGroup, library: Library, number: int, safe: Co
     return ""
 
 
-def _called(group: ElementGroup) -> set[str]:
+def _user_routines(group: ElementGroup) -> set[str]:
     """Return the user routines that elements call at their points."""
-    found: set[str] = set()
+    names: set[str] = set()
     for material in materials_of(group.section):
         routines: dict[str, object] = {"UMAT": material.user, "USDFLD": material.user_field}
         routines |= {"UMATHT": material.user_thermal, "HETVAL": material.heat_generation}
@@ -109,8 +109,8 @@ def _called(group: ElementGroup) -> set[str]:
             routines["UHARD"] = material.plastic.user
         if material.creep is not None and material.creep.user:
             routines["CREEP"] = material.creep
-        found |= {name for name, given in routines.items() if given is not None}
-    return found
+        names |= {name for name, given in routines.items() if given is not None}
+    return names
 
 
 def _undeclared(what: str, missing: list[str], number: int) -> str:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""User output variables (UVAR) of the points of a block, which UVARM gives at the end of an increment."""
+"""User output variables (UVAR) of the points of a block, set by UVARM at the end of an increment."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ class UserVariables:
     """
 
     def __init__(self, uvarm: OutputVariables, routine: Routine, library: Library, count: int) -> None:
-        """Begin with zeros; count: number m of elements."""
+        """Set all to zero; count: number m of elements."""
         self.values = np.zeros((count, uvarm.points, uvarm.count))
         self._uvarm, self._routine, self._library = uvarm, routine, library
-        self._places = np.zeros(0)
+        self._coordinates = np.zeros(0)
 
     def keep(self, rows: IntArray) -> None:
         """Keep only these elements (rows from 0)."""
         self.values = self.values[rows]
 
     def move(self, call: Call, u: FloatArray, arrays: BlockArrays, unknowns: tuple[tuple[int, int], ...]) -> None:
-        """Set where the nodes are for UVARM: displaced by u (n,) with NLGEOM; unknowns: of an element."""
-        self._places = arrays.coords
+        """Set the coordinates of the nodes for UVARM: displaced by u (n,) with NLGEOM; unknowns: of an element."""
+        self._coordinates = arrays.coords
         if not call.flags.nlgeom:
             return
         # the driver counts from 1
@@ -44,7 +44,7 @@ class UserVariables:
         for k, (local, dof) in enumerate(unknowns):
             if local < now.shape[1] and dof <= now.shape[2]:
                 now[:, local, dof - 1] += moved[:, k]
-        self._places = now
+        self._coordinates = now
 
     def call(self, call: Call, group: ElementGroup, arrays: BlockArrays) -> None:
         """Call UVARM at all points, after a pass with this call. Raises KernelError if it ends the analysis."""
@@ -60,7 +60,7 @@ class UserVariables:
             (routine.tensor, routine.statev, routine.family, int(uvarm.plastic)),
             (call.step, call.increment),
             (call.step_time - call.time_increment, call.total_time - call.time_increment, call.time_increment),
-            replace(arrays, coords=self._places),
+            replace(arrays, coords=self._coordinates),
             routine.hidden,
             self.values,
             local=routine.axes is not None,

@@ -121,14 +121,14 @@ def test_anisotropic_hybrid_elements_are_linear(tmp_path, element_type):
 
 def test_elements_whose_matrix_is_not_the_derivative_are_called(tmp_path, monkeypatch, calls):
     """Here it is 1 % too large in one entry of one element; all of them then converge as if there were no short cut."""
-    evaluate_apart = ElementBlock.evaluate_apart
+    evaluate_unassembled = ElementBlock.evaluate_unassembled
 
     def wrong(self, *arguments):
-        report, matrices = evaluate_apart(self, *arguments)
+        report, matrices = evaluate_unassembled(self, *arguments)
         matrices[-1, 0, 0] *= 1.01
         return report, matrices
 
-    monkeypatch.setattr(ElementBlock, "evaluate_apart", wrong)
+    monkeypatch.setattr(ElementBlock, "evaluate_unassembled", wrong)
     deck = tmp_path / "patch.inp"
     deck.write_text(deck_of("CPE4", "isotropic"))
     found = uel.run(deck, output_dir=tmp_path)

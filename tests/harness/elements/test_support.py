@@ -85,7 +85,7 @@ def test_the_manual_has_the_table():
             assert (mark == SMALL) == (mark not in (NO, IDLE) and not large)
         else:
             assert (mark == YES) == (row in support.laws | support.features)
-            assert (mark == IDLE) == (row in support.idle)
+            assert (mark == IDLE) == (row in support.ignored)
     assert {row for row, _ in CELLS} == {*map(str, Law), *STEPS, *map(str, Feature)}
 
 

@@ -137,7 +137,7 @@ class Problem:
         call, zero = Call(Flags(1), 1, 1, 1.0, 1.0, 0.01, 1.0), np.zeros(len(system))
         first = system.evaluate(call, zero, zero).data.copy()
         interface = next(b for b in system.blocks if b.group.type in ("U2", "U4", "U8"))
-        _, matrices = interface.evaluate_apart(call, zero, zero, np.zeros(len(system)))
+        _, matrices = interface.evaluate_unassembled(call, zero, zero, np.zeros(len(system)))
         x = system.dofs.mesh.coordinates[interface.group.nodes, 0].mean(axis=1)
         matrices[x > x.min() + ZONE] = 0.0
         softer = first.copy()

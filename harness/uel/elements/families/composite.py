@@ -18,7 +18,7 @@ import numpy as np
 
 from uel.elements.block import ElementBlock
 from uel.elements.building import Building, nodal_block
-from uel.elements.directions import first_element, undefined
+from uel.elements.directions import first_element, undefined_directions
 from uel.elements.families.solid import (
     OF_FIRST_TANGENT,
     hourglass_stiffness,
@@ -195,7 +195,7 @@ def _directions(
     try:
         return orientation.system.axes(elements, nodes, places)
     except UndefinedDirectionsError as error:
-        raise undefined(group, orientation, error) from None
+        raise undefined_directions(group, orientation, error) from None
 
 
 def _turned(group: ElementGroup, layer: SolidLayer, axes: FloatArray, normal: FloatArray) -> FloatArray:

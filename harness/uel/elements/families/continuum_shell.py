@@ -11,7 +11,7 @@ import numpy as np
 
 from uel.elements.block import ElementBlock
 from uel.elements.building import Building, begin_surface_axes, nodal_block
-from uel.elements.directions import start_axes
+from uel.elements.directions import initial_axes
 from uel.elements.families.shell import (
     check_section,
     define_section,
@@ -96,7 +96,7 @@ def stack_directions(
     if section.stack is not None:
         return np.full((len(group.labels), 1), float(section.stack))
     assert section.orientation is not None
-    normal = start_axes(model, group, kind, section.orientation, library)[:, 0, section.orientation.normal - 1]
+    normal = initial_axes(model, group, kind, section.orientation, library)[:, 0, section.orientation.normal - 1]
     _, _, slopes = _binding.integration_rule(kind.family.number, 1, kind.nodes, 3)
     along = np.einsum("mkd,ka->mad", model.mesh.coordinates[group.nodes], slopes[0])
     size = np.linalg.norm(along, axis=-1)

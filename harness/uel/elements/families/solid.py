@@ -10,7 +10,7 @@ import numpy as np
 
 from uel.elements.block import ElementBlock
 from uel.elements.building import Building
-from uel.elements.directions import first_element, start_axes
+from uel.elements.directions import first_element, initial_axes
 from uel.elements.materials.hybrid import has_unsymmetric_pressure, pressure_unknowns
 from uel.elements.materials.library import (
     define_material,
@@ -367,6 +367,6 @@ def continuum_block(
         variables=variables or solid_variables(group, routine),
     )
     if routine.axes is not None:
-        axes = start_axes(building.model, group, kind, routine.axes.orientation, building.library)
+        axes = initial_axes(building.model, group, kind, routine.axes.orientation, building.library)
         block.initial.begin_axes(axes)
     return block

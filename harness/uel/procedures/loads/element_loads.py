@@ -483,7 +483,7 @@ class _ElementLoads:
             mine = chosen[block.holds(self._slots.owners[chosen])]
             if not len(mine):
                 continue
-            rows = block.places_of(self._slots.owners[mine])
+            rows = block.rows_of(self._slots.owners[mine])
             forces, coords, shapes = unit_forces(block.group, rows, entry, system.dofs.mesh.coordinates)
             elements, points, _, dimension = forces.shape
             local = list(entry.type.face) or list(range(block.group.nodes.shape[1]))

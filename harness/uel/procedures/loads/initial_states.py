@@ -60,9 +60,9 @@ def set_initial_states(blocks: Iterable[ElementBlock], model: Model, user: Initi
                 assert sdvini is not None
                 block.initial.call_sdvini(sdvini)
                 continue
-            rows = block.places_of(entry.elements[block.holds(entry.elements)])
+            rows = block.rows_of(entry.elements[block.holds(entry.elements)])
             try:
-                if block.are_of_group(entry.elements).any():
+                if block.in_group(entry.elements).any():
                     block.initial.initialise(rows, entry.values)
             except ValueError as error:
                 raise DeckError(entry.source, f"*INITIAL CONDITIONS, TYPE=SOLUTION: {error}") from None
@@ -81,13 +81,13 @@ def set_initial_stresses(
             stressed |= system.agree(partial(_stresses_by_user, system, entry, user))
             continue
         for block in system.blocks:
-            if not block.are_of_group(entry.elements).any():
+            if not block.in_group(entry.elements).any():
                 continue
             if block.group.definition is not None:
                 message = f"user elements ({block.group.type}) do not get initial stresses, nor do they in Abaqus"
                 yield Warned(f"{entry.source}: *INITIAL CONDITIONS, TYPE=STRESS has no effect: {message}")
                 continue
-            rows = block.places_of(entry.elements[block.holds(entry.elements)])
+            rows = block.rows_of(entry.elements[block.holds(entry.elements)])
             try:
                 block.initial.set_stress(rows, entry.values if entry.profile is None else entry.profile)
             except ValueError as error:
