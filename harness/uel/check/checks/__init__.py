@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks of elements, one per file; each takes a Subject and returns a Finding."""
+"""Checks of elements by topic, one per file; each takes a Subject and returns a Finding."""
 
 from __future__ import annotations
 
@@ -8,35 +8,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
-from uel.check.checks import (
-    compiler,
-    debug,
-    deck_run,
-    energy,
-    history,
-    increments,
-    inputs,
-    loads,
-    local_variables,
-    memory,
-    no_time,
-    order,
-    patch_test,
-    pnewdt,
-    repeat,
-    requests,
-    resources,
-    rest,
-    rotation,
-    shear,
-    state_rule,
-    symmetry,
-    tangent,
-    threads,
-    translation,
-    values,
-    zero_modes,
-)
+from uel.check.checks.arguments import inputs, loads, no_time, pnewdt
+from uel.check.checks.evolution import energy, history, increments, state_rule
+from uel.check.checks.mechanics import patch_test, rest, rotation, shear, symmetry, tangent, translation, zero_modes
+from uel.check.checks.memory import arrays, local_variables, order, repeat, resources, threads
+from uel.check.checks.requests import procedures
+from uel.check.checks.run import compiler, debug, deck_run, values
 from uel.check.finding import Finding
 from uel.check.subject import Subject
 
@@ -63,16 +40,16 @@ CHECKS: Final = (
     Check("values", values.check, calls=False),
     Check("compiler", compiler.check, calls=False),
     Check("resources", resources.check),
-    Check("filled", memory.check_filled),
-    Check("outside", memory.check_outside),
-    Check("undeclared", memory.check_undeclared),
+    Check("filled", arrays.check_filled),
+    Check("outside", arrays.check_outside),
+    Check("undeclared", arrays.check_undeclared),
     Check("inputs", inputs.check),
     Check("locals", local_variables.check),
     Check("repeat", repeat.check),
     Check("order", order.check, calls=False, unless="locals"),
     Check("threads", threads.check),
     Check("no-time", no_time.check),
-    Check("requests", requests.check),
+    Check("requests", procedures.check),
     Check("pnewdt", pnewdt.check),
     Check("loads", loads.check),
     Check("tangent", tangent.check, forces=True),

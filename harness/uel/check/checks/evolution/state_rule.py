@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from uel.check.checks.tangent import kinds
+from uel.check.checks.mechanics.tangent import kinds
 from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed, not_applicable, passed
 from uel.check.split_increment import subdivide

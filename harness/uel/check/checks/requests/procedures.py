@@ -10,10 +10,10 @@ from typing import Final
 
 import numpy as np
 
-from uel.check.checks.capacity import TRANSIENT, check_capacity
-from uel.check.checks.damping import check_damping
-from uel.check.checks.perturbation import check_perturbation
-from uel.check.checks.rotated_mass import check_rotated_mass
+from uel.check.checks.requests.capacity import TRANSIENT, check_capacity
+from uel.check.checks.requests.damping import check_damping
+from uel.check.checks.requests.perturbation import check_perturbation
+from uel.check.checks.requests.rotated_mass import check_rotated_mass
 from uel.check.element_calls import DYNAMIC, ElementState
 from uel.check.finding import Finding, Verdict, failed, not_applicable, passed
 from uel.check.recording import Pass

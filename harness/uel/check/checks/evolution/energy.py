@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from uel.check.checks.rest import MECHANICAL
+from uel.check.checks.mechanics.rest import MECHANICAL
 from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed, not_applicable, passed
 from uel.check.subject import NOT_MOVING, Subject

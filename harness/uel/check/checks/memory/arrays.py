@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Memory checks: unset output, and reads and writes outside the arrays."""
+"""Arrays: entries of RHS and AMATRX left unset, reads and writes outside the arguments."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def check_outside(subject: Subject) -> Finding:
 
 
 def _requests(state: ElementState) -> Iterator[tuple[str, ElementState]]:
-    """Yield the call, then all other requests of Abaqus with a description; for KINC = 0 see no_time.py."""
+    """Yield the call, then all other requests of Abaqus with a description; for KINC = 0 see arguments/no_time.py."""
     yield "", state
     for request in REQUESTS:
         yield f" with LFLAGS(3) = {request}", state.asked(request)

@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from uel.check.checks.translation import relative
+from uel.check.checks.mechanics.translation import relative
 from uel.check.element_calls import ElementState
 from uel.check.finding import Finding, failed, not_applicable, passed
 from uel.check.rigid_motions import AT_REST, INERTIA, NO_BODY, Body, body_of, makes_inertia

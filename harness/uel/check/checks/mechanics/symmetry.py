@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from uel.check.checks.tangent import block_scales
+from uel.check.checks.mechanics.tangent import block_scales
 from uel.check.finding import Finding, failed, passed
 from uel.check.subject import Subject
 from uel.check.tie_breaking import exceeds, first_largest
