@@ -35,7 +35,7 @@ class Sharing:
         ranks, contributors = self.ranks, self._contributors
         if ranks.size == 1:
             return
-        owners = ranks.tell(lambda: owners_of([block.nodes for block in contributors.elements], ranks.size))
+        owners = ranks.on_rank_0(lambda: owners_of([block.nodes for block in contributors.elements], ranks.size))
         for block in contributors.shared:
             block.keep(np.flatnonzero(block.owners(owners) == ranks.rank))
 
@@ -70,7 +70,7 @@ class Sharing:
         loads = [] if own.load is None else [own.load]
         counts = own.flux_count.astype(np.float64), own.entries.astype(np.float64)
         parts = [own.residual, *loads, own.flux, counts[0], own.energy, np.array([own.damage]), counts[1]]
-        total = self.sum(np.concatenate([*parts, self.ranks.apart(extremes)]))
+        total = self.sum(np.concatenate([*parts, self.ranks.stacked(extremes)]))
         residual, *loads, flux, count, energy, damage, entries, found = np.split(
             total, np.cumsum([len(part) for part in parts])
         )
@@ -100,7 +100,7 @@ class Sharing:
         own = [(block.rows, block.state(k)) for k, block in enumerate(self._contributors.elements)]
         if self.ranks.size == 1:
             return tuple(state for _, state in own)
-        return tuple(map(_joined, zip(*self.ranks.collect(own), strict=True)))
+        return tuple(map(_joined, zip(*self.ranks.gather(own), strict=True)))
 
     def _calling_order(self, error: Exception) -> float:
         """Return the position in the model of the element that an error names; infinite if it names none."""

@@ -229,7 +229,7 @@ class System:
         return States(self._read_states, self._read_state, lambda: self._committed == increment)
 
     def _read_states(self) -> tuple[ElementState, ...]:
-        self.ranks.ask()
+        self.ranks.call_helpers()
         return self.share_states()
 
     def _read_state(self, index: int) -> ElementState | None:

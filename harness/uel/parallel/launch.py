@@ -19,7 +19,7 @@ _DESCRIPTOR: Final = "PMI_FD"
 class Launch:
     """Rank of this process, from 0, and number of ranks; 0 of 1 without `mpiexec`.
 
-    descriptors  that a process which is to be the rank in place of this one needs
+    descriptors  file descriptors that a process needs to be this rank in place of this process
     """
 
     rank: int = 0
@@ -33,19 +33,19 @@ class Launch:
 
 
 def launched() -> Launch:
-    """Find out how this process was started."""
+    """Read rank and size from the variables of `mpiexec`; 0 of 1 without them."""
     for rank, size in _VARIABLES:
         try:
-            found = Launch(int(os.environ[rank]), int(os.environ[size]))
+            launch = Launch(int(os.environ[rank]), int(os.environ[size]))
         except (KeyError, ValueError):
             continue
-        if found.size > 1:
-            given = os.environ.get(_DESCRIPTOR, "")
-            return Launch(found.rank, found.size, (int(given),) if given.isdigit() else ())
+        if launch.size > 1:
+            descriptor = os.environ.get(_DESCRIPTOR, "")
+            return Launch(launch.rank, launch.size, (int(descriptor),) if descriptor.isdigit() else ())
     return Launch()
 
 
 def without_launch() -> dict[str, str]:
-    """Return the environment of a process that is no rank, whoever started this one."""
+    """Return the environment without the variables of `mpiexec`, for a process that is no rank."""
     names = {name for pair in _VARIABLES for name in pair}
     return {name: value for name, value in os.environ.items() if name not in names}

@@ -24,16 +24,16 @@ _T = TypeVar("_T")
 _A = TypeVar("_A", bound=np.generic)
 
 _SPIN: Final = 2e-4
-"""Seconds in which a rank that waits for others asks again and again; after that it sleeps in between."""
+"""Seconds for which a rank that waits for others polls without a pause."""
 
-_NAP: Final = 2e-4
-"""Seconds of such a sleep."""
+_PAUSE: Final = 2e-4
+"""Seconds of the pauses after that."""
 
 _HELP: Final[tuple[bool, Any]] = (True, None)
-"""Message of rank 0 to the others in `lead` when it asks for help."""
+"""Message of `call_helpers` to the other ranks in `lead`."""
 
 _TOGETHER: Final = 10.0
-"""Seconds in which all ranks come to the end, unless only one of them has failed."""
+"""Seconds to wait at the end after an error: if only one rank has met it, the others do not come."""
 
 
 def begin(launch: Launch) -> Ranks:
@@ -44,20 +44,20 @@ def begin(launch: Launch) -> Ranks:
 class MpiRanks(Ranks):
     """The processes that `mpiexec` has started.
 
-    A sum goes to rank 0 and from there to all, so that no rank has other bits; MPI adds in the same order in each run
-    on as many ranks.
+    A sum is formed on rank 0 and broadcast, so that all ranks have the same bits. MPI adds in the same order in each
+    run on as many ranks.
     """
 
     token = ""
 
     def __init__(self, launch: Launch) -> None:
         """Start MPI. Raises UsageError without mpi4py, and where its MPI is not that of `mpiexec`."""
-        # MPICH asks without end for messages; let it give up the core while there are none
+        # MPICH polls for messages without a pause; let it yield the core while there are none
         os.environ.setdefault("MPIR_CVAR_POLLS_BEFORE_YIELD", "1")
         try:
             import mpi4py  # noqa: PLC0415
 
-            # only when all ranks have come to the end: a rank that has failed would wait for the others
+            # `close` finalises, once all ranks are at the end: a rank that has failed would wait for the others
             mpi4py.rc.finalize = False
             from mpi4py import MPI  # noqa: PLC0415
         except (ImportError, RuntimeError) as error:
@@ -77,7 +77,7 @@ class MpiRanks(Ranks):
         self._together: bool | None = None
         self._known: Exception | None = None
         self._before_end: list[Callable[[], None]] = []
-        self.token = self.from_first(secrets.token_hex(4))
+        self.token = self.broadcast(secrets.token_hex(4))
         slate = own_slate()
         if slate is not None:
             slate.token = self.token.encode()
@@ -85,35 +85,35 @@ class MpiRanks(Ranks):
     def sum(self, values: FloatArray) -> FloatArray:
         """Sum an array over the ranks, see `Ranks`."""
         total = np.empty_like(values)
-        self._meet()
+        self._barrier()
         self.comm.Reduce(values, None if self.rank else total, self._mpi.SUM, 0)
         self.comm.Bcast(total, 0)
         return total
 
-    def everyones(self, mine: _T) -> list[_T]:
-        """Gather a value of each rank on all of them, see `Ranks`."""
-        self._meet()
-        return list(self.comm.allgather(mine))
+    def allgather(self, value: _T) -> list[_T]:
+        """Gather the values of all ranks on each of them, see `Ranks`."""
+        self._barrier()
+        return list(self.comm.allgather(value))
 
-    def collect(self, mine: _T) -> list[_T]:
-        """Gather a value of each rank on rank 0, see `Ranks`; only this rank's where the others have ended."""
+    def gather(self, value: _T) -> list[_T]:
+        """Gather the values of all ranks on rank 0, see `Ranks`; only this rank's where the others have ended."""
         if self._together is False:
-            return [mine]
-        self._meet()
-        return self.comm.gather(mine, 0) or []
+            return [value]
+        self._barrier()
+        return self.comm.gather(value, 0) or []
 
-    def from_first(self, mine: _T) -> _T:
-        """Broadcast a value from rank 0, see `Ranks`."""
-        packed = np.frombuffer(pickle.dumps(mine), dtype=np.uint8) if not self.rank else np.zeros(0, dtype=np.uint8)
+    def broadcast(self, value: _T) -> _T:
+        """Return the value of rank 0 on all ranks, see `Ranks`."""
+        packed = np.frombuffer(pickle.dumps(value), dtype=np.uint8) if not self.rank else np.zeros(0, dtype=np.uint8)
         size = np.array([len(packed)])
         self._wait(self.comm.Ibcast(size, 0))
         packed = np.resize(packed, size[0])
         self._wait(self.comm.Ibcast(packed, 0))
-        found: _T = pickle.loads(packed.tobytes())
-        return found
+        received: _T = pickle.loads(packed.tobytes())
+        return received
 
     def exchange(self, parts: Sequence[np.ndarray[Any, np.dtype[_A]]]) -> list[np.ndarray[Any, np.dtype[_A]]]:
-        """Exchange arrays with all ranks, see `Ranks`."""
+        """Send an array to each rank, see `Ranks`."""
         counts = np.array([len(part) for part in parts])
         incoming = np.empty_like(counts)
         self._wait(self.comm.Ialltoall(counts, incoming))
@@ -126,53 +126,53 @@ class MpiRanks(Ranks):
         sent = np.concatenate(parts)
         received = np.empty(incoming.sum(), dtype=sent.dtype)
         counts = np.array([len(part) for part in parts])
-        self._meet()
+        self._barrier()
         self.comm.Alltoallv((sent, counts), (received, incoming))
         return np.split(received, np.cumsum(incoming)[:-1])
 
     def agree(self, act: Callable[[], _T], order: Callable[[Exception], float] = lambda _: math.inf) -> _T:
-        """Act on all ranks, and raise an error of one on all of them, see `Ranks`."""
+        """Call a function on each rank, and raise an error of one on all of them, see `Ranks`."""
         failure: Exception | None = None
         try:
             result = act()
         except FAILURES as error:
             if error is self._known:
-                # the others have it too, from an agreement within this one
+                # an inner `agree` has raised it on the other ranks too
                 raise
             failure = error
         if not self.sum(np.array([float(failure is not None)]))[0]:
             return result
-        told = None if failure is None else (order(failure), self.rank, _packed(failure))
-        found = min((one for one in self.everyones(told) if one is not None), key=lambda one: one[:2])
-        self._raise(found[2])
+        own = None if failure is None else (order(failure), self.rank, _packed(failure))
+        first = min((one for one in self.allgather(own) if one is not None), key=lambda one: one[:2])
+        self._raise(first[2])
         raise AssertionError("unreachable")
 
-    def tell(self, act: Callable[[], _T]) -> _T:
-        """Act on rank 0 and broadcast the result or the error, see `Ranks`."""
+    def on_rank_0(self, act: Callable[[], _T]) -> _T:
+        """Call a function on rank 0 and broadcast its result or error, see `Ranks`."""
         failure: Exception | None = None
         result: _T | None = None
         try:
             result = None if self.rank else act()
         except FAILURES as error:
             failure = error
-        told, result = self.from_first((_packed(failure), result))
-        self._raise(told)
+        packed, result = self.broadcast((_packed(failure), result))
+        self._raise(packed)
         assert result is not None
         return result
 
     def _raise(self, packed: _Packed | None) -> None:
-        """Raise the error that another rank has packed, if there is one."""
+        """Raise a packed error, if there is one."""
         if packed is None:
             return
-        kind, words, details = packed
-        # constructors of errors take other arguments than those they keep
-        known: Exception = kind.__new__(kind, *words)
-        known.__dict__.update(details)
+        kind, arguments, attributes = packed
+        # not by the constructor, whose arguments differ from `args` of the error
+        known: Exception = kind.__new__(kind, *arguments)
+        known.__dict__.update(attributes)
         self._known = known
         raise known
 
     def in_turn(self, act: Callable[[], _T]) -> _T:
-        """Act on rank 0, then on the others, see `Ranks`."""
+        """Call a function on rank 0, then on the others, see `Ranks`."""
         first = self.agree(lambda: None if self.rank else act())
         others = self.agree(lambda: act() if self.rank else None)
         result = others if self.rank else first
@@ -180,43 +180,43 @@ class MpiRanks(Ranks):
         return result
 
     def lead(self, act: Callable[[], None], help_out: Callable[[], object]) -> None:
-        """Act on rank 0 while the others wait to help, see `Ranks`; rank 0 acts alone where the others have ended."""
+        """Call `act` on rank 0 while the others help, see `Ranks`; rank 0 is alone where the others have ended."""
         if self._together is False:
             if not self.rank:
                 act()
             return
         failure: Exception | None = None
         if self.rank:
-            while (told := self.from_first(_HELP))[0]:
+            while (message := self.broadcast(_HELP))[0]:
                 help_out()
-            self._raise(told[1])
+            self._raise(message[1])
             return
         try:
             act()
         except FAILURES as error:
             if error is self._known:
-                # of a help, which the others have left with the same error
+                # `help_out` has raised it on the other ranks too
                 raise
             failure = error
-        self.from_first((False, _packed(failure)))
+        self.broadcast((False, _packed(failure)))
         if failure is not None:
             self._known = failure
             raise failure
 
-    def ask(self) -> None:
-        """Ask the other ranks for help, see `Ranks`. Raises OSError where the others have ended."""
+    def call_helpers(self) -> None:
+        """Let the other ranks help, see `Ranks`. Raises OSError where they have ended."""
         if self._together is False:
             raise OSError("the other ranks have ended")
-        self.from_first(_HELP)
+        self.broadcast(_HELP)
 
     def ended(self, error: BaseException | None) -> bool:
-        """Report whether all ranks end together, see `Ranks`."""
+        """Return whether all ranks come to the end, see `Ranks`."""
         if self._together is None:
             self._together = not isinstance(error, KeyboardInterrupt) and self._all_end(wait=error is None)
         return self._together
 
     def before_end(self, act: Callable[[], None]) -> None:
-        """Register an act for the end of the ranks, see `Ranks`."""
+        """Register a function for the end of MPI, see `Ranks`."""
         if act not in self._before_end:
             self._before_end.append(act)
 
@@ -228,27 +228,28 @@ class MpiRanks(Ranks):
             self._mpi.Finalize()
 
     def _all_end(self, *, wait: bool) -> bool:
-        """Report whether all ranks come here; wait: for as long as it takes."""
+        """Return whether all ranks come here; wait: for them without a limit of time."""
         request, until = self._at_end.Ibarrier(), time.monotonic() + _TOGETHER
         while not request.Test():
             if not wait and time.monotonic() > until:
                 return False
-            time.sleep(_NAP)
+            time.sleep(_PAUSE)
         return True
 
-    def _meet(self) -> None:
-        """Wait until all ranks are here: what they then tell each other moves on only while they ask for it."""
+    def _barrier(self) -> None:
+        """Wait until all ranks are here, since messages progress only while ranks poll for them."""
         self._wait(self.comm.Ibarrier())
 
     def _wait(self, request: Any) -> None:
-        """Wait in sleep rather than by asking without end: the work of the ranks differs in length."""
+        """Wait for a request with pauses between polls, since the ranks work for different times."""
         until = time.perf_counter() + _SPIN
         while not request.Test():
             if time.perf_counter() > until:
-                time.sleep(_NAP)
+                time.sleep(_PAUSE)
 
 
 _Packed = tuple[type[Exception], tuple[Any, ...], dict[str, Any]]
+"""Class, arguments and attributes of an error."""
 
 
 def _packed(error: Exception | None) -> _Packed | None:

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Communication between the ranks of a job. All of them call each of these functions, in the same order.
 
-Rank 0 alone speaks: it writes the files and prints. What one rank cannot do, all of them learn of, so that they end
-together.
+Only rank 0 writes files and prints. An error of one rank is raised on all of them, so that they end together.
 """
 
 from __future__ import annotations
@@ -21,14 +20,14 @@ _T = TypeVar("_T")
 _A = TypeVar("_A", bound=np.generic)
 
 FAILURES: Final = (UelError, OSError, MemoryError)
-"""Errors that one rank may meet and all of them have to learn of."""
+"""Errors of one rank that are raised on all of them."""
 
 
 class Ranks:
     """Single process, which is all ranks.
 
     rank, size  number of this rank, from 0, and of all of them
-    token       by which the ranks know this run
+    token       name of the run, the same on all ranks
     """
 
     rank = 0
@@ -36,90 +35,90 @@ class Ranks:
     token = ""
 
     def sum(self, values: FloatArray) -> FloatArray:
-        """Sum an array over the ranks, the same to the bit on all of them; not a copy on one rank."""
+        """Sum an array over the ranks, to the same bits on all of them; a single process returns the array itself."""
         return values
 
     def largest(self, values: FloatArray) -> FloatArray:
         """Return the largest value of each entry of an array (k,) over the ranks."""
-        found: FloatArray = self.sum(self.apart(values)).reshape(self.size, -1).max(axis=0)
-        return found
+        largest: FloatArray = self.sum(self.stacked(values)).reshape(self.size, -1).max(axis=0)
+        return largest
 
-    def apart(self, values: FloatArray) -> FloatArray:
-        """Return an array (k,) whose `sum` (size k) has the values of all ranks one after another."""
-        places = np.zeros((self.size, len(values)))
-        places[self.rank] = values
-        return places.ravel()
+    def stacked(self, values: FloatArray) -> FloatArray:
+        """Return values (k,) in an array (size k) of zeros, whose `sum` has those of all ranks one after another."""
+        rows = np.zeros((self.size, len(values)))
+        rows[self.rank] = values
+        return rows.ravel()
 
-    def everyones(self, mine: _T) -> list[_T]:
-        """Gather a value of each rank, in their order, on all of them."""
-        return [mine]
+    def allgather(self, value: _T) -> list[_T]:
+        """Gather the values of all ranks, in order, on each of them."""
+        return [value]
 
-    def collect(self, mine: _T) -> list[_T]:
-        """Gather a value of each rank, in their order, on rank 0; nothing on the others."""
-        return [mine]
+    def gather(self, value: _T) -> list[_T]:
+        """Gather the values of all ranks, in order, on rank 0; the others get an empty list."""
+        return [value]
 
-    def from_first(self, mine: _T) -> _T:
-        """Broadcast a value from rank 0."""
-        return mine
+    def broadcast(self, value: _T) -> _T:
+        """Return the value of rank 0 on all ranks."""
+        return value
 
     def exchange(self, parts: Sequence[np.ndarray[Any, np.dtype[_A]]]) -> list[np.ndarray[Any, np.dtype[_A]]]:
-        """Exchange arrays: return those of each rank for this one, in order; parts: those of this one for each."""
+        """Send parts[k] to rank k; return the arrays received, in the order of the ranks."""
         return list(parts)
 
     def exchange_known(
         self, parts: Sequence[np.ndarray[Any, np.dtype[_A]]], incoming: IntArray
     ) -> list[np.ndarray[Any, np.dtype[_A]]]:
-        """Exchange arrays as in `exchange`, where the lengths of what comes are known."""
+        """Exchange arrays as in `exchange`; incoming: known lengths of those received."""
         return list(parts)
 
     def agree(self, act: Callable[[], _T], order: Callable[[Exception], float] = lambda _: math.inf) -> _T:
-        """Do something that may fail on one rank alone: it then fails on all, with the same error.
+        """Call a function on each rank; if it raises an error on any of them, raise that error on all.
 
         Parameters
         ----------
         act
-            What each rank does by itself.
+            Function that each rank calls by itself.
         order
-            Of the errors of several ranks the one with the smallest value counts, then that of the lowest rank.
+            If several ranks raise errors, the one with the smallest value counts, then that of the lowest rank.
 
         Returns
         -------
         T
-            What `act` returns on this rank.
+            Result of `act` on this rank.
         """
         return act()
 
-    def tell(self, act: Callable[[], _T]) -> _T:
-        """Act on rank 0; return the result, which is not None, or raise the error, on all ranks."""
+    def on_rank_0(self, act: Callable[[], _T]) -> _T:
+        """Call a function on rank 0; return its result, which is not None, or raise its error, on all ranks."""
         return act()
 
     def in_turn(self, act: Callable[[], _T]) -> _T:
-        """Do something on rank 0 first, then on the others; errors as in `agree`."""
+        """Call a function on rank 0 first, then on the others; errors as in `agree`."""
         return act()
 
     def lead(self, act: Callable[[], None], help_out: Callable[[], object]) -> None:
-        """Do something on rank 0, while the others do what it asks for by `ask`; errors as in `agree`."""
+        """Call `act` on rank 0; when it calls `call_helpers`, the others call `help_out`. Errors as in `agree`."""
         act()
 
-    def ask(self) -> None:
-        """Let the other ranks do their part, within `lead`."""
+    def call_helpers(self) -> None:
+        """Let the other ranks call `help_out` of `lead`."""
 
     def ended(self, error: BaseException | None) -> bool:
-        """Come to the end of the job; returns whether all ranks do.
+        """Wait for the other ranks at the end of the job; return whether all of them have come there.
 
         Parameters
         ----------
         error
-            What ends it, None if it is complete. An error that only this rank has met lets the others hang: after some
-            seconds this one goes on alone.
+            Error that ends the job, None if it is complete. If only this rank has met it, the others do not come: after
+            some seconds this one goes on alone.
         """
         return True
 
     def before_end(self, act: Callable[[], None]) -> None:
-        """Do something once before `close` ends MPI, on all ranks and only if all of them come to the end."""
+        """Register a function that `close` calls once before it ends MPI, if all ranks come to the end."""
 
     def close(self) -> None:
-        """End the communication: the last thing that ranks do together."""
+        """End MPI, as the last act of all ranks."""
 
 
 ALONE: Final = Ranks()

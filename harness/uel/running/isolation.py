@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A run in a separate process: whatever user code does, the run ends with closed files and a stated reason."""
+"""Run in a separate process: whatever user code does, the files are closed and the reason is stated."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from typing import IO, Final
 
 from uel.errors import tell_error
 from uel.interrupts import ENDS, collected, describe_interrupt
-from uel.parallel import Launch, await_end, forget_word, leave_word, read_word, without_launch
+from uel.parallel import Launch, await_end, read_reason, remove_reason, without_launch, write_reason
 from uel.running import sanitizer
 from uel.shared_progress import Slate, Within, new_slate
 
@@ -29,16 +29,16 @@ _ENDED = 2
 """Exit code with which the Fortran library ends a process; usage errors, which have it too, are reported before."""
 
 _GLANCE: Final = 0.2
-"""Seconds between two looks at the process."""
+"""Seconds between two checks of the process."""
 
 _GRACE: Final = 5.0
-"""Seconds it has to end: after a signal, when all is done, or beyond the limit of a call."""
+"""Seconds that the process has to end: after a signal, when it has finished, or beyond the limit of a call."""
 
 _IDLE: Final = 10.0
-"""Seconds without work after which a process that abandoned a call is assumed to wait for a lock for ever."""
+"""Seconds without CPU time after which a process that abandoned a call counts as waiting for a lock for ever."""
 
 _ONE_BLAS_THREAD: Final = {"OPENBLAS_NUM_THREADS": "1"}
-"""A job uses one (`solver.threads`); more of them would be started with numpy, and wait in a loop for work."""
+"""A job uses one thread (`solver.threads`); numpy would start more, which wait in a loop for work."""
 
 _REASONS: Final = {
     signal.SIGKILL: "killed, by a user or by the system for lack of memory",
@@ -53,10 +53,10 @@ class End:
 
     code         exit code, -n for signal n
     finished     whether it ended by itself
-    reason       if it did not: why, as the end of a sentence
-    location     where in user code that was; '' if it was elsewhere
-    interrupted  whether a signal asked for it
-    token        by which the ranks of a job know it, '' without ranks
+    reason       reason why it did not, as the end of a sentence
+    location     location in user code; '' if it ended elsewhere
+    interrupted  whether a signal asked for the end
+    token        name of the run on several ranks, '' without ranks
     """
 
     code: int
@@ -68,7 +68,7 @@ class End:
 
 
 def supervise(
-    words: Sequence[str],
+    arguments: Sequence[str],
     stem: Path,
     call_limit: float,
     *,
@@ -77,45 +77,45 @@ def supervise(
     signals: Sequence[int] | None = None,
     launch: Launch | None = None,
 ) -> int:
-    """Run `uel` with these words, a subcommand first, in a separate process; returns the exit code.
+    """Run `uel` with these arguments, a subcommand first, in a separate process; return the exit code.
 
-    stem is the folder and name of the job; sanitized, signals, launch: see `run_isolated`. log: gets all that the run
-    prints. A run that ends without closing its files gets them closed here; of several ranks, rank 0 does so.
+    stem: folder and name of the job. sanitized, signals, launch: see `run_isolated`. log: file for all that the run
+    prints. If the process ends without closing the files of the job, this function closes them, on rank 0 of several.
     """
-    words = [words[0], SAME_PROCESS, *words[1:]]
+    arguments = [arguments[0], SAME_PROCESS, *arguments[1:]]
     end = run_isolated(
         "uel.cli",
-        words,
+        arguments,
         call_limit,
         sanitized=sanitized,
         output=log,
         errors=log,
         signals=signals,
         launch=launch,
-        told=partial(read_word, stem),
+        reason_elsewhere=partial(read_reason, stem),
     )
     if launch and launch.rank and end.token:
         if not end.finished:
             location = f", {end.location}" if end.location else ""
-            leave_word(stem, end.token, f"ended with {launch.name}, {end.reason}{location}")
+            write_reason(stem, end.token, f"ended with {launch.name}, {end.reason}{location}")
         await_end(stem, end.token)
         return end.code if end.finished else 1
     if end.finished:
-        forget_word(stem, end.token)
+        remove_reason(stem, end.token)
         return end.code
     from uel.output.verdict import close_ended_run  # noqa: PLC0415 (numpy, after the process has begun)
 
     reason = f"the run was {end.reason}" + (f", {end.location}" if end.location else "")
     close_ended_run(stem, reason)
     tell_error(f"{reason}; the output written so far is readable", log)
-    # the others wait for this before they end, and `mpiexec` with them
-    forget_word(stem, end.token)
+    # the other ranks, and `mpiexec`, wait for this before they end
+    remove_reason(stem, end.token)
     return 1
 
 
 def run_isolated(
     module: str,
-    words: Sequence[str],
+    arguments: Sequence[str],
     call_limit: float,
     *,
     sanitized: bool = False,
@@ -124,18 +124,18 @@ def run_isolated(
     meanwhile: Callable[[], None] | None = None,
     signals: Sequence[int] | None = None,
     launch: Launch | None = None,
-    told: Callable[[str], str] = str,
+    reason_elsewhere: Callable[[str], str] = str,
 ) -> End:
-    """Call `main` of a module with words in a process that user code may end, and that is ended if it hangs.
+    """Call `main` of a module with arguments in a process that user code may end; end the process if it hangs.
 
     call_limit: seconds that one call of a user routine may take, 0: no limit; the process enforces it itself if it can.
     sanitized: debug builds have AddressSanitizer in it; where that is not possible, a message says why.
-    output, errors: where stdout and stderr go, by default to those of this process. meanwhile: is called now and then.
-    signals: those that the main thread collects for this one, which cannot do so itself; the process gets them too.
-    launch: which rank the process is; None: it is none, whoever has started this one. told: says by the token of the
-    run why another rank has ended, '' if none has.
+    output, errors: files for stdout and stderr, by default those of this process. meanwhile: called now and then.
+    signals: signals that the main thread collects for this one, which cannot do so itself; passed on to the process.
+    launch: rank of the process; None: no rank, however this process was started. reason_elsewhere: returns, for the
+    token of the run, the reason why another rank has ended, '' if none has.
     """
-    _take_all_stack()
+    _raise_stack_limit()
     variables: Mapping[str, str] = os.environ if launch else without_launch()
     if sanitized:
         try:
@@ -144,11 +144,11 @@ def run_isolated(
             tell_error(str(error), errors)
     descriptor, slate = new_slate()
     with collected() if signals is None else nullcontext(signals) as arrived:
-        # the process has them blocked until it can take them
+        # signals stay blocked in the process until it handles them
         before = signal.pthread_sigmask(signal.SIG_BLOCK, ENDS)
         try:
             process = subprocess.Popen(
-                [sys.executable, "-m", "uel.running.worker", str(os.getpid()), str(descriptor), module, *words],
+                [sys.executable, "-m", "uel.running.worker", str(os.getpid()), str(descriptor), module, *arguments],
                 env={**_ONE_BLAS_THREAD, **variables},
                 stdout=output,
                 stderr=errors,
@@ -167,7 +167,7 @@ def run_isolated(
                     meanwhile()
                 why = why or watch.glance(arrived)
                 if launch and not (launch.rank or why or arrived or slate.finished):
-                    why = other = told(slate.token.decode())
+                    why = other = reason_elsewhere(slate.token.decode())
                 if why:
                     process.kill()
     token = slate.token.decode()
@@ -186,9 +186,9 @@ HANGS: Final = "ended because it hung after an abandoned call, usually inside a 
 
 
 class _Watch:
-    """Monitor that looks at a process now and then, and says when and why to kill it.
+    """Monitor of a process, which decides when and why to kill it.
 
-    It measures time by the number of its looks: none passes while all processes are stopped.
+    It measures time by the number of its checks, so that no time passes while all processes are stopped.
     """
 
     def __init__(self, process: subprocess.Popen[bytes], slate: Slate, call_limit: float) -> None:
@@ -201,7 +201,7 @@ class _Watch:
         self._work = 0
 
     def glance(self, signals: Sequence[int]) -> str:
-        """Pass on signals that have arrived; returns '', or why the process has to be killed."""
+        """Pass on signals that have arrived; return the reason to kill the process, '' for none."""
         slate = self._slate
         for signum in signals[self._passed :]:
             self._process.send_signal(signum)
@@ -228,9 +228,9 @@ _STOPPED: Final = ("T", "t")
 
 
 def _state(process: int) -> tuple[str, int]:
-    """Return the state of a process, and ticks of processor time that it has used.
+    """Return the state of a process and the ticks of CPU time that it has used.
 
-    The state is "" if the system does not tell, or if it may be waiting for another process, such as a compiler.
+    The state is "" if the system does not report it, or if the process may wait for another one, such as a compiler.
     """
     folder = Path(f"/proc/{process}")
     try:
@@ -242,7 +242,7 @@ def _state(process: int) -> tuple[str, int]:
 
 
 def describe_end(code: int) -> str:
-    """Describe why a process ended, by its exit code: the end of a sentence."""
+    """Describe why a process ended, from its exit code, as the end of a sentence."""
     if code >= 0:
         who = " by the Fortran library, in an input or output statement of a user routine" if code == _ENDED else ""
         where = f"; it looks up files from the current folder, {Path.cwd()}" if who else ""
@@ -254,8 +254,8 @@ def describe_end(code: int) -> str:
     return f"ended by {ending.name}: {_REASONS.get(ending, signal.strsignal(ending))}"
 
 
-def _take_all_stack() -> None:
-    """Take all stack: local arrays of user routines are on it, and Abaqus gives as much as the system does."""
+def _raise_stack_limit() -> None:
+    """Raise the stack limit as Abaqus does: local arrays of user routines are on the stack."""
     _, hard = resource.getrlimit(resource.RLIMIT_STACK)
     most = MOST_STACK if hard == resource.RLIM_INFINITY else min(hard, MOST_STACK)
     resource.setrlimit(resource.RLIMIT_STACK, (most, hard))

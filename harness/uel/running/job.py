@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Job: a deck and a user file in, the files of Abaqus and a result out."""
+"""Job: run a deck with a user file, write the files of Abaqus, return a result."""
 
 from __future__ import annotations
 
@@ -31,9 +31,16 @@ from uel.output.outcome import progress
 from uel.parallel.ranks import ALONE, Ranks
 from uel.procedures import run_steps
 from uel.procedures.general.incrementation import FIXED_TOO_LARGE, TOO_MANY_ATTEMPTS, TOO_MANY_INCREMENTS
+from uel.running.job_on_ranks import SharedOutput, files_of_job, refuse_unshared
 from uel.running.options import RoutineOptions
-from uel.running.ranks import SharedOutput, files_of_job, refuse_unshared
-from uel.running.restart import decks_of, find_state, goes_on, refuse_nothing_left, refuse_on_ranks, refuse_options
+from uel.running.restart import (
+    begins_within_step,
+    decks_of,
+    find_state,
+    refuse_finished,
+    refuse_on_ranks,
+    refuse_options,
+)
 from uel.solver.options import SolverOptions
 from uel.solver.threads import one_blas_thread
 from uel.usersub import Library, guard_values
@@ -65,16 +72,16 @@ def run(
     job
         Name of the output files; the deck's name without its ending by default.
     oldjob
-        Job from which the deck goes on, with its folder: from the state that *RESTART, READ of the deck names, or, if
-        it is the deck of that job, from its last one. See harness/uel/procedures/restart.md.
+        Job that the deck continues, with its folder: from the state that *RESTART, READ of the deck names, or from the
+        last one if it is the deck of that job. See harness/uel/procedures/restart.md.
     output_dir
         Folder of the output files, created if missing; the current folder by default.
     parameters
         Values of parameters that replace those of the deck's *PARAMETER.
     solver
-        Options for solving the equations: the linear solver, and what helps if Newton's method fails.
+        Options for solving the equations: the linear solver, and a remedy if Newton's method fails.
     routines
-        Compiling and calling user routines: number of threads, limit of a call, and checks.
+        Options for compiling and calling user routines: number of threads, limit of a call, and checks.
     quiet
         No progress display.
     ranks
@@ -109,7 +116,7 @@ def run(
             parameters = parts[-1].given
         earlier = EarlierJobs([Path(), folder, deck.parent])
         model = ranks.agree(lambda: read_deck(deck, parameters, parts, earlier))
-        refuse_nothing_left(model, resumed, oldjob)
+        refuse_finished(model, resumed, oldjob)
         refuse_options(resumed, oldjob, solver)
         decks = ranks.agree(lambda: decks_of(model, parameters, parts))
         refuse_unshared(model, ranks)
@@ -119,9 +126,8 @@ def run(
         usersub.limit_calls(routines.call_limit)
         sources = [Path(file) for file in files]
         load = partial(usersub.load, sources, job=job, output_dir=folder, deck=deck, zero_locals=not debug, debug=debug)
-        # the others find in the cache what rank 0 has compiled
+        # rank 0 compiles, the others find the result in the cache
         library = ranks.in_turn(partial(load, rank=ranks.rank))
-        usersub.set_rank(ranks.rank, ranks.size)
         trapping = usersub.trap(True) if debug else None
         usersub.set_threads(routines.cpus)
         try:
@@ -137,7 +143,6 @@ def run(
             raise
         finally:
             usersub.set_threads(1)
-            usersub.set_rank(0, 1)
             if trapping is not None:
                 usersub.trap(trapping)
             library.close()
@@ -154,10 +159,10 @@ def _assemble(model: Model, library: Library, routines: RoutineOptions, ranks: R
 
 
 def _refuse_with_multipliers(model: Model, solver: SolverOptions) -> None:
-    """Raise UsageError for options of the run that contact and distributing couplings with NLGEOM do not take."""
+    """Raise UsageError for options that contact, and distributing couplings with NLGEOM, do not take."""
     for keyword, source in constraints_with_multipliers(model):
-        for name, asked in (("--fallback", solver.fallback), ("--control energy", solver.energy_control)):
-            if asked:
+        for name, requested in (("--fallback", solver.fallback), ("--control energy", solver.energy_control)):
+            if requested:
                 raise UsageError(f"{name}: not supported with {keyword} ({source})")
 
 
@@ -169,14 +174,14 @@ def _analyse(
     solver: SolverOptions,
     resumed: Resumption | None,
 ) -> None:
-    """Run all steps and write their records to the files, which are closed however the run ends."""
+    """Run all steps, write their records to the files, and close these however the run ends."""
     files = output.files
     try:
         warn_of_missing_unsymm(model, library)
         output.system = system = assemble()
         long_elements = LongElements(model, library)
 
-        def put(record: Record, files: JobOutput) -> None:
+        def write_record(record: Record, files: JobOutput) -> None:
             files.write(record)
             if isinstance(record, IncrementDone):
                 for warning in long_elements.warnings(record, files.warnings):
@@ -186,7 +191,7 @@ def _analyse(
             for record in run_steps(system, model, library, solver, resumed=resumed):
                 with held():
                     write = output.write if isinstance(record, AttemptEnded | StepDone) else output.write_own
-                    write(partial(put, record))
+                    write(partial(write_record, record))
         with held():
             if files is not None:
                 for warning in long_elements.waiting(files.warnings):
@@ -204,28 +209,28 @@ def _analyse(
         note_warnings(error, files.warnings, f" in {files.job}.dat and .msg")
         for text in files.unbalanced if isinstance(error, ConvergenceError) else ():
             error.add_note(text)
-        if isinstance(error, UelError) and (far := _progress(files.stem)):
-            error.add_note(far)
+        if isinstance(error, UelError) and (note := _progress(files.stem)):
+            error.add_note(note)
         error.add_note(f"{files.job} ended {files.reached}; what was written is readable")
         if isinstance(error, ConvergenceError):
-            # contact and distributing couplings take neither of the two, a restart at most the second
-            neither = bool(constraints_with_multipliers(model))
-            begun = neither or (resumed is not None and goes_on(resumed))
-            fallback = solver.fallback or neither or resumed is not None
-            energy_control = solver.energy_control or begun
+            # constraints with multipliers take neither of the two options, a restart at most energy control
+            multipliers = bool(constraints_with_multipliers(model))
+            within_step = resumed is not None and begins_within_step(resumed)
+            fallback = solver.fallback or multipliers or resumed is not None
+            energy_control = solver.energy_control or multipliers or within_step
             error.add_note(_advice(str(error), fallback=fallback, energy_control=energy_control))
         raise
 
 
 def _progress(stem: Path) -> str:
-    """Describe the progress of a run from its files; '' if they cannot tell."""
+    """Describe the progress of a run from its files; '' if they cannot be read."""
     with suppress(Exception):  # the error that counts is the one that ended the run
         return progress(Result(stem))
     return ""
 
 
 def _advice(error: str, *, fallback: bool, energy_control: bool) -> str:
-    """Suggest what can be tried where a step does not converge."""
+    """Return a sentence on what may help where a step does not converge; the flags: not to be suggested."""
     if error.startswith(TOO_MANY_INCREMENTS):
         return "what may help: a larger INC on *STEP"
     ways = [] if fallback else ["--fallback, a search where Newton's method fails"]
@@ -242,6 +247,6 @@ def _advice(error: str, *, fallback: bool, energy_control: bool) -> str:
 
 
 def _debug_helps(sources: Sequence[Path], message: str) -> bool:
-    """Report whether an error without a line may have one in a debug build."""
+    """Return whether a debug build may add the line that an error does not name."""
     compiled = bool(sources) and all(map(usersub.is_source, sources))
     return compiled and not usersub.names_line(message)

@@ -25,22 +25,22 @@ class RoutineOptions:
         continuum elements, built in and the project's own, are always treated so, and called again only where their
         state is read.
     cpus
-        Threads that call the elements, with the results of one to the bit. Built-in elements and the project's own
-        are called by all of them, but for U3 and U10, which share stress; other routines if `thread_safe` names them.
+        Threads that call the elements; results are those of one thread to the bit. All of them call built-in elements
+        and the project's own, except U3 and U10, which share stress; other routines if `thread_safe` names them.
     thread_safe
-        Types of user elements, such as 'U5', UMAT and USDFLD: routines that several threads may call at the same time,
-        as Abaqus does with cpus=2. They pass the checks 'shuffle' and 'threads' of `uel check`.
+        Routines that several threads may call at the same time, as Abaqus does with cpus=2: types of user elements,
+        such as 'U5', UMAT and USDFLD. They pass the checks 'shuffle' and 'threads' of `uel check`.
     call_limit
         Seconds that one call of a user routine may take; 0: no limit.
     debug
-        Compile the user's files with run-time checks, and stop where a NaN or an infinity is made: errors have file and
-        line. Slower, and a local variable without a value is an error, not zero. With AddressSanitizer where its
-        runtime was loaded before all else, as the command `uel` does (harness/uel/running/sanitizer.py).
+        Compile the user's files with run-time checks and stop at the first NaN or infinity, so that errors have file
+        and line. Slower; a local variable without a value is an error, not zero. With AddressSanitizer if its runtime
+        was loaded first, as the command `uel` does (harness/uel/running/sanitizer.py).
 
     Raises
     ------
     UsageError
-        There are no such number of threads, or several with `debug`.
+        The number of threads is not allowed, or it is not 1 with `debug`.
     """
 
     linear: Collection[str] = ()
@@ -56,12 +56,12 @@ class RoutineOptions:
             raise UsageError(f"--cpus {self.cpus}: run-time checks (--debug) need one thread")
 
     def for_model(self, model: Model) -> Self:
-        """Return the same options with names in capitals. Raises UsageError for names that the model does not have."""
+        """Return these options with names in capitals. Raises UsageError for names that the model does not have."""
         return replace(self, linear=_linear_types(model, self.linear), thread_safe=_safe(model, self.thread_safe))
 
 
 def _linear_types(model: Model, names: Collection[str]) -> frozenset[str]:
-    """Types of user elements that the user says are linear, in capitals. Raises UsageError."""
+    """Return the types of user elements declared linear, in capitals. Raises UsageError."""
     known = sorted({group.type for group in model.groups if group.definition is not None})
     types = frozenset(name.upper() for name in names)
     for name in sorted(types.difference(known)):
@@ -71,7 +71,7 @@ def _linear_types(model: Model, names: Collection[str]) -> frozenset[str]:
 
 
 def _safe(model: Model, names: Collection[str]) -> frozenset[str]:
-    """Routines that the user says several threads may call, in capitals. Raises UsageError."""
+    """Return the routines declared thread-safe, in capitals. Raises UsageError."""
     known = known_routines(model)
     routines = frozenset(name.upper() for name in names)
     for name in sorted(routines.difference(known)):

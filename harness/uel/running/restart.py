@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Restart of an old job: the state from which a job goes on, and the decks of its model."""
+"""Restart of an old job: the state that a job continues, and the decks of its model."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from uel.solver.options import SolverOptions
 def find_state(
     deck: Path, parameters: Mapping[str, float] | None, oldjob: Path, stem: Path
 ) -> tuple[Resumption, tuple[DeckPart, ...]]:
-    """Find the state from which a deck resumes an old job.
+    """Find the state of an old job that a deck continues.
 
-    A deck with *RESTART, READ says which; the deck of the old job itself goes on from its last one.
+    *RESTART, READ of the deck names it; without that keyword, the deck of the old job continues its last state.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ def find_state(
     Raises
     ------
     UsageError
-        Both jobs have one name, or the deck is neither of the two.
+        Both jobs have the same name, or the deck has no *RESTART, READ and is not that of the old job.
     UelError
         There is no such state, or a deck has changed since.
     DeckError
@@ -62,7 +62,7 @@ def find_state(
 
 
 def _check_unchanged(part: DeckPart, oldjob: Path) -> None:
-    """Raise UelError if a deck is not what it was when its job ran."""
+    """Raise UelError if a deck has changed since its job ran."""
     try:
         now = part_of(Path(part.path), part.given)
     except (DeckError, OSError) as error:
@@ -72,18 +72,18 @@ def _check_unchanged(part: DeckPart, oldjob: Path) -> None:
         raise UelError(f"the model of job {oldjob} comes from {part.path}, which, {message}: run the old job again")
 
 
-def refuse_nothing_left(model: Model, resumed: Resumption | None, oldjob: str | Path | None) -> None:
-    """Raise UsageError if no step follows the state from which a job goes on."""
+def refuse_finished(model: Model, resumed: Resumption | None, oldjob: str | Path | None) -> None:
+    """Raise UsageError if no step follows the state that a job continues."""
     if resumed is None:
         return
     step, increment = (resumed.analysis[name] for name in ("step", "increment"))
-    if not goes_on(resumed) and step == len(model.steps):
+    if not begins_within_step(resumed) and step == len(model.steps):
         message = f"its state after step {step}, increment {increment} is that of the end of the analysis"
         raise UsageError(f"--oldjob {oldjob}: {message}: a deck with *RESTART, READ adds steps")
 
 
 def refuse_options(resumed: Resumption | None, oldjob: str | Path | None, solver: SolverOptions) -> None:
-    """Raise UsageError for options that a restart, or the step that goes on, does not take."""
+    """Raise UsageError for options that a restart, or the step it continues, does not take."""
     if resumed is None:
         return
     if solver.fallback:
@@ -91,25 +91,25 @@ def refuse_options(resumed: Resumption | None, oldjob: str | Path | None, solver
         raise UsageError(
             f"--fallback: {reason}; go on from --oldjob {oldjob} without it, or run the whole analysis with it"
         )
-    if solver.energy_control and goes_on(resumed):
+    if solver.energy_control and begins_within_step(resumed):
         step = resumed.analysis["step"]
         message = f"step {step} of --oldjob {oldjob} goes on as it began, in time"
         raise UsageError(f"--control energy: {message}; expected *RESTART, READ with END STEP")
 
 
-def goes_on(resumed: Resumption) -> bool:
-    """Report whether a restart begins within a step."""
+def begins_within_step(resumed: Resumption) -> bool:
+    """Return whether a restart begins within a step."""
     return not (resumed.analysis["finished"] or resumed.end_step)
 
 
 def decks_of(model: Model, parameters: Mapping[str, float] | None, parts: Sequence[DeckPart]) -> Sequence[DeckPart]:
-    """Return the decks of a model, as its states name them; none if it keeps no states."""
+    """Return the decks of a model, which its states name; empty if it keeps no states."""
     if parts or not any(step.restart for step in model.steps):
         return parts
     return (part_of(model.deck, parameters),)
 
 
 def refuse_on_ranks(oldjob: str | Path | None, ranks: Ranks) -> None:
-    """Raise UsageError for a restart in several processes: a state is that of all elements in one."""
+    """Raise UsageError for a restart on several ranks: a state has all elements in one process."""
     if oldjob is not None and ranks.size > 1:
         raise UsageError(f"--oldjob {oldjob}: a restart does not run on {ranks.size} ranks; run it in one process")

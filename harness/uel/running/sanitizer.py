@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A process in which debug builds of user files have AddressSanitizer: its runtime has to be loaded before all else."""
+"""AddressSanitizer for debug builds of user files: a process that loads its runtime before all else."""
 
 from __future__ import annotations
 
@@ -48,11 +48,11 @@ def applies_to(user: Sequence[Path]) -> bool:
 
 
 def environment() -> Mapping[str, str]:
-    """Return variables for a process with the runtime of the installed compiler. Raises NoSanitizerError."""
+    """Return the environment of a process with the runtime of the installed compiler. Raises NoSanitizerError."""
     preload = ":".join(filter(None, (str(_runtime()), os.environ.get(_PRELOAD))))
     settings = ":".join(filter(None, (*_SETTINGS, os.environ.get(_OPTIONS))))
     variables = os.environ | {_PRELOAD: preload, _OPTIONS: settings}
-    # with limited memory, or another memory layout, the runtime ends the process or is not loaded
+    # under a memory limit or with another memory layout the runtime ends the process or does not load
     trial = [sys.executable, "-S", "-c", "import ctypes; ctypes.CDLL(None).__asan_init"]
     tried = subprocess.run(trial, env=variables, capture_output=True, text=True, errors="replace", check=False)
     if tried.returncode or tried.stderr:
@@ -61,8 +61,8 @@ def environment() -> Mapping[str, str]:
     return variables
 
 
-def forget() -> None:
-    """Keep the runtime out of processes that this one starts: compilers do not need it."""
+def stop_preloading() -> None:
+    """Remove the runtime from LD_PRELOAD: processes that this one starts, such as compilers, do not need it."""
     first, _, others = os.environ.get(_PRELOAD, "").partition(":")
     if _LIBRARY in Path(first).name:
         del os.environ[_PRELOAD]
@@ -79,7 +79,7 @@ def _runtime() -> Path:
     if file.is_absolute() and file.is_file():
         with file.open("rb") as stream:
             begin = stream.read(1000)
-        # it may be a script for the linker that names the library
+        # some systems have a linker script here, which names the library
         named = re.search(rb"/[^\s()]+", begin)
         if begin.startswith(b"\x7fELF"):
             return file.resolve()

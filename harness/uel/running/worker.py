@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The process that isolation.py starts, to call MODULE.main(words).
+"""Process that isolation.py starts to call MODULE.main(arguments).
 
-    python -m uel.running.worker PARENT DESCRIPTOR MODULE WORD ...
+    python -m uel.running.worker PARENT DESCRIPTOR MODULE ARGUMENT ...
 
-It notes on the slate that it has finished: user code may end a process with the exit code of success.
+It notes on the slate that it has finished, since user code may end a process with exit code 0.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ from uel.shared_progress import keep_slate, open_slate
 
 _PRCTL = getattr(ctypes.CDLL(None), "prctl", None)
 _PR_SET_PDEATHSIG = 1
-"""Linux: a signal for a process whose parent has ended."""
+"""Linux: option of prctl that sends a signal to a process whose parent has ended."""
 
 _POSTPONED: Final = ("f2py", "testing")
-"""Parts of numpy that no job uses; scipy would load them with all others, in a tenth of the time that a job starts."""
+"""Parts of numpy that no job uses; scipy would load them, in a tenth of the time in which a job starts."""
 
 
 def end_with(parent: int) -> None:
@@ -37,12 +37,12 @@ def end_with(parent: int) -> None:
     if _PRCTL is not None:
         _PRCTL(_PR_SET_PDEATHSIG, signal.SIGKILL)
     if os.getppid() != parent:
-        # too late for a signal
+        # the parent had ended before it could be watched
         os._exit(1)
 
 
 def postpone(package: str, parts: Sequence[str]) -> None:
-    """Let parts of a package be loaded where something of them is first read, not where they are imported."""
+    """Load parts of a package when an attribute of them is first read, not when they are imported."""
     parent = import_module(package)
     for part in parts:
         name = f"{package}.{part}"
@@ -51,15 +51,15 @@ def postpone(package: str, parts: Sequence[str]) -> None:
             spec.loader = LazyLoader(spec.loader)
             module = sys.modules[name] = module_from_spec(spec)
             spec.loader.exec_module(module)
-            # an `import` would look into the module, which loads it; whoever finds it here does not import it
+            # found as an attribute of the package it is not imported, which would load it
             setattr(parent, part, module)
 
 
-def work(descriptor: int, module: str, words: Sequence[str]) -> int:
-    """Call the function, and show on the slate where user code is; returns the exit code."""
+def work(descriptor: int, module: str, arguments: Sequence[str]) -> int:
+    """Call the function, with the location of user code on the slate; return the exit code."""
     slate = open_slate(descriptor)
     keep_slate(slate)
-    sanitizer.forget()
+    sanitizer.stop_preloading()
     try:
         raise_interrupts()
         with held():  # an interrupt within an import may come out as another error
@@ -68,10 +68,10 @@ def work(descriptor: int, module: str, words: Sequence[str]) -> int:
             import_module("uel.usersub").share_slate(descriptor)
             command = import_module(module)
             import_module("uel.running.job")
-            # modules stay to the end; to look for memory to collect within the imports takes a fifth of their time
+            # modules stay to the end: collections during the imports would take a fifth of their time
             gc.freeze()
             gc.enable()
-        code: int = command.main(words)
+        code: int = command.main(arguments)
     except KeyboardInterrupt as interrupt:
         tell_error(str(interrupt))
         code = 1

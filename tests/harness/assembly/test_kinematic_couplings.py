@@ -21,7 +21,7 @@ from uel.deck import read_deck
 from uel.elements import Call, Flags, rotation_matrices, spin_matrices
 from uel.errors import DeckError, Source
 from uel.model.model import Arm
-from uel.running.ranks import refuse_unshared
+from uel.running.job_on_ranks import refuse_unshared
 
 ANGLES = [[0, 0, 0], [1e-5, -2e-5, 1e-5], [0.02, 0.02, 0.01], [0.03, 0.01, 0.0], [1.0, -2.0, 0.5], [0, 0, 3.0]]
 

@@ -21,7 +21,7 @@ from uel.model.damage import Damage, DamageEvolution
 from uel.model.mesh import ElementGroup, Mesh
 from uel.model.model import Model
 from uel.model.properties import UserProperty
-from uel.running.ranks import refuse_unshared
+from uel.running.job_on_ranks import refuse_unshared
 from uel.solver.options import SolverOptions
 
 SOURCE = Source("test.inp", 1)

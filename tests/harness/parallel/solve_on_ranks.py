@@ -92,7 +92,7 @@ def solved(ranks: MpiRanks, name: str, parts: list[FloatArray]) -> dict[str, obj
         except SingularMatrixError as failure:
             return {"solver": taken, "singular": str(failure), "refused": solver.effort.refused}
         expected = np.linalg.solve(whole, rhs)
-        same = {found.tobytes() for found in ranks.everyones(solution)}
+        same = {found.tobytes() for found in ranks.allgather(solution)}
         assert len(same) == 1, "the ranks have different bits"
         error = max(error, float(np.abs(solution - expected).max() / np.abs(expected).max()))
     effort = solver.effort

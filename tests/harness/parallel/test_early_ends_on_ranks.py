@@ -17,7 +17,7 @@ from mpiexec import NEEDED, PETSC_NEEDED, run
 
 from uel.errors import UsageError
 from uel.output.files.sta_file import NOT_COMPLETED
-from uel.parallel import Launch, forget_word, launched, leave_word, read_word, without_launch
+from uel.parallel import Launch, launched, read_reason, remove_reason, without_launch, write_reason
 from uel.parallel.mpi import begin
 from uel.parallel.partition import owners_of
 
@@ -155,12 +155,12 @@ def test_wrong_usage_is_told_once(tmp_path):
 
 def test_word_of_a_rank(tmp_path):
     stem = tmp_path / "job"
-    assert read_word(stem, "1a2b") == ""
-    leave_word(stem, "1a2b", "the first reason")
-    leave_word(stem, "1a2b", "another one")
-    assert read_word(stem, "1a2b") == "the first reason"
-    assert read_word(stem, "") == ""
-    forget_word(stem, "1a2b")
+    assert read_reason(stem, "1a2b") == ""
+    write_reason(stem, "1a2b", "the first reason")
+    write_reason(stem, "1a2b", "another one")
+    assert read_reason(stem, "1a2b") == "the first reason"
+    assert read_reason(stem, "") == ""
+    remove_reason(stem, "1a2b")
     assert list(tmp_path.iterdir()) == []
 
 

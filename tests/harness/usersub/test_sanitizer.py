@@ -309,10 +309,10 @@ def test_script_of_the_linker_names_the_library(variables, compiler, tmp_path):
 
 def test_processes_of_the_run_do_not_have_it(monkeypatch):
     monkeypatch.setenv("LD_PRELOAD", "/usr/lib/libasan.so.8:/usr/lib/mine.so")
-    sanitizer.forget()
+    sanitizer.stop_preloading()
     assert sanitizer.os.environ["LD_PRELOAD"] == "/usr/lib/mine.so"
-    sanitizer.forget()
+    sanitizer.stop_preloading()
     assert sanitizer.os.environ["LD_PRELOAD"] == "/usr/lib/mine.so"
     monkeypatch.setenv("LD_PRELOAD", "/usr/lib/libasan.so.8")
-    sanitizer.forget()
+    sanitizer.stop_preloading()
     assert "LD_PRELOAD" not in sanitizer.os.environ

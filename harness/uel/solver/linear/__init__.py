@@ -4,7 +4,7 @@
 
 from uel.solver.linear.choice import Availability, available, choose
 from uel.solver.linear.linear_solver import Effort, LinearSolver, Pattern, StepSolver
-from uel.solver.linear.ranks import RankSolver, with_ranks
+from uel.solver.linear.rank_solver import RankSolver, with_ranks
 
 __all__ = [
     "Availability",

@@ -86,7 +86,7 @@ class Substructures:
         self._own, stay = np.flatnonzero((owners == ranks.rank) & ~common), np.flatnonzero(common & self._used)
         self.usable = not ranks.largest(np.array([float(not (len(self._own) and len(stay)))]))[0]
         # for each rank, positions of its unknowns among the shared ones
-        self._positions = ranks.everyones(np.searchsorted(self.shared, stay))
+        self._positions = ranks.allgather(np.searchsorted(self.shared, stay))
         self._here = np.concatenate([self._own, stay])
         self._owned = owners[self._here] == ranks.rank
         numbers = np.arange(len(pattern.indices), dtype=np.int32)

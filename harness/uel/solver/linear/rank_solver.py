@@ -180,7 +180,7 @@ class RankSolver(StepSolver):
 
     def _missing(self, name: str, mine: str) -> str:
         """Name what a rank lacks for a solver, '' if nothing is lacking. Raises UsageError if it is requested."""
-        reason = next(filter(None, self._ranks.everyones(mine)), "")
+        reason = next(filter(None, self._ranks.allgather(mine)), "")
         if reason and name in _TOGETHER:
             raise UsageError(f"linear solver '{name}' cannot be used: {reason}")
         return reason
@@ -251,7 +251,7 @@ class RankSolver(StepSolver):
             self._chosen.effort = self.effort
             return self._chosen.name, f"on rank 0, {self._chosen.reason}"
 
-        self.name, self.reason = self._ranks.tell(begin)
+        self.name, self.reason = self._ranks.on_rank_0(begin)
 
     def _factorise_whole(self, data: FloatArray) -> None:
         assert self._whole is not None
@@ -278,7 +278,7 @@ class RankSolver(StepSolver):
             solution = self._inner.solve(rhs)
             return solution, self._inner.free
 
-        solution, self.free = self._ranks.tell(work)
+        solution, self.free = self._ranks.on_rank_0(work)
         return solution
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Job on several ranks, beside what one process does: what it refuses, whose messages count, how it ends."""
+"""Job on several ranks: what it refuses, its output and messages, how it ends."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from uel.model.model import Model, constraints_with_multipliers
 from uel.output import JobOutput
 from uel.output.lock import locked
 from uel.output.verdict import forget_verdict, write_verdict
-from uel.parallel import leave_word
+from uel.parallel import write_reason
 from uel.parallel.ranks import FAILURES, Ranks
-from uel.usersub import Library, Message
+from uel.usersub import Library, Message, set_rank
 
 
 def refuse_unshared(model: Model, ranks: Ranks) -> None:
-    """Raise DeckError, on several ranks, for what is not shared out: contact, linear perturbation steps, and with
-    NLGEOM distributing couplings and constraints with rotations.
+    """Raise DeckError, on several ranks, for contact, linear perturbation steps, and with NLGEOM distributing couplings
+    and constraints with rotations.
     """
     if ranks.size == 1:
         return
@@ -36,11 +36,11 @@ def refuse_unshared(model: Model, ranks: Ranks) -> None:
 
 
 class SharedOutput:
-    """Output of a job, which rank 0 alone has; the other ranks help where it reads the states of their elements.
+    """Output of a job, on rank 0; the other ranks send the states of their elements when it reads them.
 
-    files   of the job; None on ranks other than 0
-    ranks   of the job
-    system  whose states are read
+    files   output files; None on ranks other than 0
+    ranks   ranks of the job
+    system  system whose element states are read
     """
 
     def __init__(self, files: Callable[[], JobOutput], library: Library, ranks: Ranks) -> None:
@@ -55,13 +55,13 @@ class SharedOutput:
         return [] if self.files is None else self.files.warnings
 
     def write(self, act: Callable[[JobOutput], None]) -> None:
-        """Write the messages of user routines on all ranks where Abaqus puts them, then act."""
+        """Write the messages of user routines on all ranks where Abaqus puts them, then call a function on rank 0."""
         files, system = self.files, self.system
         self._pass_on(self._messages())
         self.ranks.lead(lambda: None if files is None else act(files), lambda: system and system.share_states())
 
     def write_own(self, act: Callable[[JobOutput], None]) -> None:
-        """Write as `write` does what needs nothing of the other ranks."""
+        """Write as `write` does, with messages of rank 0 only and without the states of other ranks."""
         if self.files is not None:
             self._pass_on(self._library.messages())
             act(self.files)
@@ -72,8 +72,8 @@ class SharedOutput:
             self.files.user_text(message.file, message.kind, message.text)
 
     def _messages(self) -> list[Message]:
-        """Return the messages of all ranks since the last call, on rank 0: its own, and those that it does not have."""
-        own, *others = self.ranks.collect(self._library.messages()) or [[]]
+        """Return the messages of all ranks since the last call, on rank 0, each of them once."""
+        own, *others = self.ranks.gather(self._library.messages()) or [[]]
         known = {(message.file, message.kind, message.text) for message in own}
         for messages in others:
             new = [message for message in messages if (message.file, message.kind, message.text) not in known]
@@ -84,16 +84,18 @@ class SharedOutput:
 
 @contextmanager
 def files_of_job(stem: Path, ranks: Ranks) -> Iterator[None]:
-    """Hold the files of a job in the block, and write the verdict if it fails; only rank 0 does so.
+    """Lock the files of a job, and write the verdict if it fails, on rank 0; tell user routines their rank.
 
     Raises
     ------
     LockedError
         Another process runs a job of this name.
     SilentError
-        On all ranks but 0 instead of an error, which rank 0 has too; or its supervisor tells it.
+        On ranks other than 0, in place of an error: rank 0, or the process that watches this rank, prints it.
     """
     with ExitStack() as stack:
+        stack.callback(set_rank, 0, 1)
+        set_rank(ranks.rank, ranks.size)
 
         def begin() -> None:
             stem.parent.mkdir(parents=True, exist_ok=True)
@@ -109,13 +111,13 @@ def files_of_job(stem: Path, ranks: Ranks) -> Iterator[None]:
         except BaseException as error:
             together = ranks.ended(error)
             if not ranks.rank and begun:
-                # if the files of the run do not exist yet, or cannot be closed
+                # `_analyse` has written it, unless the files did not exist yet or could not be closed
                 with suppress(OSError):  # the error that counts is the first
                     write_verdict(stem, in_words(error))
             if not ranks.rank or not isinstance(error, (*FAILURES, KeyboardInterrupt)):
                 raise
             if not together:
-                leave_word(stem, ranks.token, f"ended with rank {ranks.rank} of {ranks.size}: {in_words(error)}")
+                write_reason(stem, ranks.token, f"ended with rank {ranks.rank} of {ranks.size}: {in_words(error)}")
             raise SilentError(2 if isinstance(error, UsageError) else 1) from None
         finally:
             ranks.close()
