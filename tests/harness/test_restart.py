@@ -19,7 +19,7 @@ from contact_decks import step as contact_step
 from small_decks import snapping
 
 import uel
-from uel.assembly.kinematic_couplings import Arms
+from uel.assembly.kinematic_couplings import KinematicCouplings
 from uel.cli import main
 from uel.errors import ConvergenceError, DeckError, SingularMatrixError, UelError, UsageError
 from uel.model.records import StateKept
@@ -252,14 +252,14 @@ def test_restart_is_the_run_that_was_not_interrupted(folder, name, linear_solver
 def test_restart_eliminates_what_the_run_did(folder, monkeypatch):
     """Rotations of a node that an earlier step has turned are eliminated anew, or results differ by rounding."""
     built = []
-    choose = Arms._choose
+    choose = KinematicCouplings._choose
 
     def noted(arms, start):
         found = choose(arms, start)
         built.append(found.eliminated.tolist())
         return found
 
-    monkeypatch.setattr(Arms, "_choose", noted)
+    monkeypatch.setattr(KinematicCouplings, "_choose", noted)
     deck = written("held", HELD)
     uel.run(deck, job="whole")
     first, second = built[0], built[-1]

@@ -7,7 +7,7 @@ from uel.assembly.contributors import Contributors
 from uel.assembly.dofs import DofMap
 from uel.assembly.evaluation import Evaluation
 from uel.assembly.linear_shortcut import LinearShortcut
-from uel.assembly.rotating_constraints import TurningConstraints
+from uel.assembly.rotating_constraints import RotatingConstraints
 from uel.assembly.system import System, system_of
 from uel.assembly.tolerant_system import TolerantSystem
 
@@ -17,8 +17,8 @@ __all__ = [
     "DofMap",
     "Evaluation",
     "LinearShortcut",
+    "RotatingConstraints",
     "System",
     "TolerantSystem",
-    "TurningConstraints",
     "system_of",
 ]

@@ -18,20 +18,20 @@ from uel.model.model import Arm, Equation
 from uel.parallel.ranks import Ranks
 
 CONSISTENT = 1e-6
-"""Relative difference up to which two values of an unknown are the same: decks have six digits."""
+"""Relative difference up to which two values of an unknown agree: decks have six digits."""
 
 
 class Constraints:
     """The map between all unknowns u (n,), the free ones q and the prescribed ones p.
 
-    prescribed       (n_p,) unknowns with a given value, in the caller's order
-    free             (n_q,) unknowns that are solved for, ascending
+    prescribed       (n_p,) prescribed unknowns, in the caller's order
+    free             (n_q,) free unknowns, ascending
     reduced_indptr, reduced_indices  CSR pattern of T^T K T, int32, columns ascending in each row
 
-    arms             those of the equations with finite rotations
+    arms             rigid arms with finite rotations
 
-    Everything symbolic is done here once, and again where `reduce` finds that the system has another pattern; keep the
-    object while `matches` holds.
+    The symbolic work is done once, and again when the pattern of the system changes. Keep the object while `matches`
+    holds.
     """
 
     arms: tuple[Arm, ...] = ()
@@ -41,20 +41,20 @@ class Constraints:
         system: System,
         prescribed: IntArray,
         equations: Sequence[Equation] = (),
-        places: Mapping[int, Source] | None = None,
+        sources: Mapping[int, Source] | None = None,
     ) -> None:
         """Do the symbolic work on a set of constraints.
 
         Parameters
         ----------
         system
-            What the constraints apply to.
+            System that the constraints apply to.
         prescribed
-            (n_p,) unknowns with a given value.
+            (n_p,) prescribed unknowns.
         equations
             The first term of each is eliminated, or another one if that is prescribed.
-        places
-            Where the deck prescribes an unknown, for messages.
+        sources
+            Location in the deck of each prescribed unknown, for messages.
 
         Raises
         ------
@@ -72,7 +72,7 @@ class Constraints:
         kind[self.prescribed] = 1
         if np.count_nonzero(kind) < len(self.prescribed) or self.prescribed.min(initial=0) < 0:
             raise ValueError("prescribed unknowns must be distinct and not negative")
-        self._places = places or {}
+        self._sources = sources or {}
         dependent, coefficients, self._redundant = eliminate(system.dofs, equations, self.prescribed)
         kind[dependent] = 2
         self.free = np.flatnonzero(kind == 0)
@@ -92,7 +92,7 @@ class Constraints:
         self._reduced = np.zeros(len(self.reduced_indices))
         self._pattern = self._system.indices
 
-    def _follow_pattern(self) -> None:
+    def _refresh_pattern(self) -> None:
         """Repeat the symbolic work if the system has another pattern."""
         if self._pattern is not self._system.indices:
             self._find_pattern()
@@ -100,16 +100,16 @@ class Constraints:
     def matches(
         self, prescribed: IntArray, equations: Sequence[Equation], arms: Sequence[Arm], start: FloatArray
     ) -> bool:
-        """Return whether these constraints also serve the given ones, so that symbolic work need not be repeated.
+        """Return whether these constraints can be reused for a step, so that symbolic work need not be repeated.
 
         Parameters
         ----------
         prescribed
-            (n_p,) unknowns with a given value, compared in this order.
+            (n_p,) prescribed unknowns, compared in this order.
         equations
-            Compared in this order, with their places in the deck.
+            Compared in this order, with their locations in the deck.
         arms
-            Those of the equations with finite rotations.
+            Rigid arms with finite rotations.
         start
             (n,) unknowns at which a step begins.
         """
@@ -118,31 +118,31 @@ class Constraints:
 
     @property
     def overconstraints(self) -> list[tuple[int, Source]]:
-        """Prescribed unknowns that follow from other prescribed ones too, and the constraint by which they do."""
+        """Prescribed unknowns that a constraint determines too, from other prescribed ones, and this constraint."""
         return [(one.unknown, one.source) for one in self._redundant]
 
-    def _excesses(self, u: FloatArray) -> list[float]:
-        """Return the errors of the redundant equations, over the sums of the magnitudes of their terms."""
-        return [one.excess(u) for one in self._redundant]
+    def _redundancy_errors(self, u: FloatArray) -> list[float]:
+        """Return the relative errors of the redundant equations."""
+        return [one.error(u) for one in self._redundant]
 
     def refuse_contradictions(self, u: FloatArray, moment: str) -> None:
-        """Raise DeckError where two such values differ at unknowns u (n,); moment: step and increment, in words."""
-        for (unknown, source), excess in zip(self.overconstraints, self._excesses(u), strict=True):
-            if excess > CONSISTENT:
-                where = f" at {self._places[unknown]}" if unknown in self._places else ""
+        """Raise DeckError where overconstraints contradict at unknowns u (n,); moment: step and increment, in words."""
+        for (unknown, source), error in zip(self.overconstraints, self._redundancy_errors(u), strict=True):
+            if error > CONSISTENT:
+                where = f" at {self._sources[unknown]}" if unknown in self._sources else ""
                 raise DeckError(
                     source,
                     f"over-constrained: {named(self._system.dofs, unknown)} is prescribed{where}, and other prescribed "
                     "values give it another value by this constraint: they differ by "
-                    f"{excess:.2g} of their size ({moment})",
+                    f"{error:.2g} of their size ({moment})",
                 )
 
     def refuse_unbalanced(self, residual: FloatArray) -> None:
-        """Raise DeckError if forces (n,) work on a motion that moves nothing else, in the last state of `follow`."""
+        """Raise DeckError if forces (n,) do work on a rotation without effect, in the state of the last `update`."""
 
     @property
     def ranks(self) -> Ranks:
-        """Ranks of the system: each has the part of T^T K T of its elements."""
+        """Ranks of the system; each has the part of T^T K T that comes from its elements."""
         return self._system.ranks
 
     @property
@@ -165,19 +165,19 @@ class Constraints:
         Parameters
         ----------
         reduced
-            Its place in `free`, from 0.
+            Its position in `free`, from 0.
         """
         return self._system.dofs.name(int(self.free[reduced]))
 
-    def place(self, start: FloatArray, increment: FloatArray) -> FloatArray:
-        """Return an increment (n,) that fulfils the constraints; if they are linear, sums of those of `expand` do.
+    def satisfy(self, start: FloatArray, increment: FloatArray) -> FloatArray:
+        """Return an increment (n,) that fulfils the constraints; linear ones hold for sums of results of `expand`.
 
         Parameters
         ----------
         start
             (n,) unknowns at its start.
         increment
-            (n,) up to the order of the constraints.
+            (n,) increment that fulfils them to first order.
 
         Returns
         -------
@@ -187,10 +187,10 @@ class Constraints:
         del start
         return increment
 
-    def follow(
+    def update(
         self, u: FloatArray, residual: FloatArray, increment: FloatArray | None = None, weight: float = 1.0
     ) -> None:
-        """Update T and P to a state, and the stiffness that forces add to the tangent as T changes.
+        """Update T and P to a state, and the stiffness that the change of T adds to the tangent.
 
         Parameters
         ----------
@@ -199,10 +199,10 @@ class Constraints:
         residual
             (n,) external minus internal forces.
         increment
-            (n,) change of the unknowns over the time between the forces of which `residual` is the mean.
+            (n,) increment of the unknowns; `residual` is a weighted mean of the forces at its end and at its start.
         weight
-            Of the forces at u in this mean, the others are those at u - increment: the mean passes on in the directions
-            of the mean unknowns, u - (1 - weight) increment.
+            Weight of the forces at its end, u. Constraints transfer the mean in the directions at the mean unknowns,
+            u - (1 - weight) increment.
         """
 
     def expand(self, dq: FloatArray, dprescribed: FloatArray) -> FloatArray:
@@ -227,8 +227,8 @@ class Constraints:
         du[self.prescribed] = dprescribed
         return du
 
-    def along(self, direction: FloatArray) -> FloatArray:
-        """Return the direction with the same free and prescribed unknowns, in the state of the last `follow`.
+    def project(self, direction: FloatArray) -> FloatArray:
+        """Project a direction on the constraints in the state of the last `update`: free and prescribed unknowns stay.
 
         Parameters
         ----------
@@ -238,37 +238,37 @@ class Constraints:
         Returns
         -------
         FloatArray
-            (n,): its product with forces is their work on the path that fulfils the constraints.
+            (n,); its product with forces is their work along the constraints.
         """
         return self.expand(direction[self.free], direction[self.prescribed])
 
     def inertia(self, mass: sparse.csr_array) -> sparse.csr_array:
-        """Return the part of a mass matrix (n, n) that `tangential` uses."""
+        """Return the part of a mass matrix (n, n) that `project_velocity` uses."""
         return sparse.csr_array(mass.shape)
 
-    def tangential(self, velocity: FloatArray, inertia: sparse.csr_array) -> FloatArray:
-        """Return the velocities that fulfil the constraints in the state of the last `follow`, with the same momenta.
+    def project_velocity(self, velocity: FloatArray, inertia: sparse.csr_array) -> FloatArray:
+        """Project velocities on the constraints in the state of the last `update`, with the same momenta.
 
         Parameters
         ----------
         velocity
-            (n,) velocities v that fulfil them up to the error of an integration.
+            (n,) velocities v, which fulfil them up to the error of an integration.
         inertia
             M, from `inertia`.
 
         Returns
         -------
         FloatArray
-            (n,): T dq/dt + P dp/dt, with T^T M times it equal to T^T M v for the free unknowns of reference nodes. So
-            has P^T M with their prescribed rotations, about which the velocities of other nodes are not those of dp/dt.
-            All other free unknowns and the prescribed ones have theirs.
+            (n,): w = T dq/dt + P dp/dt with T^T M w = T^T M v for the free unknowns of reference nodes, and P^T M w =
+            P^T M v for their prescribed rotations as far as other nodes follow these. All other free unknowns, and the
+            prescribed ones, keep their velocities.
         """
         del inertia
         return velocity
 
     def convective(self, u: FloatArray, velocity: FloatArray) -> FloatArray:
-        """Return accelerations (n,) at unknowns u (n,) with velocities (n,),
-        if the free and prescribed ones have none.
+        """Return accelerations (n,) at unknowns u (n,) with velocities (n,) and no acceleration of the free and
+        prescribed unknowns.
         """
         del velocity
         return np.zeros_like(u)
@@ -284,7 +284,7 @@ class Constraints:
         Returns
         -------
         FloatArray
-            (n_q,) forces on the free unknowns, with what the equations pass on to them.
+            (n_q,) forces on the free unknowns, with those that the equations transfer to them.
         """
         if self._t is None:
             return vector[self.free]
@@ -320,7 +320,7 @@ class Constraints:
         FloatArray
             In the pattern of `reduced_indptr` and `reduced_indices`; overwritten by the next call.
         """
-        self._follow_pattern()
+        self._refresh_pattern()
         if self._t is None:
             # 'clip' only because numpy buffers `out` in the checking mode; all positions are in range
             return np.take(data, self._take, out=self._reduced, mode="clip")
@@ -353,7 +353,7 @@ class Constraints:
 
 
 def _columns(n: int, chosen: IntArray, dependent: IntArray, coefficients: sparse.csr_array) -> sparse.csr_array:
-    """Return the (n, chosen) matrix that gives all unknowns from the chosen independent ones."""
+    """Return the matrix (n, chosen) from the chosen independent unknowns to all unknowns."""
     by_dependent = coefficients[:, chosen].tocoo()
     rows = np.concatenate([chosen, dependent[by_dependent.row]])
     columns = np.concatenate([np.arange(len(chosen)), by_dependent.col])
@@ -366,9 +366,7 @@ def _row_of_entries(system: System) -> IntArray:
 
 
 def _take_pattern(system: System, free: IntArray) -> tuple[NDArray[np.int32], NDArray[np.int32], IntArray]:
-    """Return the pattern of the rows and columns of free unknowns,
-    and the positions of its entries in the full matrix.
-    """
+    """Return the CSR pattern of the rows and columns of free unknowns, and its positions in the full matrix."""
     number = np.full(len(system), -1, dtype=np.int32)
     number[free] = np.arange(len(free))
     row, column = number[_row_of_entries(system)], number[system.indices]
@@ -379,9 +377,9 @@ def _take_pattern(system: System, free: IntArray) -> tuple[NDArray[np.int32], ND
 def reduced_pattern(
     system: System, t: sparse.csr_array, values: FloatArray | None = None
 ) -> tuple[NDArray[np.int32], NDArray[np.int32], sparse.csr_array]:
-    """Return the pattern of T^T K T, and the matrix M that gives its values from those of K.
+    """Return the CSR pattern of T^T K T, and the matrix from the values of K to its values.
 
-    Entry (i, j) of K contributes T[i, a] T[j, b] to entry (a, b), or `values` in place of these products.
+    Entry (i, j) of K contributes T[i, a] K[i, j] T[j, b] to entry (a, b); `values` replace the products of T.
     """
     left, right, entry = products(system, t)
     key = t.indices[left].astype(np.int64) * t.shape[1] + t.indices[right]
@@ -392,7 +390,7 @@ def reduced_pattern(
 
 
 def products(system: System, t: sparse.csr_array) -> tuple[IntArray, IntArray, IntArray]:
-    """Return entries of T, left and right, whose product with an entry of K is a term of T^T K T; and that entry."""
+    """Return, for each term of T^T K T, the positions of its left entry of T, its right entry of T, and that of K."""
     count = np.diff(t.indptr)
     row, column = _row_of_entries(system), system.indices
     terms = count[row] * count[column]

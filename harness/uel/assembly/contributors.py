@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""All that contributes to the system of a model."""
+"""Contributors to the system of a model: elements, loads, contact, couplings."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ class Contributors:
     """All contributors of a model; iteration yields them in the order of a pass.
 
     elements   blocks of the groups of elements, in the calling order of Abaqus
-    followers  faces under loads that follow them
-    heat       faces, volumes and nodes that heat enters
+    followers  faces under follower loads
+    heat       faces, volumes and nodes with heat loads
     contacts   contact pairs
-    couplings  distributing couplings in large displacements: one block of all of them, if there are any
+    couplings  distributing couplings in large displacements, in one block; empty without them
     """
 
     elements: Sequence[ElementBlock]
@@ -46,7 +46,7 @@ class Contributors:
         cls, model: Model, library: Library, *, strict: bool = True, zeros: bool = False, linear: Collection[str] = ()
     ) -> Self:
         """Build the contributors of a model, and number their items; arguments and errors as in `build_blocks`."""
-        found = cls(
+        contributors = cls(
             build_blocks(model, library, strict=strict, zeros=zeros, linear=linear),
             follower_blocks(model, library),
             tuple(heat_load_blocks(model, library)),
@@ -54,20 +54,20 @@ class Contributors:
             [DistributingBlock(model)] if model.couplings else [],
         )
         first = 0
-        for contributor in found:
+        for contributor in contributors:
             contributor.first = first
             first += len(contributor.rows)
-        return found
+        return contributors
 
     def __iter__(self) -> Iterator[Contributor]:
         return chain(self.elements, self.others)
 
     @property
     def others(self) -> Iterator[Contributor]:
-        """All but the elements."""
+        """Contributors other than elements."""
         return chain(self.followers, self.heat, self.contacts, self.couplings)
 
     @property
     def shared(self) -> Sequence[ElementBlock]:
-        """Contributors whose items are shared out among the ranks of a job; the others are not in a job on ranks."""
+        """Contributors whose items are divided among the ranks; a job on several ranks has no others."""
         return (*self.elements, *self.followers, *self.heat)

@@ -22,13 +22,12 @@ Forces = TypeVar("Forces", FloatArray, ComplexArray)
 
 @dataclass(frozen=True, slots=True)
 class DofMap:
-    """Unknowns of a model, ordered by node, then by dof; those of elements, contact points and couplings, which are of
-    no node, come last.
+    """Unknowns of a model, ordered by node, then by dof; those of elements, contact points and couplings come last.
 
-    node  (n,) node index of each unknown; the items of the contributors follow the nodes
-    dof   (n,) its dof, as Abaqus numbers them (1-3 displacements, ...)
-    field (n,) its field, index into FIELD_NAMES
-    coordinates  (n, 3) original coordinates of its node, or of the middle of its element
+    node   (n,) node index of each unknown; the items of the contributors are numbered after the nodes
+    dof    (n,) its dof, as Abaqus numbers them (1-3 displacements, ...)
+    field  (n,) its field, index into FIELD_NAMES
+    coordinates  (n, 3) original coordinates of its node, or of the centre of its element
     """
 
     mesh: Mesh
@@ -50,7 +49,7 @@ class DofMap:
         nodes = [np.zeros(0, dtype=np.int64)]
         dofs = [np.zeros(0, dtype=np.int64)]
         elements: dict[int, str] = {}
-        middles: dict[int, FloatArray] = {}
+        centres: dict[int, FloatArray] = {}
         for contributor in contributors:
             for local, dof in contributor.unknowns:
                 used = np.unique(_positions(mesh, contributor, local))
@@ -59,7 +58,7 @@ class DofMap:
             if any(dof >= PRESSURE for _, dof in contributor.unknowns):
                 own = _positions(mesh, contributor, contributor.nodes.shape[1]).tolist()
                 elements |= dict(zip(own, contributor.names, strict=True))
-                middles |= dict(zip(own, mesh.coordinates[contributor.nodes].mean(axis=1), strict=True))
+                centres |= dict(zip(own, mesh.coordinates[contributor.nodes].mean(axis=1), strict=True))
         terms = np.array([(node, dof) for equation in equations for node, dof, _ in equation.terms], dtype=np.int64)
         nodes.append(terms.reshape(-1, 2)[:, 0])
         dofs.append(terms.reshape(-1, 2)[:, 1])
@@ -70,22 +69,22 @@ class DofMap:
         owners, numbers = keys // base, keys % base
         # unknowns of elements come last
         last = np.searchsorted(owners, len(mesh.labels))
-        others = [middles[owner] for owner in owners[last:].tolist()]
-        places = np.vstack([mesh.coordinates[owners[:last]], *others])
-        turning = [equation.terms for equation in equations if is_local(equation.terms[0][1])]
-        pairs = [(first[0] * base + first[1], node * base + dof) for first, *terms in turning for node, dof, _ in terms]
+        others = [centres[owner] for owner in owners[last:].tolist()]
+        coordinates = np.vstack([mesh.coordinates[owners[:last]], *others])
+        rotated = [equation.terms for equation in equations if is_local(equation.terms[0][1])]
+        pairs = [(first[0] * base + first[1], node * base + dof) for first, *terms in rotated for node, dof, _ in terms]
         along, into = np.searchsorted(keys, np.array(pairs, dtype=np.int64).reshape(-1, 2).T)
-        turned = along, into, np.array([-cosine for _, *terms in turning for _, _, cosine in terms])
-        return cls(mesh, owners, numbers, fields[numbers], places, keys, base, elements, turned)
+        in_global = along, into, np.array([-cosine for _, *terms in rotated for _, _, cosine in terms])
+        return cls(mesh, owners, numbers, fields[numbers], coordinates, keys, base, elements, in_global)
 
     def __len__(self) -> int:
         return len(self.node)
 
     @property
     def of_nodes(self) -> NDArray[np.bool_]:
-        """Mask (n,) of the unknowns of nodes, which move in space and time; of an element or contact it is False."""
-        found: NDArray[np.bool_] = self.node < len(self.mesh.labels)
-        return found
+        """Mask (n,) of the unknowns of nodes, as opposed to those of elements, contact points and couplings."""
+        mask: NDArray[np.bool_] = self.node < len(self.mesh.labels)
+        return mask
 
     def find(self, nodes: IntArray | int, dof: IntArray | int) -> IntArray:
         """Return the unknowns of (node, dof) pairs.
@@ -103,9 +102,9 @@ class DofMap:
         keys = np.asarray(nodes, dtype=np.int64) * self._base + dof
         if not len(self._keys):
             return np.full(keys.shape, -1)
-        found = np.minimum(np.searchsorted(self._keys, keys), len(self._keys) - 1)
-        known = (self._keys[found] == keys) & (np.asarray(dof) < self._base)
-        return np.asarray(np.where(known, found, -1), dtype=np.int64)
+        numbers = np.minimum(np.searchsorted(self._keys, keys), len(self._keys) - 1)
+        known = (self._keys[numbers] == keys) & (np.asarray(dof) < self._base)
+        return np.asarray(np.where(known, numbers, -1), dtype=np.int64)
 
     def equations_of(self, contributor: Contributor) -> NDArray[np.int32]:
         """Return the unknowns of each item of a contributor.
@@ -124,13 +123,11 @@ class DofMap:
         return np.stack(columns, axis=1).astype(np.int32)
 
     def element(self, unknown: int) -> str:
-        """Return the name of the element that has an unknown, '' for an unknown of a node."""
+        """Return the name of the element that owns an unknown, '' for an unknown of a node."""
         return self._elements.get(int(self.node[unknown]), "")
 
     def name(self, unknown: int) -> tuple[str, int]:
-        """Return node name and dof of an unknown, for messages; a pressure is one of its element,
-        or of a contact point.
-        """
+        """Return node name and dof of an unknown, for messages; or the element or contact point that owns it."""
         if (number := int(self.dof[unknown]) - COUPLED) >= 0:
             return f"{self.element(unknown)}, forces of its distributing coupling", number + 1
         if int(self.dof[unknown]) == MULTIPLIER:
@@ -140,20 +137,19 @@ class DofMap:
         return self.mesh.name(int(self.node[unknown])), dof_in_deck(int(self.dof[unknown]))
 
     def in_global(self, forces: Forces) -> Forces:
-        """Return forces (n,) with those along directions of *TRANSFORM added to the
-        global components of their nodes.
-        """
+        """Return forces (n,) with those in directions of *TRANSFORM added to the global components of their nodes."""
         along, into, cosines = self._local
         if not len(along):
             return forces
-        turned = forces.copy()
-        np.add.at(turned, into, cosines * forces[along])
-        return turned
+        total = forces.copy()
+        np.add.at(total, into, cosines * forces[along])
+        return total
 
 
 def _positions(mesh: Mesh, contributor: Contributor, local: int) -> IntArray:
-    """Return (m,) nodes with this local number, or the reference node. The number after the nodes of an item stands
-    for the item itself, numbered after all nodes.
+    """Return the nodes (m,) with a local number, or the reference node.
+
+    The local number after the last node stands for the item itself, which is numbered after all nodes.
     """
     nodes = contributor.nodes
     if local == REFERENCE:

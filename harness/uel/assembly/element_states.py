@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Element states of an increment, which cost nothing until they are read."""
+"""Element states of an increment, copied only when they are read."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ class States(Sequence[ElementState]):
     Parameters
     ----------
     read
-        Brings the blocks up to date and copies their states.
+        Updates all blocks and returns copies of their states.
     read_one
-        Copies the state of one block if it is up to date; None if it is not.
+        Returns a copy of the state of one block, or None if the block has to be updated first.
     current
-        Whether the system is still at the end of that increment.
+        Returns whether the system is still at the end of that increment.
 
     Raises
     ------
     UelError
-        They are first read when the next increment has begun.
+        They are first read after the end of the next increment.
     """
 
     def __init__(
@@ -56,7 +56,7 @@ class States(Sequence[ElementState]):
 
     def __getitem__(self, index: int | slice) -> ElementState | tuple[ElementState, ...]:
         if self._states is None and isinstance(index, int) and self._current():
-            found = self._read_one(index)
-            if found is not None:
-                return found
+            state = self._read_one(index)
+            if state is not None:
+                return state
         return self._all()[index]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*EQUATION, and equations of other constraints: elimination of an unknown of each, chains resolved."""
+"""Elimination of one unknown of each equation, of *EQUATION and other constraints; chains are resolved."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from uel.model.arrays import FloatArray, IntArray
 from uel.model.model import Equation
 
 ROUNDING = 1e-12
-"""Part of the largest coefficient of an equation that is none after elimination."""
+"""Coefficient over the largest one of its equation that counts as zero after elimination."""
 
 
 @dataclass(frozen=True, slots=True)
-class Redundant:
-    """An equation of prescribed unknowns alone, after elimination: it must hold by itself.
+class RedundantEquation:
+    """Equation with only prescribed unknowns after elimination: their values must satisfy it.
 
-    unknown       the prescribed unknown of its first term
-    unknowns      (k,) those of all terms
-    coefficients  (k,) theirs
-    source        the constraint
+    unknown       prescribed unknown of its first term
+    unknowns      (k,) unknowns of all terms
+    coefficients  (k,) their coefficients
+    source        location of the constraint in the deck
     """
 
     unknown: int
@@ -34,8 +34,8 @@ class Redundant:
     coefficients: FloatArray
     source: Source
 
-    def excess(self, u: FloatArray) -> float:
-        """Return the error at unknowns (n,): the sum of the terms over that of their absolute values."""
+    def error(self, u: FloatArray) -> float:
+        """Return the relative error at unknowns u (n,): |sum of the terms| over the sum of their magnitudes."""
         terms = self.coefficients * u[self.unknowns]
         size = float(np.abs(terms).sum())
         return abs(float(terms.sum())) / size if size else 0.0
@@ -43,10 +43,10 @@ class Redundant:
 
 def eliminate(
     dofs: DofMap, equations: Sequence[Equation], prescribed: IntArray
-) -> tuple[IntArray, sparse.csr_array, list[Redundant]]:
-    """Find dependent unknowns and their coefficients on all others, and equations without a dependent unknown.
+) -> tuple[IntArray, sparse.csr_array, list[RedundantEquation]]:
+    """Eliminate one unknown of each equation; find the redundant equations.
 
-    The dependent unknown of an equation is that of its first term; if that is prescribed, another one of the equation.
+    The eliminated, dependent unknown is that of the first term; if that is prescribed, another one of the equation.
 
     Parameters
     ----------
@@ -55,20 +55,20 @@ def eliminate(
     equations
         In the order of the deck.
     prescribed
-        Unknowns with a given value.
+        Prescribed unknowns.
 
     Returns
     -------
-    tuple[IntArray, sparse.csr_array, list[Redundant]]
-        The k unknowns that depend on others, and C, (k, n), with u[dependent] = C u; columns of dependent unknowns are
-        empty. Then the equations all of whose unknowns are prescribed, or those of several equations together.
+    tuple[IntArray, sparse.csr_array, list[RedundantEquation]]
+        The k dependent unknowns, and C (k, n) with u[dependent] = C u, where columns of dependent unknowns are empty.
+        Then the equations, or combinations of them, whose unknowns are all prescribed.
 
     Raises
     ------
     DeckError
         An unknown is the first one of two equations, or depends on itself.
     """
-    held = set(prescribed.tolist())
+    prescribed_set = set(prescribed.tolist())
     by_unknown: dict[int, int] = {}
     terms = [_terms(dofs, equation) for equation in equations]
     others: list[int] = []
@@ -76,7 +76,7 @@ def eliminate(
         first = next(iter(terms[row]))
         if terms[row][first] == 0.0:
             raise DeckError(equation.source, f"the coefficient of the first term, {named(dofs, first)}, is zero")
-        if first in held:
+        if first in prescribed_set:
             others.append(row)
         elif first in by_unknown:
             raise DeckError(
@@ -86,7 +86,7 @@ def eliminate(
             )
         else:
             by_unknown[first] = row
-    redundant = _choose_others(dofs, equations, terms, others, by_unknown, held)
+    redundant = _choose_others(dofs, equations, terms, others, by_unknown, prescribed_set)
     rows: list[int] = []
     columns: list[int] = []
     values: list[float] = []
@@ -108,35 +108,34 @@ def _choose_others(
     terms: list[dict[int, float]],
     rows: list[int],
     by_unknown: dict[int, int],
-    held: set[int],
-) -> list[Redundant]:
-    """Choose dependent unknowns of equations whose first one is prescribed: Gaussian elimination,
-    largest term as pivot.
+    prescribed_set: set[int],
+) -> list[RedundantEquation]:
+    """Choose the dependent unknowns of equations whose first unknown is prescribed; return the redundant equations.
 
-    It replaces in `terms` what the equations before it have made dependent, so that the choice of one leaves an unknown
-    to the next, as the six equations of an average motion need. Returns the equations that have none left.
+    Gaussian elimination with the largest term as pivot. It replaces in `terms` the unknowns that earlier equations
+    eliminate, so that each equation has one left, as the six equations of an average motion need.
     """
     chosen: dict[int, dict[int, float]] = {}
-    redundant: list[Redundant] = []
+    redundant: list[RedundantEquation] = []
     for row in rows:
         own = terms[row]
         size = max(map(abs, own.values()))
         for unknown, equation in chosen.items():
             _replace(own, unknown, equation)
-        pivot = _largest(own, held, by_unknown)
+        pivot = _largest(own, prescribed_set, by_unknown)
         for _ in equations:
             dependent = [unknown for unknown in own if unknown in by_unknown]
             if (pivot >= 0 and abs(own[pivot]) > ROUNDING * size) or not dependent:
                 break
-            # what these depend on may be free
+            # unknowns on which these depend may be free
             for unknown in dependent:
                 _replace(own, unknown, _solved(terms[by_unknown[unknown]], unknown))
-            pivot = _largest(own, held, by_unknown)
+            pivot = _largest(own, prescribed_set, by_unknown)
         if pivot < 0 or abs(own[pivot]) <= ROUNDING * size:
-            left = {unknown: value for unknown, value in own.items() if unknown in held}
+            left = {unknown: value for unknown, value in own.items() if unknown in prescribed_set}
             node, dof, _ = equations[row].terms[0]
             of_terms = np.array(list(left), dtype=np.int64), np.array(list(left.values()))
-            redundant.append(Redundant(int(dofs.find(node, dof)), *of_terms, equations[row].source))
+            redundant.append(RedundantEquation(int(dofs.find(node, dof)), *of_terms, equations[row].source))
             continue
         by_unknown[pivot] = row
         chosen[pivot] = _solved(own, pivot)
@@ -150,21 +149,19 @@ def _replace(own: dict[int, float], unknown: int, equation: Mapping[int, float])
             own[other] = own.get(other, 0.0) - factor * value
 
 
-def _largest(own: Mapping[int, float], held: set[int], dependent: Mapping[int, int]) -> int:
-    """Return the unknown with the largest coefficient of those neither prescribed nor dependent;
-    -1 if there is none.
-    """
-    left = [unknown for unknown in own if unknown not in held and unknown not in dependent]
+def _largest(own: Mapping[int, float], prescribed_set: set[int], dependent: Mapping[int, int]) -> int:
+    """Return the unknown with the largest coefficient among those neither prescribed nor dependent, or -1."""
+    left = [unknown for unknown in own if unknown not in prescribed_set and unknown not in dependent]
     return max(left, key=lambda unknown: abs(own[unknown]), default=-1)
 
 
 def _solved(own: Mapping[int, float], pivot: int) -> dict[int, float]:
-    """Return the coefficients of an equation without that of the pivot, over it."""
+    """Return the coefficients of an equation over that of the pivot, which is left out."""
     return {unknown: value / own[pivot] for unknown, value in own.items() if unknown != pivot}
 
 
 def _terms(dofs: DofMap, equation: Equation) -> dict[int, float]:
-    """Return the coefficient of each unknown, terms in order, repeated ones added. Raises DeckError."""
+    """Return the coefficients by unknown in the order of the terms; repeated terms add up. Raises DeckError."""
     terms: dict[int, float] = {}
     for node, dof, coefficient in equation.terms:
         unknown = int(dofs.find(node, dof))
@@ -177,7 +174,7 @@ def _terms(dofs: DofMap, equation: Equation) -> dict[int, float]:
 def _resolve(
     dofs: DofMap, sources: Sequence[Source], dependent: IntArray, direct: sparse.csr_array
 ) -> sparse.csr_array:
-    """Replace dependent unknowns on the right-hand sides by those that they depend on: the sum of N^k D over k >= 0."""
+    """Replace dependent unknowns on right-hand sides by independent ones: the sum of N^k D over k >= 0."""
     between = direct[:, dependent]
     if between.nnz == 0:
         return direct

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Outcome of one pass over all contributors of a system."""
+"""Result of one pass over all contributors of a system."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ from uel.model.couplings import CouplingErrors
 
 @dataclass(frozen=True, slots=True)
 class Evaluation:
-    """Outcome of one pass over all elements: sums over all ranks, but the matrix is that of this rank's elements.
+    """Result of one pass: sums over the elements of all ranks, but the matrix of the elements of this rank.
 
     residual    (n,) sum of RHS: external minus internal force
-    data        (nnz,) CSR values of the matrix, None if not asked for; overwritten by the next pass that asks for it
-    flux        (fields,) sum of |element nodal force| by field, as FIELD_NAMES orders them, and of loads that are terms
-                of the average flux
-    flux_count  (fields,) number of terms in it, those above the call's floor
-    pnewdt      smallest PNEWDT an element returned
-    energy      (8,) sum of ENERGY, without linear elements that were not called, whose energy `LinearShortcut` adds
+    data        (nnz,) CSR values of the matrix, None if not requested; overwritten by the next pass with a matrix
+    flux        (fields,) sum of |element nodal force| by field, in the order of FIELD_NAMES, and of the loads that
+                count in the average flux
+    flux_count  (fields,) number of terms in `flux` above the floor of the call
+    pnewdt      smallest PNEWDT of an element
+    energy      (8,) sum of ENERGY; `LinearShortcut` adds that of linear elements that were not called
     load        (n,) sum of column 2 of RHS, increments of the loads that elements apply; None unless NRHS = 2
-    damage      dissipated by the damage of built-in elements
+    damage      energy dissipated by damage of built-in elements
     largest     (fields,) largest |element nodal force|
-    entries     (fields,) number of element nodal forces, and what the loads count as
-    contact     what the iteration changed in each contact pair
+    entries     (fields,) number of element nodal forces, and of terms of loads
+    contact     changes in each contact pair by the iteration
     coupling    errors of distributing couplings, None without any
     """
 
@@ -50,14 +50,14 @@ class Evaluation:
 
     @classmethod
     def of(cls, reports: Sequence[BlockReport], columns: FloatArray, data: FloatArray | None) -> Self:
-        """Sum the reports of a pass that led to these columns (NRHS, n) of the right-hand side and matrix (nnz,)."""
+        """Sum the reports of a pass with right-hand sides (NRHS, n) and matrix (nnz,)."""
         fields = len(FIELD_NAMES)
         return cls(
             residual=columns[0],
             data=data,
             flux=sum((report.flux for report in reports), np.zeros(fields)),
             flux_count=sum((report.flux_count for report in reports), np.zeros(fields, dtype=np.int64)),
-            # NaN, which .msg warns of, asks for nothing
+            # NaN, of which .msg warns, requests nothing
             pnewdt=min((report.pnewdt for report in reports if report.pnewdt <= np.inf), default=np.inf),
             energy=sum((report.energy for report in reports), np.zeros(8)),
             load=columns[1] if len(columns) > 1 else None,

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rigid arms in large displacements: nodes that follow the finite rotation of a reference node.
+"""Kinematic couplings in large displacements: nodes that follow the finite rotation of a reference node by rigid arms.
 
 With the rotation vector theta of the reference node, dofs 4 to 6, its displacement u_R and the arm r before any
 displacement,
@@ -13,7 +13,7 @@ RM: no derivatives by theta, so that matrices are not symmetric where rotations 
 plane theta is dof 6 alone.
 
 Where a displacement of a node is prescribed, its equation eliminates an unknown of the reference node
-(`held_followers.py`): with x the six of them, dx = Q dx' + Q_p dp, x' those that are left.
+(`prescribed_followers.py`): with x the six of them, dx = Q dx' + Q_p dp, where x' are the others.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uel.assembly.dofs import DofMap
-from uel.assembly.prescribed_followers import COLUMNS, SMALLEST, HeldFollowers, choose
+from uel.assembly.prescribed_followers import COLUMNS, SMALLEST, PrescribedFollowers, choose_eliminated
 from uel.elements import PERMUTATION, rotation_matrices, spin_matrices
 from uel.errors import DeckError, SingularMatrixError, Source
 from uel.model.arrays import FloatArray, IntArray
@@ -37,30 +37,30 @@ IMAGINARY = 1e-30
 ITERATIONS = 30
 """Newton iterations for the eliminated rotations of a reference node; those of displacements alone are exact."""
 
-PLACED = 1e-14
+CLOSED = 1e-14
 """Error of a prescribed displacement, over the lengths that it is computed from, at which those iterations end."""
 
 STRAIGHT = 1e-12
 """Square of the width over that of the length below which nodes lie on a line."""
 
 UNBALANCED = 1e-6
-"""Moment that nothing balances, over the moments that forces on the arms can have: that of rounding is smaller."""
+"""Unbalanced moment over the moments that forces on the arms can have: rounding gives less."""
 
 UNREACHABLE = "no position of it gives the prescribed displacements of the nodes that follow it"
 
 _DISPLACEMENTS, _ROTATIONS = np.array(DISPLACEMENTS), np.array(ROTATIONS)
-_MOVES, _TURNS = slice(0, 3), slice(3, 6)
+_U, _THETA = slice(0, 3), slice(3, 6)
 
 
-class Arms:
-    """All arms of a model.
+class KinematicCouplings:
+    """All rigid arms of a model.
 
-    own      (k, 3) unknowns: the displacements of each node, -1 where there is none
-    of       (k,) row of its reference node
-    columns  (references, 6) unknowns of the reference nodes, -1 where there is none
-    sources  (references, 6 + w) unknowns from which those of each reference node follow: its own ones, -1 those that
-             are eliminated, then up to w prescribed displacements of nodes that follow
-    held     prescribed displacements of nodes that follow
+    own        (k, 3) unknowns: the displacements of each node, -1 where there is none
+    of         (k,) row of its reference node
+    columns    (references, 6) unknowns of the reference nodes, -1 where there is none
+    sources    (references, 6 + w) unknowns that determine those of each reference node: its own, -1 for those that are
+               eliminated, then up to w prescribed displacements of nodes that follow
+    followers  prescribed displacements of nodes that follow
     """
 
     def __init__(
@@ -71,7 +71,7 @@ class Arms:
         start: FloatArray,
         stiff: NDArray[np.bool_],
     ) -> None:
-        """Choose the unknowns of reference nodes that are eliminated.
+        """Choose the unknowns of the reference nodes to eliminate.
 
         Parameters
         ----------
@@ -82,9 +82,9 @@ class Arms:
         prescribed
             Unknowns with a given value.
         start
-            (n,) unknowns, at which prescribed displacements choose what they eliminate.
+            (n,) unknowns at which the eliminated ones are chosen.
         stiff
-            (n,) whether an element has the unknown.
+            (n,) mask of the unknowns of elements.
         """
         self._dofs, self._arms = dofs, arms
         nodes, references = (
@@ -97,74 +97,74 @@ class Arms:
         self.columns = dofs.find(self.references[:, None], np.concatenate([_DISPLACEMENTS, _ROTATIONS]))
         self._length = np.zeros(len(self.references))
         np.maximum.at(self._length, self.of, np.linalg.norm(self._arm, axis=1))
-        held = (self.own >= 0) & np.isin(self.own, prescribed)
+        fixed = (self.own >= 0) & np.isin(self.own, prescribed)
         free = (self.columns >= 0) & ~np.isin(self.columns, prescribed)
         self._idle = self._find_idle(free & ~stiff[self.columns])
         free[self._idle] = False
-        self._held, self._free = held, free
-        self.held = self._choose(start)
-        self._follows = (self.own >= 0) & ~held
-        solved = self.held.solved
+        self._fixed, self._free = fixed, free
+        self.followers = self._choose(start)
+        self._follows = (self.own >= 0) & ~fixed
+        solved = self.followers.solved
         width = max((len(equations) for _, equations in solved), default=0)
         self.sources = np.hstack([self.columns, np.full((len(self.references), width), -1)])
         self.sources[self._idle] = -1
         for row, equations in solved:
-            self.sources[row, self.held.eliminated[equations]] = -1
-            self.sources[row, COLUMNS : COLUMNS + len(equations)] = self.held.unknown[equations]
+            self.sources[row, self.followers.eliminated[equations]] = -1
+            self.sources[row, COLUMNS : COLUMNS + len(equations)] = self.followers.unknown[equations]
 
-    def _choose(self, start: FloatArray) -> HeldFollowers:
-        return choose(self.slopes(start), self._length[self.of], self.own, self.of, self._held, self._free)
+    def _choose(self, start: FloatArray) -> PrescribedFollowers:
+        return choose_eliminated(self.slopes(start), self._length[self.of], self.own, self.of, self._fixed, self._free)
 
-    def suit(self, start: FloatArray) -> bool:
-        """Return whether prescribed displacements would choose the same unknowns to eliminate at unknowns (n,)."""
-        return np.array_equal(self._choose(start).eliminated, self.held.eliminated)
+    def eliminates_alike(self, start: FloatArray) -> bool:
+        """Return whether the choice of eliminated unknowns would be the same at unknowns (n,)."""
+        return np.array_equal(self._choose(start).eliminated, self.followers.eliminated)
 
     @property
     def eliminated(self) -> IntArray:
-        """Unknowns of reference nodes that are not solved for."""
-        own = ~self.held.redundant
-        determined = self.columns[self.held.reference[own], self.held.eliminated[own]]
+        """Eliminated unknowns of reference nodes."""
+        own = ~self.followers.redundant
+        determined = self.columns[self.followers.reference[own], self.followers.eliminated[own]]
         return np.concatenate([determined, self.columns[self._idle]])
 
     @property
     def redundant(self) -> list[tuple[int, Source]]:
         """Prescribed displacements that follow from others, and the constraint by which they do."""
-        held, own = self.held, np.flatnonzero(self.held.redundant)
-        return [(int(held.unknown[k]), self._arms[held.arm[k]].source) for k in own]
+        followers, own = self.followers, np.flatnonzero(self.followers.redundant)
+        return [(int(followers.unknown[k]), self._arms[followers.arm[k]].source) for k in own]
 
     @property
     def rotations(self) -> IntArray:
         """Unknowns that are rotations of reference nodes."""
-        turns = self.columns[:, _TURNS]
+        turns = self.columns[:, _THETA]
         return turns[turns >= 0]
 
     @property
     def units(self) -> FloatArray:
-        """Units (references, 6) in which movements of reference nodes have the size of those of their nodes."""
+        """Scales (references, 6) with which rotations of reference nodes compare with displacements of their nodes."""
         found = np.ones(self.columns.shape)
-        found[:, _TURNS] = 1.0 / np.where(self._length > 0.0, self._length, 1.0)[:, None]
+        found[:, _THETA] = 1.0 / np.where(self._length > 0.0, self._length, 1.0)[:, None]
         return found
 
     @property
     def curved(self) -> IntArray:
-        """Unknowns (references, 6) of `curvature` that are left, -1 for those between which it is always zero."""
+        """Unknowns (references, 6) with entries in `curvature`, -1 for others."""
         found = self.sources[:, :COLUMNS].copy()
         steady = np.ones(len(found), dtype=np.bool_)
-        steady[[row for row, _ in self.held.solved]] = False
-        found[steady, _MOVES] = -1
+        steady[[row for row, _ in self.followers.solved]] = False
+        found[steady, _U] = -1
         return found
 
     def _find_idle(self, free: NDArray[np.bool_]) -> tuple[IntArray, IntArray]:
-        """Find rows and columns of rotations without effect: all nodes lie on a line through the reference node.
+        """Find rows and columns of rotations without effect, where all nodes lie on a line through the reference node.
 
-        Of the rotation vectors that differ by turns about this line, the component along the nearest axis stays.
-        free: (references, 6) where nothing else determines an unknown.
+        The component along the axis nearest to this line keeps its value. free: mask (references, 6) of the unknowns
+        that nothing else determines.
         """
         square = np.zeros((len(self.references), 3, 3))
         np.add.at(square, self.of, self._arm[:, :, None] * self._arm[:, None, :])
         sizes, directions = np.linalg.eigh(square)
         along = np.abs(directions[:, :, 2])
-        straight = (sizes[:, 1] <= STRAIGHT * sizes[:, 2]) & (free[:, _TURNS] | (along <= SMALLEST)).all(axis=1)
+        straight = (sizes[:, 1] <= STRAIGHT * sizes[:, 2]) & (free[:, _THETA] | (along <= SMALLEST)).all(axis=1)
         rows = np.flatnonzero(straight)
         return rows, 3 + np.asarray(along[rows].argmax(axis=1))
 
@@ -186,30 +186,29 @@ class Arms:
             message = f"a moment acts on reference node {name} about the line on which it and its nodes lie"
             raise DeckError(arm.source, f"{message}: nothing balances it")
 
-    def replace_held(self, equations: Sequence[Equation]) -> list[Equation]:
-        """Return the equations to first order, with those of prescribed displacements
-        replaced by the unknowns they eliminate.
+    def replace_prescribed(self, equations: Sequence[Equation]) -> list[Equation]:
+        """Replace the equations of prescribed displacements by ones that eliminate unknowns of reference nodes.
 
-        The coefficients of these are those of `coefficients`. So do equations that hold rotations without effect.
+        `coefficients` supplies their coefficients. Equations that fix rotations without effect are added.
         """
-        held = self.held
-        prescribed = {(self._arms[arm].node, axis + 1) for arm, axis in zip(held.arm, held.axis, strict=True)}
+        followers = self.followers
+        prescribed = {(self._arms[arm].node, axis + 1) for arm, axis in zip(followers.arm, followers.axis, strict=True)}
         kept = [one for one in equations if one.terms[0][:2] not in prescribed]
-        for k in np.flatnonzero(~held.redundant):
-            term = int(self.references[held.reference[k]]), int(held.eliminated[k]) + 1, 1.0
-            kept.append(Equation((term,), self._arms[held.arm[k]].source))
+        for k in np.flatnonzero(~followers.redundant):
+            term = int(self.references[followers.reference[k]]), int(followers.eliminated[k]) + 1, 1.0
+            kept.append(Equation((term,), self._arms[followers.arm[k]].source))
         for row, column in zip(*self._idle, strict=True):
             source = self._arms[int(np.flatnonzero(self.of == row)[0])].source
             kept.append(Equation(((int(self.references[row]), int(column) + 1, 1.0),), source))
         return kept
 
     def check(self, dependent: IntArray, equations: Sequence[Equation]) -> None:
-        """Refuse arms beside other constraints.
+        """Refuse couplings whose nodes have other constraints.
 
         Parameters
         ----------
         dependent
-            Unknowns that equations eliminate, without those that prescribed displacements do.
+            Unknowns that equations eliminate, other than those of prescribed displacements.
         equations
             All of the model.
 
@@ -246,90 +245,86 @@ class Arms:
 
     @property
     def steady(self) -> NDArray[np.bool_]:
-        """Mask (k + references, 6 + w) of coefficients that never change: those of displacements of reference nodes
-        without an eliminated one.
+        """Mask (k + references, 6 + w) of constant coefficients: those of displacements of reference nodes, where none
+        is eliminated.
         """
         steady = np.zeros(self.sources.shape, dtype=np.bool_)
-        steady[:, _MOVES] = True
-        steady[[row for row, _ in self.held.solved]] = False
+        steady[:, _U] = True
+        steady[[row for row, _ in self.followers.solved]] = False
         return np.vstack([steady[self.of], steady])
 
-    def place(self, start: FloatArray, increment: FloatArray) -> FloatArray:
-        """Return an increment (n,) completed by those of all dependent nodes. Raises SingularMatrixError.
+    def satisfy(self, start: FloatArray, increment: FloatArray) -> FloatArray:
+        """Return an increment (n,) with the dependent unknowns that follow from the others. Raises SingularMatrixError.
 
-        Those that are eliminated from reference nodes come first.
+        Eliminated unknowns of reference nodes come first, then the nodes on arms.
         """
-        u, placed = start + increment, increment.copy()
-        for row, equations in self.held.solved:
-            own = self.columns[row, self.held.eliminated[equations]]
-            self._settle(u, row, equations, own)
-            placed[own] = u[own] - start[own]
+        u, satisfied = start + increment, increment.copy()
+        for row, equations in self.followers.solved:
+            own = self.columns[row, self.followers.eliminated[equations]]
+            self._solve_eliminated(u, row, equations, own)
+            satisfied[own] = u[own] - start[own]
         following = self._following(u)
-        placed[self.own[self._follows]] = following[self._follows] - start[self.own[self._follows]]
-        return placed
+        satisfied[self.own[self._follows]] = following[self._follows] - start[self.own[self._follows]]
+        return satisfied
 
     def levers(self, u: FloatArray) -> FloatArray:
-        """Return forces and moments (k, 3, 6) about the global axes by the forces on each node: force,
-        then component.
-        """
+        """Return forces and global moments (k, 3, 6) on reference nodes per unit force on each node."""
         turned = np.einsum("kij,kj->ki", rotation_matrices(self._angles(u))[self.of], self._arm)
-        return _with_moves(np.einsum("iab,ka->kbi", PERMUTATION, turned))
+        return _with_translations(np.einsum("iab,ka->kbi", PERMUTATION, turned))
 
     def slopes(self, u: FloatArray) -> FloatArray:
         """Return derivatives (k, 3, 6) of the displacements of each node by the unknowns of its reference node."""
         levers = self.levers(u)
-        return _with_moves(levers[:, :, _TURNS] @ spin_matrices(self._angles(u))[self.of])
+        return _with_translations(levers[:, :, _THETA] @ spin_matrices(self._angles(u))[self.of])
 
     def coefficients(self, by_reference: FloatArray) -> FloatArray:
         """Return coefficients (k + references, 6, 6 + w) of `rows` on `row_sources`, from `slopes` or `levers`."""
         reduction = self._reduction(by_reference)
         found = np.zeros((len(self.own) + len(self.references), COLUMNS, self.sources.shape[1]))
-        found[: len(self.own), _MOVES] = by_reference @ reduction[self.of]
+        found[: len(self.own), _U] = by_reference @ reduction[self.of]
         found[len(self.own) :] = reduction
         return found
 
     def curvature(self, u: FloatArray, residual: FloatArray, slopes: FloatArray) -> FloatArray:
-        """Return the stiffness (references, 6, 6) that forces (n,) add to reference nodes as their arms turn.
+        """Return the stiffness (references, 6, 6) of reference nodes due to forces (n,) on rotating arms.
 
-        Prescribed displacements of nodes that follow act with the forces that they pass on. The arms are those of
-        unknowns u (n,), the turns are about the position of `slopes`.
+        It includes the reactions of prescribed displacements of nodes that follow. The arms are those at unknowns u
+        (n,), the rotations those of `slopes`.
         """
         levers = self.levers(u)
         force = np.where(self._follows, _gathered(residual, self.own), 0.0)
         total = _gathered(residual, self.columns)
         np.add.at(total, self.of, np.einsum("kac,ka->kc", levers, force))
-        for row, equations in self.held.solved:
-            arm, axis = self.held.arm[equations], self.held.axis[equations]
-            own = self.held.eliminated[equations]
+        for row, equations in self.followers.solved:
+            arm, axis = self.followers.arm[equations], self.followers.axis[equations]
+            own = self.followers.eliminated[equations]
             force[arm, axis] = -np.linalg.solve(levers[arm, axis][:, own].T, total[row, own])
-        left, right = (self._reduction(one)[:, _TURNS, :COLUMNS] for one in (levers, slopes))
-        return np.asarray(left.transpose(0, 2, 1) @ self._turning(u, force) @ right, dtype=np.float64)
+        left, right = (self._reduction(one)[:, _THETA, :COLUMNS] for one in (levers, slopes))
+        return np.asarray(left.transpose(0, 2, 1) @ self._moment_stiffness(u, force) @ right, dtype=np.float64)
 
-    def excesses(self, u: FloatArray) -> FloatArray:
-        """Return the errors of the redundant prescribed displacements at unknowns u (n,),
-        over the lengths that they are computed from.
-        """
-        held, own = self.held, self.held.redundant
-        following, given = self._following(u)[held.arm, held.axis][own], u[held.unknown[own]]
-        size = self._length[held.reference[own]] + np.abs(following) + np.abs(given)
-        return np.asarray(np.abs(given - following) / size, dtype=np.float64)
+    def redundancy_errors(self, u: FloatArray) -> FloatArray:
+        """Return the relative errors of the redundant prescribed displacements at unknowns u (n,)."""
+        followers, own = self.followers, self.followers.redundant
+        following, prescribed = self._following(u)[followers.arm, followers.axis][own], u[followers.unknown[own]]
+        size = self._length[followers.reference[own]] + np.abs(following) + np.abs(prescribed)
+        return np.asarray(np.abs(prescribed - following) / size, dtype=np.float64)
 
     def _following(self, u: FloatArray) -> FloatArray:
         """Return the displacements (k, 3) of the nodes from those of their reference nodes."""
         turned = np.einsum("kij,kj->ki", rotation_matrices(self._angles(u))[self.of], self._arm)
-        return np.asarray(_gathered(u, self.columns[:, _MOVES])[self.of] + turned - self._arm, dtype=np.float64)
+        return np.asarray(_gathered(u, self.columns[:, _U])[self.of] + turned - self._arm, dtype=np.float64)
 
-    def _settle(self, u: FloatArray, row: int, equations: IntArray, own: IntArray) -> None:
-        """Solve for the eliminated unknowns of a reference node, and set them in u (n,). Raises SingularMatrixError."""
-        arm, axis = self.held.arm[equations], self.held.axis[equations]
-        columns = self.held.eliminated[equations]
+    def _solve_eliminated(self, u: FloatArray, row: int, equations: IntArray, own: IntArray) -> None:
+        """Solve for the eliminated unknowns of a reference node, in place in u (n,). Raises SingularMatrixError."""
+        arm, axis = self.followers.arm[equations], self.followers.axis[equations]
+        columns = self.followers.eliminated[equations]
         for _ in range(ITERATIONS):
-            missing = u[self.held.unknown[equations]] - self._following(u)[arm, axis]
-            size = self._length[row] + np.abs(u[own]).max() + np.abs(u[self.held.unknown[equations]]).max()
-            if np.abs(missing).max() <= PLACED * size:
+            gap = u[self.followers.unknown[equations]] - self._following(u)[arm, axis]
+            size = self._length[row] + np.abs(u[own]).max() + np.abs(u[self.followers.unknown[equations]]).max()
+            if np.abs(gap).max() <= CLOSED * size:
                 return
             try:
-                u[own] += np.linalg.solve(self.slopes(u)[arm, axis][:, columns], missing)
+                u[own] += np.linalg.solve(self.slopes(u)[arm, axis][:, columns], gap)
             except np.linalg.LinAlgError:
                 break
         raise SingularMatrixError(*self._dofs.name(int(own[0])), UNREACHABLE)
@@ -338,17 +333,17 @@ class Arms:
         """Return Q and Q_p (references, 6, 6 + w)."""
         found = np.zeros((len(self.references), COLUMNS, self.sources.shape[1]))
         found[:, range(COLUMNS), range(COLUMNS)] = 1.0
-        for row, equations in self.held.solved:
-            own = self.held.eliminated[equations]
-            rows = by_reference[self.held.arm[equations], self.held.axis[equations]]
+        for row, equations in self.followers.solved:
+            own = self.followers.eliminated[equations]
+            rows = by_reference[self.followers.arm[equations], self.followers.axis[equations]]
             inverse = np.linalg.inv(rows[:, own])
             found[row, own, :COLUMNS] = -inverse @ rows
             found[row, own[:, None], own] = 0.0
             found[row, own, COLUMNS : COLUMNS + len(own)] = inverse
         return found
 
-    def _turning(self, u: FloatArray, force: FloatArray) -> FloatArray:
-        """Return the derivatives (references, 3, 3) of minus the moments of forces (k, 3) on the nodes by rotations."""
+    def _moment_stiffness(self, u: FloatArray, force: FloatArray) -> FloatArray:
+        """Return -dM/dtheta (references, 3, 3), M the moments of forces (k, 3) on the nodes."""
         moments = np.zeros((len(self.references), 3, 3))
         np.add.at(moments, self.of, force[:, :, None] * self._arm[:, None, :])
         angles = self._angles(u)
@@ -356,16 +351,16 @@ class Arms:
         for k in range(3):
             step = np.zeros(3, dtype=np.complex128)
             step[k] = 1j * IMAGINARY
-            # sum of f x^T, x the arms then; the axial vector of its skew part is the moment
+            # sum of f x^T with the rotated arms x; the axial vector of its skew part is the moment
             now = moments @ rotation_matrices(angles + step).transpose(0, 2, 1)
             found[:, :, k] = -np.einsum("iab,mba->mi", PERMUTATION, now).imag / IMAGINARY
         return found
 
     def _angles(self, u: FloatArray) -> FloatArray:
-        return _gathered(u, self.columns[:, _TURNS])
+        return _gathered(u, self.columns[:, _THETA])
 
 
-def _with_moves(turning: FloatArray) -> FloatArray:
+def _with_translations(turning: FloatArray) -> FloatArray:
     """Prepend the unit derivatives by displacements to those by rotations (k, 3, 3): (k, 3, 6)."""
     moving = np.broadcast_to(np.eye(3), turning.shape)
     return np.concatenate([moving, turning], axis=2)

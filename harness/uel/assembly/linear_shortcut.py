@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""System whose linear elements are called once, then replaced by their matrices."""
+"""System that calls linear elements once and then uses their matrices."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ STATIC: Final = (1, 2)
 """LFLAGS(1) of *STATIC, with automatic and with direct increments."""
 
 TOLERANCE: Final = 1e-6
-"""Largest part of the forces in a block by which those of an element may differ from its matrix times U."""
+"""Largest difference of forces from AMATRX U, over the largest force in the block."""
 
 MOST_ENTRIES: Final = 2**31 - 1
-"""Entries of the matrices of a block that the driver can number."""
+"""Largest number of entries of the matrices of a block that the driver can number."""
 
 
 @dataclass(frozen=True, slots=True)
-class Behind:
-    """The last pass that keeps a state, of which the linear elements know nothing yet."""
+class KeptPass:
+    """Last normal pass, in which linear elements were not called."""
 
     call: Call
     u: FloatArray
@@ -43,30 +43,30 @@ class Behind:
 
 
 class LinearShortcut(System):
-    """A system that does not call linear elements again.
+    """System that calls linear elements once.
 
-    In a static step with small displacements they are called in the first pass; after that a pass adds -K U, with K
-    the AMATRX of that call, once some elements of the block have been seen to have these forces. Their state is brought
-    up to date when it is read, or needed by a pass that calls them; at the end of each increment if they have other
-    energies than that of K (hourglass control), or are linear only because the user says so, which is verified then.
+    The first pass of a static step with small displacements calls them; later passes add -K U with the AMATRX K of that
+    call, after the forces of some elements of the block have been compared with it. The state of the elements is
+    updated when it is read or when a pass calls them. Elements with other energies than that of K (hourglass control),
+    and those that the user declares linear, are called at the end of each increment, which verifies the latter.
     """
 
     def __init__(
         self, mesh: Mesh, contributors: Contributors, equations: Sequence[Equation] = (), *, ranks: Ranks = ALONE
     ) -> None:
         """Assemble the contributors; arguments and errors as in `System`."""
-        # AMATRX of the elements of each linear block, None before the first call
+        # AMATRX of each linear block, None before the first call
         self._matrices: dict[ElementBlock, FloatArray | None] = {}
         super().__init__(mesh, contributors, equations, ranks=ranks)
         blocks = (block for block in self.blocks if block.linear and block.matrix_entries <= MOST_ENTRIES)
         self._matrices = dict.fromkeys(blocks)
         self._last: Evaluation | None = None
-        self._behind: Behind | None = None
-        self._unread: Behind | None = None
-        self._lacking = np.zeros(8)
+        self._kept_pass: KeptPass | None = None
+        self._pending: KeptPass | None = None
+        self._missing_energy = np.zeros(8)
 
     def _bind(self) -> None:
-        """Bind as a system does, and add the matrices that are known into the new pattern."""
+        """Bind as `System` does, and add the known matrices into the new pattern."""
         super()._bind()
         self._known_data = np.zeros(len(self.indices))
         for block, matrices in self._matrices.items():
@@ -74,7 +74,7 @@ class LinearShortcut(System):
                 block.add_matrices(matrices, self._known_data)
 
     def evaluate(self, call: Call, u: FloatArray, du: FloatArray, **options: Any) -> Evaluation:
-        """Evaluate as a system does; `commit` adds the energy of elements that were not called.
+        """Evaluate as `System` does; `commit` adds the energy of elements that were not called.
 
         Parameters
         ----------
@@ -99,30 +99,30 @@ class LinearShortcut(System):
         return evaluation
 
     def _contribute(self, now: CurrentPass) -> list[BlockReport]:
-        """Run one pass, with the matrices in place of linear elements if they are known and apply to it."""
+        """Run one pass, with matrices in place of linear elements if all are known and the pass may use them."""
         call, data, applies = now.call, now.data, self._applies(now)
-        spared = applies and self._known
-        if not spared:
-            self._bring_up()
+        replaced = applies and self._known
+        if not replaced:
+            self._update_pending()
         elif data is not None:
             np.copyto(data, self._known_data)
         reports = []
         for block in self.blocks:
             matrices = self._matrices.get(block)
-            if spared and matrices is not None:
+            if replaced and matrices is not None:
                 report = block.linear_pass(matrices, call, now.u, now.columns[0])
             elif applies and data is not None and block in self._matrices:
-                report = self._learn(block, now)
+                report = self._store_matrices(block, now)
             else:
                 report = block.contribute(now)
             reports.append(report)
         reports += [contributor.contribute(now) for contributor in self.contributors.others]
         if call.flags.request is Request.NORMAL:
-            self._behind = Behind(call, now.u.copy(), now.du.copy()) if spared else None
+            self._kept_pass = KeptPass(call, now.u.copy(), now.du.copy()) if replaced else None
         return reports
 
     def _applies(self, now: CurrentPass) -> bool:
-        """Return whether a pass may use the matrices in place of the elements, once they are known."""
+        """Return whether a pass may use matrices in place of linear elements."""
         call, flags = now.call, now.call.flags
         return (
             bool(self._matrices)
@@ -138,15 +138,15 @@ class LinearShortcut(System):
         """Whether all matrices are known."""
         return all(matrices is not None for matrices in self._matrices.values())
 
-    def _learn(self, block: ElementBlock, now: CurrentPass) -> BlockReport:
-        """Run a normal pass over a block, and keep its matrices if its forces are linear."""
+    def _store_matrices(self, block: ElementBlock, now: CurrentPass) -> BlockReport:
+        """Run a normal pass over a block, and store its matrices if its forces are linear."""
         call = now.call
         report, matrices = block.evaluate_unassembled(call, now.u, now.du, now.columns[0])
         if now.data is not None:
             block.add_matrices(matrices, now.data)
         if self._matrices[block] is not None:
             return report
-        # the user's elements are not called again: they are verified at the end of each increment
+        # elements that the user declares linear are verified at the end of each increment
         if block.assumed_linear or not len(matrices) or has_forces_of(block, matrices, call):
             block.add_matrices(matrices, self._known_data)
             self._matrices[block] = matrices
@@ -155,90 +155,89 @@ class LinearShortcut(System):
         return report
 
     def commit(self) -> None:
-        """Commit as a system does, and add the energy of elements that were not called to the last evaluation.
+        """Commit as `System` does, and add the energy of elements that were not called to the last evaluation.
 
         Raises
         ------
         ElementError
-            An element that is linear only because the user says so is not.
+            An element that the user declares linear is not.
         KernelError
             UVARM ends the analysis.
         """
         super().commit()
-        energy = self.sum(self._lacking)
+        energy = self.sum(self._missing_energy)
         if self._last is not None:
             self._last.energy[:] += energy
 
     def _commit_own(self) -> None:
-        """Commit the contributors of this rank, except elements whose state can wait until it is read."""
-        self._lacking = self._catch_up()
+        """Commit the contributors of this rank, except elements whose update is pending."""
+        self._missing_energy = self._call_at_end()
         for contributor in self.contributors:
-            if not self._waits(contributor):
+            if not self._is_pending(contributor):
                 contributor.commit()
 
-    def _catch_up(self) -> FloatArray:
-        """Call the elements that cannot wait at the end of an increment, and return their ENERGY (8,),
-        which the pass lacks.
-        """
-        behind, self._behind = self._behind, None
-        self._unread, energy = behind, np.zeros(8)
-        if behind is None:
+    def _call_at_end(self) -> FloatArray:
+        """Call the linear elements that cannot wait; return their ENERGY (8,), which the evaluation lacks."""
+        kept_pass, self._kept_pass = self._kept_pass, None
+        self._pending, energy = kept_pass, np.zeros(8)
+        if kept_pass is None:
             return energy
         for block, matrices in self._matrices.items():
             if block.can_wait:
                 continue
-            called = np.zeros_like(behind.u)
-            report = block.evaluate(behind.call, behind.u, behind.du, called, None)
+            called = np.zeros_like(kept_pass.u)
+            report = block.evaluate(kept_pass.call, kept_pass.u, kept_pass.du, called, None)
             energy += report.energy
             if block.assumed_linear and matrices is not None:
-                _verify(block, matrices, behind, called)
+                _verify(block, matrices, kept_pass, called)
         return energy
 
-    def _waits(self, contributor: Contributor) -> bool:
-        """Return whether the state of a contributor is older than the end of the last increment."""
-        return self._unread is not None and any(one is contributor and one.can_wait for one in self._matrices)
+    def _is_pending(self, contributor: Contributor) -> bool:
+        """Return whether a contributor has not been updated to the end of the last increment."""
+        return self._pending is not None and any(one is contributor and one.can_wait for one in self._matrices)
 
-    def _bring_up(self) -> None:
-        """Call the elements that wait for their state at the end of the last increment. Raises KernelError."""
-        unread = self._unread
+    def _update_pending(self) -> None:
+        """Update elements whose update is pending to the end of the last increment. Raises KernelError."""
+        pending = self._pending
         for block in self._matrices:
-            if unread is not None and block.can_wait:
-                block.evaluate(unread.call, unread.u, unread.du, np.zeros_like(unread.u), None)
+            if pending is not None and block.can_wait:
+                block.evaluate(pending.call, pending.u, pending.du, np.zeros_like(pending.u), None)
                 block.commit()
-        self._unread = None
+        self._pending = None
 
     def _read_state(self, index: int) -> ElementState | None:
-        """Return the state of one block, None also if it waits."""
-        return None if self._waits(self.blocks[index]) else super()._read_state(index)
+        """Return the state of one block, also None if its update is pending."""
+        return None if self._is_pending(self.blocks[index]) else super()._read_state(index)
 
     def share_states(self) -> tuple[ElementState, ...]:
-        """Bring up to date and collect the states of all ranks, as a system does."""
-        self.agree(self._bring_up)
+        """Update all elements, and gather the states of all ranks as `System` does."""
+        self.agree(self._update_pending)
         return super().share_states()
 
     def kept(self) -> Saved:
-        """Return the committed states as a system does, and whether matrices are known. Raises KernelError."""
-        self._bring_up()
+        """Return the committed states as `System` does, and whether matrices are known. Raises KernelError."""
+        self._update_pending()
         return {**super().kept(), "linear": self._known}
 
-    def relearn(self, call: Call, u: FloatArray, saved: Saved) -> None:
-        """Compute the matrices in the state at the end of an increment, if the system had them when `saved` was kept
-        and they apply to the call; states stay. Raises KernelError.
+    def restore_matrices(self, call: Call, u: FloatArray, saved: Saved) -> None:
+        """Compute the matrices at the end of an increment if the system had them when `saved` was kept.
+
+        States do not change. Raises KernelError.
         """
         now = CurrentPass(call, u, np.zeros_like(u), np.zeros((1, len(u))), None)
         if saved["linear"] and self._applies(now):
             for block in list(self._matrices):
-                self._learn(block, now)
+                self._store_matrices(block, now)
 
 
-def _verify(block: ElementBlock, matrices: FloatArray, behind: Behind, called: FloatArray) -> None:
-    """Compare the forces of a block with those of its matrices. Raises ElementError."""
+def _verify(block: ElementBlock, matrices: FloatArray, kept_pass: KeptPass, called: FloatArray) -> None:
+    """Raise ElementError if the forces of a block differ from those of its matrices."""
     expected = np.zeros_like(called)
-    report = block.linear_pass(matrices, behind.call, behind.u, expected)
+    report = block.linear_pass(matrices, kept_pass.call, kept_pass.u, expected)
     if np.abs(called - expected).max() <= TOLERANCE * report.largest.max():
         return
-    row, entry, found, linear = largest_deviation(block, matrices, behind.call, behind.u, behind.du)
-    message = f"is not linear: RHS({entry}) is {found:g}, its first AMATRX times U gives {linear:g}"
+    row, entry, rhs, linear = largest_deviation(block, matrices, kept_pass.call, kept_pass.u, kept_pass.du)
+    message = f"is not linear: RHS({entry}) is {rhs:g}, its first AMATRX times U gives {linear:g}"
     hint = f"run without --linear {block.group.type}"
     label = int(block.group.labels[row])
-    raise ElementError(label, block.group.type, f"{message} ({behind.call.place}); {hint}")
+    raise ElementError(label, block.group.type, f"{message} ({kept_pass.call.place}); {hint}")

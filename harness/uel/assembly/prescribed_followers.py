@@ -3,8 +3,8 @@
 """Prescribed displacements of nodes that follow a reference node by a rigid arm.
 
 Each is an equation p = x_a + ((R(theta) - 1) r)_a of the six unknowns x of the reference node. It eliminates one of
-them: a displacement where it has one that is left, else a rotation. An equation without such an unknown is redundant:
-it must hold by itself.
+them: a displacement if one is left, otherwise a rotation. An equation without such an unknown is redundant, and the
+prescribed values must satisfy it.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ COLUMNS: Final = 6
 """Unknowns of a reference node: three displacements, three rotations."""
 
 SMALLEST: Final = 1e-6
-"""Coefficient of an unknown, rotations times the length of the arms, below which an equation does not determine it."""
+"""Coefficient of an unknown, of a rotation over the length of the arms, below which it counts as zero."""
 
 FIRST_CHOICE: Final = 0.1
-"""Coefficient of a displacement from which on it is eliminated rather than a rotation."""
+"""Smallest coefficient of a displacement that is eliminated rather than a rotation."""
 
 
 @dataclass(frozen=True, slots=True)
-class HeldFollowers:
+class PrescribedFollowers:
     """Equations of prescribed displacements of nodes that follow, m of them.
 
-    arm, axis   (m,) row of its arm, and direction from 0
-    unknown     (m,) the prescribed unknown
+    arm, axis   (m,) row of the arm, and direction from 0
+    unknown     (m,) prescribed unknown
     reference   (m,) row of the reference node
-    eliminated  (m,) column that the equation eliminates; -1: it is redundant
+    eliminated  (m,) column that the equation eliminates; -1 if it is redundant
     """
 
     arm: IntArray
@@ -46,25 +46,25 @@ class HeldFollowers:
     @property
     def redundant(self) -> NDArray[np.bool_]:
         """Mask (m,) of the redundant equations."""
-        found: NDArray[np.bool_] = self.eliminated < 0
-        return found
+        mask: NDArray[np.bool_] = self.eliminated < 0
+        return mask
 
     @property
     def solved(self) -> list[tuple[int, IntArray]]:
-        """Reference nodes (rows) with the equations that eliminate one of their unknowns."""
+        """Rows of reference nodes, each with the equations that eliminate its unknowns."""
         own = np.flatnonzero(~self.redundant)
         return [(row, own[self.reference[own] == row]) for row in np.unique(self.reference[own]).tolist()]
 
 
-def choose(
+def choose_eliminated(
     slopes: FloatArray,
     lengths: FloatArray,
     own: IntArray,
     of: IntArray,
     prescribed: NDArray[np.bool_],
     free: NDArray[np.bool_],
-) -> HeldFollowers:
-    """Find the unknown that each equation eliminates, by Gaussian elimination in the order of the arms.
+) -> PrescribedFollowers:
+    """Choose the unknown that each equation eliminates, by Gaussian elimination in the order of the arms.
 
     Parameters
     ----------
@@ -77,9 +77,9 @@ def choose(
     of
         (k,) row of the reference node.
     prescribed
-        (k, 3) which of them are prescribed.
+        (k, 3) mask of the prescribed ones.
     free
-        (references, 6) whether an unknown of a reference node can be eliminated.
+        (references, 6) mask of the unknowns of reference nodes that can be eliminated.
     """
     arm, axis = np.nonzero(prescribed)
     eliminated = np.full(len(arm), -1)
@@ -96,4 +96,4 @@ def choose(
         if abs(row[column]) > SMALLEST:
             eliminated[number] = column
             earlier.append((column, row / row[column]))
-    return HeldFollowers(arm, axis, own[arm, axis], of[arm], eliminated)
+    return PrescribedFollowers(arm, axis, own[arm, axis], of[arm], eliminated)

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Constraints with rigid arms in large displacements: T and P follow the rotations.
+"""Constraints with kinematic couplings in large displacements: T and P depend on the rotations.
 
-Their transposes pass on moments about the global axes, which are not the derivatives by rotation vectors.
+Their transposes transfer moments about the global axes, which are not derivatives with respect to rotation vectors.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 from scipy import sparse
 
 from uel.assembly.constraints import Constraints, products, reduced_pattern
-from uel.assembly.kinematic_couplings import Arms
+from uel.assembly.kinematic_couplings import KinematicCouplings
 from uel.assembly.prescribed_followers import COLUMNS
 from uel.assembly.system import System
 from uel.errors import Source
@@ -21,37 +21,37 @@ from uel.model.arrays import FloatArray, IntArray
 from uel.model.model import Arm, Equation
 
 MASSLESS = 1e-10
-"""Mass over the largest one of a reference node below which a movement of it has none."""
+"""Mass over the largest one of a reference node below which a motion counts as massless."""
 
 ANGLE = 1e-5
-"""Rotation in radians over which T is differenced: its error is the square of that."""
+"""Rotation in radians of the differences of T, whose error is its square."""
 
 
-class TurningConstraints(Constraints):
-    """Constraints of which some have finite rotations; T and P are those of the last `follow`."""
+class RotatingConstraints(Constraints):
+    """Constraints some of which have finite rotations; T and P are those of the last `update`."""
 
     def __init__(
         self,
         system: System,
         prescribed: IntArray,
         equations: Sequence[Equation],
-        places: Mapping[int, Source],
+        sources: Mapping[int, Source],
         arms: Sequence[Arm],
         start: FloatArray | None = None,
     ) -> None:
-        """Prepare the constraints; arguments as in `Constraints`, and those of `Arms`; start: zero by default.
+        """Prepare the constraints; arguments as in `Constraints` and `KinematicCouplings`; start: zero by default.
 
         Raises DeckError, also if nodes of arms have other constraints.
         """
         n = len(system)
         start = np.zeros(n) if start is None else start
-        self._turning = turning = Arms(system.dofs, arms, prescribed, start, system.of_elements)
-        super().__init__(system, prescribed, turning.replace_held(equations), places)
+        self._couplings = couplings = KinematicCouplings(system.dofs, arms, prescribed, start, system.of_elements)
+        super().__init__(system, prescribed, couplings.replace_prescribed(equations), sources)
         self._equations, self.arms = tuple(equations), tuple(arms)
-        apart = np.concatenate([self.free, self.prescribed, turning.eliminated])
-        turning.check(np.setdiff1d(np.arange(n), apart), equations)
+        independent = np.concatenate([self.free, self.prescribed, couplings.eliminated])
+        couplings.check(np.setdiff1d(np.arange(n), independent), equations)
         rows, columns, steady = np.broadcast_arrays(
-            turning.rows[:, :, None], turning.row_sources[:, None, :], turning.steady[:, None, :]
+            couplings.rows[:, :, None], couplings.row_sources[:, None, :], couplings.steady[:, None, :]
         )
         self._chosen = (rows >= 0) & (columns >= 0)
         where = rows[self._chosen], columns[self._chosen]
@@ -59,17 +59,17 @@ class TurningConstraints(Constraints):
         self._p, self._of_prescribed = _with_entries(self._p, self.prescribed, *where)
         self._moving = ~steady[self._chosen]
         self._find_pattern()
-        self.follow(start, np.zeros(n))
+        self.update(start, np.zeros(n))
 
     def _find_pattern(self) -> None:
-        """Do the symbolic work as `Constraints` does, and find the entries of T and P that change."""
+        """Do the symbolic work as `Constraints` does, and find the entries of T^T K T that depend on rotations."""
         super()._find_pattern()
         if not self.arms:
             # T is not complete yet
             return
         assert self._t is not None
         left, right, entry = products(self._system, self._t)
-        # which product each value of the map is: it has one
+        # number of the product in each value of the map: each has one
         numbers = np.arange(len(entry), dtype=np.float64)
         order = reduced_pattern(self._system, self._t, numbers)[2].data.astype(np.int64)
         changing = np.zeros(self._t.nnz, dtype=bool)
@@ -83,32 +83,32 @@ class TurningConstraints(Constraints):
     def matches(
         self, prescribed: IntArray, equations: Sequence[Equation], arms: Sequence[Arm], start: FloatArray
     ) -> bool:
-        """Return whether these constraints serve, as in `Constraints`, and would be built alike at the start: so that a
-        restart of the step builds the same.
+        """Return whether these constraints can be reused, as in `Constraints`, and would be the same if built at the
+        start, as a restart of the step builds them.
         """
-        return super().matches(prescribed, equations, arms, start) and self._turning.suit(start)
+        return super().matches(prescribed, equations, arms, start) and self._couplings.eliminates_alike(start)
 
-    def place(self, start: FloatArray, increment: FloatArray) -> FloatArray:
-        """Return an increment (n,) with the arms at their finite rotations."""
-        return self._turning.place(start, increment)
+    def satisfy(self, start: FloatArray, increment: FloatArray) -> FloatArray:
+        """Return an increment (n,) that fulfils the constraints at finite rotations."""
+        return self._couplings.satisfy(start, increment)
 
-    def follow(
+    def update(
         self, u: FloatArray, residual: FloatArray, increment: FloatArray | None = None, weight: float = 1.0
     ) -> None:
-        """Update T, P and their tangent, see `Constraints.follow`."""
-        self._follow_pattern()
+        """Update T, P and their tangent, see `Constraints.update`."""
+        self._refresh_pattern()
         assert self._t is not None
-        self._acting = u if increment is None else u - (1.0 - weight) * increment
-        self._set(self._turning.levers(self._acting))
+        self._u_forces = u if increment is None else u - (1.0 - weight) * increment
+        self._set(self._couplings.levers(self._u_forces))
         self._t_transposed, self._p_transposed = self._t.T.tocsr(), self._p.T.tocsr()
         left = self._t.data[self._left]
-        slopes = self._turning.slopes(u)
+        slopes = self._couplings.slopes(u)
         self._set(slopes)
         self._map.data[self._changing] = left * self._t.data[self._right]
-        self._curvature = weight * self._turning.curvature(self._acting, residual, slopes)[self._curved[0]]
+        self._curvature = weight * self._couplings.curvature(self._u_forces, residual, slopes)[self._curved[0]]
 
     def inertia(self, mass: sparse.csr_array) -> sparse.csr_array:
-        """Return the part of the mass between reference nodes and dependent nodes, also those without an arm;
+        """Return the mass matrix of reference and dependent nodes, those without an arm included;
         see `Constraints.inertia`.
         """
         moving = np.zeros(mass.shape[0])
@@ -118,13 +118,13 @@ class TurningConstraints(Constraints):
         found.eliminate_zeros()
         return found
 
-    def tangential(self, velocity: FloatArray, inertia: sparse.csr_array) -> FloatArray:
-        """Return velocities as `Constraints.tangential`, each body by itself:
-        consistent masses between bodies are left out.
+    def project_velocity(self, velocity: FloatArray, inertia: sparse.csr_array) -> FloatArray:
+        """Return velocities as `Constraints.project_velocity`, for each body alone: mass that couples two bodies is
+        left out.
         """
-        following = self.along(velocity)
+        following = self.project(velocity)
         moving, columns, body, own = self._of_bodies()
-        units = self._turning.units
+        units = self._couplings.units
         masses = (moving.T @ (inertia @ moving)).tocoo()
         same = body[masses.row] == body[masses.col]
         row, column = masses.row[same], masses.col[same]
@@ -133,7 +133,7 @@ class TurningConstraints(Constraints):
         of_bodies *= units[:, :, None] * units[:, None, :]
         momenta = np.zeros(units.shape)
         momenta[body, own] = moving.T @ (inertia @ (velocity - following))
-        # no momentum tells a velocity about a line on which all masses of a body lie
+        # the momentum leaves the velocity about a line undetermined on which all masses of a body lie
         inverse = np.linalg.pinv(of_bodies, MASSLESS, hermitian=True)
         changes = units * np.einsum("mab,mb->ma", inverse, units * momenta)
         rates = np.zeros(len(self.free) + len(self.prescribed))
@@ -145,66 +145,69 @@ class TurningConstraints(Constraints):
     def _of_bodies(self) -> tuple[sparse.csc_array, IntArray, IntArray, IntArray]:
         """Return the columns of (T P) that move bodies, their numbers, and row and column of each in `units`.
 
-        Those of prescribed rotations count: the velocities that an integration gives them and nodes on arms differ by
-        the error of chords for arcs. Those of prescribed displacements do not, of which the others are sums.
+        Columns of prescribed rotations are included: an integration gives them and the nodes on arms velocities that
+        differ by the error of a chord for an arc. Prescribed displacements have no such error.
         """
         number = np.full(len(self._system) + 1, -1)
-        turns = np.isin(self.prescribed, self._turning.rotations)
+        turns = np.isin(self.prescribed, self._couplings.rotations)
         number[self.prescribed] = np.where(turns, len(self.free) + np.arange(len(turns)), -1)
         number[self.free] = np.arange(len(self.free))
-        columns = number[self._turning.sources[:, :COLUMNS]]
+        columns = number[self._couplings.sources[:, :COLUMNS]]
         body, own = np.nonzero(columns >= 0)
         both = sparse.hstack([self._t, self._p]).tocsc()
         return both[:, columns[body, own]], columns[body, own], body, own
 
     def convective(self, u: FloatArray, velocity: FloatArray) -> FloatArray:
-        """Compute centripetal accelerations, by central differences of T and P, which are those of u afterwards;
+        """Compute centripetal accelerations by central differences of T and P, and leave these at u;
         see `Constraints.convective`.
         """
         zero = np.zeros_like(u)
-        spin = float(np.abs(velocity[self._turning.rotations]).max(initial=0.0))
+        spin = float(np.abs(velocity[self._couplings.rotations]).max(initial=0.0))
         if not spin:
             return zero
         time = ANGLE / spin
-        self.follow(u + time * velocity, zero)
-        ahead = self.along(velocity)
-        self.follow(u - time * velocity, zero)
-        behind = self.along(velocity)
-        self.follow(u, zero)
+        self.update(u + time * velocity, zero)
+        ahead = self.project(velocity)
+        self.update(u - time * velocity, zero)
+        behind = self.project(velocity)
+        self.update(u, zero)
         return np.asarray((ahead - behind) / (2.0 * time))
 
     def reduce_tangent(self, data: FloatArray) -> FloatArray:
-        """Reduce a tangent and add the stiffness of the arms, see `Constraints.reduce_tangent`."""
+        """Reduce a tangent and add the stiffness of rotating arms, see `Constraints.reduce_tangent`."""
         reduced = self.reduce(data)
         np.add.at(reduced, self._curved[1], self._curvature)
         return reduced
 
     def refuse_unbalanced(self, residual: FloatArray) -> None:
-        """Refuse moments that nothing balances, see `Constraints.refuse_unbalanced`."""
-        self._turning.refuse_idle_moments(self._acting, residual)
+        """Refuse unbalanced moments, see `Constraints.refuse_unbalanced`."""
+        self._couplings.refuse_idle_moments(self._u_forces, residual)
 
     @property
     def overconstraints(self) -> list[tuple[int, Source]]:
         """Overconstraints, see `Constraints`, with prescribed displacements of nodes on arms."""
-        return super().overconstraints + self._turning.redundant
+        return super().overconstraints + self._couplings.redundant
 
-    def _excesses(self, u: FloatArray) -> list[float]:
+    def _redundancy_errors(self, u: FloatArray) -> list[float]:
         """Return the errors of the redundant equations, then those of the arms."""
-        own: list[float] = self._turning.excesses(u).tolist()
-        return super()._excesses(u) + own
+        own: list[float] = self._couplings.redundancy_errors(u).tolist()
+        return super()._redundancy_errors(u) + own
 
     def _set(self, by_reference: FloatArray) -> None:
-        """Set the entries of T and P that arms determine, from their `levers` or `slopes`."""
+        """Set the entries of T and P of nodes on arms, from `levers` or `slopes`."""
         assert self._t is not None
-        chosen = self._turning.coefficients(by_reference)[self._chosen]
+        chosen = self._couplings.coefficients(by_reference)[self._chosen]
         for matrix, (own, places) in ((self._t, self._of_free), (self._p, self._of_prescribed)):
             matrix.data[places] = chosen[own]
 
     def _find_curved(self) -> tuple[tuple[IntArray, ...], IntArray]:
-        """Find pairs of unknowns of a reference node with a stiffness of arms: in `Arms.curvature`, and in T^T K T."""
+        """Find the pairs of unknowns of a reference node to which `KinematicCouplings.curvature` adds stiffness.
+
+        Returns their indices there, and their positions in T^T K T.
+        """
         number = np.full(len(self._system) + 1, -1)
         number[self.free] = np.arange(len(self.free))
-        turns = number[self._turning.curved]
+        turns = number[self._couplings.curved]
         rows, columns = np.broadcast_arrays(turns[:, :, None], turns[:, None, :])
         pairs = np.nonzero((rows >= 0) & (columns >= 0))
         size = len(self.free)
@@ -217,7 +220,7 @@ def _with_entries(
 ) -> tuple[sparse.csr_array, tuple[IntArray, IntArray]]:
     """Return a matrix of columns `chosen` with entries of unknowns (rows, columns) added to its pattern.
 
-    Also returns which of the entries it has, and where.
+    Also returns which of these entries it has, and their positions.
     """
     number = np.full(matrix.shape[0] + 1, -1)
     number[chosen] = np.arange(len(chosen))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The elements of a system shared out among the ranks of a job; a job in one process has all of them."""
+"""Distribution of the elements of a system over the ranks of a job; a single process has all of them."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ _T = TypeVar("_T")
 
 
 class Sharing:
-    """Shares of the ranks in the contributors of a model, of which each rank keeps a part."""
+    """Distribution of the contributors of a model over the ranks, each of which keeps a part."""
 
     def __init__(self, contributors: Contributors, ranks: Ranks) -> None:
-        """Take all contributors; `keep_own` leaves those of this rank."""
+        """Begin with all contributors; `keep_own` drops those of other ranks."""
         self.ranks, self._contributors = ranks, contributors
 
     def keep_own(self) -> None:
-        """Keep the elements of this rank, and what enters them. Raises UsageError if they cannot be shared out."""
+        """Keep the elements of this rank and their loads. Raises UsageError if they cannot be distributed."""
         ranks, contributors = self.ranks, self._contributors
         if ranks.size == 1:
             return
@@ -40,21 +40,21 @@ class Sharing:
             block.keep(np.flatnonzero(block.owners(owners) == ranks.rank))
 
     def agree(self, act: Callable[[], _T]) -> _T:
-        """Act on each rank, and return the result; the first error in calling order is raised on all of them."""
+        """Call a function on each rank; raise the first error in calling order on all of them."""
         return self.ranks.agree(act, self._calling_order)
 
     def sum(self, values: FloatArray) -> FloatArray:
-        """Sum an array over the ranks, the same to the bit on all of them; not a copy in one process."""
+        """Sum an array over the ranks, see `Ranks.sum`."""
         return self.ranks.sum(values)
 
     def largest(self, value: float) -> float:
-        """Return the largest of the values that the ranks have."""
+        """Return the largest value over the ranks."""
         return float(self.ranks.largest(np.array([value]))[0])
 
     def evaluate(self, act: Callable[[], Evaluation], unknowns: int, nrhs: int) -> Evaluation:
-        """Sum the evaluations of all ranks; act: returns that of this one. The matrix stays distributed.
+        """Sum the evaluations of all ranks, with `act` for this one; the matrix stays distributed.
 
-        The ranks exchange one array, that of the sums, in which each has a place for what is not a sum.
+        The ranks sum one array, in which each of them has entries for values that are not sums.
         """
         if self.ranks.size == 1:
             return act()
@@ -71,23 +71,23 @@ class Sharing:
         counts = own.flux_count.astype(np.float64), own.entries.astype(np.float64)
         parts = [own.residual, *loads, own.flux, counts[0], own.energy, np.array([own.damage]), counts[1]]
         total = self.sum(np.concatenate([*parts, self.ranks.stacked(extremes)]))
-        residual, *loads, flux, count, energy, damage, entries, found = np.split(
+        residual, *loads, flux, count, energy, damage, entries, extremes = np.split(
             total, np.cumsum([len(part) for part in parts])
         )
-        failed, refused, *largest = found.reshape(self.ranks.size, -1).max(axis=0)
+        failed, minus_pnewdt, *largest = extremes.reshape(self.ranks.size, -1).max(axis=0)
 
-        def raise_it() -> None:
+        def raise_own() -> None:
             if failure is not None:
                 raise failure
 
         if failed:
-            self.agree(raise_it)
+            self.agree(raise_own)
         return Evaluation(
             residual,
             own.data,
             flux,
             count.astype(np.int64),
-            -float(refused),
+            -float(minus_pnewdt),
             energy,
             loads[0] if loads else None,
             float(damage[0]),
@@ -103,17 +103,17 @@ class Sharing:
         return tuple(map(_joined, zip(*self.ranks.gather(own), strict=True)))
 
     def _calling_order(self, error: Exception) -> float:
-        """Return the position in the model of the element that an error names; infinite if it names none."""
+        """Return the position in the model of the element that an error names; infinity if it names none."""
         if isinstance(error, ElementError):
             for block in self._contributors.elements:
-                found = np.flatnonzero(block.group.labels == error.element)
-                if block.group.type == error.element_type and len(found):
-                    return float(block.first + block.rows[found[0]])
+                rows = np.flatnonzero(block.group.labels == error.element)
+                if block.group.type == error.element_type and len(rows):
+                    return float(block.first + block.rows[rows[0]])
         return math.inf
 
 
 def _joined(parts: tuple[tuple[IntArray, ElementState], ...]) -> ElementState:
-    """Join the states of a group on each rank, which come with their rows in the group."""
+    """Join the parts of the state of a group from all ranks, each with its rows in the group."""
     rows = np.argsort(np.concatenate([rows for rows, _ in parts]))
     state = parts[0][1]
     svars, energy = (np.concatenate(one)[rows] for one in zip(*((s.svars, s.energy) for _, s in parts), strict=True))

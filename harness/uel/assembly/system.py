@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The assembled system: sparsity and scatter maps once per mesh, one pass over the blocks per evaluation."""
+"""Assembled system: pattern and scatter maps once per mesh, one pass over the blocks per evaluation."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ _T = TypeVar("_T")
 
 
 class System:
-    """All contributors of a model on one numbering of unknowns.
+    """All contributors of a model with one numbering of unknowns.
 
-    blocks   of its elements
-    dofs     what each unknown is
+    blocks   blocks of elements
+    dofs     node and dof of each unknown
     indptr   (n + 1,) row starts of the matrix, int32
-    indices  (nnz,) columns, ascending in each row, int32; every diagonal entry is there and the pattern is symmetric.
-             Both are new arrays in a pass that asks for a matrix and in which contact points slide to other faces
+    indices  (nnz,) columns, ascending in each row, int32. The pattern is symmetric and has all diagonal entries. A pass
+             with a matrix in which contact points slide to other faces replaces both arrays
     """
 
     def __init__(
@@ -64,19 +64,19 @@ class System:
 
     @property
     def ranks(self) -> Ranks:
-        """Ranks of the job, for the linear solver; all others need `sum` and `agree` only."""
+        """Ranks of the job, for the linear solver; other code needs only `sum` and `agree`."""
         return self.sharing.ranks
 
     def sum(self, values: FloatArray) -> FloatArray:
-        """Sum what the elements of each rank give, see `Sharing.sum`."""
+        """Sum the contributions of all ranks, see `Sharing.sum`."""
         return self.sharing.sum(values)
 
     def agree(self, act: Callable[[], _T]) -> _T:
-        """Act on the elements of each rank, see `Sharing.agree`."""
+        """Call a function on each rank, see `Sharing.agree`."""
         return self.sharing.agree(act)
 
     def _bind(self) -> None:
-        """Build the pattern, in new arrays, and locate the entries of all contributors in it."""
+        """Build the pattern in new arrays, and the positions of all contributors in it."""
         couplings = [contributor.couplings() for contributor in self.contributors]
         self.indptr, self.indices = build_pattern(len(self.dofs), couplings)
         for contributor in self.contributors:
@@ -86,10 +86,10 @@ class System:
     @property
     def of_elements(self) -> NDArray[np.bool_]:
         """Mask (n,) of the unknowns of elements and distributing couplings."""
-        found = np.zeros(len(self.dofs), dtype=np.bool_)
+        mask = np.zeros(len(self.dofs), dtype=np.bool_)
         for contributor in (*self.blocks, *self.contributors.couplings):
-            found[contributor.couplings()] = True
-        return found
+            mask[contributor.couplings()] = True
+        return mask
 
     def __len__(self) -> int:
         return len(self.dofs)
@@ -106,7 +106,7 @@ class System:
     ) -> Evaluation:
         """Call every element once, block by block in the calling order of Abaqus.
 
-        In a linear step RHS is what the loads on user elements cause; loads on built-in elements are added elsewhere.
+        In a linear step RHS has the loads on user elements alone; loads on built-in elements are added elsewhere.
 
         Parameters
         ----------
@@ -115,11 +115,11 @@ class System:
         u, du
             (n,) estimate of the end of the increment, and the increment; both include prescribed values.
         matrix
-            Whether AMATRX is wanted.
+            Request AMATRX.
         nrhs
             NRHS: 1, or 2 for the arc length method.
         motion
-            V and A of all unknowns; None: the model is at rest.
+            V and A of all unknowns; None: at rest.
 
         Returns
         -------
@@ -152,17 +152,17 @@ class System:
         return [contributor.contribute(now) for contributor in self.contributors]
 
     def artificial_mass(self, call: Call) -> FloatArray:
-        """Return the mass of the built-in elements that have an artificial one, for unit density.
+        """Return the artificial mass matrix of built-in elements, for unit density.
 
         Parameters
         ----------
         call
-            Of the step; its request is replaced.
+            Arguments of the step; the request is replaced.
 
         Returns
         -------
         FloatArray
-            (nnz,) CSR values in a new array: mass over density, thus volumes (length^3).
+            (nnz,) CSR values in a new array: mass over density (length^3).
         """
         data = np.zeros(len(self.indices))
         for block in self.blocks:
@@ -170,16 +170,16 @@ class System:
         return data
 
     def stress_matrix(self, call: Call, u: FloatArray, added: FloatArray | None = None) -> FloatArray:
-        """Return the initial stress matrix: the stiffness of stresses that turn with the material.
+        """Return the initial stress matrix: the stiffness of stresses that rotate with the material.
 
         Parameters
         ----------
         call
-            Of the step; its request is replaced.
+            Arguments of the step; the request is replaced.
         u
             (n,) unknowns of the base state.
         added
-            (n,) a perturbation, whose stresses count; None: those of the base state do.
+            (n,) perturbation whose stresses are used; None: those of the base state.
 
         Returns
         -------
@@ -214,7 +214,7 @@ class System:
             contributor.commit()
 
     def viscous_change(self) -> float:
-        """Return the largest change of a viscous strain rate in the increment times its length, by the last pass."""
+        """Return the largest change of a viscous strain rate in the last pass, times the increment of time."""
         return self.sharing.largest(max((block.viscous_change for block in self.blocks), default=0.0))
 
     def states(self) -> States:
@@ -223,7 +223,7 @@ class System:
         Returns
         -------
         States
-            A state for each block. They have to be read, if at all, before the next increment ends.
+            A state for each block, to be read before the next increment ends.
         """
         increment = self._committed
         return States(self._read_states, self._read_state, lambda: self._committed == increment)
@@ -233,11 +233,11 @@ class System:
         return self.share_states()
 
     def _read_state(self, index: int) -> ElementState | None:
-        """Return the state of one block, or None if it takes other ranks to read it."""
+        """Return the state of one block, or None if other ranks have a part of it."""
         return None if self.ranks.size > 1 else self.blocks[index].state(index)
 
     def share_states(self) -> tuple[ElementState, ...]:
-        """Collect the states of all ranks; rank 0 asks the others to do so when it reads them. Raises KernelError."""
+        """Gather the states of all ranks on rank 0; all ranks call this. Raises KernelError."""
         return self.sharing.states()
 
     def contact_fields(self) -> dict[str, FloatArray]:
@@ -246,11 +246,11 @@ class System:
 
     @property
     def obstacle(self) -> str:
-        """Reason why states cannot be kept; '' if they can."""
+        """Reason why *RESTART, WRITE cannot keep states; '' if it can."""
         return "several processes run the job" if self.ranks.size > 1 else ""
 
     def kept(self) -> Saved:
-        """Return the committed states of all elements and of loads on their faces, not copied. Raises KernelError."""
+        """Return the committed states of all contributors, not copied, for *RESTART. Raises KernelError."""
         contributors = self.contributors
         return {
             "blocks": [block.kept() for block in self.blocks],
@@ -260,7 +260,7 @@ class System:
         }
 
     def resume(self, saved: Saved) -> None:
-        """Restore the state that `kept` returned. Raises ValueError if it is not of these contributors."""
+        """Restore a state that `kept` returned. Raises ValueError if it belongs to another model."""
         contributors = self.contributors
         kinds: list[tuple[str, str, Sequence[Contributor]]] = [
             ("blocks", "groups of elements", self.blocks),
@@ -275,21 +275,21 @@ class System:
                 contributor.resume(state)
         if contributors.contacts:
             self._bind()
-        # steps of the deck that goes on may load other faces
+        # later steps of a restart may load other faces
         for key, elements, state in saved["faces"]:
             for face in contributors.followers:
                 if face.key == key:
                     face.resume_some(elements, state)
 
-    def relearn(self, call: Call, u: FloatArray, saved: Saved) -> None:
-        """Compute what was derived from calls of the elements when `saved` was kept: nothing here.
+    def restore_matrices(self, call: Call, u: FloatArray, saved: Saved) -> None:
+        """Compute the matrices of linear elements again if the system had them when `saved` was kept: none here.
 
         Parameters
         ----------
         call, u
-            Of the end of the increment.
+            Arguments and unknowns (n,) at the end of the increment.
         saved
-            What `kept` returned.
+            Result of `kept`.
 
         Raises
         ------
@@ -298,7 +298,7 @@ class System:
         """
 
     def product(self, data: FloatArray, vector: FloatArray) -> FloatArray:
-        """Compute K x, with the parts of K of all ranks.
+        """Compute K x with the sum of the parts of K of all ranks.
 
         Parameters
         ----------
@@ -315,7 +315,7 @@ class System:
         return self.sum(np.asarray(self.matrix(data) @ vector))
 
     def matrix(self, data: FloatArray | ComplexArray) -> sparse.csr_array:
-        """Return the matrix with these CSR values, on several ranks the part of this one's elements.
+        """Return the matrix with these CSR values; on several ranks, the part of the elements of this rank.
 
         Parameters
         ----------
@@ -341,14 +341,14 @@ def system_of(model: Model, library: Library, *, strict: bool = True) -> System:
 def build_pattern(n: int, numbers: Sequence[NDArray[np.int32]]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Build the sparsity pattern of the assembled matrix.
 
-    numbers holds, per block, the (m, k) unknowns of its elements. Returns row starts and columns.
+    numbers: for each block, the unknowns (m, k) of its elements. Returns row starts and columns.
     """
     pattern = sparse.csr_array(sparse.eye_array(n, dtype=np.bool_))
     for number in numbers:
         elements, unknowns = number.shape
         starts = np.arange(0, number.size + 1, unknowns)
         incidence = sparse.csr_array((np.ones(number.size, dtype=np.bool_), number.ravel(), starts), (elements, n))
-        # unlike a list of all entries of all elements it takes no more memory than the pattern
+        # takes no more memory than the pattern, unlike a list of the entries of all elements
         pattern = pattern + incidence.T @ incidence
     pattern.sort_indices()
     return pattern.indptr.astype(np.int32), pattern.indices.astype(np.int32)

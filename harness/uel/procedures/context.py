@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from uel.assembly import Constraints, TurningConstraints
+from uel.assembly import Constraints, RotatingConstraints
 from uel.elements import Call, Flags
 from uel.errors import DeckError
 from uel.model.arrays import FloatArray, IntArray
@@ -73,7 +73,7 @@ class StepContext:
         constraints, solver, start = state.constraints, state.solver, self.beginning["displacement"]
         if constraints is None or solver is None or not constraints.matches(self.unknowns, equations, arms, start):
             arguments = self.system, self.unknowns, equations, state.boundaries.sources
-            constraints = TurningConstraints(*arguments, arms, start) if arms else Constraints(*arguments)
+            constraints = RotatingConstraints(*arguments, arms, start) if arms else Constraints(*arguments)
             choose = partial(choose_step_solver, setting.solver.linear_solver, constraints, state.effort)
             if solver is not None:
                 solver.release()

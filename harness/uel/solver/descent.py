@@ -161,7 +161,7 @@ class Descent(Newton):
         new = self._apply(increment, state, ddu + self._lift(ddu_p), searchable=True)
         if new.evaluation.pnewdt < 1.0:
             return new
-        if abs(float(self._constraints.along(ddu) @ new.r)) <= slope + noise:
+        if abs(float(self._constraints.project(ddu) @ new.r)) <= slope + noise:
             return new
         self.take_over(iteration, GROWING)
         self._restore(increment, state)
@@ -170,7 +170,7 @@ class Descent(Newton):
     def _restore(self, increment: Increment, state: Iterate) -> None:
         """Set the constraints to a state, after trials."""
         at = increment.u + state.du
-        self._constraints.follow(at, state.r, state.du, increment.weight)
+        self._constraints.update(at, state.r, state.du, increment.weight)
 
     def _lift(self, ddu_p: FloatArray) -> FloatArray:
         """Return the correction (n,) of all unknowns that ddu_p (n_p,) stands for: zero at the free ones."""
@@ -198,7 +198,7 @@ class Descent(Newton):
 
         def component(scale: float) -> float | None:
             evaluation, r = self._trial(increment, start + scale * direction)
-            work = float(self._constraints.along(direction) @ r)
+            work = float(self._constraints.project(direction) @ r)
             return work if evaluation.pnewdt >= 1.0 else None
 
         scale, tried = descend(component, float(direction @ state.r))

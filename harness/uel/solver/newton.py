@@ -179,10 +179,10 @@ class Newton:
         return new
 
     def _evaluate(self, call: Call, increment: Increment, iteration: int, du: FloatArray, ddu: FloatArray) -> Iterate:
-        du = self._constraints.place(increment.u, du)
+        du = self._constraints.satisfy(increment.u, du)
         evaluation, f_ext = self._pass(replace(call, iteration=iteration), increment, du)
         r = evaluation.residual + f_ext
-        self._constraints.follow(increment.u + du, r, du, increment.weight)
+        self._constraints.update(increment.u + du, r, du, increment.weight)
         return Iterate(iteration, du, ddu, r, self._constraints.reduce_vector(r), evaluation)
 
     def _correction(self, state: Iterate, ddu_p: FloatArray) -> FloatArray:
@@ -204,10 +204,10 @@ class Newton:
 
     def _trial(self, increment: Increment, du: FloatArray) -> tuple[Evaluation, FloatArray]:
         """Make a pass for the residual alone, and set the constraints to it; return the evaluation and r (n,)."""
-        du = self._constraints.place(increment.u, du)
+        du = self._constraints.satisfy(increment.u, du)
         evaluation, f_ext = self._pass(increment.call.asking(Request.RESIDUAL), increment, du, matrix=False)
         r = evaluation.residual + f_ext
-        self._constraints.follow(increment.u + du, r, du, increment.weight)
+        self._constraints.update(increment.u + du, r, du, increment.weight)
         return evaluation, r
 
     def _pass(
@@ -231,10 +231,10 @@ class Newton:
 
         def component(scale: float) -> float:
             _, r = self._trial(increment, before.du + scale * direction)
-            return float(self._constraints.along(direction) @ r)
+            return float(self._constraints.project(direction) @ r)
 
         at_zero = float(direction @ before.r)
-        at_one = float(self._constraints.along(direction) @ full.r)
+        at_one = float(self._constraints.project(direction) @ full.r)
         scale, tried = search(component, at_zero, at_one, self._line_search)
         if len(tried) == 1:
             return replace(full, line_search=tried)

@@ -116,7 +116,7 @@ class PathFollower:
         self, call: Call, increment: PathIncrement, iteration: int, du: FloatArray, ddu: FloatArray, lam: float
     ) -> PathIterate:
         call = replace(call, iteration=iteration)
-        du = self._constraints.place(increment.u, du)
+        du = self._constraints.satisfy(increment.u, du)
         u, f_ext = increment.u + du, increment.f_ext + lam * increment.f_ref
         dependent = increment.dependent(u, lam) if increment.dependent is not None else None
         if dependent is not None:
@@ -126,7 +126,7 @@ class PathFollower:
         if dependent is not None and dependent.df_ext is not None:
             df_ext = dependent.df_ext if df_ext is None else df_ext + dependent.df_ext
         r = evaluation.residual + f_ext
-        self._constraints.follow(u, r)
+        self._constraints.update(u, r)
         r_q = self._constraints.reduce_vector(r)
         return PathIterate(iteration, du, ddu, r, r_q, evaluation, lam=lam, df_ext=df_ext)
 

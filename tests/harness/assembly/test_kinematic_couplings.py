@@ -15,8 +15,8 @@ from scipy.spatial.transform import Rotation
 from small_decks import bars
 
 from uel import usersub
-from uel.assembly import TurningConstraints, system_of
-from uel.assembly.kinematic_couplings import Arms
+from uel.assembly import RotatingConstraints, system_of
+from uel.assembly.kinematic_couplings import KinematicCouplings
 from uel.deck import read_deck
 from uel.elements import Call, Flags, rotation_matrices, spin_matrices
 from uel.errors import DeckError, Source
@@ -53,7 +53,7 @@ def test_derivatives(angle):
     """Of the displacements by the rotations, and of the moments of constant forces about the global axes."""
     sources = [Arm(node, 0, Source("test.inp", 1)) for node in (1, 2, 3)]
     dependent = Numbering.find(np.arange(1, 4)[:, None], np.arange(1, 4)).ravel()
-    arms = Arms(Numbering(), sources, np.array([], dtype=int), np.zeros(24), np.zeros(24, dtype=bool))
+    arms = KinematicCouplings(Numbering(), sources, np.array([], dtype=int), np.zeros(24), np.zeros(24, dtype=bool))
     start = np.zeros(24)
     start[3:6] = angle
     force = np.random.default_rng(1).standard_normal(24)
@@ -62,7 +62,7 @@ def test_derivatives(angle):
     def moved(change):
         u = start.copy()
         u[3:6] += change
-        return arms.place(np.zeros(24), u)
+        return arms.satisfy(np.zeros(24), u)
 
     for k, one in enumerate(step * np.eye(3)):
         slope = (moved(one) - moved(-one)) / (2 * step)
@@ -178,27 +178,27 @@ def test_tangent(tmp_path, name, weight):
     held = np.sort(system.dofs.find(np.arange(3)[:, None], np.array([1, 2, 3])).ravel())
     of_body = [int(system.dofs.find(model.mesh.labels.tolist().index(node), dof)) for node, dof in HELD[name]]
     held = np.concatenate([held, np.array(of_body, dtype=np.int64)])
-    constraints = TurningConstraints(system, held, model.equations, {}, model.arms)
+    constraints = RotatingConstraints(system, held, model.equations, {}, model.arms)
     call = Call(Flags(1, True), step=1, increment=1, step_time=1.0, total_time=1.0, time_increment=1.0, period=1.0)
     zero, load = np.zeros(len(system)), np.random.default_rng(2).standard_normal(len(system))
 
     turned = np.zeros(len(system))
     turned[-6:] = [0.1, -0.2, 0.3, 0.2, 0.3, -0.1]
     # where the body has come by a free motion, what is prescribed is consistent
-    free = TurningConstraints(system, held[:9], model.equations, {}, model.arms)
-    start = free.place(zero, turned)
+    free = RotatingConstraints(system, held[:9], model.equations, {}, model.arms)
+    start = free.satisfy(zero, turned)
 
     def reduced(q):
         dq = constraints.expand(q, np.zeros(len(held)))
-        change = constraints.place(start, dq)
+        change = constraints.satisfy(start, dq)
         np.testing.assert_allclose(change[held], 0, atol=1e-13)
         u = start + change
         evaluation = system.evaluate(call, u, u)
         residual = evaluation.residual + load
-        constraints.follow(u, residual, change, weight)
+        constraints.update(u, residual, change, weight)
         return constraints.reduce_vector(residual), evaluation.data
 
-    constraints.follow(start, zero)
+    constraints.update(start, zero)
     count = max(6 - len(of_body), 1)
     assert len(constraints.overconstraints) == max(len(of_body) - 5, 0)
     q = 0.1 * np.random.default_rng(3).standard_normal(len(constraints.free))
@@ -224,20 +224,20 @@ def test_tangential_velocities(tmp_path, name):
     of_body = [int(system.dofs.find(model.mesh.labels.tolist().index(node), dof)) for node, dof in HELD[name]]
     turned = np.zeros(len(system))
     turned[-6:] = [0.1, -0.2, 0.3, 1.2, 0.3, -0.5]
-    free = TurningConstraints(system, np.array([], dtype=int), model.equations, {}, model.arms)
-    u = free.place(np.zeros(len(system)), turned)
-    constraints = TurningConstraints(system, np.array(of_body, dtype=int), model.equations, {}, model.arms, u)
-    constraints.follow(u, np.zeros(len(system)))
+    free = RotatingConstraints(system, np.array([], dtype=int), model.equations, {}, model.arms)
+    u = free.satisfy(np.zeros(len(system)), turned)
+    constraints = RotatingConstraints(system, np.array(of_body, dtype=int), model.equations, {}, model.arms, u)
+    constraints.update(u, np.zeros(len(system)))
     numbers = np.random.default_rng(4)
     # moments are about the global axes, velocities those of rotation vectors: rotary inertia would mix both
     masses = np.where(system.dofs.dof > 3, 0.0, numbers.uniform(1.0, 2.0, len(system)))
     mass = sparse.dia_array((masses[None, :], [0]), shape=2 * (len(system),)).tocsr()
     velocity = numbers.standard_normal(len(system))
-    found = constraints.tangential(velocity, constraints.inertia(mass))
-    np.testing.assert_allclose(constraints.along(found), found, atol=1e-12)
+    found = constraints.project_velocity(velocity, constraints.inertia(mass))
+    np.testing.assert_allclose(constraints.project(found), found, atol=1e-12)
     np.testing.assert_allclose(constraints.reduce_vector(mass @ (found - velocity)), 0, atol=1e-12)
     np.testing.assert_allclose(found[of_body], velocity[of_body])
-    again = constraints.tangential(found, constraints.inertia(mass))
+    again = constraints.project_velocity(found, constraints.inertia(mass))
     np.testing.assert_allclose(again, found, atol=1e-12)
 
 

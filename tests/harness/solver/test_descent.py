@@ -39,13 +39,13 @@ class Landscape:
     def expand(self, dq, dprescribed):
         return dq
 
-    def place(self, start, increment):
+    def satisfy(self, start, increment):
         return increment
 
-    def follow(self, u, residual, increment, weight):
+    def update(self, u, residual, increment, weight):
         pass
 
-    def along(self, direction):
+    def project(self, direction):
         return direction
 
     def reduce_vector(self, vector):

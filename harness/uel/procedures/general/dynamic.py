@@ -77,8 +77,8 @@ class ImplicitIntegration(Part):
     def start(self) -> PartStart:
         """Make initial velocities consistent, and compute the initial accelerations, unless they are zero."""
         state, constraints = self._context.state, self._context.constraints
-        constraints.follow(state.displacement, np.zeros_like(state.displacement))
-        following = constraints.along(state.velocity)
+        constraints.update(state.displacement, np.zeros_like(state.displacement))
+        following = constraints.project(state.velocity)
         given = np.abs(state.velocity).max(initial=0.0)
         # as in Abaqus, constraints take precedence; in a later step both differ by the error of integration
         replaced = len(state.begun) == 1 and np.abs(following - state.velocity).max(initial=0.0) > CONSISTENT * given
@@ -185,9 +185,9 @@ class ImplicitIntegration(Part):
         residual = evaluation.residual + load
         constraints, before = context.constraints, context.state.displacement
         # the forces at the start count by the mean of the last two increments, as the loads do
-        constraints.follow(before + increment, residual, increment + 0.5 * self._previous, 1.0 + alpha)
+        constraints.update(before + increment, residual, increment + 0.5 * self._previous, 1.0 + alpha)
         ratio = context.checker.largest_ratio(residual, self._tolerances())
-        constraints.follow(before + last.du, last.r, last.du, 1.0 + alpha)
+        constraints.update(before + last.du, last.r, last.du, 1.0 + alpha)
         return Accuracy(ratio, HALF_INCREMENT)
 
     def _tolerances(self) -> dict[str, float]:
@@ -204,7 +204,7 @@ class ImplicitIntegration(Part):
         state = self._context.state
         increment = last.du / 8 + 0.375 * size * state.velocity + size**2 / 16 * state.acceleration
         increment = np.where(self._context.system.dofs.of_nodes, increment, 0.5 * last.du)
-        return self._context.constraints.place(state.displacement, increment)
+        return self._context.constraints.satisfy(state.displacement, increment)
 
     def _half_increment(self, last: Iterate, size: float, increment: FloatArray) -> Evaluation:
         """Pass at half the increment, over which accelerations are linear."""
@@ -240,5 +240,5 @@ class ImplicitIntegration(Part):
         motion = self._motion(size, last.du)
         velocity = motion.velocity
         if self._inertia is not None:
-            velocity = context.constraints.tangential(velocity, self._inertia)
+            velocity = context.constraints.project_velocity(velocity, self._inertia)
         return PartEnd(motion=Motion(velocity, motion.acceleration))

@@ -201,7 +201,7 @@ class GeneralStep:
         context.increment, context.step_time = saved["increment"], saved["step_time"]
         state.resume(saved["state"])
         call = context.call(0.0, context.step_time, state.total_time)
-        self._system.relearn(call, state.displacement, saved["system"])
+        self._system.restore_matrices(call, state.displacement, saved["system"])
         state.reach(state.total_time, call.predefined)
         self._checker.resume(saved["checks"])
         self._path.resume(saved["path"])
