@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Eigenvalues of smallest magnitude of K x = lambda G x, both symmetric, K positive definite and G any.
 
-Unknowns that G leaves out, as the pressures of hybrid elements, may make K indefinite.
+Unknowns with zero rows in G, such as the pressures of hybrid elements, may make K indefinite.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from uel.solver.eigen import DENSE, RANK, Pair, UnstableError
 from uel.solver.newton import Factoriser
 
 NEGATIVE = 1e-6
-"""Limit relative to the largest flexibility: a smaller negative one is rounding."""
+"""Negative flexibility over the largest one that counts as rounding."""
 
 RESIDUAL = 1e-6
-"""Largest residual relative to the larger of the two terms of the equation."""
+"""Largest residual of an eigenpair over |K x|."""
 
 
 def smallest_factors(pair: Pair, count: int, solver: Factoriser) -> tuple[FloatArray, FloatArray]:
-    """Return the eigenvalues (k,) of either sign, those of smallest magnitude first, and vectors (n, k).
+    """Return the eigenvalues (k,) of either sign in ascending order of magnitude, and vectors (n, k).
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def smallest_factors(pair: Pair, count: int, solver: Factoriser) -> tuple[FloatA
     count
         Largest k; there may be fewer.
     solver
-        Has factorised K.
+        Solver that has factorised K.
 
     Returns
     -------
@@ -43,10 +43,10 @@ def smallest_factors(pair: Pair, count: int, solver: Factoriser) -> tuple[FloatA
     Raises
     ------
     UnstableError
-        K is not positive definite where G is not zero.
+        K is not positive definite on the unknowns of G.
     """
     if len(pair) <= DENSE:
-        return _all(pair, count)
+        return _dense(pair, count)
     stiffness, stress = pair.matrix(pair.stiffness), pair.matrix(pair.mass)
     flexibility = LinearOperator(stiffness.shape, matvec=solver.solve, dtype=np.float64)
     start = np.random.default_rng(0).standard_normal(len(pair))
@@ -57,7 +57,7 @@ def smallest_factors(pair: Pair, count: int, solver: Factoriser) -> tuple[FloatA
     order = np.argsort(-np.abs(inverse), kind="stable")
     order = order[np.abs(inverse[order]) > RANK * np.abs(inverse).max()]
     values, vectors = 1.0 / inverse[order], vectors[:, order]
-    # where K is indefinite the iteration has no meaning, but ends
+    # for an indefinite K the iteration ends with meaningless vectors
     elastic = stiffness @ vectors
     r = np.linalg.norm(elastic - values * (stress @ vectors), axis=0)
     if np.any(r > RESIDUAL * np.linalg.norm(elastic, axis=0)) or np.any(np.sum(vectors * elastic, axis=0) <= 0.0):
@@ -65,14 +65,14 @@ def smallest_factors(pair: Pair, count: int, solver: Factoriser) -> tuple[FloatA
     return values, vectors
 
 
-def _all(pair: Pair, count: int) -> tuple[FloatArray, FloatArray]:
+def _dense(pair: Pair, count: int) -> tuple[FloatArray, FloatArray]:
     stress = pair.matrix(pair.mass).toarray()
     stressed = np.flatnonzero(np.any(stress != 0.0, axis=0))
     stress = stress[np.ix_(stressed, stressed)]
     units = np.zeros((len(pair), len(stressed)))
     units[stressed, np.arange(len(stressed))] = 1.0
     flexibility = np.linalg.solve(pair.matrix(pair.stiffness).toarray(), units)
-    # that of the stressed unknowns is L L^T: z of L^T G L z = z/lambda gives x = L z there
+    # with the flexibility L L^T of the stressed unknowns, L^T G L z = z/lambda and x = L z there
     own, axes = linalg.eigh(flexibility[stressed])
     if own[0] < -NEGATIVE * own[-1]:
         raise UnstableError

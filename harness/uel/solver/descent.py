@@ -1,37 +1,37 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Newton's method with a descent search where Newton's method alone fails: what `--fallback` turns on.
+"""Newton's method with a descent search for when it fails (`--fallback`).
 
 Where elements soften, the tangent K is indefinite while one of them snaps. The Newton correction c then climbs
-(c . r < 0, r the residual), or jumps over the solution and back for ever. The search walks downhill instead:
+(c . r < 0, r the residual), or jumps across the solution and back for ever. The search goes downhill instead:
 
 - d = c where c . r > 0, else d = -c: the correction points to a saddle, and this is the side of it on which the energy
-  falls. Where d is almost orthogonal to K_0^-1 r, or no scale lowers the residual along d, or K is singular,
-  d = K_0^-1 r. After a step of a hundredth of c or less, which near a singular K repeats itself, c is that of
-  K + mu (K_0 - K), with mu four times as large after each such step, and less again after good ones;
-- a scale s with |d . r(s)| <= 0.25 d . r(0): four times as large while the residual still points along d, since a step
-  must be long where an element fails, then regula falsi.
+  falls. If d is almost orthogonal to K_0^-1 r, or no scale lowers the residual along d, or K is singular,
+  d = K_0^-1 r. After a step of a hundredth of c or less, which would repeat itself near a singular K, c is that of
+  K + mu (K_0 - K); mu grows fourfold after each such step and falls after good ones;
+- a scale s with |d . r(s)| <= 0.25 d . r(0): fourfold growth while the residual still points along d, since a step must
+  be long where an element fails, then regula falsi.
 
-It uses only the residual and the matrix, which is all that a UEL gives.
+It uses only the residual and the matrix, since a UEL returns nothing else.
 
-**What holds.** Let the element forces be the gradient of an energy that K_0, the matrix at the start of the analysis,
-majorises: bilinear damage in one mode, say, where softening only lowers the stiffness. Then the energy falls along d
-up to the first zero of d . r(s), the scale is within a fraction of that zero, and the angle between d and K_0^-1 r is
-bounded away from 90 degrees. So each iteration lowers the energy by a fixed multiple of r . K_0^-1 r at least
-(Zoutendijk's argument), and the residual tends to zero where the energy is bounded below: always under prescribed
-displacements; under loads, if the structure can carry them. It ends at an equilibrium that is stable but for
-accidents; a snap leads to one that static equilibrium alone does not single out.
+**Convergence.** Let the element forces be the gradient of an energy that K_0, the matrix at the start of the analysis,
+majorises, such as that of bilinear damage in one mode, where softening only lowers the stiffness. Then the energy falls
+along d up to the first zero of d . r(s), the scale is within a fraction of that zero, and the angle between d and
+K_0^-1 r is bounded away from 90 degrees. So each iteration lowers the energy by at least a fixed multiple of
+r . K_0^-1 r (Zoutendijk's theorem), and the residual tends to zero if the energy is bounded below: always under
+prescribed displacements; under loads, if the structure can carry them. In general the equilibrium is stable; after a
+snap it is one of several that satisfy static equilibrium.
 
-**What does not.** Scales are sampled: a step may pass over a first valley into a higher one, which costs iterations.
+**Limits.** Scales are sampled: a step may pass over a first valley into a higher one, which costs iterations.
 Mixed-mode damage, Nitsche terms and friction make K unsymmetric: there is no energy, d . r is only the work of the
 residual, and the search is a heuristic. An attempt ends after `ITERATIONS` and is then cut back as without the search.
 
-**What does not pay.** Anderson's acceleration of d by the one before, in the metric of K_0, kept where it points
-downhill: 1,696 iterations in place of 1,472, and 7,167 passes over the elements in place of 6,514, on the row
-dcb_0-90_1e8_standard_structured_fallback of `fortran/study.md`. A search that begins with the scale of the iteration
-before: 17,552 iterations in place of 21,146 in 22 hard rows of the study, and 2 % more in the others, but
+**Rejected alternatives.** Anderson acceleration of d by the previous one, in the metric of K_0, if it points downhill:
+1,696 iterations instead of 1,472, and 7,167 passes over the elements instead of 6,514, on the row
+dcb_0-90_1e8_standard_structured_fallback of `fortran/study.md`. A search that begins with the scale of the previous
+iteration: 17,552 iterations instead of 21,146 in 22 hard rows of the study, and 2 % more in the others, but
 enf_0_90_standard_1e8_perturbed of `abaqus_inputs/paper_enf` stops at 97 %. No extrapolation into the increment after a
-search: 5,992 iterations in place of 1,228 on the first row with perturbed nodes.
+search: 5,992 iterations instead of 1,228 on the first row with perturbed nodes.
 """
 
 from __future__ import annotations
@@ -49,19 +49,19 @@ from uel.solver.linesearch import descend
 from uel.solver.newton import Factoriser, Increment, Iterate, Newton
 
 ITERATIONS = 500
-"""Iterations after which an attempt is abandoned: dozens of elements may fail in it, and each takes a few."""
+"""Iterations after which an attempt is abandoned: dozens of elements may fail in it, each in a few iterations."""
 
 SMALLEST_COSINE = 1e-6
 """Smallest cosine between d and K_0^-1 r, in the metric of K_0; in delaminating beams it stays above 1e-4."""
 
 NEGLIGIBLE = 1e-8
-"""Limit relative to the prescribed values: if an extrapolation misses them by less, that is rounding."""
+"""Difference of an extrapolation from the prescribed values, over these, that counts as rounding."""
 
 ROUNDING = 1e-14
 """Rounding error of a residual over the sum of all element forces."""
 
 SHORT, GOOD = 0.01, 0.5
-"""Scales below which K_0 is mixed into K, and above which the share of K_0 falls."""
+"""Scale below which K_0 is blended into K, and scale from which on the share of K_0 falls."""
 
 FIRST_SHARE, CHANGE = 0.01, 4.0
 """Share of K_0 after the first short step, and the factor of its changes."""
@@ -80,7 +80,7 @@ class Majoriser:
         self._solver: Factoriser | None = None
 
     def use(self, system: System, constraints: Constraints, make: Callable[[], Factoriser]) -> None:
-        """Take over constraints; `make` gives a linear solver for their pattern."""
+        """Set the constraints; make: returns a linear solver for their pattern."""
         self._system, self._constraints, self._make, self._solver = system, constraints, make, None
 
     def keep(self, data: FloatArray) -> None:
@@ -112,9 +112,9 @@ class Majoriser:
 
 
 class Descent(Newton):
-    """Newton iterations that become the descent search when they go wrong, until the attempt ends.
+    """Newton iterations that turn into the descent search when they fail, until the attempt ends.
 
-    reason  why the search took over in this attempt, '' if it has not
+    reason  reason why the search took over in this attempt, '' if it has not
     since   iteration in which it took over
     """
 
@@ -133,7 +133,7 @@ class Descent(Newton):
         self._share = 0.0
 
     def take_over(self, iteration: int, reason: str) -> None:
-        """Search from this iteration on; the first reason stays."""
+        """Search from this iteration on; later calls in an attempt have no effect."""
         if not self.reason:
             self.since, self.reason = iteration, reason
 
@@ -143,7 +143,7 @@ class Descent(Newton):
             self.reason, self._share = "", 0.0
             self._majoriser.keep(state.evaluation.data)
         if np.abs(ddu_p).max(initial=0.0) > NEGLIGIBLE * np.abs(increment.du_p).max(initial=0.0):
-            # the correction introduces the prescribed values: it is applied in full
+            # the correction contains the prescribed values and must be applied in full
             return super()._advance(increment, state, ddu_p)
         iteration = state.iteration + 1
         try:
@@ -168,12 +168,12 @@ class Descent(Newton):
         return self._descend(increment, state, ddu_p, self._downhill(state, ddu))
 
     def _restore(self, increment: Increment, state: Iterate) -> None:
-        """Set the constraints to a state, after trials."""
+        """Update the constraints to a state, after trials."""
         at = increment.u + state.du
         self._constraints.update(at, state.r, state.du, increment.weight)
 
     def _lift(self, ddu_p: FloatArray) -> FloatArray:
-        """Return the correction (n,) of all unknowns that ddu_p (n_p,) stands for: zero at the free ones."""
+        """Return the correction (n,) with ddu_p (n_p,) at the prescribed unknowns and zero at the free ones."""
         return self._constraints.expand(np.zeros(len(self._constraints.free)), ddu_p)
 
     def _downhill(self, state: Iterate, ddu: FloatArray) -> FloatArray:
@@ -186,7 +186,7 @@ class Descent(Newton):
         return ddu if slope > 0.0 else -ddu
 
     def _adapt(self, scale: float) -> None:
-        """Mix more of K_0 into the matrix after a short step, less after a good one."""
+        """Blend more of K_0 into the matrix after a short step, less after a good one."""
         if scale < SHORT:
             self._share = min(max(FIRST_SHARE, CHANGE * self._share), 1.0)
         elif scale >= GOOD:

@@ -17,17 +17,17 @@ from uel.model.arrays import FloatArray
 from uel.solver.newton import Factoriser
 
 DENSE = 200
-"""Unknowns up to which all eigenvalues are computed at once."""
+"""Unknowns up to which all eigenvalues are computed by dense matrices."""
 
 SHIFT = 1e-6
 """First shift, as a fraction of the mean of K over that of M."""
 
 RANK = 1e-12
-"""Limit relative to the largest inverse eigenvalue: smaller ones belong to unknowns without mass."""
+"""Inverse eigenvalue over the largest one below which it belongs to unknowns without mass."""
 
 
 class UnstableError(Exception):
-    """Error without eigenvalues: K is far from positive semidefinite, or is singular where there is no mass."""
+    """K is far from positive semidefinite, or singular on unknowns without mass; there are no eigenvalues."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,24 +56,24 @@ def lowest_eigenvalues(pair: Pair, count: int, solver: Factoriser) -> tuple[Floa
         shifted = pair.stiffness - shift * pair.mass
         try:
             if len(pair) <= DENSE:
-                return _all(pair.matrix(shifted).toarray(), pair.matrix(pair.mass).toarray(), shift, count)
+                return _dense(pair.matrix(shifted).toarray(), pair.matrix(pair.mass).toarray(), shift, count)
             solver.factorise(shifted)
-            return _nearest(pair, shift, min(count, len(pair) - 2), solver)
+            return _sparse(pair, shift, min(count, len(pair) - 2), solver)
         except (SingularMatrixError, linalg.LinAlgError, ArpackError):
             continue
     raise UnstableError
 
 
 def _shifts(pair: Pair) -> Iterator[float]:
-    """Yield negative shifts, since K is singular if bodies are unconstrained; larger ones for unstable bodies."""
+    """Yield negative shifts of growing magnitude: K is singular if a body is free, or indefinite if it is unstable."""
     stiffness, mass = (pair.matrix(data).diagonal() for data in (pair.stiffness, pair.mass))
     for power in range(4):
         yield -SHIFT * 100**power * float(np.abs(stiffness[mass > 0]).sum() / mass.sum())
 
 
-def _all(shifted: FloatArray, mass: FloatArray, shift: float, count: int) -> tuple[FloatArray, FloatArray]:
+def _dense(shifted: FloatArray, mass: FloatArray, shift: float, count: int) -> tuple[FloatArray, FloatArray]:
     own, axes = linalg.eigh(mass)
-    # M = G G^T. Unknowns without mass, as the pressures of hybrid elements, may make K indefinite
+    # M = G G^T; unknowns without mass, such as the pressures of hybrid elements, may make K indefinite
     factor = axes[:, own > RANK * own[-1]] * np.sqrt(own[own > RANK * own[-1]])
     moved = np.linalg.solve(shifted, factor)
     inverse, vectors = linalg.eigh(factor.T @ moved)
@@ -84,10 +84,10 @@ def _all(shifted: FloatArray, mass: FloatArray, shift: float, count: int) -> tup
     return shift + 1.0 / inverse[chosen], moved @ vectors[:, chosen] / inverse[chosen]
 
 
-def _nearest(pair: Pair, shift: float, count: int, solver: Factoriser) -> tuple[FloatArray, FloatArray]:
+def _sparse(pair: Pair, shift: float, count: int, solver: Factoriser) -> tuple[FloatArray, FloatArray]:
     stiffness, mass = pair.matrix(pair.stiffness), pair.matrix(pair.mass)
     operator = LinearOperator(stiffness.shape, matvec=solver.solve, dtype=np.float64)
-    # a start that is the same in every run
+    # the same start vector in every run
     start = np.random.default_rng(0).standard_normal(len(pair))
     values, vectors = eigsh(stiffness, count, mass, sigma=shift, OPinv=operator, v0=start)
     order = np.argsort(values)

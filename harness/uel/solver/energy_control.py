@@ -8,10 +8,10 @@ the work of the external forces F (reactions included) on its displacements u, a
 
     tau = 1/2 (F_0 . du - dF . u_0),
 
-exactly, if F and u vary linearly in it. (An elastic structure that stiffens would seem to dissipate negative energy:
+exactly if F and u vary linearly in it. (An elastic structure that stiffens would seem to dissipate negative energy:
 this is for damage at small displacements.) An increment ends when it has dissipated tau or when the load factor lam has
-grown by its size, whichever comes first: without dissipation it is an increment of load, in a snap-back lam falls.
-Nobody has to guess tau: it is half the work that the largest forces so far do on that growth of lam. Symbols are those
+grown by its size, whichever comes first: without dissipation it is an increment of load, in a snap-back lam falls. The
+user need not choose tau: it is half the work that the largest forces so far do on that growth of lam. Symbols are those
 of `newton` and `path`.
 """
 
@@ -26,7 +26,7 @@ ELASTIC = 1e-3
 
 
 class Dissipation:
-    """Control by dissipated energy. Call `start` before each increment.
+    """Control by dissipated energy; call `start` before each increment.
 
     Parameters
     ----------
@@ -52,11 +52,11 @@ class Dissipation:
         Parameters
         ----------
         increment
-            Its definition.
+            Definition of the increment.
         f_ext, reaction
             (n,) external forces at its start, reactions included, and reactions.
         size
-            Growth of lam at which it ends if nothing is dissipated; also the largest fall.
+            Growth of lam at which the increment ends without dissipation; also the largest fall of lam.
         left
             Growth of lam up to the end of the step.
         """

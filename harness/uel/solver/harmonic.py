@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Complex systems by the solvers for real ones: each entry a + ib becomes (a, -b; b, a), each unknown its real and its
-imaginary part, one after the other, so that a band stays a band.
+"""Complex systems by real solvers: each entry a + ib becomes the block (a, -b; b, a).
+
+The real and the imaginary part of an unknown are numbered one after the other, so that a band stays a band.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Line searches: along a Newton correction, as *CONTROLS, PARAMETERS=LINE SEARCH steers it, and downhill."""
+"""Line searches: along a Newton correction, with *CONTROLS, PARAMETERS=LINE SEARCH, and downhill."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from uel.model.controls import LineSearchControls
 def search(
     component: Callable[[float], float], at_zero: float, at_one: float, controls: LineSearchControls
 ) -> tuple[float, tuple[float, ...]]:
-    """Scale s of a correction c at which the component of the residual along it, g(s) = c . r(u + s c), is small.
+    """Find a scale s of a correction c at which the residual along it, g(s) = c . r(u + s c), is small.
 
     Regula falsi (Illinois variant) between s = 0, where g > 0 for a correction that goes downhill, and a scale where
     g < 0. It ends with |g| <= f_s |g(0)|, or when a scale differs from the last by less than the fraction eta_s, or
@@ -31,7 +31,7 @@ def search(
     Returns
     -------
     tuple[float, tuple[float, ...]]
-        The best scale seen and all scales tried, 1 included.
+        The scale with the smallest |g|, and all scales tried, 1 included.
     """
     best, smallest = 1.0, abs(at_one)
     tried = [1.0]
@@ -50,7 +50,7 @@ def search(
         if value * upper[1] < 0.0:
             lower = upper
         elif lower[1] * upper[1] < 0.0:
-            # the other end stays twice: halve its value, otherwise the bracket shrinks from one side only
+            # the other end stays a second time: halve its value, or the bracket shrinks from one side only
             lower = lower[0], 0.5 * lower[1]
         else:
             lower = upper
@@ -59,32 +59,31 @@ def search(
 
 
 DOWN_TO = 0.25
-"""Fraction of g(0) at which a descent ends, the default of f_s."""
+"""|g| over g(0) at which a descent ends, the default of f_s."""
 
 EXPANSION, LARGEST = 4.0, 64.0
-"""Growth of the scale while it goes downhill, and where that ends."""
+"""Growth of the scale while it goes downhill, and its largest value."""
 
 REFINEMENTS, CLOSEST = 5, 0.02
-"""Evaluations inside a bracket at most, and the relative change of the scale below which they end."""
+"""Largest number of evaluations inside a bracket, and relative change of the scale at which they end."""
 
 
 def descend(component: Callable[[float], float | None], at_zero: float) -> tuple[float, tuple[float, ...]]:
-    """Scale s of a direction d that goes downhill at which g(s) = d . r(u + s d) is small.
+    """Find a scale s of a downhill direction d at which g(s) = d . r(u + s d) is small.
 
-    Four times as large from 1 on while g > 0.25 g(0), then regula falsi (Illinois variant) until |g| <= 0.25 g(0).
+    The scale grows fourfold from 1 on while g > 0.25 g(0); then regula falsi (Illinois variant) until |g| <= 0.25 g(0).
 
     Parameters
     ----------
     component
-        Evaluates g; None if an element refuses the scale, which then is too large.
+        Evaluates g; None if an element rejects the scale (PNEWDT < 1), which is then too large.
     at_zero
         g(0) > 0.
 
     Returns
     -------
     tuple[float, tuple[float, ...]]
-        The scale: if g does not get that small, the one with the smallest |g| < g(0), or else the largest one up to
-        which it goes downhill, 0 if none does. Then all scales tried.
+        The scale with the smallest |g| < g(0), or without one the largest at which g > 0, or 0; and all scales tried.
     """
     best, smallest, downhill = 0.0, at_zero, 0.0
     lower, upper = (0.0, at_zero), (math.inf, 0.0)
@@ -98,7 +97,7 @@ def descend(component: Callable[[float], float | None], at_zero: float) -> tuple
         if smallest <= DOWN_TO * at_zero:
             break
         if value is None or value < 0.0:
-            # an end that stays twice: halve its value, otherwise the bracket shrinks from the other side only
+            # an end that stays a second time: halve its value, or the bracket shrinks from the other side only
             lower = (lower[0], 0.5 * lower[1]) if last < 0 else lower
             upper, last = (scale, -math.inf if value is None else value), -1
         else:

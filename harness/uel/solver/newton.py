@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Newton's method for one attempt at an increment, with the passes over the elements that Abaqus makes.
+"""Newton's method for one attempt, with the passes over the elements that Abaqus makes.
 
 Symbols here and in the other files of this folder:
 
-u          (n,) displacements, and all other unknowns, at the start of the increment
+u          (n,) unknowns at the start of the increment: displacements, rotations, ...
 du, ddu    (n,) their increment so far, and its correction by an iteration
 du_p       (n_p,) increments of the prescribed unknowns
 f_ext      (n,) external load
@@ -28,20 +28,20 @@ from uel.model.controls import LineSearchControls
 from uel.solver.linesearch import search
 
 ROUNDING = 16 * float(np.finfo(float).eps)
-"""Relative error of differences of prescribed displacements."""
+"""Relative rounding error of differences of prescribed displacements."""
 
 
 class Factoriser(Protocol):
     """Interface of a linear solver that Newton's method needs."""
 
     def factorise(self, data: FloatArray) -> None:
-        """Take the CSR values of the reduced matrix."""
+        """Factorise the reduced matrix with these CSR values."""
 
     def solve(self, rhs: FloatArray) -> FloatArray:
         """Solve for one right-hand side."""
 
     def forget(self) -> None:
-        """Forget earlier matrices, so that later solutions do not depend on them, to the bit."""
+        """Discard earlier matrices, so that no bit of later solutions depends on them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,15 +62,15 @@ class DependentLoads:
 class Increment:
     """Definition of an increment.
 
-    call       arguments of the passes after a solve; the first pass carries LFLAGS(5) = 1 if it starts from a guess
+    call       arguments of the passes; the first one has LFLAGS(5) = 1 if there is a guess
     u          (n,) displacements at the start
     guess      (n,) extrapolated increment; None: start from du = 0
     du_p       (n_p,) increment of each prescribed unknown
     f_ext      (n,) external load at the end
-    dependent  returns the loads that depend on displacements (n,), in place of those of the call; None: there are none
-    weight     weight of the end of the increment in the mean of end and start that is in equilibrium (1 + alpha in
-               *DYNAMIC); it scales the dependent loads, and constraints act in the directions at its time
-    damping    (nnz,) CSR values of a matrix whose product with du is another internal force; None: no such force
+    dependent  returns the loads at displacements (n,), in place of those of the call; None: loads do not depend on them
+    weight     weight of the end of the increment in the equilibrium (1 + alpha in *DYNAMIC, otherwise 1); it scales the
+               dependent loads, and constraints have the directions at that time
+    damping    (nnz,) CSR values of a matrix whose product with du is an internal force; None without damping
     motion     returns velocities and accelerations at the end from du (n,); None: at rest
     """
 
@@ -115,16 +115,16 @@ class Newton:
         self._solver = solver
         self._line_search = line_search
         self._factorised: FloatArray | None = None
-        # the next solve reuses the values of the last matrix; it factorises them although the matrix is the same
+        # the next solve reuses the last matrix; it factorises it again all the same, after a restart
         self._reuse = self._refactorise = False
         self._pattern = system.indices
 
     def kept(self) -> FloatArray | None:
-        """Return the CSR values of the last solve's matrix, which the next may reuse: a restart continues with it."""
+        """Return the CSR values of the last matrix, which the next solve may reuse, for *RESTART."""
         return self._factorised
 
     def resume(self, factorised: FloatArray | None) -> None:
-        """Go on like a new object that has solved with this matrix: so do a run that was kept and its restart."""
+        """Continue as after a solve with this matrix, in a run that keeps a state and in its restart alike."""
         self._factorised, self._refactorise = factorised, True
         self._pattern = self._system.indices
         self._solver.forget()
@@ -132,10 +132,9 @@ class Newton:
     def iterates(self, increment: Increment, *, same_matrix: bool = False) -> Iterator[Iterate]:
         """Iterate without end; the caller stops when it accepts or abandons the attempt.
 
-        The first pass is at the start state, or at the extrapolated one. Prescribed values are not written into it: the
-        part of du_p that it lacks enters the linear system of iteration 1, so that the correction of all unknowns
-        includes it. With `same_matrix` the first solve reuses the matrix of the last one. Raises KernelError and
-        SingularMatrixError.
+        The first pass is at the start state, or at an extrapolation. It does not impose the prescribed values: the rest
+        of du_p enters the linear system of iteration 1, so that the correction of all unknowns includes it. With
+        `same_matrix` the first solve reuses the last matrix. Raises KernelError and SingularMatrixError.
         """
         call = increment.call
         self._reuse = same_matrix and self._factorised is not None
@@ -152,9 +151,9 @@ class Newton:
             ddu_p = np.zeros_like(ddu_p)
 
     def _rounded(self, increment: Increment, guess: FloatArray) -> FloatArray:
-        """Return the guess with the prescribed values where it differs from them only by rounding of the displacements.
+        """Return the guess with exact prescribed values where it differs from them only by rounding.
 
-        Otherwise the last bits, and thus the units, would decide whether it lacks a part of them.
+        Otherwise the last bits, and thus the units, would decide whether a correction of them remains.
         """
         prescribed = self._constraints.prescribed
         total = np.abs(increment.u[prescribed]) + np.abs(increment.du_p)
@@ -172,7 +171,7 @@ class Newton:
         return self._apply(increment, state, ddu, searchable=not ddu_p.any())
 
     def _apply(self, increment: Increment, state: Iterate, ddu: FloatArray, *, searchable: bool) -> Iterate:
-        """Apply a correction and return the state; to scale one that introduces prescribed values would lose them."""
+        """Apply a correction; searchable: line search may scale it, as it contains no prescribed values."""
         new = self._evaluate(increment.call, increment, state.iteration + 1, state.du + ddu, ddu)
         if self._line_search.n_ls > 0 and searchable and new.evaluation.pnewdt >= 1.0:
             return self._searched(increment, state, new)
@@ -190,7 +189,7 @@ class Newton:
         reuse = self._reuse and self._pattern is self._system.indices
         if not reuse:
             assert state.evaluation.data is not None
-            # the memory of the last matrix first; a copy, as a pass overwrites the values of the one before
+            # release the last matrix first; copy, because the next pass overwrites the values
             self._factorised = None
             self._factorised, self._pattern = state.evaluation.data.copy(), self._system.indices
         assert self._factorised is not None
@@ -203,7 +202,7 @@ class Newton:
         return self._constraints.expand(self._solver.solve(rhs), ddu_p)
 
     def _trial(self, increment: Increment, du: FloatArray) -> tuple[Evaluation, FloatArray]:
-        """Make a pass for the residual alone, and set the constraints to it; return the evaluation and r (n,)."""
+        """Make a pass for the residual alone, and update the constraints; return the evaluation and r (n,)."""
         du = self._constraints.satisfy(increment.u, du)
         evaluation, f_ext = self._pass(increment.call.asking(Request.RESIDUAL), increment, du, matrix=False)
         r = evaluation.residual + f_ext
@@ -226,7 +225,7 @@ class Newton:
         return evaluation, f_ext
 
     def _searched(self, increment: Increment, before: Iterate, full: Iterate) -> Iterate:
-        """Return the state at the scale that line search chooses; the last pass is a normal one at that scale."""
+        """Return the state at the scale found by line search, after a normal pass at that scale."""
         direction = full.ddu
 
         def component(scale: float) -> float:

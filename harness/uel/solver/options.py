@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Options of a job for solving its equations."""
+"""Options of a job for solving the equations."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ class SolverOptions:
     linear_solver
         Linear solver, see `uel solvers`.
     fallback
-        Search downhill where Newton's method fails, before the increment is cut back; Abaqus has no such option.
+        Descent search where Newton's method fails, before the increment is cut back; Abaqus has no such option.
     energy_control
-        Trace snap-backs: an increment ends where it has dissipated a share of energy, and the load factor of a step
-        is part of the solution. Not with `fallback`, which keeps the load.
+        Trace snap-backs: an increment ends where it has dissipated a given energy, and the load factor of a step is
+        part of the solution. Not with `fallback`, which prescribes the load.
 
     Raises
     ------

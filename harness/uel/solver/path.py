@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Newton's method with the load factor lam as an unknown too: loads and prescribed values are proportional to it.
+"""Newton's method with the load factor lam as a further unknown: loads and prescribed values are proportional to it.
 
 Each iteration solves for two right-hand sides with one factorisation, k du_r = r and k du_lam = f_ref. The correction
 is ddu = du_r + dlam du_lam, lam grows by dlam, and dlam follows from one more equation, the `Control`.
@@ -30,12 +30,11 @@ from uel.solver.newton import DependentLoads, Factoriser, Iterate
 class PathIncrement:
     """Definition of an increment along a path.
 
-    call       arguments of the passes after a solve
+    call       arguments of the passes; the first one has LFLAGS(5) = 1 if there is a guess
     u          (n,) displacements at the start
     guess      (n,) extrapolated increment, and its lam; None: start from du = 0
     f_ext      (n,) external load at the start
-    dependent  returns the loads that depend on displacements (n,) and lam, in place of those of the call; None: there
-               are none
+    dependent  returns the loads at displacements (n,) and lam, in place of those of the call; None: there are none
     nrhs       NRHS of the passes
     """
 
@@ -134,7 +133,7 @@ class PathFollower:
         k, constraints = state.evaluation.data, self._constraints
         assert k is not None
         self._solver.factorise(constraints.reduce_tangent(k))
-        # prescribed values follow lam, except for rounding
+        # prescribed values are proportional to lam, except for rounding
         ddu_p = state.lam * increment.u_ref - state.du[constraints.prescribed]
         r = state.r - constraints.prescribed_residual(k, ddu_p)
         du_r = constraints.expand(self._solver.solve(constraints.reduce_vector(r)), ddu_p)
@@ -153,7 +152,7 @@ class PathFollower:
         k = state.evaluation.data
         assert k is not None
 
-        # the next pass overwrites the values, but this is used only before it
+        # the next pass overwrites k; the function is called only before it
         def change(ddu: FloatArray, dlam: float) -> FloatArray:
             return self._constraints.reactions(dlam * increment.f_ref - self._system.product(k, ddu))
 

@@ -3,8 +3,8 @@
 """The modified Riks method: arc length along the path in the space of displacements and load factor.
 
 Abaqus Theory Guide, "Modified Riks algorithm": displacements are scaled by the largest entry of the first solution of
-the step; an increment goes the arc length along the tangent at its start, then Newton's method searches the plane
-through that point normal to the tangent. The tangent continues in the direction of the previous increment.
+the step. An increment starts with the arc length along the tangent; Newton's method then iterates in the plane through
+that point normal to the tangent. The tangent continues in the direction of the previous increment.
 """
 
 from __future__ import annotations
@@ -17,13 +17,12 @@ from uel.solver.path import Directions, PathIterate, Reaction
 
 
 class ArcLength:
-    """Control by arc length. Set `length` before an increment, call `converged` after one.
+    """Control by arc length; set `length` before an increment, call `converged` after it.
 
     Parameters
     ----------
     measured
-        (n,) mask of the unknowns in which the length is measured: those of nodes, not the pressures of elements, which
-        have other units.
+        (n,) mask of the unknowns that count in the length: those of nodes, not the pressures of elements.
     """
 
     def __init__(self, measured: NDArray[np.bool_]) -> None:
@@ -37,8 +36,8 @@ class ArcLength:
     def change(self, state: PathIterate, directions: Directions, reaction: Reaction) -> float:
         """Return dlam along the tangent in iteration 1, in the plane normal to it afterwards.
 
-        The first increment of a step changes the load factor by its length; the length of later ones is measured
-        in the scaled space in that unit.
+        In the first increment of a step the length is the change of the load factor; its length in the scaled space is
+        the unit of later lengths.
         """
         del reaction
         v = np.where(self._measured, directions.du_lam, 0.0)
@@ -53,7 +52,7 @@ class ArcLength:
         return -float(directions.du_r @ self._tangent) / (float(v @ self._tangent) + scale)
 
     def converged(self, du: FloatArray, lam: float) -> None:
-        """Keep the direction of a converged increment: its displacements (n,) and its change of the load factor."""
+        """Store the direction of a converged increment: du (n,) and the change lam of the load factor."""
         self._last = np.where(self._measured, du, 0.0), lam
 
     def _sign(self, v: FloatArray) -> float:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Thread limit: one thread for the BLAS of numpy and scipy."""
+"""Limits of threads for linear algebra."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from threadpoolctl import threadpool_limits
 
 @contextmanager
 def one_blas_thread() -> Iterator[None]:
-    """Run OpenBLAS on one thread: the same bits on any machine, and no waiting for other threads.
+    """Run OpenBLAS on one thread, for the same bits on any machine, without waiting for other threads.
 
     Vectors and bands are too small to gain from more (2.7 ms per factorisation of 12,000 unknowns on one thread and on
-    two), and where other processes hold the cores, a dot product of 0.01 ms has been seen to wait 10 ms. MUMPS
-    keeps the threads it is given, PARDISO takes one unless it is told otherwise.
+    two), and while other processes occupy the cores, a dot product of 0.01 ms can take 10 ms. MUMPS keeps its
+    threads; PARDISO uses one unless MKL_NUM_THREADS is set.
     """
     with threadpool_limits(limits={"libopenblas": 1, "libscipy_openblas": 1}):
         yield
@@ -27,12 +27,12 @@ def one_blas_thread() -> Iterator[None]:
 ONE_THREAD: Final[Mapping[str, str]] = dict.fromkeys(
     ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1"
 )
-"""Variables with which a process uses one thread, in PARDISO and MUMPS too."""
+"""Environment of a process with one thread, in PARDISO and MUMPS too."""
 
 
 @contextmanager
 def one_thread_each() -> Iterator[None]:
-    """Let every process that begins in the block use one thread: where each core has a process, more only wait."""
+    """Let processes started in the block use one thread each, for when every core has a process."""
     before = {name: os.environ.get(name) for name in ONE_THREAD}
     os.environ.update(ONE_THREAD)
     try:

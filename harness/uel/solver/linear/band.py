@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""LAPACK's band solver: five times faster than sparse solvers on slender bodies.
+"""LAPACK's band solver, on slender bodies five times as fast as sparse solvers.
 
-Where a crack grows along a slender body, the matrix changes in the few columns that the process zone occupies. So the
-band is cut in three, A_LL, A_MM and A_RR, and everything that changes lies in the middle. The two ends are factorised
-once, from outside inwards; an iteration factorises S = A_MM - A_ML A_LL^-1 A_LM - A_MR A_RR^-1 A_RM alone, which is a
-band matrix of the same width. The cuts move when something outside the middle changes.
+When a crack grows along a slender body, the matrix changes in the few columns of the process zone. So the band is cut
+into A_LL, A_MM and A_RR, with all changes in the middle. The two ends are factorised once, from outside inwards; an
+iteration factorises only S = A_MM - A_ML A_LL^-1 A_LM - A_MR A_RR^-1 A_RM, a band matrix of the same width. The cuts
+move when an entry outside the middle changes.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ from uel.solver.linear.linear_solver import LinearSolver, Pattern, in_chunks
 from uel.solver.linear.ordering import BandOrdering, narrowest
 
 LARGEST_MIDDLE: Final = 0.4
-"""Share of the unknowns in the middle above which cutting does not pay."""
+"""Share of the unknowns in the middle above which cutting the band saves no time."""
 
 MARGIN: Final = 0.5
-"""Unknowns left and right of those that change in the middle, over the root of (unknowns x half bandwidth).
+"""Unknowns of the middle on either side of those that change, over the root of (unknowns x half bandwidth).
 
-A wide middle is factorised in each iteration, a narrow one is left soon. DCB-ref, 438 factorisations: 0.24, 0.18 and
-0.20 s with 0.25, 0.5 and 1.
+A wide middle costs more in each iteration, a narrow one is cut anew more often. DCB-ref, 438 factorisations: 0.24, 0.18
+and 0.20 s with 0.25, 0.5 and 1.
 """
 
 Positions = NDArray[np.integer]
@@ -36,7 +36,7 @@ Positions = NDArray[np.integer]
 
 
 class BandSolver(LinearSolver):
-    """dgbtrf and dgbtrs (LU with partial pivoting) on renumbered unknowns, in parts where few of them change."""
+    """Solver by dgbtrf and dgbtrs (LU with partial pivoting) on renumbered unknowns, in parts if few entries change."""
 
     name = "band"
 
@@ -78,7 +78,7 @@ class BandSolver(LinearSolver):
         return self._cut.pivot
 
     def _cut_around(self, begin: int, end: int, data: FloatArray) -> _Cut | None:
-        """Cut the band left and right of the unknowns that change; None if that does not pay, or an end is singular."""
+        """Cut the band around the unknowns that change; None if that saves no time or an end is singular."""
         n, width = self.pattern.size, self._width
         margin = int(MARGIN * np.sqrt(n * width))
         begin, end = max(begin - margin, 0), min(end + margin, n)
@@ -87,7 +87,7 @@ class BandSolver(LinearSolver):
             return None
         self._whole = None
         cut = _Cut(self._storage, self._row, self._column, data, begin, end)
-        # the ends take their pivots from themselves alone, which may not do for a matrix that is not definite
+        # pivots of the ends come from the ends alone, which may be inaccurate for an indefinite matrix
         self._unverified = True
         # NaN comes from a diverging iteration, not from the cut
         self._trusted = cut.pivot != 0.0
@@ -102,7 +102,7 @@ class BandSolver(LinearSolver):
 
 
 def _storage(n: int, width: int) -> FloatArray:
-    """Return LAPACK's storage, (n, 3 width + 1): the first `width` entries of each column are for fill."""
+    """Return LAPACK's storage (n, 3 width + 1), in which the first `width` entries of each column are for fill."""
     return np.zeros((n, 3 * width + 1))
 
 
@@ -114,7 +114,7 @@ def _target(row: Positions, column: Positions, width: int) -> IntArray:
 class _Factors:
     """Factors of a band matrix.
 
-    pivot  smallest one, 0 if the matrix is singular
+    pivot  smallest pivot, 0 if the matrix is singular
     """
 
     def __init__(self, storage: FloatArray) -> None:
@@ -128,13 +128,13 @@ class _Factors:
         return self._solve(0, rhs)
 
     def _solve(self, first: int, rhs: FloatArray) -> FloatArray:
-        """Solve with the columns from `first` on, above which the right-hand sides are zero, and stay so."""
+        """Solve with the columns from `first` on; rows of the right-hand sides before that are zero."""
         pivots = self._pivots[first:] - first
         solution, _ = lapack.dgbtrs(self._lu[:, first:], self.width, self.width, rhs, pivots, overwrite_b=True)
         return np.asarray(solution)
 
     def solve_end(self, rhs: FloatArray) -> FloatArray:
-        """Return the last unknowns of the solutions for right-hand sides that are zero but for the last rows.
+        """Return the last unknowns of the solutions for right-hand sides that are zero except in the last rows.
 
         Parameters
         ----------
@@ -146,13 +146,13 @@ class _Factors:
         FloatArray
             (2 width, k) solutions there.
         """
-        # an interchange of rows reaches over one width, so elimination begins two widths before the end
+        # row interchanges span one width, so elimination begins two widths before the end
         end = np.zeros((2 * self.width, rhs.shape[1]), order="F")
         end[self.width :] = rhs
         return self._solve(self._lu.shape[1] - 2 * self.width, end)
 
-    def spread(self, rhs: FloatArray) -> FloatArray:
-        """Return the solution (n,) for one right-hand side that is zero but for the last rows (width,)."""
+    def solve_from_end(self, rhs: FloatArray) -> FloatArray:
+        """Return the solution (n,) for one right-hand side that is zero except in the last rows (width,)."""
         upper = 2 * self.width
         end = self.solve_end(rhs[:, None])[:, 0]
         eliminated = np.zeros(self._lu.shape[1])
@@ -197,21 +197,21 @@ class _End:
             self.correction = self._below @ self.factors.solve_end(self._right)[width:]
 
     def eliminate(self, own: FloatArray, middle: FloatArray) -> FloatArray:
-        """Solve the end alone (n,), and subtract its forces from the first unknowns (width,) of the middle."""
+        """Solve the end alone (n,), and eliminate it from the right-hand side of the middle (width,)."""
         alone = self.factors.solve(own)
         middle -= self._below @ alone[-len(middle) :]
         return alone
 
     def substitute(self, alone: FloatArray, middle: FloatArray) -> FloatArray:
-        """Return the end's solution (n,) from that of the end alone, and the first unknowns (width,) of the middle."""
-        return alone - self.factors.spread(self._right @ middle)
+        """Return the solution (n,) of the end, from that of the end alone and the middle next to it (width,)."""
+        return alone - self.factors.solve_from_end(self._right @ middle)
 
 
 class _Cut:
-    """A band matrix with two ends that stay and a middle that changes; an end may be empty.
+    """Band matrix with two constant ends and a middle that changes; an end may be empty.
 
-    begin, end  first unknown of the middle, and the one behind it
-    pivot       smallest one; before the middle is factorised, of the ends, which may not be used if it is 0
+    begin, end  first unknown of the middle, and the one after its last
+    pivot       smallest pivot, of the ends alone before the middle is factorised; 0: an end is singular
     """
 
     def __init__(

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The linear solvers, and the choice among them."""
+"""Linear solvers, and the choice of one."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ SOLVERS: Final[dict[str, type[LinearSolver]]] = {
 }
 """Linear solvers by name. `auto` takes the band solver for narrow models, else the first other one installed.
 
-How narrow, `widest_band`, is measured: measured.json. The time of the band solver per unknown grows with the square of
-the half bandwidth, that of the others hardly at all in the plane, and in space like the size of the model.
+The limit, `widest_band`, comes from the times in measured.json. The time of the band solver per unknown grows with the
+square of the half bandwidth, that of the others hardly at all in the plane, and in space like the size of the model.
 """
 
 LARGEST_BAND: Final = 2**33
-"""Largest band storage in bytes. What other solvers need for slender bodies of this size is more."""
+"""Largest band storage in bytes; other solvers need more for slender bodies of this size."""
 
 
 SLOW: Final = 10_000
@@ -47,7 +47,7 @@ FAST: Final = "pip install pypardiso"
 
 @dataclass(frozen=True, slots=True)
 class Availability:
-    """A row of the table of solvers; note says when it is used, or why it cannot be."""
+    """Row of the table of solvers; note: when `auto` takes the solver, or why it cannot be used."""
 
     name: str
     installed: bool
@@ -117,7 +117,7 @@ def choose(
 
 def _quickest(pattern: Pattern, name_of: Callable[[int], tuple[str, int]] | None) -> LinearSolver:
     ordering = narrowest(pattern)
-    # looking for a package takes no time, loading MKL half a second, which a narrow model does not need
+    # finding a package takes no time, loading MKL half a second, which narrow models save
     others = [solver for solver in SOLVERS.values() if solver is not BandSolver]
     likely = next(solver for solver in others if find_spec(solver.module))
     if _band_is_quicker(pattern, ordering, likely):
@@ -142,7 +142,7 @@ def _obstacle(solver: type[LinearSolver]) -> str:
     """Return the reason why a solver cannot be used, '' if it can."""
     module, distribution = solver.module, solver.distribution
     try:
-        # numpy says at length on stderr that a module was built for another version of it; the error says so too
+        # numpy prints a long text if a module was built for another version; the error has the reason too
         with redirect_stderr(io.StringIO()):
             import_module(module)
     except ModuleNotFoundError:

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""PARDISO for clusters (oneMKL): all ranks factorise one matrix, of which each has some rows.
+"""PARDISO for clusters (oneMKL): all ranks factorise one matrix, whose rows are distributed.
 
-libmkl_rt, which pypardiso loads, does not have it: the parts of oneMKL are loaded one by one, after MPI, so that each
-finds the names of those before it.
+libmkl_rt, which pypardiso loads, does not contain it: the parts of oneMKL are loaded one by one, after MPI, so that
+each finds the symbols of earlier ones.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ NAME: Final = "cluster"
 
 _DISTRIBUTION: Final = "mkl"
 _LIBRARIES: Final = ("libmkl_core", "libmkl_sequential", "libmkl_intel_lp64", "libmkl_blacs_intelmpi_lp64")
-"""Libraries: each needs those before it, and the last one MPICH or Intel MPI."""
+"""Libraries in the order of loading; the last one needs MPICH or Intel MPI."""
 
 _SYMMETRIC, _UNSYMMETRIC = -2, 1
 """MTYPE: symmetric, definite or not; unsymmetric with a symmetric pattern."""
@@ -47,16 +47,16 @@ _PARAMETERS: Final = {
 
 _REPLACED: Final = 13
 _FIRST, _LAST = 40, 41
-"""Entries of IPARM: pivots that were replaced, first and last row of this rank."""
+"""Entries of IPARM: first and last row of this rank; `_REPLACED`: number of replaced pivots."""
 
 
 class ClusterError(Exception):
-    """Error code of the solver, or pivots that it had to replace."""
+    """Error code of the solver, or pivots that it has replaced."""
 
 
 @cache
 def obstacle() -> str:
-    """Return the reason why this process cannot use it, '' if it can."""
+    """Return the reason why this process cannot use the solver, '' if it can."""
     try:
         loaded()
     except PackageNotFoundError:
@@ -83,12 +83,12 @@ def loaded() -> ctypes.CDLL:
         raise OSError("this version lacks parts for clusters")
     from mpi4py import MPI  # noqa: PLC0415 (only in a job on several ranks)
 
-    # a loaded library becomes visible by its name to those that follow
+    # symbols of a loaded library are visible to later ones
     ctypes.CDLL(_library_of_mpi(MPI.Get_library_version()), mode=ctypes.RTLD_GLOBAL)
     process = ctypes.CDLL(None)
     process.dlopen.restype = ctypes.c_void_p
     for path in libraries:
-        # they need each other; ctypes would look for all names at once
+        # lazy binding, because they need each other; ctypes would bind all symbols at once
         if not process.dlopen(os.fsencode(path), os.RTLD_LAZY | os.RTLD_GLOBAL):
             raise OSError(f"cannot load {path}")
     process.cluster_sparse_solver  # noqa: B018 (AttributeError without it)
@@ -102,7 +102,7 @@ def _library_of_mpi(version: str) -> str:
 
 
 class Cluster:
-    """Matrices of one pattern.
+    """Solver for matrices of one pattern.
 
     largest_diagonal  largest magnitude on the diagonal of the last matrix
     """
@@ -116,7 +116,7 @@ class Cluster:
         self.largest_diagonal = 0.0
 
     def factorise(self, data: FloatArray, *, symmetric: bool) -> bool:
-        """Factorise the sum of the parts (nnz,) of the ranks; False: all of it. Raises ClusterError, on all of them."""
+        """Factorise the sum of the parts (nnz,) of the ranks; False: in full. Raises ClusterError on all ranks."""
         values = self._rows.assemble(data)
         own = np.array([np.abs(values[self._diagonal]).max(initial=0.0)])
         self.largest_diagonal = float(self._ranks.largest(own)[0])
@@ -129,7 +129,7 @@ class Cluster:
         return False
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solve for a right-hand side (n,) that all ranks have. Raises ClusterError, on all of them."""
+        """Solve for a right-hand side (n,) that all ranks have. Raises ClusterError on all ranks."""
         assert self._matrix is not None
         rows = self._rows
         own = rows.order[rows.first : rows.first + len(rows.indptr) - 1]
@@ -138,7 +138,7 @@ class Cluster:
         return self._ranks.sum(solution)
 
     def release(self) -> None:
-        """Give back the memory of the factors; all ranks do so at the same point of the program."""
+        """Free the memory of the factors; all ranks call this together."""
         if self._matrix is not None:
             self._matrix.release()
         self._matrix = None
@@ -182,7 +182,7 @@ class _Matrix:
         return self._call(_SOLVE, rhs)
 
     def release(self) -> None:
-        """Give back the memory."""
+        """Free the memory."""
         self._call(_RELEASE)
 
     def _call(self, phase: int, rhs: FloatArray | None = None) -> FloatArray:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rows of a matrix that the ranks of a job share out, assembled from the part that each of them has."""
+"""Rows of a matrix distributed over the ranks, assembled from the part of each rank."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from uel.solver.linear.linear_solver import Pattern
 
 
 class DistributedRows:
-    """Sums the parts of the ranks into rows of the matrix, each on the rank that owns it.
+    """Distributed rows of a matrix: sums of the parts of all ranks, on the rank that owns the row.
 
     order            (n,) unknowns by owner; rows and columns are numbered in this order
     first            number of the first row of this rank
@@ -21,7 +21,7 @@ class DistributedRows:
     """
 
     def __init__(self, ranks: Ranks, pattern: Pattern, owners: IntArray) -> None:
-        """Symbolic work; owners (n,) has a rank for each unknown, the same array on all ranks."""
+        """Do the symbolic work; owners: (n,) rank of each unknown, the same array on all ranks."""
         n = pattern.size
         self._ranks = ranks
         self.order = np.argsort(owners, kind="stable")
@@ -30,7 +30,7 @@ class DistributedRows:
         owned = np.bincount(owners, minlength=ranks.size)
         self.first = int(owned[: ranks.rank].sum())
         rows = pattern.rows
-        # an unknown without an element here has its diagonal entry only, as has one with a spring to the ground
+        # unknowns without an element on this rank have a diagonal entry only, as has one of a spring to the ground
         used = (np.diff(pattern.indptr) > 1)[rows] | (rows == pattern.indices)
         entries = np.flatnonzero(used)
         target = owners[rows[entries]]
@@ -47,7 +47,7 @@ class DistributedRows:
         self.indices: NDArray[np.int32] = (entries_here % max(n, 1)).astype(np.int32)
 
     def assemble(self, data: FloatArray) -> FloatArray:
-        """Values of the rows of this rank from the part (nnz,) of each rank, added in the order of the ranks."""
+        """Return the values of the rows of this rank: the parts (nnz,) of the ranks, added in order."""
         values = np.zeros(len(self.indices))
         parts = self._ranks.exchange_known(np.split(data[self._sent], self._ends), self._incoming)
         for positions, part in zip(self._positions, parts, strict=True):

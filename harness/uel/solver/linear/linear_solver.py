@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Base of every linear solver: symbolic work once, numeric factorisation and solution often."""
+"""Base of linear solvers: symbolic work once, then factorisations and solutions."""
 
 from __future__ import annotations
 
@@ -22,22 +22,22 @@ SUSPICIOUS: Final = 1e-9
 """Ratio of the smallest pivot, or an estimate of it, to the largest diagonal entry below which a matrix is examined."""
 
 ACCURATE: Final = 1e-10
-"""Backward error of a solution above which factors that were renewed only in part are not trusted.
+"""Backward error of a solution above which factors renewed in part are rejected.
 
-Of the right-hand side, or else of the terms of each row. Measured: below 2e-13 of the right-hand side.
+Relative to the right-hand side, or to the terms of each row. Measured: below 2e-13 of the right-hand side.
 """
 
 LARGEST_PART: Final = 0.4
-"""Share of the entries above which no solver gains from those that have not changed."""
+"""Share of changed entries above which factorising in part saves no time with any solver."""
 
 SYMMETRIC: Final = 1e-13
-"""Difference of a_ij and a_ji, over the root of |a_ii a_jj|, that passes for rounding.
+"""Difference of a_ij and a_ji, over the root of |a_ii a_jj|, that counts as rounding.
 
-It is that of the backward error of a factorisation. Measured: 3e-15 in elastic bodies, 5e-2 with stabilised elements.
+It is the backward error of a factorisation. Measured: 3e-15 in elastic bodies, 5e-2 with stabilised elements.
 """
 
 CHUNK: Final = 2**20
-"""Entries that are compared at a time, so that copies of them take little memory."""
+"""Entries compared at a time, so that copies take little memory."""
 
 
 def in_chunks(count: int) -> Iterator[slice]:
@@ -50,8 +50,8 @@ class Pattern:
     """Sparsity of a square matrix with symmetric pattern.
 
     indptr, indices  CSR, int32, columns ascending in each row
-    coordinates      (n, 3) of the node of each unknown, None if unknown; only orderings and multigrid look at them
-    dofs             (n,) as Abaqus numbers them, None if unknown; only multigrid looks at them
+    coordinates      (n, 3) of the node of each unknown, for orderings and multigrid; None if not known
+    dofs             (n,) as Abaqus numbers them, for multigrid; None if not known
     """
 
     indptr: NDArray[np.int32]
@@ -66,7 +66,7 @@ class Pattern:
 
     @property
     def in_space(self) -> bool:
-        """True if the nodes are not all in one plane of two coordinates; False if their coordinates are not known."""
+        """True unless the nodes lie in one coordinate plane or have no coordinates."""
         return self.size > 0 and self.coordinates is not None and bool((np.ptp(self.coordinates, axis=0) > 0.0).all())
 
     @property
@@ -88,7 +88,7 @@ class Pattern:
     def transposed(self) -> NDArray[np.int32]:
         """Position (nnz,) of entry (j, i) for each entry (i, j)."""
         positions = np.arange(len(self.indices), dtype=np.int32)
-        # the conversion keeps rows in order: entries of a column come by ascending rows
+        # the conversion sorts entries of a column by row
         return np.asarray(sparse.csr_array((positions, self.indices, self.indptr), (self.size,) * 2).tocsc().data)
 
     def matrix(self, data: FloatArray) -> sparse.csr_array:
@@ -107,11 +107,11 @@ class Pattern:
         data
             (nnz,) values.
         entries
-            Positions to look at; None: all.
+            Positions to compare; None: all.
         """
         size = np.sqrt(np.abs(data[self.diagonal]))
         if entries is None:
-            # A x - A^T x tells most unsymmetric matrices without the positions of all transposed entries
+            # A x - A^T x detects most unsymmetric matrices without the positions of all transposed entries
             x = np.where(np.random.default_rng(0).random(self.size) < 0.5, -1.0, 1.0)
             matrix = self.matrix(data)
             bound = 2.0 * SYMMETRIC * size * size.max(initial=0.0) * np.diff(self.indptr)
@@ -133,8 +133,8 @@ class Effort:
     """Work of a linear solver.
 
     factorisations  number of factorisations
-    in_part         number of those that renewed the last factors only where the matrix had changed
-    refused         number of these whose solution was not accurate, so that the whole matrix was factorised
+    in_part         factorisations that renewed the factors only where the matrix had changed
+    refused         factorisations in part that were repeated in full because a solution was not accurate
     solutions       right-hand sides
     factorising, solving  CPU seconds
     """
@@ -151,7 +151,7 @@ class Effort:
 
 
 def is_accurate(residual: FloatArray, rhs: FloatArray, terms: Callable[[], FloatArray]) -> bool:
-    """Report whether a solution has the backward error of a good factorisation, `ACCURATE`; one with NaN passes.
+    """Return whether the backward error of a solution is at most `ACCURATE`; a solution with NaN passes.
 
     Parameters
     ----------
@@ -163,18 +163,18 @@ def is_accurate(residual: FloatArray, rhs: FloatArray, terms: Callable[[], Float
     error = np.abs(residual)
     if not error.max() > ACCURATE * np.abs(rhs).max():
         return True
-    # the residual of a stiff part is as large as the rounding of its terms
+    # in a stiff part the residual is as large as the rounding error of its terms
     return not (error > ACCURATE * (terms() + np.abs(rhs))).any()
 
 
 class StepSolver(ABC):
-    """Linear solver of a general step: in one process or on all ranks, and it may accept singular matrices.
+    """Linear solver of a general step, in one process or on all ranks; it may accept singular matrices.
 
     name         name by which a user requests the solver
     reason       reason why this solver was chosen, a phrase for the message file
-    advice       a faster solver, as a sentence; '' if there is none
-    free         message of a part of the model that moves freely, if the solver accepts that; None without one
-    negligible   gives the force on such a part that counts as zero in the present step
+    advice       sentence that names a faster solver; '' if there is none
+    free         message on an unconstrained part of the model, if the solver accepts it; None without one
+    negligible   returns the force on such a part that counts as zero in the current step
     """
 
     name: str
@@ -192,16 +192,16 @@ class StepSolver(ABC):
         """Solve for one right-hand side (n,). Raises SingularMatrixError."""
 
     def forget(self) -> None:  # noqa: B027
-        """Forget earlier matrices, but for the symbolic work: later solutions do not depend on them, to the bit."""
+        """Discard earlier matrices, except the symbolic work, so that no bit of later solutions depends on them."""
 
     def release(self) -> None:  # noqa: B027
-        """Give back the memory of the factors, unless it goes with the solver."""
+        """Free the memory of the factors, if the end of the solver does not."""
 
 
 class LinearSolver(StepSolver):
     """Solver that factorises matrices of one pattern.
 
-    module, distribution  what the solver imports, and what provides it
+    module, distribution  module that the solver imports, and the package that provides it
     widest_band  half bandwidths, in the plane and in space, up to which the band solver beats it, see `choice`
     effort       counts and times of its work so far
     """
@@ -228,10 +228,10 @@ class LinearSolver(StepSolver):
         self._data = np.zeros(0)
         self._pivot: float | None = None
         self._probed = False
-        # the factors are those of the data, and no solution has shown that the matrix is singular
+        # the factors belong to the data, and the matrix has not turned out singular
         self._regular = False
         self._passed = SUSPICIOUS
-        # the next solution tells whether the factors are accurate; if they are not, none is renewed in part any more
+        # the next solution verifies the factors; if they are inaccurate, all later factorisations are in full
         self._unverified = False
         self._trusted = True
 
@@ -272,7 +272,7 @@ class LinearSolver(StepSolver):
             self._examine(self._pivot)
         elif not self._probed:
             self._probed = True
-            # a right-hand side without equilibrium reveals an unconstrained body even if no load moves it
+            # a random right-hand side reveals an unconstrained body even if no load moves it
             self.solve(np.where(np.random.default_rng(0).random(self.pattern.size) < 0.5, -1.0, 1.0))
         self._regular = True
 
@@ -296,17 +296,17 @@ class LinearSolver(StepSolver):
         return solution
 
     def forget(self) -> None:
-        """Forget earlier matrices, but for the symbolic work: later solutions do not depend on them, to the bit."""
+        """Discard earlier matrices, see `StepSolver`."""
         self._regular = self._unverified = self._probed = False
         self._trusted, self._passed = True, SUSPICIOUS
 
     def _is_accurate(self, solution: FloatArray, rhs: FloatArray) -> bool:
-        """Report whether the backward error is that of a good factorisation, `ACCURATE`; a solution with NaN passes."""
+        """Return whether a solution is accurate, see `is_accurate`."""
         matrix = self.pattern.matrix(self._data)
         return is_accurate(rhs - matrix @ solution, rhs, lambda: abs(matrix) @ np.abs(solution))
 
     def _repeat_in_full(self) -> None:
-        """Factorise the whole matrix, as the factors that were kept do not serve. Raises SingularMatrixError."""
+        """Factorise the whole matrix, after inaccurate factors in part. Raises SingularMatrixError."""
         start = time.process_time()
         self._pivot = self._factorise(self._data)
         self.effort.factorising += time.process_time() - start
@@ -322,7 +322,7 @@ class LinearSolver(StepSolver):
         self._regular = False
         refuse_singular(self.pattern.matrix(self._data), self._name_of, certain=pivot == 0.0)
         self._regular = True
-        # stiff but regular, as with an interface stiffness of 1e12: matrices like it are not examined again
+        # stiff but regular, as with an interface stiffness of 1e12: similar matrices are not examined again
         self._passed = 1e-2 * ratio
 
     @abstractmethod
@@ -337,12 +337,12 @@ class LinearSolver(StepSolver):
         Returns
         -------
         float | None
-            Magnitude of the smallest pivot of the matrix as it is, not scaled; 0.0 if one is zero or the factorisation
-            fails. None if the solver does not tell: then solutions are examined.
+            Magnitude of the smallest pivot of the unscaled matrix; 0.0 if one is zero or the factorisation fails. None
+            if the solver does not report it: then solutions are examined.
         """
 
     def _update(self, data: FloatArray, changed: IntArray) -> float | None:
-        """Factorise a matrix that differs from the last one in some entries; sets `_unverified` where that is a risk.
+        """Factorise a matrix that differs from the last one in some entries; `_unverified` is set if that is a risk.
 
         Parameters
         ----------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measured times of the linear solvers: what `auto` goes by, `uel solvers` prints, and solvers.md says.
+"""Measured times of the linear solvers, for `auto`, `uel solvers` and solvers.md.
 
 `tests/programs/benchmarks/solvers.py` measures them.
 """
@@ -25,13 +25,13 @@ HEADER: Final = ("matrix", "unknowns", "half bandwidth", "solver", "first", "in 
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """A solver on a matrix. Times are CPU times in ms.
+    """Times of a solver on a matrix: CPU times in ms.
 
     width       half bandwidth
     first       first factorisation with the analysis, or set-up
     full        factorisation of another matrix, None if there is none
-    part        of one that differs in the process zone of a crack, None if it is the same as in full
-    solution    for one right-hand side
+    part        factorisation of one that differs in the process zone of a crack, None if the solver does it in full
+    solution    solution for one right-hand side
     iterations  of GMRES on the matrix that differs, preconditioned by the factors of the one before; or those of an
                 iterative solver
     """
@@ -72,13 +72,13 @@ def machine() -> str:
 
 
 def read() -> Table:
-    """Read the rows kept."""
+    """Read the stored rows."""
     kept = json.loads(ROWS.read_text(encoding="utf-8"))
     return kept["machine"], [Measured(**row) for row in kept["rows"]]
 
 
 def write(table: Table) -> None:
-    """Keep rows, and write them into the page."""
+    """Store rows, and write them into the page."""
     kept = {"machine": table[0], "rows": [asdict(row) for row in table[1]]}
     ROWS.write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
     PAGE.write_text(page(PAGE.read_text(encoding="utf-8"), table), encoding="utf-8")

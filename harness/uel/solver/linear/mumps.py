@@ -14,13 +14,13 @@ from uel.model.arrays import FloatArray
 from uel.solver.linear.linear_solver import LinearSolver, Pattern
 
 NO_MEMORY: Final = (-5, -7, -13)
-"""MUMPS' errors in INFOG(1): memory that the analysis or the factorisation asks for is not to be had."""
+"""MUMPS' errors in INFOG(1): the memory for the analysis or the factorisation cannot be allocated."""
 
 
 class MumpsSolver(LinearSolver):
-    """MUMPS, the analysis kept between factorisations.
+    """MUMPS, with one analysis for all factorisations.
 
-    Matrices are taken as symmetric until one comes that is not.
+    Matrices are treated as symmetric until the first that is not.
     """
 
     name = "mumps"
@@ -39,7 +39,7 @@ class MumpsSolver(LinearSolver):
         self._taken: NDArray[np.int32] | slice = slice(None)
 
     def forget(self) -> None:
-        """Forget earlier matrices; the kind of the next one is chosen, and its analysis made, without them."""
+        """Discard earlier matrices and their analysis; the next one may be symmetric again."""
         super().forget()
         self._context, self._symmetric = None, True
 
@@ -65,6 +65,6 @@ class MumpsSolver(LinearSolver):
 
     def _solve(self, rhs: FloatArray) -> FloatArray:
         if self._context is None:
-            # a matrix with entries that are not finite, which has no factors
+            # the matrix has entries that are not finite, and no factors
             return np.full_like(rhs, np.nan)
         return np.asarray(self._context.solve(rhs))

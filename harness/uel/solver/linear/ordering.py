@@ -15,7 +15,7 @@ from uel.solver.linear.linear_solver import Pattern
 
 @dataclass(frozen=True, slots=True)
 class BandOrdering:
-    """position (n,) of each unknown in the band, the half bandwidth this gives, and the method that gave it."""
+    """Position (n,) of each unknown in the band, the half bandwidth, and the method of the ordering."""
 
     position: IntArray
     width: int
@@ -49,8 +49,8 @@ def narrowest(pattern: Pattern) -> BandOrdering:
 
 
 def _sorted_along(coordinates: FloatArray, means: FloatArray, axis: int) -> IntArray:
-    """Order by one coordinate, then by the others; of coincident nodes the one with lower neighbours comes first."""
+    """Order by one coordinate, then by the others, then by the mean of the neighbours for coincident nodes."""
     others = [k for k in range(coordinates.shape[1]) if k != axis]
-    # the last key of lexsort is the first to compare by; it is stable, so the dofs of a node stay together
+    # lexsort compares by the last key first; it is stable, so the dofs of a node stay together
     keys = [*means[:, others].T, *coordinates[:, others].T, coordinates[:, axis]]
     return np.lexsort(keys).astype(np.int64)

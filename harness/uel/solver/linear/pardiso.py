@@ -31,19 +31,19 @@ class Type:
 
 
 SYMMETRIC: Final = Type(-2)
-"""Symmetric, definite or not: 0.6 to 0.9 of the time, 0.6 of the memory."""
+"""Symmetric, definite or not: 0.6 to 0.9 of the time and 0.6 of the memory of unsymmetric matrices."""
 UNSYMMETRIC: Final = Type(1)
 """Symmetric pattern."""
 PIVOTED: Final = Type(11, {10: 1, 12: 1})
-"""Unsymmetric, scaled and permuted so that large entries come to the diagonal (IPARM(11) and (13)): where zeros stand
-there, as with Lagrange multipliers, the other types replace pivots and may return anything.
+"""Unsymmetric, scaled and permuted so that large entries come to the diagonal (IPARM(11) and (13)). With zeros on the
+diagonal, as with Lagrange multipliers, the other types replace pivots and may return anything.
 """
 
 ANALYSE, FACTORISE, SOLVE, RELEASE = 11, 22, 33, -1
 """PARDISO's phases."""
 
 NO_MEMORY: Final = -2
-"""PARDISO's error where memory is not to be had."""
+"""PARDISO's error if memory cannot be allocated."""
 
 PARAMETERS: Final = {
     0: 1,  # these values replace the defaults, which refine each solution twice, at twice its cost
@@ -58,12 +58,12 @@ PARAMETERS: Final = {
 """Entries of IPARM, from 0, that are not 0."""
 
 RENEWABLE: Final = {23: 10}
-"""IPARM(24): the factorisation that can be renewed in part. On one thread alone, without OpenMP: on several it ends by
-a segmentation fault or returns wrong factors, as it does on one with OpenMP (oneMKL 2025.3 to 2026.2).
+"""IPARM(24): the factorisation that can be renewed in part, on one thread without OpenMP. On several threads, or with
+OpenMP, it ends in a segmentation fault or returns wrong factors (oneMKL 2025.3 to 2026.2).
 """
 
 THREADS: Final = "MKL_NUM_THREADS"
-"""Variable with the number of threads; one where it is not set."""
+"""Variable with the number of threads; one if it is not set."""
 
 _SEQUENTIAL: Final = 1
 """MKL's number of the threading layer without OpenMP."""
@@ -82,10 +82,9 @@ LARGEST_SHARE: Final = 0.2
 
 
 class PardisoSolver(LinearSolver):
-    """PARDISO, the analysis kept between factorisations, the factors renewed where few entries change.
+    """PARDISO, with one analysis for all factorisations, and factors renewed in part if few entries change.
 
-    Matrices are taken as symmetric until one comes that is not, and permuted for pivoting from the first one on that
-    needs it.
+    Matrices are treated as symmetric until the first that is not, and permuted from the first on that needs pivoting.
     """
 
     name = "pardiso"
@@ -99,7 +98,7 @@ class PardisoSolver(LinearSolver):
         self._matrix: _Matrix | None = None
 
     def forget(self) -> None:
-        """Forget earlier matrices; the kind of the next one is chosen without them."""
+        """Discard earlier matrices; the next one may be of another type."""
         super().forget()
         self._type, self._matrix = SYMMETRIC, None
 
@@ -107,9 +106,9 @@ class PardisoSolver(LinearSolver):
         if self._type is SYMMETRIC and not self.pattern.is_symmetric(data):
             self._type, self._matrix = UNSYMMETRIC, None
         try:
-            # the permutation follows from the values
+            # the permutation depends on the values
             if self._matrix is None or self._type is PIVOTED:
-                # the memory of the old factors first
+                # free the old factors first
                 self._matrix = None
                 self._matrix = _Matrix(self.pattern, data, self._type)
             self._matrix.factorise(data)
@@ -217,12 +216,12 @@ def upper_triangle(pattern: Pattern) -> tuple[NDArray[np.int32], Pattern]:
 def call(
     handle: Any, phase: int, pattern: Pattern, values: FloatArray, rhs: FloatArray, solution: FloatArray | None = None
 ) -> FloatArray:
-    """Run one phase. Not by pypardiso's own call, which copies all indices each time to count them from 1.
+    """Run one phase of PARDISO, without pypardiso's own call, which copies all indices each time.
 
     Raises
     ------
     MemoryError
-        There is not enough for the factors.
+        There is not enough memory for the factors.
     PardisoError
         Any other error.
     """

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""PETSc through petsc4py, where a site has them: MUMPS on all ranks, or what PETSC_OPTIONS asks for.
+"""PETSc through petsc4py: MUMPS on all ranks, or the solver that PETSC_OPTIONS selects.
 
-The options have the prefix `uel_`: PETSC_OPTIONS="-uel_ksp_type cg -uel_pc_type gamg" takes multigrid, which gets the
-rigid body modes.
+The options have the prefix `uel_`: PETSC_OPTIONS="-uel_ksp_type cg -uel_pc_type gamg" selects multigrid, with the rigid
+body modes as its near null space.
 """
 
 from __future__ import annotations
@@ -28,18 +28,18 @@ PREFIX: Final = "uel_"
 """Prefix of its options among those of PETSc."""
 
 _TOLERANCE: Final = 1e-2 * ACCURATE
-"""Tolerance of the residual over the right-hand side at which iterations end."""
+"""Residual over the right-hand side at which iterations end."""
 
 _INDEPENDENT: Final = 1e-10
-"""Smallest over largest eigenvalue of the products of modes that count as independent."""
+"""Smallest over largest eigenvalue of the Gram matrix of independent modes."""
 
 _ROTATIONS: Final = (4, 5, 6)
-"""Dofs of the motions."""
+"""Dofs of rotations."""
 
 
 @cache
 def obstacle(size: int) -> str:
-    """Return the reason why this process, one of so many ranks, cannot use it, '' if it can."""
+    """Return the reason why this process, one of `size` ranks, cannot use PETSc, '' if it can."""
     try:
         petsc = _loaded()
     except ImportError as error:
@@ -61,7 +61,7 @@ def version() -> str:
 
 @cache
 def _loaded() -> Any:
-    """Load its module, after MPI has started; it takes options from PETSC_OPTIONS, not from those of this command."""
+    """Load the module, after MPI has started, with options from PETSC_OPTIONS and not from this command."""
     import petsc4py  # noqa: PLC0415 (need not be installed)
 
     petsc4py.init([])
@@ -71,7 +71,7 @@ def _loaded() -> Any:
 
 
 class Petsc:
-    """Matrices of one pattern.
+    """Solver for matrices of one pattern.
 
     largest_diagonal  largest magnitude on the diagonal of the last matrix
     """
@@ -84,7 +84,7 @@ class Petsc:
         self._rows, self._own = rows, rows.order[rows.first : rows.first + self._size]
         row = np.repeat(np.arange(self._size), np.diff(rows.indptr)) + rows.first
         self._diagonal = np.flatnonzero(row == rows.indices)
-        # those of a smooth coarse space, orthonormal as PETSc wants them
+        # near null space, orthonormal as PETSc requires
         self._modes: list[FloatArray] = []
         if pattern.coordinates is not None and pattern.dofs is not None:
             modes = rigid_modes(pattern.coordinates, pattern.dofs)[self._own]
@@ -99,7 +99,7 @@ class Petsc:
         self.largest_diagonal = 0.0
 
     def factorise(self, data: FloatArray, *, symmetric: bool) -> bool:
-        """Factorise the sum of the parts (nnz,) of the ranks; False: all of it. Raises ClusterError, on all of them."""
+        """Factorise the sum of the parts (nnz,) of the ranks; False: in full. Raises ClusterError on all ranks."""
         values = self._rows.assemble(data)
         own = np.array([np.abs(values[self._diagonal]).max(initial=0.0)])
         self.largest_diagonal = float(self._ranks.largest(own)[0])
@@ -118,7 +118,7 @@ class Petsc:
         return False
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solve for a right-hand side (n,) that all ranks have; NaN where the solver has failed."""
+        """Solve for a right-hand side (n,) that all ranks have; NaN if the solver fails."""
         b, x = self._matrix.createVecs("left"), self._matrix.createVecs("right")
         b.array[:] = rhs[self._own]
         solution = np.zeros_like(rhs)
@@ -130,7 +130,7 @@ class Petsc:
         return self._ranks.sum(solution)
 
     def release(self) -> None:
-        """Give back the memory of the factors; all ranks do so at the same point of the program."""
+        """Free the memory of the factors; all ranks call this together."""
         if self._matrix is not None:
             self._solver.destroy()
             self._matrix.destroy()
@@ -156,7 +156,7 @@ class Petsc:
 
 
 def rigid_modes(coordinates: FloatArray, dofs: IntArray) -> FloatArray:
-    """Return the motions of a free body, one in each column, for each unknown; a unit of another kind moves by itself.
+    """Return the rigid body modes and the constant modes of other dofs.
 
     Parameters
     ----------

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The linear solver of a job on several ranks, each of which has a part of the matrix: that of its elements.
+"""Linear solver of a job on several ranks, each of which has the part of the matrix from its elements.
 
-All ranks factorise it together, each its own substructure (substructures.py) or, where they share too many unknowns,
-each some rows of the whole (cluster.py); where oneMKL does not serve, PETSc does so (petsc.py). Or rank 0 gathers it
-and factorises it as in a job without ranks: small models lose more by talking than two processes gain.
+All ranks factorise the matrix together: each its own substructure (substructures.py) or, if they share too many
+unknowns, some rows each (cluster.py); PETSc (petsc.py) takes the place of oneMKL. Or rank 0 gathers the matrix and
+factorises it as in a job in one process: in small models, messages cost more than two processes gain.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ from uel.solver.linear.singular import refuse_singular
 from uel.solver.linear.substructures import MOST_SHARED, Substructures
 
 SMALLEST: Final = 30_000
-"""Unknowns from which on `auto` lets all ranks factorise."""
+"""Unknowns from which on `auto` takes a solver on all ranks."""
 
 
 def with_ranks() -> list[Availability]:
-    """Return the rows of the table of solvers: those of a job on several ranks, without starting MPI."""
+    """Return the rows of the table of solvers for jobs on several ranks, without starting MPI."""
     missing = [name for name, release in (("mpi4py", find_spec("mpi4py")), ("mkl", version())) if not release]
     lack = f" ({' and '.join(missing)} not installed)" if missing else ""
     notes = {
@@ -49,13 +49,13 @@ def with_ranks() -> list[Availability]:
 NameOf = Callable[[int], tuple[str, int]]
 
 _TOGETHER: Final = (substructures.NAME, cluster.NAME, petsc.NAME)
-"""Solvers of all ranks."""
+"""Solvers on all ranks."""
 
 
 class RankSolver(StepSolver):
     """Solver for matrices of one pattern, of which each rank has a part, on all ranks or on rank 0.
 
-    effort        counts and times of rank 0
+    effort  counts and times of rank 0
     """
 
     def __init__(
@@ -80,9 +80,9 @@ class RankSolver(StepSolver):
         name_of
             Returns node name and dof of an unknown.
         effort
-            The effort of this solver is added to it.
+            The solver adds its work to it.
         wrap
-            Makes the solver of a gathered matrix, on rank 0, from the linear solver chosen there.
+            Wraps the linear solver of a gathered matrix, on rank 0.
 
         Raises
         ------
@@ -101,7 +101,7 @@ class RankSolver(StepSolver):
         self._symmetric, self._probed, self._unverified = True, False, False
         self._passed = SUSPICIOUS
         self._scale = 0.0
-        self._together = self._shared_out(name)
+        self._together = self._choose_together(name)
         if self._together is None:
             self._gather()
 
@@ -120,10 +120,10 @@ class RankSolver(StepSolver):
             self.effort.factorisations += 1
 
     def _is_new(self, data: FloatArray) -> bool:
-        """Report whether a part of some rank differs from the last one, which this one replaces."""
+        """Store a part, and return whether the part of any rank differs from the last one."""
         different = None if self._data is None else np.flatnonzero(data != self._data)
         new = different is None or len(different) > 0
-        # once a part is not symmetric, later ones hardly are
+        # after an unsymmetric part, later ones count as unsymmetric too
         symmetric = self._symmetric and (not new or self._pattern.is_symmetric(data, different))
         any_new, any_unsymmetric = self._ranks.largest(np.array([float(new), float(not symmetric)]))
         self._symmetric = not any_unsymmetric
@@ -134,7 +134,7 @@ class RankSolver(StepSolver):
         return bool(any_new)
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solve for one right-hand side (n,); all ranks get the same. Raises SingularMatrixError."""
+        """Solve for one right-hand side (n,); all ranks get the solution. Raises SingularMatrixError."""
         start = time.process_time()
         if self._together is not None:
             solution = self._together.solve(rhs)
@@ -143,18 +143,18 @@ class RankSolver(StepSolver):
                 self.effort.solutions += 1
                 return solution
             assert self._data is not None
-            self._give_up()
+            self._fall_back()
             self._factorise_whole(self._data)
         return self._solve_whole(rhs)
 
     def release(self) -> None:
-        """Give back the memory of the factors."""
+        """Free the memory of the factors."""
         if self._together is not None:
             self._together.release()
         self._together = self._inner = self._chosen = None
 
-    def _shared_out(self, name: str) -> Cluster | Substructures | Petsc | None:
-        """Return the solver of all ranks, with its name and reason; None: rank 0 alone. Raises UsageError."""
+    def _choose_together(self, name: str) -> Cluster | Substructures | Petsc | None:
+        """Return the solver on all ranks, and set name and reason; None: rank 0 alone. Raises UsageError."""
         ranks, pattern = self._ranks, self._pattern
         if name not in ("auto", *_TOGETHER) or (name == "auto" and pattern.size < SMALLEST):
             return None
@@ -179,29 +179,29 @@ class RankSolver(StepSolver):
         return Petsc(ranks, rows, pattern) if other else Cluster(ranks, rows)
 
     def _missing(self, name: str, mine: str) -> str:
-        """Name what a rank lacks for a solver, '' if nothing is lacking. Raises UsageError if it is requested."""
+        """Return what a rank lacks for a solver, '' for nothing. Raises UsageError if the user requests the solver."""
         reason = next(filter(None, self._ranks.allgather(mine)), "")
         if reason and name in _TOGETHER:
             raise UsageError(f"linear solver '{name}' cannot be used: {reason}")
         return reason
 
     def _factorise_together(self, solver: Cluster | Substructures | Petsc, data: FloatArray) -> None:
-        """Factorise on all ranks, or give that up where it does not serve."""
+        """Factorise on all ranks, or fall back to rank 0 if that fails."""
         try:
             self.effort.in_part += solver.factorise(data, symmetric=self._symmetric)
         except ClusterError:
-            return self._give_up()
+            return self._fall_back()
         self._scale = solver.largest_diagonal
-        # a right-hand side without equilibrium reveals an unconstrained body even if no load moves it
+        # a random right-hand side reveals an unconstrained body even if no load moves it
         if not self._probed:
             self._probed = True
             probe = np.where(np.random.default_rng(0).random(self._pattern.size) < 0.5, -1.0, 1.0)
             if not self._is_sound(solver.solve(probe), probe):
-                self._give_up()
+                self._fall_back()
         return None
 
     def _is_sound(self, solution: FloatArray, rhs: FloatArray) -> bool:
-        """Report whether the matrix is regular, as `LinearSolver` judges; all ranks have the same solution."""
+        """Return whether the matrix is regular by a solution, as in `LinearSolver`; all ranks have this solution."""
         if not np.isfinite(solution).all():
             return False
         largest = float(np.abs(solution).max(initial=0.0))
@@ -222,7 +222,7 @@ class RankSolver(StepSolver):
         return True
 
     def _is_accurate(self, solution: FloatArray, rhs: FloatArray) -> bool:
-        """Report whether the first solution of a matrix has the backward error of a good factorisation."""
+        """Return whether the first solution with a matrix is accurate, see `is_accurate`; later ones pass."""
         if not self._unverified:
             return True
         self._unverified = False
@@ -231,8 +231,8 @@ class RankSolver(StepSolver):
         residual = rhs - self._ranks.sum(np.asarray(part @ solution))
         return is_accurate(residual, rhs, lambda: self._ranks.sum(np.asarray(abs(part) @ np.abs(solution))))
 
-    def _give_up(self) -> None:
-        """Leave the solution to rank 0 from now on: it permutes, and deals with singular matrices."""
+    def _fall_back(self) -> None:
+        """Fall back to rank 0 for the rest of the step: it permutes, and accepts singular matrices."""
         assert self._together is not None
         self._together.release()
         self._together = None
@@ -240,7 +240,7 @@ class RankSolver(StepSolver):
         self._gather()
 
     def _gather(self) -> None:
-        """Let rank 0 have the whole matrix. Raises UsageError."""
+        """Prepare to gather the whole matrix on rank 0. Raises UsageError."""
         self._whole = rows = DistributedRows(self._ranks, self._pattern, np.zeros(self._pattern.size, dtype=np.int64))
 
         def begin() -> tuple[str, str]:
@@ -262,12 +262,12 @@ class RankSolver(StepSolver):
             return
         if self._inner is None:
             self._inner = self._wrap(self._chosen)
-            # that of the present step, which the solver may outlive
+            # a later step that reuses the solver replaces `negligible`
             self._inner.negligible = lambda: self.negligible()  # noqa: PLW0108
         try:
             self._inner.factorise(values)
         except SingularMatrixError as error:
-            # the others, which go on, learn of it with the solution
+            # raised on all ranks by the next `solve`
             self._singular = error
 
     def _solve_whole(self, rhs: FloatArray) -> FloatArray:

@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Singularity of a matrix, and the unknown that moves freely.
+"""Test of a matrix for singularity, and the unknown that is free.
 
-A small pivot alone does not tell: the tip of a slender beam held by an interface stiffness of 1e12 has one of 1e-13
-of the largest diagonal entry and is sound, that of an unconstrained body can be 1e-10 by accumulated rounding. So
-a suspicious matrix is examined by the vector v that it stretches least, by inverse iteration: it is
-singular if v^T A v is not larger than the rounding error of its own terms. Measured on 12,000 unknowns of a double
-cantilever beam, v^T A v is 0.0003 to 0.3 times that error if a body is free (interface stiffness 1e6 to 1e12), and
-1e7 (1e6) to 25 (1e12) times if the beam is clamped.
+A small pivot alone is no proof: the tip of a slender beam on an interface stiffness of 1e12 has a pivot of 1e-13 of the
+largest diagonal entry in a regular matrix, while that of an unconstrained body can be 1e-10 by accumulated rounding. So
+inverse iteration finds the vector v that a suspicious matrix stretches least: the matrix is singular if v^T A v is at
+most the rounding error of its own terms. Measured on 12,000 unknowns of a double cantilever beam, v^T A v is 0.0003 to
+0.3 times that error if a body is free (interface stiffness 1e6 to 1e12), and 1e7 (1e6) to 25 (1e12) times if the beam
+is clamped.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ def refuse_singular(
 
 
 def free_unknown(matrix: sparse.csr_array, *, certain: bool = False) -> int | None:
-    """Return the unknown that moves most in the direction the matrix does not resist, None if the matrix is regular.
+    """Return the unknown that moves most in the null vector of the matrix, None if the matrix is regular.
 
-    With `certain`, a factorisation met a zero pivot: the matrix counts as singular in any case.
+    With `certain`, after a zero pivot, the matrix counts as singular in any case.
     """
     largest = abs(matrix).max(axis=1).toarray().ravel()
     empty = np.flatnonzero(largest == 0.0)
@@ -53,16 +53,16 @@ def free_unknown(matrix: sparse.csr_array, *, certain: bool = False) -> int | No
         vector /= np.abs(vector).max()
     if not certain and not _is_null(matrix, vector):
         return None
-    # the first of the many that move alike, so that rounding does not choose the node of the message
+    # the first of those that move equally, so that rounding does not choose the node of the message
     return int(np.flatnonzero(np.abs(vector) > 0.99)[0])
 
 
 def _shifted_factors(matrix: sparse.csr_array, largest: FloatArray) -> SuperLU:
     """Factorise A + a diagonal of rounding size, grown until no pivot is exactly zero.
 
-    COLAMD bounds the fill whichever rows become pivots. The pattern of A + A^T does so only if pivots stay on the
-    diagonal, which those of Lagrange multipliers and of unsymmetric elements do not: with it, 5,324 unknowns of bricks
-    with a multiplier at each node take 10 times as long. If they do stay, COLAMD takes up to three times as long.
+    COLAMD bounds the fill for any choice of pivots, an ordering by A + A^T only for pivots on the diagonal, which
+    Lagrange multipliers and unsymmetric elements do not have: with it, 5,324 unknowns of bricks with a multiplier at
+    each node take 10 times as long. For pivots on the diagonal COLAMD takes up to three times as long.
     """
     shift = EPS / 16
     while True:
@@ -76,5 +76,5 @@ def _shifted_factors(matrix: sparse.csr_array, largest: FloatArray) -> SuperLU:
 def _is_null(matrix: sparse.csr_array, vector: FloatArray) -> bool:
     image = matrix @ vector
     rounding = EPS * float(np.abs(vector) @ (abs(matrix) @ np.abs(vector)))
-    # the second condition keeps a vector that A turns by a right angle, as an unsymmetric A can
+    # the second condition excludes a vector that an unsymmetric A turns by a right angle
     return abs(float(vector @ image)) <= rounding and float(np.abs(vector) @ np.abs(image)) <= 32 * rounding

@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Substructures: each rank eliminates the unknowns that it alone has, and rank 0 solves for those that it shares.
+"""Substructures: each rank eliminates its interior unknowns, and rank 0 solves for the shared ones.
 
-With I the unknowns of one rank alone and B those that it shares, its Schur complement is K_BB - K_BI K_II^-1 K_IB
-(Przemieniecki, AIAA J. 1 (1963) 138-147), which PARDISO returns with the factors of K_II. Rank 0 factorises the sum of
-all of them. A rank in whose part nothing has changed, as far from a crack, keeps its factors.
+With I the interior unknowns, of one rank alone, and B the boundary unknowns that it shares with others, the Schur
+complement of a rank is K_BB - K_BI K_II^-1 K_IB (Przemieniecki, AIAA J. 1 (1963) 138-147), which PARDISO returns with
+the factors of K_II. Rank 0 factorises the sum of all of them. A rank whose part has not changed, as far from a crack,
+keeps its factors.
 """
 
 from __future__ import annotations
@@ -40,29 +41,29 @@ NAME: Final = "substructures"
 """Name by which `--solver` requests it."""
 
 MOST_SHARED: Final = 3000
-"""Unknowns of several ranks up to which `auto` takes it: their dense matrix takes 72 MB and 18e9 operations."""
+"""Shared unknowns up to which `auto` takes this solver: their dense matrix takes 72 MB and 18e9 operations."""
 
-STAND_IN: Final = 1e-8
-"""Stiffness over the largest diagonal entry of a rank, added to the unknowns that stay and subtracted again.
+SHIFT: Final = 1e-8
+"""Stiffness over the largest diagonal entry of a rank, added to the boundary unknowns and subtracted again.
 
-PARDISO counts a pivot as replaced where such an unknown has a zero on the diagonal, as behind a crack on the rank that
-does not have the solid. What the two operations leave is 1e-8 of the last bit of the largest entry.
+PARDISO counts a zero on the diagonal of a boundary unknown as a replaced pivot, as behind a crack on the rank without
+the solid. The two operations leave an error of 1e-8 of the last bit of the largest entry.
 """
 
 _CHANGES: Final = {
-    20: 0,  # pivots from the diagonal alone, in two thirds of the time; the residual of a solution tells if that serves
+    20: 0,  # pivots from the diagonal alone, in two thirds of the time; the residual of a solution verifies them
     35: 2,  # return the Schur complement of the unknowns marked in PERM, and keep the factors of the others
 }
 """Entries of IPARM, from 0, that differ from those of one process."""
 
 _FORWARD, _BACKWARD = 331, 333
-"""Phases of a solution: to the right-hand side of the unknowns that stay, and back from their solution."""
+"""Phases of a solution: forward to the right-hand side of the boundary unknowns, and back from their solution."""
 
 
 class Substructures:
-    """Matrices of one pattern.
+    """Solver for matrices of one pattern.
 
-    usable            True if each rank has unknowns of its own and shares some
+    usable            True if each rank has interior and shared unknowns
     shared            unknowns of several ranks, the same array on all of them
     largest_diagonal  largest magnitude on the diagonal of the last matrix
     """
@@ -77,17 +78,17 @@ class Substructures:
         pattern
             Pattern of this rank's part of the matrix; all ranks number the unknowns alike.
         owners
-            (n,) for each unknown one of the ranks that have it; the same array on all ranks.
+            (n,) one of the ranks that have each unknown; the same array on all ranks.
         """
         self._ranks, self._size, self._diagonal = ranks, pattern.size, pattern.diagonal
         self._used = np.diff(pattern.indptr) > 1
         common = ranks.sum(self._used.astype(np.float64)) > 1.0
         self.shared = np.flatnonzero(common)
-        self._own, stay = np.flatnonzero((owners == ranks.rank) & ~common), np.flatnonzero(common & self._used)
-        self.usable = not ranks.largest(np.array([float(not (len(self._own) and len(stay)))]))[0]
+        self._interior, boundary = np.flatnonzero((owners == ranks.rank) & ~common), np.flatnonzero(common & self._used)
+        self.usable = not ranks.largest(np.array([float(not (len(self._interior) and len(boundary)))]))[0]
         # for each rank, positions of its unknowns among the shared ones
-        self._positions = ranks.allgather(np.searchsorted(self.shared, stay))
-        self._here = np.concatenate([self._own, stay])
+        self._positions = ranks.allgather(np.searchsorted(self.shared, boundary))
+        self._here = np.concatenate([self._interior, boundary])
         self._owned = owners[self._here] == ranks.rank
         numbers = np.arange(len(pattern.indices), dtype=np.int32)
         entries = sparse.csr_array((numbers, pattern.indices, pattern.indptr), (pattern.size,) * 2)
@@ -98,7 +99,7 @@ class Substructures:
         self._values = np.zeros(0)
         self._matrix: _Matrix | None = None
         self._complements = [np.zeros((0, 0))] * ranks.size
-        self._stand_in = 0.0
+        self._shift = 0.0
         self._factors = np.zeros((0, 0)), np.zeros(0, dtype=np.int32)
         self.largest_diagonal = 0.0
 
@@ -125,7 +126,7 @@ class Substructures:
                 complement = self._eliminate(kind)
             except PardisoError:
                 sound = False
-        self._collect(complement)
+        self._send_to_rank_0(complement)
         if not self._ranks.rank and sound:
             sound = self._factorise_complement()
         failures, kept = self._ranks.sum(np.array([float(not sound), float(not new)]))
@@ -136,8 +137,7 @@ class Substructures:
     def _taken(self, data: FloatArray) -> FloatArray:
         """Return the values of the matrix of this rank.
 
-        A diagonal entry may also be on a rank that has no other one of its row, as of a spring to the ground: it goes
-        to the owner.
+        A rank may have only the diagonal entry of a row, as of a spring to the ground; this entry goes to the owner.
         """
         diagonal = data[self._diagonal]
         both = self._ranks.sum(np.concatenate([diagonal, np.where(self._used, 0.0, diagonal)]))
@@ -146,24 +146,24 @@ class Substructures:
         positions = self._pattern.diagonal
         values[positions] = np.where(self._used[self._here], values[positions], 0.0)
         values[positions] += np.where(self._owned, both[self._size :][self._here], 0.0)
-        self._stand_in = STAND_IN * float(np.abs(values[positions]).max())
-        values[positions[len(self._own) :]] += self._stand_in
+        self._shift = SHIFT * float(np.abs(values[positions]).max())
+        values[positions[len(self._interior) :]] += self._shift
         return values
 
     def _eliminate(self, kind: Type) -> FloatArray:
         """Return the Schur complement of this rank. Raises PardisoError."""
         matrix, self._matrix = self._matrix, None
         if matrix is None or matrix.kind is not kind:
-            # the memory of the old factors first
+            # free the old factors first
             matrix = None
-            matrix = _Matrix(self._pattern, len(self._own), kind)
+            matrix = _Matrix(self._pattern, len(self._interior), kind)
         complement = matrix.factorise(self._values)
-        complement[np.diag_indices(len(complement))] -= self._stand_in
+        complement[np.diag_indices(len(complement))] -= self._shift
         self._matrix = matrix
         return complement
 
-    def _collect(self, complement: FloatArray | None) -> None:
-        """Let rank 0 have the Schur complement of this rank, unless it is that of the last matrix: None."""
+    def _send_to_rank_0(self, complement: FloatArray | None) -> None:
+        """Send the Schur complement of this rank to rank 0; None: that of the last matrix stays."""
         sent = [np.zeros(0)] * self._ranks.size
         if complement is not None and self._ranks.rank:
             sent[0] = complement.ravel()
@@ -174,7 +174,7 @@ class Substructures:
                 self._complements[rank] = received.reshape((len(self._positions[rank]),) * 2)
 
     def _factorise_complement(self) -> bool:
-        """Factorise the sum of the Schur complements on rank 0; returns whether it is regular."""
+        """Factorise the sum of the Schur complements on rank 0; return whether it is regular."""
         total = np.zeros((len(self.shared),) * 2)
         for positions, own in zip(self._positions, self._complements, strict=True):
             # a rank that has failed may have sent none
@@ -187,26 +187,26 @@ class Substructures:
     def solve(self, rhs: FloatArray) -> FloatArray:
         """Solve for a right-hand side (n,) that all ranks have; all get the same solution (n,)."""
         assert self._matrix is not None
-        own, positions = len(self._own), self._positions[self._ranks.rank]
+        interior, positions = len(self._interior), self._positions[self._ranks.rank]
         own_rhs = np.zeros(len(self._here))
-        own_rhs[:own] = rhs[self._own]
+        own_rhs[:interior] = rhs[self._interior]
         forward = self._matrix.solve(_FORWARD, own_rhs)
         reduced = np.zeros(len(self.shared))
-        reduced[positions] = forward[own:]
+        reduced[positions] = forward[interior:]
         reduced = self._ranks.sum(reduced) + rhs[self.shared]
-        stay = np.zeros(len(self.shared))
+        boundary = np.zeros(len(self.shared))
         if not self._ranks.rank:
-            stay, _ = lapack.dgetrs(*self._factors, reduced)
-        stay = self._ranks.sum(stay)
-        forward[own:] = stay[positions]
+            boundary, _ = lapack.dgetrs(*self._factors, reduced)
+        boundary = self._ranks.sum(boundary)
+        forward[interior:] = boundary[positions]
         solution = np.zeros(self._size)
-        solution[self._own] = self._matrix.solve(_BACKWARD, forward)[:own]
+        solution[self._interior] = self._matrix.solve(_BACKWARD, forward)[:interior]
         solution = self._ranks.sum(solution)
-        solution[self.shared] = stay
+        solution[self.shared] = boundary
         return solution
 
     def release(self) -> None:
-        """Give back the memory of the factors."""
+        """Free the memory of the factors."""
         self._matrix = None
 
 
@@ -228,27 +228,27 @@ class _Handle:
 class _Matrix:
     """Matrices of one pattern and type, as PARDISO holds them."""
 
-    def __init__(self, pattern: Pattern, own: int, kind: Type) -> None:
-        """Prepare to eliminate the first `own` unknowns; the others stay."""
+    def __init__(self, pattern: Pattern, interior: int, kind: Type) -> None:
+        """Prepare to eliminate the first `interior` unknowns; the others are boundary unknowns."""
         self.kind = kind
-        self._stay = pattern.size - own
+        self._boundary = pattern.size - interior
         self._upper: NDArray[np.int32] | None = None
         self._pattern = pattern
         if kind is SYMMETRIC:
             self._upper, self._pattern = upper_triangle(pattern)
         marked = np.zeros(pattern.size, dtype=np.int32)
-        marked[own:] = 1
+        marked[interior:] = 1
         self._handle = _Handle(kind, marked)
         self._values: FloatArray | None = None
         weakref.finalize(self, call, self._handle, RELEASE, self._pattern, np.zeros(1), np.zeros(pattern.size))
 
     def factorise(self, values: FloatArray) -> FloatArray:
-        """Return the Schur complement (stay, stay) of the matrix with these values (nnz,). Raises PardisoError."""
+        """Return the Schur complement (boundary, boundary) for these values (nnz,). Raises PardisoError."""
         begun, nothing = self._values is not None, np.zeros(self._pattern.size)
         self._values = values if self._upper is None else values[self._upper]
         if not begun:
             call(self._handle, ANALYSE, self._pattern, self._values, nothing)
-        complement = np.zeros((self._stay,) * 2)
+        complement = np.zeros((self._boundary,) * 2)
         call(self._handle, FACTORISE, self._pattern, self._values, nothing, complement)
         if self._handle.iparm[REPLACED]:
             raise PardisoError("pivots were replaced")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""SuperLU, the sparse solver of scipy: always available."""
+"""SuperLU, the sparse solver of scipy, which is always available."""
 
 from __future__ import annotations
 
@@ -16,36 +16,36 @@ from uel.model.arrays import FloatArray, IntArray
 from uel.solver.linear.linear_solver import LinearSolver, Pattern
 
 SMALL_PIVOT: Final = 1e-6
-"""Limit relative to the largest entry of the row: a smaller diagonal entry is not a pivot."""
+"""Diagonal entry over the largest entry of its row below which it cannot be a pivot."""
 MANY: Final = 0.01
-"""Share of such entries from which the pattern of A + A^T says little about the fill."""
+"""Share of such entries above which an ordering by A + A^T does not bound the fill."""
 
 FILL_PER_ITERATION: Final = 40
 """Mean number of entries of a column of the factors for which GMRES is allowed an iteration.
 
-With 650 entries a column, 27,000 unknowns of bricks, a factorisation takes as long as 47 solutions; with 120, 163,000
-unknowns of quads, as 14. So GMRES ends after half of that time at most.
+With 650 entries a column (27,000 unknowns of bricks) a factorisation takes as long as 47 solutions, with 120 (163,000
+unknowns of quads) as 14. So GMRES ends after at most half of that time.
 """
 FEWEST: Final = 8
-"""Iterations below which a factorisation is better at once."""
+"""Allowed iterations below which the matrix is factorised at once."""
 LARGEST_SHARE: Final = 0.05
-"""Largest share of the entries that may change for the factors of the matrix before to be kept."""
+"""Largest share of changed entries for which the factors of an earlier matrix are kept."""
 RESIDUAL: Final = 1e-11
-"""Residual of GMRES, over the right-hand side; ten times less than what is asked of the solution."""
+"""Residual of GMRES over the right-hand side, a tenth of `ACCURATE`."""
 
 
 class SuperLUSolver(LinearSolver):
-    """Minimum degree on the pattern of A + A^T in symmetric mode, computed once, then kept.
+    """SuperLU with a minimum degree ordering of A + A^T in symmetric mode, computed once.
 
     If many diagonal entries cannot be pivots, as with Lagrange multipliers, columns are ordered by COLAMD and any row
-    may be the pivot: 12,000 unknowns of a public mixed element take 0.7 s, in symmetric mode minutes, with seven times
-    the entries.
+    may be the pivot: 12,000 unknowns of a public mixed element take 0.7 s instead of minutes in symmetric mode, with
+    a seventh of the entries.
 
     Small panels (4 columns) and supernodes suit the small fronts of two-dimensional meshes. 12,000 unknowns of a double
     cantilever beam take 12 ms, with scipy's default ordering and panels 17 ms; 39,000 of a square 163 and 431 ms.
 
-    In space, where a factorisation takes as long as dozens of solutions, the factors are kept where few entries
-    change, and precondition GMRES on the new matrix. If it does not converge, the matrix is factorised.
+    In space, where a factorisation takes as long as dozens of solutions, the factors are kept if few entries change,
+    and precondition GMRES with the new matrix. If it does not converge, the matrix is factorised.
     """
 
     name = "superlu"
@@ -55,11 +55,11 @@ class SuperLUSolver(LinearSolver):
         super().__init__(pattern, name_of)
         self._order: IntArray = np.zeros(0, dtype=np.int64)
         self._on_diagonal = True
-        # the factors are those of an earlier matrix; iterations that may replace a factorisation
+        # the factors belong to an earlier matrix; allowed iterations
         self._behind, self._most = False, 0
 
     def forget(self) -> None:
-        """Forget earlier matrices; the next one is ordered without them."""
+        """Discard earlier matrices and their ordering."""
         super().forget()
         self._order = np.zeros(0, dtype=np.int64)
 
@@ -85,7 +85,7 @@ class SuperLUSolver(LinearSolver):
         return None
 
     def _pivots_are_on_diagonal(self, data: FloatArray) -> bool:
-        """Report whether few diagonal entries are small beside the largest one of their row, which has entries."""
+        """Return whether few diagonal entries are small beside the largest one of their row."""
         largest = np.maximum.reduceat(np.abs(data), self.pattern.indptr[:-1])
         small = np.abs(self.pattern.matrix(data).diagonal()) < SMALL_PIVOT * largest
         return float(np.mean(small)) <= MANY
@@ -104,7 +104,7 @@ class SuperLUSolver(LinearSolver):
         if self._behind:
             last = LinearOperator((self.pattern.size,) * 2, matvec=self._solve_directly, dtype=np.float64)
             matrix = self.pattern.matrix(self._data)
-            # scipy ends a cycle by the preconditioned residual; a second one starts from the true one, and is short
+            # a cycle of scipy ends by the preconditioned residual; a second, short one starts from the true residual
             solution, _ = gmres(matrix, rhs, M=last, rtol=RESIDUAL, restart=self._most, maxiter=2)
             if self._is_accurate(solution, rhs):
                 return np.asarray(solution)
@@ -112,7 +112,7 @@ class SuperLUSolver(LinearSolver):
         return self._solve_directly(rhs)
 
     def _solve_directly(self, rhs: FloatArray) -> FloatArray:
-        """Solve with the factors, of whatever matrix they are."""
+        """Solve with the factors of this or an earlier matrix."""
         solution = np.empty_like(rhs)
         solution[self._order] = self._lu.solve(rhs[self._order], "T")
         return solution
@@ -121,7 +121,7 @@ class SuperLUSolver(LinearSolver):
 def _factors(
     data: FloatArray, indices: NDArray[np.int32], indptr: NDArray[np.int32], ordering: str, *, on_diagonal: bool
 ) -> SuperLU:
-    """Factorise A^T: rows of A read as columns save a conversion."""
+    """Factorise A^T, whose columns are the rows of A, to save a conversion."""
     n = len(indptr) - 1
     return splu(
         sparse.csc_array((data, indices, indptr), shape=(n, n)),
