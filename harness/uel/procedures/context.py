@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Context of a general step, which its parts share: prescribed values and loads, constraints, checks, calls."""
+"""Context of a general step, shared by its path and parts: prescribed values, loads, constraints, checks, calls."""
 
 from __future__ import annotations
 
@@ -23,22 +23,22 @@ from uel.solver.newton import DependentLoads
 
 
 class StepContext:
-    """General step, apart from its procedure.
+    """Data of a general step that do not depend on its procedure.
 
     start       total time at the start of the step
     step_time   step time at the start of the increment; the total time is in the state
     increment   number of the current increment
     times_of_solver  times of the linear solver in this step
     beginning   arrays of the state at the start of the step, on which its prescribed values and loads depend
-    choice      name of the linear solver, and the reason; '' if that of the last step is kept
-    advice      a faster solver, as a sentence; '' if there is none
+    choice      name of the linear solver and reason for it; '' if that of the last step is kept
+    advice      sentence that names a faster solver; '' if there is none
     """
 
     constraints: Constraints
     solver: StepSolver
 
     def __init__(self, setting: Setting, *, fallback: bool = False) -> None:
-        """Take over the step's prescribed values and loads; symbolic work is repeated only if they differ.
+        """Begin the step with its prescribed values and loads; symbolic work is repeated only if these differ.
 
         Raises DeckError.
         """
@@ -67,7 +67,7 @@ class StepContext:
         self.start, self.step_time, self.increment = state.total_time, 0.0, 0
 
     def _constrain(self, setting: Setting, *, fallback: bool) -> None:
-        """Set the constraints and the linear solver of the step, those of the last one if they are the same."""
+        """Set the constraints and the linear solver of the step, reusing those of the last one if they match."""
         state, equations = self.state, setting.model.equations
         arms = setting.model.arms if self.step.nlgeom else ()
         constraints, solver, start = state.constraints, state.solver, self.beginning["displacement"]
@@ -78,7 +78,7 @@ class StepContext:
             if solver is not None:
                 solver.release()
             tolerant = partial(UnconstrainedSolver, renew=_renewing(setting, constraints))
-            # the search handles a singular matrix itself
+            # the descent search handles a singular matrix itself
             solver = choose() if fallback else choose(tolerant)
             self.advice = solver.advice
             self.choice = f"LINEAR SOLVER {solver.name.upper()}: {solver.reason}"
@@ -97,17 +97,17 @@ class StepContext:
         return self.step_time, self.state.total_time
 
     def load_at(self, step_time: float, u: FloatArray | None = None) -> FloatArray:
-        """Return loads and fading forces (n,); those of DLOAD at displacements u (n,), by default the state's."""
+        """Return loads and fading forces (n,); loads by DLOAD at displacements u (n,), by default the state's."""
         return self.loads_at(step_time, u) + self.released.at(step_time, self.start + step_time)
 
     def loads_at(self, step_time: float, u: FloatArray | None = None) -> FloatArray:
         """Return the loads (n,) without fading forces, as in `load_at`."""
         time = step_time, self.start + step_time
         steady = self.load.at(*time)
-        return steady + self.load.of_user(time, self._at(u)) if self.load.by_user else steady
+        return steady + self.load.by_dload(time, self._at(u)) if self.load.by_user else steady
 
     def steady_at(self, step_time: float) -> FloatArray:
-        """Return loads and fading forces (n,) without those of DLOAD."""
+        """Return loads and fading forces (n,) without loads by DLOAD."""
         total = self.start + step_time
         return self.load.at(step_time, total) + self.released.at(step_time, total)
 
@@ -115,13 +115,13 @@ class StepContext:
         return self.state.displacement if u is None else u
 
     def dependent_loads(self, end: float, u: FloatArray) -> DependentLoads:
-        """Return the loads beside the steady ones, at a step time and at displacements (n,): those of DLOAD."""
+        """Return the loads by DLOAD and the loads on elements at a step time and displacements u (n,)."""
         time, start = (end, self.start + end), self.times
         on_elements = self.conditions.distributed(start, time)
-        return DependentLoads(self.load.of_user(time, u), self.load.with_faces(on_elements, start, time, u))
+        return DependentLoads(self.load.by_dload(time, u), self.load.with_faces(on_elements, start, time, u))
 
     def prescribed_at(self, step_time: float) -> FloatArray:
-        """Return the prescribed values (n,), those of DISP among them."""
+        """Return the prescribed values (n,), including those by DISP."""
         time = step_time, self.start + step_time
         values, by_user = self.prescribed.at(*time), self.state.boundaries.by_user
         if len(by_user):
@@ -131,8 +131,8 @@ class StepContext:
             numbered = np.stack([dofs.mesh.labels[nodes], numbers], axis=1).astype(np.int32)
             moment = self.step.number, self.increment, time
             size = step_time - self.step_time
-            asked = UserValues("DISP", *moment, numbered, self.coordinates(nodes), values[by_user], size=size)
-            values[by_user] = self.user.user_values(asked)
+            request = UserValues("DISP", *moment, numbered, self.coordinates(nodes), values[by_user], size=size)
+            values[by_user] = self.user.user_values(request)
         return values
 
     def coordinates(self, nodes: IntArray) -> FloatArray:
@@ -148,7 +148,7 @@ class StepContext:
         return Call(
             flags=Flags.of(step),
             step=step.number,
-            # calls before the first increment belong to it
+            # calls before the first increment count as part of it
             increment=max(self.increment, 1),
             step_time=step_time,
             total_time=total_time,
@@ -164,7 +164,7 @@ class StepContext:
 
 
 def _renewing(setting: Setting, constraints: Constraints) -> Callable[[], LinearSolver | None]:
-    """Choose another linear solver where the pattern of the constraints is not that of the last one."""
+    """Return a function that chooses another linear solver if the pattern of the constraints has changed."""
     pattern = constraints.reduced_indices
 
     def renew() -> LinearSolver | None:

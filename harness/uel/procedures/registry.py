@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Registry of the runs of a step by its procedure: the only file that asks which procedure a step has.
+"""Registry of the runs of steps: the only file that depends on the procedure of a step.
 
-A general step is assembled here from a path and parts. A further procedure is registered like those below.
+It assembles a general step from a path and parts. A new procedure is registered like those below.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def run_of(procedure: Procedure, setting: Setting) -> StepRun:
     Raises
     ------
     DeckError
-        The step asks for what its procedure does not support, or is over-constrained.
+        The procedure does not support an option of the step, or the step is over-constrained.
     TypeError
         Nothing is registered for the class.
     """
@@ -123,7 +123,7 @@ def _(procedure: ModalDynamic, setting: Setting) -> StepRun:
 
 
 def _in_time(context: StepContext, *parts: Part, fallback: bool = False) -> GeneralStep:
-    """Build a step of time increments, with damping if it asks for it."""
+    """Build a step of time increments, with damping if it has STABILIZE."""
     damping = context.step.procedure.stabilize
     if damping is not None:
         parts = (*parts, ViscousForces(context, damping))

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Resume the step of a kept state.
+"""Restart: resume the step of a kept state.
 
-Prescribed values, loads and amplitudes are not kept: they follow from the deck, the total times at which steps began,
-and the state at the start of the last one.
+A kept state has no prescribed values, loads and amplitudes: these follow from the deck, the total times at which steps
+began, and the state at the start of the last one.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ ANOTHER_MODEL = "{0}: the state of the old job is of another model: {1} differ"
 def resume(
     resumed: Resumption, system: System, model: Model, state: ConvergedState, user: UserRoutines, solver: SolverOptions
 ) -> GeneralStep:
-    """Take up the step of a kept state, after UEXTERNALDB with LOP=4.
+    """Resume the step of a kept state, after a call of UEXTERNALDB with LOP=4.
 
     Parameters
     ----------
     resumed
         The kept state.
     system, model, state
-        At the start of the analysis; system and state are changed.
+        System, model and state at the start of the analysis; system and state are changed.
     user, solver
         As for `run_steps`.
 
@@ -45,7 +45,7 @@ def resume(
     Raises
     ------
     UelError
-        The state is not one of the model; or a user routine ends the analysis.
+        The state belongs to another model, or a user routine ends the analysis.
     """
     saved = resumed.analysis
     for name in ARRAYS:
@@ -62,7 +62,7 @@ def resume(
         state.return_to(saved["beginning"], begun[-1].total_time)
         if not step.procedure.inertia:
             state.come_to_rest()
-        # a state is of a step in time without a search, and so the step goes on
+        # only steps in time without a search keep states
         in_time = SolverOptions(linear_solver=solver.linear_solver)
         running = run_of(step.procedure, Setting(system, model, step, state, user, in_time))
         assert isinstance(running, GeneralStep)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The sequence of the steps of a model."""
+"""Sequence of the steps of a model."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def run_steps(
     solver
         Options for solving the equations.
     resumed
-        The state to go on from; None: the initial one.
+        Kept state to continue from; None: the initial state.
 
     Yields
     ------
@@ -61,7 +61,7 @@ def run_steps(
     KernelError, SingularMatrixError, DeckError
         From the elements, the linear solver, and over-constrained models.
     UelError
-        The state is not one of the model.
+        The kept state belongs to another model.
     """
     state = ConvergedState.start(system, model)
     running: StepRun | None = None
@@ -116,13 +116,13 @@ def _begin(system: System, model: Model, state: ConvergedState, user: UserRoutin
 
 
 def _mass_pass(system: System, step: Step) -> None:
-    """Ask user elements for the mass matrix, as Abaqus does at the start; the results are not used.
+    """Call user elements for the mass matrix, as Abaqus does at the start; the results are not used.
 
-    It belongs to increment 1, but no time passes.
+    The calls belong to increment 1, but no time passes.
     """
     procedure = step.procedure
     call = Call(
-        # it is not one of the calls of a linear step, even if the first step is linear
+        # not a call of a linear step, even if the first step is linear
         replace(Flags.of(step, Request.MASS), linear=False),
         step=step.number,
         increment=1,
@@ -137,7 +137,7 @@ def _mass_pass(system: System, step: Step) -> None:
 
 
 def _unused(dofs: DofMap, keyword: str, entries: Sequence[Boundary] | Sequence[Load]) -> Iterator[Warned]:
-    """Warn of entries at degrees of freedom that no element uses: they have no effect."""
+    """Warn of entries at degrees of freedom that no element uses, which have no effect."""
     for entry in entries:
         _, nodes = find_unknowns(dofs, entry)
         if len(nodes):

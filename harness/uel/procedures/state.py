@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""State that increments and steps pass on: displacements, forces, energies of the whole model (ALLSE, ALLWK, ...)."""
+"""State at the end of increments and steps: displacements, forces, energies of the model (ALLSE, ALLWK, ...)."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _NUMBERS = ("total_time", "work", "damage", "stabilization")
 
 @dataclass(slots=True)
 class BegunStep:
-    """A general step that has begun: the total time then; concluded: its step time if it ended before its period."""
+    """General step that has begun: total time at its start, and `concluded`, its step time if it ended early."""
 
     number: int
     total_time: float
@@ -44,7 +44,7 @@ class BegunStep:
 
 
 @dataclass(frozen=True, slots=True)
-class BegunActions:
+class StepActions:
     """Prescribed values, loads and conditions of a general step, as functions of time.
 
     released  forces that fade in it
@@ -59,23 +59,23 @@ class BegunActions:
 
 @dataclass(slots=True)
 class ConvergedState:
-    """State at the end of the last converged increment, which alone writes its attributes.
+    """State at the end of the last converged increment; only its own methods set its attributes.
 
     displacement, reaction, load  (n,) U, RF, CF
     velocity, acceleration  (n,) V, A
-    external   (n,) all forces on the nodes other than from elements: load, fading forces, reaction
-    unbalanced  (n,) forces that keep initial stresses in equilibrium, until they fade in the first step
+    external   (n,) external forces on the nodes: load, fading forces, reaction
+    unbalanced  (n,) forces that balance initial stresses, until they fade in the first step
     work       external work so far
     energy     (8,) sum of ENERGY
-    damage     dissipated by the damage of built-in elements
-    stabilization  energy that *STATIC, STABILIZE has dissipated
+    damage     energy dissipated by damage of built-in elements
+    stabilization  energy dissipated by *STATIC, STABILIZE
     flux       flux history by field
     predefined predefined fields, which are constant
     effort     counts and times of all linear solvers
-    majoriser  matrix of the start of the analysis, for the fall-back
+    majoriser  matrix at the start of the analysis, for --fallback
     begun      general steps so far
-    modes      modes of the last *FREQUENCY; None: there is none
-    signs      (n,) of the work of forces: -1 of potentials in piezoelectric elements, whose forces are minus charges
+    modes      modes of the last *FREQUENCY; None without one
+    signs      (n,) sign of the work of forces: -1 for electric potentials, whose forces are minus charges
     """
 
     displacement: FloatArray
@@ -123,11 +123,11 @@ class ConvergedState:
         return cls(start, zero, zero, zero, *actions, velocity, zero, zero, predefined=fields, signs=signs)
 
     def hold(self, forces: FloatArray) -> None:
-        """Take forces (n,) that keep initial stresses in equilibrium until they fade in the first step."""
+        """Set the forces (n,) that balance initial stresses until they fade in the first step."""
         self.unbalanced = self.external = forces
 
-    def begin_step(self, step: Step, dofs: DofMap, user: GivesValues) -> BegunActions:
-        """Begin a general step: take over what it prescribes. Raises DeckError."""
+    def begin_step(self, step: Step, dofs: DofMap, user: GivesValues) -> StepActions:
+        """Begin a general step with its prescribed values and loads. Raises DeckError."""
         self.begun.append(BegunStep(step.number, self.total_time))
         values = self.boundaries.start_step(step, self.displacement, self.total_time)
         loads = self.loads.start_step(step, self.total_time, user)
@@ -135,23 +135,23 @@ class ConvergedState:
         amplitudes = self.amplitudes.start_step(step, dofs, self, user)
         released = fading_forces(self.reaction, self.boundaries.unknowns, step, self.unbalanced)
         self.unbalanced = np.zeros_like(self.unbalanced)
-        return BegunActions(values, loads, conditions, amplitudes, released)
+        return StepActions(values, loads, conditions, amplitudes, released)
 
     def use(self, constraints: Constraints, solver: StepSolver) -> None:
-        """Take constraints and linear solver of the step that begins; the next one reuses them if its own are alike."""
+        """Set constraints and linear solver of the step that begins; the next step may reuse them."""
         self.constraints, self.solver = constraints, solver
 
     def set_in_motion(self, begun: InitialMotion) -> None:
-        """Take the motion with which a dynamic step begins."""
+        """Set the motion at the start of a dynamic step."""
         self.velocity, self.acceleration, self.displacement = begun.velocity, begun.acceleration, begun.displacement
         self.external, self.energy = begun.external, begun.energy
 
     def come_to_rest(self) -> None:
-        """Set velocities and accelerations to zero: the step that begins has none."""
+        """Set velocities and accelerations to zero, for a step without inertia."""
         self.velocity = self.acceleration = np.zeros_like(self.displacement)
 
     def kept(self) -> Saved:
-        """Return its arrays and numbers; prescribed values and loads follow from the steps that have begun."""
+        """Return arrays and numbers for *RESTART; prescribed values and loads follow from the steps so far."""
         saved = {name: getattr(self, name) for name in (*ARRAYS, *_NUMBERS)}
         return {
             **saved,
@@ -161,7 +161,7 @@ class ConvergedState:
         }
 
     def resume(self, saved: Saved) -> None:
-        """Take over what `kept` returned. Raises ValueError if it is not of this model."""
+        """Restore what `kept` returned. Raises ValueError if it belongs to another model."""
         for name in ARRAYS:
             if np.shape(saved[name]) != np.shape(getattr(self, name)):
                 raise ValueError("degrees of freedom")
@@ -172,7 +172,7 @@ class ConvergedState:
         self.conditions.resume(saved["conditions"])
 
     def return_to(self, beginning: Mapping[str, FloatArray], total_time: float) -> None:
-        """Take the arrays and the total time of the start of a step that goes on. Raises ValueError as `resume`."""
+        """Set arrays and total time to the start of a resumed step. Raises ValueError as `resume` does."""
         for name, values in beginning.items():
             if len(values) != len(self.displacement):
                 raise ValueError("degrees of freedom")
@@ -180,7 +180,7 @@ class ConvergedState:
         self.total_time = total_time
 
     def repeat(self, step: Step, begun: BegunStep, user: GivesValues) -> None:
-        """Take over prescribed values and loads of a step that is over. Raises DeckError."""
+        """Process prescribed values and loads of a step that is over. Raises DeckError."""
         # displacements at the start matter only in the step itself
         self.boundaries.start_step(step, self.displacement, begun.total_time)
         self.loads.start_step(step, begun.total_time, user)
@@ -189,7 +189,7 @@ class ConvergedState:
             self._conclude(begun.concluded)
 
     def end_step(self, flux: list[FluxHistory], concluded: float | None) -> None:
-        """Take the flux history of a step that is over; concluded: its step time if it ends before its period."""
+        """End a step with its flux histories; concluded: its step time if it ends before its period."""
         if concluded is not None:
             self._conclude(concluded)
         self.flux = flux
@@ -211,7 +211,7 @@ class ConvergedState:
         load, released
             (n,) loads and fading forces at its end.
         ends
-            Data that the parts of the step return for this increment.
+            Results of the parts of the step for this increment.
         """
         assert self.constraints is not None
         reaction = self.constraints.reactions(converged.r)
@@ -229,15 +229,15 @@ class ConvergedState:
                 self.velocity, self.acceleration = end.motion.velocity, end.motion.acceleration
 
     def reach(self, total_time: float, predefined: Predefined | None) -> None:
-        """Take the time that an increment reaches, and the predefined fields then."""
+        """Set total time and predefined fields at the end of an increment."""
         self.total_time, self.predefined = total_time, predefined
 
     def keep_modes(self, modes: Modes) -> None:
-        """Take the modes of a *FREQUENCY, for the steps after it."""
+        """Store the modes of a *FREQUENCY step for later steps."""
         self.modes = modes
 
     def solution(self, system: System) -> Solution:
-        """Copy of the state for output; element states are the committed ones, and copied when they are read."""
+        """Return a copy of the state for output, whose committed element states are copied when they are read."""
         return Solution(
             node=system.dofs.node,
             dof=system.dofs.dof,
@@ -252,7 +252,7 @@ class ConvergedState:
         )
 
     def _energies(self) -> dict[str, float]:
-        """Return the energies of the whole model as Abaqus sums them: ETOTAL is constant where the balance holds."""
+        """Return the energies of the whole model, summed as in Abaqus: ETOTAL is constant if they balance."""
         energies = energies_of_elements(self.energy, self.damage)
         total = energies["ALLKE"] + energies["ALLIE"] + energies["ALLVD"] + self.stabilization - self.work
         return energies | {"ALLSD": self.stabilization, "ALLWK": self.work, "ETOTAL": total}

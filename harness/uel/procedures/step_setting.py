@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Setting with which a step is run, and the interface of its run that the sequence of steps needs."""
+"""Setting of the run of a step, and the interface of the run."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from uel.solver.options import SolverOptions
 
 
 class UserRoutines(GivesValues, Protocol):
-    """The part of a loaded library that a procedure calls.
+    """User routines that procedures call.
 
     sdvini, sigini, orient  addresses, None without the routine
     """
@@ -40,7 +40,7 @@ class UserRoutines(GivesValues, Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """Setting with which a step is run.
+    """Setting of the run of a step.
 
     state  state at the end of the last step, from which this one continues
     """
@@ -61,7 +61,7 @@ class StepRun(Protocol):
         """Step and total time, no time increment, step and increment, as UEXTERNALDB gets them at the end."""
 
     def run(self) -> Generator[Record, None, Modes | None]:
-        """Yield records of the step; return the modes for later steps, if it computes any.
+        """Run the step, yield its records, and return modes for later steps if it computes any.
 
         Raises ConvergenceError, KernelError, SingularMatrixError, DeckError.
         """
@@ -89,7 +89,7 @@ def choose_step_solver(
     effort: Effort,
     wrap: Callable[[LinearSolver], StepSolver] = lambda chosen: chosen,
 ) -> StepSolver:
-    """Choose the solver of a general step as `choose_solver` does; wrap: makes it from that linear solver."""
+    """Choose the solver of a general step as `choose_solver` does, on all ranks; wrap: wraps that linear solver."""
     if constraints.ranks.size == 1:
         return wrap(choose_solver(name, constraints, effort))
     indptr, indices = constraints.reduced_indptr, constraints.reduced_indices
@@ -98,7 +98,7 @@ def choose_step_solver(
 
 
 def displaced_coordinates(dofs: DofMap, nodes: IntArray, displacement: FloatArray | None) -> FloatArray:
-    """Return coordinates (k, 3) of nodes, moved by the displacements (n,) if there are any."""
+    """Return coordinates (k, 3) of nodes, displaced by u (n,) unless it is None."""
     coordinates = dofs.mesh.coordinates[nodes]
     if displacement is None:
         return coordinates
@@ -107,13 +107,13 @@ def displaced_coordinates(dofs: DofMap, nodes: IntArray, displacement: FloatArra
 
 
 class SolverTimes:
-    """Times of the linear solver in a step, which begins now."""
+    """Times of the linear solver from now on, for a step."""
 
     def __init__(self, effort: Effort) -> None:
         self._effort, self._before = effort, replace(effort)
 
     def note(self) -> Noted:
-        """Return the times since then, for the message file."""
+        """Return the times since the start, for the message file."""
         done = self._effort - self._before
         refused = f", {done.refused} OF WHICH HAD TO BE REPEATED IN FULL" if done.refused else ""
         return Noted(

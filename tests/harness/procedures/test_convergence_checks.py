@@ -98,11 +98,11 @@ def test_one_diverging_field_is_enough_to_give_up():
     under_test.start(iterate(0, [0, 0, 0]), extrapolated=False)
     for iteration, residual in enumerate((1.0, 2.0, 3.0), start=1):
         checks = under_test.check(iterate(iteration, [0.0, residual, 0.0]))
-        cutback = under_test.give_up(iteration, checks)
+        cutback = under_test.find_cutback(iteration, checks)
         assert (cutback is not None) == (iteration == 3)
     assert cutback.reason == incrementation.DIVERGING
     under_test.start(iterate(0, [0, 0, 0]), extrapolated=False)
-    assert under_test.give_up(1, under_test.check(iterate(1, [0.0, 1.0, 0.0]))) is None
+    assert under_test.find_cutback(1, under_test.check(iterate(1, [0.0, 1.0, 0.0]))) is None
 
 
 def test_flux_histories_go_on_by_field():

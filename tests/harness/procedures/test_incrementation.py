@@ -19,7 +19,7 @@ from uel.procedures.general.incrementation import (
     IncrementControl,
     judge_rate,
     out_of_iterations,
-    refused,
+    pnewdt_cutback,
 )
 
 DATA = Path(__file__).parents[2] / "data"
@@ -215,5 +215,5 @@ def test_pnewdt_above_one_lets_the_increment_grow(pnewdt, following):
 
 
 def test_pnewdt_below_one_is_the_factor_of_the_cutback():
-    assert refused(0.6).factor == 0.6
-    assert refused(1.0) is None
+    assert pnewdt_cutback(0.6).factor == 0.6
+    assert pnewdt_cutback(1.0) is None

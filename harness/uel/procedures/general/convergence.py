@@ -3,7 +3,7 @@
 """Convergence of an iteration: the criteria of Abaqus/Standard for one field, as pure functions.
 
 Abaqus Analysis User's Guide, "Convergence criteria for nonlinear problems". What the guide leaves open (which mean,
-which residual the estimate of the correction uses) is settled by printed checks of Abaqus; the tests hold them.
+which residual the estimate of the correction uses) is inferred from message files of Abaqus, as the tests show.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from uel.model.controls import FieldControls
 from uel.model.records import Convergence
 
 INITIAL_FLUX = 1e-2
-"""Time average flux of Abaqus before any flux was seen in the first step (*CONTROLS, q_0)."""
+"""Time average flux of Abaqus before there is any flux in the first step (*CONTROLS, q_0)."""
 
 
 SMALL_PEAK = 0.1
@@ -23,11 +23,11 @@ SMALL_PEAK = 0.1
 
 @dataclass(frozen=True, slots=True)
 class FieldMeasures:
-    """Measures that decide the verdict on one field in one iteration; all values are magnitudes.
+    """Measures for the convergence of one field in one iteration; all values are magnitudes.
 
     q, q_time   average flux and its time average
-    r           largest residual; r_previous the one before: that of the previous iteration, in iteration 1 that of
-                the extrapolated start, None if there is neither
+    r           largest residual; r_previous that of the previous iteration, in iteration 1 that of the extrapolated
+                start, None without an extrapolation
     du, c       largest increment and largest correction
     iteration   from 1
     """
@@ -42,7 +42,7 @@ class FieldMeasures:
 
 
 def residual_tolerance(check: FieldMeasures, controls: FieldControls, i_p: int) -> float:
-    """Return the largest residual that counts as equilibrium: R_n q~, and R_P q~ after I_P iterations."""
+    """Return the tolerance of the residual: R_n q~, and R_P q~ after I_P iterations."""
     return (controls.r_n if check.iteration <= i_p else controls.r_p) * check.q_time
 
 
@@ -54,7 +54,7 @@ def estimated_correction(check: FieldMeasures) -> float | None:
 
 
 def judge(check: FieldMeasures, controls: FieldControls, i_p: int) -> Convergence:
-    """Judge one field.
+    """Return the verdict on one field.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def judge(check: FieldMeasures, controls: FieldControls, i_p: int) -> Convergenc
     if check.q <= zero and (check.r <= zero or check.c <= controls.c_eps * check.du):
         return Convergence.ZERO_FLUX
     if check.r <= controls.r_l * check.q_time:
-        # later iterations are printed as converged, even if the correction is as large as the increment
+        # Abaqus prints later iterations as converged, even if the correction is as large as the increment
         return Convergence.LINEAR if check.iteration == 1 else Convergence.CONVERGED
     if check.r > residual_tolerance(check, controls, i_p):
         return Convergence.NOT_ACHIEVED
@@ -97,7 +97,7 @@ class FluxHistory:
     peaks: float = 0.0
 
     def average(self, q: float, controls: FieldControls) -> float:
-        """Return the time average flux if the current increment ended with the average flux q."""
+        """Return the time average flux that includes an average flux q of the current increment."""
         if controls.q_u > 0.0:
             return controls.q_u
         if self._carries(q, controls):
@@ -111,28 +111,28 @@ class FluxHistory:
         return FluxHistory(self.initial, self.total + q, self.count + 1, self.peaks + peak)
 
     def floor(self, controls: FieldControls) -> float:
-        """Return the element nodal force that counts as zero in the next increment; -1 before any flux in the step."""
+        """Return the element nodal force below which it counts as zero in the next increment; -1 before any flux."""
         return controls.eps_l * self.peaks / self.count if self.count else -1.0
 
     def leaves_out(self, peak: float) -> bool:
-        """Report whether element forces below the floor are left out of the average, if the largest one is `peak`."""
+        """Return whether element forces below the floor are left out of the average, if the largest force is `peak`."""
         return self.count > 0 and peak >= SMALL_PEAK * self.peaks / self.count
 
     def next_step(self, controls: FieldControls) -> FluxHistory:
-        """Return the history at the start of the next step: q_0 if set by the controls, else the time average."""
+        """Return the history at the start of the next step: q_0 of the controls if set, else the time average."""
         return FluxHistory(controls.q_0 if controls.q_0 > 0.0 else self._mean())
 
     @property
     def known(self) -> float:
-        """Time average flux of the converged increments, or of the step before; 0 where there was none."""
+        """Time average flux of the converged increments, or of the step before; 0 without any flux."""
         return self._mean() if self.count or self.initial != INITIAL_FLUX else 0.0
 
     def unknown(self, controls: FieldControls) -> bool:
-        """Report whether no converged increment has carried flux, and the controls give none."""
+        """Return whether no converged increment has had flux, and the controls set none."""
         return not (self.count or controls.q_0 or controls.q_u) and self.initial == INITIAL_FLUX
 
     def seen(self, q: float, controls: FieldControls) -> bool:
-        """Report whether there is flux, in the current increment by its average q, or in an earlier one of the step."""
+        """Return whether there is flux in the current increment, with average q, or in an earlier one of the step."""
         return self.count > 0 or self._carries(q, controls)
 
     def _mean(self) -> float:

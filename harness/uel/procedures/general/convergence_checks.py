@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Convergence checks of all fields in an iterate."""
+"""Convergence checks of all fields after an iteration."""
 
 from __future__ import annotations
 
@@ -41,11 +41,11 @@ Positions = IntArray | slice
 
 @dataclass(slots=True)
 class FieldChecker:
-    """Checks of one field: where its unknowns are, its controls, and the results of earlier iterations and increments.
+    """Checks of one field: its unknowns, its controls, and the results of earlier iterations and increments.
 
     unknowns   unknowns of the field
     free       positions of its free unknowns in the reduced vector
-    average    its time average flux in the last check, which is that of another field where it is `converted`
+    average    its time average flux in the last check, or that of another field if it is `converted`
     """
 
     number: int
@@ -69,7 +69,7 @@ class Checker:
     """Convergence checks of the increments of one step.
 
     length   characteristic length of elements with rotations, which converts moments to forces; 0 without rotations
-    convert  severe discontinuity iterations may end an increment
+    convert  CONVERT SDI: severe discontinuity iterations may end an increment
     """
 
     def __init__(
@@ -90,7 +90,7 @@ class Checker:
         self._start: list[float] = []
         self.fields = []
         self._controls, self._convert_sdi = controls, convert
-        self._calm = 0
+        self._last_severe = 0
         volume = FIELD_NAMES.index(VOLUME)
         self._pressures = np.flatnonzero(dofs.field[self._free] == volume)
         for number in np.unique(dofs.field[dofs.field < volume]):
@@ -104,10 +104,10 @@ class Checker:
     def flux_floor(self) -> FloatArray:
         """Element nodal forces (fields,) that do not count in the average flux in the next increment.
 
-        From the second increment of a step on, forces are left out that count as zero compared with the time average of
-        the largest one: in printed iterations of a cube pulled along one axis, the average is that of the other entries
-        only. All count if the largest one is small compared with its time average: so do the heat fluxes of a cube
-        after a first peak, until a tenth of it is reached.
+        From the second increment of a step on, forces that count as zero beside the time average of the largest force
+        are left out: message files of Abaqus on a cube in uniaxial tension show the average of the other entries. All
+        forces count while the largest one is small beside its time average: so do heat fluxes of a cube after a first
+        peak, until they reach a tenth of it.
         """
         floor = np.full(len(FIELD_NAMES), -1.0)
         for checked in self.fields:
@@ -117,9 +117,9 @@ class Checker:
     def start(self, state: Iterate, *, extrapolated: bool) -> None:
         """Begin an attempt with the state before the first solve.
 
-        Its residual serves the estimate of the correction in iteration 1, but only where it is an extrapolation.
+        If it is an extrapolation, its residual enters the estimate of the correction in iteration 1.
         """
-        self._calm = 0
+        self._last_severe = 0
         for checked in self.fields:
             checked.residuals = []
         self._start = [_largest(state.r_q, checked.free) if extrapolated else 0.0 for checked in self.fields]
@@ -127,9 +127,9 @@ class Checker:
     def check(self, state: Iterate) -> tuple[FieldCheck, ...]:
         """Check all fields after an iteration, then volumes, distributing couplings and contact."""
         if is_severe(state):
-            self._calm = state.iteration
+            self._last_severe = state.iteration
             for checked in self.fields:
-                # the rate of convergence counts from here
+                # the rate of convergence is measured from here on
                 checked.residuals = checked.residuals[-1:]
         for checked in self.fields:
             self._take_flux(checked, state)
@@ -141,12 +141,12 @@ class Checker:
             checks = (*checks, self._check_coupling(state, state.evaluation.coupling))
         return (*checks, self._check_contact(state)) if state.evaluation.contact else checks
 
-    def give_up(self, iteration: int, checks: Sequence[FieldCheck]) -> Cutback | None:
-        """Return the cutback after these checks, none of which need have failed; None to go on iterating.
+    def find_cutback(self, iteration: int, checks: Sequence[FieldCheck]) -> Cutback | None:
+        """Return a cutback after these checks, None to continue iterating.
 
-        iteration: of those in a row without severe discontinuities.
+        iteration: number of iterations since the last severe discontinuity.
         """
-        # those of volume and so on, which are no fields, come last
+        # checks of volume, couplings and contact come after those of the fields
         for checked, check in zip(self.fields, checks, strict=False):
             if check.verdict is Convergence.NOT_ACHIEVED:
                 tolerance = checked.controls.r_n * check.time_average_flux
@@ -156,16 +156,16 @@ class Checker:
         return out_of_iterations(iteration, self._time)
 
     def assumed_zero_flux(self, checks: Sequence[FieldCheck]) -> Iterator[FieldCheck]:
-        """Yield checks that pass as zero flux only by Abaqus' initial time average flux, not by the actual flux."""
+        """Yield checks that pass as zero flux only because of Abaqus' initial time average flux."""
         for checked, check in zip(self.fields, checks, strict=False):
             controls = checked.controls
             assumed = checked.history.unknown(controls) and not checked.converted
-            left = abs(check.residual.value) > controls.r_n * check.average_flux > 0.0
-            if check.verdict is Convergence.ZERO_FLUX and assumed and left:
+            unbalanced = abs(check.residual.value) > controls.r_n * check.average_flux > 0.0
+            if check.verdict is Convergence.ZERO_FLUX and assumed and unbalanced:
                 yield check
 
     def negligible_force(self) -> float:
-        """Return the largest force accepted without a correction in each field with flux so far; 0 before any."""
+        """Return the largest residual accepted without a correction (R_l) in every field with flux; 0 before any."""
         known = [(field.history.known, field.controls.r_l) for field in self.fields]
         return min((r_l * flux for flux, r_l in known if flux > 0.0), default=0.0)
 
@@ -174,7 +174,7 @@ class Checker:
         return {field.name: field.average for field in self.fields}
 
     def largest_ratio(self, residual: FloatArray, tolerances: Mapping[str, float]) -> float:
-        """Return the largest ratio of residual to tolerance, of the fields that have a tolerance."""
+        """Return the largest ratio of residual to tolerance over the fields with a tolerance."""
         reduced = self._constraints.reduce_vector(residual)
         ratios = [0.0]
         for checked in self.fields:
@@ -216,11 +216,11 @@ class Checker:
         checked.average, checked.converted = checked.history.average(checked.flux, checked.controls), False
 
     def _convert(self) -> None:
-        """Take moments over a length as the average force, if forces count as zero beside them; and the reverse.
+        """Use moments over a length as the average force if forces count as zero beside them; and the reverse.
 
-        Otherwise forces that are rounding errors of moments would be compared with themselves. Abaqus says that the
-        field conversion ratio scales the relationship between two active fields when one is of negligible magnitude,
-        and message files have FROM MOMENT FIELD. Inferred are the length, that of elements with rotations, and the
+        Otherwise forces that are rounding errors of moments would be compared with themselves. According to Abaqus, the
+        field conversion ratio scales the relationship between two active fields when one is of negligible magnitude;
+        message files have FROM MOMENT FIELD. Inferred are the length, that of elements with rotations, and the
         condition: no increment had forces, and they count as zero by the criterion for zero flux.
         """
         force, moment = (next((c for c in self.fields if c.name == name), None) for name in ("force", "moment"))
@@ -248,7 +248,7 @@ class Checker:
             r_previous=previous or None,
             du=abs(increment.value),
             c=abs(correction.value),
-            iteration=max(state.iteration - self._calm, 1),
+            iteration=max(state.iteration - self._last_severe, 1),
         )
         return FieldCheck(
             field=checked.name,
@@ -263,7 +263,7 @@ class Checker:
         )
 
     def _check_volume(self, state: Iterate) -> FieldCheck:
-        """Check that the volume changes of hybrid elements, by displacements and by pressure, differ by little.
+        """Check that the volume changes of hybrid elements by displacements and by pressure agree.
 
         Abaqus' volumetric strain compatibility tolerance for hybrid solids.
         """
@@ -275,7 +275,7 @@ class Checker:
         return FieldCheck(VOLUME, 0.0, 0.0, largest, nothing, nothing, verdict)
 
     def _check_coupling(self, state: Iterate, errors: CouplingErrors) -> FieldCheck:
-        """Check that reference nodes move with the nodes over which distributing couplings spread their forces.
+        """Check that reference nodes move with the nodes of their distributing couplings.
 
         Abaqus' displacement and rotation compatibility tolerances.
         """
@@ -288,10 +288,8 @@ class Checker:
     def _check_contact(self, state: Iterate) -> FieldCheck:
         """Check penetrations and contact forces.
 
-        Points in contact may penetrate little, compared with the largest increment of displacement, and those that
-        opened or closed may have small forces, compared with the time average force.
-
-        With CONVERT SDI=NO no iteration passes that changes the status of a point.
+        Penetrations must be small beside the largest increment of displacement, forces of points that opened or closed
+        beside the time average force. With CONVERT SDI=NO no iteration passes that changes the status of a point.
         """
         pairs, controls, nothing = state.evaluation.contact, self._controls, Largest(0.0, -1, 0)
         penetration = _worst(Largest(*changes.penetration, 0, changes.pair) for changes in pairs)
@@ -322,19 +320,19 @@ def _worst(values: Iterable[Largest]) -> Largest:
 
 
 def _verdict(state: Iterate, *, fulfilled: bool) -> Convergence:
-    """Return the verdict on constraints after an iteration."""
+    """Return the verdict on constraint errors after an iteration."""
     if not fulfilled:
         return Convergence.NOT_ACHIEVED
     return Convergence.LINEAR if state.iteration == 1 else Convergence.CONVERGED
 
 
 def is_severe(state: Iterate) -> bool:
-    """Report whether an iteration changed the status of a contact point."""
+    """Return whether an iteration changed the status of a contact point."""
     return any(changes.count for changes in state.evaluation.contact)
 
 
 def was_linear(checks: Sequence[FieldCheck]) -> bool:
-    """Report whether an increment that these checks accept was linear, in all fields that have fluxes."""
+    """Return whether an increment that these checks accept was linear in all fields with flux."""
     verdicts = {check.verdict for check in checks}
     return Convergence.LINEAR in verdicts and verdicts <= {Convergence.LINEAR, Convergence.ZERO_FLUX}
 

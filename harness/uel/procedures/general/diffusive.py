@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """*HEAT TRANSFER, *COUPLED TEMPERATURE-DISPLACEMENT and *MASS DIFFUSION.
 
-Elements integrate over time themselves; the step limits the change of temperatures or concentrations in an increment.
+Elements integrate over time; the step limits the change of temperatures or concentrations in an increment.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class LimitedChange(Part):
         return Accuracy(self._change(last) / self._procedure.largest_change, self._procedure.complaint)
 
     def converged(self, last: Iterate, size: float) -> PartEnd:
-        """Update the rate that END=SS looks at."""
+        """Update the rate that END=SS tests."""
         self._rate = self._change(last) / size
         return PartEnd()
 

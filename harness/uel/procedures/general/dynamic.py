@@ -3,8 +3,9 @@
 """*DYNAMIC: implicit integration by the operator of Hilber, Hughes and Taylor, or by backward Euler.
 
 Abaqus Theory Guide, "Implicit dynamic analysis": M a + (1 + alpha) (I - P) at the end - alpha (I - P) at the start = 0.
-Elements put M a and their I with these weights into RHS; the step weights its loads P. Nodes on arms pass these forces
-on in the directions of (1 + alpha) u at the end - alpha u at the start: those of the end damp a spin to first order.
+Elements return M a and I with these weights in RHS; the step weights its loads P. Nodes on arms transfer these forces
+in the directions of (1 + alpha) u at the end - alpha u at the start: the directions at the end damp a spin to first
+order.
 """
 
 from __future__ import annotations
@@ -36,16 +37,16 @@ CONSISTENT = 1e-6
 """Relative difference up to which initial velocities fulfil the constraints: decks have six digits."""
 
 MOVED = 1e-6
-"""Distance over the size of the model by which nodes move along their velocities, to see how volumes change."""
+"""Displacement along the velocities, over the size of the model, for differences of volumes."""
 
 
 @dataclass(frozen=True, slots=True)
-class KeptVolume:
-    """Equations of the initial accelerations of incompressible hybrid elements.
+class VolumeConstraint:
+    """Equations of incompressible hybrid elements for the initial accelerations.
 
-    rows    (n,) whether an unknown is one of their pressures
-    data    (nnz,) CSR values of what couples them with accelerations
-    forces  (n,) right-hand side, for the pressures
+    rows    (n,) mask of their pressures
+    data    (nnz,) CSR values that couple the pressures with accelerations
+    forces  (n,) right-hand side of the pressures
     """
 
     rows: NDArray[np.bool_]
@@ -79,63 +80,63 @@ class ImplicitIntegration(Part):
         state, constraints = self._context.state, self._context.constraints
         constraints.update(state.displacement, np.zeros_like(state.displacement))
         following = constraints.project(state.velocity)
-        given = np.abs(state.velocity).max(initial=0.0)
-        # as in Abaqus, constraints take precedence; in a later step both differ by the error of integration
-        replaced = len(state.begun) == 1 and np.abs(following - state.velocity).max(initial=0.0) > CONSISTENT * given
+        largest = np.abs(state.velocity).max(initial=0.0)
+        # as in Abaqus, constraints take precedence; in later steps the difference is the error of integration
+        replaced = len(state.begun) == 1 and np.abs(following - state.velocity).max(initial=0.0) > CONSISTENT * largest
         velocity = following if replaced else state.velocity
-        begun = InitialMotion(velocity, state.acceleration, state.displacement, state.external, state.energy)
+        initial = InitialMotion(velocity, state.acceleration, state.displacement, state.external, state.energy)
         if constraints.arms and self._procedure.integrator is Integrator.HHT:
-            mass = self._at_rest(begun, Request.MASS).data
+            mass = self._at_rest(initial, Request.MASS).data
             assert mass is not None
             self._inertia = constraints.inertia(self._context.system.matrix(mass))
         if self._procedure.initial_acceleration:
-            begun = self._accelerated(begun)
-        return PartStart([Warned(REPLACED)] if replaced else [], begun)
+            initial = self._accelerated(initial)
+        return PartStart([Warned(REPLACED)] if replaced else [], initial)
 
-    def _accelerated(self, begun: InitialMotion) -> InitialMotion:
-        """Solve M a = P - I for the initial accelerations; unknowns without mass have none."""
+    def _accelerated(self, initial: InitialMotion) -> InitialMotion:
+        """Solve M a = P - I for the initial accelerations, zero for unknowns without mass."""
         context, constraints = self._context, self._context.constraints
         of_nodes = context.system.dofs.of_nodes
-        incompressible = None if of_nodes.all() else self._incompressible(begun)
-        evaluation = self._at_rest(begun, Request.INITIAL_ACCELERATION)
+        incompressible = None if of_nodes.all() else self._incompressible(initial)
+        evaluation = self._at_rest(initial, Request.INITIAL_ACCELERATION)
         load = context.load_at(0.0)
         assert evaluation.data is not None
-        convective = constraints.convective(begun.displacement, begun.velocity)
+        convective = constraints.convective(initial.displacement, initial.velocity)
         data = evaluation.data
-        missing = evaluation.residual + load - context.system.product(data, convective)
+        rhs = evaluation.residual + load - context.system.product(data, convective)
         if incompressible is not None:
-            data, missing = data + incompressible.data, np.where(incompressible.rows, incompressible.forces, missing)
+            data, rhs = data + incompressible.data, np.where(incompressible.rows, incompressible.forces, rhs)
         mass = constraints.reduce(data)
-        reduced = constraints.reduce_vector(missing)
+        reduced = constraints.reduce_vector(rhs)
         indptr, indices = constraints.reduced_indptr, constraints.reduced_indices
         row = np.repeat(np.arange(len(reduced)), np.diff(indptr))
-        weightless = context.system.sum(np.bincount(row, np.abs(mass), len(reduced)).astype(np.float64)) == 0.0
-        mass[(row == indices) & weightless[row]] = 1.0
-        reduced[weightless] = 0.0
+        massless = context.system.sum(np.bincount(row, np.abs(mass), len(reduced)).astype(np.float64)) == 0.0
+        mass[(row == indices) & massless[row]] = 1.0
+        reduced[massless] = 0.0
         context.solver.factorise(mass)
-        found = convective + constraints.expand(context.solver.solve(reduced), np.zeros(len(constraints.prescribed)))
-        begun = replace(begun, acceleration=np.where(of_nodes, found, 0.0))
+        solution = convective + constraints.expand(context.solver.solve(reduced), np.zeros(len(constraints.prescribed)))
+        initial = replace(initial, acceleration=np.where(of_nodes, solution, 0.0))
         if incompressible is not None:
-            begun = replace(begun, displacement=begun.displacement + np.where(of_nodes, 0.0, found))
-            evaluation = self._at_rest(begun, Request.INITIAL_ACCELERATION)
+            initial = replace(initial, displacement=initial.displacement + np.where(of_nodes, 0.0, solution))
+            evaluation = self._at_rest(initial, Request.INITIAL_ACCELERATION)
         context.system.commit()
-        return replace(begun, external=load + context.state.reaction, energy=evaluation.energy)
+        return replace(initial, external=load + context.state.reaction, energy=evaluation.energy)
 
-    def _at_rest(self, begun: InitialMotion, request: Request, moved: FloatArray | float = 0.0) -> Evaluation:
+    def _at_rest(self, initial: InitialMotion, request: Request, moved: FloatArray | float = 0.0) -> Evaluation:
         """Make a pass at the start of the step, without accelerations."""
-        context, still = self._context, np.zeros_like(begun.displacement)
-        call = context.call(0.0, 0.0, context.start, begun.displacement).asking(request)
-        motion = Motion(begun.velocity, np.zeros_like(begun.velocity))
-        return context.system.evaluate(call, begun.displacement + moved, still, motion=motion)
+        context, zero = self._context, np.zeros_like(initial.displacement)
+        call = context.call(0.0, 0.0, context.start, initial.displacement).asking(request)
+        motion = Motion(initial.velocity, np.zeros_like(initial.velocity))
+        return context.system.evaluate(call, initial.displacement + moved, zero, motion=motion)
 
-    def _incompressible(self, begun: InitialMotion) -> KeptVolume | None:
-        """Build the constraint on the volume of incompressible hybrid elements, whose pressure has no rate; or None.
+    def _incompressible(self, initial: InitialMotion) -> VolumeConstraint | None:
+        """Build the volume constraint of incompressible hybrid elements, None without them.
 
-        The matrix B of their pressures keeps B v = 0, so that B a = - dB/dt v.
+        The rows B of their pressures in the stiffness demand B v = 0, so that B a = - dB/dt v.
         """
-        context, velocity = self._context, begun.velocity
+        context, velocity = self._context, initial.velocity
         system = context.system
-        data = self._stiffness(begun)
+        data = self._stiffness(initial)
         rows = ~system.dofs.of_nodes & (system.sum(system.matrix(data).diagonal()) == 0.0)
         if not rows.any():
             return None
@@ -143,26 +144,26 @@ class ImplicitIntegration(Part):
         coupling = np.where(rows[row] != rows[system.indices], data, 0.0)
         forces = np.zeros(len(system))
         if context.step.nlgeom and velocity.any():
-            # exact for any distance: volumes are cubic in displacements
+            # central differences are exact: volumes are cubic in displacements
             distance = MOVED * np.ptp(system.dofs.coordinates, axis=0).max() / np.abs(velocity).max()
-            ahead, behind = (self._stiffness(begun, sign * distance * velocity) for sign in (1.0, -1.0))
+            ahead, behind = (self._stiffness(initial, sign * distance * velocity) for sign in (1.0, -1.0))
             forces = -system.product((ahead - behind) / (2.0 * distance), velocity)
-        return KeptVolume(rows, coupling, forces)
+        return VolumeConstraint(rows, coupling, forces)
 
-    def _stiffness(self, begun: InitialMotion, moved: FloatArray | float = 0.0) -> FloatArray:
+    def _stiffness(self, initial: InitialMotion, moved: FloatArray | float = 0.0) -> FloatArray:
         """Return CSR values (nnz,) at the start of the step, of this rank."""
-        evaluation = self._at_rest(begun, Request.STIFFNESS, moved)
+        evaluation = self._at_rest(initial, Request.STIFFNESS, moved)
         assert evaluation.data is not None
         return evaluation.data.copy()
 
     def _motion(self, size: float, increment: FloatArray) -> Motion:
-        """Return the motion at the end of an increment; pressures of elements have no mass and no part in it."""
+        """Return the motion at the end of an increment; unknowns of elements have none."""
         before = Motion(self._context.state.velocity, self._context.state.acceleration)
         after, of_nodes = advance(self._procedure, before, size, increment), self._context.system.dofs.of_nodes
         return Motion(np.where(of_nodes, after.velocity, 0.0), np.where(of_nodes, after.acceleration, 0.0))
 
     def add_to(self, increment: Increment, size: float) -> Increment:
-        """Weight the loads over the increment, and add the motion that follows from displacements."""
+        """Weight the loads of the end and the start, and add the motion as a function of displacements."""
         alpha, state, context = self._procedure.alpha, self._context.state, self._context
         f_ext = (1.0 + alpha) * increment.f_ext - alpha * context.load_at(context.step_time)
         guess = increment.guess
@@ -171,12 +172,12 @@ class ImplicitIntegration(Part):
         return replace(increment, guess=guess, f_ext=f_ext, weight=1.0 + alpha, motion=partial(self._motion, size))
 
     def accuracy(self, last: Iterate, size: float) -> Accuracy | None:
-        """Return the half-increment residual: forces out of balance in the middle of the increment."""
+        """Return the half-increment residual, the unbalanced forces in the middle of the increment."""
         procedure, context = self._procedure, self._context
         if not (procedure.half_force or np.isfinite(procedure.half_increment)):
             return None
-        increment = self._half(last, size)
-        evaluation = self._half_increment(last, size, increment)
+        increment = self._middle_increment(last, size)
+        evaluation = self._pass_at_middle(last, size, increment)
         middle = context.step_time + 0.5 * size
         alpha = procedure.alpha
         start = context.load_at(context.step_time)
@@ -184,7 +185,7 @@ class ImplicitIntegration(Part):
         load = (1.0 + alpha) * at_middle - 0.5 * alpha * (start + self._previous_load)
         residual = evaluation.residual + load
         constraints, before = context.constraints, context.state.displacement
-        # the forces at the start count by the mean of the last two increments, as the loads do
+        # forces at the start are means of the last two increments, as the loads are
         constraints.update(before + increment, residual, increment + 0.5 * self._previous, 1.0 + alpha)
         ratio = context.checker.largest_ratio(residual, self._tolerances())
         constraints.update(before + last.du, last.r, last.du, 1.0 + alpha)
@@ -199,15 +200,15 @@ class ImplicitIntegration(Part):
             return dict.fromkeys(forces, procedure.half_force)
         return {name: procedure.half_increment * mean for name, mean in forces.items()}
 
-    def _half(self, last: Iterate, size: float) -> FloatArray:
-        """Interpolate the increment at its middle: a cubic from the start state to the displacements at the end."""
+    def _middle_increment(self, last: Iterate, size: float) -> FloatArray:
+        """Interpolate the increment at its middle, by a cubic from the state at the start to the end."""
         state = self._context.state
         increment = last.du / 8 + 0.375 * size * state.velocity + size**2 / 16 * state.acceleration
         increment = np.where(self._context.system.dofs.of_nodes, increment, 0.5 * last.du)
         return self._context.constraints.satisfy(state.displacement, increment)
 
-    def _half_increment(self, last: Iterate, size: float, increment: FloatArray) -> Evaluation:
-        """Pass at half the increment, over which accelerations are linear."""
+    def _pass_at_middle(self, last: Iterate, size: float, increment: FloatArray) -> Evaluation:
+        """Make a pass at half the increment, over which accelerations are linear."""
         context, state, half = self._context, self._context.state, 0.5 * size
         end = self._motion(size, last.du)
         velocity = 0.75 / size * last.du + 0.25 * state.velocity - size / 8 * state.acceleration
@@ -230,10 +231,10 @@ class ImplicitIntegration(Part):
             self._inertia = sparse.csr_array(values, shape=2 * (len(self._context.system),))
 
     def converged(self, last: Iterate, size: float) -> PartEnd:
-        """Velocities and accelerations at the end.
+        """Return velocities and accelerations at the end.
 
-        Velocities that the integration gives nodes on arms are off the directions in which they can move, by the square
-        of the increment h. Left so, errors of a spin omega grow in each by (1 + omega h)(1 + alpha)/(1 - alpha).
+        The integration violates the constraints of nodes on arms by O(h^2) in the increment h. Without the projection,
+        errors of a spin omega grow in each increment by (1 + omega h)(1 + alpha)/(1 - alpha).
         """
         context = self._context
         self._previous_load, self._previous = context.load_at(context.step_time), last.du

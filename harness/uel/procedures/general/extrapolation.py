@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""First estimate of an increment from those before it in the step."""
+"""Extrapolation of an increment from earlier ones of the step."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from uel.model.restart import Saved
 class Extrapolation:
     """EXTRAPOLATION= of *STEP: LINEAR (the default), PARABOLIC, NO.
 
-    Nothing is extrapolated into the first increment of a step, and into one that is shorter than `shortest` times the
-    last one that converged (D_E of *CONTROLS). PARABOLIC is linear after one increment.
+    There is none for the first increment of a step, nor for one shorter than `shortest` times the last one that
+    converged (D_E of *CONTROLS). PARABOLIC is linear after one increment.
     """
 
     def __init__(self, mode: str, shortest: float) -> None:
@@ -21,7 +21,7 @@ class Extrapolation:
         self._before: tuple[FloatArray, float] | None = None
 
     def guess(self, size: float) -> FloatArray | None:
-        """Estimate of an increment of this size; None: start from zero."""
+        """Return an estimate (n,) of an increment of this size; None: start from zero."""
         if self._last is None or self._mode == "NO":
             return None
         last, h1 = self._last
@@ -36,7 +36,7 @@ class Extrapolation:
         return a * size + b * size**2
 
     def kept(self) -> Saved:
-        """Return the increments that it needs."""
+        """Return the increments that it extrapolates from."""
         needed = {"LINEAR": 1, "PARABOLIC": 2}.get(self._mode, 0)
         return {"increments": [list(one) for one in (self._last, self._before)[:needed] if one is not None]}
 

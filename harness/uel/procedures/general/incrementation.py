@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Size of the next increment, and when an attempt at one is abandoned and cut back.
+"""Sizes of increments, and cutbacks of attempts.
 
 Abaqus Analysis User's Guide, "Commonly used control parameters" and "Convergence criteria for nonlinear problems".
 """
@@ -29,10 +29,10 @@ FIXED_TOO_LARGE = "FIXED TIME INCREMENT IS TOO LARGE"
 TOO_MANY_INCREMENTS = "TOO MANY INCREMENTS NEEDED TO COMPLETE THE STEP"
 
 UNTOUCHED = 1e10
-"""A PNEWDT from this size on is the large value on entry, which a user element did not set."""
+"""Smallest PNEWDT that counts as the large value on entry, which no user element has set."""
 
 _END = 1e-6
-"""Limit relative to the increment: a smaller remainder of the step is added, because sums of increments round."""
+"""Remainder of the step over the increment that is added to it, because sums of increments round."""
 
 _ROUNDING = 1e-12
 """Rounding of a sum of increments, relative to it."""
@@ -40,9 +40,9 @@ _ROUNDING = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Cutback:
-    """Cutback of an attempt for a `reason`, in Abaqus' words; the next one takes `factor` times the increment.
+    """Cutback of an attempt for a `reason`, in Abaqus' words, to `factor` times the increment.
 
-    cause  addition to the error that ends the job if no other attempt is left; '' for none
+    cause  addition to the error that ends the job if no attempt is left; '' for none
     """
 
     factor: float
@@ -53,12 +53,12 @@ class Cutback:
 ALIKE = 1e-6
 """Relative difference of residuals that counts as none.
 
-If two states alternate, their residuals differ by rounding, which must not decide how the attempt ends. They diverge:
-Abaqus cuts the increment to a quarter there (abaqus_inputs/dcb_3d)."""
+If two states alternate, their residuals differ only by rounding, which must not decide how the attempt ends. This
+counts as divergence: Abaqus cuts the increment to a quarter (abaqus_inputs/dcb_3d)."""
 
 
 def judge_rate(iteration: int, residuals: Sequence[float], tolerance: float, controls: TimeControls) -> Cutback | None:
-    """Return a cutback for a field whose residual is still too large, None to go on iterating.
+    """Return a cutback for a field whose residual is too large, None to continue iterating.
 
     Parameters
     ----------
@@ -72,8 +72,8 @@ def judge_rate(iteration: int, residuals: Sequence[float], tolerance: float, con
     Returns
     -------
     Cutback | None
-        From iteration I_0: the residuals of two iterations in a row not below that of the one before. From I_R: more
-        than I_C iterations needed if the residual goes on falling by the factor of the last iteration.
+        From iteration I_0 on: if the residuals of two iterations in a row are not below that of the one before. From
+        I_R on: if more than I_C iterations are needed at the rate of convergence of the last iteration.
     """
     if iteration >= controls.i_0 and len(residuals) > 2 and min(residuals[-2:]) > (1.0 - ALIKE) * residuals[-3]:
         return Cutback(controls.d_f, DIVERGING)
@@ -101,16 +101,16 @@ def too_discontinuous(severe: int, controls: TimeControls, *, convert: bool) -> 
 class Accuracy:
     """Accuracy of the integration over time in an increment.
 
-    measure    error measure over its tolerance: above 1 the increment is too large
-    complaint  message of Abaqus for that case
+    measure    error over its tolerance; above 1 the increment is too large
+    complaint  message of Abaqus in that case
     """
 
     measure: float
     complaint: str
 
 
-def refused(pnewdt: float) -> Cutback | None:
-    """Return a cutback if a user element asks for a smaller increment: PNEWDT < 1."""
+def pnewdt_cutback(pnewdt: float) -> Cutback | None:
+    """Return a cutback if a user element requests a smaller increment, PNEWDT < 1."""
     if pnewdt >= 1.0:
         return None
     return Cutback(pnewdt, f"A USER ELEMENT REQUESTS A SMALLER TIME INCREMENT, PNEWDT = {pnewdt:.4g}")
@@ -128,27 +128,27 @@ class IncrementControl:
         self._size = procedure.initial if procedure.direct else min(procedure.initial, procedure.maximum)
         self._easy = 0
         self._measures: list[tuple[float, float]] = []
-        self._most = float(getattr(controls, procedure.growth))
+        self._max_growth = float(getattr(controls, procedure.growth))
         self._whole: tuple[float, float] | None = None
-        # whether the last attempt that converged was linear, and all of them so far
+        # response of the last attempt that converged, and of all of them so far
         self._linear = self._always_linear = True
         self.in_parts = False
         self.attempts = 0
 
     def kept(self) -> Saved:
-        """Return the sizes between two increments, neither of which is in parts."""
+        """Return the data for the sizes of later increments, for *RESTART; no increment is in parts."""
         measures = [list(pair) for pair in self._measures]
         return {"size": self._size, "easy": self._easy, "measures": measures, "linear": self._always_linear}
 
     def resume(self, saved: Saved) -> None:
-        """Go on from what `kept` returned."""
+        """Restore what `kept` returned."""
         self._size, self._easy, self._always_linear = saved["size"], saved["easy"], saved["linear"]
         self._measures = [(measure, size) for measure, size in saved["measures"]]
 
     def part(self, end: float) -> bool:
-        """Take the current increment, up to step time `end`, in parts sized by `cut_back`; False if it may not be.
+        """Divide the current increment, up to step time `end`, into parts sized by `cut_back`; False if not allowed.
 
-        After `end` increments have the size of the whole. If a part fails, the rest is one increment: `in_parts` ends.
+        Increments after `end` have the size of the whole one again. If a part fails, the rest is one increment.
         """
         if self._procedure.direct or self._whole:
             return False
@@ -156,14 +156,14 @@ class IncrementControl:
         return True
 
     def attempt(self, step_time: float) -> float:
-        """Return the size of the next attempt from `step_time`; the last increment ends with the period."""
+        """Return the size of the next attempt from `step_time`; the last increment ends at the period."""
         self.attempts += 1
         if self._whole and self._complete(step_time, self._whole[0]):
             self._size, self._whole, self.in_parts = self._whole[1], None, False
-        self._size = self.following(step_time)
+        self._size = self.next_size(step_time)
         return self._size
 
-    def following(self, step_time: float) -> float:
+    def next_size(self, step_time: float) -> float:
         """Return the size of an increment from `step_time`; 0 at the end of the step."""
         end, size = self._procedure.period, self._size
         if self._whole:
@@ -172,7 +172,7 @@ class IncrementControl:
         return max(left, 0.0) if left <= size * (1.0 + _END) else size
 
     def cut_back(self, cutback: Cutback) -> tuple[float, str]:
-        """Return the size of the next attempt after one failed; (0, error) if the job ends.
+        """Return the size of the next attempt after a failed one and ''; 0 and an error if the job ends.
 
         I_A cutbacks are allowed, thus I_A + 1 attempts.
         """
@@ -192,7 +192,7 @@ class IncrementControl:
     def too_inaccurate(self, accuracy: Accuracy | None, *, linear: bool) -> Cutback | None:
         """Return a cutback if the integration over time is too inaccurate, unless increments are fixed.
 
-        linear: the response was linear in the attempt, which has converged.
+        linear: the response was linear in this attempt, which has converged.
         """
         self._linear, self._always_linear = linear, self._always_linear and linear
         if accuracy is None or accuracy.measure <= 1.0 or self._procedure.direct:
@@ -215,16 +215,15 @@ class IncrementControl:
         iterations
             Equilibrium iterations of the attempt that converged.
         pnewdt
-            Smallest PNEWDT of its last iteration: if set, and above 1, it is the user elements' ratio of the next
-            increment to this one.
+            Smallest PNEWDT of its last iteration: if set and above 1, the ratio of the next increment to this one.
         searched
-            The descent search helped: its many iterations say nothing about the next increment.
+            The descent search took part, so that the number of iterations does not matter.
         accuracy
-            Accuracy of the integration over time; if measured, it decides the growth.
+            Accuracy of the integration over time; if measured, it determines the growth.
         disturbed
             There were more than I_J severe discontinuity iterations, I_J^c with CONVERT SDI=YES.
         """
-        # a cutback does not restart the count: Abaqus grows right after one if the attempts that converged were easy
+        # a cutback does not reset the count: Abaqus grows right after one if the converged attempts were easy
         self._easy = self._easy + 1 if iterations <= self._controls.i_g and not disturbed else 0
         self.attempts = 0
         if self._procedure.direct or self.in_parts:
@@ -236,26 +235,26 @@ class IncrementControl:
         elif accuracy is not None:
             self._size *= self._growth_by_accuracy(accuracy.measure)
         elif self._easy >= 2:
-            self._size *= min(self._controls.d_d, self._most)
+            self._size *= min(self._controls.d_d, self._max_growth)
         self._size = min(max(self._size, self._procedure.minimum), self._procedure.maximum)
 
     def _growth_by_accuracy(self, measure: float) -> float:
-        """Return the growth if the last I_T measures at their sizes are up to W_G at this size: D_G over the last one.
+        """Return D_G over the measure if the last I_T measures, scaled to this size, are at most W_G; else 1.
 
-        It is at most D_M, and D_D where the response was not linear. A problem that was linear in all attempts of the
-        step keeps its matrix unless it may grow by D_L D_M.
+        It is at most D_M, or D_D if the response was not linear. A step that was linear in all attempts keeps its
+        matrix, thus its size, unless the growth is at least D_L D_M.
         """
         controls = self._controls
         self._measures = [*self._measures, (measure, self._size)][-controls.i_t :]
         largest = max(earlier * self._size / size for earlier, size in self._measures)
         if len(self._measures) < controls.i_t or largest > controls.w_g:
             return 1.0
-        most = self._most if self._linear else min(self._most, controls.d_d)
+        most = self._max_growth if self._linear else min(self._max_growth, controls.d_d)
         growth = most if measure == 0.0 else min(most, controls.d_g / measure)
         return growth if growth >= (controls.d_l * most if self._always_linear else 1.0) else 1.0
 
     def finished(self, step_time: float) -> bool:
-        """Report whether the period is reached."""
+        """Return whether the period is reached."""
         return self._complete(step_time, self._procedure.period)
 
     @staticmethod

@@ -1,8 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""General steps: increments, each brought into equilibrium by Newton's method, along a path and with the parts that the
-procedure adds.
-"""
+"""General steps: attempts at increments along a path, with the parts that the procedure adds."""
 
 from __future__ import annotations
 
@@ -32,7 +30,7 @@ from uel.procedures.general.incrementation import (
     TOO_MANY_INCREMENTS,
     Accuracy,
     Cutback,
-    refused,
+    pnewdt_cutback,
     too_discontinuous,
 )
 from uel.procedures.general.largest_load import PASSED, LimitLoad
@@ -53,31 +51,35 @@ SMALL_FLUX = (
 
 
 @dataclass(slots=True)
-class Spent:
-    """Iterations of an attempt: severe discontinuity iterations, equilibrium iterations, and those of the latter since
-    the last one of the former; `passes` have begun.
+class IterationCounts:
+    """Number of iterations of an attempt.
+
+    severe        severe discontinuity iterations
+    equilibrium   equilibrium iterations
+    since_severe  equilibrium iterations since the last severe discontinuity iteration
+    passes        passes that have begun
     """
 
     severe: int = 0
     equilibrium: int = 0
-    calm: int = 0
+    since_severe: int = 0
     passes: int = 0
 
     @property
     def total(self) -> int:
-        """Number of both kinds."""
+        """Iterations of both kinds."""
         return self.severe + self.equilibrium
 
     def count(self, *, severe: bool) -> int:
-        """Count one more; returns its number among those of its kind."""
+        """Count an iteration; return its number among those of its kind."""
         if severe:
-            self.severe, self.calm = self.severe + 1, 0
+            self.severe, self.since_severe = self.severe + 1, 0
             return self.severe
-        self.equilibrium, self.calm = self.equilibrium + 1, self.calm + 1
-        return self.calm
+        self.equilibrium, self.since_severe = self.equilibrium + 1, self.since_severe + 1
+        return self.since_severe
 
     def count_unchecked(self) -> None:
-        """Count the solve before a pass that ended the attempt; there is none before the first pass."""
+        """Count the iteration whose pass ended the attempt; the first pass belongs to none."""
         self.equilibrium += self.passes - 1 > self.total
 
 
@@ -86,8 +88,8 @@ class Equilibrium:
     """End of an attempt that converged.
 
     last      state after the last iteration
-    accuracy  of the integration over time; None: not measured
-    checks    of the last iteration, all of which accept it
+    accuracy  accuracy of the integration over time; None: not measured
+    checks    checks of the last iteration, all of which accept it
     """
 
     last: Iterate
@@ -96,7 +98,7 @@ class Equilibrium:
 
 
 class GeneralStep:
-    """General step: what all have in common, the path of its increments, and the parts of its procedure."""
+    """General step, with the path of its increments and the parts of its procedure."""
 
     def __init__(self, context: StepContext, path: Path, parts: Sequence[Part] = ()) -> None:
         self._context = context
@@ -133,9 +135,9 @@ class GeneralStep:
             context.increment += 1
             converged = False
             while not converged:
-                converged, spent = yield from self._attempt(context.increment)
+                converged, counts = yield from self._attempt(context.increment)
                 cutbacks += not converged
-                iterations += spent.total
+                iterations += counts.total
         self.end(early=context.amplitudes.concluded)
         yield context.times_of_solver.note()
         yield StepDone(self._step.number, context.increment, cutbacks, iterations)
@@ -155,7 +157,7 @@ class GeneralStep:
         return self._path.finished or any(part.finished for part in self._parts)
 
     def end(self, *, early: bool = False) -> None:
-        """Let the state go on to the next step; early: before the period of this one."""
+        """End the step in the state; early: before its period."""
         concluded = self._context.step_time if early else None
         self._state.end_step(self._checker.histories(self._state.flux), concluded)
 
@@ -167,12 +169,12 @@ class GeneralStep:
 
     @property
     def _obstacle(self) -> str:
-        """Reason why states cannot be kept; '' if they can."""
+        """Reason why *RESTART, WRITE cannot keep states; '' if it can."""
         amplitudes = "UAMP gives amplitudes" if self._state.amplitudes.exist else ""
         return self._system.obstacle or amplitudes or self._path.obstacle
 
     def _is_due(self, size: float) -> bool:
-        """Report whether *RESTART, WRITE keeps the state of the increment of this size that has converged."""
+        """Return whether *RESTART, WRITE keeps the state at the end of an increment of this size."""
         restart, period = self._step.restart, self._step.procedure.period
         if restart is None or self._obstacle:
             return False
@@ -180,7 +182,7 @@ class GeneralStep:
         return restart.due(self._context.increment, after - size / period, after, last=self.finished)
 
     def _kept(self) -> Saved:
-        """Return the state between two increments."""
+        """Return the state between two increments, for *RESTART."""
         context = self._context
         return {
             "step": self._step.number,
@@ -196,7 +198,7 @@ class GeneralStep:
         }
 
     def resume(self, saved: Saved) -> None:
-        """Go on from what `_kept` returned, in place of the start of the step. Raises ValueError, KernelError."""
+        """Restore what `_kept` returned, in place of the start of the step. Raises ValueError, KernelError."""
         context, state = self._context, self._state
         context.increment, context.step_time = saved["increment"], saved["step_time"]
         state.resume(saved["state"])
@@ -209,8 +211,8 @@ class GeneralStep:
             part.resume(own)
         self._resumed = True
 
-    def _attempt(self, increment: int) -> Generator[Record, None, tuple[bool, Spent]]:
-        """Attempt an increment; return whether it converged, and its iterations."""
+    def _attempt(self, increment: int) -> Generator[Record, None, tuple[bool, IterationCounts]]:
+        """Attempt an increment; return whether it converged, and the numbers of iterations."""
         context, number, size = self._context, self._step.number, self._control.attempt(self._context.step_time)
         times = context.times
         yield AttemptStarted(number, increment, self._control.attempts, *times, size)
@@ -218,48 +220,48 @@ class GeneralStep:
         end = self._path.end(size)
         context.amplitudes.attempt(increment, (end, context.start + end), size, self._control.attempts - 1)
         iterates, extrapolated = self._path.begin(size)
-        spent = Spent()
-        ended: Equilibrium | Cutback
+        counts = IterationCounts()
+        outcome: Equilibrium | Cutback
         try:
-            ended = yield from self._iterate(iterates, size, spent, extrapolated=extrapolated)
+            outcome = yield from self._iterate(iterates, size, counts, extrapolated=extrapolated)
         except DistortionError as error:
-            spent.count_unchecked()
+            counts.count_unchecked()
             yield Warned(f"EXCESSIVE DISTORTION IN SOLID (CONTINUUM) ELEMENTS: {error}")
-            ended = Cutback(self._step.controls.time.d_h, DISTORTED, str(error))
+            outcome = Cutback(self._step.controls.time.d_h, DISTORTED, str(error))
         except SingularMatrixError as error:
-            # of an extrapolation or in later iterations it is the guess that has no stiffness, not the model
-            astray = (extrapolated or spent.total) and not self._step.procedure.direct
-            if not (self._control.in_parts or astray):
+            # after an extrapolation or an iteration the iterate has no stiffness, not the model
+            cut = (extrapolated or counts.total) and not self._step.procedure.direct
+            if not (self._control.in_parts or cut):
                 raise
-            ended = Cutback(self._step.controls.time.d_f, SINGULAR, str(error))
-        if isinstance(ended, Cutback):
-            yield from self._cut_back(ended, increment, spent, size)
-            return False, spent
-        yield from self._small_flux(ended.checks)
-        yield from self._help(increment, spent.total)
-        yield from self._converge(ended, size, spent)
-        return True, spent
+            outcome = Cutback(self._step.controls.time.d_f, SINGULAR, str(error))
+        if isinstance(outcome, Cutback):
+            yield from self._cut_back(outcome, increment, counts, size)
+            return False, counts
+        yield from self._note_small_flux(outcome.checks)
+        yield from self._report_search(increment, counts.total)
+        yield from self._converge(outcome, size, counts)
+        return True, counts
 
     def _iterate(
-        self, iterates: Iterator[Iterate], size: float, spent: Spent, *, extrapolated: bool
+        self, iterates: Iterator[Iterate], size: float, counts: IterationCounts, *, extrapolated: bool
     ) -> Generator[Record, None, Equilibrium | Cutback]:
-        """Iterate to an equilibrium that is accurate enough, or until the attempt is to be abandoned.
+        """Iterate to an equilibrium that is accurate enough, or to a cutback.
 
-        All passes of an attempt are made here. Raises DistortionError and SingularMatrixError, which may end it too.
+        Makes all passes of an attempt. Raises DistortionError and SingularMatrixError, which end it too.
         """
         cutback: Cutback | None = None
         while cutback is None:
-            spent.passes += 1
+            counts.passes += 1
             state = next(iterates)
             yield from self._warn_unconstrained()
-            cutback = refused(state.evaluation.pnewdt)
+            cutback = pnewdt_cutback(state.evaluation.pnewdt)
             if cutback is not None:
-                spent.count_unchecked()
+                counts.count_unchecked()
             elif state.iteration == 0:
                 self._checker.start(state, extrapolated=extrapolated)
             else:
                 checks = self._checker.check(state)
-                number_of_kind = spent.count(severe=is_severe(state))
+                number_of_kind = counts.count(severe=is_severe(state))
                 yield IterationDone(number_of_kind, checks, state.line_search, state.evaluation.contact)
                 if all(check.verdict.accepted for check in checks):
                     accuracy = self._accuracy(state, size)
@@ -268,92 +270,92 @@ class GeneralStep:
                     if cutback is None:
                         return Equilibrium(state, accuracy, checks)
                 else:
-                    cutback = self._give_up(spent, checks)
+                    cutback = self._find_cutback(counts, checks)
         return cutback
 
     def _warn_unconstrained(self) -> Iterator[Warned]:
-        """Warn once in the step that a part of the model moves freely."""
+        """Warn, once in the step, that a part of the model is unconstrained."""
         free = self._context.solver.free
         if free is not None and not self._warned:
             self._warned = True
             yield Warned(UNLOADED.format(free))
 
-    def _small_flux(self, checks: Sequence[FieldCheck]) -> Iterator[Noted]:
-        """Say once in the step that unbalanced forces count as zero only because of Abaqus' default."""
+    def _note_small_flux(self, checks: Sequence[FieldCheck]) -> Iterator[Noted]:
+        """Note, once in the step, that unbalanced forces count as zero only by Abaqus' default."""
         for check in self._checker.assumed_zero_flux(checks):
             if check.field not in self._small:
                 self._small.add(check.field)
                 yield Noted(SMALL_FLUX.format(check, check.field.upper()))
 
     def _accuracy(self, last: Iterate, size: float) -> Accuracy | None:
-        """Return the accuracy of the integration over time, by the strictest part; None if nothing measures it."""
+        """Return the worst accuracy of the integration over time of all parts; None if no part measures it."""
         try:
-            found = [accuracy for part in self._parts if (accuracy := part.accuracy(last, size)) is not None]
+            measured = [accuracy for part in self._parts if (accuracy := part.accuracy(last, size)) is not None]
         except (DistortionError, SingularMatrixError):
             if not self._step.procedure.direct:
                 raise
-            # fixed increments are as large as they are, whatever their accuracy
+            # fixed increments are not cut back
             return None
-        return max(found, key=lambda accuracy: accuracy.measure, default=None)
+        return max(measured, key=lambda accuracy: accuracy.measure, default=None)
 
     @property
-    def _helped(self) -> bool:
+    def _search_used(self) -> bool:
         """True if the descent search took over in this attempt."""
         return self._path.search is not None and bool(self._path.search.reason)
 
     def _passed_limit(self, last: Iterate, size: float) -> Cutback | None:
-        """Take the increment in parts if the search passed the largest load in it."""
+        """Divide the increment into parts if the search passed the largest load in it."""
         external = -last.evaluation.residual
-        if not self._helped or not self._limit.passed(self._state.external, external, last.du, size):
+        if not self._search_used or not self._limit.passed(self._state.external, external, last.du, size):
             return None
         in_parts = self._control.part(self._context.step_time + size)
         return Cutback(self._step.controls.time.d_f, PASSED) if in_parts else None
 
-    def _give_up(self, spent: Spent, checks: Sequence[FieldCheck]) -> Cutback | None:
-        """Return a cutback or None; with the fall-back the search takes over instead, with more iterations."""
+    def _find_cutback(self, counts: IterationCounts, checks: Sequence[FieldCheck]) -> Cutback | None:
+        """Return a cutback or None; with --fallback the search takes over instead, with more iterations."""
         search = self._path.search
         if search is None:
-            return self._too_long(spent, checks)
+            return self._cutback_by_checks(counts, checks)
         if not search.reason:
-            cutback = self._too_long(spent, checks)
+            cutback = self._cutback_by_checks(counts, checks)
             if cutback is not None:
-                search.take_over(spent.total + 1, cutback.reason)
-        return Cutback(self._step.controls.time.d_c, SEARCH_TOO_LONG) if spent.total >= ITERATIONS else None
+                search.take_over(counts.total + 1, cutback.reason)
+        return Cutback(self._step.controls.time.d_c, SEARCH_TOO_LONG) if counts.total >= ITERATIONS else None
 
-    def _too_long(self, spent: Spent, checks: Sequence[FieldCheck]) -> Cutback | None:
-        """Return the cutback by the last iteration: after severe discontinuities only their number counts."""
-        if spent.severe and not spent.calm:
-            return too_discontinuous(spent.severe, self._step.controls.time, convert=self._step.convert_sdi)
-        return self._checker.give_up(spent.calm, checks)
+    def _cutback_by_checks(self, counts: IterationCounts, checks: Sequence[FieldCheck]) -> Cutback | None:
+        """Return the cutback by the checks, or by the number of severe discontinuity iterations after one of these."""
+        if counts.severe and not counts.since_severe:
+            return too_discontinuous(counts.severe, self._step.controls.time, convert=self._step.convert_sdi)
+        return self._checker.find_cutback(counts.since_severe, checks)
 
-    def _help(self, increment: int, iterations: int) -> Iterator[SearchHelped]:
-        """Say that Newton's method alone was not enough."""
+    def _report_search(self, increment: int, iterations: int) -> Iterator[SearchHelped]:
+        """Yield a record if the search took over from Newton's method."""
         search = self._path.search
         if search is not None and search.reason:
             yield SearchHelped(self._step.number, increment, search.since, iterations, search.reason)
 
-    def _converge(self, ended: Equilibrium, size: float, spent: Spent) -> Iterator[Record]:
-        """Commit the state of the last pass, and choose the next increment."""
-        last = ended.last
+    def _converge(self, outcome: Equilibrium, size: float, counts: IterationCounts) -> Iterator[Record]:
+        """Commit the state of the last pass, record the increment, and choose the next size."""
+        last = outcome.last
         context, number, attempt = self._context, self._step.number, self._control.attempts
         moment = f"step {number}, increment {context.increment}"
         context.constraints.refuse_contradictions(self._state.displacement + last.du, moment)
         context.constraints.refuse_unbalanced(last.r)
-        # the states of the increment before are gone now, and those of this one are not recorded
+        # from here on the states of the last increment are lost, and those of this one not yet recorded
         hold()
         self._system.commit()
         ends = [part.converged(last, size) for part in self._parts]
-        reached = self._path.reach(last, size, ended.checks)
+        reached = self._path.reach(last, size, outcome.checks)
         self._limit.converged(self._state.external, -last.evaluation.residual, last.du, size)
         self._state.accept(last, reached.load, reached.released, ends)
         self._checker.converged()
         context.amplitudes.converged()
         self._control.converged(
-            spent.equilibrium,
+            counts.equilibrium,
             last.evaluation.pnewdt,
-            searched=self._helped,
-            accuracy=ended.accuracy,
-            disturbed=spent.severe > self._most_severe,
+            searched=self._search_used,
+            accuracy=outcome.accuracy,
+            disturbed=counts.severe > self._most_severe,
         )
         times = reached.step_time, reached.total_time
         _, predefined = context.conditions.at(times, times, context.increment, self._user, context.coordinates)
@@ -362,37 +364,37 @@ class GeneralStep:
             number,
             context.increment,
             attempt,
-            spent.equilibrium,
+            counts.equilibrium,
             *times,
             reached.size,
             self._state.solution(self._system),
-            0.0 if context.amplitudes.concluded else self._control.following(context.step_time),
+            0.0 if context.amplitudes.concluded else self._control.next_size(context.step_time),
             reached.load_factor,
-            severe=spent.severe,
+            severe=counts.severe,
         )
         for part_end in ends:
             yield from part_end.remarks
         restart = self._step.restart if self._is_due(reached.size) else None
         lrestart = restart.lrestart if restart else 0
-        # may end the analysis, whose last increment this is then
+        # may end the analysis after this increment
         self._user.external_database(2, lrestart, times, size, number, context.increment)
         if restart:
-            # what user routines write for a restart is there before the state
+            # user routines have written their data for a restart before the state is kept
             yield StateKept(number, context.increment, restart.overlay, self._kept())
 
     @property
     def _most_severe(self) -> int:
-        """Severe discontinuity iterations with which an increment still counts as easy."""
+        """Largest number of severe discontinuity iterations of an increment that counts as easy."""
         controls = self._step.controls.time
         return controls.i_j_c if self._step.convert_sdi else controls.i_j
 
-    def _cut_back(self, cutback: Cutback, increment: int, spent: Spent, size: float) -> Iterator[Record]:
-        """Report the attempt; raise ConvergenceError if no other is left."""
+    def _cut_back(self, cutback: Cutback, increment: int, counts: IterationCounts, size: float) -> Iterator[Record]:
+        """Record the abandoned attempt; raise ConvergenceError if none is left."""
         number, attempt = self._step.number, self._control.attempts
         following, error = self._control.cut_back(cutback)
         times = self._context.times
-        ended = number, increment, attempt, spent.equilibrium
-        yield AttemptAbandoned(*ended, *times, size, following, cutback.reason, severe=spent.severe)
+        numbers = number, increment, attempt, counts.equilibrium
+        yield AttemptAbandoned(*numbers, *times, size, following, cutback.reason, severe=counts.severe)
         if error:
             cause = f": {cutback.cause}" if cutback.cause else ""
             raise ConvergenceError(f"{error} (step {number}, increment {increment}, attempt {attempt}){cause}")

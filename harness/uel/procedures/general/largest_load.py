@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The largest load on the path: an increment that passes it with the help of the descent search is taken in parts.
+"""Peak load: an increment in which the descent search passes it is divided into parts.
 
-The search finds an equilibrium even where a structure snaps in the middle of an increment. It does not say when, and it
-may find the equilibrium beyond a snap that lies just ahead: increments of a hundredth of the displacement leave the
-peak load uncertain by a hundredth. So the peak, and only the peak, is approached in smaller steps.
+The search finds an equilibrium even if a structure snaps within an increment. It does not tell when that happens, and
+may find the equilibrium beyond a snap that is still ahead: with increments of a hundredth of the displacement, the peak
+load is uncertain by a hundredth. So the peak, and only the peak, is approached in smaller increments.
 
-The load of an increment is measured by its power: the external forces times the displacements' change per time.
+The measure of the load is its power: the external forces times the change of the displacements per time.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ import math
 
 from uel.model.arrays import FloatArray
 
-BENT = 0.8
-"""Slope of the load over that of the increment before, below which an increment passes the peak."""
+FLATTER = 0.8
+"""Slope of the load over that of the last increment below which an increment passes the peak."""
 
 PASSED = "THE DESCENT SEARCH PASSED THE LARGEST LOAD. THE INCREMENT IS TAKEN IN SMALLER PARTS."
 
 
 class LimitLoad:
-    """Monitor of the load of one step. Forces are external ones (n,), at the start and at the end of an increment."""
+    """Monitor of the load in one step, from the external forces (n,) at the start and the end of increments."""
 
     def __init__(self) -> None:
         self._slope = 0.0
@@ -30,11 +30,11 @@ class LimitLoad:
         self._at_largest = False
 
     def passed(self, before: FloatArray, after: FloatArray, increment: FloatArray, size: float) -> bool:
-        """Report whether an increment (n,) of displacements in a time `size` starts at the largest load and bends."""
-        return self._at_largest and float((after - before) @ increment) < BENT * self._slope * size**2
+        """Return whether an increment (n,) in a time `size` starts at the largest load and passes it."""
+        return self._at_largest and float((after - before) @ increment) < FLATTER * self._slope * size**2
 
     def converged(self, before: FloatArray, after: FloatArray, increment: FloatArray, size: float) -> None:
-        """Record an increment that is kept; arguments as those of `passed`."""
+        """Record a converged increment; arguments as in `passed`."""
         load = float(after @ increment) / size
         self._slope = float((after - before) @ increment) / size**2
         self._at_largest = load >= self._largest

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Paths of static steps whose load factor is unknown: *STATIC, RIKS, and energy control.
 
-The step goes from the state at its start, load factor (LPF) 0, to what it prescribes, LPF 1: forces and displacements
-are P_0 + LPF (P_ref - P_0). The length of the path replaces time in the sizes of increments and in the arguments of
+The load factor (LPF) is 0 at the start of the step and 1 at the loads and displacements that it prescribes: these are
+P_0 + LPF (P_ref - P_0). The length of the path replaces time in the sizes of increments and in the arguments of
 elements.
 """
 
@@ -32,16 +32,16 @@ from uel.solver.path import Control, PathFollower, PathIncrement, PathIterate
 from uel.solver.riks import ArcLength
 
 EXTRAPOLATED = 0.01
-"""Fraction of the last increment with which an increment starts: it shows the elements the direction."""
+"""Fraction of the last increment with which an increment starts, so that elements get a direction."""
 
 ROUNDING = 1e-12
-"""A load factor this close to 1 is 1."""
+"""Difference from 1 below which a load factor is set to 1."""
 
 NEARBY = 1e-4
-"""Difference of the load factor that measures the change of loads of DLOAD: exact for those proportional to it."""
+"""Difference of the load factor for the derivative of loads by DLOAD, exact if they are proportional to it."""
 
 REMAINDER = 1e-6
-"""Limit relative to an increment: a smaller remainder of the load factor is added to it."""
+"""Remainder of the load factor over an increment that is added to it."""
 
 
 class LoadFactorPath(Path):
@@ -55,19 +55,19 @@ class LoadFactorPath(Path):
     scale = 1.0
 
     def __init__(self, context: StepContext) -> None:
-        """Start the path. Raises DeckError if an amplitude governs what the step prescribes."""
+        """Start the path. Raises DeckError if loads or prescribed values have amplitudes."""
         step, state = context.step, context.state
         super().__init__(context, IncrementControl(replace(step.procedure, period=math.inf), step.controls.time))
         _check(context)
         self._follower = PathFollower(context.system, context.constraints, context.solver)
         period = step.procedure.period
         self._u_ref = (context.prescribed.at(period, 0.0) - state.displacement)[context.unknowns]
-        # the load of the state includes that of DLOAD
+        # the load of the state includes loads by DLOAD
         start = context.load.at(0.0, 0.0) if context.load.by_user else state.load
         self._loads = start, context.load.at(period, 0.0)
         self._fading = context.released.at(0.0, 0.0), context.released.at(period, 0.0)
         self._factor, self._length = 0.0, 0.0
-        self._on_elements = context.load.by_user or context.load.turning or context.conditions.loaded
+        self._on_elements = context.load.by_user or context.load.follower or context.conditions.loaded
         self._last: tuple[FloatArray, float, float] | None = None
 
     @abstractmethod
@@ -75,14 +75,14 @@ class LoadFactorPath(Path):
         """Return the equation that fixes the load factor in an increment."""
 
     def begin(self, size: float) -> tuple[Iterator[Iterate], bool]:
-        """Start from the state at the start, or a little further in the direction of the last increment."""
+        """Begin at the start state, or a little further in the direction of the last increment."""
         context, guess = self._context, None
         if self._last is not None:
             du, lam, length = self._last
             part = EXTRAPOLATED * size / length
             guess = part * du, part * lam
         elif self._on_elements:
-            # their change tells the load per unit of the factor
+            # the change of these loads gives the load per unit of the factor
             guess = np.zeros_like(context.state.displacement), EXTRAPOLATED * size / context.step.procedure.period
         end = self._length + size
         context.load.increment = context.increment
@@ -100,7 +100,7 @@ class LoadFactorPath(Path):
         return self._follower.iterates(increment, self._control_of(increment, size)), guess is not None
 
     def _dependent_loads(self, total_time: float, u: FloatArray, lam: float) -> DependentLoads:
-        """Return loads on elements and faces, and those of DLOAD, at displacements u (n,).
+        """Return loads on elements, follower loads and loads by DLOAD, at displacements u (n,).
 
         lam  change of the load factor in the increment
         """
@@ -110,19 +110,19 @@ class LoadFactorPath(Path):
         others = context.conditions.distributed(*times)
         if not load.by_user:
             return DependentLoads(np.zeros_like(u), load.with_faces(others, *times, u))
-        # DLOAD gets the load factor instead of the step time; it need not be proportional to it
-        nearby = load.of_user((after - NEARBY, total_time), u)
+        # DLOAD gets the load factor instead of the step time; its loads need not be proportional to it
+        nearby = load.by_dload((after - NEARBY, total_time), u)
         distributed = load.with_faces(others, *times, u, FactorTimes(after, NEARBY, lam))
-        f_ext = load.of_user((after, total_time), u)
+        f_ext = load.by_dload((after, total_time), u)
         return DependentLoads(f_ext, distributed, lam / NEARBY * (f_ext - nearby))
 
     def _loads_at(self, factor: float) -> tuple[FloatArray, FloatArray]:
-        """Return loads and fading reactions."""
+        """Return loads and fading forces (n,) at a load factor."""
         (load, full), (released, rest) = self._loads, self._fading
         return load + factor * (full - load), released + factor * (rest - released)
 
     def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
-        """Take over the load factor, and the length so far."""
+        """Update the load factor and the length of the path."""
         assert isinstance(last, PathIterate)
         self._last = last.du, last.lam, size
         self._factor += last.lam
@@ -133,18 +133,18 @@ class LoadFactorPath(Path):
         load, released = self._loads_at(self._factor)
         if self._context.load.by_user:
             time = self._factor, self._context.start + self._length
-            load = load + self._context.load.of_user(time, self._context.state.displacement + last.du)
+            load = load + self._context.load.by_dload(time, self._context.state.displacement + last.du)
         change = last.lam * self.scale
         return Reached(load, released, step_time, self._context.start + self._length, change, self._factor)
 
 
 def _check(context: StepContext) -> None:
-    """Raise DeckError if what the step prescribes is not proportional to the load factor."""
+    """Raise DeckError if loads or prescribed values are not proportional to the load factor."""
     step = context.step
     entries: tuple[Boundary | Load | ElementLoad, ...]
     entries = (*step.boundaries, *step.loads, *step.element_loads, *step.surface_loads)
     source = next((entry.source for entry in entries if entry.amplitude), step.source)
-    if context.prescribed.curves or context.load.curves or context.amplitudes.courses:
+    if context.prescribed.curves or context.load.curves or context.amplitudes.curves:
         raise DeckError(source, "an amplitude has no meaning in a step whose load factor is part of the solution")
     if len(context.state.boundaries.by_user):
         # TIME of DISP has no load factor (User Subroutines Guide)
@@ -152,7 +152,7 @@ def _check(context: StepContext) -> None:
 
 
 class RiksPath(LoadFactorPath):
-    """*STATIC, RIKS. A step without a limit ends with its last increment."""
+    """Path of *STATIC, RIKS. A step without a limit ends with its last increment."""
 
     nrhs = 2
 
@@ -185,7 +185,7 @@ class RiksPath(LoadFactorPath):
         return self._arc
 
     def reach(self, last: Iterate, size: float, checks: Sequence[FieldCheck]) -> Reached:
-        """Report the end of the increment, and note whether it crosses the limit of the step."""
+        """Return the end of the increment, and note whether it crosses the limit of the step."""
         before = self._context.state.displacement
         reached = super().reach(last, size, checks)
         assert reached.load_factor is not None
@@ -194,13 +194,13 @@ class RiksPath(LoadFactorPath):
         self._crossed = largest is not None and reached.load_factor >= largest
         if self._monitored >= 0:
             u = float(before[self._monitored])
-            to_go, way = self._riks.value - u, float(last.du[self._monitored])
-            self._crossed = self._crossed or (way != 0.0 and 0.0 <= to_go / way <= 1.0)
+            remaining, change = self._riks.value - u, float(last.du[self._monitored])
+            self._crossed = self._crossed or (change != 0.0 and 0.0 <= remaining / change <= 1.0)
         return reached
 
 
 class EnergyPath(LoadFactorPath):
-    """Energy control, up to LPF = 1; sizes of increments are those of *STATIC."""
+    """Path of energy control, up to LPF = 1; sizes of increments are those of *STATIC."""
 
     def __init__(self, context: StepContext) -> None:
         super().__init__(context)
@@ -211,7 +211,7 @@ class EnergyPath(LoadFactorPath):
         self._energy = Dissipation(context.constraints)
 
     def start(self) -> Iterable[Record]:
-        """Yield a note on how the step runs."""
+        """Return a note on the control of the step."""
         yield Noted("ENERGY CONTROL: THE STEP TIME FOLLOWS FROM THE DISSIPATED ENERGY AND FALLS IN SNAP-BACKS")
 
     @property

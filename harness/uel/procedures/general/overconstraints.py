@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prescribed values that constraints give as well: Abaqus warns of zero pivots and goes on, and so does a step here.
+"""Overconstraints: prescribed values of unknowns that constraints determine too.
 
-It goes on while both values are the same; the reaction of such a value holds the whole force there.
+Abaqus warns of zero pivots and continues. A step here continues while both values agree; the reaction of such a value
+is the whole force there.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ OTHERS = ", LIKE {} MORE UNKNOWNS"
 
 
 def warn_overconstrained(constraints: Constraints) -> Iterator[Warned]:
-    """Warn once of all such values of a step."""
+    """Yield one warning of all overconstraints of a step."""
     overconstraints = constraints.overconstraints
     if overconstraints:
         unknown, source = overconstraints[0]

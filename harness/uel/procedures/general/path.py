@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Path that the increments of a general step follow: time, or (in `load_factor`) one whose load factor is unknown."""
+"""Path of the increments of a general step: time, or (in `load_factor`) a path with an unknown load factor."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Reached:
 
 
 class Path(ABC):
-    """The path of the increments through a step.
+    """Path of the increments of a step.
 
     control  sizes of increments along it
     """
@@ -50,7 +50,7 @@ class Path(ABC):
 
     @property
     def search(self) -> Descent | None:
-        """Fall-back search for when Newton's method fails, if there is one."""
+        """Descent search for when Newton's method fails; None without --fallback."""
         return None
 
     @property
@@ -87,7 +87,7 @@ class Path(ABC):
 
     @abstractmethod
     def begin(self, size: float) -> tuple[Iterator[Iterate], bool]:
-        """Begin an attempt at an increment.
+        """Begin an attempt.
 
         Parameters
         ----------
@@ -97,8 +97,8 @@ class Path(ABC):
         Returns
         -------
         tuple[Iterator[Iterate], bool]
-            Endless iterates, whose errors (KernelError, SingularMatrixError) end the attempt or the run; True if they
-            start from an extrapolation.
+            Iterates without end, whose errors (KernelError, SingularMatrixError) end the attempt or the run; and True
+            if they start from an extrapolation.
         """
 
     @abstractmethod
@@ -117,10 +117,9 @@ class Path(ABC):
 
 
 class TimePath(Path):
-    """Increments of time, by Newton's method.
+    """Increments of time, by Newton's method, and with `fallback` by a descent search if that fails.
 
-    The parts of the step add to what the end of an increment prescribes. With `fallback` a search goes downhill if
-    Newton's method fails.
+    The parts of the step add to the definition of an increment.
     """
 
     def __init__(self, context: StepContext, parts: Sequence[Part], *, fallback: bool = False) -> None:
@@ -136,17 +135,17 @@ class TimePath(Path):
 
     @property
     def search(self) -> Descent | None:
-        """Fall-back search; none in a part of an increment, where only the nearby equilibrium is wanted."""
+        """Descent search; none in a part of an increment, which needs the nearby equilibrium."""
         return None if self.control.in_parts else self._descent
 
     @property
     def obstacle(self) -> str:
-        """Reason why no states are kept: with the fall-back the search compares with the start of the analysis."""
+        """Reason why *RESTART cannot keep the state: the search needs the matrix at the start of the analysis."""
         reason = "the search of --fallback compares with the start of the analysis; to keep states, run without it"
         return "" if self._descent is None else reason
 
     def kept(self) -> Saved:
-        """Return the sizes, extrapolation, and the matrix where the next increment may reuse it."""
+        """Return sizes, extrapolation, and the matrix if the next increment may reuse it."""
         factorised = None if self._linear is None else self._newton.kept()
         self._newton.resume(factorised)
         return {
@@ -174,22 +173,22 @@ class TimePath(Path):
         return self._context.step.procedure.period if self.control.finished(end) else end
 
     def begin(self, size: float) -> tuple[Iterator[Iterate], bool]:
-        """Start from the state at the start, or an extrapolation."""
+        """Begin at the start state, or at an extrapolation."""
         increment = self._increment(size)
         if self.search is not None:
             return self.search.iterates(increment), increment.guess is not None
-        # Abaqus does not form the matrix again if the response was linear in the increment before: public message files
+        # Abaqus does not form the matrix again if the response was linear in the last increment: public message files
         # show it for increments of equal size, and abaqus_inputs/dcb_3d is cut back as in Abaqus only if that holds for
-        # all sizes. What the parts of a step add to the matrix depends on the size.
+        # all sizes. The contributions of parts to the matrix depend on the size.
         alike = self._linear is not None and (self._linear == size or not self._parts)
-        # the inertia of nodes on arms is that of rotation vectors, and another one after each turn: where nothing else
-        # holds a body, a matrix of an increment before enlarges the errors of its rotations about other axes
-        turning = self._context.step.procedure.inertia and self._context.constraints.arms
-        reuse = alike and self.control.attempts == 1 and not turning
+        # the inertia of nodes on arms refers to rotation vectors and changes with each rotation: without other
+        # supports, an old matrix enlarges the errors of the rotations of a body about other axes
+        rotating = self._context.step.procedure.inertia and self._context.constraints.arms
+        reuse = alike and self.control.attempts == 1 and not rotating
         return self._newton.iterates(increment, same_matrix=reuse), increment.guess is not None
 
     def _increment(self, size: float) -> Increment:
-        """Define the increment by what its end prescribes, with the additions of the parts."""
+        """Define the increment by loads and prescribed values at its end, with the additions of the parts."""
         context, end = self._context, self.end(size)
         u = context.state.displacement
         context.load.increment = context.increment

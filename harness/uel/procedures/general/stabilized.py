@@ -1,11 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""STABILIZE: viscous forces c M v on an artificial mass M of unit density, v the increment over its time.
+"""STABILIZE: viscous forces c M v on an artificial mass M of unit density, v = du/dt.
 
-Abaqus Analysis User's Guide, "Automatic stabilization of unstable problems". What the guide leaves open: the first
-increment runs without damping, and c is such that it would have dissipated the fraction of the change of its internal
-energy that the deck sets. Where ALLSD exceeds ALLSDTOL times ALLSE, c is reduced in that ratio. User elements have no
-artificial mass.
+Abaqus Analysis User's Guide, "Automatic stabilization of unstable problems". Beyond the guide: the first increment runs
+without damping, and c is chosen so that it would have dissipated the given fraction of the change of its internal
+energy. If ALLSD exceeds ALLSDTOL times ALLSE, c is reduced in that ratio. User elements have no artificial mass.
 """
 
 from __future__ import annotations
@@ -47,11 +46,11 @@ class ViscousForces(Part):
         return replace(increment, damping=self._factor / size * self._mass)
 
     def converged(self, last: Iterate, size: float) -> PartEnd:
-        """Return the dissipated energy, and the factor if it is chosen or reduced."""
+        """Return the dissipated energy, and a note if the factor changes."""
         state = self._context.state
-        flow = self._context.system.product(self._mass, last.du) / size
-        force = self._factor * flow
-        # the trapezoidal rule of the external work
+        unit_force = self._context.system.product(self._mass, last.du) / size
+        force = self._factor * unit_force
+        # by the trapezoidal rule, as the external work
         dissipated = 0.5 * float((self._force + force) @ last.du)
         total = state.stabilization + dissipated
         self._force = force
@@ -59,7 +58,7 @@ class ViscousForces(Part):
         limit = self._damping.limit
         remarks: list[Record] = []
         if not self._factor:
-            remarks = self._choose(float(abs(change[1:7].sum())), float(flow @ last.du))
+            remarks = self._choose(float(abs(change[1:7].sum())), float(unit_force @ last.du))
         elif limit and total > limit * elastic > 0.0:
             remarks = [self._change(self._factor * limit * float(elastic) / total)]
         return PartEnd(remarks, stabilization=dissipated)
@@ -73,7 +72,7 @@ class ViscousForces(Part):
         self._factor, self._force = saved["factor"], saved["force"]
 
     def _choose(self, energy: float, dissipated: float) -> list[Record]:
-        """Choose the factor in the first increment by its internal energy and the dissipation by a factor of one."""
+        """Choose the factor after the first increment from its internal energy and the dissipation at factor 1."""
         if energy > 0.0 and dissipated > 0.0:
             return [self._change(self._damping.fraction * energy / dissipated)]
         return []

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Part that a procedure adds to the increments of a general step: time integration, damping, a limit of accuracy."""
+"""Parts that procedures add to general steps: time integration, damping, limits of accuracy."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class InitialMotion:
 
 @dataclass(frozen=True, slots=True)
 class PartStart:
-    """Outcome of the start of a part: records, and the motion with which the state begins; None: as it is."""
+    """Result of the start of a part: records, and the initial motion of the state; None: unchanged."""
 
     remarks: Sequence[Record] = ()
     motion: InitialMotion | None = None
@@ -41,11 +41,11 @@ class PartStart:
 
 @dataclass(frozen=True, slots=True)
 class PartEnd:
-    """Outcome of a part at the end of a converged increment.
+    """Result of a part at the end of a converged increment.
 
-    remarks        records that are written after that of the increment
+    remarks        records that follow the one of the increment
     motion         V and A at its end; None: those of its start
-    stabilization  energy that artificial damping has dissipated in it
+    stabilization  energy dissipated in it by artificial damping
     """
 
     remarks: Sequence[Record] = ()
@@ -54,19 +54,19 @@ class PartEnd:
 
 
 class Part:
-    """A part of a general step. Each method by default changes nothing."""
+    """Part of a general step. By default its methods change nothing."""
 
     def start(self) -> PartStart:
         """Begin the step, before its first increment. Raises KernelError, SingularMatrixError."""
         return PartStart()
 
     def add_to(self, increment: Increment, size: float) -> Increment:
-        """Return the increment with the part's additions to what its end prescribes.
+        """Return the increment with the additions of this part to its definition.
 
         Parameters
         ----------
         increment
-            It has the additions of the parts before this one. Copy it by `dataclasses.replace`.
+            Increment with the additions of earlier parts. Copy it by `dataclasses.replace`.
         size
             Step time of the increment.
         """
@@ -85,16 +85,16 @@ class Part:
         Returns
         -------
         Accuracy | None
-            The increment is cut back if that of any part is above 1, unless increments are fixed; None: not measured.
+            The increment is cut back if a measure is above 1, unless increments are fixed; None: not measured.
 
-        Raises DistortionError and SingularMatrixError if it takes a pass that fails: the increment is cut back too.
+        Raises DistortionError and SingularMatrixError if a pass fails; the increment is then cut back too.
         """
         return None
 
     def converged(self, last: Iterate, size: float) -> PartEnd:
         """Take over a converged increment.
 
-        The state and the step time of the context are still those of its start; the elements have committed theirs.
+        The state and the step time of the context are still those of its start; elements have been committed.
 
         Parameters
         ----------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*VISCO: elements integrate creep and viscoelasticity themselves; the step limits the error of that (CETOL)."""
+"""*VISCO: elements integrate creep and viscoelasticity; the step limits the error of the integration (CETOL)."""
 
 from __future__ import annotations
 

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*BUCKLE: factors of the loads of the step at which the state at the end of the last general step becomes unstable.
+"""*BUCKLE: factors of the loads of the step at which the base state becomes unstable.
 
 (K + lambda D) v = 0, where K is the stiffness of the base state with its stresses, and D the initial stress matrix of
-what the loads of the step add to the stresses, with their load stiffness (Abaqus Analysis User's Guide, "Eigenvalue
-buckling prediction"). Unsymmetric parts are left out.
+the stresses due to the loads of the step, with their load stiffness (Abaqus Analysis User's Guide, "Eigenvalue buckling
+prediction"). Only symmetric parts are used. The base state is that at the end of the last general step.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class BuckleStep(PerturbationStep):
         self._remarks: list[Record] = []
 
     def _solve(self) -> list[Record]:
-        """Compute the modes, those of the smallest loads first."""
+        """Compute the modes, in ascending order of the magnitude of their loads."""
         step, procedure = self._step, self._procedure
         values, vectors = self._buckle()
         inside = (values >= procedure.lowest) & (values <= procedure.highest)
@@ -80,13 +80,13 @@ class BuckleStep(PerturbationStep):
         return values, self._modes_of(vectors)
 
     def _load_stiffness(self) -> FloatArray:
-        """Return CSR values (nnz,) of the loads of the step that follow the faces of the base state."""
+        """Return the CSR values (nnz,) of the load stiffness of follower loads of the step."""
         system, step = self._system, self._step
-        data, still = np.zeros(len(system.indices)), np.zeros(len(system))
+        data, zero = np.zeros(len(system.indices)), np.zeros(len(system))
         call = self._call(Request.STIFFNESS)
         flags = replace(call.flags, nlgeom=True)
         for block in system.contributors.followers:
             time = self._step_time, self._state.total_time
             loads = self._state.loads.on_faces(block, step, self._user, self._increment, time, self._state.displacement)
-            block.evaluate(replace(call, flags=flags, distributed=loads), still, still, still.copy(), data)
+            block.evaluate(replace(call, flags=flags, distributed=loads), zero, zero, zero.copy(), data)
         return data

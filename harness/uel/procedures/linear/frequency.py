@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """*FREQUENCY: natural frequencies about the state at the end of the last general step.
 
-Elements are asked only for the stiffness (LFLAGS(3) = 2) and the mass (4), with LFLAGS(1) = 41; loads and prescribed
-values of the step do not act.
+Elements are called only for the stiffness (LFLAGS(3) = 2) and the mass (4), with LFLAGS(1) = 41; loads and prescribed
+values of the step have no effect.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from uel.procedures.step_setting import Setting
 from uel.solver.eigen import Pair, UnstableError, lowest_eigenvalues
 
 TRANSLATIONS = (1, 2, 3)
-"""Dofs."""
+"""Dofs of translations."""
 
 FIRST = 10
 """Number of eigenvalues that are computed first if the deck does not give it."""
@@ -45,7 +45,7 @@ class FrequencyStep(PerturbationStep):
         inside = (frequency >= procedure.lowest) & (frequency <= procedure.highest)
         values, frequency, vectors = values[inside], frequency[inside], vectors[:, inside]
         shapes, masses = self._scaled(vectors)
-        self._for_later = self._kept(values, masses, shapes)
+        self._modes_for_later = self._kept(values, masses, shapes)
         records: list[Record] = [ModesFound(step.number, self._state.total_time, values, frequency, masses)]
         for mode, shape in enumerate(shapes):
             at, size = float(frequency[mode]), procedure.period
@@ -54,7 +54,7 @@ class FrequencyStep(PerturbationStep):
         return records
 
     def _modes(self) -> tuple[FloatArray, FloatArray]:
-        """Return eigenvalues, and vectors (n, k) of all unknowns: as many as requested, or more than the range has."""
+        """Return eigenvalues, and vectors (n, k) of all unknowns: the requested number, or beyond the range."""
         pattern = self._constraints.reduced_indptr, self._constraints.reduced_indices
         pair = Pair(*pattern, self._matrix(Request.STIFFNESS), self._matrix(Request.MASS))
         if not np.any(pair.mass):
@@ -73,7 +73,7 @@ class FrequencyStep(PerturbationStep):
             count = min(2 * count, size)
 
     def _matrix(self, request: Request) -> FloatArray:
-        """Return CSR values of the symmetric part of a matrix of the free unknowns; that of all unknowns is kept."""
+        """Return the CSR values of the symmetric part of a matrix of the free unknowns; store that of all unknowns."""
         evaluation = self._pass(request)
         assert evaluation.data is not None
         self._matrices[request] = evaluation.data.copy()

@@ -16,12 +16,12 @@ def step_at(step: Step, at: tuple[float, float], *, imaginary: bool = False, wit
     """Return the step with the real or the imaginary part of its loads and prescribed values.
 
     at       arguments of the amplitudes: step and total time, or the frequency twice
-    without  factor of what has no amplitude
+    without  factor of entries without an amplitude
     """
 
     def scaled(entry: Entry) -> Entry:
         if isinstance(entry, ElementLoad) and entry.type.jltyp:
-            # no amplitude applies to what DLOAD gets
+            # no amplitude applies to the magnitudes that DLOAD gets
             return entry
         if entry.amplitude is None:
             return replace(entry, magnitude=without * entry.magnitude)

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*MODAL DYNAMIC, and what all steps have in which modes of *FREQUENCY respond.
+"""*MODAL DYNAMIC, and the base of all steps in which modes of *FREQUENCY respond.
 
 With u = sum of phi_i q_i each mode has an equation of its own, m_i (q'' + 2 xi_i w_i q' + w_i^2 q) = phi_i^T p (Abaqus
-Theory Guide, "Modal dynamic analysis"). Supports are those of *FREQUENCY. Where they all move along a direction r with
-the acceleration a, the displacement is relative to them, and -M r a acts ("Base motions in modal-based procedures").
+Theory Guide, "Modal dynamic analysis"). Supports are those of *FREQUENCY. If they all move along a direction r with the
+acceleration a, displacements are relative to them under the load -M r a ("Base motions in modal-based procedures").
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from uel.procedures.step_setting import Setting
 
 
 class ModalStep(PerturbationStep):
-    """A step in which modes of an earlier *FREQUENCY respond."""
+    """Step in which modes of an earlier *FREQUENCY respond."""
 
     def __init__(self, setting: Setting) -> None:
         modes = setting.state.modes
@@ -45,8 +45,8 @@ class ModalStep(PerturbationStep):
         """Return the constraints of the modes. Raises DeckError if the step has others."""
         constraints, step = self._all_modes.constraints, setting.step
         prescribed = setting.state.boundaries.in_perturbation(replace(step, new_boundary=True))
-        held = constraints.prescribed
-        if not (np.array_equal(prescribed, held) if step.new_boundary else np.isin(prescribed, held).all()):
+        own = constraints.prescribed
+        if not (np.array_equal(prescribed, own) if step.new_boundary else np.isin(prescribed, own).all()):
             message = f"*BOUNDARY holds other dofs than the step of the modes, {self._all_modes.step}"
             raise DeckError(step.source, message)
         return constraints
@@ -61,7 +61,7 @@ class ModalStep(PerturbationStep):
 
 
 class ModalDynamicStep(ModalStep):
-    """Increments of constant length, in which the forces vary linearly: the integration is exact.
+    """Step of increments in which the forces vary linearly, so that the integration is exact.
 
     Rows of the states are q, q', the force over the generalized mass, and its rate.
     """
@@ -95,7 +95,7 @@ class ModalDynamicStep(ModalStep):
             self._user.external_database(2, 0, (end, begin + end), size, number, increment)
 
     def _advance(self, size: float, before: FloatArray, after: FloatArray) -> None:
-        """Advance the modes to the end of an increment, between whose ends the forces (modes,) are linear."""
+        """Integrate the modes over an increment with modal forces (modes,) linear from `before` to `after`."""
         if size not in self._steps:
             self._steps[size] = expm(size * self._rates)
         masses = self._modes.masses
@@ -103,7 +103,7 @@ class ModalDynamicStep(ModalStep):
         self._state_of_modes = np.einsum("mij,mj->mi", self._steps[size], self._state_of_modes)
 
     def _forces(self, step_time: float) -> tuple[FloatArray, FloatArray]:
-        """Return forces (n,) at a time: all of them, and loads alone."""
+        """Return forces (n,) at a step time: loads with base motions, and loads alone."""
         at = step_time, self._state.total_time + step_time
         ramp = step_time / self._procedure.period if self._step.amplitude == "RAMP" else 1.0
         load = self._loads(step_at(self._step, at, without=ramp))
@@ -111,8 +111,8 @@ class ModalDynamicStep(ModalStep):
         return load - sum(moved), load
 
     def _superposed(self, forces: FloatArray, load: FloatArray) -> Solution:
-        """Superpose the modes to the state of all unknowns."""
-        modes, turned = self._modes, self._system.dofs.in_global
+        """Superpose the modes and return the state of all unknowns."""
+        modes, in_global = self._modes, self._system.dofs.in_global
         position, rate, force = self._state_of_modes[:, :3].T
         acceleration = force - modes.values * position - self._viscous * rate
         change, velocity, elastic = position @ modes.shapes, rate @ modes.shapes, position @ modes.stiffness
@@ -123,7 +123,7 @@ class ModalDynamicStep(ModalStep):
             self._solution(change, {"ALLSE": strain, "ALLKE": kinetic}),
             velocity=velocity,
             acceleration=acceleration @ modes.shapes,
-            reaction=turned(self._constraints.reactions(forces - internal)),
-            load=turned(load),
+            reaction=in_global(self._constraints.reactions(forces - internal)),
+            load=in_global(load),
             elements=self._elements(change),
         )

@@ -15,10 +15,10 @@ from uel.model.arrays import FloatArray
 
 @dataclass(frozen=True, slots=True)
 class Modes:
-    """Modes of a step *FREQUENCY, lowest first; n are all unknowns.
+    """Modes of a *FREQUENCY step in ascending order of frequency, for n unknowns.
 
-    step         its number
-    constraints  its supports
+    step         number of the step
+    constraints  constraints of the step
     values       (k,) eigenvalues, masses (k,) generalized masses
     shapes       (k, n), stiffness (k, n) K phi, inertia (k, n) M phi
     rigid        (3, n) M r, where r is a unit translation of all nodes along 1, 2 or 3

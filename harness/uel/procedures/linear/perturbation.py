@@ -3,11 +3,11 @@
 """Linear steps about the state at the end of the last general step (Abaqus Analysis User's Guide, "General and linear
 perturbation procedures"), including *STATIC.
 
-Elements get LFLAGS(4) = 1, and the base state in U. No time passes, and nothing of the step outlasts it.
+Elements get LFLAGS(4) = 1, and the base state in U. No time passes, and the state does not change.
 
-With NLGEOM, rotations of a linear step are spins: small rotations about the global axes, which add to the finite
-rotations of the base state. Moments do work on them, and rotary inertia resists their accelerations. Neither is so of
-changes of rotation vectors, by which elements give their stiffness (`harness/uel/elements/rotations.py`).
+With NLGEOM, rotations of a linear step are spins: small rotations about the global axes on top of the finite rotations
+of the base state. Moments and rotary inertia are conjugate to them, whereas elements return their stiffness with
+respect to changes of rotation vectors (`harness/uel/elements/rotations.py`).
 """
 
 from __future__ import annotations
@@ -39,17 +39,17 @@ BASE_FORCES = (
 )
 
 LAST_DISPLACEMENT = 3
-"""Dof."""
+"""Last dof of a displacement."""
 
-_TURNS = np.array(ROTATIONS)
-"""Rotations of nodes in space."""
+_ROTATIONS = np.array(ROTATIONS)
+"""Dofs of rotations in space."""
 
 ROUNDING = 1e-8
 """Rounding relative to the average force of the elements."""
 
 
 class PerturbationStep:
-    """Linear step; subclasses define its solution."""
+    """Linear step; subclasses define the solution."""
 
     def __init__(self, setting: Setting) -> None:
         self._system, self._step, self._state, self._user = setting.system, setting.step, setting.state, setting.user
@@ -57,7 +57,7 @@ class PerturbationStep:
         self._times = SolverTimes(self._state.effort)
         self._solver_name = setting.solver.linear_solver
         self._increment = 1
-        self._for_later: Modes | None = None
+        self._modes_for_later: Modes | None = None
 
     @property
     def reached(self) -> tuple[tuple[float, float], float, int, int]:
@@ -65,13 +65,13 @@ class PerturbationStep:
         return (0.0, self._state.total_time), 0.0, self._step.number, self._increment
 
     def run(self) -> Generator[Record, None, Modes | None]:
-        """Yield records of the step; return its modes. Raises KernelError, SingularMatrixError, DeckError."""
+        """Run the step, yield its records, and return its modes. Raises KernelError, SingularMatrixError, DeckError."""
         yield Noted(f"LINEAR SOLVER {self._solver.name.upper()}: {self._solver.reason}")
         yield from warn_overconstrained(self._constraints)
         yield from self._increments()
         yield self._times.note()
         yield StepDone(self._step.number, self._increment, 0, self._increment)
-        return self._for_later
+        return self._modes_for_later
 
     def _constrain(self, setting: Setting) -> Constraints:
         """Return the constraints of the step."""
@@ -93,7 +93,7 @@ class PerturbationStep:
         yield from self._increment_by(self._solve)
 
     def _increment_by(self, solve: Callable[[], list[Record]]) -> Iterator[Record]:
-        """Yield the records of the next increment, which `solve` finds."""
+        """Yield the records of the next increment; solve: computes it and returns its records."""
         step, total, size = self._step, self._state.total_time, self._step.procedure.period
         yield AttemptStarted(step.number, self._increment, 1, 0.0, total, size)
         self._user.external_database(1, 0, (0.0, total), size, step.number, self._increment)
@@ -115,16 +115,17 @@ class PerturbationStep:
         work = 0.5 * float(change @ (self._state.signs * internal))
         solution = self._solution(change, {"ALLSE": work, "ALLWK": work})
         reaction = constraints.reactions(external - internal)
-        turned = self._system.dofs.in_global
-        solution = replace(solution, reaction=turned(reaction), load=turned(load), elements=self._elements(change))
+        in_global = self._system.dofs.in_global
+        elements = self._elements(change)
+        solution = replace(solution, reaction=in_global(reaction), load=in_global(load), elements=elements)
         period = step.procedure.period
         done = IncrementDone(step.number, 1, 1, 1, period, self._state.total_time, period, solution)
         return [Warned(BASE_FORCES), done] if self._unloaded(evaluation) else [done]
 
     def _response(self, data: FloatArray, reduced: FloatArray, external: FloatArray) -> FloatArray:
-        """Return the change (n,) by forces and the prescribed values of the step.
+        """Solve for the change (n,) due to forces (n,) and the prescribed values of the step.
 
-        data, reduced: CSR values of the stiffness, of all unknowns and of the free ones, which is factorised.
+        data, reduced: CSR values of the stiffness of all unknowns, and of the free ones.
         """
         constraints = self._constraints
         prescribed = self._prescribed()[constraints.prescribed]
@@ -133,17 +134,17 @@ class PerturbationStep:
         return constraints.expand(self._solver.solve(constraints.reduce_vector(r)), prescribed)
 
     def _loads(self, step: Step) -> FloatArray:
-        """Return the forces (n,) of the loads that the step, or a part of it, gives."""
+        """Return the forces (n,) of the loads of a step, or of a part of it."""
         time, state = (self._step_time, self._state.total_time), self._state
         return state.loads.in_perturbation(step, self._user, self._increment, time, state.displacement)
 
     @property
     def _step_time(self) -> float:
-        """Step time, 0 as none passes; a frequency may replace it."""
+        """Step time for user routines: 0, or a frequency."""
         return 0.0
 
     def _prescribed(self) -> FloatArray:
-        """Return the prescribed changes (n,), those of DISP among them. Raises DeckError without it."""
+        """Return the prescribed changes (n,), including those by DISP. Raises DeckError without DISP."""
         step, state, user, dofs = self._step, self._state, self._user, self._system.dofs
         values, by_user = state.boundaries.perturbations(step), state.boundaries.perturbed_by_user(step)
         if len(by_user):
@@ -154,8 +155,8 @@ class PerturbationStep:
             numbered = np.stack([dofs.mesh.labels[nodes], dofs.dof[by_user]], axis=1).astype(np.int32)
             coords = displaced_coordinates(dofs, nodes, state.displacement if step.nlgeom else None)
             moment, size = (self._increment, (self._step_time, state.total_time)), step.procedure.period
-            asked = UserValues("DISP", step.number, *moment, numbered, coords, values[by_user], size=size)
-            values[by_user] = user.user_values(asked)
+            request = UserValues("DISP", step.number, *moment, numbered, coords, values[by_user], size=size)
+            values[by_user] = user.user_values(request)
         return values
 
     def _symmetric(self, data: FloatArray) -> FloatArray:
@@ -165,12 +166,12 @@ class PerturbationStep:
         return symmetric
 
     def _modes_of(self, vectors: FloatArray) -> FloatArray:
-        """Return all unknowns (n, k) of modes from the free ones."""
+        """Expand modes from the free unknowns to all unknowns (n, k)."""
         none = np.zeros(len(self._constraints.prescribed))
         return np.array([self._constraints.expand(vector, none) for vector in vectors.T]).T
 
     def _largest(self, vectors: FloatArray) -> FloatArray:
-        """Return the largest displacement (k,) of modes (n, k), or another unknown if nothing moves."""
+        """Return the largest displacement (k,) of modes (n, k), or the largest unknown without displacements."""
         displacements = self._system.dofs.dof <= LAST_DISPLACEMENT
         largest = []
         for vector in vectors.T:
@@ -179,7 +180,7 @@ class PerturbationStep:
         return np.array(largest)
 
     def _refuse_single_rotations(self, matrix: sparse.coo_array, lost: NDArray[np.bool_]) -> None:
-        """Raise DeckError if a matrix by spins has entries that are `lost`: the pattern does not have them."""
+        """Raise DeckError if entries of a matrix with respect to spins are `lost`, outside the pattern."""
         sizes = np.where(lost, np.abs(matrix.data), 0.0)
         if sizes.max(initial=0.0) <= ROUNDING * np.abs(matrix.data).max(initial=0.0):
             return
@@ -189,13 +190,13 @@ class PerturbationStep:
         raise DeckError(self._step.source, f"*{keyword}: {message}; expected elements that act on dofs 4 to 6 of it")
 
     def _unloaded(self, evaluation: Evaluation) -> bool:
-        """Report whether user elements return forces in a step without loads on them."""
+        """Return whether user elements return forces in a step without loads on them."""
         count = max(int(evaluation.flux_count.sum()), 1)
         largest = float(np.abs(evaluation.residual).max(initial=0.0))
         return not self._step.distributed and largest > ROUNDING * float(evaluation.flux.sum()) / count
 
     def _pass(self, request: Request, change: FloatArray | None = None) -> Evaluation:
-        """Make a pass over the elements in the base state: for the change (n,), or for residual and matrix."""
+        """Make a pass over the elements in the base state, for residual and matrix or for a change (n,)."""
         at = self._state.displacement
         du = np.zeros_like(at) if change is None else self._by_vectors(change)
         evaluation = self._system.evaluate(self._call(request), at, du, matrix=change is None)
@@ -210,10 +211,10 @@ class PerturbationStep:
 
     @cached_property
     def _vectors_by_spins(self) -> sparse.csr_array | None:
-        """Changes (n, n) of all unknowns by those with spins instead of rotation vectors; None: they are the same."""
+        """Matrix (n, n) from changes with spins to changes with rotation vectors; None: identity."""
         dofs, u = self._system.dofs, self._state.displacement
-        nodes = np.unique(dofs.node[np.isin(dofs.dof, _TURNS)])
-        unknowns = dofs.find(nodes[:, None], _TURNS)
+        nodes = np.unique(dofs.node[np.isin(dofs.dof, _ROTATIONS)])
+        unknowns = dofs.find(nodes[:, None], _ROTATIONS)
         unknowns = unknowns[(unknowns >= 0).all(axis=1)]
         unknowns = unknowns[np.any(u[unknowns], axis=1)]
         if not self._step.nlgeom or not len(unknowns):
@@ -230,7 +231,7 @@ class PerturbationStep:
         return change if self._vectors_by_spins is None else np.asarray(self._vectors_by_spins @ change)
 
     def _by_spins(self, data: FloatArray) -> FloatArray:
-        """Return CSR values of a matrix whose columns are derivatives by spins, from those by rotation vectors."""
+        """Convert CSR values of a matrix from derivatives by rotation vectors to derivatives by spins."""
         if self._vectors_by_spins is None:
             return data
         system, n = self._system, len(self._system)
@@ -272,7 +273,7 @@ class PerturbationStep:
         )
 
     def _elements(self, change: FloatArray) -> tuple[ElementState, ...]:
-        """Return changes of strain and stress of elastic built-in elements in small displacements, not of others."""
+        """Return the changes of strain and stress of elastic built-in elements; none with NLGEOM."""
         if self._step.nlgeom:
             return ()
         call = self._call(Request.NORMAL)

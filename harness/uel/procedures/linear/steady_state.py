@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*STEADY STATE DYNAMICS: the response to harmonic loads, for one angular frequency w after another.
+"""*STEADY STATE DYNAMICS: response to harmonic loads at each of several angular frequencies w.
 
-DIRECT solves (K - w^2 M + i (w C + S)) u = p. Elements are asked, at each frequency, for the stiffness K (LFLAGS(3) =
+DIRECT solves (K - w^2 M + i (w C + S)) u = p. Elements are called, at each frequency, for the stiffness K (LFLAGS(3) =
 2), the mass M (4), and the viscous and the structural damping C and S (3, with LFLAGS(7) = 1 and 2), with LFLAGS(1) =
 95 and the frequency in TIME(1) (User Subroutines Guide, UEL, "Direct steady-state analysis"; Theory Guide, "Direct
 steady-state dynamic analysis"). SUBSPACE PROJECTION solves it for u = sum of phi_i q_i, where phi_i are modes of
-*FREQUENCY. By modes alone each has an equation of its own (Theory Guide, "Steady-state linear dynamic analysis"),
+*FREQUENCY. Without either, each mode has its own equation (Theory Guide, "Steady-state linear dynamic analysis"),
 m_i (w_i^2 (1 + i s_i) - w^2 + 2 i xi_i w_i w) q_i = phi_i^T p.
 
 Loads and prescribed values have a real and an imaginary part; their amplitudes are functions of frequency. Energies are
@@ -66,7 +66,7 @@ class Matrices:
 
 
 class HarmonicStep(PerturbationStep, ABC):
-    """Step of harmonic responses, each an increment; subclasses define the solution at a frequency."""
+    """Step of harmonic responses, one increment per frequency; subclasses define the solution."""
 
     _procedure: SteadyState
 
@@ -86,25 +86,25 @@ class HarmonicStep(PerturbationStep, ABC):
         """Compute the response at the frequency of the increment."""
         frequency = self._frequency
         rate = 2j * math.pi * frequency
-        load = self._given(self._loads)
+        load = self._complex_amplitudes(self._loads)
         response = self._response_to(load, rate)
         u = response.displacement
         amplitudes = u, rate * u, rate**2 * u, response.reaction, load
         real = self._part(*(np.ascontiguousarray(values.real) for values in amplitudes))
         imaginary = self._part(*(np.ascontiguousarray(values.imag) for values in amplitudes))
         real = replace(real, energies=self._energies(response))
-        size, place = self._procedure.period, (self._step.number, self._increment, 1, 1)
-        return [HarmonicResponse(*place, frequency, frequency, size, replace(real, imaginary=imaginary))]
+        size, numbers = self._procedure.period, (self._step.number, self._increment, 1, 1)
+        return [HarmonicResponse(*numbers, frequency, frequency, size, replace(real, imaginary=imaginary))]
 
     @abstractmethod
     def _response_to(self, load: ComplexArray, rate: complex) -> Response:
         """Return the response to loads (n,); rate: i w."""
 
     def _energies(self, response: Response) -> dict[str, float]:
-        """Return the means over a period of the strain energy and of the kinetic energy."""
+        """Return the mean strain energy and kinetic energy over a period."""
 
         def mean(forces: ComplexArray) -> float:
-            # that of a product of two harmonics is half the product of their amplitudes
+            # 1/2 of the energy, times 1/2 for the mean of a product of two harmonics
             return 0.25 * float(np.vdot(response.displacement, self._state.signs * forces).real)
 
         return {"ALLSE": mean(response.elastic), "ALLKE": -mean(response.inertial)}
@@ -121,11 +121,11 @@ class HarmonicStep(PerturbationStep, ABC):
         return Matrices(dynamic, stiffness, mass)
 
     def _with_forces(self, u: ComplexArray, forces: ComplexArray, matrices: Matrices, rate: complex) -> Response:
-        """Return the response with displacements (n,) that forces (n,) cause; rate: i w."""
-        dynamic, elastic, momentum = (
+        """Return the response with displacements u (n,) due to forces (n,); rate: i w."""
+        dynamic, elastic, inertial = (
             self._system.matrix(data) @ u for data in (matrices.dynamic, matrices.stiffness, matrices.mass)
         )
-        return Response(u, _by_parts(self._constraints.reactions, forces - dynamic), elastic, rate**2 * momentum)
+        return Response(u, _by_parts(self._constraints.reactions, forces - dynamic), elastic, rate**2 * inertial)
 
     def _matrix(self, request: Request, damping: Damping = Damping.NONE) -> FloatArray:
         """Return CSR values (nnz,) of a matrix of the elements in the base state."""
@@ -138,8 +138,8 @@ class HarmonicStep(PerturbationStep, ABC):
     def _step_time(self) -> float:
         return self._frequency
 
-    def _given(self, read: Callable[[Step], FloatArray]) -> ComplexArray:
-        """Return loads or prescribed values (n,) at the frequency."""
+    def _complex_amplitudes(self, read: Callable[[Step], FloatArray]) -> ComplexArray:
+        """Return complex loads or prescribed values (n,) at the frequency; read: returns those of a step."""
         at = self._frequency, self._frequency
         return read(step_at(self._step, at)) + 1j * read(step_at(self._step, at, imaginary=True))
 
@@ -187,22 +187,22 @@ class SteadyStateStep(HarmonicStep):
     def _response_to(self, load: ComplexArray, rate: complex) -> Response:
         constraints, matrices = self._constraints, self._matrices(rate)
         data = matrices.dynamic
-        prescribed = self._given(self._state.boundaries.perturbations)[constraints.prescribed]
-        held = _by_parts(constraints.expand, np.zeros(len(constraints.free), dtype=np.complex128), prescribed)
-        missing = _by_parts(constraints.reduce_vector, load - self._system.matrix(data) @ held)
-        found = held + _by_parts(constraints.expand, self._solution_of(data, missing), np.zeros_like(prescribed))
-        for part in (found.real, found.imag):
+        prescribed = self._complex_amplitudes(self._state.boundaries.perturbations)[constraints.prescribed]
+        u_p = _by_parts(constraints.expand, np.zeros(len(constraints.free), dtype=np.complex128), prescribed)
+        rhs = _by_parts(constraints.reduce_vector, load - self._system.matrix(data) @ u_p)
+        u = u_p + _by_parts(constraints.expand, self._solve_free(data, rhs), np.zeros_like(prescribed))
+        for part in (u.real, u.imag):
             constraints.refuse_contradictions(part, f"step {self._step.number}")
-        return self._with_forces(found, load, matrices, rate)
+        return self._with_forces(u, load, matrices, rate)
 
-    def _solution_of(self, data: ComplexArray, missing: ComplexArray) -> ComplexArray:
+    def _solve_free(self, data: ComplexArray, rhs: ComplexArray) -> ComplexArray:
         """Solve for the free unknowns (n_q,)."""
         solver = self._solver
         reduced = _by_parts(self._constraints.reduce, data)
         if self._complex is not None:
-            return self._complex.solve(reduced, missing)
+            return self._complex.solve(reduced, rhs)
         solver.factorise(reduced.real)
-        return _by_parts(solver.solve, missing)
+        return _by_parts(solver.solve, rhs)
 
 
 class ModalHarmonicStep(ModalStep, HarmonicStep):
@@ -214,21 +214,21 @@ class ModalHarmonicStep(ModalStep, HarmonicStep):
 
     def _with_base(self, load: ComplexArray, rate: complex) -> ComplexArray:
         """Add the loads of the motion of the supports to loads (n,)."""
-        found = load.copy()
+        total = load.copy()
         for motion in self._superposition.base:
             part = 1j if motion.imaginary else 1.0
             accelerates = rate ** _DERIVATIVES[motion.motion]
             acceleration = part * accelerates * motion.value(self._frequency, self._frequency)
-            found -= acceleration * self._modes.rigid[motion.dof - 1]
-        return found
+            total -= acceleration * self._modes.rigid[motion.dof - 1]
+        return total
 
     def _largest_terms(self, rate: complex) -> FloatArray:
         """Return the scale (modes,) of the difference w_i^2 - w^2."""
-        found: FloatArray = np.abs(self._modes.values) + abs(rate) ** 2
-        return found
+        scale: FloatArray = np.abs(self._modes.values) + abs(rate) ** 2
+        return scale
 
     def _check_distance(self, distance: FloatArray) -> None:
-        """Refuse a frequency at which a mode has no stiffness but that of rounding."""
+        """Raise DeckError at the natural frequency of an undamped mode."""
         if np.any(distance <= NEAR):
             message = f"{self._frequency:g} cycles per time is a natural frequency of a mode without damping"
             raise DeckError(self._step.source, f"*{self._procedure.keyword}: {message}")
@@ -242,14 +242,14 @@ class SubspaceSteadyStateStep(ModalHarmonicStep):
         matrix = self._system.matrix(matrices.dynamic)
         forces = self._with_base(load, rate)
         projected = shapes @ (matrix @ shapes.T)
-        # to unit diagonals, but near a natural frequency
+        # scaled to unit diagonals, except near a natural frequency
         scale = np.sqrt(self._modes.masses * self._largest_terms(rate))
         self._check_distance(np.linalg.svd(projected / np.outer(scale, scale), compute_uv=False))
         return self._with_forces(np.linalg.solve(projected, shapes @ forces) @ shapes, forces, matrices, rate)
 
 
 class ModalSteadyStateStep(ModalHarmonicStep):
-    """Step of harmonic responses by modes, each for itself."""
+    """Step of harmonic responses by uncoupled modes."""
 
     def _response_to(self, load: ComplexArray, rate: complex) -> Response:
         modes, forces = self._modes, self._with_base(load, rate)
@@ -266,7 +266,7 @@ class ModalSteadyStateStep(ModalHarmonicStep):
 _DERIVATIVES = {Motion.DISPLACEMENT: 2, Motion.VELOCITY: 1, Motion.ACCELERATION: 0}
 
 NEAR = 1e-10
-"""Difference of squared frequencies, over their sum, that rounding makes."""
+"""Difference of squared frequencies, over their sum, that counts as rounding."""
 
 
 def _by_parts(linear: Callable[..., FloatArray], *values: ComplexArray) -> ComplexArray:

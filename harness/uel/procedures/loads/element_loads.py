@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""All loads of a step: concentrated ones, and distributed ones on built-in elements as nodal forces.
+"""Loads of a step: concentrated loads, and distributed loads on built-in elements as nodal forces.
 
-Pressures in a model with NLGEOM are not nodal forces: the faces that they act on are called in each iteration.
+Pressures in a model with NLGEOM are not nodal forces but follower loads: their faces are called in each iteration.
 
 Magnitudes of distributed loads vary as those of *CLOAD do, for each element and type of load; *DLOAD and *DSLOAD have
-their own OP=. Nonuniform loads have the magnitudes that DLOAD gives at each point of the face or volume, from those of
-the deck as they are: no amplitude acts on them, nor that of the step (User Subroutines Guide, DLOAD).
+their own OP=. DLOAD defines nonuniform loads at each point of the face or volume, from the magnitudes in the deck: no
+amplitude acts on them, nor that of the step (User Subroutines Guide, DLOAD).
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from uel.procedures.loads.nodal import Loads, ScaledUnknowns, Slots, Variation
 
 @dataclass(frozen=True, slots=True)
 class FactorTimes:
-    """A load factor at the end of an increment, a small difference from it, and its change in the increment."""
+    """Load factor at the end of an increment, a small difference of it, and its change in the increment."""
 
     end: float
     difference: float
@@ -43,17 +43,17 @@ class FactorTimes:
 
 @dataclass(frozen=True, slots=True)
 class _ShellTerms:
-    """Loads normal to shells as terms of the average force.
+    """Loads normal to shells, which count in the average force.
 
-    forces  (n, slots) magnitudes of the nodal forces of loads of one
-    terms   (slots,) of the average that a load is, 0 of those that do not act or are on other elements
+    forces  (n, slots) nodal forces for unit magnitudes
+    terms   (slots,) number of terms of each load in the average, 0 if it does not act or is on other elements
     """
 
     forces: sparse.csc_array
     terms: IntArray
 
     def at(self, magnitudes: FloatArray, floor: float) -> BlockReport:
-        """Return their report at magnitudes (slots,); floor: below which forces are left out of the average."""
+        """Return the report for magnitudes (slots,); floor: forces below it are left out of the average."""
         forces = abs(self.forces.data) * np.abs(np.repeat(magnitudes, np.diff(self.forces.indptr)))
         here = np.repeat(self.terms > 0, np.diff(self.forces.indptr))
         counted = here & (forces > floor)
@@ -68,10 +68,10 @@ class _ShellTerms:
 
 @dataclass(slots=True)
 class StepLoads:
-    """Loads of one step; `increment` is the one for which they are needed.
+    """Loads of one step; `increment` is the current one.
 
-    shape   of vectors of all unknowns
-    nlgeom  DLOAD gets the present coordinates of its points
+    shape   number of unknowns
+    nlgeom  DLOAD gets the current coordinates of its points
     """
 
     step: int
@@ -90,24 +90,24 @@ class StepLoads:
         return (*self.concentrated.curves, *(curve for load in self.distributed for curve in load.magnitudes.curves))
 
     @property
-    def turning(self) -> bool:
-        """True if there are loads that follow faces."""
-        return any(load.turning for load in self.distributed)
+    def follower(self) -> bool:
+        """True if there are follower loads."""
+        return any(load.follower for load in self.distributed)
 
     @property
     def by_user(self) -> bool:
-        """True if DLOAD gives any of them, on any rank."""
+        """True if DLOAD defines any load, on any rank."""
         return any(load.by_user for load in self.distributed)
 
     def at(self, step_time: float, total_time: float) -> FloatArray:
-        """Return the loads (n,) at a time, without those of DLOAD."""
+        """Return the loads (n,) at a time, without those by DLOAD."""
         concentrated = self.concentrated.at(step_time, total_time)
         if not self.distributed:
             return concentrated
         return concentrated + self.system.sum(self._on_elements(step_time, total_time))
 
     def terms(self, times: tuple[float, float], floor: FloatArray) -> tuple[BlockReport, ...]:
-        """Return the loads on shells of this rank that are terms of the average force at a step and a total time."""
+        """Return the loads on shells of this rank that count in the average force, at a step and a total time."""
         loads = (load for load in self.distributed if load.shells.terms.any())
         force = float(floor[FIELD_NAMES.index("force")])
         return tuple(load.shells.at(load.magnitudes.at(*times), force) for load in loads)
@@ -119,27 +119,27 @@ class StepLoads:
             values += load.points.forces @ load.magnitudes.at(step_time, total_time)[load.points.slot]
         return values
 
-    def of_user(self, time: tuple[float, float], u: FloatArray) -> FloatArray:
-        """Return nodal forces (n,) of the loads that DLOAD gives at a step and total time, at displacements (n,)."""
-        return self.system.sum(self.system.agree(lambda: self._of_user(time, u)))
+    def by_dload(self, time: tuple[float, float], u: FloatArray) -> FloatArray:
+        """Return the nodal forces (n,) of loads by DLOAD at a step and total time and displacements u (n,)."""
+        return self.system.sum(self.system.agree(lambda: self._by_dload(time, u)))
 
-    def _of_user(self, time: tuple[float, float], u: FloatArray) -> FloatArray:
+    def _by_dload(self, time: tuple[float, float], u: FloatArray) -> FloatArray:
         values = np.zeros(self.shape)
         for load in self.distributed:
             if len(load.chosen):
                 magnitudes = np.zeros(len(load.points.slot))
-                asked = load.points.asked(load.chosen, u if self.nlgeom else None)
-                magnitudes[load.chosen] = self._magnitudes_of_dload(
-                    time, *asked, load.reference[load.points.slot[load.chosen]]
+                points = load.points.arguments(load.chosen, u if self.nlgeom else None)
+                magnitudes[load.chosen] = self._dload_magnitudes(
+                    time, *points, load.reference[load.points.slot[load.chosen]]
                 )
                 values += load.points.forces @ magnitudes
         return values
 
-    def _magnitudes_of_dload(
+    def _dload_magnitudes(
         self, time: tuple[float, float], numbers: NDArray[np.int32], coords: FloatArray, reference: FloatArray
     ) -> FloatArray:
-        """Return the magnitudes (k,) of DLOAD."""
-        # calls before the first increment belong to it
+        """Return the magnitudes (k,) by DLOAD."""
+        # calls before the first increment count as part of it
         moment = self.step, max(self.increment, 1), time
         return self.user.user_values(UserValues("DLOAD", *moment, numbers, coords, reference))
 
@@ -151,12 +151,12 @@ class StepLoads:
         u: FloatArray,
         factor: FactorTimes | None = None,
     ) -> Distributed | None:
-        """Return the loads of an increment between these step and total times: on elements, on faces they follow, heat.
+        """Return the loads of an increment between these step and total times: on elements, follower loads, heat.
 
-        u (n,) are the displacements at which DLOAD is asked. factor: what it gets instead of step times; only then
-        changes of its loads in the increment are known.
+        u (n,) are the displacements at which DLOAD is called. factor: DLOAD gets a load factor instead of the step
+        time; only then the changes of its loads in the increment are known.
         """
-        by_user = self.system.agree(lambda: self._on_faces_of_user(end, u, factor)) if self.by_user else None
+        by_user = self.system.agree(lambda: self._on_faces_by_dload(end, u, factor)) if self.by_user else None
         parts = [part for part in (others, self._on_faces(start, end), by_user, self.heat.between(start, end)) if part]
         if len(parts) < 2:
             return parts[0] if parts else None
@@ -176,22 +176,20 @@ class StepLoads:
         order = np.argsort(faces)
         return Distributed(faces[order], np.ones_like(faces), after[order], (after - before)[order])
 
-    def _on_faces_of_user(
+    def _on_faces_by_dload(
         self, end: tuple[float, float], u: FloatArray, factor: FactorTimes | None
     ) -> Distributed | None:
-        """Return a load for each point of the faces whose pressure DLOAD gives."""
+        """Return a load for each point of the faces whose pressure DLOAD defines."""
         parts = []
         for load in self.distributed:
-            for faces in load.user_faces:
-                asked = faces.asked(u if self.nlgeom else np.zeros_like(u))
+            for faces in load.dload_faces:
+                points = faces.arguments(u if self.nlgeom else np.zeros_like(u))
                 change = np.zeros(len(faces.reference))
                 if factor is None:
-                    after = self._magnitudes_of_dload(end, *asked, faces.reference)
+                    after = self._dload_magnitudes(end, *points, faces.reference)
                 else:
-                    nearby = self._magnitudes_of_dload(
-                        (factor.end - factor.difference, end[1]), *asked, faces.reference
-                    )
-                    after = self._magnitudes_of_dload((factor.end, end[1]), *asked, faces.reference)
+                    nearby = self._dload_magnitudes((factor.end - factor.difference, end[1]), *points, faces.reference)
+                    after = self._dload_magnitudes((factor.end, end[1]), *points, faces.reference)
                     change = factor.change / factor.difference * (after - nearby)
                 parts.append(faces.distributed(after, change))
         if not parts:
@@ -206,24 +204,24 @@ class StepLoads:
 
 
 @dataclass(frozen=True, slots=True)
-class _UserFaces:
-    """Faces that pressures follow which DLOAD gives.
+class _DloadFaces:
+    """Faces with follower pressures by DLOAD.
 
-    rows       (k,) of the block
-    reference  (k * points,) magnitudes of the deck
+    rows       (k,) rows of the block
+    reference  (k * points,) magnitudes in the deck
     """
 
     block: FollowerBlock
     rows: IntArray
     reference: FloatArray
 
-    def asked(self, u: FloatArray) -> tuple[NDArray[np.int32], FloatArray]:
-        """Return the element number, point and JLTYP of the points, and where they are at displacements (n,)."""
+    def arguments(self, u: FloatArray) -> tuple[NDArray[np.int32], FloatArray]:
+        """Return element number, point and JLTYP of the points, and their coordinates at displacements u (n,)."""
         labels, coords = self.block.group.labels[self.rows], self.block.points(self.rows, u)
         return _numbered(labels, self.block.points_of_face, self.block.load), coords.reshape(-1, 3)
 
     def distributed(self, end: FloatArray, increment: FloatArray) -> Distributed:
-        """Return a load for each point, of these magnitudes (k * points,)."""
+        """Return a load for each point, with magnitudes and increments (k * points,)."""
         count = self.block.points_of_face
         elements = np.repeat(self.block.first + self.block.rows[self.rows], count)
         return Distributed(elements, np.tile(np.arange(1, count + 1), len(self.rows)), end, increment)
@@ -240,22 +238,22 @@ def _numbered(labels: IntArray, points: int, load: LoadType) -> NDArray[np.int32
 class _StepElementLoads:
     """Distributed loads of one step.
 
-    turning       whether loads follow faces, on any rank
-    by_user       whether DLOAD gives any magnitude, on any rank
-    chosen        points whose magnitude DLOAD gives
-    reference     magnitudes by number as the deck gives them, for DLOAD
-    user_faces    faces whose pressures it gives
-    shells        of the loads on shells, in the average force
+    follower      whether there are follower loads, on any rank
+    by_user       whether DLOAD defines any magnitude, on any rank
+    chosen        points whose magnitude DLOAD defines
+    reference     magnitudes by number as in the deck, for DLOAD
+    dload_faces   faces with follower pressures by DLOAD
+    shells        loads on shells, in the average force
     faces, slots  positions of other faces among the elements, after those of the model, and numbers of their magnitudes
     """
 
     points: _Points
     magnitudes: Variation
-    turning: bool
+    follower: bool
     by_user: bool
     chosen: IntArray
     reference: FloatArray
-    user_faces: tuple[_UserFaces, ...]
+    dload_faces: tuple[_DloadFaces, ...]
     faces: IntArray
     slots: IntArray
     shells: _ShellTerms
@@ -290,13 +288,14 @@ class AllLoads:
     def in_perturbation(
         self, step: Step, user: GivesValues, increment: int, time: tuple[float, float], u: FloatArray
     ) -> FloatArray:
-        """Return the forces (n,) of a perturbation step, which do not outlast it.
+        """Return the forces (n,) of a perturbation step, which later steps do not keep.
 
         increment, time and u (n,), the displacements of the base state, are for DLOAD. Raises DeckError without it.
         """
         _check_dload(step, user)
         forces = self._concentrated.in_perturbation(step.loads)
-        forces += self._elements.unlasting(step.element_loads) + self._surfaces.unlasting(step.surface_loads)
+        of_elements = self._elements.perturbation_forces(step.element_loads)
+        forces += of_elements + self._surfaces.perturbation_forces(step.surface_loads)
         for entry in step.element_loads:
             if entry.type.jltyp:
                 numbers, coords, add = self._elements.nonuniform(entry, u if step.nlgeom else None)
@@ -326,9 +325,9 @@ class AllLoads:
         if not block.load.jltyp:
             elements = block.first + block.rows[rows]
             return Distributed(elements, np.ones_like(elements), magnitudes[rows], magnitudes[rows])
-        faces = _UserFaces(block, rows, np.repeat(magnitudes[rows], block.points_of_face))
-        asked = faces.asked(u if step.nlgeom else np.zeros_like(u))
-        values = user.user_values(UserValues("DLOAD", step.number, increment, time, *asked, faces.reference))
+        faces = _DloadFaces(block, rows, np.repeat(magnitudes[rows], block.points_of_face))
+        points = faces.arguments(u if step.nlgeom else np.zeros_like(u))
+        values = user.user_values(UserValues("DLOAD", step.number, increment, time, *points, faces.reference))
         return faces.distributed(values, values)
 
     def conclude(self, step_time: float) -> None:
@@ -340,13 +339,14 @@ class AllLoads:
 
 @dataclass(slots=True)
 class _Points:
-    """Points of faces and volumes that loads act on.
+    """Points of loaded faces and volumes.
 
-    forces  (n, points) nodal forces for magnitudes of one
-    moved   (3 points, n) their displacements from those of the nodes
-    slot    (points,) number of the magnitude, jltyp (points,) as LoadType has it
-    numbers  (points, 3) element number, point, JLTYP; coords (points, 3), at the start of the analysis
-    terms   (points,) of the average force that the load of the point is
+    forces   (n, points) nodal forces for unit magnitudes
+    moved    (3 points, n) matrix from the displacements of the nodes to those of the points
+    slot     (points,) number of the magnitude
+    numbers  (points, 3) element number, point, JLTYP
+    coords   (points, 3) at the start of the analysis
+    terms    (points,) number of terms of the load of the point in the average force
     """
 
     forces: sparse.csr_array
@@ -356,8 +356,8 @@ class _Points:
     coords: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
     terms: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
-    def asked(self, chosen: IntArray, u: FloatArray | None) -> tuple[NDArray[np.int32], FloatArray]:
-        """Return numbers (k, 3) of chosen points, and coordinates at displacements u (n,) or in the initial shape."""
+    def arguments(self, chosen: IntArray, u: FloatArray | None) -> tuple[NDArray[np.int32], FloatArray]:
+        """Return numbers (k, 3) of chosen points, and their coordinates at displacements u (n,), or initial ones."""
         coords = self.coords[chosen]
         if u is not None:
             coords = coords + (self.moved @ u).reshape(-1, 3)[chosen]
@@ -385,14 +385,14 @@ class _ElementLoads:
         self._reference = np.zeros(len(self._slots))
         parts: list[_Points] = []
         faces = [block for block in system.contributors.followers if block.acts and block.surface == surface]
-        turning = {block.load for block in faces}
-        self._turning = [k for k, kind in enumerate(self._types) if kind in turning]
+        followers = {block.load for block in faces}
+        self._follower_kinds = [k for k, kind in enumerate(self._types) if kind in followers]
         for entry in {entry.type: entry for entry in entries}.values():
-            if entry.type not in turning:
+            if entry.type not in followers:
                 parts += self._points_of(system, entry)
         none = np.zeros(0, dtype=np.int64)
         by_deck = [block for block in faces if not block.load.jltyp]
-        self._user_faces = [block for block in faces if block.load.jltyp]
+        self._dload_blocks = [block for block in faces if block.load.jltyp]
         self._faces = np.concatenate([none, *(block.first + block.rows for block in by_deck)])
         slots = [self._slots.find(block.elements, self._types.index(block.load)) for block in by_deck]
         self._face_slots = np.concatenate([none, *slots])
@@ -424,54 +424,54 @@ class _ElementLoads:
             self._active[:] = False
         for entry in entries:
             self._active[self._slots.find(entry.elements, self._types.index(entry.type))] = True
-        self._refer(entries)
+        self._set_reference(entries)
         chosen = np.flatnonzero((self._points.numbers[:, 2] > 0) & self._active[self._points.slot])
         varying = self.loads.take(self._as_loads(entries), new, step, total_time)
         by_user = [k for k, kind in enumerate(self._types) if kind.jltyp]
-        turning, of_user = (self._has(kinds) for kinds in (self._turning, by_user))
-        of_step = turning, of_user, chosen, self._reference.copy(), self._faces_of_user()
+        follower, by_dload = (self._has(kinds) for kinds in (self._follower_kinds, by_user))
+        of_step = follower, by_dload, chosen, self._reference.copy(), self._find_dload_faces()
         shells = _ShellTerms(self._of_shells, np.where(self._active, self._shell_terms, 0))
         return _StepElementLoads(self._points, varying, *of_step, self._faces, self._face_slots, shells)
 
     def _has(self, kinds: list[int]) -> bool:
-        """Report whether the step has loads of some types."""
+        """Return whether the step has loads of some types."""
         return bool(np.isin(self._slots.kinds[self._active], kinds).any())
 
-    def _refer(self, entries: Sequence[ElementLoad]) -> None:
-        """Take over the magnitudes that DLOAD gets; those of several entries of a step add up."""
+    def _set_reference(self, entries: Sequence[ElementLoad]) -> None:
+        """Set the magnitudes that DLOAD gets; those of several entries of a step add up."""
         by_user = [(self._slots.find(e.elements, self._types.index(e.type)), e) for e in entries if e.type.jltyp]
         for slots, _ in by_user:
             self._reference[slots] = 0.0
         for slots, entry in by_user:
             self._reference[slots] += entry.magnitude
 
-    def _faces_of_user(self) -> tuple[_UserFaces, ...]:
-        """Return the faces here that have a load of DLOAD in the step."""
-        user_faces = []
-        for block in self._user_faces:
+    def _find_dload_faces(self) -> tuple[_DloadFaces, ...]:
+        """Return the faces on this rank with a load by DLOAD in the step."""
+        dload_faces = []
+        for block in self._dload_blocks:
             slots = self._slots.find(block.elements, self._types.index(block.load))
             rows = np.flatnonzero(self._active[slots])
             if len(rows):
                 reference = np.repeat(self._reference[slots[rows]], block.points_of_face)
-                user_faces.append(_UserFaces(block, rows, reference))
-        return tuple(user_faces)
+                dload_faces.append(_DloadFaces(block, rows, reference))
+        return tuple(dload_faces)
 
     def nonuniform(
         self, entry: ElementLoad, u: FloatArray | None
     ) -> tuple[NDArray[np.int32], FloatArray, Callable[[FloatArray], FloatArray]]:
-        """Return the points of DLOAD in a perturbation step, and a function from its answers to forces (n,)."""
+        """Return the points of DLOAD in a perturbation step, and a function from its magnitudes to forces (n,)."""
         slots = self._slots.find(entry.elements, self._types.index(entry.type))
         chosen = np.flatnonzero(np.isin(self._points.slot, slots) & (self._points.numbers[:, 2] > 0))
         forces = self._points.forces[:, chosen]
-        return (*self._points.asked(chosen, u), lambda magnitudes: np.asarray(forces @ magnitudes))
+        return (*self._points.arguments(chosen, u), lambda magnitudes: np.asarray(forces @ magnitudes))
 
-    def unlasting(self, entries: Sequence[ElementLoad]) -> FloatArray:
+    def perturbation_forces(self, entries: Sequence[ElementLoad]) -> FloatArray:
         """Return the forces (n,) of entries of a perturbation step."""
         magnitudes = self.loads.in_perturbation(self._as_loads(entries))
         return np.asarray(self._points.forces @ magnitudes[self._points.slot])
 
     def _as_loads(self, entries: Sequence[ElementLoad]) -> list[Load]:
-        """Return the loads whose magnitudes the deck gives."""
+        """Return the loads with magnitudes in the deck."""
         uniform = (e for e in entries if not e.type.jltyp)
         return [Load(e.elements, self._types.index(e.type), e.magnitude, e.amplitude, e.source) for e in uniform]
 
@@ -493,7 +493,7 @@ class _ElementLoads:
             where = np.broadcast_to(unknowns, forces.shape).ravel(), np.broadcast_to(columns, forces.shape).ravel()
             matrix = sparse.csr_array((forces.ravel(), where), shape=(len(system), elements * points))
             numbers = _numbered(block.group.labels[rows], points, entry.type)
-            # only DLOAD needs to know where the points are
+            # only DLOAD needs the coordinates of the points
             moved = _moved(system, nodes, shapes if entry.type.jltyp else 0.0 * shapes)
             counts = isinstance(block.group.built_in, ShellType) and entry.type.kind is LoadKind.PRESSURE
             terms = np.full(elements * points, counts * SHELL_PRESSURE * 3 * block.group.nodes.shape[1])

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Heat that enters faces, volumes and nodes, through the steps.
+"""Heat loads on faces, volumes and nodes through the steps.
 
-Fluxes and temperatures of the other side vary as *CLOAD does; a film coefficient without FILM AMPLITUDE, and an
+Fluxes and sink temperatures vary as *CLOAD does; a film coefficient without FILM AMPLITUDE, and an
 emissivity, are constant from the start of the step on (Abaqus Keywords Guide, *FILM, *RADIATE).
 """
 
@@ -23,12 +23,12 @@ from uel.procedures.loads.nodal import Loads, Slots, Variation
 
 @dataclass(frozen=True, slots=True)
 class StepHeat:
-    """Heat loads of one step that are active.
+    """Active heat loads of one step.
 
-    elements    (k,) positions among the elements, after those of the model
-    values      (k,) numbers of the flux or of the temperature of the other side, among all magnitudes, and
-                (k,) of the film coefficient or emissivity, -1 for a flux
-    variations  of the magnitudes of each keyword, which follow each other
+    elements      (k,) positions among the elements, after those of the model
+    values        (k,) numbers of the fluxes or sink temperatures among all magnitudes
+    coefficients  (k,) numbers of the film coefficients or emissivities, -1 for a flux
+    variations    variations of the magnitudes, keyword by keyword
     """
 
     elements: IntArray
@@ -59,7 +59,7 @@ class HeatLoads:
         self._blocks = system.contributors.heat
         entries = [entry for step in model.steps for entry in step.heat_loads]
         self._keywords = list(dict.fromkeys(entry.type.keyword for entry in entries))
-        self._all = [_OfKeyword([e for e in entries if e.type.keyword == keyword]) for keyword in self._keywords]
+        self._all = [_KeywordLoads([e for e in entries if e.type.keyword == keyword]) for keyword in self._keywords]
 
     def start_step(self, step: Step, total_time: float) -> StepHeat:
         """Take over a step's entries; total_time is that at the end of the previous step."""
@@ -92,8 +92,8 @@ class HeatLoads:
             loads.magnitudes.conclude(step_time)
 
 
-class _OfKeyword:
-    """Loads of one keyword: a magnitude for each node or face and type, two where heat is exchanged."""
+class _KeywordLoads:
+    """Loads of one keyword: a magnitude for each node or face and type, two for films and radiation."""
 
     def __init__(self, entries: Sequence[HeatLoad]) -> None:
         self._types = list(dict.fromkeys(entry.type for entry in entries))
@@ -123,7 +123,7 @@ class _OfKeyword:
         return self._at_once(varying, entries)
 
     def _replaced(self, entries: Sequence[HeatLoad]) -> Iterator[Load]:
-        """End further exchanges of earlier steps on the nodes or faces of these entries: their loads are zero."""
+        """Yield zero loads for films and radiation of earlier steps that these entries replace."""
         for entry in entries:
             for load in self._types if entry.type.exchanges else ():
                 if load.number and replace(load, number=0) == replace(entry.type, number=0):

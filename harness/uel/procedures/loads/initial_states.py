@@ -29,7 +29,7 @@ class InitialRoutines(Protocol):
 
 
 def set_initial_states(blocks: Iterable[ElementBlock], model: Model, user: InitialRoutines) -> None:
-    """Set the directions that ORIENT gives, then the state variables that the deck gives, directly or by SDVINI.
+    """Set directions by ORIENT, then state variables by the deck or by SDVINI.
 
     Parameters
     ----------
@@ -38,13 +38,13 @@ def set_initial_states(blocks: Iterable[ElementBlock], model: Model, user: Initi
     model
         Its initial solutions, in their order.
     user
-        Has the routines.
+        User routines.
 
     Raises
     ------
     DeckError
-        An entry needs SDVINI, which the job does not have, or gives more values than an element has variables; or
-        ORIENT gives no directions.
+        An entry needs SDVINI, which the job does not have, or has more values than an element has variables; or
+        ORIENT defines no directions.
     KernelError
         SDVINI or ORIENT ends the analysis.
     """
@@ -71,9 +71,9 @@ def set_initial_states(blocks: Iterable[ElementBlock], model: Model, user: Initi
 def set_initial_stresses(
     system: System, model: Model, state: ConvergedState, user: InitialRoutines
 ) -> Generator[Warned, None, FloatArray | None]:
-    """Set the initial stresses; returns nodal forces (n,) that keep them in equilibrium at first, None for none.
+    """Set the initial stresses; return nodal forces (n,) that balance them at first, None if there are none.
 
-    Raises DeckError, and KernelError from elements inside out and where SIGINI ends the analysis.
+    Raises DeckError; KernelError if an element is inside out or SIGINI ends the analysis.
     """
     stressed: dict[int, ElementBlock] = {}
     for entry in model.initial_stresses:
@@ -104,13 +104,13 @@ def set_initial_stresses(
 
     system.agree(begin)
     residual = system.sum(residual)
-    # Analysis User's Guide, Initial conditions: stresses of opposite sign are added at first, and ramped off in the
-    # first step. Here they are nodal forces, whose work is external work, so that ETOTAL is constant
+    # Analysis User's Guide, Initial conditions: stresses of opposite sign are added and ramped off in the first step.
+    # Here they are nodal forces, whose work counts as external work, so that ETOTAL is constant
     return -residual if model.initial_stresses[0].ramped else None
 
 
 def _stresses_by_user(system: System, entry: InitialStress, user: InitialRoutines) -> dict[int, ElementBlock]:
-    """Let SIGINI set the stresses of all built-in elements that have any; returns their blocks by their first elements.
+    """Set the stresses of all built-in elements by SIGINI; return the blocks by their first elements.
 
     Raises DeckError and KernelError.
     """

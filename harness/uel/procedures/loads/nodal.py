@@ -6,8 +6,8 @@ Abaqus Analysis User's Guide, "Prescribed conditions: overview", "Amplitude curv
 
 - without an amplitude a value ramps from where the previous step ended (RAMP), or acts at once (STEP), as
   AMPLITUDE= of *STEP says; prescribed displacements and rotations always ramp;
-- with an amplitude it is the magnitude times the curve, or the curve itself (VALUE=ABSOLUTE);
-- in later steps that do not mention it, it stays at the end value, or continues along a curve in total time;
+- with an amplitude it is the magnitude times the amplitude, or the amplitude itself (VALUE=ABSOLUTE);
+- in later steps that do not mention it, it keeps its final value, or continues along an amplitude in total time;
 - FIXED holds a value as it is at the start of the step;
 - TYPE=VELOCITY prescribes the rate, by default constant over the step, and continues in later steps;
 - OP=NEW removes what the step does not mention: a load, and the reaction of a released degree of freedom, fade over
@@ -52,8 +52,8 @@ class ScaledUnknowns:
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
-    """Unknowns whose rate is `magnitude` times an amplitude, 1 without one; at the start of the step they are `start`.
+class PrescribedRate:
+    """Unknowns whose rate is `magnitude` times an amplitude, or constant; `start` are their values at the start.
 
     begin  total time at the start of the step
     """
@@ -65,54 +65,54 @@ class Course:
     begin: float
 
     def value(self, step_time: float) -> FloatArray:
-        """Return the values at a time of the step: the start and the integral of the rate."""
+        """Return the values at a step time: those at the start plus the integral of the rate."""
         if self.amplitude is None:
             return self.start + self.magnitude * step_time
         scale = 1.0 if self.amplitude.absolute else self.magnitude
         times, factors = self._sampled(self.amplitude, step_time)
         return self.start + scale * float(np.trapezoid(factors, times))
 
-    def following(self, period: float, displacement: FloatArray, total_time: float) -> Course:
-        """Continue in the next step, at the final rate, or along a curve in total time."""
+    def continued(self, period: float, displacement: FloatArray, total_time: float) -> PrescribedRate:
+        """Return the continuation in the next step, at the final rate or along an amplitude in total time."""
         amplitude, magnitude = self.amplitude, self.magnitude
         if amplitude is not None and not amplitude.total_time:
             factor = amplitude.value(period, total_time)
             magnitude, amplitude = factor if amplitude.absolute else magnitude * factor, None
-        return Course(self.unknowns, magnitude, amplitude, displacement[self.unknowns], total_time)
+        return PrescribedRate(self.unknowns, magnitude, amplitude, displacement[self.unknowns], total_time)
 
-    def without(self, unknowns: IntArray) -> Course:
-        """Return this course for fewer unknowns."""
+    def without(self, unknowns: IntArray) -> PrescribedRate:
+        """Return this rate for fewer unknowns."""
         kept = ~np.isin(self.unknowns, unknowns)
-        return Course(self.unknowns[kept], self.magnitude, self.amplitude, self.start[kept], self.begin)
+        return PrescribedRate(self.unknowns[kept], self.magnitude, self.amplitude, self.start[kept], self.begin)
 
     def _sampled(self, amplitude: Amplitude, step_time: float) -> tuple[FloatArray, FloatArray]:
-        """Sample the amplitude at the corners of a table, for which the trapezoidal rule is exact, and in between."""
+        """Sample the amplitude evenly and at the corners of a table, for which the trapezoidal rule is then exact."""
         corners = amplitude.corners(self.begin)
         times = np.union1d(np.linspace(0.0, step_time, SAMPLES), corners[(corners > 0) & (corners < step_time)])
         return times, np.array([amplitude.value(time, self.begin + time) for time in times.tolist()])
 
 
 SAMPLES = 501
-"""Number of points of the integral of a velocity's amplitude."""
+"""Number of sampling points of the integral of a velocity."""
 
 
 @dataclass(frozen=True, slots=True)
 class Variation:
-    """Values of all unknowns over one step: base + slope t/T + curves; courses have zero base and slope."""
+    """Values of all unknowns over one step: base + slope t/T + curves; rates have zero base and slope."""
 
     base: FloatArray
     slope: FloatArray
     period: float
     curves: tuple[ScaledUnknowns, ...] = ()
-    courses: tuple[Course, ...] = ()
+    rates: tuple[PrescribedRate, ...] = ()
 
     def at(self, step_time: float, total_time: float) -> FloatArray:
         """Return the values (n,) at a time."""
         values = self.base + self.slope * (step_time / self.period)
         for curve in self.curves:
             values[curve.unknowns] += curve.value(step_time, total_time)
-        for course in self.courses:
-            values[course.unknowns] = course.value(step_time)
+        for rate in self.rates:
+            values[rate.unknowns] = rate.value(step_time)
         return values
 
 
@@ -138,7 +138,7 @@ class Boundaries:
         self._dofs = dofs
         self._active = np.zeros(len(dofs), dtype=bool)
         self._curves: tuple[ScaledUnknowns, ...] = ()
-        self._courses: tuple[Course, ...] = ()
+        self._rates: tuple[PrescribedRate, ...] = ()
         self._period = 1.0
         self._by_user = np.zeros(len(dofs), dtype=bool)
         self.sources: dict[int, Source] = {}
@@ -152,27 +152,27 @@ class Boundaries:
 
     @property
     def by_user(self) -> IntArray:
-        """Unknowns whose values DISP gives."""
+        """Unknowns whose values DISP defines."""
         return np.flatnonzero(self._active & self._by_user)
 
     def start_step(self, step: Step, displacement: FloatArray, total_time: float = 0.0) -> Variation:
         """Take over a step's entries; displacement (n,) and total time are those at the end of the previous step."""
         if step.new_boundary:
             self._active[:] = False
-            self._curves, self._courses = (), ()
+            self._curves, self._rates = (), ()
             self.sources.clear()
         base, slope = displacement.copy(), np.zeros_like(displacement)
         curves = [curve for curve in self._curves if curve.amplitude.total_time]
-        courses = [course.following(self._period, displacement, total_time) for course in self._courses]
+        rates = [rate.continued(self._period, displacement, total_time) for rate in self._rates]
         for entry in step.boundaries:
             unknowns = self._activate(entry)
             curves = [curve.without(unknowns) for curve in curves]
-            courses = [course.without(unknowns) for course in courses]
+            rates = [rate.without(unknowns) for rate in rates]
             base[unknowns], slope[unknowns] = 0.0, 0.0
             if entry.velocity:
                 # the default is always a velocity that acts at once
                 start = displacement[unknowns]
-                courses.append(Course(unknowns, entry.magnitude, entry.amplitude, start, total_time))
+                rates.append(PrescribedRate(unknowns, entry.magnitude, entry.amplitude, start, total_time))
             elif entry.fixed:
                 base[unknowns] = displacement[unknowns]
             elif entry.amplitude is not None:
@@ -184,12 +184,12 @@ class Boundaries:
                 base[unknowns] = entry.magnitude
         for curve in curves:
             base[curve.unknowns] = 0.0
-        self._curves, self._courses = tuple(curves), tuple(courses)
+        self._curves, self._rates = tuple(curves), tuple(rates)
         self._period = step.procedure.period
-        return Variation(base, slope, self._period, self._curves, self._courses)
+        return Variation(base, slope, self._period, self._curves, self._rates)
 
     def in_perturbation(self, step: Step) -> IntArray:
-        """Return the prescribed unknowns of a perturbation step, ascending; they do not outlast it."""
+        """Return the prescribed unknowns of a perturbation step, ascending; later steps do not keep them."""
         active = np.zeros_like(self._active) if step.new_boundary else self._active.copy()
         for entry in step.boundaries:
             active[find_unknowns(self._dofs, entry)[0]] = True
@@ -203,7 +203,7 @@ class Boundaries:
         return values
 
     def perturbed_by_user(self, step: Step) -> IntArray:
-        """Return the unknowns (k,) whose changes DISP gives in a perturbation step, ascending."""
+        """Return the unknowns (k,) whose changes DISP defines in a perturbation step, ascending."""
         by_user = [find_unknowns(self._dofs, entry)[0] for entry in step.boundaries if entry.user]
         return np.unique(np.concatenate([np.zeros(0, dtype=np.int64), *by_user]))
 
@@ -220,7 +220,7 @@ class Boundaries:
 
 
 class Unknowns(Protocol):
-    """Numbering of pairs: unknowns by node and dof, and the like."""
+    """Numbering of pairs, such as unknowns by node and dof."""
 
     def __len__(self) -> int:
         """Return their number."""
@@ -232,7 +232,7 @@ class Unknowns(Protocol):
 class Loads:
     """Concentrated loads through the steps; entries of a step for the same unknown add up.
 
-    initial: values before the first step, to which loads return that a step removes; zero by default.
+    initial: values before the first step, to which removed loads return; zero by default.
     """
 
     def __init__(self, dofs: Unknowns, initial: FloatArray | None = None) -> None:
@@ -255,7 +255,7 @@ class Loads:
         else:
             held = reached.copy()
             curves = [curve.without(loaded) for curve in self._previous.curves if curve.amplitude.total_time]
-            # these continue by themselves: only the rest is held
+            # these continue along their amplitudes; only the rest is constant
             for curve in curves:
                 held[curve.unknowns] -= curve.value(0.0, total_time)
             start = held.copy()
@@ -278,20 +278,20 @@ class Loads:
         return self._previous.at(self._previous.period, total_time)
 
     def in_perturbation(self, entries: Sequence[Load]) -> FloatArray:
-        """Return the values (n,) of a perturbation step, which do not outlast it."""
+        """Return the values (n,) of a perturbation step; later steps do not keep them."""
         values = np.zeros(len(self._dofs))
         for entry in entries:
             np.add.at(values, find_unknowns(self._dofs, entry)[0], entry.magnitude)
         return values
 
     def conclude(self, step_time: float) -> None:
-        """End the step before its period: what it reached stays."""
+        """End the step before its period, with the values reached so far."""
         slope = self._previous.slope * (step_time / self._previous.period)
         self._previous = replace(self._previous, slope=slope, period=step_time)
 
 
 class Slots:
-    """Numbers of pairs (element or node, load type or field), as `Loads` asks for them.
+    """Numbers of pairs (element or node, load type or field), for `Loads`.
 
     owners, kinds  elements or nodes, and kinds, of the pairs
     """
@@ -324,10 +324,10 @@ class Slots:
 
 
 def fading_forces(reaction: FloatArray, prescribed: IntArray, step: Step, unbalanced: FloatArray) -> Variation:
-    """Return forces that fade in a step: reactions of degrees of freedom that it releases, and `unbalanced` ones.
+    """Return forces that fade in a step: reactions of released degrees of freedom, and `unbalanced` ones.
 
-    reaction (n,) is that at the end of the previous step, prescribed the unknowns prescribed in this one. unbalanced
-    (n,) keeps initial stresses in equilibrium at the start; it fades with any AMPLITUDE= of the step.
+    reaction: (n,) at the end of the previous step. prescribed: unknowns prescribed in this one. unbalanced: forces (n,)
+    that balance initial stresses at the start; they fade with any AMPLITUDE= of the step.
     """
     released = reaction.copy()
     released[prescribed] = 0.0

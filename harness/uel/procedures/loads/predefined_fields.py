@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Distributed loads on user elements and predefined fields through the steps, as elements get them.
+"""Distributed loads on user elements, and predefined fields, through the steps.
 
-Both vary as *CLOAD does. A field that a step removes (OP=NEW) goes back to its initial value. With USER, UTEMP and
-UFIELD give the values at the end of each attempt at an increment, UTEMP first.
+Both vary as *CLOAD does. A field that a step removes (OP=NEW) returns to its initial value. With USER, UTEMP and then
+UFIELD define the values at the end of each attempt.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ class Conditions:
         )
 
     def in_perturbation(self, step: Step, total_time: float) -> Distributed | None:
-        """Return loads of the base state, with those of a perturbation step as increments, which do not outlast it."""
+        """Return loads of the base state, with those of a perturbation step as increments."""
         active = self._active.copy()
         for entry in step.distributed:
             active[self._slots.find(entry.elements, entry.kind)] = True
@@ -106,7 +106,7 @@ class Conditions:
         return {"reached": [list(one) for one in reached]}
 
     def resume(self, saved: Saved) -> None:
-        """Go on from what `kept` returned. Raises ValueError if the model has other fields now."""
+        """Restore what `kept` returned. Raises ValueError if the model has other fields."""
         reached = [(time, values) for time, values in saved["reached"]]
         if any(len(values) != len(self._initial) for _, values in reached):
             raise ValueError("predefined fields")
@@ -135,10 +135,10 @@ class _Grid:
 
 @dataclass(frozen=True, slots=True)
 class UserFields:
-    """Fields that UTEMP and UFIELD give in one step.
+    """Fields that UTEMP and UFIELD define in one step.
 
     slots    (k,) numbers of (node, field)
-    reached  total times and all fields at the ends of increments, ascending; the last ones may be of attempts
+    reached  total times and all fields at the ends of increments, ascending; the last ones may belong to attempts
     """
 
     step: int
@@ -156,7 +156,7 @@ class UserFields:
         user: GivesValues,
         coordinates: Coordinates,
     ) -> None:
-        """Write what the routines return into values (n,); before: those at the start of the increment."""
+        """Write the values of the routines into values (n,); before: values at the start of the increment."""
         nodes, numbers = self.slots % self.grid.nodes, self.slots // self.grid.nodes
         routines: tuple[Literal["UTEMP", "UFIELD"], ...] = ("UTEMP", "UFIELD")
         for routine, chosen in zip(routines, (numbers == 0, numbers > 0), strict=True):
@@ -166,15 +166,15 @@ class UserFields:
             numbered = np.stack([self.mesh.labels[at], numbers[chosen]], axis=1).astype(np.int32)
             temperatures = np.stack([values[at], values[at] - before[at]], axis=1)
             moment = self.step, increment, end
-            asked = UserValues(routine, *moment, numbered, coordinates(at), values[slots], temperatures)
-            values[slots] = user.user_values(asked)
+            request = UserValues(routine, *moment, numbered, coordinates(at), values[slots], temperatures)
+            values[slots] = user.user_values(request)
 
     def at(self, total_time: float) -> FloatArray | None:
         """Return all fields at the end of an increment, None if they are not known."""
         return next((values for time, values in reversed(self.reached) if time == total_time), None)
 
     def keep(self, start: float, end: float, values: FloatArray) -> None:
-        """Keep the fields of an attempt, which may end in the middle of an increment, with those of its start."""
+        """Store the fields at the end of an attempt, which may be in the middle of an increment, and at its start."""
         earlier = [known for known in self.reached if known[0] <= start][-1:]
         others = [known for known in self.reached if known[0] > start and known[0] != end]
         self.reached[:] = sorted([*earlier, *others, (end, values)], key=itemgetter(0))
@@ -182,7 +182,7 @@ class UserFields:
 
 @dataclass(frozen=True, slots=True)
 class StepConditions:
-    """Conditions of one step: the active loads, and how loads and fields vary."""
+    """Conditions of one step: active loads, and the variations of loads and fields."""
 
     elements: IntArray
     kinds: IntArray
@@ -198,7 +198,8 @@ class StepConditions:
     ) -> tuple[Distributed | None, Predefined | None]:
         """Return loads and fields of an increment between these step and total times.
 
-        coordinates: those of nodes, for UTEMP and UFIELD."""
+        coordinates: returns those of nodes, for UTEMP and UFIELD.
+        """
         predefined = None
         distributed = self.distributed(start, end)
         if len(self.grid):
@@ -228,7 +229,7 @@ class StepConditions:
         user: GivesValues,
         coordinates: Coordinates,
     ) -> tuple[FloatArray, FloatArray]:
-        """Return the fields at the end and at the start of an increment, those of the routines among them."""
+        """Return the fields at the end and at the start of an increment, including those by the routines."""
         (_, start), (_, end) = times
         known = self.by_user.at(start)
         before = before if known is None else known

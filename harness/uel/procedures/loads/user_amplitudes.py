@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Amplitudes that UAMP gives (User Subroutines Guide, UAMP).
+"""Amplitudes by UAMP (User Subroutines Guide, UAMP).
 
-It is called at the start of each step, with a time increment of zero, and before each attempt at an increment, for its
-end; its state variables are kept if the attempt converges. Sensors have their values at the end of the last
-increment.
+UAMP is called at the start of each step, with a time increment of zero, and before each attempt, for its end; its state
+variables are kept if the attempt converges. Sensors have their values at the end of the last increment.
 """
 
 from __future__ import annotations
@@ -36,11 +35,12 @@ class NodalState(Protocol):
 
 
 @dataclass(slots=True)
-class _Course:
-    """An amplitude through the steps.
+class _UserCurve:
+    """Amplitude by UAMP through the steps.
 
-    kept         number of rows of its table from converged increments
-    state, trial state variables at the end of the last increment, and of this attempt
+    kept   number of rows of its table from converged increments
+    state  state variables at the end of the last increment
+    trial  state variables of the current attempt
     """
 
     amplitude: UserAmplitude
@@ -54,29 +54,29 @@ class UserAmplitudes:
 
     def __init__(self, model: Model) -> None:
         named = {a.name: a for step in model.steps for a in step.amplitudes if isinstance(a, UserAmplitude)}
-        self._courses = {name: _Course(a, np.zeros(a.variables), np.zeros(a.variables)) for name, a in named.items()}
+        self._curves = {name: _UserCurve(a, np.zeros(a.variables), np.zeros(a.variables)) for name, a in named.items()}
         for amplitude in named.values():
             amplitude.table.clear()
         self._active: set[str] = set()
 
     @property
     def exist(self) -> bool:
-        """True if UAMP gives any amplitude of the model."""
-        return bool(self._courses)
+        """True if UAMP defines any amplitude of the model."""
+        return bool(self._curves)
 
     def start_step(self, step: Step, dofs: DofMap, nodal: NodalState, user: GivesValues) -> StepAmplitudes:
-        """Take over a step's amplitudes: those it names, and those of earlier steps that continue in total time.
+        """Begin a step with the amplitudes that it names, and those of earlier steps that continue in total time.
 
         Raises DeckError without UAMP, and for a sensor of a dof that no element uses.
         """
-        going_on = {name for name in self._active if self._courses[name].amplitude.total_time}
-        self._active = going_on | {a.name for a in step.amplitudes if isinstance(a, UserAmplitude)}
-        courses = [self._courses[name] for name in sorted(self._active)]
-        if courses and user.uamp is None:
-            source = courses[0].amplitude.source
+        continuing = {name for name in self._active if self._curves[name].amplitude.total_time}
+        self._active = continuing | {a.name for a in step.amplitudes if isinstance(a, UserAmplitude)}
+        curves = [self._curves[name] for name in sorted(self._active)]
+        if curves and user.uamp is None:
+            source = curves[0].amplitude.source
             raise DeckError(source, "*AMPLITUDE, DEFINITION=USER needs UAMP, which the job does not have")
         sensors = {}
-        for request in step.output.history_nodes if courses else ():
+        for request in step.output.history_nodes if curves else ():
             if request.sensor:
                 quantity, dof = COMPONENTS[request.variables[0]]
                 sensors[request.sensor] = quantity, int(dofs.find(request.nodes, dof)[0])
@@ -84,7 +84,7 @@ class UserAmplitudes:
                     name = dofs.mesh.name(int(request.nodes[0]))
                     message = f"sensor {request.sensor}: no element uses dof {dof} of node {name}"
                     raise DeckError(step.source, message)
-        started = StepAmplitudes(step.number, courses, sensors, nodal, user)
+        started = StepAmplitudes(step.number, curves, sensors, nodal, user)
         started.attempt(0, (0.0, nodal.total_time), 0.0, 0)
         started.converged()
         started.concluded = False
@@ -95,24 +95,24 @@ class UserAmplitudes:
 class StepAmplitudes:
     """User amplitudes of one step.
 
-    sensors    array of `nodal` and unknown of each
+    sensors    name of the array of `nodal`, and unknown, of each sensor
     concluded  True if UAMP ends the step with the current increment
     """
 
     step: int
-    courses: list[_Course]
+    curves: list[_UserCurve]
     sensors: dict[str, tuple[str, int]]
     nodal: NodalState
     user: GivesValues
     concluded: bool = False
 
     def attempt(self, increment: int, end: tuple[float, float], size: float, cutbacks: int) -> None:
-        """Ask for the values at the end of an increment, a step and a total time. Raises UelError from UAMP."""
+        """Call UAMP for the values at the end of an increment, a step and a total time. Raises UelError."""
         self.concluded = False
         sensors = {name: float(getattr(self.nodal, array)[k]) for name, (array, k) in self.sensors.items()}
-        for course in self.courses:
-            amplitude = course.amplitude
-            del amplitude.table[course.kept :]
+        for curve in self.curves:
+            amplitude = curve.amplitude
+            del amplitude.table[curve.kept :]
             answer = self.user.user_amplitude(
                 AskedAmplitude(
                     name=amplitude.name,
@@ -123,15 +123,15 @@ class StepAmplitudes:
                     size=size,
                     cutbacks=cutbacks,
                     properties=amplitude.data,
-                    state=course.state,
+                    state=curve.state,
                     sensors=sensors,
                 )
             )
             amplitude.table.append((end[1], answer.value))
-            course.trial = answer.state
+            curve.trial = answer.state
             self.concluded = self.concluded or answer.concludes
 
     def converged(self) -> None:
         """Keep the values of the last attempt."""
-        for course in self.courses:
-            course.state, course.kept = course.trial, len(course.amplitude.table)
+        for curve in self.curves:
+            curve.state, curve.kept = curve.trial, len(curve.amplitude.table)
