@@ -46,12 +46,12 @@ def add_plot(plot: argparse.ArgumentParser) -> None:
 
 def plot_jobs(options: argparse.Namespace) -> int:
     """Run `uel plot`."""
-    from uel.output.pictures.jobs import Asked, draw  # noqa: PLC0415
+    from uel.output.pictures.jobs import PictureOptions, draw  # noqa: PLC0415
     from uel.output.results import Result  # noqa: PLC0415
 
     results = [Result(job) for job in options.jobs]
     shown = options.increment, options.step, options.field, options.scale
-    asked = Asked(options.x, options.y, options.csv, *shown, tell=print)
+    asked = PictureOptions(options.x, options.y, options.csv, *shown, tell=print)
     path = options.output or results[0].file(f"_{options.kind}.png")
     print(f"written: {draw(options.kind, results, path, asked)}")
     return 0

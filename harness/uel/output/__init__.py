@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The files of a job, written from the records of a run, and the functions that read them back."""
+"""Files of a job: written from the records of a run, and read back."""
 
 from uel.output.files.interface import read_interface
 from uel.output.job import JobOutput

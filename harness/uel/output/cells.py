@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cells that represent elements in field output, and their values.
 
-Which cell an element becomes:
+Cell of each kind of element:
 
 - an interface of the project, or a cohesive element: a line of 2 or 3 nodes along its bottom edge, or its bottom face;
   a continuum element of the project: its outline;
 - a built-in continuum element or beam: the cell of its family (harness/uel/model/element_types.py);
-- a user's own element, a truss or a spring: by its number of nodes, the cell of a family in the plane or in space, or
-  else a line, with the node order of Abaqus' own elements. Abaqus does not know the shape of a user element either;
+- a user element, a truss or a spring: by its number of nodes, the cell of a family in the plane or in space, or
+  otherwise a line, with the node order of Abaqus' elements. Abaqus does not know the shape of a user element either;
 - a user element with any other number of nodes: a vertex at each of its nodes, all with the values of the element.
 """
 
@@ -32,7 +32,7 @@ _COORDINATES = ("X", "Y", "Z")
 
 @dataclass(frozen=True, slots=True)
 class Cells:
-    """Cells of one group: type as meshio names it, nodes (cells, nodes), and the element each cell belongs to."""
+    """Cells of one group: type by meshio's name, nodes (cells, nodes), and the element of each cell."""
 
     type: str
     nodes: IntArray
@@ -75,7 +75,7 @@ def _family(nodes: int, *dimensions: int) -> Family | None:
 
 
 def is_solid(model: Model) -> bool:
-    """Report whether the nodes do not all lie in one plane z = constant."""
+    """Return whether the nodes do not all lie in one plane z = constant."""
     z = model.mesh.coordinates[:, 2]
     return bool(len(z)) and bool(np.ptp(z) > 0.0)
 
@@ -83,8 +83,8 @@ def is_solid(model: Model) -> bool:
 def cell_values(states: Sequence[ElementState], cells: tuple[Cells, ...]) -> dict[str, list[FloatArray]]:
     """Return means over the integration points, by variable, an array for each group; NaN without the variable.
 
-    Coordinates of the points are left out, because the cell shows them, and variables without a name. What changes over
-    a section is at the first and the last section point of shells, with _SNEG and _SPOS in its name, and at those of
+    Coordinates of the points, which the cell shows, and variables without a name are left out. Variables at section
+    points are those of the first and the last point of shells, with _SNEG and _SPOS in the name, and of all points of
     beams, with _SP and their number.
     """
     known: dict[str, dict[int, FloatArray]] = {}

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Field output of an earlier job that a job takes over: displacements, temperatures."""
+"""Field output of an earlier job that a deck imports: displacements, temperatures."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from uel.model.perturbations import PERTURBATION_TIME
 from uel.output.results import Result
 
 ENDINGS = (".fil", ".odb", ".sim")
-"""Endings of result files of Abaqus, which a deck may name; those of this program have none of them."""
+"""Endings of Abaqus' result files, which a deck may name; this program does not write such files."""
 
 
 class EarlierJobs:
-    """The jobs whose results are in some folders.
+    """Jobs with results in some folders.
 
     Parameters
     ----------
     folders
-        Where a job is looked up; its name may begin with a folder.
+        Folders in which to find a job, whose name may begin with a folder too.
     """
 
     def __init__(self, folders: Sequence[Path]) -> None:
@@ -52,7 +52,7 @@ class EarlierJobs:
         Raises
         ------
         UelError
-            There is no such job, or it has not written them.
+            There is no such job, or it has not written this output.
         """
         result = self._result(job)
         if any(row.step == step and row.time_increment <= PERTURBATION_TIME for row in result.status):
@@ -80,7 +80,7 @@ class EarlierJobs:
         Raises
         ------
         UelError
-            There is no such job, or it has not written them.
+            There is no such job, or it has not written this output.
         """
         result = self._result(job)
         last = max((row.step for row in result.status), default=0)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers, notes and warnings as Abaqus prints them, and text files that a killed run leaves readable."""
+"""Numbers, notes and warnings in Abaqus' format, and text files that a killed run leaves readable."""
 
 from __future__ import annotations
 
@@ -63,10 +63,9 @@ def program() -> str:
 
 
 class TextFile:
-    """A file that replaces an older one of the same name; each `write` is handed to the system at once.
+    """Text file that replaces an older one of the same name; each `write` reaches the system at once.
 
-    So a killed run leaves every text that was written, the last one perhaps up to where a page of it ends: readers
-    leave out a line without an end.
+    So a killed run leaves all texts; the last one may be cut within a line, which readers ignore.
     """
 
     def __init__(self, path: Path) -> None:
@@ -74,7 +73,7 @@ class TextFile:
         self._descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_APPEND, 0o666)
 
     def write(self, text: str) -> None:
-        """Append text, or nothing if there is no room for all of it."""
+        """Append text; nothing if the disk has no space for all of it."""
         data = memoryview(text.encode(errors="replace"))
         written = 0
         try:
@@ -91,7 +90,7 @@ class TextFile:
         self.write(text if text.endswith("\n") else f"{text}\n")
 
     def close(self) -> None:
-        """Close the file; it is not written to again."""
+        """Close the file."""
         os.close(self._descriptor)
 
 
@@ -108,7 +107,7 @@ def read_remarks(path: Path, kind: str) -> list[str]:
 def remark(kind: str, text: str) -> str:
     """Format a note, warning or error (`kind` NOTE, WARNING, ERROR) with lines as long as Abaqus', indented below it.
 
-    Notes and warnings of Abaqus are in upper case; names and paths are left as they are.
+    Abaqus prints notes and warnings in upper case; names and paths keep theirs.
     """
     head = f" ***{kind}: "
     lines = textwrap.wrap(text, 80 - len(head), break_long_words=False, break_on_hyphens=False) or [""]

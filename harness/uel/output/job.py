@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""All files of one job, fed by the records of the run.
+"""All files of one job, written from the records of the run.
 
-Each record is in the files when `write` returns, and an increment is named in NAME.sta only after everything else of
-it is written: a run that is killed leaves the files readable and complete up to the last line of NAME.sta.
+A record is in the files when `write` returns, and an increment is in NAME.sta only after all of its other output: a run
+that is killed leaves files that are readable and complete up to the last line of NAME.sta.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ from uel.output.files.state_files import StateFiles
 from uel.output.progress import ProgressDisplay
 
 ERRORS = {CONTACT: ("penetration", "contact force error"), COUPLING: ("displacement error", "rotation error")}
-"""Names of the errors that the checks of constraints measure, instead of the residual and correction of fields."""
+"""Names of the errors in checks of constraints, in place of residual and correction."""
 
 
 class JobOutput:
@@ -60,13 +60,13 @@ class JobOutput:
     Parameters
     ----------
     model
-        The deck that runs.
+        Model of the job.
     job
         Name of the files.
     directory
-        Their folder, which exists.
+        Folder of the files, which exists.
     decks
-        Where the model comes from, which kept states name.
+        Decks of the model, which kept states name.
     quiet
         No progress display.
 
@@ -96,12 +96,12 @@ class JobOutput:
         self._progress = ProgressDisplay(model, quiet=quiet)
 
     def write(self, record: Record) -> None:
-        """Write one record to every file that it belongs in.
+        """Write a record to the files.
 
         Parameters
         ----------
         record
-            The next one of the run.
+            Next record of the run.
 
         Raises
         ------
@@ -147,7 +147,7 @@ class JobOutput:
         file
             '.dat' or '.msg'.
         kind
-            'print' for a text that is written as it is; else 'note', 'warning' or 'error', which heads it.
+            'print' for a text without a head; otherwise 'note', 'warning' or 'error', which is its head.
         text
             One or several lines.
 
@@ -179,7 +179,7 @@ class JobOutput:
 
     @property
     def unbalanced(self) -> list[str]:
-        """Sentences on where the last iteration was farthest from convergence, one per field that did not accept it."""
+        """Sentences on the largest errors of the last iteration, one per field that has not converged."""
         failed = []
         for check in self._checks:
             residual, correction = ERRORS.get(check.field, (f"residual {check.field}", "correction"))
@@ -188,12 +188,12 @@ class JobOutput:
             elif not check.verdict.accepted:
                 failed.append((correction, check.correction))
         return [
-            f"last iteration: largest {what} {largest.value:.4g} {self._place(largest)}"
+            f"last iteration: largest {what} {largest.value:.4g} {self._describe(largest)}"
             for what, largest in failed
             if largest.element or largest.node >= 0
         ]
 
-    def _place(self, largest: Largest) -> str:
+    def _describe(self, largest: Largest) -> str:
         if largest.node < 0:
             return f"in element {largest.element}"
         node = f"at node {self._model.mesh.name(largest.node)}"
@@ -202,7 +202,7 @@ class JobOutput:
         return f"{node}, dof {largest.dof}" if largest.dof else f"{node}, of its distributing coupling"
 
     def close(self, error: UelError | None) -> None:
-        """Write what the last converged increment still owes, and the verdict; the job ends here.
+        """Write the remaining output of the last converged increment, and the verdict.
 
         A second call has no effect.
 
@@ -216,7 +216,7 @@ class JobOutput:
         OSError
             A file cannot be written; the others are closed nevertheless.
         UelError
-            An element fails that the output of the last increment calls.
+            An element fails that is called for the output of the last increment.
         """
         if self._closed:
             return
@@ -228,7 +228,7 @@ class JobOutput:
         except OSError as trouble:
             failed.append(trouble)
         except UelError as trouble:
-            # after another error the states may be those of an increment that was never recorded
+            # after another error the states may belong to an increment that was not recorded
             if error is None:
                 error = trouble
                 failed.append(trouble)
@@ -281,7 +281,7 @@ class JobOutput:
         # the end of a path, or of a sequence of frequencies, is known only when its step is done
         timeless = procedure.riks is not None or isinstance(record, HarmonicResponse)
         last = not timeless and record.step_time >= procedure.period * (1.0 - 1e-9)
-        # the one before owes nothing any more, even if this one cannot be written
+        # the increment before is complete, even if this one cannot be written
         self._pending = None
         self._requested(record, last=last)
         self._pending = self._last = record
@@ -289,7 +289,7 @@ class JobOutput:
         self._attempt(record, monitor=self._monitored(record))
 
     def _finish_step(self) -> None:
-        """Write the last increment of a step where its frequency left it out."""
+        """Write the last increment of a step if the output frequency has skipped it."""
         if self._pending is not None:
             self._requested(self._pending, last=True)
             self._pending = None

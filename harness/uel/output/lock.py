@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Name of a job, and the lock file (NAME.lck) that keeps a second run of the same name away from its files."""
+"""Name of a job, and the lock file (NAME.lck) that prevents a second run with the same name."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from uel.errors import UelError, UsageError
 
 
 def job_stem(job: str, folder: str | Path | None) -> Path:
-    """Return folder and name of a job. Raises UsageError if the name cannot be one."""
+    """Return folder and name of a job. Raises UsageError for an invalid name."""
     if not job or job in (".", "..") or "/" in job or "\0" in job:
         raise UsageError(
             f"'{job}' cannot be a job name: expected a file name without folders (--output-dir takes the folder)"
@@ -25,14 +25,14 @@ def job_stem(job: str, folder: str | Path | None) -> Path:
 
 
 class LockedError(UelError):
-    """Error of a job while another process runs a job of this name in this folder."""
+    """Another process runs a job of this name in this folder."""
 
 
 @contextmanager
 def locked(stem: Path, *, wait: bool = False) -> Iterator[None]:
-    """Hold STEM.lck in the block; where another process does, wait for it, or raise LockedError.
+    """Lock STEM.lck in the block; if another process has locked it, wait, or raise LockedError.
 
-    The system releases it when a process ends, in whatever way: a leftover file locks nothing.
+    The system releases the lock when the process ends in any way; a leftover file is not locked.
     """
     path = stem.with_name(stem.name + ".lck")
     descriptor = _open(path, 0 if wait else fcntl.LOCK_NB)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Outcome of a run, in the sentences that `uel run` ends with."""
+"""Outcome of a run, in the last sentences of `uel run`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _FILES: Final = (".sta", ".msg", ".dat", "_history.csv", "_interface.csv", ".pvd
 
 
 def ending(result: Result) -> list[str]:
-    """Return the lines about a completed run: its first warnings, how it went, its largest load and its files."""
+    """Return lines on a completed run: first warnings, increments and iterations, largest load, files."""
     last = result.status[-1]
     # a linear step takes no time, and may have a frequency instead
     time = f", total time {last.total_time:g}" if last.time_increment > PERTURBATION_TIME else ""

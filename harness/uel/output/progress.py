@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Progress on a terminal; nothing if the output is not a terminal."""
+"""Progress display on a terminal; none on other output."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class ProgressDisplay:
-    """Line for the step that runs: time, increment, iteration, residual against its tolerance, cutbacks."""
+    """Line on the current step: time, increment, iteration, residual over tolerance, cutbacks."""
 
     def __init__(self, model: Model, *, quiet: bool, console: Console | None = None) -> None:
         console = console or Console(stderr=True)
@@ -87,7 +87,7 @@ class ProgressDisplay:
             self._progress.stop()
 
     def _ratio(self, checks: tuple[FieldCheck, ...]) -> str:
-        """Return the largest ratio of residual to tolerance of all fields."""
+        """Return the largest ratio of residual to tolerance over all fields, as a text."""
         controls = self._model.steps[self._step - 1].controls
         ratios = [
             abs(check.residual.value) / (controls_of(check.field, controls).r_n * check.time_average_flux)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Results of a job, read back from its files, whether it finished, failed or was killed."""
+"""Results of a job, read from its files, whether it has completed, failed or been killed."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from uel.output.pictures.load_curve import LoadCurve, load_curve
 
 @dataclass(frozen=True, slots=True)
 class Counts:
-    """Increments that converged, iterations including those of abandoned attempts, and cutbacks."""
+    """Converged increments, iterations including abandoned attempts, and cutbacks."""
 
     increments: int
     iterations: int
@@ -34,7 +34,7 @@ class Counts:
 
     @classmethod
     def of(cls, rows: Sequence[StatusRow]) -> Counts:
-        """Count increments, iterations and cutbacks in some lines of a status file."""
+        """Count increments, iterations and cutbacks in rows of a status file."""
         done = sum(not row.cutback for row in rows)
         return cls(done, sum(row.total_iterations for row in rows), len(rows) - done)
 
@@ -44,7 +44,7 @@ class Counts:
 
 
 class Result:
-    """The files of one job.
+    """Files of one job.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ class Result:
         self.seconds = seconds
         self._warnings = warnings
         if not self.file(".sta").exists():
-            # the name of the deck, or of another file of the job
+            # users may name the deck, or another file of the job
             there = self._stem.suffix and self._stem.with_suffix(".sta").exists()
             meant = f"; did you mean {self._stem.with_suffix('')}?" if there else ""
             raise UelError(f"{self.file('.sta')}: no such job{meant}")
@@ -117,7 +117,7 @@ class Result:
 
     @property
     def processor_time(self) -> float | None:
-        """Processor time of the analysis in seconds; None if it did not close its files itself."""
+        """CPU time of the analysis in seconds; None if it has not closed its files itself."""
         times = read_times(self.file(".msg"))
         return None if times is None else times[0]
 

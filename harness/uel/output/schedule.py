@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Schedule of the increments that are written, and choice of the one that is read.
+"""Increments to write, and the one to read.
 
-Written are every k-th increment of a step, or the first in each part of it, and the last one.
+A file gets every k-th increment of a step, or the first in each part of it, and the last one.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from uel.model.steps import Step
 
 
 class Schedule:
-    """Schedule of one file; remembers what was written, so that the last increment is not written twice."""
+    """Schedule of one file, which records what has been written, so that the last increment is not written twice."""
 
     def __init__(self) -> None:
         self._written = (0, 0)
@@ -25,7 +25,7 @@ class Schedule:
         self._parts = (0, 0)
 
     def due(self, frequency: int, record: IncrementDone, *, last: bool) -> bool:
-        """Report whether the increment must be written now; `last`: no increment of the step follows."""
+        """Return whether to write an increment now; last: no increment of the step follows."""
         entry = (record.step, record.increment)
         if frequency < 1 or entry == self._written or not (last or record.increment % frequency == 0):
             return False
@@ -33,7 +33,7 @@ class Schedule:
         return True
 
     def due_field(self, step: Step, record: IncrementDone, *, last: bool) -> bool:
-        """Report whether the field output of a step is `due`."""
+        """Return whether the field output of a step is `due`."""
         parts = step.output.field_intervals
         # the sum of the increments may be a little short of the end of a part
         done = (record.step, math.floor(parts * record.step_time / step.procedure.period + 1e-9))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The head of a step in the .msg and .dat files: procedure, tolerances and time incrementation controls."""
+"""Head of a step in the .msg and .dat files: procedure, tolerances and time incrementation controls."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def controls_of(field: str, controls: Controls) -> FieldControls:
 
 
 def procedure(step: Step) -> str:
-    """Return the kind of the step and its time incrementation."""
+    """Return the text on the procedure of the step and its time incrementation."""
     procedure = step.procedure
     lines = [
         f"                        S T E P  {step.number:6d}     {' '.join(procedure.full_title)}",
@@ -52,7 +52,7 @@ def _head_line(line: HeadLine) -> str:
 
 
 def completed(record: IncrementDone, period: float) -> str:
-    """Print how far an increment has come, in time or along a path."""
+    """Return the text on the progress of the step after an increment, in time or along a path."""
     match record:
         case BucklingMode():
             return f" MODE{record.increment:6d},  EIGENVALUE{general(record.step_time)}\n"
@@ -79,9 +79,9 @@ def completed(record: IncrementDone, period: float) -> str:
 def tolerances(
     step: Step, fields: Iterable[str], *, hybrid: bool = False, coupled: bool = False, contact: bool = False
 ) -> str:
-    """Return everything that the convergence checks and the time incrementation of the step depend on.
+    """Return the text on the tolerances and time incrementation controls of the step.
 
-    hybrid: the model has hybrid elements; coupled: it has distributing couplings that turn; contact: it has contact
+    hybrid: the model has hybrid elements; coupled: it has distributing couplings with NLGEOM; contact: it has contact
     pairs.
     """
     if step.procedure.linear:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The verdict of a run that cannot write it itself, because it has not begun or was ended."""
+"""Verdict of a run that cannot write it itself, because it has not begun or was ended."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ _TEXTS = (".sta", ".msg", ".dat", "_history.csv", "_interface.csv")
 
 
 def forget_verdict(stem: Path) -> None:
-    """Empty STEM.sta and STEM.msg of an earlier run, whose verdict does not hold for the run that begins.
+    """Empty STEM.sta and STEM.msg of an earlier run, whose verdict does not apply to the run that begins.
 
-    The other files stay until the deck is read and the routines are compiled, so that a slip there costs no results.
+    The other files stay until the deck is read and the routines are compiled, so that an error there loses no results.
     """
     status, message = _files(stem)
     if status.exists():
@@ -29,15 +29,15 @@ def forget_verdict(stem: Path) -> None:
 
 
 def close_ended_run(stem: Path, reason: str) -> None:
-    """Call `write_verdict` for a run of another process, unless a new run of this name has begun."""
+    """Call `write_verdict` for a run in another process, unless a new run with this name has begun."""
     with suppress(LockedError, OSError), locked(stem):
         write_verdict(stem, reason)
 
 
 def write_verdict(stem: Path, reason: str) -> None:
-    """Say in STEM.sta and STEM.msg that the analysis was not completed, and why; it creates no files.
+    """Write into STEM.sta and STEM.msg that the analysis has not been completed, and why; create no files.
 
-    Incomplete last lines are cut off. Does nothing if the verdict has been written.
+    Cuts off incomplete last lines. Does nothing if the verdict has been written.
     """
     status, message = _files(stem)
     if not status.exists():
@@ -46,7 +46,7 @@ def write_verdict(stem: Path, reason: str) -> None:
     if COMPLETED in lines or NOT_COMPLETED in lines:
         return
     for ending in _TEXTS:
-        with suppress(OSError):  # one that cannot be opened, or whose name is too long
+        with suppress(OSError):  # a file that cannot be opened, or whose name is too long
             _cut(stem.with_name(stem.name + ending))
     with status.open("a", encoding="utf-8") as file:
         file.write(f"{' ' * 26}\n{NOT_COMPLETED}\n")

@@ -21,7 +21,7 @@ from uel.delamination.theory import dcb_curve, dcb_elastica
 from uel.errors import FAILURES, tell_failure
 from uel.model.arrays import FloatArray
 from uel.output import Result
-from uel.output.pictures.jobs import Asked, draw
+from uel.output.pictures.jobs import PictureOptions, draw
 from uel.output.pictures.plots import Curve, load_displacement, stacked
 from uel.paper import elastica, literature, measures, space_beams
 from uel.paper.decks import FOLDER
@@ -166,7 +166,7 @@ def _forces(*names: str) -> Callable[[Results, Path], Path]:
 
 def _mesh(field: str) -> Callable[[Results, Path], Path]:
     """Draw the deformed mesh with a field."""
-    return lambda results, path: draw("mesh", results, path, Asked(field=field))
+    return lambda results, path: draw("mesh", results, path, PictureOptions(field=field))
 
 
 ARM, OPENING = "Displacement of an arm", "Opening"

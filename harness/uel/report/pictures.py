@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 
 from uel.errors import UelError
-from uel.output.pictures.jobs import Asked, draw
+from uel.output.pictures.jobs import PictureOptions, draw
 from uel.output.pictures.mesh import fields_of
 from uel.output.results import Result
 
@@ -41,16 +41,16 @@ def pictures(result: Result) -> Iterator[Picture]:
     """Yield the pictures of a job, in the order of the page."""
     with tempfile.TemporaryDirectory() as folder:
         for kind, caption in _CURVES:
-            yield from _picture(result, kind, Asked(), Path(folder) / f"{kind}.svg", caption)
+            yield from _picture(result, kind, PictureOptions(), Path(folder) / f"{kind}.svg", caption)
         for field in _fields(result):
             caption = f"Deformed mesh with {field}, last increment written; means of the elements."
-            yield from _picture(result, "mesh", Asked(field=field), Path(folder) / "mesh.png", caption)
+            yield from _picture(result, "mesh", PictureOptions(field=field), Path(folder) / "mesh.png", caption)
 
 
-def _picture(result: Result, kind: str, asked: Asked, path: Path, caption: str) -> Iterator[Picture]:
+def _picture(result: Result, kind: str, options: PictureOptions, path: Path, caption: str) -> Iterator[Picture]:
     """Yield the picture, unless the job has no output for it."""
     try:
-        draw(kind, [result], path, asked)
+        draw(kind, [result], path, options)
     except UelError:
         return
     data = base64.b64encode(path.read_bytes()).decode()

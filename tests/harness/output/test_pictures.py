@@ -12,7 +12,7 @@ from uel.cli import main
 from uel.errors import UelError, UsageError
 from uel.output import Result
 from uel.output.files.sta_file import StatusRow, head
-from uel.output.pictures.jobs import KINDS, Asked, draw
+from uel.output.pictures.jobs import KINDS, PictureOptions, draw
 from uel.output.pictures.plots import Curve
 
 HISTORY = (
@@ -54,7 +54,7 @@ def drawn(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Callable[..., tupl
     monkeypatch.setattr("uel.output.pictures.jobs.stacked", keep)
 
     def picture(kind: str, *results: Result, **asked: object) -> tuple[list[list[Curve]], str, list[str]]:
-        draw(kind, results, tmp_path / "p.png", Asked(**asked))
+        draw(kind, results, tmp_path / "p.png", PictureOptions(**asked))
         return kept[-1]
 
     return picture

@@ -1,3 +1,3 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The files of a job: .dat, .msg, .sta, history, interface, field output and kept states."""
+"""Files of a job: .dat, .msg, .sta, history, interface, field output and kept states."""

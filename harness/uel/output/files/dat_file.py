@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The data file (.dat): echo of the deck, how it was understood, printed tables, warnings and errors."""
+"""Data file (.dat): echo of the deck, summary of the model, printed tables, warnings and errors."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _USER_ELEMENT_OUTPUT = (
 _DECK: Final = "     INPUT FILE: "
 _PARAMETERS: Final = "PARAMETERS GIVEN IN PLACE OF THE VALUES IN THE DECK: "
 _HEAD_LINES: Final = 10
-"""Number of lines at the top, one of which has the path of the deck."""
+"""Number of lines at the top, one of them with the path of the deck."""
 
 
 class DataFile:
@@ -106,7 +106,7 @@ class DataFile:
         self._file.write(_natural(record) if isinstance(record, ModesFound) else _buckling(record))
 
     def _missing(self, record: IncrementDone, index: NodalIndex) -> None:
-        """Name requested variables that are not available, once per step."""
+        """Warn, once per step, of requested variables that are not available."""
         output = self._model.steps[record.step - 1].output
         requests: list[tuple[str, NodeRequest | ElementRequest]] = []
         requests += [(_request("*NODE PRINT", "NSET", request.nset), request) for request in output.node_print]
@@ -130,7 +130,7 @@ class DataFile:
         self._file.write_lines(text)
 
     def close(self, error: str | None, others: int = 0) -> None:
-        """Write the verdict of the job; others: warnings in .msg, which .dat does not have."""
+        """Write the verdict of the job; others: number of warnings in .msg alone."""
         if error is not None:
             self.remark("ERROR", error)
         verdict = "BEEN COMPLETED" if error is None else "NOT BEEN COMPLETED"
@@ -142,7 +142,7 @@ class DataFile:
         self._file.close()
 
     def _input(self) -> str:
-        """Summarise the deck as it was understood: size, user elements, ignored keywords, warnings."""
+        """Return a summary of the model: size, user elements, ignored keywords, warnings."""
         model = self._model
         elements = sum(len(group.labels) for group in model.groups)
         used = used_nodes(model)
@@ -181,7 +181,7 @@ class DataFile:
 
 
 def read_deck_path(path: Path) -> Path | None:
-    """Read the path of a job's deck from its .dat file; None if that does not say."""
+    """Read the path of a job's deck from its .dat file; None if it is not there."""
     if not path.exists():
         return None
     with path.open(encoding="utf-8", errors="replace") as file:
@@ -235,7 +235,7 @@ def _buckling(record: BucklingFactors) -> str:
 
 
 def _user_element(name: str, definition: UserElement) -> str:
-    """Print what *USER ELEMENT says about a type."""
+    """Return the definition of a type by *USER ELEMENT."""
     dofs: dict[int, list[str]] = {}
     for node, dof in definition.dofs:
         dofs.setdefault(node, []).append(str(dof))

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Field output: a .vtu file per increment in the folder NAME_vtu, and NAME.pvd that lists them over total time.
+"""Field output: a .vtu file per increment in the folder NAME_vtu, and NAME.pvd, which lists them by total time.
 
-Point data: U and RF (three components), NODE (label), and one array for each other dof there is (UR1, NT11, ...). With
-contact also COPEN, CPRESS, CSHEAR1 and CSHEAR2, which are NaN at nodes that are in no secondary surface.
-Cell data: ELEMENT (label) and the variables that our elements keep, as means over the integration points of the cell.
-Continuum and interface are in one file. A variable that a cell does not have is NaN there. For a harmonic response
-these are the real parts; the imaginary ones are arrays whose names end with _imaginary.
+Point data: U and RF (three components), NODE (label), and an array for each other dof (UR1, NT11, ...). With contact
+also COPEN, CPRESS, CSHEAR1 and CSHEAR2, which are NaN at nodes outside secondary surfaces.
+Cell data: ELEMENT (label) and the variables of elements with known SVARS, as means over the integration points of the
+cell; NaN in cells without the variable. Continuum and interface are in one file. For a harmonic response these are the
+real parts; names of the imaginary parts end with _imaginary.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class FieldFiles:
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def write(self, record: IncrementDone, *, last: bool) -> None:
-        """Write the increment if the step asks for it."""
+        """Write the increment if the step requests it."""
         if not self._schedule.due_field(self._model.steps[record.step - 1], record, last=last):
             return
         if not self._entries:
@@ -87,7 +87,7 @@ class FieldFiles:
         )
 
     def _plan(self, solution: Solution) -> None:
-        """Plan the cells and point arrays, which do not change during a run."""
+        """Build cells and point arrays, which do not change during a run."""
         self._folder.mkdir(parents=True, exist_ok=True)
         solid = is_solid(self._model)
         variables = {state.group: state.variables for state in solution.elements}
@@ -130,7 +130,7 @@ def _imaginary(values: dict[str, Values]) -> dict[str, Values]:
 
 
 class _PointArray:
-    """A point array: components gathered from an array of the solution, zero where a node lacks the dof."""
+    """Point array: components gathered from an array of the solution, zero at nodes without the dof."""
 
     def __init__(self, name: str, quantity: str, positions: list[IntArray]) -> None:
         self.name = name
@@ -149,7 +149,7 @@ def _quoted(name: str) -> str:
 
 
 def _replace(path: Path, text: str) -> None:
-    """Replace a file as a whole; names of files keep their bytes."""
+    """Replace a file atomically; names of files keep their bytes."""
     unfinished = path.with_suffix(".tmp")
     try:
         unfinished.write_bytes(os.fsencode(text))

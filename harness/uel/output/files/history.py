@@ -43,7 +43,7 @@ class HistoryFile:
         self.unavailable: list[str] = []
 
     def write(self, record: IncrementDone, *, last: bool) -> None:
-        """Append the row of an increment if the step asks for it."""
+        """Append the row of an increment if the step requests it."""
         output = self._model.steps[record.step - 1].output
         if not self._schedule.due(output.history_frequency, record, last=last):
             return
@@ -107,7 +107,7 @@ class HistoryFile:
             _Column(f"{component.name}[{where}]", component, np.array([position]))
             for component in components
             for where, position in zip(
-                _places(self._model, request.nset, request.nodes), index.find(request.nodes, component.dof), strict=True
+                _labels(self._model, request.nset, request.nodes), index.find(request.nodes, component.dof), strict=True
             )
             if position >= 0
         ]
@@ -134,7 +134,7 @@ class _SetEnergies:
 
 
 class _Column:
-    """Value of a row: a nodal component at its position, or an energy, of a set or of the whole model."""
+    """Column: a nodal component, or an energy of a set or of the whole model."""
 
     def __init__(
         self,
@@ -157,7 +157,7 @@ class _Column:
         return float(self._component.values(solution, self._position)[0])
 
 
-def _places(model: Model, nset: str, nodes: IntArray) -> list[str]:
+def _labels(model: Model, nset: str, nodes: IntArray) -> list[str]:
     """Return the text in the brackets of the columns of a set."""
     if nset and len(nodes) == 1:
         return [nset]

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Interface profile (NAME_interface.csv): every variable of every integration point of interface and cohesive elements.
+"""Interface profile (NAME_interface.csv): all variables at all integration points of interface and cohesive elements.
 
 A block of rows per increment of field output: step, increment, time (total time), element, point (from 1), then the
-variables that the interface elements keep: coordinates X and Y, separations SEPN and SEPT, tractions TN and TT,
+variables of the elements: coordinates X and Y, separations SEPN and SEPT, tractions TN and TT,
 DAMAGE, ... A variable that one element type lacks is empty there.
 """
 
@@ -26,7 +26,7 @@ FIXED = ("step", "increment", "time", "element", "point")
 
 
 class InterfaceFile:
-    """Writer of NAME_interface.csv; there is no such file if the model has no interface elements that we know."""
+    """Writer of NAME_interface.csv; no file without interface elements of the project or cohesive elements."""
 
     def __init__(self, path: Path, model: Model) -> None:
         path.unlink(missing_ok=True)
@@ -37,7 +37,7 @@ class InterfaceFile:
         self._names: list[str] = []
 
     def write(self, record: IncrementDone, *, last: bool) -> None:
-        """Append the block of an increment if the step writes field output."""
+        """Append the block of an increment if the step requests field output."""
         step = self._model.steps[record.step - 1]
         if not self._schedule.due_field(step, record, last=last):
             return
@@ -68,7 +68,7 @@ class InterfaceFile:
         columns = np.full((*values.shape[:2], len(self._names)), np.nan)
         columns[:, :, [self._names.index(name) for name in variables.names]] = values
         labels = self._model.groups[state.group].labels.tolist()
-        # the text of a list has the shortest numbers that read back exactly, and is quicker than one by one
+        # str of a list has the shortest numbers that read back exactly, and is faster than one number at a time
         return [
             f"{head},{label},{k},{str(point)[1:-1].replace(', ', ',').replace('nan', '')}\n"
             for label, points in zip(labels, columns.tolist(), strict=True)

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The message file (.msg): tolerances of each step, then every iteration with its checks, as Abaqus prints them.
+"""Message file (.msg): tolerances of each step, then every iteration with its checks, as Abaqus prints them.
 
-Layout and words are those of the message files of Abaqus 6.14 to 2024. Left out are the figures of the solver
-(equations, operations). The words on hybrid elements and on distributing couplings in an iteration are ours.
+Layout and wording follow the message files of Abaqus 6.14 to 2024, without the figures of the solver (equations,
+operations). The wording of the checks of hybrid elements and distributing couplings is our own.
 """
 
 from __future__ import annotations
@@ -95,7 +95,7 @@ class MessageFile:
         self._file.write(f" \n\n{remark('NOTE', record.reason)}")
 
     def helped(self, record: SearchHelped) -> None:
-        """Note of an increment that Newton's method alone did not solve."""
+        """Write a note on an increment for which the descent search took over."""
         self._counts["helped"] += 1
         text = (
             f"EQUILIBRIUM FOUND WITH THE DESCENT SEARCH, WHICH TOOK OVER IN ITERATION {record.since} OF "
@@ -137,7 +137,7 @@ class MessageFile:
         self._file.write_lines(text)
 
     def close(self, error: str | None, lost: IncrementDone | None = None) -> None:
-        """Write verdict, summary and times of the job; lost: converged, but its output could not be written."""
+        """Write verdict, summary and times of the job; lost: converged increment whose output could not be written."""
         if error is None:
             self._file.write("\n\n          THE ANALYSIS HAS BEEN COMPLETED\n")
         else:
@@ -241,7 +241,7 @@ def read_times(path: Path) -> tuple[float, float] | None:
 
 _TIMES: Final = re.compile(rb"TOTAL CPU TIME \(SEC\) = *(\S+)\s+WALLCLOCK TIME \(SEC\) = *(\S+)")
 _LONGEST_END: Final = 4096
-"""Bytes that have the times of a job, which are last."""
+"""Bytes at the end of the file with the times of a job."""
 
 
 _CONSTRAINED: Final = "THE CONTACT CONSTRAINTS HAVE CONVERGED."
@@ -263,7 +263,7 @@ def _changes(contact: Sequence[ContactChanges]) -> str:
 
 
 def _origin(check: FieldCheck) -> str:
-    """Return the origin of a time average that is not of the field's own flux."""
+    """Return the origin of a time average that does not come from the flux of the field itself."""
     if not check.converted:
         return ""
     return f" FROM {'MOMENT' if check.field == 'force' else 'FORCE'} FIELD"

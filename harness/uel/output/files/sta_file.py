@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The status file (.sta): a line per increment and per abandoned attempt, as Abaqus prints it."""
+"""Status file (.sta): a line per increment and per abandoned attempt, as Abaqus prints it."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ class StatusRow:
     """Line of the status file.
 
     An abandoned attempt (`cutback`) has the times of its start, a converged one those of its end. `monitor` is the
-    value of the degree of freedom of *MONITOR, if one is asked for. With `riks` the step time is the load
-    proportionality factor, and the total time the length of the path.
+    value of the degree of freedom of *MONITOR, if there is one. With `riks` the step time is the load proportionality
+    factor, and the total time the length of the path.
     """
 
     step: int
@@ -89,7 +89,7 @@ class StatusRow:
 
 
 def head() -> str:
-    """Return the first lines of the file of a run that begins now."""
+    """Return the first lines of the file, with the current date."""
     now = datetime.now()
     return f" {program()}                  DATE {now:%d-%b-%Y} TIME {now:%H:%M:%S}\n{HEADER}"
 
@@ -112,12 +112,12 @@ class StatusFile:
 
 
 def read_status(path: Path) -> list[StatusRow]:
-    """Read the lines of a status file, of ours or of Abaqus; a line that a killed run left unfinished is left out."""
+    """Read the rows of a status file of this program or of Abaqus, without an incomplete last line."""
     lines = path.read_text("utf-8", errors="replace").splitlines(keepends=True)
     rows = [StatusRow.read(line) for line in lines if line.endswith("\n")]
     return [row for row in rows if row is not None]
 
 
 def has_completed(path: Path) -> bool:
-    """Report whether the status file says that the analysis has completed."""
+    """Return whether the analysis has completed, according to the status file."""
     return COMPLETED in path.read_text("utf-8", errors="replace").splitlines()

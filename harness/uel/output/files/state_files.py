@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Kept states: NAME_restart/stepN_incrementM.npz, each complete in itself, and how they are read back.
+"""Kept states for *RESTART: NAME_restart/stepN_incrementM.npz, each with the whole state.
 
-A file holds the numbered arrays of the state, and as JSON the tree that they belong to: the format, the decks of the
-model, and the state. It gets its name only when all of it is written, so that a kill leaves whole ones. Digests of the
-arrays are in the tree, and that of the tree beside it: what is read is what was written, to the bit, or it is refused.
+A file holds the numbered arrays of the state, and a tree in JSON that refers to them: the format, the decks of the
+model, and the state. It gets its name when it is complete, so that a killed run leaves complete files. Digests of the
+arrays are in the tree, and the digest of the tree is beside it: a file that has changed by a bit is refused.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from uel.model.restart import DeckPart, KeptState
 from uel.output.schedule import find_written
 
 FORMAT: Final = 3
-"""Version of the files: a change of what they hold, or of what it means, gets another number."""
+"""Version of the files, to be increased when their content or its meaning changes."""
 
 _NAME: Final = re.compile(r"step(\d+)_increment(\d+)\.npz")
 _ARRAY: Final = "array"
@@ -41,11 +41,11 @@ _UNREADABLE: Final = (
     *(OSError, EOFError, BadZipFile, zlib.error, struct.error, ValueError, KeyError, IndexError, TypeError),
     *(AttributeError, NotImplementedError, RuntimeError, MemoryError, OverflowError, SyntaxError),
 )
-"""Exceptions that zipfile and numpy raise for bytes that are no archive of arrays."""
+"""Exceptions of zipfile and numpy for a file that is no archive of arrays."""
 
 
 def folder_of(stem: Path) -> Path:
-    """Return the folder of the states of a job, of which `stem` is the folder and name."""
+    """Return the folder of the states of a job; stem: its folder and name."""
     return stem.with_name(f"{stem.name}_restart")
 
 
@@ -57,7 +57,7 @@ class StateFiles:
     stem
         Folder and name of the job. States of an earlier job of this name are removed.
     decks
-        Where its model comes from.
+        Decks of its model.
     """
 
     def __init__(self, stem: Path, decks: Sequence[DeckPart]) -> None:
@@ -67,7 +67,7 @@ class StateFiles:
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def write(self, record: StateKept) -> None:
-        """Write a state; at every moment the last one is there, or the one before."""
+        """Write a state; at any time the last one or the one before it exists."""
         self._folder.mkdir(parents=True, exist_ok=True)
         arrays: list[FloatArray] = []
         moment = {"step": record.step, "increment": record.increment}
@@ -82,7 +82,7 @@ class StateFiles:
             with unfinished.open("wb") as file:
                 np.savez(file, tree=text, check=check, **_named(arrays))
                 if record.overlay:
-                    # the state before goes, which else were there if the system ended before this one is on the disk
+                    # remove the state before, now that this one is on the disk
                     file.flush()
                     os.fsync(file.fileno())
             unfinished.replace(path)
@@ -114,7 +114,7 @@ def read_state(stem: Path, step: int | None = None, increment: int | None = None
     Raises
     ------
     UelError
-        There is no such state, or its file is damaged, of another state or of another version.
+        There is no such state, or its file is damaged, renamed or of another version.
     """
     folder = folder_of(stem)
     kept_states = sorted(
@@ -145,7 +145,7 @@ def read_state(stem: Path, step: int | None = None, increment: int | None = None
 
 
 def _tree(file: NpzFile) -> tuple[dict[str, Any], Any]:
-    """Return the tree of a file, and its format. Raises ValueError if it is not what was written."""
+    """Return the tree of a file, and its format. Raises ValueError if it has changed."""
     text = file["tree"]
     tree = json.loads(text.tobytes())
     if not isinstance(tree, dict) or "format" not in tree:
@@ -158,7 +158,7 @@ def _tree(file: NpzFile) -> tuple[dict[str, Any], Any]:
 
 
 def _arrays(file: NpzFile, tree: dict[str, Any]) -> list[FloatArray]:
-    """Return the arrays of a file. Raises ValueError if they are not what was written."""
+    """Return the arrays of a file. Raises ValueError if they have changed."""
     names = {f"{_ARRAY}{k}" for k in range(len(tree["digests"]))}
     members = set(file.files) - {"tree", "check"}
     if members != names:

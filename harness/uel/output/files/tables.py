@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables of *NODE PRINT and *EL PRINT in the .dat file, laid out as Abaqus prints them: as in the .dat file of
-a public patch test.
+"""Tables of *NODE PRINT and *EL PRINT in the .dat file, in the layout of a public .dat file of Abaqus.
 
 Lines whose values are all zero are left out of a table, as Abaqus does, but count for MAXIMUM and MINIMUM. Values at
 nodes have eight significant digits, their extremes and all values of elements five or four.
@@ -34,7 +33,7 @@ _COORDINATES = ("COOR1", "COOR2", "COOR3")
 
 @dataclass(frozen=True, slots=True)
 class _Table:
-    """Columns of values (rows, columns) with the heads of lines and columns, COLUMNS of them beside each other.
+    """Values (rows, columns) with the heads of lines and columns, COLUMNS columns beside each other.
 
     head, width    head of the lines; of a name of a column
     note           line below the head
@@ -76,7 +75,7 @@ class _Table:
 
 
 def used_nodes(model: Model) -> NDArray[np.bool_]:
-    """Mask the nodes, (nodes,), of elements and constraints; others are not part of the analysis."""
+    """Return the mask (nodes,) of the nodes of elements and constraints, which are part of the analysis."""
     used = np.zeros(len(model.mesh.labels), dtype=bool)
     for group in model.groups:
         used[group.nodes] = True
@@ -90,7 +89,7 @@ def used_nodes(model: Model) -> NDArray[np.bool_]:
 def node_tables(request: NodeRequest, model: Model, solution: Solution, index: NodalIndex, *, nlgeom: bool) -> str:
     """Return the tables of one *NODE PRINT request, with the components of each variable that the nodes have.
 
-    nlgeom: coordinates are those of the moved nodes.
+    nlgeom: coordinates are those of displaced nodes.
     """
     title = "   THE FOLLOWING TABLE IS PRINTED FOR " + (
         f"NODES BELONGING TO NODE SET {request.nset}" if request.nset else "ALL NODES"
@@ -123,7 +122,7 @@ def node_tables(request: NodeRequest, model: Model, solution: Solution, index: N
 def _node_values(
     variable: str, nodes: IntArray, model: Model, solution: Solution, index: NodalIndex, *, nlgeom: bool
 ) -> dict[str, FloatArray]:
-    """Return the values (nodes,) of the components of a variable by their names; none where no node has it."""
+    """Return the values (nodes,) of the components of a variable by name; empty if no node has it."""
     axes = _COORDINATES[: 3 if is_solid(model) else 2]
     if variable in ("COORD", *axes):
         values = model.mesh.coordinates[nodes]
@@ -167,7 +166,7 @@ ENERGIES = {
 def energy_table(solution: Solution, moment: float, *, harmonic: bool = False) -> str:
     """Return the energies of the whole model, '' if the procedure has none.
 
-    moment: total time, or if `harmonic` the frequency, over a period of which they are means.
+    moment: total time; if `harmonic`, the frequency, and energies are means over a period.
     """
     names = [name for name in ENERGIES if name in solution.energies]
     if not names:
@@ -228,7 +227,7 @@ def chosen_elements(
 
 
 Sections = tuple[int, ...]
-"""Numbers of the section points of each integration point; none for values that belong to the integration point."""
+"""Numbers of the section points of each integration point; empty for values of the integration point itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -261,7 +260,7 @@ def _element_table(
     values: FloatArray,
     sections: Sections,
 ) -> str:
-    """Write tables of values (elements, points, names), at the points or at the position that the request asks for."""
+    """Return tables of values (elements, points, names), at the points or at the requested position."""
     position, lines, labels, values = _at_position(request.position, mesh, group, inside, values, sections)
     layout = _SECTION_POINTS if sections else _LAYOUTS[position]
     which = f"ELEMENTS WITH TYPE {group.type} {layout.title}"
@@ -332,7 +331,7 @@ def _element_values(
     if state.variables is not None:
         known = {name: k for k, name in enumerate(state.variables.names)}
         known |= {name: known[own] for name, own in state.variables.aliases}
-        names = [name for variable in variables for name in known if _asked(variable, name)]
+        names = [name for variable in variables for name in known if _includes(variable, name)]
         if names:
             values, count = point_values(state, state.variables)[inside], state.variables.sections
             of_section = values.reshape(len(values), values.shape[1] // count, count, values.shape[2])
@@ -358,8 +357,8 @@ def _element_values(
     return columns
 
 
-def _asked(variable: str, name: str) -> bool:
-    """Report whether a requested variable (S, E, S11, SDV, SF, SE) includes a component (S11, SDV1, SF1, SM1, SK1)."""
+def _includes(variable: str, name: str) -> bool:
+    """Return whether a requested variable (S, E, S11, SDV, SF, SE) includes a component (S11, SDV1, SF1, SM1, SK1)."""
     if (variable, name[:2]) in (("SF", "SM"), ("SE", "SK")):
         return True
     suffix = name.removeprefix(variable)
@@ -377,5 +376,5 @@ def _short(value: float) -> str:
 
 
 def _label(mesh: Mesh, node: int) -> str:
-    """Return the number of a node; a table has no room for the name of its instance."""
+    """Return the label of a node without the name of its instance, for which a table has no space."""
     return str(int(mesh.labels[node]))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A column of the history times a factor, as `uel plot` and `uel fit` take it, and the heads of measured curves."""
+"""Column of the history times a factor, for `uel plot`, `uel fit` and the heads of measured curves."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from uel.output.pictures.load_curve import COLUMN, FORCES, move_as_one
 
 _TERM = re.compile(r"\s*(?:([-+]?\d*\.?\d*(?:[eE][-+]?\d+)?)\s*\*\s*|([-+]))?([A-Za-z].*?)\s*")
 _SUM = "SUM OF "
-"""Prefix of the name of a sum where a run or a picture tells it."""
+"""Prefix of the name of a sum in messages and pictures."""
 
 
 @dataclass(frozen=True, slots=True)
 class Column:
     """A column of the history times a factor: `2*U2[LOAD_TOP]`, `-RF2[MIDSPAN]`.
 
-    Where the history has the nodes of a set one by one, a name without a node, `RF2[END]`, is the sum of their forces,
+    If the history has a column for each node of a set, a name without a node, `RF2[END]`, is the sum of their forces,
     or their displacement if they move as one.
     """
 
@@ -37,7 +37,7 @@ class Column:
         return signs.get(self.factor, f"{self.factor:g}*") + self.name
 
     def names(self, name: str) -> bool:
-        """Report whether a column has this name; upper and lower case are the same."""
+        """Return whether a column has this name, in upper or lower case."""
         return name.upper().removeprefix(_SUM) == self.name.upper().removeprefix(_SUM)
 
     def find(self, history: Mapping[str, FloatArray], where: str) -> FloatArray:
@@ -69,7 +69,7 @@ class Column:
 
 
 def column_names(history: Mapping[str, FloatArray]) -> str:
-    """List the columns of a history for messages; of a set with nodes one by one: its name, the first and last node."""
+    """List the columns of a history for messages; for the nodes of a set, its name, first and last node."""
     names: dict[str, list[str]] = {}
     for name in history:
         if name not in ("step", "increment"):
@@ -86,7 +86,7 @@ def _of_set(match: re.Match[str]) -> str:
 
 
 def read_column(text: str) -> Column:
-    """Read the column of a word such as `2*U2[LOAD_TOP]`. Raises UsageError."""
+    """Parse a column such as `2*U2[LOAD_TOP]`. Raises UsageError."""
     match = _TERM.fullmatch(text)
     try:
         if match is None:

@@ -1,17 +1,17 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fronts of delaminations in space (NAME_front.csv): where the damage of an interface is one half, and what acts there.
+"""Fronts of delaminations in space (NAME_front.csv): lines of damage 1/2, with tractions and energy release rates.
 
 Computed from the field output and the interface profiles of a job, whatever its interface elements. Values at the
-nodes are means of those of their elements, extrapolated from the integration points. A front is a line of constant
-damage on that surface, taken at the middles of equal parts about as long as the elements. Surfaces that share no node
-are separate; they may be curved.
+nodes are means over their elements, extrapolated from the integration points. A front is a line of constant damage on
+the surface, sampled at the midpoints of equal parts about as long as the elements. Surfaces that share no node are
+separate; they may be curved.
 
 Energy release rates are Rice's integral along a line through the process zone, in the plane normal to the front:
 G_i = -int t_i dw_i, i = I for the normal, II and III for the shears normal to the front and along it. t is the
 traction, and w the separation of the law, or the displacement jump if an element has no other. While the delamination
-grows, their sum is the fracture energy of the law at this mode mix; before, it is the energy release rate at a crack
-whose process zone is forming. What lies beyond the edge of the interface, such as an initial crack, has no traction.
+grows, their sum is the fracture energy of the law at this mode mix; before, it is the energy release rate of a crack
+whose process zone is forming. Beyond the edge of the interface, as in an initial crack, tractions are zero.
 """
 
 from __future__ import annotations
@@ -35,27 +35,27 @@ from uel.errors import UelError
 from uel.model.arrays import FloatArray, IntArray
 from uel.output.formats import TextFile
 from uel.output.pictures.plots import COLOURS, STYLE
-from uel.output.pictures.triangles import Locations, TriangulatedSurface, Ways
+from uel.output.pictures.triangles import Locations, SurfacePaths, TriangulatedSurface
 from uel.output.results import Result
 
 DAMAGE = 0.5
 """Damage at the front."""
 
 _ALIGNED = np.cos(np.radians(0.1))
-"""Abaqus takes the z axis for the local direction s where the normal is within 0.1 degrees of the x axis."""
+"""Angle of the normal to the x axis, 0.1 degrees, within which Abaqus uses the z axis for the local direction s."""
 
 _FLAT = 0.05
-"""Extent of fronts across a plane, over that in it, up to which they are drawn in the plane."""
+"""Extent of fronts normal to a plane, over that in it, up to which they are drawn in the plane."""
 
 _CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 
 
 @dataclass(frozen=True, slots=True)
 class Front:
-    """Line of one surface in one increment.
+    """Front on one surface in one increment.
 
-    step, increment, time  when; total time
-    surface, line          numbers from 1, of the surfaces of a model and of the lines on one of them
+    step, increment, time  step, increment, total time
+    surface, line          numbers from 1 of the surface in the model, and of the line on it
     coordinates  (n, 3) of points of the front, in order
     ahead      (n, 3) unit normals of the front in the surface, towards smaller damage
     tractions  (n, 3) normal, shear along `ahead`, shear along the front
@@ -94,7 +94,7 @@ class _Surface:
         corners = self._points[self._cells]
         areas = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
         self.size = float(np.sqrt(np.median(np.linalg.norm(areas, axis=1)) / 2.0))
-        # a node in the middle of each face: the triangles prefer no diagonal
+        # with a node at the centre of each face the triangles prefer no diagonal
         middle = len(used) + np.arange(len(cells))
         triangles = [np.column_stack([self._cells[:, k], self._cells[:, (k + 1) % 4], middle]) for k in range(4)]
         nodes = np.concatenate([self._points, corners.mean(axis=1)])
@@ -114,7 +114,7 @@ class _Surface:
         Returns
         -------
         (n, k), (n, c, 3)
-            The vectors in global components: s and t differ from face to face.
+            Values, and vectors in global components, since s and t differ from face to face.
         """
         if self._to_corners is None:
             corners = self._points[self._cells]
@@ -156,9 +156,9 @@ def _directions(corners: FloatArray, reach: float) -> FloatArray:
 class _Fields:
     """Fields at the nodes of a surface.
 
-    damage     (n,)
-    normals    (n, 2) traction and separation along the normal
-    shears     (n, 2, 3) those along the surface, in global components
+    damage   (n,)
+    normals  (n, 2) traction and separation in the direction of the normal
+    shears   (n, 2, 3) traction and separation in the surface, in global components
     """
 
     damage: FloatArray
@@ -167,7 +167,7 @@ class _Fields:
 
 
 def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
-    """Return the fronts of all increments of the field output, in order; none in an increment without such a damage.
+    """Return the fronts of all increments of the field output, in order.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
         for number, surface in enumerate(surfaces, 1):
             fields = _fields(surface, profile)
             lines = _lines(surface, fields.damage, damage)
-            reaches = _reaches(surface, fields.damage, [locations for locations, _ in lines])
+            reaches = _half_lengths(surface, fields.damage, [locations for locations, _ in lines])
             for line, ((locations, triangles), reach) in enumerate(zip(lines, reaches, strict=True), 1):
                 values = _along(surface, fields, locations, triangles, reach)
                 all_fronts.append(Front(frame.step, frame.increment, frame.time, number, line, *values))
@@ -255,10 +255,10 @@ def draw_fronts(path: Path, all_fronts: list[Front]) -> None:
 
 
 def _draw_lines(figure: Figure, all_fronts: list[Front]) -> None:
-    """Draw fronts in their plane, along the two axes closest to it, or in space where they lie in none."""
+    """Draw fronts in their plane, along the two axes closest to it, or in space if they are not plane."""
     locations = np.concatenate([front.coordinates for front in all_fronts])
     times = np.array([front.time for front in all_fronts])
-    # a single straight front is in the plane into which it grows
+    # the plane of a single straight front contains its direction of growth
     grown = locations + 0.1 * np.ptp(locations, axis=0).max() * np.concatenate([front.ahead for front in all_fronts])
     _, sizes, axes = np.linalg.svd(np.concatenate([locations, grown]) - locations.mean(axis=0), full_matrices=False)
     if sizes[2] > _FLAT * sizes[1]:
@@ -320,7 +320,7 @@ def _fields(surface: _Surface, profile: Mapping[str, FloatArray]) -> _Fields:
 
 
 def _lines(surface: _Surface, damage: FloatArray, level: float) -> list[tuple[Locations, IntArray]]:
-    """Return the lines of a damage on a surface, as locations at the distance of the elements and their triangles."""
+    """Return the lines of a level of damage, as locations at distances of an element and their triangles."""
     if not damage.min() < level < damage.max():
         return []
     triangles = surface.triangles
@@ -341,17 +341,17 @@ def _along(
     along = _tangents(points)
     along = _unit(along - np.sum(along * normal, axis=1, keepdims=True) * normal)
     ahead = np.cross(along, normal)
-    both = [mesh.ways(line, triangles, along, direction, reach) for direction in (ahead, -ahead)]
-    slope = [_damage_beside(way, fields.damage, 0.5 * surface.size) for way in both]
+    both = [mesh.paths(line, triangles, along, direction, reach) for direction in (ahead, -ahead)]
+    slope = [_damage_at(path, fields.damage, 0.5 * surface.size) for path in both]
     # the side on which the damage is smaller
     if np.sum(slope[0] - slope[1]) > 0.0:
         ahead, both = -ahead, both[::-1]
     along = np.cross(normal, ahead)
     releases = np.zeros((len(points), 3))
-    for way, sign in zip(both, (1.0, -1.0), strict=True):
-        traction, opening = _components(mesh, fields, way.locations, along)
+    for path, sign in zip(both, (1.0, -1.0), strict=True):
+        traction, opening = _components(mesh, fields, path.locations, along)
         mean = 0.5 * (traction[:, 1:] + traction[:, :-1])
-        # ways that have ended count nothing
+        # paths that have ended contribute nothing
         releases -= sign * np.nansum(mean * np.diff(opening, axis=1), axis=1)
     (middle,), _ = (
         each[None, :, 0]
@@ -365,7 +365,7 @@ def _components(
 ) -> tuple[FloatArray, FloatArray]:
     """Return the tractions and separations (n, k, 3) at locations (n, k): normal, ahead of the front and along it.
 
-    along: (n, 3) the direction of the front, normal to which the ways go; ahead and along turn with the surface.
+    along: (n, 3) direction of the front, normal to the paths; ahead and along turn with the surface.
     """
     normal = _unit(locations.values(mesh.normals))
     ahead = _unit(np.cross(along[:, None], normal))
@@ -378,11 +378,11 @@ def _components(
     return traction, opening
 
 
-def _damage_beside(way: Ways, damage: FloatArray, distance: float) -> FloatArray:
-    """Return the damage (n,) at a distance along ways; beyond an edge of the surface, where a crack is, 1."""
-    values = way.locations.values(damage[:, None])[..., 0]
+def _damage_at(path: SurfacePaths, damage: FloatArray, distance: float) -> FloatArray:
+    """Return the damage (n,) at a distance along paths; 1 beyond an edge of the surface, as in a crack."""
+    values = path.locations.values(damage[:, None])[..., 0]
     beside = np.ones(len(values))
-    for row, (lengths, there) in enumerate(zip(way.lengths, values, strict=True)):
+    for row, (lengths, there) in enumerate(zip(path.lengths, values, strict=True)):
         known = np.isfinite(lengths)
         if lengths[known][-1] >= distance:
             beside[row] = np.interp(distance, lengths[known], there[known])
@@ -401,15 +401,15 @@ def _tangents(points: FloatArray) -> FloatArray:
     return np.asarray(points[np.minimum(index + 2, len(points) - 1)] - points[np.maximum(index - 2, 0)])
 
 
-def _reaches(surface: _Surface, damage: FloatArray, lines: list[Locations]) -> list[float]:
-    """Return half the length of the ways through the process zone of each front.
+def _half_lengths(surface: _Surface, damage: FloatArray, lines: list[Locations]) -> list[float]:
+    """Return half the length of the paths through the process zone of each front.
 
-    It holds all that is damaged in part and closer to this front than to others, and three faces.
+    It covers all partly damaged points closer to this front than to others, and three faces.
     """
     if not lines:
         return []
     partly = surface.triangles.nodes[(damage > 1e-3) & (damage < 1.0 - 1e-3)]
-    # a front passes between nodes, which may all be undamaged or failed
+    # nodes on both sides of a front may all be undamaged or failed
     distances = np.stack([cKDTree(line.values(surface.triangles.nodes)).query(partly)[0] for line in lines])
     closest = np.argmin(distances, axis=0)
     spreads = [np.append(0.0, distances[k, closest == k]).max() for k in range(len(lines))]

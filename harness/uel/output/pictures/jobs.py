@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of jobs, from their files: what `uel plot` draws, and `uel report` shows."""
+"""Pictures of jobs from their files, for `uel plot` and `uel report`."""
 
 from __future__ import annotations
 
@@ -27,35 +27,35 @@ from uel.output.results import Result
 ENDINGS: Final = (".png", ".svg", ".pdf")
 
 _FEW: Final = 5
-"""Values of a curve up to which they are marked."""
+"""Number of values of a curve up to which they have markers."""
 
 _DAMAGE: Final = "DAMAGE"
 _LAW: Final = ("TN", "TT", "TS", _DAMAGE)
-"""Variables of a profile, as far as the elements have them."""
+"""Variables of a profile, if the elements have them."""
 
 
 _VISIBLE: Final = 1e-3
-"""Energy over the largest one from which on it is drawn."""
+"""Energy over the largest one above which it is drawn."""
 
 _ROUNDING: Final = 1e-6
-"""Traction over the largest one up to which it is not."""
+"""Traction over the largest one up to which it is not drawn."""
 
 _SAME: Final = 1e-9
-"""Distance along an interface, over its length, of points with the same coordinates."""
+"""Distance along an interface, over its length, up to which points count as coincident."""
 
 _APART: Final = 1e-4
-"""Distance across, over its length, from which on points belong to interfaces above each other."""
+"""Distance across an interface, over its length, from which on points belong to different interfaces."""
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class PictureOptions:
     """Request for a picture.
 
     x, y            columns of the history, with a factor if wanted; '' and none: load over displacement
     measured        CSV files of measured curves
-    increment, step of a profile or a mesh: -1 and None the last one written
+    increment, step  of a profile or a mesh: -1 and None for the last one written
     field, scale    of a mesh: see `draw_mesh`
-    tell            gets a sentence where a picture is not drawn as it could be
+    tell            called with a sentence if a picture is drawn by a fallback
     """
 
     x: str = ""
@@ -68,7 +68,7 @@ class Asked:
     tell: Callable[[str], None] = lambda _: None
 
 
-def draw(kind: str, results: Sequence[Result], path: Path, asked: Asked) -> Path:
+def draw(kind: str, results: Sequence[Result], path: Path, options: PictureOptions) -> Path:
     """Draw a picture.
 
     Parameters
@@ -76,33 +76,33 @@ def draw(kind: str, results: Sequence[Result], path: Path, asked: Asked) -> Path
     kind
         One of KINDS.
     results
-        Jobs, drawn over each other.
+        Jobs to draw in one picture.
     path
         .png, .svg or .pdf.
-    asked
-        Kind of the picture.
+    options
+        Options of the picture.
 
     Raises
     ------
     UelError
-        The files do not have what is asked for; UsageError for words that make no sense.
+        The files do not have the requested data; UsageError for invalid options.
     """
     if path.suffix.lower() not in ENDINGS:
         raise UsageError(f"{path}: expected a file name that ends with {', '.join(ENDINGS)}")
-    if kind != "load" and (asked.x or asked.y or asked.measured):
+    if kind != "load" and (options.x or options.y or options.measured):
         raise UsageError(f"--kind {kind}: expected without --x, --y and --csv, which belong to the history")
-    return KINDS[kind](results, path, asked)
+    return KINDS[kind](results, path, options)
 
 
-def _load(results: Sequence[Result], path: Path, asked: Asked) -> Path:
-    """Load over displacement, or columns of the history over another."""
-    if asked.x or asked.y:
-        return _columns(results, path, asked)
+def _load(results: Sequence[Result], path: Path, options: PictureOptions) -> Path:
+    """Draw load over displacement, or columns of the history over another."""
+    if options.x or options.y:
+        return _columns(results, path, options)
     of_jobs = [_load_curve(result) for result in results]
     curves = [_curve(_name(result, results), curve.x, curve.y) for result, curve in zip(results, of_jobs, strict=True)]
     x_names, y_names = {curve.x_name for curve in of_jobs}, {curve.y_name for curve in of_jobs}
     axes = [Column(next(iter(names)) if len(names) == 1 else "") for names in (x_names, y_names)]
-    curves += [Curve(file.stem, *read_curve(file, axes), "points") for file in asked.measured]
+    curves += [Curve(file.stem, *read_curve(file, axes), "points") for file in options.measured]
     x_label = f"Displacement {next(iter(x_names))}" if len(x_names) == 1 else "Displacement"
     y_label = f"Load {next(iter(y_names))}" if len(y_names) == 1 else "Load"
     return stacked([curves], path, x_label, [y_label], from_zero=True)
@@ -118,10 +118,10 @@ def _load_curve(result: Result) -> LoadCurve:
     return curve
 
 
-def _columns(results: Sequence[Result], path: Path, asked: Asked) -> Path:
-    if not asked.y:
-        raise UsageError(f"--x {asked.x}: expected with --y, the columns to draw over it")
-    x_column, y_columns = read_column(asked.x or "time"), [read_column(text) for text in asked.y]
+def _columns(results: Sequence[Result], path: Path, options: PictureOptions) -> Path:
+    if not options.y:
+        raise UsageError(f"--x {options.x}: expected with --y, the columns to draw over it")
+    x_column, y_columns = read_column(options.x or "time"), [read_column(text) for text in options.y]
     curves = []
     for result in results:
         for y_column in y_columns:
@@ -129,7 +129,7 @@ def _columns(results: Sequence[Result], path: Path, asked: Asked) -> Path:
             rows = np.isfinite(x) & np.isfinite(y)
             words = [_name(result, results)] * (len(results) > 1) + [str(y_column)] * (len(y_columns) > 1)
             curves.append(_curve(", ".join(words) or str(y_column), x[rows], y[rows]))
-    curves += [Curve(file.stem, *read_curve(file, (x_column, y_columns[0])), "points") for file in asked.measured]
+    curves += [Curve(file.stem, *read_curve(file, (x_column, y_columns[0])), "points") for file in options.measured]
     return stacked([curves], path, str(x_column), [str(y_columns[0]) if len(y_columns) == 1 else "Value"])
 
 
@@ -137,8 +137,8 @@ def _values(result: Result, column: Column) -> FloatArray:
     return column.find(result.history, str(result.file("_history.csv")))
 
 
-def _energies(results: Sequence[Result], path: Path, _: Asked) -> Path:
-    """Draw the energies of the whole model over time, those that are not zero; a panel each for several jobs."""
+def _energies(results: Sequence[Result], path: Path, _: PictureOptions) -> Path:
+    """Draw the energies of the whole model over time that are not zero, with a panel for each job."""
     histories = [result.history for result in results]
     names = [name for name in ENERGIES if any(_matters(history, name) for history in histories)]
     if not names:
@@ -158,15 +158,15 @@ def _energies(results: Sequence[Result], path: Path, _: Asked) -> Path:
 
 
 def _matters(history: Mapping[str, FloatArray], name: str) -> bool:
-    """Report whether an energy is visible beside the others."""
+    """Return whether an energy is visible beside the others."""
     sizes = {other: np.abs(history[other]) for other in ENERGIES if other in history}
     largest = max((float(values[np.isfinite(values)].max(initial=0.0)) for values in sizes.values()), default=0.0)
     size = sizes.get(name, np.zeros(0))
     return largest > 0.0 and float(size[np.isfinite(size)].max(initial=0.0)) > _VISIBLE * largest
 
 
-def _iterations(results: Sequence[Result], path: Path, _: Asked) -> Path:
-    """Draw the iterations of each increment, those of abandoned attempts included, and its size, over time."""
+def _iterations(results: Sequence[Result], path: Path, _: PictureOptions) -> Path:
+    """Draw the iterations of each increment, including abandoned attempts, and its size over time."""
     panels: list[list[Curve]] = [[], []]
     for result in results:
         done = _of_increments(result.status)
@@ -191,9 +191,9 @@ def _of_increments(rows: Sequence[StatusRow]) -> list[tuple[StatusRow, int]]:
     return done
 
 
-def _interface(results: Sequence[Result], path: Path, asked: Asked) -> Path:
+def _interface(results: Sequence[Result], path: Path, options: PictureOptions) -> Path:
     """Draw tractions and damage along an interface in the plane."""
-    profiles = [result.interface(asked.increment, asked.step) for result in results]
+    profiles = [result.interface(options.increment, options.step) for result in results]
     sizes = {
         name: max(float(np.nanmax(np.abs(profile[name]))) for profile in profiles if name in profile)
         for name in _LAW
@@ -213,9 +213,9 @@ def _interface(results: Sequence[Result], path: Path, asked: Asked) -> Path:
 
 
 def _position(result: Result, profile: Mapping[str, FloatArray]) -> tuple[tuple[FloatArray, np.ndarray], list[int]]:
-    """Return coordinates along the interface and the order of the points; where in it another interface begins.
+    """Return coordinates along the interface, the order of the points, and where another interface begins in it.
 
-    The direction is that in which the points spread most; on an interface along an axis this is its coordinate.
+    The direction is that of the largest extent; on an interface along an axis, the coordinate.
     """
     points = np.column_stack([profile[name] for name in ("X", "Y", "Z") if name in profile])
     spread = points - points.mean(axis=0)
@@ -242,24 +242,24 @@ def _position(result: Result, profile: Mapping[str, FloatArray]) -> tuple[tuple[
     return (position[order], order), breaks
 
 
-def _mesh(results: Sequence[Result], path: Path, asked: Asked) -> Path:
+def _mesh(results: Sequence[Result], path: Path, options: PictureOptions) -> Path:
     """Draw the deformed mesh."""
     if len(results) > 1:
         raise UsageError("--kind mesh: expected one job")
-    mesh = results[0].mesh(asked.increment, asked.step)
-    drawn = partial(draw_mesh, mesh, path, field=asked.field, scale=asked.scale)
+    mesh = results[0].mesh(options.increment, options.step)
+    drawn = partial(draw_mesh, mesh, path, field=options.field, scale=options.scale)
     if in_space(mesh) and path.suffix.lower() == ".png":
         if has_pyvista():
             try:
                 return drawn(by_pyvista=True)
             except RenderError as error:
-                asked.tell(f"{error}; drawn by matplotlib")
+                options.tell(f"{error}; drawn by matplotlib")
         else:
-            asked.tell(f"drawn by matplotlib, which may take a face behind for one in front; PyVista: {INSTALL}")
+            options.tell(f"drawn by matplotlib, which may take a face behind for one in front; PyVista: {INSTALL}")
     return drawn()
 
 
-KINDS: Final[dict[str, Callable[[Sequence[Result], Path, Asked], Path]]] = {
+KINDS: Final[dict[str, Callable[[Sequence[Result], Path, PictureOptions], Path]]] = {
     "load": _load,
     "energies": _energies,
     "iterations": _iterations,

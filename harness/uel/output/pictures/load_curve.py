@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The load-displacement curve of a job, from its history: the force that does most work, over its displacement.
+"""Load-displacement curve of a job, from its history: the force that does most work, over its displacement.
 
 A force is a reaction or a concentrated load, in a component of a node whose displacement is in the history too, or the
-sum over a node set that moves as one. A moment goes with its rotation. If there is none, as where the load is on
-faces, but the load factor is part of the solution, it is drawn over the displacement that changes most.
+sum over a node set that moves as one. A moment is drawn over its rotation. Without a force, as with loads on faces, the
+load factor, if it is part of the solution, is drawn over the displacement that changes most.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ FORCES: Final = ("reaction", "load")
 """Quantities that add up over the nodes of a set."""
 
 _TIE: Final = 1e-6
-"""Relative difference of two amounts of work, or of displacements of a set, that counts as none."""
+"""Relative difference of works, or of displacements of a set, that counts as zero."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,14 +129,14 @@ def _pairs(sets: _Sets, force: _Set) -> Iterator[_Pair]:
 
 
 def move_as_one(displacements: Iterable[FloatArray]) -> bool:
-    """Report whether nodes have the same displacement in each increment, but for rounding."""
+    """Return whether nodes have the same displacement in each increment, except for rounding."""
     u = np.array([*displacements])
     u = u[:, np.isfinite(u).all(axis=0)]
     return bool(np.ptp(u, axis=0).max(initial=0.0) <= _TIE * np.abs(u).max(initial=0.0))
 
 
 def _work(u: FloatArray, force: FloatArray) -> float:
-    """Return the work of a force from the origin, of increments without their signs: unloading counts too."""
+    """Return the sum of the magnitudes of the work of a force in all increments, so that unloading counts."""
     rows = np.isfinite(u) & np.isfinite(force)
     du, ends = np.diff(u[rows], prepend=0.0), np.append(0.0, force[rows])
     return float(np.abs(du * (ends[1:] + ends[:-1])).sum()) / 2.0

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A curve that was measured, from a CSV file as test machines and spreadsheets write it."""
+"""Measured curve, from a CSV file as test machines and spreadsheets write it."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def read_curve(path: Path, axes: Sequence[Column] = ()) -> tuple[FloatArray, Flo
         elif rows:
             raise UelError(f"{path}:{number}: expected numbers in columns {columns[0] + 1} and {columns[1] + 1}")
         else:
-            named = [_place(cells, axis) for axis in axes]
+            named = [_find_axis(cells, axis) for axis in axes]
             if axes and all(named):
                 columns = [column[0] for column in named if column]
             for k, column in enumerate(named):
@@ -60,7 +60,7 @@ def read_curve(path: Path, axes: Sequence[Column] = ()) -> tuple[FloatArray, Flo
     return x, y
 
 
-def _place(cells: Sequence[str], axis: Column) -> tuple[int, float] | None:
+def _find_axis(cells: Sequence[str], axis: Column) -> tuple[int, float] | None:
     """Find the cell of a head that names an axis, and the factor from its values to those of the axis."""
     for k, cell in enumerate(cells):
         try:

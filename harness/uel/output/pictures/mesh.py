@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The deformed mesh of an increment with a field on it: in the plane its cells, in space its surface.
+"""Picture of the deformed mesh of an increment with a field: cells in the plane, the surface in space.
 
-A cell has one colour: the mean over its integration points, or over its corners for a field of the nodes. What lacks
-the field is grey, or left out in space, where it would hide what has it. In the plane a thin outline shows the
-undeformed model; in space, where PyVista draws, that of the deformed one.
+A cell has one colour: the mean over its integration points, or over its corners for a nodal field. Cells without the
+field are grey; in space, where they would hide others, they are left out. In the plane a thin outline shows the
+undeformed model; in space, drawn by PyVista, the deformed one.
 """
 
 from __future__ import annotations
@@ -37,13 +37,13 @@ _FAMILIES: Final = {family.cell: family for family in FAMILIES.values()}
 _WIDTH: Final = 7.0
 """Width of a picture, in inches."""
 _MOST_EDGED: Final = 4000
-"""Cells from which on their edges would cover the colours."""
+"""Number of cells above which edges would cover the colours."""
 _BELOW: Final = {"location": "bottom", "shrink": 0.6, "aspect": 40, "pad": 0.02}
-"""The bar of colours below the axes."""
+"""Options of the colour bar below the axes."""
 _ROUNDING: Final = 1e-9
-"""Relative difference of values that counts as none: colours would show the rounding of a uniform field."""
+"""Relative difference of values that counts as zero, so that colours do not show the rounding of a uniform field."""
 _LARGE: Final = 0.02
-"""Displacement over the size of the model from which on it is drawn as it is."""
+"""Displacement over the size of the model from which on it is drawn without a factor."""
 
 
 def draw_mesh(
@@ -101,12 +101,12 @@ def draw_mesh(
 
 
 def in_space(mesh: meshio.Mesh) -> bool:
-    """Report whether a mesh is not all in the plane of x and y."""
+    """Return whether a mesh is not in the plane of x and y."""
     return bool(np.ptp(mesh.points[:, 2]) > 0.0)
 
 
 def visible_scale(points: FloatArray, u: FloatArray) -> float:
-    """Return 1 if displacements are visible, else a factor of one digit that makes the largest 1/50 of the model."""
+    """Return 1 if displacements are visible, else a factor of one digit with which the largest is 1/50 of the model."""
     size = float(np.ptp(points, axis=0).max(initial=0.0))
     largest = float(np.linalg.norm(u, axis=1).max(initial=0.0))
     if largest == 0.0 or size == 0.0 or largest >= _LARGE * size:
@@ -143,7 +143,7 @@ def _cell_values(mesh: meshio.Mesh, field: str, path: Path) -> list[FloatArray]:
 
 
 def _colours(blocks: Sequence[_Block]) -> ScalarMappable:
-    """Map values to colours, one range for all blocks; that of one value, such as a damage of 1, has zero too."""
+    """Map values to colours over the range of all blocks; that of a single value, such as damage 1, begins at zero."""
     values = np.concatenate([of_block for *_, of_block in blocks])
     values = values[np.isfinite(values)]
     low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 1.0)
@@ -155,7 +155,7 @@ def _colours(blocks: Sequence[_Block]) -> ScalarMappable:
 
 @dataclass(frozen=True, slots=True)
 class _Drawn:
-    """Axes of a picture, where `Figure.colorbar` puts its bar, and what the axes show, in inches, unless it is all."""
+    """Axes of a picture, options of the colour bar, and the visible part of the axes in inches, None for all."""
 
     axis: Any
     bar: dict[str, Any]
@@ -259,7 +259,7 @@ def _render_space(figure: Figure, blocks: Sequence[_Block], _: FloatArray, after
 
 
 def _cut(figure: Figure, drawn: _Drawn) -> Bbox | str:
-    """Return the part of a figure to save: axes in space are a square, most of which is empty around a plate."""
+    """Return the part of a figure to save, without the empty part of the square axes in space."""
     if drawn.shown is None:
         return "tight"
     bar = drawn.bar["cax"].get_tightbbox().get_points() / figure.dpi

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures for print: load-displacement curves and profiles along an interface.
 
-Colours are those of Okabe and Ito, which colour-blind readers tell apart; each curve also has its own line style or
-marker, so a figure survives black and white. The legend is above the axes and covers nothing.
+Colours are those of Okabe and Ito, which colour-blind readers can distinguish; each curve also has its own line style
+or marker, for black and white. The legend is above the axes and covers nothing.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class Panel:
 
 
 def load_displacement(curves: Sequence[Curve], path: Path, *, x_label: str = "Displacement [mm]") -> Path:
-    """Load over displacement, both axes from zero if the data allow it.
+    """Draw load over displacement, both axes from zero if the data allow it.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def stacked(
 
 
 def grid(rows: Sequence[Sequence[Panel]], path: Path, *, share_y: bool = False, legend: bool = True) -> Path:
-    """Draw panels in rows and columns, each with axes of its own.
+    """Draw panels in rows and columns, each with its own axes.
 
     Parameters
     ----------
@@ -146,7 +146,7 @@ def grid(rows: Sequence[Sequence[Panel]], path: Path, *, share_y: bool = False, 
     share_y
         One range of ordinates for the panels of a row, so that heights compare.
     legend
-        False where titles and labels of the axes say all.
+        Whether to draw a legend.
 
     Curves of the same label look the same in every panel and appear once in the legend.
     """
@@ -174,7 +174,7 @@ def grid(rows: Sequence[Sequence[Panel]], path: Path, *, share_y: bool = False, 
 
 
 def _legend(figure: Figure, axes: Iterable[Any], letters: int) -> None:
-    """Draw one legend above all axes, if there is more than one curve; `letters` is what fits on a line."""
+    """Draw one legend above all axes, if there is more than one curve; letters: number that fits on a line."""
     handles = {label: handle for axis in axes for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)}
     if len(handles) > 1:
         longest = max(map(len, handles))

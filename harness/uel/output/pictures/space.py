@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Coloured faces in space, drawn off the screen by PyVista, which hides what lies behind; matplotlib sorts whole faces.
+"""Coloured faces in space, drawn off screen by PyVista, which hides parts of faces; matplotlib sorts whole faces.
 
-In a process of its own: where a machine has no OpenGL, VTK, which draws for PyVista, ends the process with a signal.
+PyVista runs in a separate process, because VTK ends the process with a signal on a machine without OpenGL.
 """
 
 from __future__ import annotations
@@ -25,15 +25,15 @@ from uel.model.arrays import FloatArray, IntArray
 
 INSTALL: Final = "pip install pyvista"
 _SECONDS: Final = 300.0
-"""Seconds, more than any picture takes: a display that does not answer would be waited for without end."""
+"""Time limit in seconds, longer than any picture takes, in case a display does not answer."""
 _SIZE: Final = (2800, 2000)
-"""Size of the picture before its margins are cut off, in pixels: so large that it is smooth where shown smaller."""
+"""Size of the picture in pixels, before its margins are cut off; large enough to be smooth when reduced."""
 _TO_EYE: Final = np.array([0.5, -0.87, 0.55]) / np.linalg.norm([0.5, -0.87, 0.55])
 _RIGHT: Final = np.cross([0.0, 0.0, 1.0], _TO_EYE) / np.linalg.norm(np.cross([0.0, 0.0, 1.0], _TO_EYE))
 SCREEN: Final = np.array([_RIGHT, np.cross(_TO_EYE, _RIGHT)])
-"""Rows (2, 3): to the right and upwards in a picture, which is a parallel projection."""
+"""Directions (2, 3) to the right and upwards in a picture, which is a parallel projection."""
 _CREASE: Final = 30.0
-"""Angle between faces, in degrees, from which on the edge between them is part of the outline."""
+"""Smallest angle in degrees between faces whose edge is part of the outline."""
 
 
 class RenderError(UelError):
@@ -42,14 +42,14 @@ class RenderError(UelError):
 
 @dataclass(frozen=True, slots=True)
 class Faces:
-    """Polygons with as many corners each: points (k, corners, 3), and their values (k,)."""
+    """Polygons with equal numbers of corners: points (k, corners, 3) and values (k,)."""
 
     corners: FloatArray
     values: FloatArray
 
 
 def has_pyvista() -> bool:
-    """Report whether PyVista is installed."""
+    """Return whether PyVista is installed."""
     return find_spec("pyvista") is not None
 
 
@@ -96,7 +96,7 @@ def render_faces(
 
 
 def _reason(done: subprocess.CompletedProcess[str]) -> str:
-    """Return the reason why the process has not drawn."""
+    """Return the reason why the process has failed."""
     if done.returncode < 0:
         name = signal.Signals(-done.returncode).name
         return f"VTK ended with {name}, as it does without OpenGL; install libegl1 and libgl1-mesa-dri, or libosmesa6"
@@ -105,7 +105,7 @@ def _reason(done: subprocess.CompletedProcess[str]) -> str:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Draw in a process of its own; arguments: the file with the arrays, and the picture."""
+    """Draw in a separate process; arguments: file with the arrays, and picture."""
     import pyvista  # noqa: PLC0415
 
     file, picture = arguments

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Surfaces of triangles in space: lines of a constant value on them, and ways across them in planes.
+"""Triangulated surfaces in space: contour lines of a field, and paths along plane sections.
 
-A location on a surface is a weighted mean of nodes of one triangle, so a field that is linear in each triangle has its
-value there by the same weights.
+A location on a surface is a weighted mean of the nodes of one triangle; the value there of a field that is linear in
+each triangle is the same weighted mean.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from uel.model.arrays import FloatArray, IntArray
 
 NONE = -1
-"""Number that stands for the triangle beyond an edge of the surface."""
+"""Index in place of a triangle beyond an edge of the surface."""
 
 _INWARDS = 1e-6
-"""Part of the way to the middle of a triangle by which a plane is moved that only touches the triangle."""
+"""Distance, over that to the centre of a triangle, by which a plane that only touches it is shifted."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,14 +39,14 @@ class Locations:
         return Locations(self.nodes[rows], self.weights[rows])
 
     def towards(self, others: Locations, share: FloatArray) -> Locations:
-        """Return locations at a share (...,) of the way to others."""
+        """Return locations at a fraction (...,) of the distance to others."""
         weights = ((1.0 - share)[..., None] * self.weights, share[..., None] * others.weights)
         return Locations(np.concatenate([self.nodes, others.nodes], axis=-1), np.concatenate(weights, axis=-1))
 
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """Line of a constant value.
+    """Contour line.
 
     locations  n of them, on the edges that the line crosses; a closed line ends at its first one
     triangles  (n - 1,) through which it runs between them
@@ -57,22 +57,22 @@ class Line:
 
 
 @dataclass(frozen=True, slots=True)
-class Ways:
-    """Ways across a surface, a row for each: `lengths` (n, k) from the start, NaN where the way has ended before."""
+class SurfacePaths:
+    """Paths across a surface, one per row: `lengths` (n, k) from the start, NaN after the end of a path."""
 
     locations: Locations
     lengths: FloatArray
 
 
 class TriangulatedSurface:
-    """A surface of triangles.
+    """Triangulated surface.
 
     Parameters
     ----------
     nodes
         (n, 3) coordinates.
     triangles
-        (m, 3) nodes, so that the normals point to one side of the surface.
+        (m, 3) nodes, ordered so that all normals point to the same side.
     """
 
     def __init__(self, nodes: FloatArray, triangles: IntArray) -> None:
@@ -87,7 +87,7 @@ class TriangulatedSurface:
         self.neighbours = self._neighbours()
 
     def _neighbours(self) -> IntArray:
-        """Find the triangle (m, 3) beyond each edge, which begins at the node of that column; -1 where none is."""
+        """Find the triangle (m, 3) beyond each edge, which begins at the node of that column; -1 if there is none."""
         pairs = np.sort(np.stack([self.triangles, np.roll(self.triangles, -1, axis=1)], axis=2), axis=2).reshape(-1, 2)
         _, edge, counts = np.unique(pairs, axis=0, return_inverse=True, return_counts=True)
         edge = edge.ravel()
@@ -99,12 +99,12 @@ class TriangulatedSurface:
         return neighbours.reshape(-1, 3)
 
     def lines(self, values: FloatArray, level: float) -> list[Line]:
-        """Return the lines where a field (nodes,), linear in each triangle, has a value."""
+        """Return the contour lines of a field (nodes,), linear in each triangle, at a level."""
         above = values > level
         corners = above[self.triangles]
         crossed = corners != np.roll(corners, -1, axis=1)
         left = crossed.any(axis=1)
-        # lines begin at edges of the surface; those that are left are closed
+        # first lines that begin at edges of the surface, then closed ones
         open_ends = np.argwhere(crossed & (self.neighbours == NONE))
         lines = []
         for triangle, edge in (*open_ends.tolist(), *((int(k), NONE) for k in np.flatnonzero(left))):
@@ -116,7 +116,7 @@ class TriangulatedSurface:
     def _follow(
         self, crossed: NDArray[np.bool_], left: NDArray[np.bool_], triangle: int, edge: int
     ) -> Iterator[tuple[int, int]]:
-        """Yield triangles and edges that a line crosses: where it enters, and then where it leaves each triangle."""
+        """Yield triangles and edges that a line crosses: the edge where it begins, then that where it leaves each."""
         first = triangle
         edge = edge if edge != NONE else int(np.argmax(crossed[triangle]))
         yield triangle, edge
@@ -146,7 +146,7 @@ class TriangulatedSurface:
         return np.concatenate([[0.0], np.cumsum(steps)])
 
     def even(self, line: Line, distance: float) -> tuple[Locations, IntArray]:
-        """Return the middles of at least three equal parts of a line, about so long, and their triangles."""
+        """Return the midpoints of at least three equal parts of a line, about `distance` long, and their triangles."""
         arc = self._arc(line)
         parts = max(3, round(arc[-1] / distance))
         at = arc[-1] * (np.arange(parts) + 0.5) / parts
@@ -155,10 +155,10 @@ class TriangulatedSurface:
         share = np.divide(at - arc[before], step, out=np.zeros(parts), where=step > 0.0)
         return line.locations.take(before).towards(line.locations.take(before + 1), share), line.triangles[before]
 
-    def ways(
+    def paths(
         self, start: Locations, triangles: IntArray, planes: FloatArray, directions: FloatArray, reach: float
-    ) -> Ways:
-        """Go from locations along the surface, each in a plane.
+    ) -> SurfacePaths:
+        """Follow the surface from each location in a plane.
 
         Parameters
         ----------
@@ -167,18 +167,18 @@ class TriangulatedSurface:
         planes
             (n, 3) unit normals of the planes.
         directions
-            (n, 3) in which to begin, roughly.
+            (n, 3) approximate directions at the start.
         reach
-            Length of the ways; those that come to an edge of the surface end there.
+            Length of the paths, which end at edges of the surface.
         """
         origin = start.values(self.nodes)
-        # of each node the distance from the plane of each way
+        # distance of each node from the plane of each path
         shift = self._shift(triangles, origin, planes)
         count = len(triangles)
         rows, triangle, edge = np.arange(count), triangles, np.full(count, NONE)
         last, length = start, np.zeros(count)
         visited, lengths = [start], [length]
-        # no way enters a triangle twice
+        # no path enters a triangle twice
         for _ in range(len(self.triangles)):
             if not len(rows):
                 break
@@ -206,10 +206,10 @@ class TriangulatedSurface:
             )
             for name in ("nodes", "weights")
         )
-        return Ways(Locations(nodes, weights), np.stack(lengths, axis=1))
+        return SurfacePaths(Locations(nodes, weights), np.stack(lengths, axis=1))
 
     def _shift(self, triangles: IntArray, origin: FloatArray, planes: FloatArray) -> FloatArray:
-        """Return the distances (n,) by which planes are moved that touch their first triangle and do not cut it."""
+        """Return the distances (n,) by which to shift planes that only touch their first triangle."""
         corners = self.nodes[self.triangles[triangles]] - origin[:, None]
         heights = np.einsum("nkd,nd->nk", corners, planes)
         above = heights > 0.0
@@ -225,7 +225,7 @@ class TriangulatedSurface:
         directions: FloatArray,
         shift: FloatArray,
     ) -> tuple[Locations, IntArray]:
-        """Find where planes leave triangles that they entered by an edge, -1 for the first ones; and by which edge."""
+        """Find where planes leave triangles entered by an edge, -1 for the first triangle: location and edge."""
         nodes = self.triangles[triangle]
         heights = np.einsum("nkd,nd->nk", self.nodes[nodes] - origin[:, None], planes) - shift[:, None]
         beyond = np.roll(heights, -1, axis=1)
