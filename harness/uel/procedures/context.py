@@ -7,17 +7,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-import numpy as np
-
 from uel.assembly import Constraints, RotatingConstraints
 from uel.elements import Call, Flags
 from uel.errors import DeckError
 from uel.model.arrays import FloatArray, IntArray
-from uel.model.dofs import dof_in_deck
-from uel.model.user_values import UserValues
 from uel.procedures.general.convergence_checks import Checker, length_of_moments
 from uel.procedures.general.unconstrained import UnconstrainedSolver
-from uel.procedures.step_setting import Setting, SolverTimes, choose_solver, choose_step_solver, displaced_coordinates
+from uel.procedures.step_setting import (
+    Setting,
+    SolverTimes,
+    call_disp,
+    choose_solver,
+    choose_step_solver,
+    displaced_coordinates,
+)
 from uel.solver.linear import LinearSolver, StepSolver
 from uel.solver.newton import DependentLoads
 
@@ -125,19 +128,19 @@ class StepContext:
         time = step_time, self.start + step_time
         values, by_user = self.prescribed.at(*time), self.state.boundaries.by_user
         if len(by_user):
-            dofs = self.system.dofs
-            nodes = dofs.node[by_user]
-            numbers = [dof_in_deck(dof) for dof in dofs.dof[by_user].tolist()]
-            numbered = np.stack([dofs.mesh.labels[nodes], numbers], axis=1).astype(np.int32)
-            moment = self.step.number, self.increment, time
-            size = step_time - self.step_time
-            request = UserValues("DISP", *moment, numbered, self.coordinates(nodes), values[by_user], size=size)
-            values[by_user] = self.user.user_values(request)
+            moment, size = (self.step.number, self.increment, time), step_time - self.step_time
+            dofs, u = self.system.dofs, self._displacement
+            values[by_user] = call_disp(self.user, dofs, by_user, values[by_user], moment, size, u)
         return values
 
     def coordinates(self, nodes: IntArray) -> FloatArray:
         """Return coordinates (k, 3) of nodes at the start of the increment; with NLGEOM those of displaced nodes."""
-        return displaced_coordinates(self.system.dofs, nodes, self.state.displacement if self.step.nlgeom else None)
+        return displaced_coordinates(self.system.dofs, nodes, self._displacement)
+
+    @property
+    def _displacement(self) -> FloatArray | None:
+        """Displacements (n,) for the coordinates of user routines; None: original coordinates, without NLGEOM."""
+        return self.state.displacement if self.step.nlgeom else None
 
     def call(self, size: float, step_time: float, total_time: float, u: FloatArray | None = None) -> Call:
         """Return the arguments of the passes of an increment that ends at these times; u as in `load_at`."""

@@ -12,10 +12,11 @@ import numpy as np
 
 from uel.assembly import Constraints, DofMap, System
 from uel.model.arrays import FloatArray, IntArray
+from uel.model.dofs import dof_in_deck
 from uel.model.model import Model
 from uel.model.records import Noted, Record
 from uel.model.steps import Step
-from uel.model.user_values import GivesValues
+from uel.model.user_values import GivesValues, UserValues
 from uel.procedures.linear.modes import Modes
 from uel.procedures.state import ConvergedState
 from uel.solver.linear import Effort, LinearSolver, Pattern, RankSolver, StepSolver, choose
@@ -104,6 +105,34 @@ def displaced_coordinates(dofs: DofMap, nodes: IntArray, displacement: FloatArra
         return coordinates
     unknowns = dofs.find(nodes[:, None], np.arange(1, 4))
     return coordinates + np.where(unknowns >= 0, displacement[unknowns], 0.0)
+
+
+def call_disp(
+    user: GivesValues,
+    dofs: DofMap,
+    unknowns: IntArray,
+    values: FloatArray,
+    moment: tuple[int, int, tuple[float, float]],
+    size: float,
+    displacement: FloatArray | None,
+) -> FloatArray:
+    """Call DISP and return the values (k,) of prescribed unknowns at the end of an increment.
+
+    Parameters
+    ----------
+    unknowns, values
+        (k,) prescribed unknowns, and their values by magnitude and amplitude.
+    moment
+        Step, increment, and step and total time at its end.
+    size
+        Increment of time.
+    displacement
+        (n,) displacements that are added to the coordinates; None: original coordinates.
+    """
+    nodes = dofs.node[unknowns]
+    numbers = np.stack([dofs.mesh.labels[nodes], [dof_in_deck(dof) for dof in dofs.dof[unknowns].tolist()]], axis=1)
+    coords = displaced_coordinates(dofs, nodes, displacement)
+    return user.user_values(UserValues("DISP", *moment, numbers.astype(np.int32), coords, values, size=size))
 
 
 class SolverTimes:

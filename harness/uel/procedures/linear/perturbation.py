@@ -27,10 +27,9 @@ from uel.model.arrays import FloatArray, first_largest
 from uel.model.dofs import ROTATIONS
 from uel.model.records import AttemptStarted, ElementState, IncrementDone, Noted, Record, Solution, StepDone, Warned
 from uel.model.steps import Step
-from uel.model.user_values import UserValues
 from uel.procedures.general.overconstraints import warn_overconstrained
 from uel.procedures.linear.modes import Modes
-from uel.procedures.step_setting import Setting, SolverTimes, choose_solver, displaced_coordinates
+from uel.procedures.step_setting import Setting, SolverTimes, call_disp, choose_solver
 from uel.solver.linear import LinearSolver
 
 BASE_FORCES = (
@@ -151,12 +150,9 @@ class PerturbationStep:
             if user.disp is None:
                 source = next(entry.source for entry in step.boundaries if entry.user)
                 raise DeckError(source, "*BOUNDARY, USER needs DISP, which the job does not have")
-            nodes = dofs.node[by_user]
-            numbered = np.stack([dofs.mesh.labels[nodes], dofs.dof[by_user]], axis=1).astype(np.int32)
-            coords = displaced_coordinates(dofs, nodes, state.displacement if step.nlgeom else None)
-            moment, size = (self._increment, (self._step_time, state.total_time)), step.procedure.period
-            request = UserValues("DISP", step.number, *moment, numbered, coords, values[by_user], size=size)
-            values[by_user] = user.user_values(request)
+            moment = step.number, self._increment, (self._step_time, state.total_time)
+            u = state.displacement if step.nlgeom else None
+            values[by_user] = call_disp(user, dofs, by_user, values[by_user], moment, step.procedure.period, u)
         return values
 
     def _symmetric(self, data: FloatArray) -> FloatArray:
