@@ -144,6 +144,32 @@ def test_short_steps_mix_the_matrix_with_that_of_the_start(monkeypatch):
     assert len(descend()) > len(states)
 
 
+def test_iterates_that_circle_go_on_from_their_mean(monkeypatch):
+    """Three springs that soften from e on and fail at f, with a force that works on closed paths (M is unsymmetric)."""
+    arms = np.array([[0.0, 0.9], [0.9, 1.0], [-0.2, 0.1]])
+    begin, end = np.array([0.2, 0.4, 0.8]), np.array([0.6, 1.0, 1.2])
+    circulating, load = np.array([[0.1, -0.3], [0.2, 0.3]]), np.array([-0.5, -1.0])
+
+    def gradient(*x):
+        w = np.abs(arms @ x)
+        force = np.where(w < begin, w, np.clip(begin * (end - w) / (end - begin), 0.0, None)) * np.sign(arms @ x)
+        return arms.T @ force + circulating @ x - load
+
+    def hessian(*x):
+        w = np.abs(arms @ x)
+        slope = np.where(w < begin, 1.0, np.where(w < end, -begin / (end - begin), 0.0))
+        return arms.T * slope @ arms + circulating
+
+    start, stiff = [2.2, -0.7], [[1.0, 0.8], [0.8, 2.1]]
+    states, solver, _ = search(gradient, hessian, start, stiff)
+    assert solver.reason
+    assert np.abs(states[-1].r_q).max() < 1e-8
+    monkeypatch.setattr(descent, "CIRCLING", 0.0)
+    states, *_ = search(gradient, hessian, start, stiff)
+    assert np.abs(states[-1].r_q).max() > 0.05
+    np.testing.assert_allclose(states[-1].du, states[-4].du)
+
+
 def test_trial_passes_ask_for_the_residual_alone():
     _, _, land = search(lambda x: [x**3 - x], lambda x: [3 * x**2 - 1], [0.1], [[2.0]])
     assert set(land.passes) == {1, 5}
