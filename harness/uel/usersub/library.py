@@ -35,6 +35,9 @@ ENTRY_POINTS: Final = (
 )
 """User routines of Abaqus, looked up in a user's file."""
 
+_dlclose = ctypes.CDLL(None).dlclose
+_dlclose.argtypes = [ctypes.c_void_p]
+
 _STOP_ANALYSIS, _CONCLUDE_STEP = 4, 5
 """Indices in lFlagsDefine of UAMP."""
 
@@ -46,17 +49,19 @@ class Library:
     sigini, orient, disp, dload, dflux, film, utemp, ufield, uamp, usdfld, uexternaldb   addresses, None without it
     name                      the file as the user named it, for messages
     file                      the shared library
+    is_own                    it has the elements of the project
     entry_points              names of all user routines in the files
     """
 
     def __init__(self, name: str, file: Path, handle: ctypes.CDLL, inbox: Inbox, *, sanitized: bool = False) -> None:
         self.name = name
         self.file = file
-        self._handle = handle  # keeps the library loaded
+        self._handle, self._loaded = handle, True
         self._sanitized = sanitized
         _binding.sanitize(sanitized)
         self._inbox = inbox
         addresses = {entry: _address(handle, entry) for entry in ENTRY_POINTS}
+        self.is_own = hasattr(handle, layout.MARKER)
         self.entry_points = tuple(entry for entry, address in addresses.items() if address)
         of = addresses.__getitem__
         self.uel, self.uelmat, self.uexternaldb = map(of, ("UEL", "UELMAT", "UEXTERNALDB"))
@@ -78,11 +83,6 @@ class Library:
         integers: JPROPS.
         """
         return self.is_own and layout.is_continuum(jtype, integers)
-
-    @property
-    def is_own(self) -> bool:
-        """True if the library has the elements of the project."""
-        return hasattr(self._handle, layout.MARKER)
 
     def shares_stress(self, jtype: int, integers: IntArray) -> bool:
         """Return whether elements of the project store stress for others, or read it; integers: JPROPS."""
@@ -186,10 +186,17 @@ class Library:
         self._inbox.warn(text)
 
     def close(self) -> None:
-        """End the job: disconnect units 6 and 7."""
+        """End the job: disconnect units 6 and 7, and unload the routines.
+
+        Each job of a process has a copy of its own (`_open`), and the system maps some ten thousand of them at most.
+        The address sanitizer does not let go of what it watches.
+        """
+        self._inbox.close()
         if self._sanitized:
             _binding.sanitize(False)
-        self._inbox.close()
+        elif self._loaded:
+            _dlclose(self._handle._handle)
+        self._loaded = False
 
 
 def load(
