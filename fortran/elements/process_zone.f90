@@ -8,6 +8,7 @@
 !> element does not know, it is shorter. harness/uel/elements/interfaces/process_zone.py has the sources, and the formulas of
 !> the arms.
 module elements_process_zone
+  use core_cells, only: corners_of
   use core_kinds, only: dp
   use cohesive_parameters, only: law_parameters
   use materials_linear_elasticity, only: engineering_constants, young_modulus
@@ -49,7 +50,8 @@ contains
     real(dp) :: frame(3, 3), zones(2), shares(2), across, along
     integer :: corners, k, side
 
-    corners = 2**(size(edge) - 1)
+    corners = 2
+    if (size(edge) == 3) corners = corners_of(2, size(faces, 1))
     length = huge(1.0_dp)
     do k = 1, corners
       edge = 0.5_dp*(middle(mod(k, corners) + 1) - middle(k))

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs of meshes with interface elements inserted, compared with those of the uncut mesh and with theory."""
 
+import re
+
 import numpy as np
 import pytest
 from solid_grids import grid, inserted
@@ -161,3 +163,14 @@ def test_an_interface_adds_its_compliance(tmp_path, kind, element):
     assert np.allclose(
         displacements(deck, tmp_path)[mesh.node_sets["PULL"], last - 1], stress * 2.0 / YOUNG, rtol=1e-10
     )
+
+
+def test_triangles_that_fail_tell_their_length(tmp_path):
+    """The shortest edge of a triangle: the faces of the grid have edges of 1, 1 and sqrt(2)."""
+    mesh = block("C3D4", distort=0.0)
+    deck = write(tmp_path / "uncut.inp", mesh, ["*BOUNDARY", "FIX, 1, 3", "PULL, 1, 2", "PULL, 3, 3, 0.5"])
+    deck.write_text(deck.read_text().replace("1., 1.", "0.5, 1."))
+    cut = tmp_path / "cut.inp"
+    inserted(deck, cut, ["SIGMAMAX=1", "TAUMAX=1", "GIC=1e-4", "GIIC=1e-4"], between=[("LOW", "HIGH")])
+    (warning,) = (text for text in uel.run(cut, output_dir=tmp_path, quiet=True).warnings if "process zone" in text)
+    assert re.search(r"U404 element \d+: fails and is 1\.0+ long", warning)
