@@ -22,8 +22,8 @@ module abaqus_interface_elements
     p_g23_top, p_angle_top, p_expansion1_bottom, p_expansion2_bottom, p_expansion3_bottom, p_expansion1_top, p_expansion2_top, &
     p_expansion3_top, j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, j_formulation_bottom, j_formulation_top, &
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
-    v_maxn, v_maxt, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, w_dissi, w_dissii, w_sn, w_st, w_dmax, &
-    w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt
+    v_maxn, v_maxt, v_spent, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, w_dissi, w_dissii, w_sn, w_st, &
+    w_dmax, w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt, w_spent
   use abaqus_properties, only: face_nodes, nodes_of_face, real_position, variables_of_points, by_eigenvalues, complete_closure, &
     paper_closure
   use abaqus_check, only: report_status
@@ -41,14 +41,14 @@ module abaqus_interface_elements
     integer :: count
     integer :: position(3), jump(3), traction(3), separation(3)
     integer :: stabilisation(2), dissipated(2), largest(2)
-    integer :: damage, damage_max, viscous, friction_work
+    integer :: damage, damage_max, viscous, friction_work, spent
   end type point_positions
 
   type(point_positions), parameter :: positions(2:3) = [ &
     point_positions(interface_variables, [v_x, v_y, 0], [v_sept, v_sepn, 0], [v_tt, v_tn, 0], [v_wt, v_wn, 0], &
-      [v_st, v_sn], [v_dissii, v_dissi], [v_maxt, v_maxn], v_damage, v_dmax, v_dissv, v_dissf), &
+      [v_st, v_sn], [v_dissii, v_dissi], [v_maxt, v_maxn], v_damage, v_dmax, v_dissv, v_dissf, v_spent), &
     point_positions(surface_variables, [w_x, w_y, w_z], [w_seps, w_sepn, w_sept], [w_ts, w_tn, w_tt], [w_ws, w_wn, w_wt], &
-      [w_st, w_sn], [w_dissii, w_dissi], [w_maxt, w_maxn], w_damage, w_dmax, w_dissv, w_dissf)]
+      [w_st, w_sn], [w_dissii, w_dissi], [w_maxt, w_maxn], w_damage, w_dmax, w_dissv, w_dissf, w_spent)]
 
 contains
 
@@ -359,6 +359,7 @@ contains
       points(k)%history%dissipated = svars(first + at%dissipated)
       points(k)%history%viscous = svars(first + at%viscous)
       points(k)%history%friction_work = svars(first + at%friction_work)
+      points(k)%history%spent = svars(first + at%spent)
       points(k)%history%largest = svars(first + at%largest)
     end do
   end function points_from
@@ -385,6 +386,7 @@ contains
       svars(first + at%damage_max) = points(k)%history%damage_max
       svars(first + at%viscous) = points(k)%history%viscous
       svars(first + at%friction_work) = points(k)%history%friction_work
+      svars(first + at%spent) = points(k)%history%spent
     end do
   end subroutine write_state
 

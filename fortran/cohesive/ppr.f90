@@ -33,7 +33,7 @@ module cohesive_ppr
   private
   public :: ppr_component
   public :: prepare_ppr, check_ppr, check_ppr_beta, raise_ppr_beta, component_at, damage_at, evolve_ppr, ppr_damage_of_components
-  public :: ppr_work_of_damage
+  public :: ppr_work_of_damage, ppr_share_spent
 
   !> A component at its largest separation.
   type :: ppr_component
@@ -319,6 +319,22 @@ contains
     end do
     if (part < 1.0_dp) work = work + work_beyond_potential(law, to, ending)
   end function ppr_work_of_damage
+
+  !> Share of the fracture energy that is dissipated on a straight path to the largest separations; 1 at failure.
+  pure function ppr_share_spent(law, largest) result(share)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: largest(2)   !< (tau, n), one of them positive
+    real(dp) :: share
+    real(dp), parameter :: origin(2) = 0.0_dp
+    real(dp) :: spent, left
+
+    share = 1.0_dp
+    if (any(largest >= law%final)) return
+    spent = sum(ppr_work_of_damage(law, origin, largest, origin, largest))
+    ! safely beyond failure, where the work ends
+    left = sum(ppr_work_of_damage(law, largest, (2.0_dp/maxval(largest/law%final))*largest, largest, origin))
+    share = spent/(spent + left)
+  end function ppr_share_spent
 
   !> Part of the growth of both components in which the traction has a potential: until c of the larger toughness vanishes, where
   !> its F is 1 less the ratio of the toughnesses.

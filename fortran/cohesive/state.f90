@@ -17,7 +17,8 @@ module cohesive_state
     real(dp) :: largest(2) = 0.0_dp      !< largest separations so far, (tau, n): the history of the PPR law, of no other
     real(dp) :: dissipated(2) = 0.0_dp   !< by sliding and by opening, energy/area
     real(dp) :: viscous = 0.0_dp         !< by the viscous overstress, energy/area
-    real(dp) :: friction_work = 0.0_dp          !< by friction, energy/area
+    real(dp) :: friction_work = 0.0_dp   !< by friction, energy/area
+    real(dp) :: spent = 0.0_dp           !< share of the fracture energy of the mode mix that is dissipated
   end type point_history
 
   !> Damage at the end of the increment.

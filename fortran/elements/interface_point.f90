@@ -119,7 +119,7 @@ contains
     new%history%damage = state%damage
     new%history%damage_max = state%damage_max
     new%history%largest = state%largest
-    call dissipate(law, old%history, jump, state, new%history%dissipated, new%history%viscous)
+    call dissipate(law, old%history, jump, state, new%history%dissipated, new%history%viscous, new%history%spent)
   end subroutine store_damage
 
   !> State of a point of the consistent law.
@@ -138,7 +138,8 @@ contains
     new%history%damage = state%damage
     new%history%damage_max = state%damage
     new%history%largest = state%largest
-    call dissipate_consistently(law, old%history, state, new%history%dissipated, new%history%viscous, new%history%friction_work)
+    call dissipate_consistently(law, old%history, state, new%history%dissipated, new%history%viscous, &
+      new%history%friction_work, new%history%spent)
   end subroutine store_solution
 
   !> Energies of a point: stored, dissipated by damage and friction, dissipated by the viscous overstress.

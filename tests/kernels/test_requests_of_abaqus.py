@@ -105,7 +105,7 @@ class Arguments:
     def __init__(self, library, interface, *, columns, request):
         self.rhs = np.full((columns, 11), np.nan)
         self.amatrx = np.full((8, 8), np.nan)
-        self.svars, self.energy = np.zeros(38), np.full(8, 7.0)
+        self.svars, self.energy = np.zeros(40), np.full(8, 7.0)
         u = interface.displacements(4, *interface.states["softening"], seed=0).ravel()
         props = np.array([2.0, 2e4, 3e4, 30.0, 60.0, 0.26, 1.002, *np.zeros(len(element_layouts()[2].reals) - 7)])
         zeros, pnewdt = np.zeros(64), np.array([1e36])
@@ -117,7 +117,7 @@ class Arguments:
                 self.energy,
                 8,
                 columns,
-                38,
+                40,
                 props,
                 len(props),
                 interface.four.copy(),
@@ -141,8 +141,8 @@ def test_every_entry_is_filled_and_nothing_else(library, interface):
     np.testing.assert_array_equal(two.rhs[1, :8], 0)
     assert np.isnan(two.rhs[:, 8:]).all()
     assert np.isfinite(two.amatrx).all()
-    assert (two.svars[:36] != 0).any()
-    np.testing.assert_array_equal(two.svars[36:], 0)
+    assert (two.svars[:38] != 0).any()
+    np.testing.assert_array_equal(two.svars[38:], 0)
     np.testing.assert_array_equal(two.energy[[0, 2, 4, 5, 6, 7]], 0)
 
 

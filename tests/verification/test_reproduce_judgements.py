@@ -94,10 +94,10 @@ def test_a_profile_has_both_damages(element: str) -> None:
     damages = [1.0, 0.5, 0.0]
     profile = run_of(case, DAMAGE=damages).profiles[0]
     own = element.startswith("consistent")
-    assert profile["SPENT" if own else "LOST"].tolist() == damages
+    assert profile["SOFTENED" if own else "LOST"].tolist() == damages
     ratio = 1.0 / (2.0 * 0.26 * 1e6 / 30.0**2 - 1.0)
     other = 0.5 * (1.0 + ratio) / (0.5 + ratio) if own else 0.5 * ratio / (0.5 + ratio)
-    assert profile["LOST" if own else "SPENT"] == pytest.approx([1.0, other, 0.0])
+    assert profile["LOST" if own else "SOFTENED"] == pytest.approx([1.0, other, 0.0])
 
 
 class Drawn:

@@ -34,7 +34,7 @@ def add_plot(plot: argparse.ArgumentParser) -> None:
     )
     plot.add_argument("--step", type=positive, metavar="N", help="of a profile or mesh (the last one)")
     plot.add_argument("--increment", type=positive, default=-1, metavar="N", help="... (the last one written)")
-    plot.add_argument("--field", default="U", metavar="NAME", help="on the mesh: U, U1, S22, DAMAGE, ... (U)")
+    plot.add_argument("--field", default="U", metavar="NAME", help="on the mesh: U, U1, S22, SPENT, ... (U)")
     plot.add_argument(
         "--scale", type=NOT_NEGATIVE, metavar="F", help="of its displacements (1, or more where they would not be seen)"
     )

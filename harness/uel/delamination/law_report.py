@@ -147,12 +147,12 @@ def write_csv(curves: Sequence[LawCurve], path: Path, caption: str) -> None:
 
 def summary(curves: Sequence[LawCurve]) -> Table:
     """Return the largest tractions, work and dissipation of each curve."""
-    table = Table("curve", "max TN", "max TT", "work", "dissipated I", "dissipated II", "damage")
+    table = Table("curve", "max TN", "max TT", "work", "dissipated I", "dissipated II", "spent")
     for curve in curves:
         columns = curve.columns
         peaks = [float(np.abs(columns[name]).max()) for name in ("TN", "TT")]
         ends = [float(columns[name][-1]) for name in ("WORK", "DISSI", "DISSII")]
-        table.add_row(curve.label, *_shown(peaks), *_shown(ends), f"{columns['DAMAGE'][-1]:.5g}")
+        table.add_row(curve.label, *_shown(peaks), *_shown(ends), f"{columns['SPENT'][-1]:.5g}")
     return table
 
 

@@ -25,7 +25,7 @@ _CURVES: Final = (
     ("iterations", "Iterations of each increment, those of abandoned attempts included, and its size."),
 )
 _TYPES: Final = {".svg": "image/svg+xml", ".png": "image/png"}
-_PREFERRED: Final = ("DAMAGE", "S22", "S11")
+_PREFERRED: Final = ("SPENT", "DAMAGE", "S22", "S11")
 """Fields of cells of which the first that a job has is shown on the mesh, beside the displacement."""
 
 

@@ -98,6 +98,22 @@ def test_a_round_front(tilt: float, names: str) -> None:
     assert front.releases[inner] == pytest.approx(np.tile(G, (len(radius) - 4, 1)), rel=0.08)
 
 
+class Spent(Disc):
+    """The same disc with the share of the fracture energy in SPENT, and in DAMAGE what an element of (9) would have."""
+
+    def interfaces(self) -> list[dict[str, np.ndarray]]:
+        (profile,) = super().interfaces()
+        spent = profile["DAMAGE"]
+        return [profile | {"SPENT": spent, "DAMAGE": 1.0 - (1.0 - spent) ** 8}]
+
+
+def test_the_front_is_where_half_of_the_energy_is_spent() -> None:
+    """SPENT counts, and DAMAGE only where an element has no SPENT, as built-in ones."""
+    (expected,), (found,) = fronts(Disc()), fronts(Spent())
+    np.testing.assert_array_equal(found.coordinates, expected.coordinates)
+    np.testing.assert_array_equal(found.releases, expected.releases)
+
+
 class Ring(Disc):
     """The delamination between two circles, which grows inwards and outwards; its zones are 1.5 long."""
 

@@ -121,6 +121,19 @@ def test_profile_in_the_order_of_the_points(job: Job, drawn) -> None:
     assert tractions.y == pytest.approx([1.0, 2.0, 3.0])
 
 
+def test_spent_takes_the_panel_of_the_damage(job: Job, drawn) -> None:
+    """Where all jobs have it; the panel of jobs with and without means one thing, DAMAGE."""
+    text = interface([(3.0, 1.5), (1.0, 1.5)])
+    head, *rows = text.splitlines()
+    spent = "\n".join([f"{head},SPENT", *(f"{row},0.25" for row in rows), ""])
+    (_, (curve,)), _, names = drawn("interface", job("a", interface=spent))
+    assert names == ["TN", "SPENT"]
+    assert list(curve.y) == [0.25, 0.25]
+    (_, curves), _, names = drawn("interface", job("b", interface=spent), job("c", interface=text))
+    assert names == ["TN", "DAMAGE"]
+    assert [list(curve.y) for curve in curves] == [[0.5, 0.5]] * 2
+
+
 def test_interfaces_above_each_other_are_not_joined(job: Job, drawn) -> None:
     points = [(1.0, 0.0), (1.0, 1.0), (20.0, 0.0), (20.0, 1.0)]
     ((tractions,), _), *_ = drawn("interface", job(interface=interface(points)))
@@ -155,9 +168,7 @@ def test_what_a_history_or_an_interface_lacks(job: Job, drawn) -> None:
     with pytest.raises(UelError, match=r"no energies; ask for them with \*ENERGY OUTPUT"):
         drawn("energies", bare)
     surface = interface([(0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (0.0, 1.0, 0.0), (2.0, 1.0, 0.0)], "X,Y,Z")
-    with pytest.raises(
-        UelError, match="the interface is a surface; --kind mesh --field DAMAGE shows it, and uel front"
-    ):
+    with pytest.raises(UelError, match="the interface is a surface; --kind mesh --field SPENT shows it, and uel front"):
         drawn("interface", job(interface=surface))
     with pytest.raises(UsageError, match="--kind mesh: expected one job"):
         drawn("mesh", job("a"), job("b"))

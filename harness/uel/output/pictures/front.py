@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fronts of delaminations in space (NAME_front.csv): lines of damage 1/2, with tractions and energy release rates.
 
+The damage is SPENT, the dissipated share of the fracture energy, or DAMAGE if an element has no other.
+
 Computed from the field output and the interface profiles of a job, whatever its interface elements. Values at the
 nodes are means over their elements, extrapolated from the integration points. A front is a line of constant damage on
 the surface, sampled at the midpoints of equal parts about as long as the elements. Surfaces that share no node are
@@ -156,7 +158,7 @@ def _directions(corners: FloatArray, reach: float) -> FloatArray:
 class _Fields:
     """Fields at the nodes of a surface.
 
-    damage   (n,)
+    damage   (n,) SPENT or DAMAGE
     normals  (n, 2) traction and separation in the direction of the normal
     shears   (n, 2, 3) traction and separation in the surface, in global components
     """
@@ -311,10 +313,13 @@ def _fields(surface: _Surface, profile: Mapping[str, FloatArray]) -> _Fields:
         stacked = np.stack([profile[name][rows] for name in names], axis=-1)
         return stacked.reshape(len(sorted_labels), count, len(names))[back]
 
-    separation = "W" if "WN" in profile and np.isfinite(profile["WN"][rows]).all() else "SEP"
+    def known(name: str) -> bool:
+        return name in profile and bool(np.isfinite(profile[name][rows]).all())
+
+    damage, separation = "SPENT" if known("SPENT") else "DAMAGE", "W" if known("WN") else "SEP"
     shears = [gather(f"{name}S", f"{name}T") for name in ("T", separation)]
     values, vectors = surface.at_nodes(
-        gather("X", "Y", "Z"), gather("DAMAGE", "TN", f"{separation}N"), np.stack(shears, axis=2)
+        gather("X", "Y", "Z"), gather(damage, "TN", f"{separation}N"), np.stack(shears, axis=2)
     )
     return _Fields(np.clip(values[:, 0], 0.0, 1.0), values[:, 1:], vectors)
 

@@ -29,9 +29,8 @@ ENDINGS: Final = (".png", ".svg", ".pdf")
 _FEW: Final = 5
 """Number of values of a curve up to which they have markers."""
 
-_DAMAGE: Final = "DAMAGE"
-_LAW: Final = ("TN", "TT", "TS", _DAMAGE)
-"""Variables of a profile, if the elements have them."""
+_TRACTIONS: Final = ("TN", "TT", "TS")
+"""Variables of a profile, as far as the elements have them."""
 
 
 _VISIBLE: Final = 1e-3
@@ -196,12 +195,15 @@ def _interface(results: Sequence[Result], path: Path, options: PictureOptions) -
     profiles = [result.interface(options.increment, options.step) for result in results]
     sizes = {
         name: max(float(np.nanmax(np.abs(profile[name]))) for profile in profiles if name in profile)
-        for name in _LAW
+        for name in _TRACTIONS
         if any(name in profile for profile in profiles)
     }
     # tractions of a pure mode are rounding in the others
-    largest = max((size for name, size in sizes.items() if name != _DAMAGE), default=0.0)
-    names = [name for name, size in sizes.items() if name == _DAMAGE or size > _ROUNDING * largest]
+    largest = max(sizes.values(), default=0.0)
+    names = [name for name, size in sizes.items() if size > _ROUNDING * largest]
+    # built-in elements have no SPENT, and the curves of one panel mean the same
+    damage = "SPENT" if all("SPENT" in profile for profile in profiles) else "DAMAGE"
+    names += [damage] if any(damage in profile for profile in profiles) else []
     panels: list[list[Curve]] = [[] for _ in names]
     for result, profile in zip(results, profiles, strict=True):
         where, breaks = _position(result, profile)
@@ -222,7 +224,7 @@ def _position(result: Result, profile: Mapping[str, FloatArray]) -> tuple[tuple[
     _, sizes, axes = np.linalg.svd(spread, full_matrices=False)
     if len(sizes) > 2 and sizes[1] > 0.05 * sizes[0]:
         file = result.file("_interface.csv")
-        raise UelError(f"{file}: the interface is a surface; --kind mesh --field DAMAGE shows it, and uel front")
+        raise UelError(f"{file}: the interface is a surface; --kind mesh --field SPENT shows it, and uel front")
     along = axes[0] * np.sign(axes[0][np.argmax(np.abs(axes[0]))])
     # rounding would tilt an interface along an axis
     along = np.where(np.abs(along) < 1e-9, 0.0, along)

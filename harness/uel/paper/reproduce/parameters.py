@@ -152,7 +152,7 @@ def zone_share(evidence: Evidence, strength: float) -> float:
     """Count the points in the DCB's process zone with multiplied strengths, over those without; infinite stiffness."""
     counts = []
     for factor in (strength, 1.0):
-        damage = moment(evidence.case(PaperCase("dcb", "0/0", "consistent", "inf", strength=factor)))["SPENT"]
+        damage = moment(evidence.case(PaperCase("dcb", "0/0", "consistent", "inf", strength=factor)))["SOFTENED"]
         counts.append(np.count_nonzero((damage > 0.0) & (damage < 1.0)))
     return counts[0] / counts[1]
 

@@ -113,17 +113,17 @@ class Run:
     def profiles(self) -> list[Profile]:
         """Profiles along the interface, in time.
 
-        DAMAGE is what the element writes. LOST and SPENT mean the same for every element: the share of its stiffness
-        that a point has lost, the paper's damage (9), and the share of its toughness that it has dissipated in mode I.
+        DAMAGE is what the element writes. LOST and SOFTENED mean the same for every element: the share of its stiffness
+        that a point has lost, the paper's damage (9), and the damage of the consistent law.
         """
         law = self.case.law
         profiles = self._result.interfaces()
         for profile in profiles:
             written = profile["DAMAGE"]
             if self.case.own_separation:
-                profile |= {"LOST": stiffness_lost(written, law), "SPENT": written}
+                profile |= {"LOST": stiffness_lost(written, law), "SOFTENED": written}
             else:
-                profile |= {"LOST": written, "SPENT": toughness_spent(written, law)}
+                profile |= {"LOST": written, "SOFTENED": toughness_spent(written, law)}
         return profiles
 
     def at(self, displacement: float) -> Profile:

@@ -199,7 +199,7 @@ def row(runs: Runs, case: PaperCase) -> dict[str, float]:
     """Return the numbers of a run: those of HEAD but the last."""
     run = runs[case]
     varies = max(total_variation(profile[name]) for profile in run.bonded for name in case.kind.modes)
-    turns = max(damage_variation(profile["SPENT"]) for profile in run.profiles) - 1.0
+    turns = max(damage_variation(profile["SOFTENED"]) for profile in run.profiles) - 1.0
     values = (runs.peak(case), float(run.load[-1]), varies, turns, run.entry.iterations, run.entry.cutbacks)
     return dict(zip(HEAD, values, strict=False))
 
