@@ -284,6 +284,58 @@ def test_spent_is_one_half_at_half_of_the_energy(element, interface, mode, damag
     np.testing.assert_allclose(state["DAMAGE"], damage, rtol=1e-12)
 
 
+def switched(element, interface, first, **values):
+    """Dissipation of a point that softens in one mode to DAMAGE 0.5, is unloaded, and fails in the other mode.
+
+    values as properties, without stiffness; K is then k of mode I, from which the separation follows.
+    """
+    strength, energy = np.array([values["TAUMAX"], values["SIGMAMAX"]]), np.array([values["GIIC"], values["GIC"]])
+    slopes = strength**2 / (2.0 * energy)
+    separation = strength[first] / (slopes[1] + slopes[first])
+    point = Point(element, interface, "U4 rigid", **values)
+    point.advance((separation + slopes[1] * separation / 5e4) * np.eye(2)[first])
+    np.testing.assert_allclose(point.item.state["DAMAGE"], 0.5, rtol=1e-12)
+    point.advance((0.0, 0.0))
+    for reach in (0.005, 0.02, 0.2):
+        point.advance(reach * np.eye(2)[1 - first])
+    assert (point.item.state["SPENT"] == 1).all()
+    return point.dissipated
+
+
+@pytest.mark.parametrize(("first", "total"), [(1, 0.2052), (0, 0.8948)])
+def test_a_switch_of_the_mode_half_way(element, interface, first, total):
+    """15/90 MPa, 0.3/0.8 N/mm: less than G_Ic in the order I, II, and more than G_IIc in the order II, I. A mode that
+    has softened to the secant K has dissipated G k/(K + k) with its own k = strength**2/(2 G), 375 and 5062.5."""
+    values = {"SIGMAMAX": 15.0, "TAUMAX": 90.0, "GIC": 0.3, "GIIC": 0.8}
+    slopes, energy = np.array([5062.5, 375.0]), np.array([0.8, 0.3])
+    shares = slopes / (375.0 + slopes)
+    expected = np.where(np.arange(2) == first, shares, 1.0 - shares) * energy
+    found = switched(element, interface, first, **values)
+    np.testing.assert_allclose(found, expected, rtol=1e-11)
+    assert found.sum() == pytest.approx(total, abs=5e-5)
+
+
+@pytest.mark.parametrize("first", [0, 1])
+def test_a_switch_of_the_mode_with_equal_strength_over_root_of_toughness(element, interface, first):
+    """Turon, Camanho, Costa, Renart, Composite Structures 92 (2010) 1857: TAUMAX = SIGMAMAX sqrt(GIIC/GIC), for equal
+    stiffnesses. Half of either toughness is dissipated, whatever the order."""
+    values = {"SIGMAMAX": 15.0, "TAUMAX": 15.0 * np.sqrt(0.8 / 0.3), "GIC": 0.3, "GIIC": 0.8}
+    np.testing.assert_allclose(switched(element, interface, first, **values), [0.4, 0.15], rtol=1e-11)
+
+
+@pytest.mark.parametrize("variant", ["U2", "U4 consistent", "U4 rigid", "U7"])
+def test_any_path_fails_at_a_criterion_of_one_with_such_strengths(element, interface, variant):
+    """DISSI/GIC + DISSII/GIIC is then a function of the stiffness that is left, for LAW 1: SPENT, and 1 at failure."""
+    values = {"TAUMAX": 30.0 * np.sqrt(1.002 / 0.26)}
+    point = Point(element, interface, variant, 16, **values)
+    rng = np.random.default_rng(8)
+    for size in np.geomspace(1e-4, 0.2, 30):
+        state = point.advance(size * rng.uniform([-1.0, 0.0], 1.0, (16, 2)))
+        criterion = state["DISSI"] / 0.26 + state["DISSII"] / 1.002
+        np.testing.assert_allclose(criterion, state["SPENT"], rtol=1e-10, atol=1e-13)
+    assert (state["SPENT"] > 0.99).any()
+
+
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_spent_never_falls_and_is_one_at_failure_alone(element, interface, variant, law):

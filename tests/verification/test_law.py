@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from uel.cli import main
 from uel.delamination import law
-from uel.delamination.law_report import Exploration, explore, path_points
+from uel.delamination.law_report import Exploration, advice, explore, path_points
 from uel.errors import KernelError, UelError
 from uel.paper.decks import FOLDER
 
@@ -239,3 +239,35 @@ def test_command_takes_a_path_and_says_what_is_wrong(tmp_path: Path, capsys):
     assert (tmp_path / "law.csv").read_text().splitlines()[1].startswith("CURVE,TIME,X,Y,SEPN,SEPT,TN,TT,")
     assert main(["law", "--path", "nowhere", "--output-dir", str(tmp_path)]) == 2
     assert capsys.readouterr().err.startswith("uel: 'nowhere': expected points")
+
+
+@pytest.mark.parametrize(
+    ("stiff", "least", "most", "better"),
+    [
+        # 1/k is 2 G/strength^2 - 1/alpha in each mode: k = 375 and 5062.5 without stiffness, and the extreme of
+        # 0.3 k_I/(K + k_I) + 0.8 K/(K + k_II) is at (K + k_II)/(K + k_I) = 90/15, K = 562.5: 0.12 + 0.08
+        ("0", 0.2, 0.9, 15.0 * np.sqrt(0.8 / 0.3)),
+        ("1e8", 0.2, 0.9, 15.0 * np.sqrt(0.8 / 0.3)),
+    ],
+)
+def test_advice_on_the_strengths(stiff, least, most, better):
+    words = ("SIGMAMAX=15", "TAUMAX=90", "GIC=0.3", "GIIC=0.8", f"ALPHAN={stiff}", f"ALPHAT={stiff}")
+    found = advice(Exploration(properties=words))
+    assert f"dissipates {least:.3g} to {most:.3g}, beyond GIC = 0.3 and GIIC = 0.8" in found
+    assert f"TAUMAX = {better:.3g} keeps it between" in found
+    assert not advice(Exploration(properties=(*words, f"TAUMAX={better}")))
+    assert not advice(Exploration(properties=(*words, "LAW=3")))
+
+
+def test_no_advice_where_the_energy_stays_between_the_toughnesses():
+    """The paper's law, and 60/60 MPa with 0.3/1.2 N/mm, whose order of the modes matters but less."""
+    assert not advice(Exploration())
+    assert not advice(Exploration(properties=("SIGMAMAX=60", "TAUMAX=60", "GIC=0.3", "GIIC=1.2")))
+
+
+def test_command_gives_the_advice(tmp_path, capsys):
+    words = ["law", "--angles", "0", "--increments", "20", "--output-dir", str(tmp_path)]
+    assert main(words) == 0
+    assert "softens in one mode" not in capsys.readouterr().out
+    assert main([*words, "TAUMAX=200"]) == 0
+    assert "A point that softens in one mode and fails in the other dissipates" in capsys.readouterr().out

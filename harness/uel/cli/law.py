@@ -64,7 +64,7 @@ def explore_law(options: argparse.Namespace) -> int:
     """Run `uel law`."""
     from rich.console import Console  # noqa: PLC0415
 
-    from uel.delamination.law_report import Exploration, explore, path_points, summary  # noqa: PLC0415
+    from uel.delamination.law_report import Exploration, advice, explore, path_points, summary  # noqa: PLC0415
 
     asked = {
         name: value for name, value in vars(options).items() if name not in ("function", "apart", "element", "path")
@@ -72,7 +72,10 @@ def explore_law(options: argparse.Namespace) -> int:
     path = None if options.path is None else path_points(options.path)
     element = None if options.element is None else int(options.element[1:])
     asked["units"] = None if options.units is None else tuple(options.units)
-    curves, files = explore(Exploration(**asked, path=path, element=element))
+    exploration = Exploration(**asked, path=path, element=element)
+    curves, files = explore(exploration)
     Console().print(summary(curves))
+    if words := advice(exploration):
+        print(words)
     print("written:", *files)
     return 0

@@ -55,6 +55,8 @@ RIGID: Final = 1e6
 """Penalty stiffness that replaces an infinite one, over the softening stiffness, to find the end of a curve."""
 UNLOADING: Final = 20
 """Number of increments of an unloading branch."""
+SWITCHES: Final = 500
+"""Number of moments at which a path may switch from one mode to the other."""
 
 Properties = Mapping[str, float]
 
@@ -263,6 +265,25 @@ class LawElement:
                 fraction /= 2.0
             gradient = gradient + fraction * change
         raise UelError(f"no equilibrium of the quads with the interface at a separation of {separation}")
+
+
+def orders_of_modes(values: Properties) -> tuple[float, float]:
+    """Return the least and the largest energy of a point that softens in one pure mode and fails in the other.
+
+    Per area, over all moments of the switch, for a linear softening. A mode that has softened to the secant K has
+    dissipated the share (1 - K/alpha) k/(K + k) of its toughness G, with its slope k = 1/(2 G/strength**2 - 1/alpha);
+    K, k and alpha of sliding are divided by ALPHAT/ALPHAN (fortran/laws.md, Strengths and the order of the modes).
+    """
+    ratio = np.array([1.0, values["ALPHAT"] / values["ALPHAN"] if values["ALPHAN"] else 1.0])
+    energies = np.array([values["GIC"], values["GIIC"]])
+    strengths = np.array([values["SIGMAMAX"], values["TAUMAX"]])
+    flexibility = 1.0 / values["ALPHAN"] if values["ALPHAN"] else 0.0
+    slopes = 1.0 / (2.0 * energies * ratio / strengths**2 - flexibility)
+    remaining = np.geomspace(1e-4 * slopes.min(), 1e4 * slopes.max(), SWITCHES)
+    shares = np.maximum(1.0 - remaining * flexibility, 0.0) * slopes[:, None] / (remaining + slopes[:, None])
+    opened_first = energies[0] * shares[0] + energies[1] * (1.0 - shares[1])
+    either = np.concatenate([opened_first, energies.sum() - opened_first, energies])
+    return float(either.min()), float(either.max())
 
 
 def along(points: FloatArray, increments: int) -> FloatArray:

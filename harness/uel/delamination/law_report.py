@@ -28,6 +28,10 @@ from uel.output.pictures.plots import COLOURS, STYLE
 
 SURFACE_ANGLES = 31
 SURFACE_SIZES = 60
+LINEAR = (0, 1, 2)
+"""Values of LAW with a linear softening."""
+NOTICED = 0.05
+"""Share of a toughness by which the dissipated energy may leave the range of both without a word."""
 _LINE = 130
 """Width of the caption in characters."""
 _MOST_PRESSURE = 0.5
@@ -79,7 +83,8 @@ def explore(options: Exploration) -> tuple[list[LawCurve], list[Path]]:
         return _explore(options)
 
 
-def _explore(options: Exploration) -> tuple[list[LawCurve], list[Path]]:
+def _properties(options: Exploration) -> tuple[int, dict[str, float]]:
+    """Return the element type and the properties by name. Raises UelError."""
     jtype, values = law.STANDARD, law.standard_properties()
     if options.deck is not None:
         jtype, from_deck = law.deck_properties(options.deck, options.elset)
@@ -88,6 +93,34 @@ def _explore(options: Exploration) -> tuple[list[LawCurve], list[Path]]:
     values |= properties
     jtype = options.element or jtype
     law.refuse_ignored(properties, jtype, int(values["LAW"]))
+    return jtype, values
+
+
+def advice(options: Exploration) -> str:
+    """Say how far the strengths make the dissipated energy depend on the order of the modes; '' if they hardly do.
+
+    Raises
+    ------
+    UelError
+        The properties are not those of a law.
+    """
+    _, values = _properties(options)
+    if int(values["LAW"]) not in LINEAR:
+        return ""
+    least, most = law.orders_of_modes(values)
+    low, high = sorted((values["GIC"], values["GIIC"]))
+    if least > (1.0 - NOTICED) * low and most < (1.0 + NOTICED) * high:
+        return ""
+    ratio = values["ALPHAT"] / values["ALPHAN"] if values["ALPHAN"] else 1.0
+    better = values["SIGMAMAX"] * np.sqrt(values["GIIC"] * ratio / values["GIC"])
+    return (
+        f"A point that softens in one mode and fails in the other dissipates {least:.3g} to {most:.3g}, beyond GIC = "
+        f"{values['GIC']:g} and GIIC = {values['GIIC']:g}. With this SIGMAMAX, TAUMAX = {better:.3g} keeps it between."
+    )
+
+
+def _explore(options: Exploration) -> tuple[list[LawCurve], list[Path]]:
+    jtype, values = _properties(options)
     caption = f"U{jtype}: " + ", ".join(f"{name}={value:g}" for name, value in law.shown_properties(values, jtype))
     # the paper's values are in mm and MPa
     units = options.units or (("mm", "MPa") if options.deck is None else ("", ""))
