@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Strains of continuum elements by their unknowns, at a point: of the displacements of the nodes, with the mean change of volume of
-!> the element, and of incompatible modes.
+!> Strains of continuum elements by their unknowns, at a point: of the displacements of the nodes, and of incompatible modes.
+!> core_mean_dilatation has the mean volume strain of an element (B-bar).
 !>
 !> Strains are 11, 22, 12 in the plane; 11, 22, 33, 12 in axisymmetric elements; 11, 22, 33, 12, 13, 23 in space (engineering
 !> shear). `direct` is the number of direct strains by the displacements: 2 in the plane, else 3.
@@ -9,7 +9,7 @@ module core_strains
   use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: strain_matrix, mean_volume_strain, set_volume_strain, mode_matrix, condense
+  public :: strain_matrix, mode_matrix, condense
 
 contains
 
@@ -31,36 +31,6 @@ contains
       b(second(i), :, direct + i) = g(:, first(i))
     end do
   end subroutine strain_matrix
-
-  !> Mean of the volume strain over an element, by its unknowns.
-  pure function mean_volume_strain(direct, n, strains, points, volume, b) result(mean)
-    integer, intent(in) :: direct, n, strains, points
-    real(dp), intent(in) :: volume(points), b(n, strains, points)
-    real(dp) :: mean(n)
-    integer :: p
-
-    mean = 0.0_dp
-    do p = 1, points
-      mean = mean + volume(p)*sum(b(:, :direct, p), dim=2)
-    end do
-    mean = mean/sum(volume)
-  end function mean_volume_strain
-
-  !> Replaces the volume strain of a point by the mean one, with equal parts of the difference in each direction (Abaqus Theory
-  !> Guide, Solid isoparametric quadrilaterals and hexahedra). There are three of them in axisymmetric elements (S.A. Chester,
-  !> C.V. Di Leo, L. Anand, Int. J. of Solids and Structures 52 (2015) 1).
-  pure subroutine set_volume_strain(direct, n, strains, mean, b)
-    integer, intent(in) :: direct, n, strains
-    real(dp), intent(in) :: mean(n)
-    real(dp), intent(inout) :: b(n, strains)
-    real(dp) :: change(n)
-    integer :: i
-
-    change = (mean - sum(b(:, :direct), dim=2))/direct
-    do i = 1, direct
-      b(:, i) = b(:, i) + change
-    end do
-  end subroutine set_volume_strain
 
   !> Strains by incompatible modes, transposed, which let elements with straight edges bend.
   !>

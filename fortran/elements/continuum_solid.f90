@@ -7,11 +7,12 @@
 module elements_continuum_solid
   use core_cells, only: cell_gradient, is_product
   use core_kinds, only: dp
+  use core_mean_dilatation, only: mean_volume_strain, set_volume_strain
   use core_quadrature, only: gauss_point
   use core_serendipity, only: brick_gradient, brick_places, quad_places, quad8_gradient
   use core_shape_functions, only: quad_gradient
   use core_status, only: status_type, ok, inside_out
-  use core_strains, only: mean_volume_strain, mode_matrix, set_volume_strain, strain_matrix
+  use core_strains, only: mode_matrix, strain_matrix
   implicit none(type, external)
   private
   public :: incompatible_modes, mean_volume, modes_of

@@ -5,8 +5,8 @@ module host_context
   use host_kinds, only: dp, i4
   implicit none (type, external)
   private
-  public :: added_stress, base_stress, call_context, current, initial_stresses, job_name, names_cut, output_directory, &
-            output_variables, rank, ranks, stress_matrix, threads, visible_t
+  public :: added_stress, base_stress, call_context, current, initial_stresses, is_dynamic, job_name, names_cut, &
+            output_directory, output_variables, rank, ranks, stress_matrix, threads, visible_t
 
   !> LFLAGS(3) of the host's own pass before an analysis, in which built-in elements take their stresses from SVARS.
   integer(i4), parameter :: initial_stresses = -1
@@ -65,7 +65,13 @@ module host_context
 
 contains
 
-  !> Whether LFLAGS(3) asks for the matrix of a stress.
+  !> Whether LFLAGS(1) is that of a dynamic step.
+  elemental logical function is_dynamic(procedure_code)
+    integer(i4), intent(in) :: procedure_code
+    is_dynamic = procedure_code == 11 .or. procedure_code == 12
+  end function is_dynamic
+
+  !> Whether LFLAGS(3) asks for the initial stress matrix.
   elemental logical function stress_matrix(request)
     integer(i4), intent(in) :: request
     stress_matrix = request == base_stress .or. request == added_stress

@@ -12,8 +12,7 @@
 module host_adapter
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_f_procpointer, c_funptr, c_ptr
   use host_block, only: scalars_t
-  use host_context, only: initial_stresses, stress_matrix
-  use host_inertia, only: is_dynamic
+  use host_context, only: initial_stresses, is_dynamic, stress_matrix
   use host_kinds, only: dp, i4
   use host_materials, only: find_material, material_t
   use host_messages, only: add_message

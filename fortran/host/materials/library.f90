@@ -8,12 +8,11 @@
 module host_materials
   use core_root, only: advance, searching
   use host_backstress, only: backstress_t, combined_solid
-  use host_context, only: current
+  use host_context, only: current, is_dynamic
   use host_creep, only: creep_solid, creep_t, creep_values
   use host_dependence, only: dependence_t, elastic_matrices
   use host_diffusion, only: diffusion_t
   use host_hyperelastic, only: calls_user, hyperelastic_stress, hyperelastic_t, state_variables
-  use host_inertia, only: is_dynamic
   use host_kinds, only: dp, i4
   use host_kinematics, only: components, rotated
   use host_messages, only: add_message

@@ -35,7 +35,6 @@ module host_continuum_shell
   use host_adapter, only: element_t, keep_forces
   use host_axes, only: values_of_axes
   use host_context, only: added_stress, current
-  use host_inertia, only: mass_matrix
   use host_kinds, only: dp, i4
   use host_layout, only: j_continuum_shell_family, j_continuum_shell_layers, j_continuum_shell_oriented, j_continuum_shell_scaled, &
                          j_continuum_shell_sections, j_continuum_shell_surface, p_continuum_shell_modulus, &
@@ -48,6 +47,7 @@ module host_continuum_shell
   use host_shell_section, only: add_section_points, elastic_section, integrate_section, motion_t, operators_t, prepare_operators, &
                                 report_shape, section_turn, set_direction, shear_stiffness
   use host_shell_strains, only: assumed_shear, enhance, shell_middle, shell_place, shell_point
+  use host_solid_mass, only: mass_matrix
   implicit none (type, external)
   private
   public :: continuum_shell

@@ -2,8 +2,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Gradients of displacements, strain matrices and deformation gradients at the points of an element.
 module host_gradients
+  use core_mean_dilatation, only: mean_volume_strain, set_volume_strain
   use core_small_matrix, only: cofactors, determinant
-  use core_strains, only: mean_volume_strain, set_volume_strain, strain_matrix
+  use core_strains, only: strain_matrix
   use host_kinds, only: dp
   use host_kinematics, only: gradients, mean_gradients
   use host_shape, only: rule_t

@@ -1,13 +1,13 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Kinematics of fully integrated elements with straight edges (CPE4, CAX4, C3D8), which would lock where the volume is preserved:
-!> the volume strain of their points is its mean over the element. host_gradients averages deformation gradients, core_strains the
-!> strain matrix (B-bar).
+!> the volume strain of their points is its mean over the element. host_gradients averages deformation gradients,
+!> core_mean_dilatation the strain matrix (B-bar).
 !>
 !> Of hyperelastic materials the points share the change of the whole volume, so that forces are derivatives of the strain energy.
 module host_mean_dilatation
   use host_kinds, only: dp
-  use host_mean_volume, only: add_mean_volume
+  use host_mean_dilatation_tangent, only: add_mean_volume
   use host_solid_element, only: solid_t
   use host_standard_kinematics, only: standard_t
   implicit none (type, external)

@@ -19,7 +19,8 @@
 !>
 !> Hyperelastic materials take their stress from the deformation gradient, divided by the stretch of *EXPANSION, the same in all
 !> directions (Analysis User's Guide, Hyperelastic behavior of rubberlike materials). Forces are derivatives of the energy, the
-!> tangent those of the forces (host_mean_volume); where the volume strain is the mean, the points share the change of the volume.
+!> tangent those of the forces (host_mean_dilatation_tangent); where the volume strain is the mean, the points share the change of
+!> the volume.
 !>
 !> The matrix of a stress (host_context) is what the tangent in large displacements has of it, also where displacements are small.
 !>
@@ -37,7 +38,6 @@ module host_solid
   use host_condensed_modes, only: integrate_with_modes
   use host_enhanced_kinematics, only: enhanced_t
   use host_hybrid, only: pressure_t
-  use host_inertia, only: mass_matrix
   use host_kinds, only: dp
   use host_kinematics, only: components
   use host_layout, only: j_composite_layers, j_solid_direct, j_solid_enhanced, j_solid_family, j_solid_mass_points, &
@@ -52,6 +52,7 @@ module host_solid
   use host_solid_integration, only: integrate
   use host_solid_kinematics, only: kinematics_t
   use host_standard_kinematics, only: standard_t
+  use host_solid_mass, only: mass_matrix
   use host_uniform_kinematics, only: uniform_t
   implicit none (type, external)
   private

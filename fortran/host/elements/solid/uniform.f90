@@ -6,7 +6,7 @@ module host_uniform_kinematics
   use host_gradients, only: carry, gradients_of_points
   use host_kinds, only: dp
   use host_kinematics, only: mean_gradients
-  use host_mean_volume, only: add_uniform_volume
+  use host_mean_dilatation_tangent, only: add_uniform_volume
   use host_solid_element, only: solid_t
   use host_solid_kinematics, only: kinematics_t
   use host_standard_kinematics, only: standard_t

@@ -2,7 +2,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Kinematics with selective reduced integration: the volume strain of all points is that in the middle of the element.
 module host_selective
-  use core_strains, only: set_volume_strain, strain_matrix
+  use core_mean_dilatation, only: set_volume_strain
+  use core_strains, only: strain_matrix
   use host_kinds, only: dp
   use host_kinematics, only: gradients
   use host_shape, only: rule_of

@@ -1,10 +1,10 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The part of the tangent that the change of the mean volume strain adds in elements that take it for that of their points.
+!> Tangent terms from the change of the mean volume strain, in elements whose points all have that mean.
 !>
 !> The forces of a pressure that is the same in an element are the pressure times the derivatives of the volume by the
 !> displacements, so that its tangent has the second derivatives: they are those of the points' own volume strains.
-module host_mean_volume
+module host_mean_dilatation_tangent
   use core_strains, only: strain_matrix
   use host_forces, only: add_geometric, add_point, by_volume
   use host_kinds, only: dp
@@ -98,4 +98,4 @@ contains
       stiffness(:, k) = stiffness(:, k) + factor*vector(k)*vector
     end do
   end subroutine add_square
-end module host_mean_volume
+end module host_mean_dilatation_tangent

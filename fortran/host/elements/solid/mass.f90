@@ -1,21 +1,15 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Mass of continuum elements. Structural elements form their own.
-module host_inertia
+!> Mass matrix of continuum elements and continuum shells. Shells, membranes and beams form their own, in their files.
+module host_solid_mass
   use core_small_matrix, only: determinant
-  use host_kinds, only: dp, i4
+  use host_kinds, only: dp
   use host_shape, only: is_quadratic, radius_of, rule_t
   implicit none (type, external)
   private
-  public :: is_dynamic, mass_matrix
+  public :: mass_matrix
 
 contains
-
-  !> LFLAGS(1) of a dynamic step.
-  elemental logical function is_dynamic(procedure_code)
-    integer(i4), intent(in) :: procedure_code
-    is_dynamic = procedure_code == 11 .or. procedure_code == 12
-  end function is_dynamic
 
   !> Mass matrix, always fully integrated.
   pure subroutine mass_matrix(rule, axisymmetric, density, x, mass)
@@ -54,4 +48,4 @@ contains
       end do
     end do
   end subroutine scalar_mass
-end module host_inertia
+end module host_solid_mass
