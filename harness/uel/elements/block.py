@@ -21,8 +21,9 @@ from uel.elements.mistakes import Mistakes
 from uel.elements.routine import Linearity, Routine
 from uel.elements.user_variables import UserVariables
 from uel.model.arrays import FloatArray, IntArray
+from uel.model.energies import PLASTIC
 from uel.model.mesh import ElementGroup, full_name
-from uel.model.records import PLASTIC, ElementState, PointVariables
+from uel.model.records import ElementState, PointVariables
 from uel.model.restart import Saved
 from uel.usersub import Library, _binding
 from uel.usersub.exchange import BlockArrays, LoadArrays, Outcome, UnknownFields

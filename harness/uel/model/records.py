@@ -170,34 +170,6 @@ class HarmonicResponse(IncrementDone):
     """The response at one frequency, which replaces the times; the solution has an imaginary part."""
 
 
-ENERGIES: Final = (
-    *("ALLAE", "ALLCD", "ALLDMD", "ALLIE", "ALLKE", "ALLPD", "ALLSD", "ALLSE", "ALLVD", "ALLWK", "ETOTAL"),
-)
-"""Energies of the whole model that a general step has."""
-
-ELEMENT_ENERGIES: Final = ("ALLAE", "ALLCD", "ALLDMD", "ALLIE", "ALLKE", "ALLPD", "ALLSE", "ALLVD")
-"""Energies that are sums over elements, which element sets have too."""
-
-
-PLASTIC: Final = 3
-"""Place in ENERGY of the dissipation by plasticity or, in some elements, by damage."""
-
-
-def energies_of_elements(energy: FloatArray, damage: float) -> dict[str, float]:
-    """Return energies by Abaqus name from a sum (8,) of ENERGY, and the dissipation by damage."""
-    kinetic, elastic, creep, plastic, viscous, artificial, electrostatic = (float(e) for e in energy[:7])
-    return {
-        "ALLSE": elastic,
-        "ALLPD": plastic,
-        "ALLDMD": damage,
-        "ALLCD": creep,
-        "ALLVD": viscous,
-        "ALLAE": artificial,
-        "ALLKE": kinetic,
-        "ALLIE": elastic + plastic + damage + creep + artificial + electrostatic,
-    }
-
-
 MODAL: Final = ("EIGVAL", "EIGFREQ", "GM")
 """Whole-model variables of a mode: eigenvalue, frequency in cycles per time, generalized mass."""
 

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""State at the end of increments and steps: displacements, forces, energies of the model (ALLSE, ALLWK, ...)."""
+"""State at the end of increments and steps: displacements, forces, external work and other energies of the model.
+
+`harness/uel/model/energies.py` gives the energies their names (ALLSE, ALLWK, ...).
+"""
 
 from __future__ import annotations
 
@@ -14,8 +17,9 @@ from uel.assembly import Constraints, DofMap, System
 from uel.elements import FIELD_NAMES, Predefined
 from uel.model.arrays import FloatArray
 from uel.model.dofs import POTENTIAL
+from uel.model.energies import energies_of_model
 from uel.model.model import Model
-from uel.model.records import Solution, energies_of_elements
+from uel.model.records import Solution
 from uel.model.restart import Saved
 from uel.model.steps import Step
 from uel.model.user_values import GivesValues
@@ -246,13 +250,7 @@ class ConvergedState:
             load=system.dofs.in_global(self.load),
             velocity=self.velocity,
             acceleration=self.acceleration,
-            energies=self._energies(),
+            energies=energies_of_model(self.energy, self.damage, self.stabilization, self.work),
             elements=system.states(),
             contact=system.contact_fields(),
         )
-
-    def _energies(self) -> dict[str, float]:
-        """Return the energies of the whole model, summed as in Abaqus: ETOTAL is constant if they balance."""
-        energies = energies_of_elements(self.energy, self.damage)
-        total = energies["ALLKE"] + energies["ALLIE"] + energies["ALLVD"] + self.stabilization - self.work
-        return energies | {"ALLSD": self.stabilization, "ALLWK": self.work, "ETOTAL": total}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from uel.errors import DeckError
-from uel.model.records import ELEMENT_ENERGIES
+from uel.model.energies import ELEMENT_ENERGIES
 
 YOUNG, FORCE = 1000.0, 10.0
 BAR = """*NODE

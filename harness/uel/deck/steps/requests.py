@@ -17,8 +17,8 @@ from uel.deck.mesh.flatten import FlatMesh
 from uel.deck.sections.user_elements import LARGEST_DOF
 from uel.errors import Source
 from uel.model.arrays import IntArray
+from uel.model.energies import ELEMENT_ENERGIES, ENERGIES
 from uel.model.nodal_variables import COMPONENTS
-from uel.model.records import ELEMENT_ENERGIES, ENERGIES
 from uel.model.steps import ElementRequest, EnergyRequest, NodeRequest, OutputRequests, Position
 
 PRESELECTED_NODAL = ("U", "RF", "CF")

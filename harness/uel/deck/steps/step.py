@@ -21,8 +21,8 @@ from uel.deck.steps.procedures import read_procedure
 from uel.deck.steps.requests import RequestReader
 from uel.errors import Source
 from uel.model.amplitude import AmplitudeType, UserAmplitude
+from uel.model.energies import ENERGIES
 from uel.model.procedures import Procedure
-from uel.model.records import ENERGIES
 from uel.model.steps import ON_EDGES, DistributedLoad, ElementLoad, LoadKind, Step
 
 MOST_INCREMENTS = 100

@@ -6,8 +6,8 @@ Columns are step, increment, time (total time), `LPF` if the load factor is part
 OUTPUT and *ENERGY OUTPUT of the steps request, in order: `U2[LOAD]` for a set of one node, `RF2[LOAD:17]` for each node
 of a larger set, `ALLSE` for an energy of the whole model, `ALLSE[TOP]` for that of an element set. A mode of *FREQUENCY
 has a row, with its frequency as time. So does a frequency of *STEADY STATE DYNAMICS, with amplitudes and, in further
-columns `PU2[LOAD]`, phase angles in degrees. A column that a step does not request is empty there. The energies of the
-whole model are summed in `harness/uel/procedures/state.py`.
+columns `PU2[LOAD]`, phase angles in degrees. A column that a step does not request is empty there. What each energy is
+the sum of stands in `harness/uel/model/energies.py`.
 """
 
 from __future__ import annotations
@@ -19,9 +19,10 @@ from pathlib import Path
 import numpy as np
 
 from uel.model.arrays import FloatArray, IntArray
+from uel.model.energies import ELEMENT_ENERGIES, ENERGIES, PLASTIC, energies_of_elements
 from uel.model.model import Model
 from uel.model.nodal_variables import PHASE, Component, NodalIndex
-from uel.model.records import ELEMENT_ENERGIES, ENERGIES, MODAL, PLASTIC, IncrementDone, Solution, energies_of_elements
+from uel.model.records import MODAL, IncrementDone, Solution
 from uel.model.steps import EnergyRequest, NodeRequest
 from uel.output.files.tables import chosen_elements
 from uel.output.formats import TextFile

@@ -14,7 +14,7 @@ import numpy as np
 
 from uel.errors import UelError, UsageError
 from uel.model.arrays import FloatArray
-from uel.model.records import ENERGIES
+from uel.model.energies import ENERGIES
 from uel.output.files.sta_file import StatusRow
 from uel.output.pictures.column import Column, column_names, read_column
 from uel.output.pictures.load_curve import LoadCurve
