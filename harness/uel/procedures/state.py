@@ -27,9 +27,10 @@ from uel.procedures.general.convergence import FluxHistory
 from uel.procedures.general.step_parts import InitialMotion, PartEnd
 from uel.procedures.linear.modes import Modes
 from uel.procedures.loads.element_loads import AllLoads, StepLoads
-from uel.procedures.loads.nodal import Boundaries, Variation, fading_forces, initial_values
+from uel.procedures.loads.nodal import Boundaries, fading_forces, initial_values
 from uel.procedures.loads.predefined_fields import Conditions, StepConditions
 from uel.procedures.loads.user_amplitudes import StepAmplitudes, UserAmplitudes
+from uel.procedures.loads.variation import Variation
 from uel.solver.descent import Majoriser
 from uel.solver.linear import Effort, StepSolver
 from uel.solver.newton import Iterate

@@ -29,7 +29,8 @@ from uel.model.model import Model
 from uel.model.steps import ElementLoad, Load, LoadKind, LoadType, Step
 from uel.model.user_values import GivesValues, UserValues
 from uel.procedures.loads.heat import HeatLoads, StepHeat
-from uel.procedures.loads.nodal import Loads, ScaledUnknowns, Slots, Variation
+from uel.procedures.loads.nodal import Loads, Slots
+from uel.procedures.loads.variation import ScaledUnknowns, Variation
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,8 @@ from uel.elements import Distributed
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.model import Model
 from uel.model.steps import HeatLoad, HeatLoadType, Load, Step
-from uel.procedures.loads.nodal import Loads, Slots, Variation
+from uel.procedures.loads.nodal import Loads, Slots
+from uel.procedures.loads.variation import Variation
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Distributed loads on user elements, and predefined fields, through the steps.
 
-Both vary as *CLOAD does. A field that a step removes (OP=NEW) returns to its initial value. With USER, UTEMP and then
-UFIELD define the values at the end of each attempt.
+Both vary as *CLOAD does: `variation.py` has their values at a time, `Loads` in `nodal.py` how they continue from step
+to step. A field that a step removes (OP=NEW) returns to its initial value. With USER, UTEMP and then UFIELD define the
+values at the end of each attempt.
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ from uel.model.model import Model
 from uel.model.restart import Saved
 from uel.model.steps import PRESSURE_STRESS, Load, Step
 from uel.model.user_values import GivesValues, UserValues
-from uel.procedures.loads.nodal import Loads, Slots, Variation
+from uel.procedures.loads.nodal import Loads, Slots
+from uel.procedures.loads.variation import Variation
 
 Times = tuple[float, float]
 """Step and total time."""
