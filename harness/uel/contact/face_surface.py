@@ -1,91 +1,28 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Main surfaces of element faces, and the closest point projection onto them."""
+"""Main surfaces of element faces: the search for the nearest piece, and motions by the unknowns.
+
+`projection` has the closest point projection onto a piece.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uel.contact.main_surface import EQUAL, SurfacePoints
-from uel.contact.shape_functions import monomials, weights_of
+from uel.contact.projection import CurrentPieces, evaluate, inside, polynomials_of, project, sizes_of
+from uel.contact.shape_functions import weights_of
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.contact import Pieces
-
-STEPS: Final = 20
-"""Largest number of Newton iterations of a projection."""
-
-FLAT: Final = 1e-14
-"""Squared area of a piece over its size to the fourth power that is rounding."""
 
 NEAREST: Final = 4
 """Nearest main nodes whose pieces are tried in a global search."""
 
 WALK: Final = 50
 """Largest number of pieces that a node passes in one iteration."""
-
-BEYOND: Final = {3: 0.125, 4: 0.0, 8: 1.0}
-"""Largest distance of a piece from the bounding box of its nodes, over the box size, by number of monomials: the
-largest sum of negative shape functions, -1/8 on a quadratic line and 4 times -1/4 at the centre of a quadratic
-quadrilateral.
-"""
-
-ROUNDED: Final = 1e-6
-"""Rounding error of angles."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Current:
-    """Pieces of the current surface, with bounds that avoid most projections.
-
-    polynomials  (p, q, d) coefficients of the monomials
-    sizes        (p,) as in `Surface`
-    low, high    (p, d) corners of bounding boxes
-    axes, angles (p, d), (p,) cone of the normals of each piece
-    """
-
-    polynomials: FloatArray
-    sizes: FloatArray
-    low: FloatArray
-    high: FloatArray
-    axes: FloatArray
-    angles: FloatArray
-
-    @classmethod
-    def of(cls, pieces: Pieces, coordinates: FloatArray) -> _Current:
-        """Make the pieces from the current coordinates (nodes, d) of all nodes."""
-        corners = coordinates[pieces.nodes]
-        polynomials = _polynomials(pieces.shapes, corners)
-        count = polynomials.shape[1]
-        low, high = corners.min(axis=1), corners.max(axis=1)
-        beyond = BEYOND[count] * (high - low)
-        ends = np.stack(np.meshgrid(*[[0, 1]] * pieces.low.shape[1]), axis=-1).reshape(-1, pieces.low.shape[1])
-        normals = np.stack(
-            [_evaluate(polynomials, np.where(end, pieces.high, pieces.low)).normal for end in ends], axis=1
-        )
-        axes = normals.sum(axis=1)
-        axes /= np.maximum(np.linalg.norm(axes, axis=1), EQUAL)[:, None]
-        cosine = np.einsum("ped,pd->pe", normals, axes).min(axis=1)
-        # normals of curved faces may be outside the cone of the corners
-        bounded = (cosine > EQUAL) & (count <= 4)
-        angles = np.where(bounded, np.arccos(np.clip(cosine, -1.0, 1.0)), np.inf)
-        return cls(polynomials, _sizes(corners), low - beyond, high + beyond, axes, angles)
-
-    def at(self, piece: IntArray, natural: FloatArray) -> SurfacePoints:
-        """Return points of pieces, see `Surface.at`."""
-        return _evaluate(self.polynomials[piece], natural)
-
-    def least(self, points: FloatArray, outward: FloatArray, candidates: IntArray, facing: float) -> FloatArray:
-        """Return (m, c) lower bounds of the distances from candidates; infinite if no normal faces the point."""
-        beside = np.maximum(self.low[candidates] - points[:, None], points[:, None] - self.high[candidates])
-        beside = np.maximum(beside, 0.0)
-        least = np.sqrt(np.einsum("mcd,mcd->mc", beside, beside))
-        cosine = np.einsum("mcd,md->mc", self.axes[candidates], outward)
-        away = np.arccos(np.clip(cosine, -1.0, 1.0)) + self.angles[candidates] < np.arccos(facing) - ROUNDED
-        return np.where(away & np.asarray(outward.any(axis=1))[:, None], np.inf, least)
 
 
 class FaceSurface:
@@ -118,12 +55,12 @@ class FaceSurface:
     def at(self, piece: IntArray, natural: FloatArray, u: FloatArray) -> SurfacePoints:
         """Return points of pieces, see `Surface.at`."""
         nodes = self.pieces.nodes[piece]
-        return _evaluate(_polynomials(self.pieces.shapes[piece], self._coordinates[nodes] + u[nodes]), natural)
+        return evaluate(polynomials_of(self.pieces.shapes[piece], self._coordinates[nodes] + u[nodes]), natural)
 
     def sizes(self, piece: IntArray, u: FloatArray) -> FloatArray:
         """Return the sizes of pieces, see `Surface.sizes`: largest distances of nodes from their middle."""
         nodes = self.pieces.nodes[piece]
-        return _sizes(self._coordinates[nodes] + u[nodes])
+        return sizes_of(self._coordinates[nodes] + u[nodes])
 
     def by_unknowns(self, piece: IntArray, natural: FloatArray, u: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the derivatives of points and tangents, see `Surface.by_unknowns`."""
@@ -148,7 +85,7 @@ class FaceSurface:
         self, points: FloatArray, outward: FloatArray, u: FloatArray, before: IntArray, *, everywhere: bool
     ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
         """Find the nearest pieces, see `Surface.track`."""
-        current, nearest_piece = _Current.of(self.pieces, self._coordinates + u), before.copy()
+        current, nearest_piece = CurrentPieces.of(self.pieces, self._coordinates + u), before.copy()
         if everywhere:
             positions = self._coordinates[self._nodes] + u[self._nodes]
             from scipy.spatial import KDTree  # noqa: PLC0415 (takes 0.1 s, and few decks have contact)
@@ -174,11 +111,11 @@ class FaceSurface:
         """Return the distances (m,) of points (m, d) from the nearest piece, whatever its normal."""
         before, outward = np.zeros(len(points), dtype=np.int64), np.zeros_like(points)
         piece, natural, _ = self.track(points, outward, u, before, everywhere=True)
-        return np.asarray(np.linalg.norm(points - self.at(piece, self._inside(piece, natural), u).at, axis=1))
+        return np.asarray(np.linalg.norm(points - self.at(piece, inside(self.pieces, piece, natural), u).at, axis=1))
 
     def locate(self, piece: IntArray, points: FloatArray) -> FloatArray:
         """Return natural coordinates (m, a) of points (m, d) on pieces (m,), extended, before any displacement."""
-        return self._project(_Current.of(self.pieces, self._coordinates), piece, points)
+        return project(self.pieces, CurrentPieces.of(self.pieces, self._coordinates), piece, points)
 
     def nearest(self, points: FloatArray) -> tuple[IntArray, FloatArray]:
         """Return the nodes (m, k) of the pieces nearest to points (m, d), undeformed, and their shape functions
@@ -187,12 +124,12 @@ class FaceSurface:
         zero = np.zeros_like(self._coordinates)
         before = np.zeros(len(points), dtype=np.int64)
         piece, natural, _ = self.track(points, np.zeros_like(points), zero, before, everywhere=True)
-        factors = weights_of(self.pieces.shapes[piece], self._inside(piece, natural))[0]
+        factors = weights_of(self.pieces.shapes[piece], inside(self.pieces, piece, natural))[0]
         factors = np.where(np.abs(factors) <= EQUAL, 0.0, factors)
         return self.nodes_of(piece), factors / factors.sum(axis=1, keepdims=True)
 
     def _nearest(
-        self, current: _Current, points: FloatArray, outward: FloatArray, candidates: IntArray
+        self, current: CurrentPieces, points: FloatArray, outward: FloatArray, candidates: IntArray
     ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
         """Find the nearest piece of candidates (m, c), as in `track`; the first of equally near ones.
 
@@ -224,67 +161,12 @@ class FaceSurface:
         return piece, xi, above
 
     def _reach(
-        self, current: _Current, points: FloatArray, outward: FloatArray, piece: IntArray
+        self, current: CurrentPieces, points: FloatArray, outward: FloatArray, piece: IntArray
     ) -> tuple[FloatArray, FloatArray]:
         """Return distances (m,) from pieces (m,), infinite if these do not face the point; natural coordinates (m,
         a).
         """
-        natural = self._project(current, piece, points)
-        point = current.at(piece, self._inside(piece, natural))
+        natural = project(self.pieces, current, piece, points)
+        point = current.at(piece, inside(self.pieces, piece, natural))
         away = np.einsum("md,md->m", point.normal, outward) > np.where(outward.any(axis=1), self._facing, np.inf)
         return np.where(away, np.inf, np.linalg.norm(points - point.at, axis=1)), natural
-
-    def _inside(self, piece: IntArray, natural: FloatArray) -> FloatArray:
-        """Return natural coordinates clipped to the piece."""
-        pieces = self.pieces
-        end = np.clip(natural, pieces.low[piece], pieces.high[piece])
-        over = np.maximum(end.sum(axis=1) - pieces.total[piece], 0.0)[:, None]
-        return np.asarray(np.clip(end - over / end.shape[1], pieces.low[piece], pieces.high[piece]))
-
-    def _project(self, current: _Current, piece: IntArray, points: FloatArray) -> FloatArray:
-        """Return natural coordinates of the projections of points onto extended pieces, by Newton's method."""
-        low, high = self.pieces.low[piece], self.pieces.high[piece]
-        natural, reach = 0.5 * (low + high), 2.0 * (high - low)
-        rows = np.arange(len(piece))
-        for _ in range(STEPS):
-            point = current.at(piece[rows], natural[rows])
-            gap = points[rows] - point.at
-            metric = point.metric
-            matrix = metric - np.einsum("mabd,md->mab", point.second, gap)
-            # a descent direction: without the curvature far from a curved piece
-            convex = np.linalg.det(matrix) > 0.1 * np.linalg.det(metric)
-            convex &= np.trace(matrix, axis1=1, axis2=2) > 0.0
-            matrix = np.where(convex[:, None, None], matrix, metric)
-            # steepest descent on a degenerate piece
-            trace = np.trace(metric, axis1=1, axis2=2)
-            flat = np.linalg.det(metric) <= FLAT * trace ** metric.shape[1]
-            steepest = np.maximum(trace, np.finfo(float).tiny)[:, None, None] * np.eye(metric.shape[1])
-            matrix = np.where(flat[:, None, None], steepest, matrix)
-            change = np.linalg.solve(matrix, np.einsum("mad,md->ma", point.tangents, gap)[..., None])[..., 0]
-            last = natural[rows]
-            natural[rows] = np.clip(last + change, low[rows] - reach[rows], high[rows] + reach[rows])
-            # convergence is quadratic: the next error is rounding
-            rows = rows[np.abs(natural[rows] - last).max(axis=1) > EQUAL]
-            if not len(rows):
-                break
-        return natural
-
-
-def _polynomials(shapes: FloatArray, coordinates: FloatArray) -> FloatArray:
-    """Return (m, p, d) coefficients of the monomials, for nodes at coordinates (m, k, d) with shapes (m, k, p)."""
-    return np.asarray(np.einsum("mkp,mkd->mpd", shapes, coordinates))
-
-
-def _sizes(coordinates: FloatArray) -> FloatArray:
-    """Return (m,) largest distances of nodes, at coordinates (m, k, d), from their centroid."""
-    return np.asarray(np.linalg.norm(coordinates - coordinates.mean(axis=1, keepdims=True), axis=2).max(axis=1))
-
-
-def _evaluate(polynomials: FloatArray, natural: FloatArray) -> SurfacePoints:
-    """Evaluate polynomials (m, p, d) at natural coordinates."""
-    values, first, second = monomials(natural, polynomials.shape[1])
-    return SurfacePoints(
-        np.einsum("mp,mpd->md", values, polynomials),
-        np.einsum("mpa,mpd->mad", first, polynomials),
-        np.einsum("mpab,mpd->mabd", second, polynomials),
-    )

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from uel.deck import ignored
 from uel.deck.constraints import equations as constraints
-from uel.deck.constraints import ties
+from uel.deck.constraints.tie import reader as ties
 from uel.deck.contact import general_contact, geometric_corrections, interactions
 from uel.deck.contact import pairs as contact
 from uel.deck.language import lexer, structure

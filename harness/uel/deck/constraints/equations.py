@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from uel.deck.constraints.distributing import METHODS, average_motion
-from uel.deck.constraints.ties import ROTATIONS, TieReader
+from uel.deck.constraints.tie.reader import ROTATIONS, TieReader
 from uel.deck.error_report import Problems
 from uel.deck.language.blocks import Block, Row
 from uel.deck.language.table import INPUT, Keyword, Kind, Option, Where, ignored, one_of, refused

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""*ORIENTATION, with *DISTRIBUTION and *DISTRIBUTION TABLE for points or angles by element."""
+"""*ORIENTATION, with *DISTRIBUTION and *DISTRIBUTION TABLE for points or angles by element.
+
+`harness/uel/model/local_systems.py` computes the axes at the points of elements.
+"""
 
 from __future__ import annotations
 

@@ -3,9 +3,10 @@
 """*TIE: the nodes of a secondary surface follow points of the main surface.
 
 TYPE=NODE TO SURFACE: a node follows the nearest point of the main surface, by the shape functions of the face. SURFACE
-TO SURFACE, the default: it follows means over its faces (`tie_weights`) where main faces cover these, else the nearest
+TO SURFACE, the default: it follows means over its faces (`mean_weights`) where main faces cover these, else the nearest
 point. On a main surface of nodes it follows the nearest node. Nodes outside the position tolerance stay untied. ADJUST
-moves tied nodes onto the main surface. The projection is that of contact, `harness/uel/contact/face_surface.py`.
+moves tied nodes onto the main surface. `nearest_points` has the weights of the nearest points, which it projects onto
+faces as contact does (`harness/uel/contact/projection.py`).
 
 With CYCLIC SYMMETRY the main surface is that of the next sector, rotated by 360/N degrees about the axis, with its
 displacements and rotations. Nodes on both surfaces are on the axis and move along it.
@@ -15,15 +16,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 from scipy import sparse
 
-from uel.contact import FaceSurface
-from uel.deck.constraints.tie_faces import TiedFaces, read_faces
-from uel.deck.constraints.tie_weights import surface_weights
-from uel.deck.contact.sliding_surfaces import whole_pieces
+from uel.deck.constraints.tie.faces import TiedFaces, read_faces
+from uel.deck.constraints.tie.mean_weights import surface_weights
+from uel.deck.constraints.tie.nearest_points import mean_spacing, nearest_points
 from uel.deck.error_report import Problems
 from uel.deck.language.blocks import Block, Row
 from uel.deck.language.table import NAME, Keyword, Kind, Option, Where, ignored, one_of
@@ -34,9 +34,6 @@ from uel.errors import Source
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.model import Equation
 from uel.model.steps import Step
-
-if TYPE_CHECKING:
-    from scipy.spatial import cKDTree
 
 Term = tuple[int, int, float]
 """Node, dof and coefficient of an equation."""
@@ -275,7 +272,7 @@ class TieReader:
         if not len(main) or not len(secondary):
             raise row.error("a surface has no nodes")
         side, faces = (read_faces(self._surfaces, row, k, owner) for k in range(2))
-        size = _spacing(self._points[main]) if faces is None else faces.edge(self._points)
+        size = mean_spacing(self._points[main]) if faces is None else faces.edge(self._points)
         tolerance = block.options.real("POSITION TOLERANCE", CLOSE * size)
         cyclic, both = block.options.flag("CYCLIC SYMMETRY"), np.zeros(0, dtype=np.int64)
         if cyclic:
@@ -346,18 +343,8 @@ class TieReader:
         self, secondary: IntArray, main: IntArray, faces: TiedFaces | None, coordinates: FloatArray
     ) -> tuple[sparse.csr_array, FloatArray]:
         """Return weights (m, n) of the nearest points on the main surface, and their distances (m,)."""
-        points, m, n = self._points[secondary], len(secondary), len(coordinates)
-        if faces is None:
-            distance, index = _search_tree(coordinates[main]).query(points)
-            entries = (np.ones(m), (np.arange(m), main[index]))
-            return sparse.coo_array(entries, shape=(m, n)).tocsr(), np.asarray(distance)
         dimension = 3 if self._solid else 2
-        surface = FaceSurface(whole_pieces(faces.nodes), coordinates[:, :dimension])
-        nodes, factors = surface.nearest(points[:, :dimension])
-        rows = np.repeat(np.arange(m), nodes.shape[1])
-        weights = sparse.coo_array((factors.ravel(), (rows, nodes.ravel())), shape=(m, n)).tocsr()
-        weights.eliminate_zeros()
-        return weights, np.asarray(np.linalg.norm(points - weights @ coordinates, axis=1))
+        return nearest_points(self._points[secondary], main, faces, coordinates, dimension)
 
     def _weights(
         self,
@@ -390,21 +377,6 @@ class TieReader:
             message = "nodes follow means of the main surface over their faces, which pass constant stress"
             self._problems.warn(row.source, f"*TIE: {message}; the weights of Abaqus are not published")
         return _Weights(nearest, means)
-
-
-def _spacing(points: FloatArray) -> float:
-    """Return the mean distance to the nearest neighbour; 1 for a single point."""
-    if len(points) == 1:
-        return 1.0
-    distance, _ = _search_tree(points).query(points, k=2)
-    return float(distance[:, 1].mean())
-
-
-def _search_tree(points: FloatArray) -> cKDTree:
-    """Build a search tree of points (n, 3)."""
-    from scipy.spatial import cKDTree  # noqa: PLC0415 (takes 0.2 s, and few decks have ties)
-
-    return cKDTree(points)
 
 
 KEYWORDS = (

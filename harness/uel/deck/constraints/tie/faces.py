@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Faces of tied surfaces: of solids, rigid elements, shells and membranes, and edges of shells."""
+"""Faces of tied surfaces: of solids, rigid elements, shells and membranes, and edges of shells.
+
+`nearest_points` projects nodes onto them.
+"""
 
 from __future__ import annotations
 
