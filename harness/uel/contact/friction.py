@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from uel.model.arrays import FloatArray
 from uel.model.contact import ContactPair, SlidingPair
 
-NONE: Final = 1e-200
-"""Fraction of a stiffness that is zero."""
+SMALLEST: Final = 1e-200
+"""Smallest factor of the sticking stiffness, in place of zero where it divides."""
 
 
 class Friction:
@@ -28,13 +28,27 @@ class Friction:
         sticks: FloatArray,
         small: float,
     ) -> None:
-        """Compute the friction of closed points; sticks: (m,) factor of the sticking stiffness.
+        """Compute the friction of closed points.
 
-        small: rounding of the slip, below which a point sticks on every processor after an increment with slip.
+        Parameters
+        ----------
+        pair
+            Its property has the friction coefficient and the largest elastic slip.
+        force
+            (m,) contact forces, positive where closed.
+        slip
+            (m, directions) elastic slip at the start of the increment plus the slip in it; zero where open.
+        closed
+            (m,) mask of the closed points.
+        sticks
+            (m,) factor of the sticking stiffness: 1, or the damage of the bond of the point.
+        small
+            Rounding error of the slip. After an increment with slip the elastic slip is at its limit; a point slips
+            only if it exceeds the limit by more than this, so that rounding does not decide.
         """
         contact, directions = pair.property, slip.shape[1]
         coefficient = contact.friction
-        most = (contact.elastic_slip or contact.slip_tolerance * pair.length) / np.maximum(sticks, NONE)
+        most = (contact.elastic_slip or contact.slip_tolerance * pair.length) / np.maximum(sticks, SMALLEST)
         size = np.linalg.norm(slip, axis=1)
         self.slips = closed & (coefficient > 0.0) & (size > most + small)
         # slip at the friction limit

@@ -16,9 +16,9 @@ from uel.model.records import Convergence
 INITIAL_FLUX = 1e-2
 """Time average flux of Abaqus before there is any flux in the first step (*CONTROLS, q_0)."""
 
-
 SMALL_PEAK = 0.1
-"""Largest element force over its time average below which none of the smaller ones counts as zero."""
+"""Ratio of the largest element force to its time average. Below it all forces are terms of the average flux; from it on
+those below `FluxHistory.floor` are not."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,16 +123,16 @@ class FluxHistory:
         return FluxHistory(controls.q_0 if controls.q_0 > 0.0 else self._mean())
 
     @property
-    def known(self) -> float:
+    def flux_so_far(self) -> float:
         """Time average flux of the converged increments, or of the step before; 0 without any flux."""
         return self._mean() if self.count or self.initial != INITIAL_FLUX else 0.0
 
-    def unknown(self, controls: FieldControls) -> bool:
-        """Return whether no converged increment has had flux, and the controls set none."""
+    def has_no_estimate(self, controls: FieldControls) -> bool:
+        """Return whether the time average is only INITIAL_FLUX: no flux so far, and the controls set none."""
         return not (self.count or controls.q_0 or controls.q_u) and self.initial == INITIAL_FLUX
 
-    def seen(self, q: float, controls: FieldControls) -> bool:
-        """Return whether there is flux in the current increment, with average q, or in an earlier one of the step."""
+    def step_has_flux(self, q: float, controls: FieldControls) -> bool:
+        """Return whether the current increment, with average flux q, or an earlier one of the step has flux."""
         return self.count > 0 or self._carries(q, controls)
 
     def _mean(self) -> float:

@@ -159,15 +159,15 @@ class Checker:
         """Yield checks that pass as zero flux only because of Abaqus' initial time average flux."""
         for checked, check in zip(self.fields, checks, strict=False):
             controls = checked.controls
-            assumed = checked.history.unknown(controls) and not checked.converted
+            assumed = checked.history.has_no_estimate(controls) and not checked.converted
             unbalanced = abs(check.residual.value) > controls.r_n * check.average_flux > 0.0
             if check.verdict is Convergence.ZERO_FLUX and assumed and unbalanced:
                 yield check
 
     def negligible_force(self) -> float:
         """Return the largest residual accepted without a correction (R_l) in every field with flux; 0 before any."""
-        known = [(field.history.known, field.controls.r_l) for field in self.fields]
-        return min((r_l * flux for flux, r_l in known if flux > 0.0), default=0.0)
+        fluxes = [(field.history.flux_so_far, field.controls.r_l) for field in self.fields]
+        return min((r_l * flux for flux, r_l in fluxes if flux > 0.0), default=0.0)
 
     def time_averages(self) -> dict[str, float]:
         """Return the time average flux of each field after the last check."""
@@ -228,10 +228,10 @@ class Checker:
             return
         for checked, other, length in ((force, moment, 1 / self._length), (moment, force, self._length)):
             controls = checked.controls
-            if other.converted or not other.history.seen(other.flux, other.controls):
+            if other.converted or not other.history.step_has_flux(other.flux, other.controls):
                 continue
             average = controls.c_f * length * other.average
-            if checked.history.unknown(controls) and checked.flux <= controls.eps * average:
+            if checked.history.has_no_estimate(controls) and checked.flux <= controls.eps * average:
                 checked.average, checked.converted = average, True
 
     def _check(self, k: int, checked: FieldChecker, state: Iterate) -> FieldCheck:
