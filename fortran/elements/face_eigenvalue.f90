@@ -5,7 +5,8 @@
 !>
 !> lambda is the largest value of (integral of |t|^2 over the face)/(integral of eps:D:eps over the element) over all
 !> displacements except rigid motions, where t is the shear or the normal component of sigma.n. For a constant strain it is
-!> |D| meas(Gamma)/meas(Omega) at most, which makes equation (21) of 2 (gamma_1^2 lambda_1 + gamma_2^2 lambda_2).
+!> |D| meas(Gamma)/meas(Omega) at most: with this bound, beta = 2 (gamma_1^2 lambda_1 + gamma_2^2 lambda_2) becomes equation (21).
+!> fortran/laws.md derives which beta suffices.
 !>
 !> Both modes draw on one energy: the sum of (integral of |t|^2)/lambda over the modes is at most `joint` times the energy, where
 !> joint is from 1 to 2.

@@ -11,11 +11,12 @@ module host_context
   !> LFLAGS(3) of the host's own pass before an analysis, in which built-in elements take their stresses from SVARS.
   integer(i4), parameter :: initial_stresses = -1
 
-  !> And of those for the matrix of a stress: that of U, and that which the displacements DU add to it.
+  !> And of the passes for the initial stress matrix (geometric stiffness): of the stresses at U, and of those that a linear
+  !> perturbation DU adds to them.
   integer(i4), parameter :: base_stress = -2, added_stress = -3
 
-  !> And of that after an increment, in which elements whose points have places and directions of their own call UVARM: DU is zero,
-  !> no material is called, and all that is kept is UVAR, in the history.
+  !> And of the pass after an increment, in which elements whose points have places and directions of their own call UVARM: DU is
+  !> zero, no material is called, and all that is kept is UVAR, in the history.
   integer(i4), parameter :: output_variables = -4
 
   !> What GETVRM returns: values of the material point for which USDFLD or UVARM runs.

@@ -34,7 +34,7 @@ module host_adapter
     logical :: has_forces = .false.       !< RHS and AMATRX are wanted
     logical :: has_mass = .false.         !< the mass is
     logical :: has_damping = .false.      !< AMATRX is to be the viscous damping matrix
-    logical :: of_stress = .false.        !< AMATRX is to be the matrix of a stress: DU is zero, and the perturbation is `added`
+    logical :: of_stress = .false.        !< AMATRX is to be the initial stress matrix: DU is zero, and the perturbation is `added`
     integer :: jtype = 0, nodes = 0, mcrd = 0, fields = 0
     integer :: n = 0                      !< unknowns
     real(dp) :: dtime = 0, time(2) = 0, params(3) = 0
@@ -53,7 +53,7 @@ module host_adapter
     real(dp), pointer, contiguous :: old(:, :) => null()         !< (n, 2) forces of the last two increments
     real(dp), allocatable :: mass(:, :)
     real(dp), allocatable :: none(:, :)                          !< in place of old where SVARS do not have them
-    real(dp), allocatable :: still(:)                            !< in place of DU for the matrix of a stress
+    real(dp), allocatable :: still(:)                            !< in place of DU for the initial stress matrix
   end type element_t
 
   abstract interface

@@ -5,14 +5,15 @@
 !> Written from the manual alone, independently of the project's own elements, for comparison with them: Abaqus Analysis User's
 !> Guide, Defining the constitutive response of cohesive elements using a traction-separation description.
 !>
-!> Components are in the order (n, s, t), (n, s) in the plane. With g = (<delta_n>, delta_s, delta_t) the effective
-!> displacement is delta = |g|. The onset criterion f(g) = 1 is homogeneous, so that the ray of g meets it at
-!> delta_o = delta/f with the effective traction T_o = |K g|/f, and damage follows from delta, delta_o, T_o and from the
-!> fracture energy G. Its mode mix is that of the energies of "the current state of deformation only, not the deformation
-!> history" (Keywords Guide, *DAMAGE EVOLUTION, MODE MIX RATIO=ENERGY, the default), at the start of the increment, as
-!> harness/uel/procedures/fidelity.md infers from jobs of Abaqus; that of g while a point has no deformation then, and where its G
-!> would be too small for the onset. The manual leaves open how delta_o and T_o follow a mode mix that changes during damage: here
-!> they are those of g. The damage is the largest so far, which along a straight path is the manual's form in delta_max.
+!> Components are in the order (n, s, t), (n, s) in the plane. With g = (<delta_n>, delta_s, delta_t) the effective displacement is
+!> delta = |g|. The onset criterion f(g) = 1 is homogeneous, so that the ray of g meets it at delta_o = delta/f with the effective
+!> traction T_o = |K g|/f, and damage follows from delta, delta_o, T_o and from the fracture energy G. G depends on the mode mix of
+!> the energies of "the current state of deformation only, not the deformation history" (Keywords Guide, *DAMAGE EVOLUTION, MODE
+!> MIX RATIO=ENERGY, the default). This is the state at the start of the increment (inferred from jobs of Abaqus:
+!> harness/uel/procedures/fidelity.md). The mode mix of g replaces it in two cases: the point has no deformation at the start, or G
+!> of that mode mix is below the elastic energy at the onset. The manual leaves open how delta_o and T_o follow a mode mix that
+!> changes during damage: here they are those of g. The damage is the largest so far, which along a straight path is the manual's
+!> form in delta_max.
 !>
 !> A growing damage dissipates dD/2 sum K_i g_i**2. It grows on the curve of the law, on which delta is a function of D along a
 !> direction, so that there the dissipated energy is one of D, and an increment of any size dissipates its difference: from intact

@@ -170,7 +170,7 @@ class System:
         return data
 
     def stress_matrix(self, call: Call, u: FloatArray, added: FloatArray | None = None) -> FloatArray:
-        """Return the initial stress matrix: the stiffness of stresses that rotate with the material.
+        """Return the initial stress matrix (geometric stiffness): stresses rotate with the material.
 
         Parameters
         ----------

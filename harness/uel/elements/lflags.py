@@ -23,8 +23,8 @@ class Request(IntEnum):
     Abaqus does not have the negative requests, which the host makes of built-in elements:
 
     INITIAL_STRESSES      RHS and the state for the initial stresses
-    BASE_STRESS, ADDED_STRESS  AMATRX only: the initial stress matrix of the stresses at U, or of those that a
-                          perturbation DU adds
+    BASE_STRESS, ADDED_STRESS  AMATRX only: the initial stress matrix (geometric stiffness) of the stresses at U, or of
+                          those that a perturbation DU adds
     OUTPUT_VARIABLES      calls of UVARM after an increment: U is that of its end, DU is zero
     """
 

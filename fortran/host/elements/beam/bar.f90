@@ -50,8 +50,8 @@ contains
     end if
   end function bar_of
 
-  !> Forces and stiffness of a pull, and of its derivative by the elongation; for the matrix of a stress (request, as LFLAGS(3))
-  !> the change of the forces as the line turns, alone.
+  !> Forces and stiffness of a pull, and of its derivative by the elongation; if the request (LFLAGS(3)) is the initial stress
+  !> matrix, only the change of the forces as the line turns.
   pure subroutine bar_forces(dim, bar, request, pull, slope, du, force, stiffness)
     integer, intent(in) :: dim
     type(bar_t), intent(in) :: bar

@@ -270,7 +270,7 @@ contains
     stiffness = stiffness + weight*matmul(transpose(part), matmul(modulus, part))
   end subroutine add_section
 
-  !> The matrix of a stress (host_context): what the forces change by as the beam turns.
+  !> The initial stress matrix (host_context): change of the forces as the beam turns.
   subroutine turn_stress(beam, rule, element, resultants, stiffness)
     type(beam_t), intent(in) :: beam
     type(rule_t), intent(in) :: rule

@@ -10,10 +10,10 @@
 !>
 !> with the shear assumed from the middles of the edges, and the last one, across, interpolated between the pairs (P. Betsch, E.
 !> Stein, Communications in Numerical Methods in Engineering 11 (1995) 899): what the middle of a curved element would have of it
-!> would resist bending. Each is a quadratic form of the places of the nodes, so B is linear in them, and the stiffness of a stress
-!> is constant. They are turned from the director to the normal, so that elements whose edges are not normal to the faces have
-!> constant strains. The enhanced modes of host_shell_strains complete what S. Klinkel, F. Gruttmann and W. Wagner (Computers and
-!> Structures 71 (1999) 43) have of such shells. Without NLGEOM strains are linear.
+!> would resist bending. Each is a quadratic form of the places of the nodes, so B is linear in them, and the geometric
+!> stiffness of a given stress is constant. They are turned from the director to the normal, so that elements whose edges are not
+!> normal to the faces have constant strains. The enhanced modes of host_shell_strains complete what S. Klinkel, F. Gruttmann and W.
+!> Wagner (Computers and Structures 71 (1999) 43) have of such shells. Without NLGEOM strains are linear.
 !>
 !> Section points are in plane stress, at one point of the surface. The stress across is constant, the thickness modulus times
 !>
@@ -95,7 +95,7 @@ contains
     if (element%has_forces) call integrate(element, axes)
   end subroutine continuum_shell
 
-  !> Force, tangent, state and energies; or the matrix of a stress (host_context).
+  !> Force, tangent, state and energies; or the initial stress matrix (host_context).
   subroutine integrate(element, axes)
     type(element_t), intent(inout) :: element
     real(dp), intent(in), pointer, contiguous :: axes(:, :, :, :)
@@ -146,7 +146,7 @@ contains
     end associate
   end subroutine integrate
 
-  !> The stress matrix of the initial stress, or of that of a perturbation: that of all forms.
+  !> The initial stress matrix of the present stress, or of that of a perturbation: the sum over the forms of all strains.
   subroutine add_stress(element, middle, linear, stress, force, stiffness)
     type(element_t), intent(in) :: element
     type(forms_t), intent(in) :: middle

@@ -15,7 +15,7 @@
 !> direction of the normal as well: the energy is that of the change of (g1 q, g2 q, (g1 x g2) q), with the columns of f, which no
 !> rotation changes. That Abaqus resists warping so is inferred.
 !>
-!> The matrix of a stress (host_context) is that of forces along the gradients, U^-1 s U^-1 on each direction alike.
+!> The initial stress matrix (host_context) is that of forces along the gradients, U^-1 s U^-1 on each direction alike.
 !>
 !> Values of PROPS, JPROPS and of each point in SVARS: built_in.toml. In dynamic analyses SVARS go on with the forces of the last
 !> two increments; last are the directions of each point, with *ORIENTATION (host_axes).
@@ -166,7 +166,7 @@ contains
     end do
   end subroutine find_mass
 
-  !> Force, tangent, state and energies, or the matrix of a stress.
+  !> Force, tangent, state and energies, or the initial stress matrix.
   subroutine integrate(rule, places, element, svars, force, stiffness)
     type(rule_t), intent(in) :: rule
     type(place_t), intent(in) :: places(rule%points)

@@ -64,7 +64,7 @@ contains
     end associate
   end subroutine shell
 
-  !> Force, tangent, state and energies, or the matrix of a stress (host_context).
+  !> Force, tangent, state and energies, or the initial stress matrix (host_context).
   subroutine add_forces(element, v, at_points, full)
     type(element_t), intent(inout) :: element
     real(dp), intent(in) :: v(3, element%nodes)
@@ -168,8 +168,8 @@ contains
     end do
   end function motion_of_directors
 
-  !> The matrix of a stress (host_context), from the forces and the stiffness by the motion of an element: what its forces change by
-  !> as it turns.
+  !> The initial stress matrix (host_context): change of the forces as the element turns. On entry RHS and AMATRX are its forces and
+  !> its stiffness without that rotation.
   pure subroutine turn_stress(element, middle)
     type(element_t), intent(inout) :: element
     type(shell_point), intent(in) :: middle
@@ -188,7 +188,7 @@ contains
     end associate
   end subroutine turn_stress
 
-  !> Forces and stiffness of a shell whose directors turn, or the matrix of its stress.
+  !> Forces and stiffness of a shell whose directors turn, or its initial stress matrix.
   pure subroutine turn_directors(element, v, points, full, stress)
     type(element_t), intent(inout) :: element
     real(dp), intent(in) :: v(3, element%nodes)

@@ -25,8 +25,8 @@ module host_condensed_modes
 
 contains
 
-  !> As integrate, of the displacements alone. The matrix of a stress is that of all unknowns where the modes follow the
-  !> displacements as the tangent has them.
+  !> As integrate, for the displacements alone. The initial stress matrix of all unknowns is reduced to the displacements, which the
+  !> modes follow as in the tangent.
   subroutine integrate_with_modes(this, kinematics, alpha, force, stiffness, energy)
     type(solid_t), intent(inout) :: this
     type(enhanced_t), intent(inout) :: kinematics
@@ -89,7 +89,8 @@ contains
       stiffness = 0
       call integrate(this, kinematics, extras, force, stiffness, energy)
       if (begins(this)) return
-      ! stresses at rest, thermal or initial, do none: there it is that of the nodal forces where nothing holds the nodes
+      ! the work that forces on modes are compared with; while all displacements are zero, thermal and initial stresses do none,
+      ! and the second term counts: the work that the nodal forces would do on free nodes
       unknowns = abs([about_mean(this%dim, reshape(this%u, [n])), alpha])
       if (this%finite) unknowns(:n) = unknowns(:n) + rounded*abs(about_mean(this%dim, reshape(this%x, [n])))
       all_work = dot_product(unknowns, matmul(abs(stiffness), unknowns)) + &

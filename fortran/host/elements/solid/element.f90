@@ -31,7 +31,7 @@ module host_solid_element
     type(material_t), pointer :: here => null()       !< of the point
     integer(i4), pointer, contiguous :: layers(:, :) => null()   !< (4, points) material, NPT, LAYER, KSPT; null without layers
     real(dp), pointer, contiguous :: x(:, :) => null(), u(:, :) => null()   !< (dim, nodes) before displacements; displacements
-    real(dp), pointer, contiguous :: du(:, :) => null()          !< their increments; zero for the matrix of a stress
+    real(dp), pointer, contiguous :: du(:, :) => null()          !< their increments; zero for the initial stress matrix
     real(dp), pointer, contiguous :: added(:) => null()          !< perturbation of all unknowns, whose stress may be asked for
     integer :: fields = 0               !< predefined
     real(dp), pointer, contiguous :: predef(:, :, :) => null()   !< (2, fields, nodes)

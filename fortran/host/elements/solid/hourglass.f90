@@ -1,7 +1,8 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Hourglass control of elements with four or eight nodes that have one integration point, or one for each section point of layers.
-!> The latter bend across their layers without it; that it acts on all patterns there too is inferred.
+!> Section points through the layers resist bending of the stack by themselves. That Abaqus controls all patterns of such elements
+!> nevertheless is inferred.
 !>
 !> h is a pattern of 1 and -1 at the nodes, B the mean gradients of the shape functions over the volume V before any
 !> displacement. gamma = h - B (x h) is the part of the pattern that is in no linear displacement, q = u gamma is the hourglass

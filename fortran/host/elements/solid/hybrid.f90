@@ -36,7 +36,7 @@ module host_hybrid
     real(dp) :: volume = 0                         !< of the element before any displacement
     real(dp), allocatable :: functions(:, :)       !< (functions, points)
     real(dp), allocatable :: factors(:)            !< the unknowns
-    real(dp), allocatable :: added(:)              !< their changes by a perturbation, for the matrix of its stress
+    real(dp), allocatable :: added(:)              !< their changes by a perturbation, for the initial stress matrix
     real(dp), allocatable :: residual(:)           !< theirs: mean differences of the changes of volume
     real(dp), allocatable :: by_displacements(:, :)   !< (unknowns of the nodes, functions) its derivatives
     real(dp), allocatable :: by_factors(:, :)      !< (functions, functions)

@@ -123,8 +123,9 @@ contains
     b(n + 1:, dim + 1:) = 0
   end subroutine enhanced_strains
 
-  !> Add to the stiffness of the modes what a tangent leaves out that has a strain rate and a rotation at the end of the increment:
-  !> that they are those of its middle, and the change of the volume. The stress is an isotropic function of what turns with it.
+  !> Add to the stiffness of the modes the two terms that the usual tangent omits: strain increment and spin belong to the middle of
+  !> the increment, not to its end; and the volume changes. The material is isotropic: if strain and state turn, its stress turns
+  !> with them.
   pure subroutine add_by_modes(this, dim, strains, point, gradient, g, b, stress, modulus, volume, stiffness)
     type(modes_t), intent(in) :: this
     integer, intent(in) :: dim, strains, point

@@ -20,7 +20,7 @@ module host_solid_integration
 
 contains
 
-  !> Add force, tangent, state and energies; of the initial stresses without a tangent; or the matrix of a stress (host_context).
+  !> Add force, tangent, state and energies; of the initial stresses without a tangent; or the initial stress matrix (host_context).
   subroutine integrate(this, kinematics, extras, force, stiffness, energy)
     type(solid_t), intent(inout) :: this
     class(kinematics_t), intent(inout) :: kinematics
@@ -122,7 +122,7 @@ contains
     end if
   end subroutine respond_at
 
-  !> Add the matrix of stresses: what the tangent in large displacements has of them.
+  !> Add the initial stress matrix of these stresses: the geometric part of the tangent in large displacements.
   subroutine add_stress_matrix(this, kinematics, stresses, weights, stiffness)
     type(solid_t), intent(in) :: this
     class(kinematics_t), intent(in) :: kinematics

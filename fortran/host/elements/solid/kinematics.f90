@@ -80,7 +80,7 @@ contains
     b(:element%n, :) = this%b(:, :, p)
   end subroutine strain_matrix
 
-  !> Add what the tangent has of the stress in large displacements; the modulus gets its part too.
+  !> Add the geometric stiffness of the stress in large displacements; the modulus gets its part too.
   subroutine add_tangent(this, element, p, b, stress, weight, modulus, stiffness)
     class(kinematics_t), intent(inout) :: this
     type(solid_t), intent(in) :: element

@@ -22,7 +22,8 @@
 !> tangent those of the forces (host_mean_dilatation_tangent); where the volume strain is the mean, the points share the change of
 !> the volume.
 !>
-!> The matrix of a stress (host_context) is what the tangent in large displacements has of it, also where displacements are small.
+!> The initial stress matrix (host_context) is the geometric part of the tangent in large displacements, also where displacements
+!> are small.
 !>
 !> With layers MATERIALLIB is the material of the first layer. Then all materials are in the directions of the points.
 !>
@@ -51,8 +52,8 @@ module host_solid
   use host_solid_extras, only: extras_t
   use host_solid_integration, only: integrate
   use host_solid_kinematics, only: kinematics_t
-  use host_standard_kinematics, only: standard_t
   use host_solid_mass, only: mass_matrix
+  use host_standard_kinematics, only: standard_t
   use host_uniform_kinematics, only: uniform_t
   implicit none (type, external)
   private
