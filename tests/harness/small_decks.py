@@ -35,11 +35,11 @@ def snapping(folder: Path, static: str) -> Path:
 
 
 def pulled(folder: Path) -> Path:
-    """A spring of a user element, pulled."""
+    """A spring of a user element, with the properties that procedures/springs.f reads, pulled."""
     deck = folder / "pulled.inp"
     deck.write_text(
-        "*NODE\n1, 0.\n2, 1.\n*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=1\n1\n"
-        "*ELEMENT, TYPE=U1, ELSET=ALL\n1, 1, 2\n*UEL PROPERTY, ELSET=ALL\n1.\n"
+        "*NODE\n1, 0.\n2, 1.\n*USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=1, PROPERTIES=2, I PROPERTIES=1\n1\n"
+        "*ELEMENT, TYPE=U1, ELSET=ALL\n1, 1, 2\n*UEL PROPERTY, ELSET=ALL\n1., 0., 0\n"
         "*STEP\n*STATIC\n1., 1.\n*BOUNDARY\n1, 1\n2, 1, 1, 0.1\n*END STEP\n"
     )
     return deck

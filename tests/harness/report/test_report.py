@@ -86,10 +86,10 @@ def test_page_of_a_completed_job(tmp_path: Path) -> None:
 def test_names_that_a_deck_gives(tmp_path: Path) -> None:
     """Of a user element, and the number of those that have none."""
     deck = pulled(tmp_path)
-    deck.write_text(deck.read_text().replace("PROPERTIES=1\n1\n", "PROPERTIES=1\n** PROPERTIES: k [N/mm]\n1\n"))
+    deck.write_text(deck.read_text().replace("PROPERTIES=1\n1\n", "PROPERTIES=1\n** PROPERTIES: k [N/mm], cubic\n1\n"))
     run(deck, SPRING_IN_C, output_dir=tmp_path)
     assert ["k [N/mm]", "1", "PROPS(1)"] in Page(report(tmp_path / "pulled")).rows
-    deck.write_text(deck.read_text().replace("** PROPERTIES: k [N/mm]\n", ""))
+    deck.write_text(deck.read_text().replace("** PROPERTIES: k [N/mm], cubic\n", ""))
     run(deck, SPRING_IN_C, output_dir=tmp_path)
     assert ["PROPS(1)", "1", ""] in Page(report(tmp_path / "pulled")).rows
 
@@ -116,7 +116,7 @@ def test_page_of_a_job_that_failed(tmp_path: Path, capsys: pytest.CaptureFixture
 def test_deck_that_has_changed_or_is_gone(tmp_path: Path) -> None:
     """With the parameters of the run."""
     deck = pulled(tmp_path)
-    text = deck.read_text().replace("ELSET=ALL\n1.\n", "ELSET=ALL\n<k>\n")
+    text = deck.read_text().replace("ELSET=ALL\n1., ", "ELSET=ALL\n<k>, ")
     deck.write_text(f"*PARAMETER\nk = 1.\n{text}")
     run(deck, SPRING_IN_C, output_dir=tmp_path, parameters={"k": 2.0})
     page = Page(report(tmp_path / "pulled"))
