@@ -368,7 +368,7 @@ contains
   !>
   !> It is the work of its traction less the change of the stored energy. The traction may vanish at failure with any positive power
   !> of what is left of the way, and is smoother in the square root of that, v. The error is below 1e-9 of the fracture energy for
-  !> toughnesses in a ratio of 4, below 1e-6 for a ratio of 18.
+  !> toughnesses in a ratio of 4, below 1e-6 for a ratio of 18 with exponents up to 3.
   pure function work_beyond_potential(law, before, after) result(work)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: before(2), after(2)   !< largest separations, length
