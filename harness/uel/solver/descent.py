@@ -198,10 +198,10 @@ class Descent(Newton):
         self._visited.append(du)
         if len(self._visited) <= WINDOW:
             return None
-        corrections = np.diff(self._visited, axis=0)
         centre: FloatArray = np.mean(self._visited, axis=0)
-        way = self._majoriser.norm(corrections.sum(axis=0))
-        if way >= CIRCLING * sum(self._majoriser.norm(correction) for correction in corrections):
+        way = self._majoriser.norm(self._visited[-1] - self._visited[0])
+        length = sum(self._majoriser.norm(correction) for correction in np.diff(self._visited, axis=0))
+        if way >= CIRCLING * length:
             del self._visited[0]
             return None
         self._visited = []
