@@ -130,7 +130,7 @@ contains
     end do
   end subroutine unpack
 
-  !> Puts what a zero stands for in its place: the bilinear law and, in a self-contained element, the consistent closure and beta
+  !> Puts what a zero stands for in its place: the bilinear law and, in a self-contained element, the complete form and beta
   !> from the local eigenvalues, in U3 and U10, which follow the paper, its closure and (21).
   pure subroutine recommend(itype, values, options)
     integer, intent(in) :: itype
@@ -142,7 +142,7 @@ contains
     if (iand(elements(itype)%family, interfaces) /= 0 .and. options(j_law) == 0) options(j_law) = 1
     if (iand(elements(itype)%family, stabilised) == 0) return
     follows_paper = iand(elements(itype)%family, next_to_solids) /= 0
-    if (options(j_closure) == 0) options(j_closure) = merge(paper_closure, consistent_closure, follows_paper)
+    if (options(j_closure) == 0) options(j_closure) = merge(paper_closure, complete_closure, follows_paper)
     where (.not. abs(values(betas)) > 0.0_dp) values(betas) = merge(by_equation_21, by_eigenvalues, follows_paper)
   end subroutine recommend
 

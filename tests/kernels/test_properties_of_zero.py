@@ -11,7 +11,7 @@ from space import nodes_of
 from uel.usersub.layout import element_layouts
 
 ZEROS = {"LAW": 0, "CLOSURE": 0, "BETAN": 0.0, "BETAT": 0.0, "ALPHAN": 0.0, "ALPHAT": 0.0}
-CONSISTENT = {"LAW": 1, "CLOSURE": 1, "BETAN": -1.0, "BETAT": -1.0, "ALPHAN": 0.0, "ALPHAT": 0.0}
+CONSISTENT = {"LAW": 1, "CLOSURE": 3, "BETAN": -1.0, "BETAT": -1.0, "ALPHAN": 0.0, "ALPHAT": 0.0}
 PAPER = {"LAW": 1, "CLOSURE": 2, "BETAN": -2.0, "BETAT": -2.0}
 OWN = [item.name for item in element_layouts()[4].own]
 

@@ -27,7 +27,7 @@ class Interface:
     weight     of the bulk stress below; 0 computes it by equation (22), with the estimate of beta
     viscosity  relaxation time of the damage, in step time
     sampling   of the bulk stress: 0 middle of the face, 1 face, 2 Gauss point
-    consistent law evaluated at the separation (CLOSURE 1) instead of the displacement jump of the paper (CLOSURE 2)
+    consistent law evaluated at the separation (CLOSURE 3, in U3 and U10 1) instead of the displacement jump (CLOSURE 2)
     law        1 linear criterion (11), 2 criterion of Benzeggagh and Kenane with the exponent `eta`, or the power law
     power      exponent of the power law, where `eta` is 0; 0: 1, the linear criterion
     newton_cotes  integration points at the nodes instead of Gauss points
@@ -51,6 +51,13 @@ class Interface:
     newton_cotes: bool = False
     secant: bool = False
     blend: float = 0.0
+
+    @property
+    def closure(self) -> int:
+        """CLOSURE: the paper's 2, the complete form 3, and 1 in U3 and U10, which do not have it."""
+        if not self.consistent:
+            return 2
+        return 1 if self.type in ("U3", "U10") else 3
 
     @property
     def built_in(self) -> bool:
@@ -226,7 +233,7 @@ def law_values(interface: Interface) -> dict[str, float]:
         "INTEGRATION": int(interface.newton_cotes),
         "TANGENT": int(interface.secant),
         "SAMPLING": interface.sampling,
-        "CLOSURE": 1 if interface.consistent else 2,
+        "CLOSURE": interface.closure,
     }
 
 

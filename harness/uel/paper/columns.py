@@ -90,7 +90,7 @@ class Column:
 COLUMNS = {
     "u4_zeros": Column("zeros: the recommended element", 4),
     "u4_paper": Column("the paper's law, beta by equation (21)", 4, values=PAPER),
-    "u4_complete": Column("complete form", 4, values={"CLOSURE": 3}),
+    "u4_incomplete": Column("incomplete form", 4, values={"CLOSURE": 1}),
     "u4_cooled": Column(
         "cooled by 100 K",
         4,
@@ -103,7 +103,7 @@ COLUMNS = {
     "u4_blend": Column("share of the secant matrix", 4, values={"LAW": 1, "BLEND": 0.05}),
     "u4_given": Column("beta and gamma given", 4, values={"LAW": 1, "BETAN": 2e5, "BETAT": 1e5, "GAMMABOT": 0.3}),
     "u4_friction": Column(
-        "pressed and slid", 4, values={"LAW": 1, "FRICTION": 0.3, "CLOSURE": 1}, moved=(0.08, -0.0005)
+        "pressed and slid", 4, values={"LAW": 1, "FRICTION": 0.3, "CLOSURE": 3}, moved=(0.08, -0.0005)
     ),
     "u4_plane_strain": Column(
         "plane strain, fibres across the interface below",

@@ -29,7 +29,7 @@ _PLY = {"E1": MODULUS, "E2": MODULUS, "G12": MODULUS / 2.0}
 _SOLIDS = {f"{name} {side}": value for name, value in _PLY.items() for side in ("BOTTOM", "TOP")}
 TYPES = {
     "U2": _LAW | {"ALPHAN": 1.0e4, "ALPHAT": 1.0e4, "INTEGRATION": 1},
-    "U4": _LAW | _SOLIDS | formulations("CPS4R") | {"CLOSURE": 1, "BETAN": -1.0, "BETAT": -1.0},
+    "U4": _LAW | _SOLIDS | formulations("CPS4R") | {"CLOSURE": 3, "BETAN": -1.0, "BETAT": -1.0},
 }
 """Interface elements with their properties: the standard one, the consistent one with an infinite stiffness."""
 

@@ -503,7 +503,7 @@ _PLY_SHEAR: Final = {"G12": 1000.0 / 2.6, "G13": 1000.0 / 2.6, "G23": 1000.0 / 2
 def _user(jtype: int) -> Callable[[list[list[int]], list[list[int]]], Lines]:
     """Elements of the project between the blocks."""
     sides = {f"{name} {side}": v for side in ("BOTTOM", "TOP") for name, v in (_PLY | _PLY_SHEAR).items()}
-    properties = _INTERFACE | sides | {"LAW": 2, "ETA": 2.0, "CLOSURE": 1, "PLANE": 1}
+    properties = _INTERFACE | sides | {"LAW": 2, "ETA": 2.0, "CLOSURE": 3, "PLANE": 1}
     if jtype in (4, 8):
         # zeros are the recommendation
         properties |= {"ALPHAN": 0.0, "ALPHAT": 0.0}

@@ -29,7 +29,7 @@ Written by `python -m uel.paper.study`. HTA/6376C, plane stress, width 20 mm, st
 toughnesses 0.26 and 1.002 N/mm. Displacement in increments of 1 % at most, Abaqus' default tolerances and
 cutbacks. Perturbed: the interface nodes are moved alternately up and down by 3 % of an element's length.
 
-- **element**: standard (U2), the paper's (U4, CLOSURE 2), the consistent (U4, CLOSURE 1; inf is
+- **element**: standard (U2), the paper's (U4, CLOSURE 2), the consistent (U4, CLOSURE 3; inf is
   ALPHAN = ALPHAT = 0). **solution**: newton is Abaqus' own, fallback adds the search of `uel run --fallback`;
   viscous1e-4 is newton with a VISCOSITY of 1e-4 of the step time. No other row has viscosity.
 - **iterations**: including those of abandoned attempts; **per increment** without snaps, increments in which the load
