@@ -22,7 +22,7 @@ from uel.errors import ConvergenceError, ElementError, UelError, UsageError, in_
 from uel.files import deck_named
 from uel.interrupts import held, settle
 from uel.model.model import Model, constraints_with_multipliers
-from uel.model.records import AttemptEnded, IncrementDone, Record, StepDone
+from uel.model.records import AttemptEnded, HarmonicResponse, IncrementDone, ModeShape, Record, StepDone
 from uel.model.restart import Resumption
 from uel.output import JobOutput, Result
 from uel.output.earlier_jobs import EarlierJobs
@@ -183,7 +183,8 @@ def _analyse(
 
         def write_record(record: Record, files: JobOutput) -> None:
             files.write(record)
-            if isinstance(record, IncrementDone):
+            # nothing fails in modes and harmonic responses
+            if isinstance(record, IncrementDone) and not isinstance(record, ModeShape | HarmonicResponse):
                 for warning in long_elements.warnings(record, files.warnings):
                     files.user_text(".dat", "warning", warning)
 
