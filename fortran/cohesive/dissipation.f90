@@ -7,8 +7,9 @@
 !> damage grows, the separation lies on the envelope of the law, so that the energy dissipated along a direction is a function of
 !> K: `loss`. Its difference between the ends of an increment is exact along a direction, whatever the size of the increment, and
 !> whether the separation has been at the envelope before, comes back to it, from the other side even, or goes beyond failure.
-!> Where the direction turns meanwhile, the one half-way is taken, with an error of second order. K never grows, so that no
-!> increment dissipates a negative energy. The PPR law, whose components have secants of their own, has the same in `cohesive_ppr`.
+!> Where the direction turns meanwhile, the traction that would act without softening is taken to change along a straight way, and
+!> the direction to turn in proportion to D, the damage of the consistent law. K never grows, so that no increment dissipates a
+!> negative energy. The PPR law, whose components have secants of their own, has the same in `cohesive_ppr`.
 !>
 !> SPENT is the share of the fracture energy that a straight path to the present state dissipates, a function of K and the
 !> direction: the rest is what the point will dissipate on its way to failure in that direction. Where a path turns towards a
@@ -18,7 +19,7 @@ module cohesive_dissipation
   use cohesive_parameters, only: law_parameters, ppr_law
   use cohesive_shear, only: mode_of, shears, resultant
   use cohesive_state, only: point_history, damage_state, law_solution
-  use cohesive_law, only: loss, softening, stiffness_of, damage_envelope
+  use cohesive_law, only: loss, softening, stiffness_of
   use cohesive_local_solve, only: damage_at_secant, softening_stiffness, opening_part
   use cohesive_ppr, only: ppr_work_of_damage, ppr_share_spent, ppr_damage_of_components
   implicit none(type, external)
@@ -40,9 +41,9 @@ contains
     real(dp), intent(out) :: dissipated(2)   !< by sliding and by opening
     real(dp), intent(out) :: viscous
     real(dp), intent(out) :: spent           !< share of the fracture energy
-    real(dp), dimension(2) :: before, after, direction, growth, work, most
+    real(dp), dimension(2) :: before, after, growth, work, most
     real(dp), dimension(3) :: g0, g1, of_component
-    real(dp) :: reached, ends, old(2), new(2), not_used(2)
+    real(dp) :: old, new
 
     dissipated = history%dissipated
     viscous = history%viscous
@@ -58,12 +59,9 @@ contains
       work = ppr_work_of_damage(law, history%largest, state%largest, before, after)
       spent = max(spent, ppr_share_spent(law, state%largest))
     else
-      old = [1.0_dp - history%damage, law%flexibility*history%damage]
-      new = [1.0_dp - state%damage, law%flexibility*state%damage]
-      call damage_envelope(law, before, reached, not_used)
-      call damage_envelope(law, after, ends, not_used)
-      direction = direction_of_growth(before, after, reached, history%damage, ends)
-      work = work_of_damage(law, direction, old, new)
+      old = damage_at_secant(law, 1.0_dp - history%damage, law%flexibility)
+      new = damage_at_secant(law, 1.0_dp - state%damage, law%flexibility)
+      work = work_of_damage(law, before, after, stiffness_of(law)*before, stiffness_of(law)*after, old, new)
       spent = max(spent, share_spent(law, after, new))
     end if
     if (law%viscosity > 0.0_dp) then
@@ -77,16 +75,19 @@ contains
   end subroutine dissipate
 
   !> Energies dissipated up to the end of an increment of the consistent law; by backward Euler for the overstress and the friction.
-  pure subroutine dissipate_consistently(law, history, state, dissipated, viscous, friction_work, spent)
+  pure subroutine dissipate_consistently(law, history, traction, trial, beta, state, dissipated, viscous, friction_work, spent)
     type(law_parameters), intent(in) :: law
     type(point_history), intent(in) :: history
+    real(dp), intent(in) :: traction(3)        !< at the start
+    real(dp), intent(in) :: trial(3)           !< p at the end
+    real(dp), intent(in) :: beta(2)            !< (tau, n), stress/length
     type(law_solution), intent(in) :: state
     real(dp), intent(out) :: dissipated(2)     !< by sliding and by opening
     real(dp), intent(out) :: viscous
     real(dp), intent(out) :: friction_work
     real(dp), intent(out) :: spent             !< share of the fracture energy
     real(dp), dimension(3) :: w0, w1
-    real(dp), dimension(2) :: before, after, direction, old, new
+    real(dp), dimension(2) :: before, after, bonded
 
     w0 = opening_part(history%separation)
     w1 = opening_part(state%separation)
@@ -101,11 +102,10 @@ contains
       dissipated = dissipated + ppr_work_of_damage(law, history%largest, state%largest, before, after)
       spent = max(spent, ppr_share_spent(law, state%largest))
     else
-      old = secant_at(law, history%damage)
-      new = secant_at(law, state%damage)
-      direction = direction_of_growth(before, after, damage_without_history(law, before), history%damage, state%damage)
-      dissipated = dissipated + work_of_damage(law, direction, old, new)
-      spent = max(spent, share_spent(law, after, new))
+      bonded = 1.0_dp/(1.0_dp + beta*law%flexibility/law%ratio)
+      dissipated = dissipated + work_of_damage(law, before, after, bonded*resultant(opening_part(traction + beta(mode_of)*w0)), &
+        bonded*resultant(opening_part(trial)), history%damage, state%damage)
+      spent = max(spent, share_spent(law, after, state%damage))
     end if
   end subroutine dissipate_consistently
 
@@ -134,49 +134,78 @@ contains
     secant = [k*(1.0_dp - damage), damage*(1.0_dp + k*law%flexibility)]
   end function secant_at
 
-  !> Direction half-way between the separation at which the damage begins to grow and that at the end of the increment; zero
-  !> without separations. Between the ends, the damage of the envelope is taken to be linear.
-  pure function direction_of_growth(before, after, reached, damage, ends) result(direction)
-    real(dp), intent(in) :: before(2), after(2)   !< separations at the ends of the increment
-    real(dp), intent(in) :: reached, ends         !< damage of the envelope there, without history
-    real(dp), intent(in) :: damage                !< at the start
-    real(dp) :: direction(2)
-    real(dp) :: part, length
-
-    part = 0.0_dp
-    if (ends > max(reached, damage)) part = max(0.0_dp, damage - reached)/(ends - reached)
-    direction = after + before + part*(after - before)
-    length = norm2(direction)
-    if (length > 0.0_dp) direction = direction/length
-  end function direction_of_growth
-
-  !> Energy that sliding and opening dissipate in a direction while the secant stiffness falls.
-  pure function work_of_damage(law, direction, old, new) result(work)
+  !> Energy that sliding and opening dissipate while the damage D grows.
+  pure function work_of_damage(law, before, after, driven, driving, old, new) result(work)
     type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: direction(2)     !< of unit length, or zero
-    real(dp), intent(in) :: old(2), new(2)   !< secant stiffnesses as `loss` takes them
+    real(dp), intent(in) :: before(2), after(2)      !< separations at the ends of the increment
+    real(dp), intent(in) :: driven(2), driving(2)    !< tractions there if the point did not soften
+    real(dp), intent(in) :: old, new                 !< D
     real(dp) :: work(2)
+    integer, parameter :: steps = 4
+    real(dp), dimension(2) :: direction, start, finish, from, to
+    integer :: step
 
     work = 0.0_dp
-    if (.not. maxval(direction) > 0.0_dp) return
-    work = law%ratio*direction**2*max(0.0_dp, loss(law, direction, new(1), new(2)) - loss(law, direction, old(1), old(2)))
+    if (.not. new > old) return
+    finish = unit(after)
+    start = direction_of_start(law, before, after, driven, driving, old, new)
+    do step = 1, steps
+      direction = unit(start + ((step - 0.5_dp)/steps)*(finish - start))
+      if (.not. maxval(direction) > 0.0_dp) return
+      from = secant_at(law, old + ((step - 1.0_dp)/steps)*(new - old))
+      to = secant_at(law, old + (real(step, dp)/steps)*(new - old))
+      work = work + law%ratio*direction**2*max(0.0_dp, loss(law, direction, to(1), to(2)) - loss(law, direction, from(1), from(2)))
+    end do
   end function work_of_damage
 
-  !> Share of the fracture energy that is dissipated in the direction of a separation once the secant stiffness has fallen so far; 0
-  !> without a separation.
-  pure function share_spent(law, separation, secant) result(share)
+  !> Direction of the separation where the damage begins to grow: at onset on the straight way between the tractions, later where the
+  !> envelope has the damage of the start, on the straight way between the separations.
+  pure function direction_of_start(law, before, after, driven, driving, old, new) result(direction)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: before(2), after(2), driven(2), driving(2)
+    real(dp), intent(in) :: old, new
+    real(dp) :: direction(2)
+    real(dp) :: start, finish, part
+
+    if (old > 0.0_dp) then
+      start = damage_without_history(law, before)
+      part = 0.0_dp
+      if (new > max(start, old)) part = max(0.0_dp, old - start)/(new - start)
+      direction = unit(before + part*(after - before))
+    else
+      start = norm2(driven/law%strength)
+      finish = norm2(driving/law%strength)
+      part = 0.0_dp
+      if (finish > max(start, 1.0_dp)) part = max(0.0_dp, 1.0_dp - start)/(finish - start)
+      direction = unit((driven + part*(driving - driven))/law%ratio)
+    end if
+  end function direction_of_start
+
+  !> A pair of unit length; zero where it has no length.
+  pure function unit(pair) result(direction)
+    real(dp), intent(in) :: pair(2)
+    real(dp) :: direction(2)
+    real(dp) :: length
+
+    length = norm2(pair)
+    direction = 0.0_dp
+    if (length > 0.0_dp) direction = pair/length
+  end function unit
+
+  !> Share of the fracture energy that is dissipated in the direction of a separation at a damage D; 0 without a separation.
+  pure function share_spent(law, separation, damage) result(share)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: separation(2)
-    real(dp), intent(in) :: secant(2)        !< as `loss` takes it
+    real(dp), intent(in) :: damage
     real(dp) :: share
-    real(dp) :: direction(2), length
+    real(dp) :: direction(2), secant(2)
 
     share = 0.0_dp
-    length = norm2(separation)
+    direction = unit(separation)
+    secant = secant_at(law, damage)
     if (.not. secant(1) > 0.0_dp) then
       share = 1.0_dp
-    else if (length > 0.0_dp) then
-      direction = separation/length
+    else if (maxval(direction) > 0.0_dp) then
       share = min(1.0_dp, loss(law, direction, secant(1), secant(2))/loss(law, direction, 0.0_dp, 1.0_dp))
     end if
   end function share_spent
