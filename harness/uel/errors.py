@@ -27,6 +27,17 @@ class Source:
 class UelError(Exception):
     """Base of every error with a message for the user."""
 
+    def __reduce__(self) -> tuple[object, ...]:
+        # those that make their message of other arguments cannot be made of it again, in another process
+        return _restored, (type(self), self.args, vars(self))
+
+
+def _restored(kind: type[UelError], arguments: tuple[object, ...], attributes: dict[str, object]) -> UelError:
+    """Return an error that comes from another process, with its notes."""
+    error = kind.__new__(kind, *arguments)
+    vars(error).update(attributes)
+    return error
+
 
 class UsageError(UelError):
     """A word of the command line, or an argument of a function, is not valid."""
