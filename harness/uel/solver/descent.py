@@ -202,6 +202,8 @@ class Descent(Newton):
         way = 0.0
         for k in range(WINDOW - 1, -1, -1):
             way += self._majoriser.norm(self._visited[k + 1] - self._visited[k])
+            if not np.isfinite(way):
+                break
             if k < WINDOW - 1 and self._majoriser.norm(self._visited[-1] - self._visited[k]) < CIRCLING * way:
                 centre: FloatArray = np.mean(self._visited[k:-1], axis=0)
                 self._visited = []
