@@ -36,7 +36,8 @@ class PatchCase:
     moved    the interface nodes are moved by 3 % of an element
     decimals  of the coordinates of an inclined interface's nodes
     normal, shear  stiffnesses of the interface (N/mm^3)
-    beta     stabilisation (N/mm^3): None takes the paper's, BY_EQUATION_21 that of equation (21)
+    beta     stabilisation (N/mm^3): None takes the paper's, in the consistent element that of the local eigenvalues,
+             BY_EQUATION_21 that of equation (21)
     slide    the bottom edge may contract sideways, so that the stress is uniform
     """
 
@@ -86,7 +87,9 @@ class PatchCase:
         mesh, mesh_name = self.mesh(), self._nodes
         kind, consistent = METHODS[self.element]
         paper = BETAS[self.layup] if self.shape == "inclined" else specimens.PATCH_BETA
-        beta = 0.0 if kind == "U2" else paper if self.beta is None else self.beta
+        # the complete form of the consistent element needs more than the paper's element, which the local eigenvalues give
+        own = kind == "U2" or consistent
+        beta = self.beta if self.beta is not None else 0.0 if own else paper
         law = replace(LAW, stiffness_normal=self.normal, stiffness_shear=self.shear)
         if self.shear == self.normal:
             # both directions are stiff: out of reach of the strengths
