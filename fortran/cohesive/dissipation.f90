@@ -7,9 +7,8 @@
 !> damage grows, the separation lies on the envelope of the law, so that the energy dissipated along a direction is a function of
 !> K: `loss`. Its difference between the ends of an increment is exact along a direction, whatever the size of the increment, and
 !> whether the separation has been at the envelope before, comes back to it, from the other side even, or goes beyond failure.
-!> Where the direction turns meanwhile, the traction that would act without softening is taken to change along a straight way, and
-!> the direction to turn in proportion to D, the damage of the consistent law. K never grows, so that no increment dissipates a
-!> negative energy. The PPR law, whose components have secants of their own, has the same in `cohesive_ppr`.
+!> Where the direction turns meanwhile, it is that of a direction in between. K never grows, so that no increment dissipates a
+!> negative energy.
 !>
 !> SPENT is the share of the fracture energy that a straight path to the present state dissipates, a function of K and the
 !> direction: the rest is what the point will dissipate on its way to failure in that direction. Where a path turns towards a
@@ -20,6 +19,7 @@ module cohesive_dissipation
   use cohesive_shear, only: mode_of, shears, resultant
   use cohesive_state, only: point_history, damage_state, law_solution
   use cohesive_law, only: loss, softening, stiffness_of
+  use cohesive_mode_mix, only: measure_onset, measure_energy
   use cohesive_local_solve, only: damage_at_secant, softening_stiffness, opening_part
   use cohesive_ppr, only: ppr_work_of_damage, ppr_share_spent, ppr_damage_of_components
   implicit none(type, external)
@@ -61,7 +61,7 @@ contains
     else
       old = damage_at_secant(law, 1.0_dp - history%damage, law%flexibility)
       new = damage_at_secant(law, 1.0_dp - state%damage, law%flexibility)
-      work = work_of_damage(law, before, after, stiffness_of(law)*before, stiffness_of(law)*after, old, new)
+      work = work_of_damage(law, before, after, (1.0_dp - history%damage)*stiffness_of(law)*before, old, new)
       spent = max(spent, share_spent(law, after, new))
     end if
     if (law%viscosity > 0.0_dp) then
@@ -75,19 +75,17 @@ contains
   end subroutine dissipate
 
   !> Energies dissipated up to the end of an increment of the consistent law; by backward Euler for the overstress and the friction.
-  pure subroutine dissipate_consistently(law, history, traction, trial, beta, state, dissipated, viscous, friction_work, spent)
+  pure subroutine dissipate_consistently(law, history, traction, state, dissipated, viscous, friction_work, spent)
     type(law_parameters), intent(in) :: law
     type(point_history), intent(in) :: history
     real(dp), intent(in) :: traction(3)        !< at the start
-    real(dp), intent(in) :: trial(3)           !< p at the end
-    real(dp), intent(in) :: beta(2)            !< (tau, n), stress/length
     type(law_solution), intent(in) :: state
     real(dp), intent(out) :: dissipated(2)     !< by sliding and by opening
     real(dp), intent(out) :: viscous
     real(dp), intent(out) :: friction_work
     real(dp), intent(out) :: spent             !< share of the fracture energy
     real(dp), dimension(3) :: w0, w1
-    real(dp), dimension(2) :: before, after, bonded
+    real(dp), dimension(2) :: before, after
 
     w0 = opening_part(history%separation)
     w1 = opening_part(state%separation)
@@ -102,9 +100,7 @@ contains
       dissipated = dissipated + ppr_work_of_damage(law, history%largest, state%largest, before, after)
       spent = max(spent, ppr_share_spent(law, state%largest))
     else
-      bonded = 1.0_dp/(1.0_dp + beta*law%flexibility/law%ratio)
-      dissipated = dissipated + work_of_damage(law, before, after, bonded*resultant(opening_part(traction + beta(mode_of)*w0)), &
-        bonded*resultant(opening_part(trial)), history%damage, state%damage)
+      dissipated = dissipated + work_of_damage(law, before, after, resultant(opening_part(traction)), history%damage, state%damage)
       spent = max(spent, share_spent(law, after, state%damage))
     end if
   end subroutine dissipate_consistently
@@ -135,51 +131,95 @@ contains
   end function secant_at
 
   !> Energy that sliding and opening dissipate while the damage D grows.
-  pure function work_of_damage(law, before, after, driven, driving, old, new) result(work)
+  !>
+  !> It is that of one of the directions between those at which D begins and ceases to grow. Where the direction turns, the
+  !> trapezoidal rule tells which: on a straight way of the same secants it is wrong by the same as on the way that was gone.
+  pure function work_of_damage(law, before, after, traction, old, new) result(work)
     type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: before(2), after(2)      !< separations at the ends of the increment
-    real(dp), intent(in) :: driven(2), driving(2)    !< tractions there if the point did not soften
-    real(dp), intent(in) :: old, new                 !< D
+    real(dp), intent(in) :: before(2), after(2)   !< separations at the ends of the increment
+    real(dp), intent(in) :: traction(2)           !< at its start
+    real(dp), intent(in) :: old, new              !< D
     real(dp) :: work(2)
     integer, parameter :: steps = 4
-    real(dp), dimension(2) :: direction, start, finish, from, to
+    real(dp), dimension(2) :: first, last, middle, start, from, to, straight, slope
+    real(dp) :: reached, part, f, least, most, wanted
+    logical :: rises   ! from the first to the last direction
     integer :: step
 
     work = 0.0_dp
     if (.not. new > old) return
-    finish = unit(after)
-    start = direction_of_start(law, before, after, driven, driving, old, new)
+    reached = damage_without_history(law, before)
+    part = 0.0_dp
+    if (new > max(reached, old)) part = max(0.0_dp, old - reached)/(new - reached)
+    start = before + part*(after - before)
+    last = unit(after)
+    first = unit(start)
+    if (.not. maxval(first) > 0.0_dp) first = unit(traction/law%ratio)
+    if (.not. maxval(first) > 0.0_dp) first = last
+    if (.not. maxval(last) > 0.0_dp) last = first
+    middle = unit(start + after)
+    if (.not. maxval(middle) > 0.0_dp) return
+    from = secant_at(law, old)
+    to = secant_at(law, new)
+    work = work_along(law, middle, from, to)
+    if (.not. maxval(abs(last - first)) > 0.0_dp) return
+    if (maxval(start) > 0.0_dp) then
+      slope = 0.5_dp*law%ratio*(stiffness_at(law, from) - stiffness_at(law, to))
+      straight = norm2(start)*(length_at(law, middle, from)/length_at(law, first, from)) &
+        *norm2(after)*(length_at(law, middle, to)/length_at(law, last, to))*middle**2
+      wanted = sum(work + slope*(start*after - straight))
+    else
+      call measure_onset(law, middle, f, slope)
+      straight = norm2(traction/law%strength)*law%ratio*middle/f
+      wanted = sum(work + 0.5_dp*(traction - straight)*after)
+    end if
+    rises = sum(work_along(law, first, from, to)) < sum(work_along(law, last, from, to))
+    least = 0.0_dp
+    most = 1.0_dp
     do step = 1, steps
-      direction = unit(start + ((step - 0.5_dp)/steps)*(finish - start))
-      if (.not. maxval(direction) > 0.0_dp) return
-      from = secant_at(law, old + ((step - 1.0_dp)/steps)*(new - old))
-      to = secant_at(law, old + (real(step, dp)/steps)*(new - old))
-      work = work + law%ratio*direction**2*max(0.0_dp, loss(law, direction, to(1), to(2)) - loss(law, direction, from(1), from(2)))
+      part = 0.5_dp*(least + most)
+      work = work_along(law, unit(first + part*(last - first)), from, to)
+      if ((sum(work) < wanted) .eqv. rises) then
+        least = part
+      else
+        most = part
+      end if
     end do
+    part = 0.5_dp*(least + most)
+    work = work_along(law, unit(first + part*(last - first)), from, to)
   end function work_of_damage
 
-  !> Direction of the separation where the damage begins to grow: at onset on the straight way between the tractions, later where the
-  !> envelope has the damage of the start, on the straight way between the separations.
-  pure function direction_of_start(law, before, after, driven, driving, old, new) result(direction)
+  !> The same in one direction.
+  pure function work_along(law, direction, from, to) result(work)
     type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: before(2), after(2), driven(2), driving(2)
-    real(dp), intent(in) :: old, new
-    real(dp) :: direction(2)
-    real(dp) :: start, finish, part
+    real(dp), intent(in) :: direction(2)
+    real(dp), intent(in) :: from(2), to(2)   !< secant stiffnesses as `loss` takes them
+    real(dp) :: work(2)
 
-    if (old > 0.0_dp) then
-      start = damage_without_history(law, before)
-      part = 0.0_dp
-      if (new > max(start, old)) part = max(0.0_dp, old - start)/(new - start)
-      direction = unit(before + part*(after - before))
-    else
-      start = norm2(driven/law%strength)
-      finish = norm2(driving/law%strength)
-      part = 0.0_dp
-      if (finish > max(start, 1.0_dp)) part = max(0.0_dp, 1.0_dp - start)/(finish - start)
-      direction = unit((driven + part*(driving - driven))/law%ratio)
-    end if
-  end function direction_of_start
+    work = law%ratio*direction**2*max(0.0_dp, loss(law, direction, to(1), to(2)) - loss(law, direction, from(1), from(2)))
+  end function work_along
+
+  !> Secant stiffness K.
+  pure function stiffness_at(law, secant) result(stiffness)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: secant(2)   !< as `loss` takes it
+    real(dp) :: stiffness
+
+    stiffness = secant(1)/(secant(2) + law%flexibility*secant(1))
+  end function stiffness_at
+
+  !> Separation on the envelope of the bilinear law in a direction, lambda**2 = -2 dL/dK.
+  pure function length_at(law, direction, secant) result(length)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: direction(2)
+    real(dp), intent(in) :: secant(2)   !< as `loss` takes it
+    real(dp) :: length
+    real(dp) :: f, e, not_used(2)
+
+    call measure_onset(law, direction, f, not_used)
+    call measure_energy(law, direction, e, not_used)
+    length = f*(secant(2) + law%flexibility*secant(1))/(f**2*secant(1) + e*secant(2))
+  end function length_at
 
   !> A pair of unit length; zero where it has no length.
   pure function unit(pair) result(direction)

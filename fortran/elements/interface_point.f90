@@ -89,7 +89,7 @@ contains
       do i = 1, 3
         response%by_jump(:, i) = beta(mode_of(i))*solution%by_trial(:, i)
       end do
-      call store_solution(law, old, jump, bulk + beta(mode_of)*jump, beta, solution, new)
+      call store_solution(law, old, jump, solution, new)
       ! of the springs beta between the jump and the separation, and of the stress that works on their gap
       if (options%complete) new%stored = new%stored + 0.5_dp*sum((new%traction**2 - bulk**2)/beta(mode_of))
     else
@@ -123,12 +123,10 @@ contains
   end subroutine store_damage
 
   !> State of a point of the consistent law.
-  pure subroutine store_solution(law, old, jump, trial, beta, state, new)
+  pure subroutine store_solution(law, old, jump, state, new)
     type(law_parameters), intent(in) :: law
     type(interface_point), intent(in) :: old
     real(dp), intent(in) :: jump(3)
-    real(dp), intent(in) :: trial(3)   !< p
-    real(dp), intent(in) :: beta(2)    !< (tau, n)
     type(law_solution), intent(in) :: state
     type(interface_point), intent(inout) :: new
 
@@ -140,8 +138,8 @@ contains
     new%history%damage = state%damage
     new%history%damage_max = state%damage
     new%history%largest = state%largest
-    call dissipate_consistently(law, old%history, old%traction, trial, beta, state, new%history%dissipated, &
-      new%history%viscous, new%history%friction_work, new%history%spent)
+    call dissipate_consistently(law, old%history, old%traction, state, new%history%dissipated, new%history%viscous, &
+      new%history%friction_work, new%history%spent)
   end subroutine store_solution
 
   !> Energies of a point: stored, dissipated by damage and friction, dissipated by the viscous overstress.
