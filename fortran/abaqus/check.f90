@@ -4,10 +4,10 @@
 module abaqus_check
   use core_kinds, only: dp
   use core_status, only: status_type, sentence, too_brittle, zero_length, faces_apart, small_beta, &
-    too_brittle_mixed, late_secant, no_root
+    too_brittle_mixed, late_secant, no_root, along_normal
   use abaqus_layout, only: elements, faces, reals, integers, expectations, every_continuum, with_solids, next_to_solids, &
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
-    p_betan, p_betat, p_shapen, p_shapet, p_friction, j_law, j_closure, j_formulation_bottom, &
+    p_betan, p_betat, p_shapen, p_shapet, p_friction, p_direction1, j_law, j_closure, j_formulation_bottom, &
     j_formulation_top
   use abaqus_properties, only: unknowns_of, variables_of, real_position, integer_position, unpack, recommend, &
     by_eigenvalues, by_equation_21, consistent_closure, complete_closure
@@ -261,6 +261,10 @@ contains
         [real_position(itype, row)], [status%value, status%expected])
     case (no_root)
       call fatal(itype, jelem, 'point or mode %I: ' // trim(sentence(status%code)), [status%item], [real(dp) ::])
+    case (along_normal)
+      call fatal(itype, jelem, 'PROPS(%I) DIRECTION1 to DIRECTION3: ' // trim(sentence(status%code)) // ', %R degrees; ' // &
+        'expected at least %R, as the axis of a cylinder has everywhere, or zeros', [real_position(itype, p_direction1)], &
+        [status%value, status%expected])
     case (zero_length)
       call fatal(itype, jelem, trim(sentence(status%code)), [integer ::], [real(dp) ::])
     case (faces_apart)

@@ -3,7 +3,7 @@
 !> The continuum elements, quad U1 and brick U9: kinematics and integration here, stress and stiffness from MATERIAL_LIB_MECH.
 !>
 !> The brick has its strains and stresses along the axes of its ply: axis 3 normal to the surface half-way between its faces 1 and
-!> 2, axis 1 at ANGLE from s, the projection of the global x axis on that surface (the directions of U8).
+!> 2, axis 1 at ANGLE from s, the projection of DIRECTION1 to 3 or of the global x axis on that surface (the directions of U8).
 !>
 !> Incompatible modes are found anew in each call, from zero: what MATERIAL_LIB_MECH makes of a strain does not depend on how the
 !> strain came about within an increment, so the modes follow from the displacements alone, and SVARS need not hold them. A linear
@@ -24,6 +24,7 @@ module abaqus_continuum_element
   use abaqus_check, only: report_status
   use abaqus_report, only: fatal, warn
   use abaqus_layout, only: elements, continuum_variables, brick_variables, p_thickness, p_angle, &
+    p_direction1, p_direction2, p_direction3, &
     j_plane, j_face, j_formulation, j_brick_face, v_e11, v_e22, v_e33, v_e12, v_s11, v_s22, v_s33, v_s12, &
     b_e11, b_e22, b_e33, b_e12, b_e13, b_e23, b_s11, b_s22, b_s33, b_s12, b_s13, b_s23
   use abaqus_properties, only: integer_position
@@ -36,6 +37,8 @@ module abaqus_continuum_element
 
   !> PNEWDT where the increment is too large, Abaqus' own factor.
   real(dp), parameter :: smaller = 0.25_dp
+
+  integer, parameter :: directions(3) = [p_direction1, p_direction2, p_direction3]
 
   !> Positions of the variables of a point, in the order of the strains.
   type :: point_positions
@@ -93,8 +96,8 @@ contains
       places = this%nodes
       if (this%face /= 0) places = places + middle_place(dim)
       call integrate(this, dim, this%nodes, this%strains, dim*this%nodes, dim*this%nodes + modes, places, &
-        merge(values(p_thickness), 1.0_dp, dim == 2), values(p_angle), coords(1:dim, :), u, predef, materiallib, svars, energy, &
-        pnewdt, residual, tangent, good)
+        merge(values(p_thickness), 1.0_dp, dim == 2), values(p_angle), values(directions), coords(1:dim, :), u, predef, &
+        materiallib, svars, energy, pnewdt, residual, tangent, good)
     end associate
   end subroutine evaluate_continuum
 
@@ -113,18 +116,19 @@ contains
     associate (dim => elements(itype)%dimension)
       call sum_stresses(itype, jelem, dim, elements(itype)%nodes, 3*(dim - 1), &
         size(u) + modes_of(dim, options(j_plane), options(j_formulation)), options(j_formulation), finite, &
-        merge(values(p_thickness), 1.0_dp, dim == 2), values(p_angle), coords(1:dim, :), u, svars, residual, good)
+        merge(values(p_thickness), 1.0_dp, dim == 2), values(p_angle), values(directions), coords(1:dim, :), u, svars, residual, &
+        good)
     end associate
   end subroutine continuum_forces_at
 
   !> The same with its sizes.
-  subroutine sum_stresses(itype, jelem, dim, nodes, strains, n, formulation, finite, thickness, angle, coordinates, u, svars, &
-    residual, good)
+  subroutine sum_stresses(itype, jelem, dim, nodes, strains, n, formulation, finite, thickness, angle, direction, coordinates, &
+    u, svars, residual, good)
     integer, intent(in) :: itype, jelem, dim, nodes, strains
     integer, intent(in) :: n                       !< unknowns, with those of the modes
     integer, intent(in) :: formulation
     logical, intent(in) :: finite
-    real(dp), intent(in) :: thickness, angle, coordinates(dim, nodes), u(dim*nodes), svars(:)
+    real(dp), intent(in) :: thickness, angle, direction(3), coordinates(dim, nodes), u(dim*nodes), svars(:)
     real(dp), intent(out) :: residual(dim*nodes)
     logical, intent(out) :: good
     real(dp) :: b(n, strains, nodes), volume(nodes), to_ply(strains, strains), stress(strains), force(n), moved(dim*nodes)
@@ -141,7 +145,12 @@ contains
       call report_status(itype, jelem, status)
       return
     end if
-    to_ply = ply_strains(strains, angle, coordinates)
+    call find_ply_strains(strains, angle, direction, coordinates, to_ply, status)
+    good = status%code == ok
+    if (.not. good) then
+      call report_status(itype, jelem, status)
+      return
+    end if
     force = 0.0_dp
     do k = 1, nodes
       stress = svars((k - 1)*positions(dim)%count + positions(dim)%stress(:strains))
@@ -159,13 +168,14 @@ contains
   end subroutine sum_stresses
 
   !> The same with its sizes.
-  subroutine integrate(this, dim, nodes, strains, m, n, places, thickness, angle, coordinates, u, predef, materiallib, svars, &
-    energy, pnewdt, residual, tangent, good)
+  subroutine integrate(this, dim, nodes, strains, m, n, places, thickness, angle, direction, coordinates, u, predef, materiallib, &
+    svars, energy, pnewdt, residual, tangent, good)
     type(element_call), intent(in) :: this
     integer, intent(in) :: dim, nodes, strains
     integer, intent(in) :: m, n                  !< unknowns of the nodes, and with the modes
     integer, intent(in) :: places                !< Gauss points, then places on the face
-    real(dp), intent(in) :: thickness, angle     !< angle: of the ply, degrees
+    real(dp), intent(in) :: thickness
+    real(dp), intent(in) :: angle, direction(3)  !< of the ply from s, degrees, and of s; zero: that of x
     real(dp), intent(in) :: coordinates(dim, nodes), u(m), predef(:, :, :)
     integer, intent(in) :: materiallib(*)
     real(dp), intent(inout) :: svars(:), energy(8), pnewdt
@@ -188,7 +198,12 @@ contains
       call report_status(this%itype, this%jelem, status)
       return
     end if
-    to_ply = ply_strains(strains, angle, coordinates)
+    call find_ply_strains(strains, angle, direction, coordinates, to_ply, status)
+    good = status%code == ok
+    if (.not. good) then
+      call report_status(this%itype, this%jelem, status)
+      return
+    end if
     do k = 1, merge(places, 0, dim == 3)
       b(:, :, k) = matmul(b(:, :, k), transpose(to_ply))
     end do
@@ -387,21 +402,25 @@ contains
   end subroutine refuse_tensor
 
   !> Matrix that takes strains in global axes to those in the axes of the brick's ply; the unit matrix in the plane.
-  pure function ply_strains(strains, angle, coordinates) result(matrix)
+  pure subroutine find_ply_strains(strains, angle, direction, coordinates, matrix, status)
     integer, intent(in) :: strains
-    real(dp), intent(in) :: angle, coordinates(:, :)
-    real(dp) :: matrix(strains, strains)
+    real(dp), intent(in) :: angle, direction(3), coordinates(:, :)
+    real(dp), intent(out) :: matrix(strains, strains)
+    type(status_type), intent(out) :: status    !< ok, or along_normal
+    real(dp) :: frame(3, 3)
     integer :: i
 
+    status = status_type(ok, 0, 0.0_dp, 0.0_dp)
     if (strains == 6) then
-      matrix = strain_rotation(ply_axes(central_frame(4, coordinates(:, 1:4), coordinates(:, 5:8)), angle))
+      call central_frame(4, coordinates(:, 1:4), coordinates(:, 5:8), direction, frame, status)
+      matrix = strain_rotation(ply_axes(frame, angle))
       return
     end if
     matrix = 0.0_dp
     do i = 1, strains
       matrix(i, i) = 1.0_dp
     end do
-  end function ply_strains
+  end subroutine find_ply_strains
 
   !> Adds columns of the stiffness of a point.
   pure subroutine add_stiffness(n, strains, first, last, weight, b, modulus, matrix)

@@ -20,7 +20,8 @@ module abaqus_interface_elements
     p_e1_bottom, p_e2_bottom, p_e3_bottom, p_nu12_bottom, p_nu13_bottom, p_nu23_bottom, p_g12_bottom, p_g13_bottom, &
     p_g23_bottom, p_angle_bottom, p_e1_top, p_e2_top, p_e3_top, p_nu12_top, p_nu13_top, p_nu23_top, p_g12_top, p_g13_top, &
     p_g23_top, p_angle_top, p_expansion1_bottom, p_expansion2_bottom, p_expansion3_bottom, p_expansion1_top, p_expansion2_top, &
-    p_expansion3_top, j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, j_formulation_bottom, j_formulation_top, &
+    p_expansion3_top, p_direction1, p_direction2, p_direction3, &
+    j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, j_formulation_bottom, j_formulation_top, &
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
     v_maxn, v_maxt, v_spent, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, w_dissi, w_dissii, w_sn, w_st, &
     w_dmax, w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt, w_spent
@@ -109,10 +110,10 @@ contains
         call find_initial(itype, jelem, own, temperatures(1, :) - temperatures(2, :), values, initial, good)
         if (.not. good) return
         materials = materials_of_solids(values)
-        call find_solids(itype, jelem, materials, options, original(:, nodes(:, 1)), original(:, nodes(:, 2)), &
+        call find_solids(itype, jelem, materials, options, choice%direction, original(:, nodes(:, 1)), original(:, nodes(:, 2)), &
           temperatures(1, :), initial, solids, good)
         if (.not. good) return
-        call warn_if_long(itype, jelem, nodes, original, materials, law, old)
+        call warn_if_long(itype, jelem, nodes, original, choice%direction, materials, law, old)
         if (stabilisation%local) call recall(own, stabilisation)
         call integrate_interface(dim, n, nodes, law, choice, thickness, original, u, dtime, with_tangent, old, new, residual, &
           tangent, energies, status, stabilisation, solids)
@@ -158,8 +159,8 @@ contains
       original = coords(1:dim, :)
       good = .true.
       if (choice%complete) then
-        call find_solids(itype, jelem, materials_of_solids(values), options, original(:, nodes(:, 1)), original(:, nodes(:, 2)), &
-          temperatures, svars(n + [o_temp0_bottom, o_temp0_top]), solids, good)
+        call find_solids(itype, jelem, materials_of_solids(values), options, choice%direction, original(:, nodes(:, 1)), &
+          original(:, nodes(:, 2)), temperatures, svars(n + [o_temp0_bottom, o_temp0_top]), solids, good)
         if (good) call recall(svars(n + 1:n + own_variables), stabilisation)
         ! before the first increment that is kept there are neither tractions nor displacements
         choice%complete = stabilisation%known
@@ -180,7 +181,8 @@ contains
     type(interface_options) :: choice
 
     choice = interface_options(options(j_integration), options(j_sampling), options(j_closure) /= paper_closure, &
-      options(j_closure) == complete_closure, merge(1.0_dp, values(p_blend), options(j_tangent) == 1), finite)
+      options(j_closure) == complete_closure, merge(1.0_dp, values(p_blend), options(j_tangent) == 1), finite, &
+      values([p_direction1, p_direction2, p_direction3]))
   end function chosen
 
   !> Beta and gamma as the deck has them.
@@ -262,10 +264,11 @@ contains
   end function materials_of_solids
 
   !> The solids with these materials; `good` is false after a message.
-  subroutine find_solids(itype, jelem, materials, options, bottom, top, temperatures, initial, solids, good)
+  subroutine find_solids(itype, jelem, materials, options, direction, bottom, top, temperatures, initial, solids, good)
     integer, intent(in) :: itype, jelem
     type(engineering_constants), intent(in) :: materials(2)
     integer, intent(in) :: options(:)
+    real(dp), intent(in) :: direction(3)                !< for s, in space; zero: none
     real(dp), intent(in) :: bottom(:, :), top(:, :)     !< original coordinates of the faces
     real(dp), intent(in) :: temperatures(:)             !< of all nodes
     real(dp), intent(in) :: initial(2)                  !< temperatures of the solids
@@ -276,6 +279,14 @@ contains
     real(dp) :: frame(3, 3)
     integer :: side, at(2)
 
+    if (size(bottom, 1) == 3) then
+      call central_frame(size(bottom, 2), bottom, top, direction, frame, status)
+      good = status%code == ok
+      if (.not. good) then
+        call report_status(itype, jelem, status)
+        return
+      end if
+    end if
     do side = 1, 2
       associate (solid => solids(side))
         solid%nodes = faces(itype)%solids(side)
@@ -285,7 +296,6 @@ contains
           call plane_stiffness(materials(side), solid%plane, solid%stiffness(1:3, 1:3), status)
           solid%expansion(1:3) = plane_expansion(materials(side), solid%plane)
         else
-          frame = central_frame(size(bottom, 2), bottom, top)
           call solid_stiffness(materials(side), frame, solid%stiffness, status)
           solid%expansion = solid_expansion(materials(side), frame)
         end if

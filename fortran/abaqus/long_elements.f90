@@ -22,10 +22,11 @@ module abaqus_long_elements
 contains
 
   !> The message, if the element is the first one of the job that calls for it.
-  subroutine warn_if_long(itype, jelem, faces, coordinates, materials, law, points)
+  subroutine warn_if_long(itype, jelem, faces, coordinates, direction, materials, law, points)
     integer, intent(in) :: itype, jelem
     integer, intent(in) :: faces(:, :)                       !< nodes of the bottom and the top face, a column each
     real(dp), intent(in) :: coordinates(:, :)                !< original ones, (2 or 3, nodes)
+    real(dp), intent(in) :: direction(3)                     !< for s, in space; zero: none
     type(engineering_constants), intent(in) :: materials(2)  !< of the solids below and above
     type(law_parameters), intent(in) :: law
     type(interface_point), intent(in) :: points(:)           !< at the start of the increment
@@ -35,7 +36,7 @@ contains
     if (told) return
     k = failing_point(points, law)
     if (k == 0) return
-    call measure_zone(faces, coordinates, materials, law, points(k)%history%dissipated, length, zone, share)
+    call measure_zone(faces, coordinates, direction, materials, law, points(k)%history%dissipated, length, zone, share)
     if (least_elements*length <= zone) return
     call warn(itype, jelem, 'fails and is %R long, the process zone at most %R (%I per cent mode II): expected at least ' // &
       '%I elements in it; with fewer the load comes out too high. Told once in a job', &

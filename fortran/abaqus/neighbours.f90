@@ -40,8 +40,8 @@ contains
     stress = 0.0_dp
     nodes(:, 1) = faces(itype)%bottom(1:points)
     nodes(:, 2) = faces(itype)%top(1:points)
-    call measure_interface(dim, points, points, coordinates(:, nodes(:, 1)), coordinates(:, nodes(:, 2)), gauss_rule, places, &
-      status)
+    call measure_interface(dim, points, points, coordinates(:, nodes(:, 1)), coordinates(:, nodes(:, 2)), gauss_rule, &
+      options%direction, places, status)
     good = status%code == ok
     if (.not. good) then
       call report_status(itype, jelem, status)

@@ -9,6 +9,10 @@ module core_rotation
   public :: about_mean, cross, line_frame, surface_frame, ply_axes, turned_frame, frame_curvature
   public :: polar_rotation, traction_operator, strain_rotation
 
+  !> Angle from the normal of a surface to a direction from which no direction in it follows: nearer to the normal, half a degree of
+  !> either turns the projection by six degrees or more.
+  real(dp), parameter, public :: least_degrees = 5.0_dp
+
   real(dp), parameter :: degree = acos(-1.0_dp)/180.0_dp
 
 contains
@@ -31,17 +35,21 @@ contains
   end subroutine line_frame
 
   !> Frame of a surface from two vectors in it, and the area that they span: rows s, n and t, where n is along their cross
-  !> product, s the projection of the global x axis (of the z axis where x is within 0.1 degrees of n) and t = n x s. The frame of
-  !> a surface without area is zero.
-  pure subroutine surface_frame(first, second, frame, area)
+  !> product, s the projection of a direction, without one of the global x axis (of the z axis where x is within 0.1 degrees of n),
+  !> and t = n x s. The frame of a surface without area is zero.
+  pure subroutine surface_frame(first, second, frame, area, direction, degrees)
     real(dp), intent(in) :: first(3), second(3)
     real(dp), intent(out) :: frame(3, 3)
     real(dp), intent(out) :: area
+    real(dp), intent(in), optional :: direction(3)    !< of any length; zero: none
+    real(dp), intent(out), optional :: degrees        !< from the direction to the line of n, 90 without a direction: where it is
+                                                      !< less than `least_degrees`, s is that without a direction
     real(dp), parameter :: smallest_sine = 1.745328e-3_dp   ! of 0.1 degrees
-    real(dp) :: normal(3), along(3)
+    real(dp) :: normal(3), along(3), unit(3), angle
     integer :: axis
 
     frame = 0.0_dp
+    if (present(degrees)) degrees = 90.0_dp
     normal = cross(first, second)
     area = norm2(normal)
     if (.not. area > 0.0_dp) return
@@ -49,6 +57,14 @@ contains
     axis = merge(1, 3, hypot(normal(2), normal(3)) >= smallest_sine)
     along = -normal(axis)*normal
     along(axis) = along(axis) + 1.0_dp
+    if (present(direction)) then
+      if (norm2(direction) > 0.0_dp) then
+        unit = direction/norm2(direction)
+        angle = atan2(norm2(cross(normal, unit)), abs(dot_product(normal, unit)))/degree
+        if (present(degrees)) degrees = angle
+        if (.not. angle < least_degrees) along = unit - dot_product(normal, unit)*normal
+      end if
+    end if
     frame(1, :) = along/norm2(along)
     frame(2, :) = normal
     frame(3, :) = cross(normal, frame(1, :))

@@ -7,7 +7,7 @@ module core_status
   private
   public :: status_type, sentence
   public :: ok, too_brittle, not_positive_definite, inside_out, zero_length, faces_apart, small_beta, too_brittle_mixed, &
-    late_secant, no_root
+    late_secant, no_root, along_normal
 
   !> Outcome of a kernel; the caller knows the names of elements and properties.
   type :: status_type
@@ -27,6 +27,7 @@ module core_status
   integer, parameter :: too_brittle_mixed = 7
   integer, parameter :: late_secant = 8
   integer, parameter :: no_root = 9
+  integer, parameter :: along_normal = 10
 
 contains
 
@@ -60,6 +61,8 @@ contains
     case (small_beta)
       text = 'too small for the consistent law: ' // &
         'it does not exceed the softening slope of the law'
+    case (along_normal)
+      text = 'too close to the normal of the face to give a direction in it'
     case default
       text = 'unknown status'
     end select

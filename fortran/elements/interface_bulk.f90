@@ -62,13 +62,14 @@ contains
 
   !> Beta and gamma of an interface that knows the elements on both sides, the bottom one first among the nodes.
   !> The complete form takes the bound of the traction that acts too, where that is greater than on the face itself.
-  pure subroutine stabilise(given, sampling, dim, solids, points, faces, coordinates, used, status)
+  pure subroutine stabilise(given, sampling, dim, solids, points, faces, direction, coordinates, used, status)
     type(stabilisation_type), intent(in) :: given
     integer, intent(in) :: sampling
     integer, intent(in) :: dim
     type(solid_type), intent(in) :: solids(2)           !< bottom and top
     integer, intent(in) :: points                       !< integration points
     integer, intent(in) :: faces(:, :)                  !< nodes of the bottom and the top face, a column each
+    real(dp), intent(in) :: direction(3)                !< for s, in space; zero: none
     real(dp), intent(in) :: coordinates(:, :)           !< original coordinates, (2 or 3, nodes), length
     type(stabilisation_type), intent(out) :: used
     type(status_type), intent(out) :: status            !< inside_out: item 1 for the bottom element, 2 for the top one
@@ -79,7 +80,7 @@ contains
 
     used = given
     call measure_interface(dim, size(faces, 1), points, coordinates(:, faces(:, 1)), coordinates(:, faces(:, 2)), gauss_rule, &
-      places, status)
+      direction, places, status)
     if (status%code /= ok) return
     do k = 1, points
       frames(:, :, k) = places(k)%frame

@@ -5,16 +5,17 @@
 !> In the plane, faces are edges of two or three nodes, the middle node last: tau runs along the mid-line of the original
 !> coordinates, from the first node to the second, and n is tau rotated by +90 degrees: bottom to top. In space, they are
 !> triangles of three or six nodes or quadrilaterals of four or eight, corners and then midside nodes counter-clockwise seen
-!> from the top: n is normal to the mid-surface, s the projection of the global x axis on it, or of the z axis where x is within
-!> 0.1 degrees of n (Abaqus' local directions), and t = n x s. Faces may be curved: each point has its own frame.
+!> from the top: n is normal to the mid-surface, s the projection of a direction on it and t = n x s. Without a direction it is the
+!> global x axis, or the z axis where x is within 0.1 degrees of n (Abaqus' local directions). Faces may be curved: each point has
+!> its own frame.
 module elements_interface_faces
   use core_cells, only: cell_functions, corners_of
   use core_kinds, only: dp
   use core_quadrature, only: line_points, line_weights, triangle_point
-  use core_rotation, only: cross, line_frame, surface_frame
+  use core_rotation, only: cross, least_degrees, line_frame, surface_frame
   use core_serendipity, only: quad_places
   use core_shape_functions, only: line_shape, line_slope
-  use core_status, only: status_type, zero_length, faces_apart, ok
+  use core_status, only: status_type, along_normal, zero_length, faces_apart, ok
   implicit none(type, external)
   private
   public :: interface_place, measure_interface, central_frame, jump_operator, separation_at, face_shape, face_slope, most_apart
@@ -32,14 +33,15 @@ contains
 
   !> Integration points on the mid-line or mid-surface of two coincident faces: on a line from its first to its second node, on a
   !> surface each next to the node of its number, with midside nodes one more in the middle.
-  pure subroutine measure_interface(dim, nodes, points, bottom, top, rule, places, status)
+  pure subroutine measure_interface(dim, nodes, points, bottom, top, rule, direction, places, status)
     integer, intent(in) :: dim                                    !< 2 or 3
     integer, intent(in) :: nodes                                  !< of a face
     integer, intent(in) :: points                                 !< as many as nodes, on surfaces with midside nodes one more
     real(dp), intent(in) :: bottom(dim, nodes), top(dim, nodes)   !< original coordinates
     integer, intent(in) :: rule
+    real(dp), intent(in) :: direction(3)        !< for s, in space; zero: none
     type(interface_place), intent(out) :: places(points)
-    type(status_type), intent(out) :: status    !< zero_length, or faces_apart with the distance and its limit
+    type(status_type), intent(out) :: status    !< zero_length, faces_apart with the distance and its limit, or along_normal
     real(dp) :: middle(dim, nodes), distance, limit
     integer :: k
 
@@ -58,7 +60,7 @@ contains
       if (dim == 2) then
         call place_on_line(nodes, middle, rule, k, places(k), status)
       else
-        call place_on_surface(nodes, middle, rule, k, places(k), status)
+        call place_on_surface(nodes, middle, rule, k, direction, places(k), status)
       end if
       if (status%code /= ok) return
     end do
@@ -108,13 +110,13 @@ contains
   end subroutine place_on_line
 
   !> Point k of a surface, next to node k or in the middle.
-  pure subroutine place_on_surface(nodes, middle, rule, k, place, status)
+  pure subroutine place_on_surface(nodes, middle, rule, k, direction, place, status)
     integer, intent(in) :: nodes, rule, k
-    real(dp), intent(in) :: middle(3, nodes)
+    real(dp), intent(in) :: middle(3, nodes), direction(3)
     type(interface_place), intent(inout) :: place
     type(status_type), intent(inout) :: status
     real(dp), dimension(merge(2, 3, nodes <= 4)) :: s, w
-    real(dp) :: slopes(3, 2), weight, upright
+    real(dp) :: slopes(3, 2), weight, upright, degrees
     integer :: at(2)
 
     if (corners_of(2, nodes) == 3) then
@@ -130,7 +132,8 @@ contains
     end if
     place%position = matmul(middle, face_shape(3, nodes, place%parent))
     slopes = matmul(middle, face_slope(3, nodes, place%parent))
-    call surface_frame(slopes(:, 1), slopes(:, 2), place%frame, place%area)
+    call surface_frame(slopes(:, 1), slopes(:, 2), place%frame, place%area, direction, degrees)
+    if (degrees < least_degrees) status = too_steep(degrees)
     ! a midside node too close to a corner, or a corner beyond the line of its neighbours, folds the surface back
     if (corners_of(2, nodes) == 3) then
       upright = dot_product(place%frame(2, :), cross(middle(:, 2) - middle(:, 1), middle(:, 3) - middle(:, 1)))
@@ -141,17 +144,29 @@ contains
     place%area = weight*place%area
   end subroutine place_on_surface
 
+  !> Status of a direction that is so many degrees from the normal.
+  pure function too_steep(degrees) result(status)
+    real(dp), intent(in) :: degrees
+    type(status_type) :: status
+
+    status = status_type(along_normal, 0, degrees, least_degrees)
+  end function too_steep
+
   !> Frame in the middle of the surface between two faces in space.
-  pure function central_frame(nodes, bottom, top) result(frame)
+  pure subroutine central_frame(nodes, bottom, top, direction, frame, status)
     integer, intent(in) :: nodes       !< of a face
     real(dp), intent(in) :: bottom(3, nodes), top(3, nodes)
-    real(dp) :: frame(3, 3)
-    real(dp) :: slopes(3, 2), area, parent(2)
+    real(dp), intent(in) :: direction(3)        !< for s; zero: none
+    real(dp), intent(out) :: frame(3, 3)
+    type(status_type), intent(out) :: status    !< ok, or along_normal
+    real(dp) :: slopes(3, 2), area, parent(2), degrees
 
     parent = merge(1.0_dp/3.0_dp, 0.0_dp, corners_of(2, nodes) == 3)
     slopes = matmul(0.5_dp*(bottom + top), face_slope(3, nodes, parent))
-    call surface_frame(slopes(:, 1), slopes(:, 2), frame, area)
-  end function central_frame
+    call surface_frame(slopes(:, 1), slopes(:, 2), frame, area, direction, degrees)
+    status = status_type(ok, 0, 0.0_dp, 0.0_dp)
+    if (degrees < least_degrees) status = too_steep(degrees)
+  end subroutine central_frame
 
   !> Shape functions of a face.
   pure function face_shape(dim, nodes, parent) result(shape)

@@ -83,11 +83,11 @@ contains
     nodes = size(faces, 1)
     bottom = coordinates(:, faces(:, 1))
     top = coordinates(:, faces(:, 2))
-    call measure_interface(dim, nodes, points, bottom, top, options%rule, places, status)
+    call measure_interface(dim, nodes, points, bottom, top, options%rule, options%direction, places, status)
     if (status%code /= ok) return
     if (present(stabilisation)) then
       if (present(solids) .and. .not. stabilisation%known) then
-        call stabilise(stabilisation, options%sampling, dim, solids, points, faces, coordinates, used, status)
+        call stabilise(stabilisation, options%sampling, dim, solids, points, faces, options%direction, coordinates, used, status)
         if (status%code /= ok) return
         stabilisation = used
       end if
@@ -180,7 +180,7 @@ contains
     nodes = size(faces, 1)
     bottom = coordinates(:, faces(:, 1))
     top = coordinates(:, faces(:, 2))
-    call measure_interface(dim, nodes, points, bottom, top, options%rule, places, status)
+    call measure_interface(dim, nodes, points, bottom, top, options%rule, options%direction, places, status)
     if (status%code /= ok) return
     original = about_mean(dim, reshape(coordinates, [size(u)]))
     shifted = about_mean(dim, reshape(coordinates, [size(u)]) + u)

@@ -10,6 +10,7 @@
 module elements_process_zone
   use core_cells, only: corners_of
   use core_kinds, only: dp
+  use core_status, only: status_type
   use cohesive_parameters, only: law_parameters
   use materials_linear_elasticity, only: engineering_constants, young_modulus
   use elements_interface_faces, only: central_frame
@@ -37,9 +38,10 @@ contains
 
   !> Shortest edge of an interface, to which a mesh is refined whichever way the crack goes, and the zone of a point that has
   !> dissipated these energies: 1/zone is the mean of 1/l_II and 1/l_I with the energies as weights.
-  pure subroutine measure_zone(faces, coordinates, materials, law, dissipated, length, zone, share)
+  pure subroutine measure_zone(faces, coordinates, direction, materials, law, dissipated, length, zone, share)
     integer, intent(in) :: faces(:, :)                       !< nodes of the bottom and the top face, a column each, corners first
     real(dp), intent(in) :: coordinates(:, :)                !< original ones, (2 or 3, nodes)
+    real(dp), intent(in) :: direction(3)                     !< for s, in space; zero: none
     type(engineering_constants), intent(in) :: materials(2)  !< of the solids below and above
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: dissipated(2)                    !< (tau, n), energy/area; zero: in the mode of the shorter zone
@@ -47,6 +49,7 @@ contains
     real(dp), intent(out) :: zone                            !< huge where the edge has no length, and so no direction
     real(dp), intent(out) :: share                           !< of mode II, from 0 to 1
     real(dp), dimension(size(coordinates, 1)) :: edge, shortest
+    type(status_type) :: status    ! the stiffness of the solids needs the same frame, and has found it
     real(dp) :: frame(3, 3), zones(2), shares(2), across, along
     integer :: corners, k, side
 
@@ -64,7 +67,8 @@ contains
     if (.not. length > 0.0_dp) return
     across = huge(1.0_dp)
     along = huge(1.0_dp)
-    if (size(edge) == 3) frame = central_frame(size(faces, 1), coordinates(:, faces(:, 1)), coordinates(:, faces(:, 2)))
+    if (size(edge) == 3) call central_frame(size(faces, 1), coordinates(:, faces(:, 1)), coordinates(:, faces(:, 2)), direction, &
+      frame, status)
     do side = 1, 2
       associate (ply => materials(side))
         if (size(edge) == 2) then

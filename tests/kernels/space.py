@@ -71,14 +71,14 @@ def weights_of(jtype, rule):
     return np.ones(4)
 
 
-def frames(coordinates, jtype, parents):
-    """Rows s, n, t at points of the mid-surface (Abaqus: s is the projection of the x axis)."""
+def frames(coordinates, jtype, parents, direction=(1.0, 0.0, 0.0)):
+    """Rows s, n, t at points of the mid-surface: s is the projection of a direction (Abaqus: of the x axis)."""
     face = coordinates[top_of(jtype)]
     found = []
     for parent in parents:
         n = np.cross(*(serendipity(FACE[: len(face)], parent)[1] @ face))
         n /= np.linalg.norm(n)
-        s = np.array([1.0, 0, 0]) - n[0] * n
+        s = np.array(direction) - n @ direction * n
         s /= np.linalg.norm(s)
         found.append([s, n, np.cross(n, s)])
     return np.array(found)
@@ -101,9 +101,9 @@ def opened(jtype, gaps, seed, strain=0.0):
     return u
 
 
-def stress_of(gradient, coordinates, jtype, angle):
+def stress_of(gradient, coordinates, jtype, angle, direction=(1.0, 0.0, 0.0)):
     """Stress of the ply of the fixtures, from its compliance in material axes: 3 is n, 1 at an angle from s to t."""
-    s, n, t = frames(coordinates, jtype, [(0, 0)])[0]
+    s, n, t = frames(coordinates, jtype, [(0, 0)], direction)[0]
     c, d = np.cos(np.deg2rad(angle)), np.sin(np.deg2rad(angle))
     axes = np.array([c * s + d * t, c * t - d * s, n])
     return axes.T @ ply_stress(axes @ (0.5 * (gradient + gradient.T)) @ axes.T) @ axes

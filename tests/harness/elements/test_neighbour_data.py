@@ -205,12 +205,12 @@ def test_axes_of_user_bricks_are_not_known(tmp_path):
     """U9 has its material along its own faces: one warning for each side, and none for an isotropic material."""
     layout = element_layouts()[9]
     solids = [
-        f"*USER ELEMENT, TYPE=U9, NODES=8, COORDINATES=3, PROPERTIES=1, I PROPERTIES=2, VARIABLES={layout.svars}, "
+        f"*USER ELEMENT, TYPE=U9, NODES=8, COORDINATES=3, PROPERTIES=4, I PROPERTIES=2, VARIABLES={layout.svars}, "
         "INTEGRATION=8, TENSOR=THREED",
         "1, 2, 3",
         "*ELEMENT, TYPE=U9, ELSET=SOLIDS",
     ]
-    properties = "*UEL PROPERTY, ELSET=SOLIDS, MATERIAL=PLY\n0., 1, 0"
+    properties = "*UEL PROPERTY, ELSET=SOLIDS, MATERIAL=PLY\n0., 0., 0., 0., 1, 0"
     text = bricks().replace("*ELEMENT, TYPE=C3D8I, ELSET=SOLIDS", "\n".join(solids))
     text = text.replace("*SOLID SECTION, ELSET=SOLIDS, MATERIAL=PLY", properties)
     found = compared(tmp_path, text)
