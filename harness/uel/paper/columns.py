@@ -119,6 +119,14 @@ COLUMNS = {
     "u8_turned": Column(
         "slid, fibres across below", 8, "C3D8", STRONG | {"ANGLE BOTTOM": 90.0}, (0.01, 0.0), turned=True
     ),
+    "u8_directed": Column(
+        "the same, angles of the fibres from 45 degrees to x, by an oblique direction",
+        8,
+        "C3D8",
+        STRONG | {"ANGLE BOTTOM": 45.0, "ANGLE TOP": -45.0, "DIRECTION1": 2.0, "DIRECTION2": 2.0, "DIRECTION3": 1.0},
+        (0.01, 0.0),
+        turned=True,
+    ),
     **{
         f"u10_formulation{n}": Column(
             f"beside bricks U9, FORMULATION {n}",

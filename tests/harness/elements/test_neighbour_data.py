@@ -133,6 +133,30 @@ def test_plies_that_are_turned(tmp_path, angle, turned):
         assert wrong and re.search(rf"at ANGLE TOP = {angle + 20:g}, but the C.* element 2 above", message)
 
 
+@pytest.mark.parametrize("angle", [0.0, 30.0, 90.0])
+@pytest.mark.parametrize("turned", [0.0, 0.4, 1.5])
+def test_plies_that_are_turned_from_a_direction(tmp_path, angle, turned):
+    """At ANGLE from the projection of y, whatever the normal; of a direction in the plane of y and the normal alike."""
+    c, s = np.cos(np.radians(90.0 + angle)), np.sin(np.radians(90.0 + angle))
+    axes = np.array([[c, s, 0.0], [-s, c, 0.0]])
+    same = {"ANGLE BOTTOM": angle, "ANGLE TOP": angle}
+    leaning = {"DIRECTION1": 3.0 * np.sin(turned), "DIRECTION2": 2.0, "DIRECTION3": 3.0 * np.cos(turned)}
+    for direction in ({"DIRECTION2": 1.0}, {"DIRECTION2": -0.3}, leaning):
+        assert compared(tmp_path, bricks(axes, turned, **same, **direction)) == []
+        other = same | {"ANGLE TOP": angle + 20.0}
+        ((message, wrong, _),) = compared(tmp_path, bricks(axes, turned, **other, **direction))
+        assert wrong and re.search(rf"at ANGLE TOP = {angle + 20:g}, but the C.* element 2 above", message)
+
+
+def test_a_direction_along_the_normal(tmp_path):
+    """The element would refuse it: said once, before the run."""
+    found = compared(tmp_path, bricks(DIRECTION1=0.02, DIRECTION3=-1.0))
+    ((message, wrong, line),) = [each for each in found if "DIRECTION" in each[0]]
+    expected = "U8 element 3: DIRECTION1 to DIRECTION3 = 0.02, 0, -1, 1.15 degrees from its normal; expected at least 5"
+    assert wrong and message == expected and line.startswith("*UEL PROPERTY")
+    assert compared(tmp_path, bricks(DIRECTION1=0.1, DIRECTION3=-1.0)) == []
+
+
 def tilted(angle, about, degrees):
     """Axes 1 and 2 of a ply at an angle from x whose normal is turned from z about a direction in its plane."""
     c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))

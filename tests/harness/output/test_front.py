@@ -192,6 +192,24 @@ class Rolled(Disc):
         return [profile]
 
 
+class Directed(Rolled):
+    """The rolled disc with its axis, y, as the direction of its elements: s is y, and t is -x where n is z."""
+
+    def interfaces(self) -> list[dict[str, np.ndarray]]:
+        ((flat,), (profile,)) = Disc.interfaces(self), super().interfaces()
+        for name in ("T", "W"):
+            profile[f"{name}S"], profile[f"{name}T"] = flat[f"{name}T"], -flat[f"{name}S"]
+        return [profile | {f"DIRECTION{k}": np.full(len(profile["X"]), float(k == 2)) for k in (1, 2, 3)}]
+
+
+def test_shears_along_another_direction() -> None:
+    (expected,), (found,) = fronts(Rolled()), fronts(Directed())
+    np.testing.assert_array_equal(found.coordinates, expected.coordinates)
+    for name in ("tractions", "releases"):
+        values = getattr(expected, name)
+        np.testing.assert_allclose(getattr(found, name), values, atol=1e-12 * np.abs(values).max())
+
+
 def test_a_front_on_a_curved_surface() -> None:
     """Rolled, the disc has the same front: ahead of it is along the surface, and modes keep their parts.
 

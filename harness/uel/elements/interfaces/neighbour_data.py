@@ -36,6 +36,7 @@ from uel.elements.materials.library import global_compliance, rotated_compliance
 from uel.errors import DeckError
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.element_types import ContinuumType, Tensor
+from uel.model.face_directions import LEAST_DEGREES, degrees_between, face_directions
 from uel.model.mesh import ElementGroup, full_name
 from uel.model.model import Model
 from uel.model.properties import SolidSection, UserProperty
@@ -97,6 +98,7 @@ def compare(model: Model, groups: Iterable[ElementGroup]) -> list[Finding]:
         if not isinstance(group.section, UserProperty):
             continue
         sides = solids_of(model, group)
+        found += _along_normals(model, group)
         for side in (0, 1):
             found += _strangers(model, group, side, np.flatnonzero(sides[side] == NONE))
             for start, beside in zip(group_starts(model), model.groups, strict=True):
@@ -130,6 +132,37 @@ def _is_continuum(group: ElementGroup) -> bool:
         return isinstance(group.built_in, ContinuumType)
     layout = element_layouts().get(group.definition.number)
     return layout is not None and not layout.faces[0]
+
+
+def _normals(model: Model, group: ElementGroup, rows: IntArray) -> FloatArray:
+    """Return the unit normals (m, 3) in the middles of the faces of elements in space, from below to above."""
+    assert group.definition is not None
+    layout = element_layouts()[group.definition.number]
+    corners = [group.nodes[rows][:, np.array(face[: layout.corners])] for face in layout.faces]
+    middle = model.mesh.coordinates[corners[0]] + model.mesh.coordinates[corners[1]]
+    # half-way along the edges of a quadrilateral, along two edges of a triangle
+    last = middle[:, -1] - middle[:, 0]
+    along = middle[:, 1] - middle[:, 0] + (middle[:, 2] - middle[:, 3] if layout.corners == 4 else 0.0)
+    across = last + (middle[:, 2] - middle[:, 1] if layout.corners == 4 else 0.0)
+    return _unit(np.cross(along, across))
+
+
+def _direction(given: dict[str, float]) -> FloatArray:
+    """Return the direction (3,) from which the angles of the plies are measured; zero for x."""
+    return np.array([given.get(f"DIRECTION{axis}", 0.0) for axis in (1, 2, 3)])
+
+
+def _along_normals(model: Model, group: ElementGroup) -> Iterator[Finding]:
+    """Report the first element whose normal is so close to its direction that it refuses it."""
+    direction = _direction(_given(group))
+    if not direction.any():
+        return
+    degrees = degrees_between(_normals(model, group, np.arange(len(group.labels))), direction)
+    row = int(degrees.argmin())
+    if degrees[row] < LEAST_DEGREES:
+        text = f"DIRECTION1 to DIRECTION3 = {', '.join(f'{value:g}' for value in direction)}"
+        text += f", {degrees[row]:.3g} degrees from its normal; expected at least {LEAST_DEGREES:g}"
+        yield Finding(f"{_named(model, group, row)}: {text}", group.section.source, wrong=True)
 
 
 def _strangers(model: Model, group: ElementGroup, side: int, rows: IntArray) -> Iterator[Finding]:
@@ -206,7 +239,7 @@ class _Pair:
         tensor = tensor_of(self.beside)
         if tensor is None:
             return
-        axes = self._axes(np.radians(given[f"ANGLE {_SIDES[self.side][0]}"]))
+        axes = self._axes(np.radians(given[f"ANGLE {_SIDES[self.side][0]}"]), _direction(given))
         assert self.group.definition is not None
         layout = element_layouts()[self.group.definition.number]
         corners = list(layout.faces[self.side][: layout.corners])
@@ -277,26 +310,16 @@ class _Pair:
         has = f"has {theirs[at, axis]:.6g} there (material {ply.material.name}), and its temperature changes"
         return self._finding(at, f"EXPANSION{axis + 1} {word} = {mine[axis]:g}", has)
 
-    def _axes(self, angle: float) -> FloatArray:
-        """Return the axes (m, 3, 3) of the plies of the elements, in rows."""
+    def _axes(self, angle: float, direction: FloatArray) -> FloatArray:
+        """Return the axes (m, 3, 3) of the plies of the elements, in rows, at an angle from s."""
         c, s = np.cos(angle), np.sin(angle)
         turn = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
         assert self.group.definition is not None
         layout = element_layouts()[self.group.definition.number]
         if layout.dimension == 2:
             return np.broadcast_to(turn, (len(self.rows), 3, 3))
-        corners = [self.group.nodes[self.rows][:, np.array(face[: layout.corners])] for face in layout.faces]
-        middle = self.model.mesh.coordinates[corners[0]] + self.model.mesh.coordinates[corners[1]]
-        # half-way along the edges of a quadrilateral, along two edges of a triangle
-        last = middle[:, -1] - middle[:, 0]
-        along = middle[:, 1] - middle[:, 0] + (middle[:, 2] - middle[:, 3] if layout.corners == 4 else 0.0)
-        across = last + (middle[:, 2] - middle[:, 1] if layout.corners == 4 else 0.0)
-        normal = _unit(np.cross(along, across))
-        # Abaqus' local directions: the projection of x, or of z where x is within 0.1 degrees of the normal
-        steep = abs(normal[:, 0]) > np.cos(np.radians(0.1))
-        beside = np.where(steep[:, None], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0])
-        first = _unit(beside - (beside * normal).sum(axis=1)[:, None] * normal)
-        return np.asarray(turn @ np.stack([first, np.cross(normal, first), normal], axis=1))
+        normal = _normals(self.model, self.group, self.rows)
+        return np.asarray(turn @ np.stack([*face_directions(normal, direction), normal], axis=1))
 
     def _finding(self, at: int, mine: str, theirs: str, *, wrong: bool = True) -> Finding:
         name = _named(self.model, self.group, int(self.rows[at]))

@@ -4,7 +4,8 @@
 
 A block of rows per increment of field output: step, increment, time (total time), element, point (from 1), then the
 variables of the elements: coordinates X and Y, separations SEPN and SEPT, tractions TN and TT,
-DAMAGE, ... A variable that one element type lacks is empty there.
+DAMAGE, ... A variable that one element type lacks is empty there. Where elements have a direction from which s follows,
+the last columns are DIRECTION1 to 3, zero for elements without one.
 """
 
 from __future__ import annotations
@@ -17,12 +18,15 @@ import numpy as np
 from uel.errors import UelError
 from uel.model.arrays import FloatArray
 from uel.model.model import Model
+from uel.model.properties import UserProperty
 from uel.model.records import ElementState, IncrementDone, PointVariables
 from uel.output.formats import TextFile
 from uel.output.points import point_values
 from uel.output.schedule import Schedule, find_written
+from uel.usersub.layout import element_layouts
 
 FIXED = ("step", "increment", "time", "element", "point")
+DIRECTIONS = ("DIRECTION1", "DIRECTION2", "DIRECTION3")
 
 
 class InterfaceFile:
@@ -50,6 +54,8 @@ class InterfaceFile:
             return
         if self._file is None:
             self._names = list(dict.fromkeys(name for _, variables in states for name in variables.names))
+            if any(self._direction(state).any() for state, _ in states):
+                self._names += DIRECTIONS
             self._file = TextFile(self._path)
             self._file.write(",".join([*FIXED, *self._names]) + "\n")
         head = f"{record.step},{record.increment},{record.total_time!r}"
@@ -67,6 +73,8 @@ class InterfaceFile:
         values = point_values(state, variables)
         columns = np.full((*values.shape[:2], len(self._names)), np.nan)
         columns[:, :, [self._names.index(name) for name in variables.names]] = values
+        if self._names[-1] == DIRECTIONS[-1]:
+            columns[:, :, -3:] = self._direction(state)
         labels = self._model.groups[state.group].labels.tolist()
         # str of a list has the shortest numbers that read back exactly, and is faster than one number at a time
         return [
@@ -74,6 +82,16 @@ class InterfaceFile:
             for label, points in zip(labels, columns.tolist(), strict=True)
             for k, point in enumerate(points, 1)
         ]
+
+    def _direction(self, state: ElementState) -> FloatArray:
+        """Return the direction (3,) of the elements of a group, zero without any."""
+        group = self._model.groups[state.group]
+        if group.definition is None or not isinstance(group.section, UserProperty):
+            return np.zeros(3)
+        layout = element_layouts().get(group.definition.number)
+        positions = [item.position - 1 for item in layout.reals if item.name in DIRECTIONS] if layout else []
+        values = group.section.values
+        return values[positions] if positions and positions[-1] < len(values) else np.zeros(3)
 
 
 def read_profiles(path: Path) -> list[dict[str, FloatArray]]:

@@ -35,6 +35,8 @@ from scipy.spatial import cKDTree
 
 from uel.errors import UelError
 from uel.model.arrays import FloatArray, IntArray
+from uel.model.face_directions import face_directions
+from uel.output.files.interface import DIRECTIONS
 from uel.output.formats import TextFile
 from uel.output.pictures.plots import COLOURS, STYLE
 from uel.output.pictures.triangles import Locations, SurfacePaths, TriangulatedSurface
@@ -42,9 +44,6 @@ from uel.output.results import Result
 
 DAMAGE = 0.5
 """Damage at the front."""
-
-_ALIGNED = np.cos(np.radians(0.1))
-"""Angle of the normal to the x axis, 0.1 degrees, within which Abaqus uses the z axis for the local direction s."""
 
 _FLAT = 0.05
 """Extent of fronts normal to a plane, over that in it, up to which they are drawn in the plane."""
@@ -103,7 +102,9 @@ class _Surface:
         self.triangles = TriangulatedSurface(nodes, np.concatenate(triangles))
         self._to_corners: tuple[IntArray, FloatArray, FloatArray] | None = None
 
-    def at_nodes(self, locations: FloatArray, values: FloatArray, shears: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def at_nodes(
+        self, locations: FloatArray, values: FloatArray, shears: FloatArray, directions: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
         """Return the values at the nodes from those at the integration points, which are at `locations` (m, 4, 3).
 
         Parameters
@@ -112,6 +113,8 @@ class _Surface:
             (m, 4, k).
         shears
             (m, 4, c, 2) components of vectors along s and t.
+        directions
+            (m, 3) directions of the elements whose projections are s, zero for x.
 
         Returns
         -------
@@ -127,7 +130,7 @@ class _Surface:
             )
             # bilinear functions of the points, at the corners
             shares = 0.25 * np.prod(1.0 + _CORNERS[:, None] * _CORNERS / reach, axis=-1)
-            self._to_corners = nearest, shares, _directions(corners, reach)
+            self._to_corners = nearest, shares, _directions(corners, reach, directions)
         nearest, shares, directions = self._to_corners
         rows = np.arange(len(values))[:, None]
         vectors = np.einsum("mpca,mpad->mpcd", shears[rows, nearest], directions)
@@ -140,7 +143,7 @@ class _Surface:
         return nodal[:, :count], nodal[:, count:].reshape(len(nodal), -1, 3)
 
 
-def _directions(corners: FloatArray, reach: float) -> FloatArray:
+def _directions(corners: FloatArray, reach: float, directions: FloatArray) -> FloatArray:
     """Return the local directions s and t, (m, 4, 2, 3), at the points next to the corners (m, 4, 3) of faces."""
     xi, eta = reach * _CORNERS.T
     # derivatives of the bilinear functions of the corners, (points, corners)
@@ -148,10 +151,7 @@ def _directions(corners: FloatArray, reach: float) -> FloatArray:
     across = 0.25 * _CORNERS[:, 1] * (1.0 + xi[:, None] * _CORNERS[:, 0])
     normal = np.cross(np.einsum("pk,mkd->mpd", along, corners), np.einsum("pk,mkd->mpd", across, corners))
     normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
-    first = np.where(np.abs(normal[..., :1]) > _ALIGNED, [0.0, 0.0, 1.0], [1.0, 0.0, 0.0])
-    first = first - np.sum(first * normal, axis=-1, keepdims=True) * normal
-    first /= np.linalg.norm(first, axis=-1, keepdims=True)
-    return np.stack([first, np.cross(normal, first)], axis=-2)
+    return np.stack(face_directions(normal, directions[:, None]), axis=-2)
 
 
 @dataclass(frozen=True, slots=True)
@@ -318,8 +318,11 @@ def _fields(surface: _Surface, profile: Mapping[str, FloatArray]) -> _Fields:
 
     damage, separation = "SPENT" if known("SPENT") else "DAMAGE", "W" if known("WN") else "SEP"
     shears = [gather(f"{name}S", f"{name}T") for name in ("T", separation)]
+    directions = np.zeros((len(sorted_labels), 3))
+    if known(DIRECTIONS[0]):
+        directions = gather(*DIRECTIONS)[:, 0]
     values, vectors = surface.at_nodes(
-        gather("X", "Y", "Z"), gather(damage, "TN", f"{separation}N"), np.stack(shears, axis=2)
+        gather("X", "Y", "Z"), gather(damage, "TN", f"{separation}N"), np.stack(shears, axis=2), directions
     )
     return _Fields(np.clip(values[:, 0], 0.0, 1.0), values[:, 1:], vectors)
 
