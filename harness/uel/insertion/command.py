@@ -4,8 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +26,7 @@ from uel.insertion.connectivity import (
     recommended,
 )
 from uel.insertion.cut import NONE, Cells, Cut, cut, mask_of
+from uel.insertion.directions import NAMES, Pair, choose_directions
 from uel.insertion.meshes import is_mesh, read_mesh
 from uel.insertion.neighbours import check_neighbours
 from uel.insertion.properties import (
@@ -33,6 +34,7 @@ from uel.insertion.properties import (
     definition_lines,
     element_values,
     material_lines,
+    names_of,
     property_lines,
     read_values,
 )
@@ -144,12 +146,13 @@ def insert(
     interfaces: list[_Interface] = []
     if len(chosen):
         sections = Sections(deck)
-        for kind, rows in _kinds(deck, chosen, element).items():
+        kinds = _kinds(deck, chosen, element)
+        for kind, rows in kinds.items():
             check_values(kind, properties_given)
-            sides = chosen[rows]
-            warnings += check_neighbours(deck, sections, kind, sides)
-            values_of = _values(kind, sections, _two_sides(deck, sides), properties_given)
-            interfaces.append(_Interface(kind, sides, values_of))
+            warnings += check_neighbours(deck, sections, kind, chosen[rows])
+        pairs = [_two_sides(deck, chosen[rows]) for rows in kinds.values()]
+        for (kind, rows), pair in zip(kinds.items(), _directed(kinds, sections, pairs, properties_given), strict=True):
+            interfaces.append(_Interface(kind, chosen[rows], _values(kind, sections, pair, properties_given)))
         warnings += sections.warnings
     if request.plies is not None and not request.plies:
         warnings += _meeting(deck, selection)
@@ -355,16 +358,32 @@ def _write_interfaces(
         rewriting.after_model(material_lines(each.kind, quoted(elset), dict(next(iter(each.properties)))))
 
 
+def _directed(
+    kinds: Iterable[InterfaceType], sections: Sections, pairs: Sequence[Pair], properties: Mapping[str, float]
+) -> list[Pair]:
+    """Return the faces below and above the elements of each type with the directions for the angles of their plies."""
+    directed = list(pairs)
+    rows = [row for row, kind in enumerate(kinds) if set(NAMES) <= set(names_of(kind))]
+    found = choose_directions(sections, [pairs[row] for row in rows], properties)
+    for row, directions in zip(rows, found, strict=True):
+        below, above = pairs[row]
+        directed[row] = replace(below, directions=directions), replace(above, directions=directions)
+    return directed
+
+
 def _values(
     kind: InterfaceType, sections: Sections, sides: tuple[Faces, Faces], properties: Mapping[str, float]
 ) -> dict[Items, IntArray]:
     """Return the rows of elements by their properties."""
     (below, first), (above, second) = (sections.sides(faces) for faces in sides)
     groups: dict[Items, list[IntArray]] = {}
-    pairs, number = np.unique(np.column_stack([first, second]), axis=0, return_inverse=True)
-    for index, (lower, upper) in enumerate(pairs.tolist()):
+    alike = np.column_stack([first, second, sides[0].directions])
+    unique, number = np.unique(alike, axis=0, return_inverse=True)
+    for index, (lower, upper, *direction) in enumerate(unique.tolist()):
         rows = np.flatnonzero(number.ravel() == index)
-        groups.setdefault(tuple(element_values(kind, properties, below[lower], above[upper]).items()), []).append(rows)
+        given = {**properties, **(dict(zip(NAMES, direction, strict=True)) if any(direction) else {})}
+        values = element_values(kind, given, below[int(lower)], above[int(upper)])
+        groups.setdefault(tuple(values.items()), []).append(rows)
     return {items: np.sort(np.concatenate(rows)) for items, rows in groups.items()}
 
 
@@ -373,7 +392,8 @@ def _two_sides(deck: Deck, sides: IntArray) -> tuple[Faces, Faces]:
     solids = deck.solids
     corners = face_nodes(solids, sides[:, 0])[:, : int(solids.corners[sides[0, 0]])]
     normals = face_normals(solids.points[corners])
-    return Faces(sides[:, 0], normals, above=False), Faces(sides[:, 1], normals, above=True)
+    none = np.zeros_like(normals)
+    return Faces(sides[:, 0], normals, none, above=False), Faces(sides[:, 1], normals, none, above=True)
 
 
 def _ties(deck: Deck, cut_mesh: Cut) -> list[str]:

@@ -3,18 +3,21 @@
 """Thickness, state of stress, formulation and constants of the solids at each face.
 
 The axes of the plies of an element that owns its solids are given by an angle: in the plane from x, in space from the
-direction s about the normal of the interface. Where an *ORIENTATION varies, as in curved laminates, the angle is that
-at the centre of each face, with one set of properties per angle. Angles are modulo 180 degrees, since the materials are
+direction s about the normal of the interface, the projection of a reference direction (`directions.py`). Where an
+*ORIENTATION varies, as in curved laminates, the angle is that at the centre of each face, with one set of properties
+per angle. Angles are modulo 180 degrees, since the materials are
 orthotropic. In layered solids the layer at the interface counts.
 """
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from uel.deck.contact.interactions import Interactions
 from uel.deck.error_report import Problems
@@ -32,6 +35,7 @@ from uel.errors import DeckError, Source
 from uel.insertion.assembly import Deck
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.element_types import BUILT_IN, ContinuumType, Tensor
+from uel.model.face_directions import face_directions
 from uel.model.local_systems import SystemKind, UndefinedDirectionsError
 from uel.model.properties import CompositeSection, ElasticType, Material, Orientation, SolidLayer, SolidSection
 
@@ -70,18 +74,20 @@ class Side:
 class Faces:
     """Faces of the solids on one side of an interface.
 
-    numbers  (k,) numbers of the faces in `Solids`
-    normals  (k, 3) unit normals of the interface, from below to above
-    above    whether the faces are those of the solids above
+    numbers     (k,) numbers of the faces in `Solids`
+    normals     (k, 3) unit normals of the interface, from below to above
+    directions  (k, 3) reference directions for the angles of plies, zero for x
+    above       whether the faces are those of the solids above
     """
 
     numbers: IntArray
     normals: FloatArray
+    directions: FloatArray
     above: bool
 
     def take(self, rows: IntArray) -> Faces:
         """Select some of the faces."""
-        return Faces(self.numbers[rows], self.normals[rows], self.above)
+        return Faces(self.numbers[rows], self.normals[rows], self.directions[rows], self.above)
 
 
 Three = tuple[float, float, float]
@@ -198,7 +204,7 @@ class Sections:
         plane = _PLANES[kind.tensor] if isinstance(kind, ContinuumType) else None
         every = np.arange(len(faces.numbers))
         if number < 0:
-            why = f"element {self._name(faces, every)} has no section"
+            why = f"element {self.name(faces, 0)} has no section"
             yield Side(None, plane, {}, why), every
             return
         owner, block = self._deck.section_blocks[number]
@@ -208,28 +214,91 @@ class Sections:
             yield Side(thickness, plane, {}, section, str(block.source)), every
             return
         location = f"(*SOLID SECTION at {block.source})"
-        if isinstance(section, SolidSection):
-            layers = [(SolidLayer(1.0, 1, section.material, section.orientation), every)]
-        else:
-            layers = []
-            for layer, rows in self._layers(section, faces):
-                if layer is None:
-                    why = f"the interface runs across the layers of element {self._name(faces, rows)} {location}"
-                    yield Side(thickness, plane, {}, why, str(block.source)), rows
-                else:
-                    layers.append((layer, rows))
-        for layer, rows in layers:
+        for layer, rows in self._layers(section, faces):
+            if layer is None:
+                why = f"the interface runs across the layers of element {self.name(faces, int(rows[0]))} {location}"
+                yield Side(thickness, plane, {}, why, str(block.source)), rows
+                continue
             try:
                 for constants, inside in self._constants(owner, section, layer, faces.take(rows)):
                     yield Side(thickness, plane, constants, "", str(block.source)), rows[inside]
             except ValueError as error:
                 yield Side(thickness, plane, {}, f"{error} {location}", str(block.source)), rows
 
-    def _name(self, faces: Faces, rows: IntArray) -> str:
-        return self._deck.name(int(self._deck.solids.element[faces.numbers[rows[0]]]))
+    def name(self, faces: Faces, row: int) -> str:
+        """Return the name of the solid of a face."""
+        return self._deck.name(int(self._deck.solids.element[faces.numbers[row]]))
 
-    def _layers(self, section: CompositeSection, faces: Faces) -> Iterator[tuple[SolidLayer | None, IntArray]]:
+    def polar_axes(self, faces: Faces) -> FloatArray:
+        """Return the axes (k, 3) of the cylinders along which the plies at faces have their directions.
+
+        Zero where there is none: no cylindrical *ORIENTATION, isotropic or unknown constants.
+        """
+        found = np.zeros_like(faces.normals)
+        for owner, _, layer, rows in self._plies(faces):
+            orientation = layer.orientation
+            if orientation is None or orientation.system is None:
+                continue
+            if orientation.system.kind is not SystemKind.CYLINDRICAL:
+                continue
+            # without the additional rotation axis 3 is that of the cylinder
+            plain = replace(orientation, system=replace(orientation.system, angle=0.0))
+            with contextlib.suppress(ValueError):  # said where the angles are needed
+                found[rows] = self._local_axes(owner, plain, faces.take(rows))[:, 2]
+        return found
+
+    def plane_axes(self, faces: Faces) -> FloatArray:
+        """Return an axis (k, 3), in the plane of the ply, of the material at each face.
+
+        Zero where its directions vary, or are of no importance or unknown: isotropic or unknown constants.
+        """
+        found = np.zeros_like(faces.normals)
+        for owner, section, layer, rows in self._plies(faces):
+            if layer.orientation is not None and layer.orientation.system is not None:
+                continue
+            with contextlib.suppress(ValueError):
+                axes = self._axes(owner, section, layer, faces.take(rows))
+                across = np.abs(np.einsum("kad,kd->ka", axes, faces.normals[rows]))
+                first = np.array([1, 0, 0])[across.argmax(axis=1)]
+                found[rows] = np.take_along_axis(axes, first[:, None, None], axis=1)[:, 0]
+        return found
+
+    def stays(self, faces: Faces, directions: FloatArray) -> NDArray[np.bool_]:
+        """Return the mask of faces whose direction (k, 3) is the same in all instances of their part."""
+        deck = self._deck
+        numbers = deck.positions[deck.solids.element[faces.numbers]]
+        same = np.ones(len(numbers), dtype=np.bool_)
+        for owner in deck.first.values():
+            inside = (numbers >= owner.element_offset) & (numbers < owner.element_offset + len(owner.elements))
+            for other in self._others(owner):
+                moved = directions[inside] @ _turn(owner, other).T
+                same[inside] &= np.linalg.norm(np.cross(directions[inside], moved), axis=1) < math.sin(PARALLEL)
+        return same
+
+    def _others(self, owner: Owner) -> Iterator[Owner]:
+        """Yield the other instances of the part of an instance."""
+        part = self._deck.part_of.get(owner.name)
+        for other in self._deck.owners:
+            if part is not None and other is not owner and self._deck.part_of.get(other.name) == part:
+                yield other
+
+    def _plies(self, faces: Faces) -> Iterator[tuple[Owner, SolidSection | CompositeSection, SolidLayer, IntArray]]:
+        """Yield the anisotropic plies with known constants at faces, each with its rows."""
+        for number, type, rows in self.kinds(faces.numbers):
+            section = self.section(number, type) if number >= 0 else ""
+            if isinstance(section, str):
+                continue
+            for layer, inside in self._layers(section, faces.take(rows)):
+                if layer is not None and _has_directions(layer.material):
+                    yield self._deck.section_blocks[number][0], section, layer, rows[inside]
+
+    def _layers(
+        self, section: SolidSection | CompositeSection, faces: Faces
+    ) -> Iterator[tuple[SolidLayer | None, IntArray]]:
         """Yield the layer of a solid at each face, None where the face crosses the layers."""
+        if isinstance(section, SolidSection):
+            yield SolidLayer(1.0, 1, section.material, section.orientation), np.arange(len(faces.numbers))
+            return
         first, last = STACK_FACES[section.direction]
         side = self._deck.solids.side[faces.numbers]
         for layer, rows in (
@@ -268,12 +337,8 @@ class Sections:
     ) -> None:
         """Raise DeckError if the ply angles of the instances of a part differ."""
         deck = self._deck
-        part = deck.part_of.get(owner.name)
-        for other in deck.owners:
-            if part is None or other is owner or deck.part_of.get(other.name) != part:
-                continue
-            turn = other.placement.turn(np.eye(3)).T @ owner.placement.turn(np.eye(3))
-            moved = Faces(faces.numbers, faces.normals @ turn.T, faces.above)
+        for other in self._others(owner):
+            moved = replace(faces, normals=faces.normals @ _turn(owner, other).T)
             here = self._orientations[other.name]
             orientation = layer.orientation and here.get(layer.orientation.name, layer.orientation)
             placed = SolidLayer(layer.thickness, layer.points, layer.material, orientation, layer.angle)
@@ -283,7 +348,7 @@ class Sections:
                 row = int(np.argmax(difference))
                 raise deck.structure.instances[other.name].head.error(
                     f"instance {other.name} is turned against {owner.name}, so the plies at element "
-                    f"{self._name(faces, np.array([row]))} have the angle {others[row]:g} in {other.name} and "
+                    f"{self.name(faces, row)} have the angle {others[row]:g} in {other.name} and "
                     f"{angles[row]:g} in {owner.name}, for which a part has one *UEL PROPERTY: give each its own part"
                 )
 
@@ -301,14 +366,14 @@ class Sections:
         self._check_normal(across.max(axis=1), faces, section)
         orders = np.array([[1, 2, 0], [0, 2, 1], [0, 1, 2]])[third]
         first = np.take_along_axis(axes, orders[:, :1, None], axis=1)[:, 0]
-        s, t = _along(faces.normals)
+        s, t = face_directions(faces.normals, faces.directions)
         return orders, _half_turn(np.arctan2(np.sum(first * t, axis=1), np.sum(first * s, axis=1)))
 
     def _check_normal(self, cosines: FloatArray, faces: Faces, section: SolidSection | CompositeSection) -> None:
         """Raise ValueError unless a material axis is normal to the interface."""
         tilt = np.degrees(np.arccos(np.minimum(cosines, 1.0)))
         row = int(tilt.argmax())
-        where = f"at element {self._name(faces, np.array([row]))} the closest one is {tilt[row]:.3g} degrees off"
+        where = f"at element {self.name(faces, row)} the closest one is {tilt[row]:.3g} degrees off"
         if tilt[row] > OBLIQUE:
             raise ValueError(f"no axis of the material is normal to the whole interface: {where}")
         if tilt[row] > math.degrees(PARALLEL):
@@ -336,7 +401,7 @@ class Sections:
         try:
             return turned_directions(layer, axes[:, None], upright[:, None])[:, 0]
         except UndefinedDirectionsError as error:
-            name = self._name(faces, np.array([error.row[0]]))
+            name = self.name(faces, error.row[0])
             raise ValueError(f"orientation {orientation.name}: {error}; it is not in element {name}") from None
 
     def _local_axes(self, owner: Owner, orientation: Orientation, faces: Faces) -> FloatArray:
@@ -359,7 +424,7 @@ class Sections:
         try:
             return system.axes(positions, points[nodes + owner.node_offset], middles)[:, 0]
         except UndefinedDirectionsError as error:
-            name = self._name(faces, np.array([error.row[0]]))
+            name = self.name(faces, error.row[0])
             raise ValueError(f"orientation {orientation.name}: element {name}: {error}") from None
 
 
@@ -374,6 +439,19 @@ def _thickness(block: Block) -> float | None:
         return None
     row = next(block.rows(), None)
     return (row.real(0, "thickness", 1.0) if row else 1.0) or 1.0
+
+
+def _turn(owner: Owner, other: Owner) -> FloatArray:
+    """Return the rotation (3, 3) from an instance to another one of its part."""
+    return other.placement.turn(np.eye(3)).T @ owner.placement.turn(np.eye(3))
+
+
+def _has_directions(material: Material) -> bool:
+    """Return whether the constants of a material are known, and differ from direction to direction."""
+    try:
+        return not _moduli(material).isotropic
+    except ValueError:
+        return False
 
 
 def _moduli(material: Material) -> _Moduli:
@@ -405,12 +483,3 @@ def _half_turn(radians: FloatArray) -> FloatArray:
     """Reduce angles to degrees above -90 and up to 90, modulo 180 degrees."""
     degrees = np.round(np.degrees(radians), _DECIMALS)
     return np.asarray(np.round(90.0 - (90.0 - degrees) % 180.0, _DECIMALS))
-
-
-def _along(normals: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return directions s and t, (k, 3), at faces: s is x projected, or z where x is within 0.1 degrees of n."""
-    aligned = np.abs(normals[:, 0]) > math.cos(math.radians(0.1))
-    beside = np.where(aligned[:, None], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0])
-    s = beside - np.sum(beside * normals, axis=1, keepdims=True) * normals
-    s /= np.linalg.norm(s, axis=1, keepdims=True)
-    return s, np.cross(normals, s)

@@ -173,8 +173,8 @@ def test_spring_in_is_that_of_the_uncut_laminate(tmp_path):
     done = inserted(tmp_path / "whole.inp", tmp_path / "cut.inp", STRONG, plies=())
     assert done.kinds == {"U8": 144}
     group = next(group for group in read_deck(tmp_path / "cut.inp").groups if group.type == "U8")
-    # the radial axis of the material, 1, is axis 3 of the element
-    assert group.section.values[-6:].tolist() == [0.0, 0.0, 3e-5] * 2
+    # the radial axis of the material, 1, is axis 3 of the element; s is along the axis of the tube
+    assert group.section.values[-9:].tolist() == [*[0.0, 0.0, 3e-5] * 2, 0.0, 0.0, 1.0]
     turns = []
     for name in ("whole", "cut"):
         u = uel.run(tmp_path / f"{name}.inp", output_dir=tmp_path, quiet=True).field("U")

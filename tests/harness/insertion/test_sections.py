@@ -139,15 +139,15 @@ def test_each_angle_has_its_properties(tmp_path):
     assert all(each["ANGLE BOTTOM"] == each["ANGLE TOP"] and each["E1 TOP"] == 9e4 for each in found)
 
 
-def test_half_a_turn_is_the_same_ply(tmp_path):
-    """Around a whole ring the direction s changes its sense, and the material does not."""
+def test_a_whole_ring_has_one_set_of_properties(tmp_path):
+    """Angles are from the axis of the cylinder, not from x, whose projection changes its sense."""
     mesh = halves(counts=(8, 1, 2))
     angle, radius = 2 * np.pi * (mesh.nodes[:, 0] - 0.01) / 8.5, 5.0 + mesh.nodes[:, 2]
     mesh.nodes = np.column_stack([radius * np.sin(angle), mesh.nodes[:, 1], radius * np.cos(angle)])
     around = ["*ORIENTATION, NAME=AROUND, SYSTEM=CYLINDRICAL", "0., 0., 0., 0., 1., 0."]
     section = ["*SOLID SECTION, ELSET=BODY, MATERIAL=PLY, ORIENTATION=AROUND"]
     found, _ = properties(deck(tmp_path, mesh, *ply(), *around, *section), "U8")
-    assert [each["ANGLE BOTTOM"] for each in found] == [0.0]
+    assert [each["ANGLE BOTTOM"] for each in found] == [90.0]
 
 
 def test_angles_of_a_distribution(tmp_path):
