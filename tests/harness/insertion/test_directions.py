@@ -122,6 +122,33 @@ def test_a_bracket_needs_a_set_of_properties_for_each_pair_of_plies(tmp_path):
     assert angles == {(90.0, 0.0), (0.0, 0.0), (0.0, 90.0)}
 
 
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"ANGLE TOP": 20.0}, r"E1 TOP = 138000 at ANGLE TOP = 20, but the C3D8 element \d+ above"),
+        # the second leg is normal to x
+        (
+            {"DIRECTION1": 1.0, "DIRECTION3": 0.0},
+            r"DIRECTION1 to DIRECTION3 = 1, 0, 0, \d\S* degrees from its normal",
+        ),
+        ({"DIRECTION1": 1.0}, r"E1 BOTTOM = 138000 at ANGLE BOTTOM = 90, but the C3D8 element \d+ below"),
+    ],
+)
+def test_other_directions_are_found_before_a_run(tmp_path, changes, message):
+    """By the comparison of `uel run` with the directions of the solids, in the corner and on the legs."""
+    mesh, lines = bracket("C3D8", (0, 90))
+    inserted(written(tmp_path, mesh, lines), tmp_path / "cut.inp", between=[("PLY0", "PLY1")])
+    model = read_deck(tmp_path / "cut.inp")
+    assert compare(model, model.groups) == []
+    positions = {item.name: item.position - 1 for item in element_layouts()[8].reals}
+    for group in model.groups:
+        if group.type == "U8":
+            for name, value in changes.items():
+                group.section.values[positions[name]] = value
+    findings = compare(model, model.groups)
+    assert any(each.wrong and re.search(message, each.message) for each in findings)
+
+
 TURN = np.array([[2.0, -1.0, 2.0], [2.0, 2.0, -1.0], [-1.0, 2.0, 2.0]]) / 3.0
 
 
