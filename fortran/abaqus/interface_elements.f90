@@ -7,6 +7,7 @@ module abaqus_interface_elements
   use core_cells, only: corners_of, is_linear
   use materials_linear_elasticity, only: engineering_constants, plane_stiffness, solid_stiffness, plane_expansion, solid_expansion
   use cohesive_parameters, only: law_parameters, bilinear_law, ppr_law
+  use cohesive_initial_crack, only: open_crack
   use cohesive_ppr, only: prepare_ppr
   use elements_bulk_solid, only: solid_type
   use elements_interface_bulk, only: stabilisation_type
@@ -20,8 +21,8 @@ module abaqus_interface_elements
     p_e1_bottom, p_e2_bottom, p_e3_bottom, p_nu12_bottom, p_nu13_bottom, p_nu23_bottom, p_g12_bottom, p_g13_bottom, &
     p_g23_bottom, p_angle_bottom, p_e1_top, p_e2_top, p_e3_top, p_nu12_top, p_nu13_top, p_nu23_top, p_g12_top, p_g13_top, &
     p_g23_top, p_angle_top, p_expansion1_bottom, p_expansion2_bottom, p_expansion3_bottom, p_expansion1_top, p_expansion2_top, &
-    p_expansion3_top, p_direction1, p_direction2, p_direction3, &
-    j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, j_formulation_bottom, j_formulation_top, &
+    p_expansion3_top, p_direction1, p_direction2, p_direction3, j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, &
+    j_formulation_bottom, j_formulation_top, j_cracked, &
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
     v_maxn, v_maxt, v_spent, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, w_dissi, w_dissii, w_sn, w_st, &
     w_dmax, w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt, w_spent
@@ -95,6 +96,7 @@ contains
     n = elements(itype)%points
     nodes = face_nodes(itype)
     old = points_from(svars, n, dim)
+    if (options(j_cracked) == 1) call open_crack(law, old%history)
     select case (elements(itype)%family)
     case (standard, standard_3d)
       call integrate_interface(dim, n, nodes, law, choice, thickness, original, u, dtime, with_tangent, old, new, residual, &
@@ -113,7 +115,8 @@ contains
         call find_solids(itype, jelem, materials, options, choice%direction, original(:, nodes(:, 1)), original(:, nodes(:, 2)), &
           temperatures(1, :), initial, solids, good)
         if (.not. good) return
-        call warn_if_long(itype, jelem, nodes, original, choice%direction, materials, law, old)
+        ! a crack that is there from the start does not fail, and has no process zone
+        if (options(j_cracked) == 0) call warn_if_long(itype, jelem, nodes, original, choice%direction, materials, law, old)
         if (stabilisation%local) call recall(own, stabilisation)
         call integrate_interface(dim, n, nodes, law, choice, thickness, original, u, dtime, with_tangent, old, new, residual, &
           tangent, energies, status, stabilisation, solids)
@@ -182,7 +185,7 @@ contains
 
     choice = interface_options(options(j_integration), options(j_sampling), options(j_closure) /= paper_closure, &
       options(j_closure) == complete_closure, merge(1.0_dp, values(p_blend), options(j_tangent) == 1), finite, &
-      values([p_direction1, p_direction2, p_direction3]))
+      options(j_cracked) == 1, values([p_direction1, p_direction2, p_direction3]))
   end function chosen
 
   !> Beta and gamma as the deck has them.

@@ -91,7 +91,9 @@ contains
         if (status%code /= ok) return
         stabilisation = used
       end if
-      if (options%consistent_law .and. .not. stabilisation%known) call suit_law(law, stabilisation, status)
+      if (options%consistent_law .and. .not. options%cracked .and. .not. stabilisation%known) then
+        call suit_law(law, stabilisation, status)
+      end if
       if (status%code /= ok) return
       if (present(solids)) then
         call bulk_operators(options%sampling, dim, places, stabilisation%gamma_bottom, solids, faces, coordinates, &

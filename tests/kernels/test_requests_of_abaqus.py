@@ -108,6 +108,7 @@ class Arguments:
         self.svars, self.energy = np.zeros(40), np.full(8, 7.0)
         u = interface.displacements(4, *interface.states["softening"], seed=0).ravel()
         props = np.array([2.0, 2e4, 3e4, 30.0, 60.0, 0.26, 1.002, *np.zeros(len(element_layouts()[2].reals) - 7)])
+        jprops = np.array([1, *np.zeros(len(element_layouts()[2].integers) - 1)], dtype=np.int32)
         zeros, pnewdt = np.zeros(64), np.array([1e36])
         arguments = [
             *(
@@ -126,7 +127,7 @@ class Arguments:
             ),
             *(u, zeros, zeros, zeros, 2, zeros, np.array([1.0]), 1, 1, 77, zeros, 0, 0, zeros, zeros, 0),
             *(np.array([1, 0, request, 0, 0], dtype=np.int32), 11, zeros, 1, pnewdt),
-            *(np.array([1, 0, 0], dtype=np.int32), 3, np.array([1.0])),
+            *(jprops, len(jprops), np.array([1.0])),
         ]
         self.kept = [np.array([x], dtype=np.int32) if isinstance(x, int) else x for x in arguments]
         assert len(self.kept) == 36

@@ -105,6 +105,7 @@ COLUMNS = {
     "u4_friction": Column(
         "pressed and slid", 4, values={"LAW": 1, "FRICTION": 0.3, "CLOSURE": 3}, moved=(0.08, -0.0005)
     ),
+    "u4_cracked": Column("an initial crack, pressed and slid", 4, values={"CRACKED": 1}, moved=(0.08, -0.0005)),
     "u4_plane_strain": Column(
         "plane strain, fibres across the interface below",
         4,

@@ -255,6 +255,14 @@ def test_elements_that_stay_bonded_tell_nothing(kind: str, tmp_path: Path) -> No
     assert pulled(tmp_path, kind, 1.0, 1.0, opening=0.015).warnings == ()
 
 
+@pytest.mark.parametrize("kind", ["U2", "U7", "U4", "U8"])
+def test_an_initial_crack_does_not_fail(kind: str, tmp_path: Path) -> None:
+    """It has no process zone: elements of any length will do, and it has dissipated nothing in the end."""
+    result = pulled(tmp_path, kind, 1.0, 1.0, CRACKED=1)
+    assert result.warnings == ()
+    assert result.history["ALLPD"][-1] == 0.0
+
+
 @pytest.mark.parametrize("angle", [30.0, 90.0])
 def test_element_takes_the_modulus_across(angle: float, tmp_path: Path) -> None:
     """Of axis 1 at 90 degrees less the angle from the normal; no contraction."""

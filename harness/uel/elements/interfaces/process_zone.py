@@ -174,6 +174,10 @@ def _law(group: ElementGroup, library: Library) -> _Law | None:
     if len(section.values) < len(layout.reals) or group.definition.nodes < layout.nodes:
         # the elements themselves say what is missing
         return None
+    cracked = next(item.position for item in layout.integers if item.name == "CRACKED")
+    if section.integers[cracked - 1 : cracked].any():
+        # a crack that is there from the start does not fail
+        return None
     values = {item.name: float(section.values[item.position - 1]) for item in layout.reals}
     return _Law((values["SIGMAMAX"], values["TAUMAX"]), (values["GIC"], values["GIIC"]), speaks=bool(layout.own))
 
