@@ -49,6 +49,11 @@ def add_insert(insert: argparse.ArgumentParser) -> None:
         metavar="SET",
         help="initial crack: no elements where these faces are in a node set, at an element set or in a surface",
     )
+    where.add_argument(
+        "--contact",
+        action="store_true",
+        help="elements there too, failed from the start: the faces of the crack press, and rub with FRICTION=VALUE",
+    )
     insert.add_argument(
         "--element", default="", metavar="TYPE", help="COH2D4, COH3D8, U2, U4, ... (the recommended one at each face)"
     )
@@ -77,7 +82,9 @@ def insert_elements(options: argparse.Namespace) -> int:
     if any(options.output.resolve() == file.resolve() for file in options.files):
         raise UsageError(f"-o {options.output}: is what is read; write to another file")
     pairs = [(below, above) for below, above in options.between]
-    wanted = CutRequest(pairs, options.surface, options.nodes, options.plies, options.all, options.crack)
+    wanted = CutRequest(
+        pairs, options.surface, options.nodes, options.plies, options.all, options.crack, options.contact
+    )
     text, done = insert(
         options.files,
         wanted,

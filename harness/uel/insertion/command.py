@@ -46,6 +46,8 @@ from uel.model.element_types import BUILT_IN, DISCRETE, FAMILIES, ContinuumType
 
 Items = tuple[tuple[str, float], ...]
 """Properties of an element by name."""
+_ON_CRACK = "-CRACK"
+"""Suffix of the name of the set of the elements on an initial crack."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +57,7 @@ class Insertion:
     kinds       number of elements of each type
     doubled     number of new nodes
     crack       number of faces of the initial crack
+    contact     number of elements on them
     closed      number of faces without duplicated nodes, which get no element
     warnings    warnings of the deck and of the insertion
     plies       cut pairs of plies, and their numbers of faces
@@ -66,6 +69,7 @@ class Insertion:
     closed: int
     warnings: tuple[str, ...]
     plies: tuple[tuple[str, str, int], ...] = ()
+    contact: int = 0
 
     @property
     def elements(self) -> int:
@@ -86,6 +90,8 @@ class Insertion:
         made = ", ".join(f"{count} elements {kind}" for kind, count in self.kinds.items())
         made = f"{made} in {elset}" if made else "no elements"
         crack = f", {self.crack} faces of an initial crack" if self.crack else ""
+        if self.contact:
+            crack = f", {self.contact} of them on an initial crack"
         return [*lines, f"{made}{crack}, {self.doubled} nodes doubled"]
 
 
@@ -139,7 +145,7 @@ def insert(
     if not selection.cuts.any():
         raise UsageError("say where: --between, --surface, --nodes, --plies or --all")
     cut_mesh = cut(deck.solids, selection.cuts)
-    chosen, closed = _with_elements(deck, selection, cut_mesh)
+    chosen, cracked, closed = _with_elements(deck, selection, cut_mesh, contact=request.contact)
     if not len(chosen) and not selection.crack.any():
         raise UsageError("no face gets an element: nothing there can open")
     warnings: list[str] = []
@@ -149,10 +155,13 @@ def insert(
         kinds = _kinds(deck, chosen, element)
         for kind, rows in kinds.items():
             check_values(kind, properties_given)
+            if cracked[rows].any() and "CRACKED" not in names_of(kind):
+                raise UsageError(f"--contact: {kind.name} cannot fail from the start, the elements of the project can")
             warnings += check_neighbours(deck, sections, kind, chosen[rows])
         pairs = [_two_sides(deck, chosen[rows]) for rows in kinds.values()]
         for (kind, rows), pair in zip(kinds.items(), _directed(kinds, sections, pairs, properties_given), strict=True):
-            interfaces.append(_Interface(kind, chosen[rows], _values(kind, sections, pair, properties_given)))
+            values_of = _values(kind, sections, pair, cracked[rows], properties_given)
+            interfaces.append(_Interface(kind, chosen[rows], values_of))
         warnings += sections.warnings
     if request.plies is not None and not request.plies:
         warnings += _meeting(deck, selection)
@@ -171,6 +180,7 @@ def insert(
         closed,
         (*deck.warnings, *warnings, *_ties(deck, cut_mesh)),
         tuple(selection.plies),
+        int(np.sum(cracked)),
     )
     return rewriting.text(), done
 
@@ -197,13 +207,18 @@ def _meeting(deck: Deck, selection: Selection) -> list[str]:
     ]
 
 
-def _with_elements(deck: Deck, selection: Selection, cut_mesh: Cut) -> tuple[IntArray, int]:
-    """Return the faces below and above, (faces, 2), of the elements, and the number of faces that cannot open."""
+def _with_elements(
+    deck: Deck, selection: Selection, cut_mesh: Cut, *, contact: bool
+) -> tuple[IntArray, NDArray[np.bool_], int]:
+    """Return the faces below and above, (faces, 2), of the elements, which (faces,) of these are on a crack, and the
+    number of faces that cannot open.
+    """
     pairs = deck.solids.pairs
     order = np.stack([selection.below, 1 - selection.below], axis=1)
-    sides = np.take_along_axis(pairs, order, axis=1)[selection.cuts & ~selection.crack]
+    wanted = selection.cuts & (contact | ~selection.crack)
+    sides = np.take_along_axis(pairs, order, axis=1)[wanted]
     opens = mask_of(cut_mesh.origins, len(deck.solids.points) + 1)[deck.solids.nodes[sides[:, 0]]].any(axis=1)
-    return sides[opens], int(np.sum(~opens))
+    return sides[opens], selection.crack[wanted][opens], int(np.sum(~opens))
 
 
 def _kinds(deck: Deck, sides: IntArray, name: str) -> dict[InterfaceType, IntArray]:
@@ -353,6 +368,11 @@ def _write_interfaces(
             properties += property_lines(kind, quoted(name), quoted(elset), items)
         if len(names) > 1:
             lines += [keyword("ELSET", ELSET=quoted(elset)), *map(quoted, names)]
+        on_crack = [name for name, (_, items, _) in zip(names, groups, strict=True) if items.get("CRACKED")]
+        if on_crack:
+            if f"{elset.upper()}{_ON_CRACK}" in owner.mesh.elsets:
+                raise UsageError(f"--elset {elset}: the deck has an element set {elset.upper()}{_ON_CRACK}")
+            lines += [keyword("ELSET", ELSET=quoted(f"{elset.upper()}{_ON_CRACK}")), *map(quoted, on_crack)]
         rewriting.after_elements(owner, [*lines, *properties])
     for each in interfaces:
         rewriting.after_model(material_lines(each.kind, quoted(elset), dict(next(iter(each.properties)))))
@@ -372,16 +392,21 @@ def _directed(
 
 
 def _values(
-    kind: InterfaceType, sections: Sections, sides: tuple[Faces, Faces], properties: Mapping[str, float]
+    kind: InterfaceType,
+    sections: Sections,
+    sides: Pair,
+    cracked: NDArray[np.bool_],
+    properties: Mapping[str, float],
 ) -> dict[Items, IntArray]:
-    """Return the rows of elements by their properties."""
+    """Return the rows of elements by their properties; cracked: (elements,) mask of those on a crack."""
     (below, first), (above, second) = (sections.sides(faces) for faces in sides)
     groups: dict[Items, list[IntArray]] = {}
-    alike = np.column_stack([first, second, sides[0].directions])
+    alike = np.column_stack([cracked, first, second, sides[0].directions])
     unique, number = np.unique(alike, axis=0, return_inverse=True)
-    for index, (lower, upper, *direction) in enumerate(unique.tolist()):
+    for index, (crack, lower, upper, *direction) in enumerate(unique.tolist()):
         rows = np.flatnonzero(number.ravel() == index)
         given = {**properties, **(dict(zip(NAMES, direction, strict=True)) if any(direction) else {})}
+        given |= {"CRACKED": 1.0} if crack else {}
         values = element_values(kind, given, below[int(lower)], above[int(upper)])
         groups.setdefault(tuple(values.items()), []).append(rows)
     return {items: np.sort(np.concatenate(rows)) for items, rows in groups.items()}

@@ -27,7 +27,8 @@ class CutRequest:
     nodes     node sets: faces with all nodes in one set
     plies     element sets from bottom to top, cut between any two of them; (): the sets of the sections; None: no plies
     inside    element sets, cut between all their elements
-    crack     sets or surfaces whose cut faces get no elements
+    crack     sets or surfaces whose cut faces get no elements, or with `contact` such that have failed
+    contact   whether the faces of the crack press and rub on each other
     """
 
     between: Sequence[tuple[str, str]] = ()
@@ -36,6 +37,7 @@ class CutRequest:
     plies: Sequence[str] | None = None
     inside: Sequence[str] = ()
     crack: Sequence[str] = ()
+    contact: bool = False
 
 
 @dataclass(slots=True)
@@ -43,7 +45,7 @@ class Selection:
     """Faces by their pairs in `Solids.pairs`.
 
     cuts       (pairs,) mask of separated pairs
-    crack      (pairs,) mask of pairs without an element
+    crack      (pairs,) mask of pairs of an initial crack
     below      (pairs,) 0 or 1: face of the pair in the solid below
     plies      cut pairs of plies, and their numbers of faces
     branching  (pairs,) mask of faces between plies with an edge, in the plane a node, common to two others
@@ -102,6 +104,8 @@ def select(deck: Deck, request: CutRequest) -> Selection:
         pairs, counts = np.unique(np.sort(ply[different], axis=1), axis=0, return_counts=True)
         selection.plies = [(names[a], names[b], n) for (a, b), n in zip(pairs.tolist(), counts.tolist(), strict=True)]
         selection.branching = _meeting(deck, different)
+    if request.contact and not request.crack:
+        raise UsageError("--contact is between the faces of a crack: say where it is, by --crack SET")
     for name in request.crack:
         faces = _crack(deck, name) & selection.cuts
         if not faces.any():
