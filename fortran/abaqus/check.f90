@@ -4,7 +4,7 @@
 module abaqus_check
   use core_kinds, only: dp
   use core_status, only: status_type, sentence, too_brittle, zero_length, faces_apart, small_beta, &
-    too_brittle_mixed, late_secant, no_root, along_normal
+    too_brittle_mixed, late_secant, no_root, along_normal, layer_slants, layer_twists
   use abaqus_layout, only: elements, faces, reals, integers, expectations, every_continuum, with_solids, next_to_solids, &
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
     p_betan, p_betat, p_shapen, p_shapet, p_friction, p_direction1, j_law, j_closure, j_formulation_bottom, &
@@ -236,6 +236,8 @@ contains
   subroutine report_status(itype, jelem, status)
     integer, intent(in) :: itype, jelem
     type(status_type), intent(in) :: status
+    character(len=*), parameter :: apart = '; they are %R apart, expected at most %R, since the stress of the solids ' // &
+      'beside it acts at one place: a layer with a thickness needs a standard element'
     integer :: row, nodes
     character(len=8) :: side
 
@@ -267,19 +269,24 @@ contains
         [status%value, status%expected])
     case (zero_length)
       call fatal(itype, jelem, trim(sentence(status%code)), [integer ::], [real(dp) ::])
+    case (layer_slants)
+      call fatal(itype, jelem, trim(sentence(status%code)) // '; at point %I it is %R above it and %R aside: expected more ' // &
+        'above than aside', [status%item], [status%expected, status%value])
+    case (layer_twists)
+      call fatal(itype, jelem, trim(sentence(status%code)) // '; at point %I an edge of %R differs by %R: expected a smaller ' // &
+        'difference', [status%item], [status%expected, status%value])
     case (faces_apart)
       associate (top => faces(itype)%top, bottom => faces(itype)%bottom)
         if (elements(itype)%dimension == 3) then
           call fatal(itype, jelem, trim(sentence(status%code)) // ': nodes ' // repeat('%I, ', count(top > 0) - 1) // &
             '%I must lie on ' // repeat('%I, ', count(top > 0) - 1) // '%I' // &
             trim(merge(', and the middle nodes on each other', repeat(' ', 36), faces(itype)%top_middles(1) > 0)) // &
-            '; they are %R apart, expected at most %R', [pack(top, top > 0), pack(bottom, bottom > 0)], &
-            [status%value, status%expected])
+            apart, [pack(top, top > 0), pack(bottom, bottom > 0)], [status%value, status%expected])
           return
         end if
         call fatal(itype, jelem, trim(sentence(status%code)) // ': node %I must lie on %I and %I on %I' // &
           trim(merge(', and the middle nodes on each other', repeat(' ', 36), top(3) > 0)) // &
-          '; they are %R apart, expected at most %R', [top(1), bottom(1), top(2), bottom(2)], [status%value, status%expected])
+          apart, [top(1), bottom(1), top(2), bottom(2)], [status%value, status%expected])
       end associate
     case default
       call fatal(itype, jelem, trim(adjustl(trim(side) // ' ' // solid_name(elements(itype)%dimension, nodes))) // ' ' // &

@@ -15,8 +15,8 @@ module abaqus_interface_elements
   use elements_interface_kernel, only: integrate_interface, interface_forces
   use elements_interface_point, only: interface_options, interface_point
   use abaqus_layout, only: elements, faces, reals, own_variables, interface_variables, surface_variables, &
-    standard, standard_3d, next_to_quads, next_to_bricks, o_betan, o_betat, o_gamman, o_gammat, o_temp0_bottom, o_temp0_top, &
-    p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
+    standard, standard_3d, stabilised, next_to_quads, next_to_bricks, o_betan, o_betat, o_gamman, o_gammat, o_temp0_bottom, &
+    o_temp0_top, p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
     p_shapen, p_shapet, p_blend, p_betan, p_betat, p_gammabot, p_friction, &
     p_e1_bottom, p_e2_bottom, p_e3_bottom, p_nu12_bottom, p_nu13_bottom, p_nu23_bottom, p_g12_bottom, p_g13_bottom, &
     p_g23_bottom, p_angle_bottom, p_e1_top, p_e2_top, p_e3_top, p_nu12_top, p_nu13_top, p_nu23_top, p_g12_top, p_g13_top, &
@@ -88,7 +88,7 @@ contains
       call report_status(itype, jelem, status)
       return
     end if
-    choice = chosen(values, options, finite)
+    choice = chosen(itype, values, options, finite)
     stabilisation = stabilisation_of(values, choice%complete)
     dim = elements(itype)%dimension
     original = coords(1:dim, :)
@@ -155,7 +155,7 @@ contains
     real(dp) :: original(elements(itype)%dimension, size(coords, 2))
     integer :: nodes(nodes_of_face(itype), 2)
 
-    choice = chosen(values, options, finite)
+    choice = chosen(itype, values, options, finite)
     stabilisation = stabilisation_of(values, choice%complete)
     nodes = face_nodes(itype)
     associate (dim => elements(itype)%dimension, points => elements(itype)%points, n => variables_of_points(itype))
@@ -177,7 +177,8 @@ contains
   end subroutine interface_forces_at
 
   !> Options of the kernel.
-  pure function chosen(values, options, finite) result(choice)
+  pure function chosen(itype, values, options, finite) result(choice)
+    integer, intent(in) :: itype
     real(dp), intent(in) :: values(:)
     integer, intent(in) :: options(:)
     logical, intent(in) :: finite
@@ -185,7 +186,8 @@ contains
 
     choice = interface_options(options(j_integration), options(j_sampling), options(j_closure) /= paper_closure, &
       options(j_closure) == complete_closure, merge(1.0_dp, values(p_blend), options(j_tangent) == 1), finite, &
-      options(j_cracked) == 1, values([p_direction1, p_direction2, p_direction3]))
+      iand(elements(itype)%family, stabilised) == 0, options(j_cracked) == 1, &
+      values([p_direction1, p_direction2, p_direction3]))
   end function chosen
 
   !> Beta and gamma as the deck has them.

@@ -7,7 +7,7 @@ module core_status
   private
   public :: status_type, sentence
   public :: ok, too_brittle, not_positive_definite, inside_out, zero_length, faces_apart, small_beta, too_brittle_mixed, &
-    late_secant, no_root, along_normal
+    late_secant, no_root, along_normal, layer_slants, layer_twists
 
   !> Outcome of a kernel; the caller knows the names of elements and properties.
   type :: status_type
@@ -28,6 +28,8 @@ module core_status
   integer, parameter :: late_secant = 8
   integer, parameter :: no_root = 9
   integer, parameter :: along_normal = 10
+  integer, parameter :: layer_slants = 11
+  integer, parameter :: layer_twists = 12
 
 contains
 
@@ -58,6 +60,10 @@ contains
       text = 'the interface has no length or area, or folds back on itself'
     case (faces_apart)
       text = 'the two faces of the interface do not coincide'
+    case (layer_slants)
+      text = 'the faces are apart, and the top one does not lie above the bottom one, node by node'
+    case (layer_twists)
+      text = 'the faces are apart, and turned against each other, or too different in size: number their nodes alike'
     case (small_beta)
       text = 'too small for the consistent law: ' // &
         'it does not exceed the softening slope of the law'

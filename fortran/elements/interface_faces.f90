@@ -1,6 +1,6 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The integration points of an interface between two coincident faces: frame, area and jump operator.
+!> The integration points of an interface between two faces: frame, area and jump operator.
 !>
 !> In the plane, faces are edges of two or three nodes, the middle node last: tau runs along the mid-line of the original
 !> coordinates, from the first node to the second, and n is tau rotated by +90 degrees: bottom to top. In space, they are
@@ -18,7 +18,8 @@ module elements_interface_faces
   use core_status, only: status_type, along_normal, zero_length, faces_apart, ok
   implicit none(type, external)
   private
-  public :: interface_place, measure_interface, central_frame, jump_operator, separation_at, face_shape, face_slope, most_apart
+  public :: interface_place, measure_interface, place_points, central_frame, jump_operator, separation_at
+  public :: face_shape, face_slope, most_apart
 
   !> An integration point of the interface.
   type :: interface_place
@@ -42,10 +43,8 @@ contains
     real(dp), intent(in) :: direction(3)        !< for s, in space; zero: none
     type(interface_place), intent(out) :: places(points)
     type(status_type), intent(out) :: status    !< zero_length, faces_apart with the distance and its limit, or along_normal
-    real(dp) :: middle(dim, nodes), distance, limit
-    integer :: k
+    real(dp) :: distance, limit
 
-    middle = 0.5_dp*(bottom + top)
     limit = most_apart(dim, nodes, bottom)
     distance = maxval(abs(top - bottom))
     status = status_type(ok, 0, 0.0_dp, 0.0_dp)
@@ -54,6 +53,22 @@ contains
     else if (distance > limit) then
       status = status_type(faces_apart, 0, distance, limit)
     end if
+    if (status%code /= ok) return
+    call place_points(dim, nodes, points, 0.5_dp*(bottom + top), rule, direction, places, status)
+  end subroutine measure_interface
+
+  !> Integration points on a line or a surface.
+  pure subroutine place_points(dim, nodes, points, middle, rule, direction, places, status)
+    integer, intent(in) :: dim, nodes, points, rule    !< as in `measure_interface`
+    real(dp), intent(in) :: middle(dim, nodes)         !< original coordinates
+    real(dp), intent(in) :: direction(3)               !< as in `measure_interface`
+    type(interface_place), intent(out) :: places(points)
+    type(status_type), intent(out) :: status           !< zero_length, or along_normal
+    real(dp) :: edge
+    integer :: k
+
+    edge = most_apart(dim, nodes, middle)
+    status = status_type(merge(ok, zero_length, edge > 0.0_dp), 0, edge, 0.0_dp)
     if (status%code /= ok) return
     do k = 1, points
       places(k)%position = 0.0_dp
@@ -64,7 +79,7 @@ contains
       end if
       if (status%code /= ok) return
     end do
-  end subroutine measure_interface
+  end subroutine place_points
 
   !> Distance along any axis up to which nodes of two faces count as coincident: a mesh generator that prints few digits may cause
   !> it.

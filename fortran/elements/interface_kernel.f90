@@ -24,6 +24,7 @@ module elements_interface_kernel
   use elements_interface_faces, only: interface_place, measure_interface, jump_operator, separation_at
   use elements_interface_point, only: interface_options, interface_point, point_response, standard_point, &
     stabilised_point, point_energies
+  use elements_interface_layer, only: measure_layer, layer_operator, layer_separation
   use elements_interface_rotation, only: turn_place, co_rotated, by_displacements, add_turning
   implicit none(type, external)
   private
@@ -68,14 +69,15 @@ contains
     real(dp), dimension(size(u)) :: moved, original, shifted, force
     real(dp) :: turning(3, dim, dim, size(faces, 1)), bulk_traction(3), gap(3), separation(3), area
     real(dp), dimension(dim, size(faces, 1)) :: bottom, top
+    logical :: layer
     integer :: i, k, nodes
 
     residual = 0.0_dp
     tangent = 0.0_dp
     energies = 0.0_dp
     bulk_traction = 0.0_dp
+    original = about_mean(dim, reshape(coordinates, [size(u)]))
     if (options%finite) then
-      original = about_mean(dim, reshape(coordinates, [size(u)]))
       shifted = about_mean(dim, reshape(coordinates, [size(u)]) + u)
     end if
     call check_law(law, status)
@@ -83,7 +85,12 @@ contains
     nodes = size(faces, 1)
     bottom = coordinates(:, faces(:, 1))
     top = coordinates(:, faces(:, 2))
-    call measure_interface(dim, nodes, points, bottom, top, options%rule, options%direction, places, status)
+    layer = options%standard .and. any(abs(top - bottom) > 0.0_dp)
+    if (layer) then
+      call measure_layer(dim, nodes, points, bottom, top, options%rule, places, status)
+    else
+      call measure_interface(dim, nodes, points, bottom, top, options%rule, options%direction, places, status)
+    end if
     if (status%code /= ok) return
     if (present(stabilisation)) then
       if (present(solids) .and. .not. stabilisation%known) then
@@ -113,6 +120,12 @@ contains
       end if
       separation = separation_at(dim, places(k), nodes, faces, moved)
       jump = jump_operator(dim, places(k), nodes, faces, size(u))
+      if (layer .and. .not. options%finite) then
+        call layer_operator(dim, nodes, faces, original, places(k), jump, by_displacement, status)
+        if (status%code /= ok) return
+        separation = layer_separation(dim, places(k), nodes, faces, u, jump, by_displacement)
+        jump = by_displacement
+      end if
       gap = 0.0_dp
       if (present(stabilisation)) then
         if (present(solids)) then
@@ -176,13 +189,19 @@ contains
     real(dp) :: bulk_of_points(dim, size(u), points), thermal(dim, points)
     real(dp), dimension(dim, size(u)) :: jump, bulk
     real(dp), dimension(dim, size(faces, 1)) :: bottom, top
+    logical :: layer
     integer :: k, nodes
 
     residual = 0.0_dp
     nodes = size(faces, 1)
     bottom = coordinates(:, faces(:, 1))
     top = coordinates(:, faces(:, 2))
-    call measure_interface(dim, nodes, points, bottom, top, options%rule, options%direction, places, status)
+    layer = options%standard .and. any(abs(top - bottom) > 0.0_dp)
+    if (layer) then
+      call measure_layer(dim, nodes, points, bottom, top, options%rule, places, status)
+    else
+      call measure_interface(dim, nodes, points, bottom, top, options%rule, options%direction, places, status)
+    end if
     if (status%code /= ok) return
     original = about_mean(dim, reshape(coordinates, [size(u)]))
     shifted = about_mean(dim, reshape(coordinates, [size(u)]) + u)
@@ -201,7 +220,13 @@ contains
       end if
       area = places(k)%area*thickness
       jump = jump_operator(dim, places(k), nodes, faces, size(u))
-      if (options%finite) jump = by_displacements(dim, nodes, faces, places(k)%frame, here%frame, turning, shifted, jump)
+      if (options%finite) then
+        jump = by_displacements(dim, nodes, faces, places(k)%frame, here%frame, turning, shifted, jump)
+      else if (layer) then
+        call layer_operator(dim, nodes, faces, original, places(k), jump, bulk, status)
+        if (status%code /= ok) return
+        jump = bulk
+      end if
       residual = residual - area*matmul(known(k)%traction(1:dim), jump)
       if (.not. options%complete) cycle
       bulk = bulk_of_points(:, :, k)

@@ -24,6 +24,7 @@ module elements_interface_point
     logical :: complete         !< the gap between jump and separation works on the stress of the element's own solids
     real(dp) :: secant_share        !< of the matrix at fixed damage in the tangent, from 0 to 1
     logical :: finite = .false.     !< large rotations
+    logical :: standard = .false.   !< without stabilisation: the faces may be apart
     logical :: cracked = .false.    !< failed from the start: its law does not soften, and asks nothing of beta
     real(dp) :: direction(3) = 0.0_dp   !< in space, s is its projection on the face; zero: that of x
   end type interface_options

@@ -280,7 +280,7 @@ def moved(node, x, y):
     ("jtype", "change", "message"),
     [
         (5, lambda xy: xy.__setitem__(slice(None), xy[0]), "U5 element 42: the interface has no length"),
-        (5, lambda xy: xy.__setitem__(5, xy[5] + 0.01), "U5 .* node 4 must lie on 1 and 3 on 2, and the middle nodes"),
+        (5, lambda xy: xy.__setitem__(5, xy[5] + 0.01), "U5 element 42: .* top one does not lie above the bottom one"),
         (
             6,
             lambda xy: xy.__setitem__([6, 12], 0.9 * xy[2] + 0.1 * xy[3]),
