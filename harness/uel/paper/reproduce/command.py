@@ -112,9 +112,10 @@ def _how(parts: Sequence[str], *, quick: bool) -> list[str]:
     return [
         f"Made by uel reproduce ({', '.join(parts)}) on {mesh}. Every number below is computed from the runs.",
         "Elements: standard is U2, paper the paper's in U4 (CLOSURE 2, damage at the displacement jump), "
-        "consistent is U4 with CLOSURE 3, the complete form; both with beta by (21). Runs keep Abaqus' default "
-        "tolerances; where Newton's method stops, the harness searches downhill (uel run --fallback), "
-        "where the paper raised the tolerances up to a hundredfold.",
+        "consistent is U4 with CLOSURE 3, the complete form; both with beta by (21), but in the patch tests with the "
+        "paper's, and local eigenvalues in the consistent one. Runs keep Abaqus' default tolerances; where Newton's "
+        "method stops, the harness searches downhill (uel run --fallback), where the paper raised the tolerances up "
+        "to a hundredfold.",
         "The paper's figures are not part of this page, and its text gives neither the moments of its profiles nor the "
         "ranges of its axes: ours show the whole softening branch, and profiles at a moment of steady growth.",
     ]

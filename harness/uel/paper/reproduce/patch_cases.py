@@ -87,7 +87,7 @@ class PatchCase:
         mesh, mesh_name = self.mesh(), self._nodes
         kind, consistent = METHODS[self.element]
         paper = BETAS[self.layup] if self.shape == "inclined" else specimens.PATCH_BETA
-        # the complete form of the consistent element needs more than the paper's element, which the local eigenvalues give
+        # the complete form needs more than the paper's element: its own local eigenvalues
         own = kind == "U2" or consistent
         beta = self.beta if self.beta is not None else 0.0 if own else paper
         law = replace(LAW, stiffness_normal=self.normal, stiffness_shear=self.shear)
