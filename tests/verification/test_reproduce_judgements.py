@@ -25,7 +25,7 @@ from uel.delamination.materials import TABLE_2, Cohesive
 from uel.model.arrays import FloatArray
 from uel.output import Result
 from uel.output.pictures.plots import Panel
-from uel.paper.reproduce import advice, convergence, curves, figures, findings, parameters, runs, sensitivity, tables
+from uel.paper.reproduce import advice, curves, figures, findings, parameters, runs, sensitivity, tables
 from uel.paper.reproduce.advice import Point, settled
 from uel.paper.reproduce.cases import ELEMENTS, SHOWN, PaperCase
 from uel.paper.reproduce.findings import Evidence
@@ -294,20 +294,8 @@ def test_advice_on_a_choice() -> None:
 
 
 def test_trends_follow_from_the_numbers() -> None:
-    text = convergence.trend(-0.02, {"8 rows an arm": 0.01, "elements of 0.25 mm": -0.021})
-    assert text.endswith("with 8 rows an arm, but not with elements of 0.25 mm.")
-    assert "not" not in convergence.trend(-0.02, {"8 rows an arm": 0.01})
-    assert convergence.trend(-0.02, {}) == ""
     assert tables.nearer_to_beams([0.07, 0.03, 0.01]).startswith("the longer the crack, the less")
     assert "does not count for less" in tables.nearer_to_beams([0.03, 0.07])
-
-
-def test_changes_of_the_usual_case_have_names() -> None:
-    for _, case in (pairs := convergence.pairs(coarse=False)):
-        assert case.element == "consistent_bk"
-    usual = PaperCase("dcb", "0/90", "consistent_bk", "1e6")
-    names = [convergence.difference_of(case, usual) for _, case in pairs]
-    assert names == ["elements of 0.25 mm", "", "8 rows an arm", "16 rows an arm", "10 times beta", "equal weights"]
 
 
 def loaded(case: PaperCase, displacement: Sequence[float], load: Sequence[float]) -> Run:

@@ -44,7 +44,7 @@ def all_tables(parts: Sequence[str], evidence: Evidence, folder: Path) -> list[T
         tables.append(
             Table(
                 "Double cantilever beam [0/90]: standard and consistent with one criterion",
-                convergence.text(evidence.runs, coarse=evidence.coarse),
+                convergence.TEXT,
                 convergence.HEAD,
                 lines,
             )
