@@ -65,7 +65,8 @@ contains
     integer :: sweep, p, q
 
     a = matrix
-    negligible = epsilon(1.0_dp)*maxval(abs(a))
+    ! rotations between equal eigenvalues, as of regular elements, leave rounding errors of this size in other entries, for ever
+    negligible = 4.0_dp*size(a, 1)*epsilon(1.0_dp)*maxval(abs(a))
     if (present(vectors)) then
       vectors = 0.0_dp
       do p = 1, size(a, 1)

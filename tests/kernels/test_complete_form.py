@@ -6,7 +6,7 @@ With the potential psi of the law, p = <sigma>.n + beta g and t(w) + beta w = p,
 psi + (T^2 - <sigma>.n^2)/(2 beta): Nitsche's symmetric form.
 """
 
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
@@ -125,3 +125,34 @@ def test_the_incomplete_form_makes_energy_on_that_path(complete):
 def test_elements_without_solids_have_no_complete_form(element, interface):
     with pytest.raises(KernelError, match=r"CLOSURE = 3, the complete form, requires an element that has the nodes"):
         element(3, interface.four, CLOSURE=3).evaluate(np.zeros(8))
+
+
+SIZES = (0.25, 0.5, 1.0, 2.0, 3.0)
+
+
+@pytest.mark.parametrize("formulation", range(4))
+@pytest.mark.parametrize("jtype", [4, 8])
+def test_regular_elements_have_a_bound(element, jtype, formulation):
+    """Rectangles and boxes of an isotropic solid have eigenvalues that differ by the digits of a deck alone."""
+    square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    box = np.vstack([np.column_stack([square, np.full(4, z)]) for z in (-1.0, 0.0, 0.0, 1.0)])
+    unit = box if jtype == 8 else np.vstack([square - np.array([0.0, 1.0]), square])
+    plies = {f"{name} {side}": 7e4 for name in ("E1", "E2", "E3") for side in ("BOTTOM", "TOP")}
+    plies |= {f"{name} {side}": 0.3 for name in ("NU12", "NU13", "NU23") for side in ("BOTTOM", "TOP")}
+    shears = ("G12", "G13", "G23") if jtype == 8 else ("G12",)
+    plies |= {f"{name} {side}": 26923.0769231 for name in shears for side in ("BOTTOM", "TOP")}
+    options = {
+        "FORMULATION BOTTOM": formulation,
+        "FORMULATION TOP": formulation,
+        "CLOSURE": 3,
+        "BETAN": -1,
+        "BETAT": -1,
+    }
+    # mean volume strain is plane strain's
+    options |= {"PLANE": int(formulation == 2), "THICKNESS": 1.0} if jtype == 4 else {}
+    for sizes in product(SIZES, repeat=unit.shape[1]):
+        for place in ((0.0, 0.0, 0.0), (51.5, 2.0, 0.0)):
+            item = element(jtype, place[: len(sizes)] + unit * sizes, **plies, **options, **INFINITE)
+            item.advance(np.zeros(item.n))
+            # the first two of the variables of the element, behind those of its points
+            assert (item.block.state(0).svars[0, item.points * len(item.names) :][:2] > 0).all()
