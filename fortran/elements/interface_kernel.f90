@@ -25,7 +25,8 @@ module elements_interface_kernel
   use elements_interface_point, only: interface_options, interface_point, point_response, standard_point, &
     stabilised_point, point_energies
   use elements_interface_layer, only: measure_layer, layer_operator, layer_separation
-  use elements_interface_rotation, only: turn_place, co_rotated, by_displacements, add_turning
+  use elements_interface_rotation, only: turn_place, co_rotated, by_displacements, add_turning, turn_faces, co_rotated_solids, &
+    solids_by_displacements, add_turning_of_solids
   implicit none(type, external)
   private
   public :: integrate_interface, interface_forces
@@ -63,14 +64,15 @@ contains
     type(interface_place) :: places(points)
     type(stabilisation_type) :: used
     type(point_response) :: response
-    type(interface_place) :: here
+    type(interface_place) :: here, turned(2)
     real(dp) :: bulk_of_points(dim, size(u), points), thermal(dim, points)
     real(dp), dimension(dim, size(u)) :: jump, bulk, by_displacement
     real(dp), dimension(size(u)) :: moved, original, shifted, force
-    real(dp) :: turning(3, dim, dim, size(faces, 1)), bulk_traction(3), gap(3), separation(3), area
+    real(dp) :: turning(3, dim, dim, size(faces, 1)), turning_faces(3, dim, dim, size(faces, 1), 2)
+    real(dp) :: bulk_traction(3), gap(3), separation(3), area
     real(dp), dimension(dim, size(faces, 1)) :: bottom, top
     logical :: layer
-    integer :: i, k, nodes
+    integer :: i, k, nodes, split
 
     residual = 0.0_dp
     tangent = 0.0_dp
@@ -92,6 +94,8 @@ contains
       call measure_interface(dim, nodes, points, bottom, top, options%rule, options%direction, places, status)
     end if
     if (status%code /= ok) return
+    split = 0
+    if (present(solids)) split = dim*solids(1)%nodes
     if (present(stabilisation)) then
       if (present(solids) .and. .not. stabilisation%known) then
         call stabilise(stabilisation, options%sampling, dim, solids, points, faces, options%direction, coordinates, used, status)
@@ -129,6 +133,11 @@ contains
       gap = 0.0_dp
       if (present(stabilisation)) then
         if (present(solids)) then
+          if (options%finite) then
+            call turn_faces(dim, nodes, faces, original, shifted, places(k), turned, turning_faces, status)
+            if (status%code /= ok) return
+            moved = co_rotated_solids(dim, split, places(k)%frame, turned, original, shifted)
+          end if
           bulk = bulk_of_points(:, :, k)
           bulk_traction(1:dim) = matmul(bulk, moved) - thermal(:, k)
         else
@@ -148,11 +157,13 @@ contains
       if (options%finite) then
         force = matmul(new(k)%traction(1:dim), jump)
         jump = by_displacements(dim, nodes, faces, places(k)%frame, here%frame, turning, shifted, jump)
-        if (present(solids)) then
-          if (options%complete) force = force + matmul(gap(1:dim), bulk)
-          bulk = by_displacements(dim, nodes, faces, places(k)%frame, here%frame, turning, shifted, bulk)
-        end if
         if (with_tangent) call add_turning(area, dim, nodes, faces, places(k), here, turning, original, shifted, force, tangent)
+        if (present(solids)) then
+          force = matmul(gap(1:dim), bulk)
+          bulk = solids_by_displacements(dim, nodes, faces, split, places(k)%frame, turned, turning_faces, shifted, bulk)
+          if (with_tangent .and. options%complete) call add_turning_of_solids(area, dim, nodes, faces, split, places(k), turned, &
+            turning_faces, original, shifted, force, tangent)
+        end if
       end if
       residual = residual - area*matmul(new(k)%traction(1:dim), jump)
       if (options%complete) residual = residual - area*matmul(gap(1:dim), bulk)
@@ -183,8 +194,8 @@ contains
     type(status_type), intent(out) :: status
     type(stabilisation_type), intent(in), optional :: stabilisation   !< of the complete form: beta and gamma that acted
     type(solid_type), intent(in), optional :: solids(2)               !< of the complete form: its own, bottom and top
-    type(interface_place) :: places(points), here
-    real(dp) :: turning(3, dim, dim, size(faces, 1)), gap(3), area
+    type(interface_place) :: places(points), here, turned(2)
+    real(dp) :: turning(3, dim, dim, size(faces, 1)), turning_faces(3, dim, dim, size(faces, 1), 2), gap(3), area
     real(dp), dimension(size(u)) :: original, shifted, moved
     real(dp) :: bulk_of_points(dim, size(u), points), thermal(dim, points)
     real(dp), dimension(dim, size(u)) :: jump, bulk
@@ -216,7 +227,6 @@ contains
       if (options%finite) then
         call turn_place(dim, nodes, faces, original, shifted, here, turning, status)
         if (status%code /= ok) return
-        moved = co_rotated(dim, places(k)%frame, here%frame, original, shifted)
       end if
       area = places(k)%area*thickness
       jump = jump_operator(dim, places(k), nodes, faces, size(u))
@@ -230,8 +240,14 @@ contains
       residual = residual - area*matmul(known(k)%traction(1:dim), jump)
       if (.not. options%complete) cycle
       bulk = bulk_of_points(:, :, k)
+      if (options%finite) then
+        call turn_faces(dim, nodes, faces, original, shifted, places(k), turned, turning_faces, status)
+        if (status%code /= ok) return
+        moved = co_rotated_solids(dim, dim*solids(1)%nodes, places(k)%frame, turned, original, shifted)
+      end if
       gap(1:dim) = (known(k)%traction(1:dim) - matmul(bulk, moved) + thermal(:, k))/stabilisation%beta(mode_of(1:dim))
-      if (options%finite) bulk = by_displacements(dim, nodes, faces, places(k)%frame, here%frame, turning, shifted, bulk)
+      if (options%finite) bulk = solids_by_displacements(dim, nodes, faces, dim*solids(1)%nodes, places(k)%frame, turned, &
+        turning_faces, shifted, bulk)
       residual = residual - area*matmul(gap(1:dim), bulk)
     end do
   end subroutine interface_forces

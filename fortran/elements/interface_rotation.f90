@@ -1,13 +1,17 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Large rotations of an interface element. The frame of a point goes with the mid-line or mid-surface between the present faces,
-!> which turns by Q. The law and the bulk act on the displacements less this rotation,
+!> which turns by Q. The law acts on the displacements less this rotation,
 !>
-!>     v = transpose(Q) x - X,    g = N v,    <sigma>.n = B v,
+!>     v = transpose(Q) x - X,    g = N v,
 !>
-!> with the operators of the original configuration. Nodal forces are the derivatives of the same work by the displacements, so that
-!> they have no resultant moment, and the tangent is symmetric where the law is. Tractions are per original area; the strain of the
-!> bulk is small: the nominal traction P N is Q sigma N to its first order.
+!> with the operators of the original configuration. A crack that opens turns its faces apart, and the solids with them:
+!> <sigma>.n is made of the displacements of each solid less the rotation of its own face. The rotation of the mid-surface would
+!> leave strains of half of the square of the angle, and their stress.
+!>
+!> Nodal forces are the derivatives of the same work by the displacements, so that they have no resultant moment, and the tangent is
+!> symmetric where the law is. Tractions are per original area; the strain of the bulk is small: the nominal traction P N is
+!> Q sigma N to its first order.
 module elements_interface_rotation
   use core_kinds, only: dp
   use core_rotation, only: turned_frame, frame_curvature
@@ -16,6 +20,7 @@ module elements_interface_rotation
   implicit none(type, external)
   private
   public :: turn_place, co_rotated, by_displacements, add_turning
+  public :: turn_faces, co_rotated_solids, solids_by_displacements, add_turning_of_solids
 
 contains
 
@@ -95,6 +100,81 @@ contains
       end do
     end do
   end function by_displacements
+
+  !> Turns the frame of a point with the bottom and with the top face, as `turn_place` does with the surface between them.
+  pure subroutine turn_faces(dim, nodes, faces, original, present, place, turned, turning, status)
+    integer, intent(in) :: dim, nodes, faces(nodes, 2)
+    real(dp), intent(in) :: original(:), present(:)              !< coordinates of the element's nodes, one node after the other
+    type(interface_place), intent(in) :: place
+    type(interface_place), intent(out) :: turned(2)              !< of the bottom and the top face
+    real(dp), intent(out) :: turning(3, dim, dim, nodes, 2)
+    type(status_type), intent(out) :: status                     !< zero_length
+    integer :: side
+
+    do side = 1, 2
+      turned(side) = place
+      call turn_place(dim, nodes, spread(faces(:, side), 2, 2), original, present, turned(side), turning(:, :, :, :, side), status)
+      if (status%code /= ok) return
+    end do
+  end subroutine turn_faces
+
+  !> Displacements of both solids less the rotations of their faces.
+  pure function co_rotated_solids(dim, split, frame, turned, original, present) result(u)
+    integer, intent(in) :: dim
+    integer, intent(in) :: split                           !< unknowns of the solid below, which come first
+    real(dp), intent(in) :: frame(3, 3)
+    type(interface_place), intent(in) :: turned(2)
+    real(dp), intent(in) :: original(:), present(:)        !< coordinates about their means
+    real(dp) :: u(size(original))
+
+    u(:split) = co_rotated(dim, frame, turned(1)%frame, original(:split), present(:split))
+    u(split + 1:) = co_rotated(dim, frame, turned(2)%frame, original(split + 1:), present(split + 1:))
+  end function co_rotated_solids
+
+  !> Derivative by the displacements of what a matrix makes of them.
+  pure function solids_by_displacements(dim, nodes, faces, split, frame, turned, turning, present, matrix) result(derivative)
+    integer, intent(in) :: dim, nodes, faces(nodes, 2), split
+    real(dp), intent(in) :: frame(3, 3)
+    type(interface_place), intent(in) :: turned(2)
+    real(dp), intent(in) :: turning(3, dim, dim, nodes, 2), present(:), matrix(:, :)
+    real(dp) :: derivative(size(matrix, 1), size(matrix, 2))
+    integer :: side
+
+    derivative = 0.0_dp
+    do side = 1, 2
+      derivative = derivative + by_displacements(dim, nodes, spread(faces(:, side), 2, 2), frame, turned(side)%frame, &
+        turning(:, :, :, :, side), present, part_of_solid(side, split, matrix))
+    end do
+  end function solids_by_displacements
+
+  !> Adds to the tangent how the forces on both solids turn with their faces.
+  pure subroutine add_turning_of_solids(area, dim, nodes, faces, split, place, turned, turning, original, present, force, tangent)
+    real(dp), intent(in) :: area
+    integer, intent(in) :: dim, nodes, faces(nodes, 2), split
+    type(interface_place), intent(in) :: place, turned(2)
+    real(dp), intent(in) :: turning(3, dim, dim, nodes, 2), original(:), present(:)
+    real(dp), intent(in) :: force(size(present))             !< in the original directions, per area
+    real(dp), intent(inout) :: tangent(:, :)
+    real(dp) :: part(1, size(present))
+    integer :: side
+
+    do side = 1, 2
+      part = part_of_solid(side, split, reshape(force, [1, size(force)]))
+      call add_turning(area, dim, nodes, spread(faces(:, side), 2, 2), place, turned(side), turning(:, :, :, :, side), original, &
+        present, part(1, :), tangent)
+    end do
+  end subroutine add_turning_of_solids
+
+  !> Columns of a matrix that belong to the solid below, 1, or above, 2; zero elsewhere.
+  pure function part_of_solid(side, split, matrix) result(part)
+    integer, intent(in) :: side, split
+    real(dp), intent(in) :: matrix(:, :)
+    real(dp) :: part(size(matrix, 1), size(matrix, 2))
+
+    part = matrix
+    if (side == 1) part(:, split + 1:) = 0.0_dp
+    if (side == 2) part(:, :split) = 0.0_dp
+  end function part_of_solid
 
   !> Adds to the tangent how the forces of a point on the co-rotated displacements turn with its frame: the second derivative of
   !> force.v at constant force.

@@ -40,10 +40,14 @@ ELEMENTS = {
 ELEMENTS |= {3: ELEMENTS[4], 10: ELEMENTS[8]}
 OPTIONS = {"Gauss": {}, "nodes, viscous": {"INTEGRATION": 1, "VISCOSITY": 0.3}, "BK": {"LAW": 2, "ETA": 1.45}}
 RIGID = {"CLOSURE": 1, "ALPHAN": 0.0, "ALPHAT": 0.0, "BETAN": -1.0, "BETAT": -1.0, "FRICTION": 0.3}
-OF_SOLIDS = {"rigid": RIGID, "rigid, viscous, face": {**RIGID, "VISCOSITY": 0.3, "SAMPLING": 1}}
+REDUCED = {f"FORMULATION {side}": 3 for side in ("BOTTOM", "TOP")}
+OF_NEIGHBOURS = {"rigid": RIGID, "rigid, viscous, face": {**RIGID, "VISCOSITY": 0.3, "SAMPLING": 1}}
+# U3 and U10 do not have the complete form
+OF_SOLIDS = {"complete": {**RIGID, "CLOSURE": 3}, "complete, reduced": {**RIGID, **REDUCED, "CLOSURE": 3}}
 GIVEN = {"BETAN": 1e5, "BETAT": 1.2e5}  # U3 and U10 know no local eigenvalues
-CASES = [(jtype, name) for jtype in ELEMENTS for name in (OPTIONS if jtype in (2, 5, 7, 11) else OPTIONS | OF_SOLIDS)]
-OPTIONS |= OF_SOLIDS
+NAMES = {jtype: OPTIONS if jtype in (2, 5, 7, 11) else OPTIONS | OF_NEIGHBOURS for jtype in ELEMENTS}
+CASES = [(jtype, name) for jtype in ELEMENTS for name in NAMES[jtype] | (OF_SOLIDS if jtype in (4, 6, 8, 12) else {})]
+OPTIONS |= OF_NEIGHBOURS | OF_SOLIDS
 every = pytest.mark.parametrize("jtype", ELEMENTS)
 options = pytest.mark.parametrize(("jtype", "name"), CASES)
 
@@ -187,3 +191,22 @@ def test_stress_shared_with_neighbours(element, interface_element, shared, own, 
     expected = element(own, coordinates).evaluate(u, flags=NLGEOM)[0]
     found = interface_element(shared).evaluate(u, flags=NLGEOM)[0]
     np.testing.assert_allclose(found, expected, atol=2e-3 * abs(expected).max())
+
+
+@pytest.mark.parametrize("degrees", [10.0, 60.0])
+@pytest.mark.parametrize("jtype", [4, 6, 8, 12])
+def test_solids_that_turn_apart_have_no_stress(element, jtype, degrees):
+    """An open crack: each solid turns as a rigid body, so that nothing acts, in the complete form either."""
+    coordinates, _, top = ELEMENTS[jtype]
+    half = len(coordinates) // 2
+    item = element(jtype, coordinates, **RIGID | {"CLOSURE": 3, "CRACKED": 1})
+    q = turn(coordinates.shape[1], degrees)
+    hinge = coordinates[top].mean(axis=0)
+    u = np.zeros_like(coordinates)
+    u[:half] = (coordinates[:half] - hinge) @ q + hinge - coordinates[:half]
+    u[half:] = (coordinates[half:] - hinge) @ q.T + hinge - coordinates[half:]
+    # and they move apart
+    u[half:] += 3.0 * (coordinates[half:].mean(axis=0) - coordinates[:half].mean(axis=0))
+    rhs = item.advance(u, flags=NLGEOM)[0]
+    assert abs(rhs).max() <= 1e-9 * 3e5
+    assert max(abs(item.state[name]).max() for name in item.names if name[0] == "T") <= 1e-9 * 3e5
