@@ -35,8 +35,9 @@ cutbacks. Perturbed: the interface nodes are moved alternately up and down by 3 
 - **iterations**: including those of abandoned attempts; **per increment** without snaps, increments in which the load
   falls by more than 5 % of the peak load.
 - **dissipated**: energy that failed points have dissipated over their toughness, minus 1. **balance**: work minus
-  stored minus dissipated energy, over work minus stored energy. A snap spoils both: its jump is one step of the
-  trapezoidal rule.
+  stored minus dissipated energy, over work minus stored energy. A snap is one step of the trapezoidal rule, by which
+  the work is summed. The paper's element misses it without snaps too: its damage is that of the displacement jump, and
+  its traction works on more than that.
 - **index** of t_n and t_tau: oscillation index over the bonded part and the process zone, the largest at the tenths of
   the displacement, against the tractions that really act, bumps included. **error index**: the same without
   cancelling. **raw**: against a smooth profile, so that on bumps real variation counts as oscillation.
