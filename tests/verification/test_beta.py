@@ -66,13 +66,13 @@ def test_tables() -> None:
     finer = BetaRow("", 100.0, 60.0, 50.0, 0, 300, float("nan"))
     rows = {
         case: BetaRow("", 101.0, 61.0, 51.0, 2, 1000, 1.25),
-        BetaCase("enf", "0/90", "perturbed", "2e3"): BetaRow("TOO MANY ATTEMPTS", 90.0, 70.0, 50.0, 5, 9000, 2.0),
+        BetaCase("enf", "0/90", "perturbed", "2e4"): BetaRow("TOO MANY ATTEMPTS", 90.0, 70.0, 50.0, 5, 9000, 2.0),
         case.reference: finer,
     }
     assert markdown(rows)[0] == "### End-notched flexure, [0/90], perturbed"
     assert markdown(rows)[-3:] == [
         "| 2e8 | 101.0 | 61.00 | 51.00 | +2.0 % | 1.250 | 1000 | 2 |",
-        "| 2e3 | 90.00 | 70.00 | stopped |  | 2.000 | 9000 | 5 |",
+        "| 2e4 | 90.00 |  | stopped |  | 2.000 | 9000 | 5 |",
         "| finer mesh | 100.0 | 60.00 | 50.00 |  |  | 300 | 0 |",
     ]
 
@@ -110,9 +110,9 @@ def test_what_the_page_says_in_the_plane() -> None:
         if "space" in title or title == "end-notched flexure, [0/90], perturbed":
             continue
         (*_, error, index, spent, _), (*_, index_21, spent_21, _) = rows["-1"], rows["(21)"]
-        assert abs(float(error.rstrip("%"))) <= 0.9
+        assert abs(float(error.rstrip("%"))) <= 0.5
         assert float(index) < min(1.2, float(index_21))
-        assert int(spent) < int(spent_21)
+        assert int(spent) < 1.05 * int(spent_21)
         assert float(rows["2e8"][4]) > 2.0
 
 
@@ -122,6 +122,5 @@ def test_what_the_page_says_in_space() -> None:
         [float(tables[SpaceCase("0/90", layers, "-1").title][beta][3].rstrip("%")) for layers in (1, 2, 4)]
         for beta in ("-1", "100 x (21)")
     )
-    # the compliance of -1 goes with the size of the bricks
-    assert low == sorted(low)
-    assert all(-2.0 < a < 0.0 < b < 2.0 for a, b in zip(low, high, strict=True))
+    # one brick through an arm does
+    assert all(abs(a) <= 0.2 < b < 1.5 for a, b in zip(low, high, strict=True))

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from uel.batch.engine import Deck
-from uel.errors import ConvergenceError
+from uel.errors import ConvergenceError, NotFiniteError
 from uel.output import Result
 from uel.running.job import run
 from uel.solver.options import SolverOptions
@@ -46,7 +46,8 @@ def run_deck(deck: Deck, folder: Path, *, fallback: bool, fields: bool = False) 
     started, stopped = time.perf_counter(), ""
     try:
         run(place / f"{deck.name}.inp", output_dir=place, solver=SolverOptions(fallback=fallback))
-    except ConvergenceError as error:
+    except (ConvergenceError, NotFiniteError) as error:
+        # a model with a beta below its bound diverges until an element overflows
         stopped = str(error)
     if not fields:
         shutil.rmtree(place / f"{deck.name}_vtu", ignore_errors=True)

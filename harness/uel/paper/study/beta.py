@@ -272,7 +272,9 @@ def _line(name: str, row: BetaRow, finer: BetaRow) -> str:
         error = ""
     index = "" if np.isnan(row.index) else f"{row.index:.3f}"
     spent = str(row.iterations), str(row.cutbacks)
-    return line([name, f"{row.stiffness:#.4g}", f"{row.peak:.2f}", mean, error, index, *spent])
+    # a run that stops may do so before its peak, or diverge
+    peak = "" if row.stopped else f"{row.peak:.2f}"
+    return line([name, f"{row.stiffness:#.4g}", peak, mean, error, index, *spent])
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
