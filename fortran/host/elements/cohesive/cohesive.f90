@@ -9,11 +9,7 @@
 !>
 !> With large displacements the frame turns with the mid-surface of the present shape, by the rotation of the polar decomposition of
 !> its deformation; separations are those of the present positions in this frame, less those at the start, and tractions are per
-!> initial area. Nodal forces are the derivatives of the work of the tractions on the separations by the displacements. So where the
-!> faces are apart, as those of a layer with a thickness, or where they have parted, a pair of forces across the element holds the
-!> couple of the tractions. With small displacements the same holds to their first order: the rotation of the mid-surface moves
-!> the faces of a layer over one another, and that is no separation. The manual of Abaqus does not say how it does this; no
-!> rigid motion makes a force here, and no element a moment.
+!> initial area.
 !>
 !> Mass per area is density times constitutive thickness, by halves at the two nodes of each point (Analysis User's Guide, Defining
 !> the constitutive response of cohesive elements using a traction-separation description: with the thickness 1 the density is a
@@ -26,7 +22,7 @@
 !> position, separation, traction, damage, energies dissipated by damage, by viscosity, damage without viscosity, strain,
 !> initiation criterion, status; in dynamic analyses then the forces of the last two increments.
 module host_cohesive
-  use core_rotation, only: frame_curvature, line_frame, surface_frame, turned_frame
+  use core_rotation, only: line_frame, surface_frame, turned_frame
   use host_adapter, only: element_t, keep_forces
   use host_kinds, only: dp, i4
   use host_layout, only: j_cohesive_deletion, j_cohesive_family, j_cohesive_law, p_cohesive_density, p_cohesive_law, &
@@ -72,10 +68,10 @@ contains
     real(dp), intent(in) :: x(n, 2*points), u(n, 2*points)
     real(dp), intent(inout) :: rhs(n, 2*points), stiffness(n, 2*points, n, 2*points), svars(5*n + 5, points)
     type(cohesive_point) :: old, new
-    real(dp) :: frame(3, n), area, separation(3), tangent(3, 3), distance, fault
-    real(dp) :: present_frame(3, n), turning(3, n, n, points), apart(n), slope(3, n, 2*points)
-    integer :: p, bottom, top, status, a, i, family
-    logical :: removed, failed, turns
+    real(dp) :: frame(3, n), area, separation(3), tangent(3, 3), force(n), block(n, n), distance, fault
+    real(dp) :: present_frame(3, n), turning(3, n, n, points), apart(n), change(n)
+    integer :: p, bottom, top, status, i, k, q, node, family
+    logical :: removed, failed
     family = element%jprops(j_cohesive_family)
     removed = is_removed(n, svars(:, 1))
     failed = element%jprops(j_cohesive_deletion) /= 0
@@ -89,22 +85,12 @@ contains
       call measure(family, n, points, p, x, frame, area)
       distance = thickness_at(n, points, x, element%props(p_cohesive_thickness), frame, bottom, top)
       separation = matmul(frame, u(:, top) - u(:, bottom))
-      apart = x(:, top) - x(:, bottom)
-      turns = element%finite .or. any(abs(apart) > 0)
       if (element%finite) then
         call turn_frame(family, n, points, p, x, x + u, frame, present_frame, turning)
-        separation = -matmul(frame, apart)
-        apart = apart + u(:, top) - u(:, bottom)
-        separation = separation + matmul(present_frame, apart)
-      else if (turns) then
-        call turn_frame(family, n, points, p, x, x, frame, present_frame, turning)
-        present_frame = frame
-        separation = separation + turn_of_layer(n, points, opposite_of(family, points), u, turning, apart)
-      else
-        present_frame = frame
+        apart = x(:, top) + u(:, top) - x(:, bottom) - u(:, bottom)
+        separation = matmul(present_frame, apart) - matmul(frame, x(:, top) - x(:, bottom))
+        frame = present_frame
       end if
-      slope = slope_of_separation(n, points, p, opposite_of(family, points), present_frame)
-      if (turns) call add_turning(n, points, opposite_of(family, points), turning, apart, slope)
       call get_point(n, svars(:, p), old)
       if (removed) then
         new = old
@@ -115,15 +101,27 @@ contains
         if (status /= fine) call stop_with('*DAMAGE EVOLUTION: the fracture energy at the mode mix must exceed the elastic ' &
                                            //'energy at the onset of damage, and falls short by', fault, p)
         area = element%props(p_cohesive_width)*area
-        do a = 1, 2*points
-          rhs(:, a) = rhs(:, a) + area*matmul(new%traction, slope(:, :, a))
-          do i = 1, n
-            call add_column(n, 2*points, area*matmul(tangent, slope(:, i, a)), slope, stiffness(:, :, i, a))
-          end do
-        end do
+        force = area*matmul(new%traction, frame)
+        rhs(:, bottom) = rhs(:, bottom) - force
+        rhs(:, top) = rhs(:, top) + force
+        block = area*matmul(transpose(frame), matmul(tangent, frame))
+        stiffness(:, bottom, :, bottom) = stiffness(:, bottom, :, bottom) + block
+        stiffness(:, top, :, top) = stiffness(:, top, :, top) + block
+        stiffness(:, bottom, :, top) = stiffness(:, bottom, :, top) - block
+        stiffness(:, top, :, bottom) = stiffness(:, top, :, bottom) - block
         if (element%finite) then
-          call add_curvature(family, n, points, p, opposite_of(family, points), x, u, frame, present_frame, turning, &
-                             area*new%traction, apart, stiffness)
+          do q = 1, points
+            do i = 1, n
+              ! a node of the mid-surface moves by half of what each of its two nodes does
+              change = 0.5_dp*area*(matmul(matmul(tangent, matmul(turning(:, :, i, q), apart)), frame) &
+                                    + matmul(new%traction, turning(:, :, i, q)))
+              do k = 1, 2
+                node = merge(q, opposite(family, points, q), k == 1)
+                stiffness(:, top, i, node) = stiffness(:, top, i, node) + change
+                stiffness(:, bottom, i, node) = stiffness(:, bottom, i, node) - change
+              end do
+            end do
+          end do
         end if
         element%energy(2:4) = element%energy(2:4) &
                               + area*[0.5_dp*dot_product(new%traction, separation), new%viscous, sum(new%dissipated)]
@@ -133,112 +131,6 @@ contains
     end do
     svars(5*n + 5, :) = merge(0, 1, removed .or. failed)
   end subroutine integrate
-
-  !> Derivative of the separation by the displacements of every node, with a fixed frame.
-  pure function slope_of_separation(n, points, point, over, frame) result(slope)
-    integer, intent(in) :: n, points, point, over(points)   !< over: node of the top face over each of the bottom face
-    real(dp), intent(in) :: frame(3, n)
-    real(dp) :: slope(3, n, 2*points)                       !< row of the frame, direction, node
-    slope = 0
-    slope(:, :, point) = -frame
-    slope(:, :, over(point)) = frame
-  end function slope_of_separation
-
-  !> Adds to the derivative of the separation that of the frame. A node of the mid-surface moves by half of what each of its two
-  !> nodes does.
-  pure subroutine add_turning(n, points, over, turning, apart, slope)
-    integer, intent(in) :: n, points, over(points)
-    real(dp), intent(in) :: turning(3, n, n, points)        !< derivative of the frame: row, component, direction, node
-    real(dp), intent(in) :: apart(n)                        !< from the bottom to the top
-    real(dp), intent(inout) :: slope(3, n, 2*points)
-    real(dp) :: change(3)
-    integer :: i, q
-    do q = 1, points
-      do i = 1, n
-        change = 0.5_dp*matmul(turning(:, :, i, q), apart)
-        slope(:, i, q) = slope(:, i, q) + change
-        slope(:, i, over(q)) = slope(:, i, over(q)) + change
-      end do
-    end do
-  end subroutine add_turning
-
-  !> What small displacements turn of the distance between the faces; nothing in a translation, to the last digit.
-  pure function turn_of_layer(n, points, over, u, turning, apart) result(separation)
-    integer, intent(in) :: n, points, over(points)
-    real(dp), intent(in) :: u(n, 2*points), turning(3, n, n, points), apart(n)
-    real(dp) :: separation(3)
-    integer :: i, q
-    separation = 0
-    do q = 1, points
-      do i = 1, n
-        separation = separation + (0.5_dp*(u(i, q) - u(i, 1) + u(i, over(q)) - u(i, 1)))*matmul(turning(:, :, i, q), apart)
-      end do
-    end do
-  end function turn_of_layer
-
-  !> Adds the forces that a change of the traction makes to a column of the matrix.
-  pure subroutine add_column(n, nodes, traction, slope, column)
-    integer, intent(in) :: n, nodes
-    real(dp), intent(in) :: traction(3), slope(3, n, nodes)
-    real(dp), intent(inout) :: column(n, nodes)
-    integer :: a
-    do a = 1, nodes
-      column(:, a) = column(:, a) + matmul(traction, slope(:, :, a))
-    end do
-  end subroutine add_column
-
-  !> Adds the second derivative of force.separation at constant force: both faces turn with the mid-surface.
-  subroutine add_curvature(family, n, points, point, over, x, u, frame, present_frame, turning, force, apart, stiffness)
-    integer, intent(in) :: family, n, points, point, over(points)
-    real(dp), intent(in) :: x(n, 2*points), u(n, 2*points)
-    real(dp), intent(in) :: frame(3, n), present_frame(3, n)      !< at the start, and now
-    real(dp), intent(in) :: turning(3, n, n, points), force(3), apart(n)
-    real(dp), intent(inout) :: stiffness(n, 2*points, n, 2*points)
-    real(dp) :: start(3, 2), now(3, 2), by(points, 2), old(3, 3), turned(3, 3), turned_by(3, n, n, points), moments(3, 3)
-    real(dp) :: curvature(n, points, n, points), part(n)
-    integer :: i, j, k, q, r, node, other
-    call edges_at(family, n, points, point, x, start(:, 1), start(:, 2), by(:, 1), by(:, 2))
-    call edges_at(family, n, points, point, x + u, now(:, 1), now(:, 2), by(:, 1), by(:, 2))
-    old = 0
-    turned = 0
-    moments = 0
-    old(:, :n) = frame(by_normal, :)
-    turned(:, :n) = present_frame(by_normal, :)
-    turned_by = turning(by_normal, :, :, :)
-    do j = 1, n
-      moments(:, j) = force(by_normal)*apart(j)
-    end do
-    curvature = reshape(frame_curvature(n, points, start(:n, :n - 1), now(:n, :n - 1), old, by(:, :n - 1), turned, turned_by, &
-                                        moments), shape(curvature))
-    do q = 1, points
-      do i = 1, n
-        part = 0.5_dp*matmul(force, turning(:, :, i, q))
-        do k = 1, 2
-          node = merge(q, over(q), k == 1)
-          stiffness(:, over(point), i, node) = stiffness(:, over(point), i, node) + part
-          stiffness(:, point, i, node) = stiffness(:, point, i, node) - part
-          stiffness(i, node, :, over(point)) = stiffness(i, node, :, over(point)) + part
-          stiffness(i, node, :, point) = stiffness(i, node, :, point) - part
-          do r = 1, points
-            do j = 1, 2
-              other = merge(r, over(r), j == 1)
-              stiffness(:, other, i, node) = stiffness(:, other, i, node) + 0.25_dp*curvature(:, r, i, q)
-            end do
-          end do
-        end do
-      end do
-    end do
-  end subroutine add_curvature
-
-  !> Nodes of the top face over those of the bottom face.
-  pure function opposite_of(family, points) result(over)
-    integer, intent(in) :: family, points
-    integer :: over(points)
-    integer :: p
-    do p = 1, points
-      over(p) = opposite(family, points, p)
-    end do
-  end function opposite_of
 
   !> Lumped mass matrix.
   subroutine lump_mass(element, points, x, mass)
