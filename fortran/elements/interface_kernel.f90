@@ -70,7 +70,6 @@ contains
     real(dp), dimension(size(u)) :: moved, original, shifted, force
     real(dp) :: turning(3, dim, dim, size(faces, 1)), turning_faces(3, dim, dim, size(faces, 1), 2)
     real(dp) :: bulk_traction(3), gap(3), separation(3), area
-    real(dp), dimension(dim, size(faces, 1)) :: bottom, top
     logical :: layer
     integer :: i, k, nodes, split
 
@@ -85,14 +84,7 @@ contains
     call check_law(law, status)
     if (status%code /= ok) return
     nodes = size(faces, 1)
-    bottom = coordinates(:, faces(:, 1))
-    top = coordinates(:, faces(:, 2))
-    layer = options%standard .and. any(abs(top - bottom) > 0.0_dp)
-    if (layer) then
-      call measure_layer(dim, nodes, points, bottom, top, options%rule, places, status)
-    else
-      call measure_interface(dim, nodes, points, bottom, top, options%rule, options%direction, places, status)
-    end if
+    call measure_faces(dim, nodes, points, faces, options, coordinates, places, layer, status)
     if (status%code /= ok) return
     split = 0
     if (present(solids)) split = dim*solids(1)%nodes
@@ -199,20 +191,12 @@ contains
     real(dp), dimension(size(u)) :: original, shifted, moved
     real(dp) :: bulk_of_points(dim, size(u), points), thermal(dim, points)
     real(dp), dimension(dim, size(u)) :: jump, bulk
-    real(dp), dimension(dim, size(faces, 1)) :: bottom, top
     logical :: layer
     integer :: k, nodes
 
     residual = 0.0_dp
     nodes = size(faces, 1)
-    bottom = coordinates(:, faces(:, 1))
-    top = coordinates(:, faces(:, 2))
-    layer = options%standard .and. any(abs(top - bottom) > 0.0_dp)
-    if (layer) then
-      call measure_layer(dim, nodes, points, bottom, top, options%rule, places, status)
-    else
-      call measure_interface(dim, nodes, points, bottom, top, options%rule, options%direction, places, status)
-    end if
+    call measure_faces(dim, nodes, points, faces, options, coordinates, places, layer, status)
     if (status%code /= ok) return
     original = about_mean(dim, reshape(coordinates, [size(u)]))
     shifted = about_mean(dim, reshape(coordinates, [size(u)]) + u)
@@ -251,6 +235,26 @@ contains
       residual = residual - area*matmul(gap(1:dim), bulk)
     end do
   end subroutine interface_forces
+
+  !> Integration points between two faces that coincide or, of standard elements, may be a layer apart.
+  pure subroutine measure_faces(dim, nodes, points, faces, options, coordinates, places, layer, status)
+    integer, intent(in) :: dim, nodes, points, faces(nodes, 2)
+    type(interface_options), intent(in) :: options
+    real(dp), intent(in) :: coordinates(:, :)           !< original ones of the element
+    type(interface_place), intent(out) :: places(points)
+    logical, intent(out) :: layer                       !< their coordinates are not the same
+    type(status_type), intent(out) :: status            !< of `measure_layer` or `measure_interface`
+    real(dp), dimension(dim, nodes) :: bottom, top
+
+    bottom = coordinates(:, faces(:, 1))
+    top = coordinates(:, faces(:, 2))
+    layer = options%standard .and. any(abs(top - bottom) > 0.0_dp)
+    if (layer) then
+      call measure_layer(dim, nodes, points, bottom, top, options%rule, places, status)
+    else
+      call measure_interface(dim, nodes, points, bottom, top, options%rule, options%direction, places, status)
+    end if
+  end subroutine measure_faces
 
   !> Raises an estimate of beta to what the consistent law needs; a beta of the deck has to suffice.
   pure subroutine suit_law(law, stabilisation, status)
