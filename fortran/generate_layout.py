@@ -31,8 +31,8 @@ KEYS = {
 
 MORE_KEYS = {
     "families": {"own"},
-    "reals": {"symbol", "default", "laws"},
-    "integers": {"symbol", "highest", "default", "laws"},
+    "reals": {"symbol", "default", "laws", "part"},
+    "integers": {"symbol", "highest", "values", "default", "laws"},
     "elements": {"bottom", "top", "solids"},
 }
 """What it may have."""
@@ -49,8 +49,11 @@ HEAD = """\
 !> A row of `reals` or `integers` tells the families of elements that have it; its position in the deck is the number of
 !> rows up to it that the family has.
 module abaqus_layout
+  use core_kinds, only: dp
+  use cohesive_law_properties, only: law_properties
   implicit none(type, external)
   private
+  public :: law_properties_of
 
   !> A real property of the elements of these families.
   type, public :: real_item
@@ -104,7 +107,8 @@ def layout(text: str) -> str:
     data = tomllib.loads(text)
     check(data)
     longest = max(len(row["name"]) for row in (*data["reals"], *data["integers"]))
-    return "\n".join([HEAD.format(name=longest), *body(data), "end module abaqus_layout"]) + "\n"
+    lines = [HEAD.format(name=longest), *body(data), *law_function(data), "end module abaqus_layout"]
+    return "\n".join(lines) + "\n"
 
 
 def check(data: Row) -> None:
@@ -139,7 +143,7 @@ def check_sets(data: Row) -> None:
 def check_properties(data: Row) -> None:
     """Raise ValueError for a property with elements, a range or laws that do not exist."""
     known = [*data["families"], *data["sets"]]
-    laws = next(row["highest"] for row in data["integers"] if row["name"] == "LAW")
+    laws = len(laws_of(data))
     for table in ("reals", "integers"):
         for row in data[table]:
             where = f"{table} {row['name']}"
@@ -147,6 +151,7 @@ def check_properties(data: Row) -> None:
                 check_name(f"{where}: elements", name, known)
             if table == "reals":
                 check_name(f"{where}: range", row["range"], data["ranges"])
+                check_name(f"{where}: part", row.get("part", "law"), ["law"])
             for law in row.get("laws", ()):
                 check_name(f"{where}: laws", law, range(1, laws + 1))
 
@@ -196,6 +201,32 @@ def families_in(entry: str | Sequence[str], sets: Row) -> set[str]:
     return {
         family for name in names_in(entry) for family in (families_in(sets[name], sets) if name in sets else [name])
     }
+
+
+def laws_of(data: Row) -> Sequence[str]:
+    """Names of the cohesive laws, the values 1, 2, ... of LAW."""
+    names: Sequence[str] = next(row["values"] for row in data["integers"] if row["name"] == "LAW")
+    return names
+
+
+def properties_of_law(data: Row) -> list[Row]:
+    """Rows of the real properties that describe the cohesive law."""
+    return [row for row in data["reals"] if row.get("part") == "law"]
+
+
+def law_function(data: Row) -> Iterator[str]:
+    """Lines of the function that takes the properties of the cohesive law from those of the element."""
+    yield "contains"
+    yield ""
+    yield "  !> The properties of the cohesive law, as in the deck."
+    yield "  pure function law_properties_of(values) result(properties)"
+    yield "    real(dp), intent(in) :: values(:)   !< by the rows of `reals`"
+    yield "    type(law_properties) :: properties"
+    yield ""
+    for row in properties_of_law(data):
+        yield f"    properties%{row['name'].lower()} = values({symbol_of('p', row)})"
+    yield "  end function law_properties_of"
+    yield ""
 
 
 def constants(data: Row) -> Iterator[tuple[str, int]]:
@@ -265,7 +296,8 @@ def real(row: Row, data: Row) -> tuple[str, str]:
 def integer(row: Row, data: Row) -> tuple[str, str]:
     """Write constructor and meaning of an integer property."""
     families = " + ".join(names_in(row["elements"]))
-    bounds = f"0, {row['highest']}" if "highest" in row else "-any_integer, any_integer"
+    highest = len(row["values"]) if "values" in row else row.get("highest")
+    bounds = "-any_integer, any_integer" if highest is None else f"0, {highest}"
     return f"integer_item({symbol_of('j', row)}, {families}, {name_of(row, data)}, {bounds})", row["meaning"]
 
 

@@ -11,7 +11,7 @@ module abaqus_check
     j_formulation_top
   use abaqus_properties, only: unknowns_of, variables_of, real_position, integer_position, unpack, recommend, &
     by_eigenvalues, by_equation_21, consistent_closure, complete_closure
-  use cohesive_parameters, only: ppr_law
+  use cohesive_law_properties, only: ppr_law
   use elements_bulk_solid, only: has_formulation, reduced_integration
   use abaqus_report, only: fatal
   implicit none(type, external)

@@ -6,18 +6,17 @@ module abaqus_interface_elements
   use core_status, only: status_type, ok, sentence
   use core_cells, only: corners_of, is_linear
   use materials_linear_elasticity, only: engineering_constants, plane_stiffness, solid_stiffness, plane_expansion, solid_expansion
-  use cohesive_parameters, only: law_parameters, bilinear_law, ppr_law
+  use cohesive_parameters, only: law_parameters
   use cohesive_initial_crack, only: open_crack
-  use cohesive_ppr, only: prepare_ppr
+  use cohesive_law, only: prepare_law
   use elements_bulk_solid, only: solid_type
   use elements_interface_bulk, only: stabilisation_type
   use elements_interface_faces, only: central_frame
   use elements_interface_kernel, only: integrate_interface, interface_forces
   use elements_interface_point, only: interface_options, interface_point
-  use abaqus_layout, only: elements, faces, reals, own_variables, interface_variables, surface_variables, &
+  use abaqus_layout, only: elements, faces, reals, law_properties_of, own_variables, interface_variables, surface_variables, &
     standard, standard_3d, stabilised, next_to_quads, next_to_bricks, o_betan, o_betat, o_gamman, o_gammat, o_temp0_bottom, &
-    o_temp0_top, p_thickness, p_alphan, p_alphat, p_sigmamax, p_taumax, p_gic, p_giic, p_viscosity, p_eta, p_power, &
-    p_shapen, p_shapet, p_blend, p_betan, p_betat, p_gammabot, p_friction, &
+    o_temp0_top, p_thickness, p_blend, p_betan, p_betat, p_gammabot, &
     p_e1_bottom, p_e2_bottom, p_e3_bottom, p_nu12_bottom, p_nu13_bottom, p_nu23_bottom, p_g12_bottom, p_g13_bottom, &
     p_g23_bottom, p_angle_bottom, p_e1_top, p_e2_top, p_e3_top, p_nu12_top, p_nu13_top, p_nu23_top, p_g12_top, p_g13_top, &
     p_g23_top, p_angle_top, p_expansion1_bottom, p_expansion2_bottom, p_expansion3_bottom, p_expansion1_top, p_expansion2_top, &
@@ -82,7 +81,7 @@ contains
     real(dp) :: thickness, initial(2)
     integer :: nodes(nodes_of_face(itype), 2), n, dim
 
-    call prepare_law(values, options, law, status)
+    call prepare_law(options(j_law), law_properties_of(values), law, status)
     good = status%code == ok
     if (.not. good) then
       call report_status(itype, jelem, status)
@@ -221,36 +220,6 @@ contains
     stabilisation%beta = own([o_betat, o_betan])
     stabilisation%gamma_bottom = own([o_gammat, o_gamman])
   end subroutine recall
-
-  !> The cohesive law; an initial stiffness of 0 stands for an infinite one.
-  pure subroutine prepare_law(values, options, law, status)
-    real(dp), intent(in) :: values(:)
-    integer, intent(in) :: options(:)
-    type(law_parameters), intent(out) :: law
-    type(status_type), intent(out) :: status
-
-    status = status_type(ok, 0, 0.0_dp, 0.0_dp)
-    law%kind = options(j_law)
-    law%flexibility = 0.0_dp
-    law%ratio = 1.0_dp
-    if (values(p_alphan) > 0.0_dp) then
-      law%flexibility = 1.0_dp/values(p_alphan)
-      law%ratio = [values(p_alphat)/values(p_alphan), 1.0_dp]
-    end if
-    law%strength = [values(p_taumax), values(p_sigmamax)]
-    law%toughness = [values(p_giic), values(p_gic)]
-    law%viscosity = values(p_viscosity)
-    law%friction = values(p_friction)
-    if (law%kind == bilinear_law) return
-    if (law%kind == ppr_law) then
-      if (values(p_shapet) > 0.0_dp) law%shape(1) = values(p_shapet)
-      if (values(p_shapen) > 0.0_dp) law%shape(2) = values(p_shapen)
-      call prepare_ppr(law, status)
-      return
-    end if
-    law%eta = values(p_eta)
-    if (values(p_power) > 0.0_dp) law%power = values(p_power)
-  end subroutine prepare_law
 
   !> Materials of the bottom and the top element of a self-contained interface.
   pure function materials_of_solids(values) result(materials)

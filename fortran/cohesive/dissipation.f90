@@ -15,7 +15,8 @@
 !> tougher mode the function falls; SPENT keeps its largest value. It is 1 at failure, and nowhere else.
 module cohesive_dissipation
   use core_kinds, only: dp
-  use cohesive_parameters, only: law_parameters, ppr_law
+  use cohesive_parameters, only: law_parameters
+  use cohesive_law_properties, only: ppr_law
   use cohesive_shear, only: mode_of, shears, resultant
   use cohesive_state, only: point_history, damage_state, law_solution
   use cohesive_law, only: loss, softening, stiffness_of

@@ -16,17 +16,49 @@
 module cohesive_law
   use core_kinds, only: dp
   use core_status, only: status_type, ok, small_beta
-  use cohesive_parameters, only: law_parameters, exponential_law, ppr_law
+  use cohesive_parameters, only: law_parameters
+  use cohesive_law_properties, only: law_properties, bilinear_law, exponential_law, ppr_law
   use cohesive_state, only: point_history, damage_state
   use cohesive_mode_mix, only: check_mode_mix
   use cohesive_bilinear, only: bilinear_softening, bilinear_steepest, bilinear_loss
   use cohesive_exponential, only: exponential_softening, exponential_steepest, exponential_loss
-  use cohesive_ppr, only: check_ppr, check_ppr_beta, raise_ppr_beta, evolve_ppr
+  use cohesive_ppr, only: prepare_ppr, check_ppr, check_ppr_beta, raise_ppr_beta, evolve_ppr
   implicit none(type, external)
   private
-  public :: check_law, check_beta, raise_beta, softening, loss, stiffness_of, damage_envelope, evolve_damage
+  public :: prepare_law, check_law, check_beta, raise_beta, softening, loss, stiffness_of, damage_envelope, evolve_damage
 
 contains
+
+  !> A law by its properties; an initial stiffness of 0 stands for an infinite one.
+  pure subroutine prepare_law(kind, given, law, status)
+    integer, intent(in) :: kind                !< value of LAW
+    type(law_properties), intent(in) :: given
+    type(law_parameters), intent(out) :: law
+    type(status_type), intent(out) :: status
+
+    status = status_type(ok, 0, 0.0_dp, 0.0_dp)
+    law%kind = kind
+    law%given = given
+    law%flexibility = 0.0_dp
+    law%ratio = 1.0_dp
+    if (given%alphan > 0.0_dp) then
+      law%flexibility = 1.0_dp/given%alphan
+      law%ratio = [given%alphat/given%alphan, 1.0_dp]
+    end if
+    law%strength = [given%taumax, given%sigmamax]
+    law%toughness = [given%giic, given%gic]
+    law%viscosity = given%viscosity
+    law%friction = given%friction
+    if (kind == bilinear_law) return
+    if (kind == ppr_law) then
+      if (given%shapet > 0.0_dp) law%shape(1) = given%shapet
+      if (given%shapen > 0.0_dp) law%shape(2) = given%shapen
+      call prepare_ppr(law, status)
+      return
+    end if
+    law%eta = given%eta
+    if (given%power > 0.0_dp) law%power = given%power
+  end subroutine prepare_law
 
   !> Checks what the ranges of single parameters cannot express; status%item is 1 for mode I, 2 for mode II.
   pure subroutine check_law(law, status)

@@ -18,7 +18,8 @@ module cohesive_local_solve
   use core_kinds, only: dp
   use core_root, only: root_search, search_between, searching, advance
   use core_small_matrix, only: invert
-  use cohesive_parameters, only: law_parameters, ppr_law
+  use cohesive_parameters, only: law_parameters
+  use cohesive_law_properties, only: ppr_law
   use cohesive_shear, only: mode_of, shears, resultant, shear_direction, vector_tangent
   use cohesive_state, only: point_history, law_solution, driven_point, resultant_solution
   use cohesive_law, only: softening

@@ -3,20 +3,15 @@
 !> The parameters that describe every cohesive law; components in the order (tau, n).
 module cohesive_parameters
   use core_kinds, only: dp
+  use cohesive_law_properties, only: law_properties
   implicit none(type, external)
   private
   public :: law_parameters
-  public :: bilinear_law, mixed_bilinear_law, exponential_law, ppr_law
-
-  integer, parameter :: bilinear_law = 1
-  integer, parameter :: mixed_bilinear_law = 2
-  integer, parameter :: exponential_law = 3
-  integer, parameter :: ppr_law = 4
 
   !> Parameters of a law. The initial stiffness is alpha_i = ratio_i/flexibility: laws use the flexibility, which stays finite for
   !> an infinite stiffness.
   type :: law_parameters
-    integer :: kind           !< one of the above
+    integer :: kind           !< one of `cohesive_law_properties`
     real(dp) :: flexibility   !< 1/alpha_n, length/stress; 0 for a law that is rigid up to the onset of damage
     real(dp) :: ratio(2)      !< alpha/alpha_n; 1 where alpha is infinite
     real(dp) :: strength(2)   !< tau_max, sigma_max, stress
@@ -25,6 +20,7 @@ module cohesive_parameters
     real(dp) :: friction = 0.0_dp   !< coefficient of Coulomb friction in the consistent law; 0 for none
     real(dp) :: eta = 0.0_dp        !< exponent of Benzeggagh and Kenane; 0 for the power law
     real(dp) :: power = 1.0_dp      !< exponent of the power law, positive
+    type(law_properties) :: given   !< as in the deck: what a law of its own needs besides
     ! of the PPR law alone
     real(dp) :: shape(2) = 2.0_dp   !< exponents of the softening, the paper's beta and alpha, above 1
     real(dp) :: rise(2) = 0.0_dp    !< exponents of the rise, the paper's n and m: `prepare_ppr`

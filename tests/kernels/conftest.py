@@ -247,11 +247,16 @@ def program():
 
 @pytest.fixture(scope="session")
 def compiled(tmp_path_factory):
-    """Make a shared library of Fortran files: of this folder, and before it of fortran/."""
+    """Make a shared library of Fortran files: of this folder, and before it of fortran/, or generated there."""
 
     def compiled(file, sources):
         folder, here = tmp_path_factory.mktemp(file), Path(__file__).parent
-        files = [*(here.parents[1] / "fortran" / f"{name}.f90" for name in sources), here / f"{file}.f90"]
+        kernels = here.parents[1] / "fortran"
+        generated = folder / "law_properties.f90"
+        table = (kernels / "properties.toml").read_text()
+        generated.write_text(importlib.import_module("generate_law_properties").layout(table))
+        own = {generated.stem: generated}
+        files = [*(own.get(name, kernels / f"{name}.f90") for name in sources), here / f"{file}.f90"]
         library = folder / f"{file}.so"
         subprocess.run(["gfortran", "-O2", "-shared", "-fPIC", "-o", library, *files], cwd=folder, check=True)
         return ctypes.CDLL(str(library))

@@ -9,7 +9,7 @@ import pytest
 
 SOURCES = (
     *("core/kinds", "core/limit", "core/status", "core/root", "core/small_matrix"),
-    *("cohesive/parameters", "cohesive/shear"),
+    *("law_properties", "cohesive/parameters", "cohesive/shear"),
     "cohesive/state",
     *("cohesive/mode_mix", "cohesive/bilinear", "cohesive/exponential", "cohesive/ppr", "cohesive/law"),
     "cohesive/friction",

@@ -270,7 +270,8 @@ def _real(position: int, row: Mapping[str, Any], ranges: Mapping[str, Mapping[st
 
 
 def _integer(position: int, row: Mapping[str, Any]) -> Item:
-    permitted = f"0 to {row['highest']}" if "highest" in row else "any"
+    highest = len(row["values"]) if "values" in row else row.get("highest")
+    permitted = "any" if highest is None else f"0 to {highest}"
     return Item(position, row["name"], "", permitted, _meaning(row), laws=tuple(row.get("laws", ())))
 
 

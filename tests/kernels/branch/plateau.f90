@@ -28,8 +28,8 @@ contains
     call measure_onset(law, direction, f, f_slope)
     call measure_energy(law, direction, e, e_slope)
     onset = law%flexibility/f
-    failure = onset + (f/e - onset)/(1.0_dp + law%plateau)
-    fall = (1.0_dp - law%plateau)*(failure - onset)
+    failure = onset + (f/e - onset)/(1.0_dp + law%given%plateau)
+    fall = (1.0_dp - law%given%plateau)*(failure - onset)
     traction = 1.0_dp/f
     by_separation = 0.0_dp
     by_direction = -f_slope/f**2
@@ -40,8 +40,8 @@ contains
     if (.not. traction > 0.0_dp) return
     by_separation = -1.0_dp/(f*fall)
     onset_slope = -onset*f_slope/f
-    failure_slope = onset_slope + (f_slope/e - f*e_slope/e**2 - onset_slope)/(1.0_dp + law%plateau)
-    fall_slope = (1.0_dp - law%plateau)*(failure_slope - onset_slope)
+    failure_slope = onset_slope + (f_slope/e - f*e_slope/e**2 - onset_slope)/(1.0_dp + law%given%plateau)
+    fall_slope = (1.0_dp - law%given%plateau)*(failure_slope - onset_slope)
     by_direction = failure_slope/(f*fall) - traction*(f_slope/f + fall_slope/fall)
   end subroutine plateau_softening
 
@@ -52,7 +52,7 @@ contains
     real(dp) :: reserve, share
 
     call least_reserve(law, reserve, share)
-    slope = (1.0_dp + law%plateau)/((1.0_dp - law%plateau)*(reserve - law%flexibility))
+    slope = (1.0_dp + law%given%plateau)/((1.0_dp - law%given%plateau)*(reserve - law%flexibility))
   end function plateau_steepest
 
   !> Area of `loss` in a direction where 1/K - flexibility = lost/stiff: 1/(2 e) at failure.
@@ -66,8 +66,8 @@ contains
     call measure_onset(law, direction, f, slope)
     call measure_energy(law, direction, e, slope)
     onset = law%flexibility/f
-    failure = onset + (f/e - onset)/(1.0_dp + law%plateau)
-    fall = (1.0_dp - law%plateau)*(failure - onset)
+    failure = onset + (f/e - onset)/(1.0_dp + law%given%plateau)
+    fall = (1.0_dp - law%given%plateau)*(failure - onset)
     if (lost <= (f*(failure - fall) - law%flexibility)*stiff) then
       loss = 0.5_dp*lost/(f**2*stiff)
     else
