@@ -23,7 +23,7 @@ from uel.files import deck_named
 from uel.interrupts import held, settle
 from uel.model.model import Model, constraints_with_multipliers
 from uel.model.records import AttemptEnded, HarmonicResponse, IncrementDone, ModeShape, Record, StepDone
-from uel.model.restart import Resumption
+from uel.model.restart import DeckPart, Resumption
 from uel.output import JobOutput, Result
 from uel.output.earlier_jobs import EarlierJobs
 from uel.output.lock import job_stem
@@ -115,10 +115,14 @@ def run(
         if parts:
             parameters = parts[-1].given
         earlier = EarlierJobs([Path(), folder, deck.parent])
-        model = ranks.agree(lambda: read_deck(deck, parameters, parts, earlier))
-        refuse_finished(model, resumed, oldjob)
-        refuse_options(resumed, oldjob, solver)
-        decks = ranks.agree(lambda: decks_of(model, parameters, parts))
+
+        def read() -> tuple[Model, Sequence[DeckPart]]:
+            model = read_deck(deck, parameters, parts, earlier)
+            refuse_finished(model, resumed, oldjob)
+            refuse_options(resumed, oldjob, solver)
+            return model, decks_of(model, parameters, parts)
+
+        model, decks = ranks.agree(read)
         refuse_unshared(model, ranks)
         _refuse_with_multipliers(model, solver)
         routines = routines.for_model(model)
