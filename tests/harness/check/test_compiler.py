@@ -60,6 +60,29 @@ contains
 end module
 """
 
+CONSTRUCTED = """\
+module plies
+  implicit none
+  type ply
+    double precision :: young
+    double precision :: expansion(3) = 0
+  end type
+contains
+  pure function plies_of(values) result(found)
+    double precision, intent(in) :: values(:)
+    type(ply) :: found(2)
+    found = [ply(young=values(1), expansion=values([2, 3, 4])), ply(young=values(5), expansion=values([6, 7, 8]))]
+  end function
+  subroutine use_them(values, total)
+    double precision, intent(in) :: values(:)
+    double precision, intent(out) :: total
+    type(ply) :: found(2)
+    found = plies_of(values)
+    total = found(1)%young + sum(found(2)%expansion)
+  end subroutine
+end module
+"""
+
 
 def told(tmp_path, statement, name="my_uel.for"):
     """Suspicions of a file with a statement, which is in line 6 or below, and the text."""
@@ -152,10 +175,11 @@ def test_right_code_in_an_old_style(tmp_path, statement):
     assert told(tmp_path, statement) == []
 
 
-def test_variables_of_the_compiler_are_not_the_users(tmp_path):
-    """The bounds of the intermediate array of this product, of which gfortran 12 says that they have no value."""
-    file = tmp_path / "faces.f90"
-    file.write_text(PRODUCT)
+@pytest.mark.parametrize("text", [PRODUCT, CONSTRUCTED])
+def test_variables_of_the_compiler_are_not_the_users(tmp_path, text):
+    """Bounds of an intermediate array, values of a constructor: gfortran 12 says that they have no value."""
+    file = tmp_path / "source.f90"
+    file.write_text(text)
     assert suspicions([file]) == []
 
 

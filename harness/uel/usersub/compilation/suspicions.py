@@ -250,10 +250,17 @@ class _Diagnosis:
         return (text.replace(" at (1)", ""), hint, certain) if hint else None
 
     def _internal(self, file: str, text: str) -> bool:
-        """Return whether a warning names a variable that the compiler made, such as bounds of an intermediate array."""
-        match = re.match(r"'(\w+)", text)
+        """Return whether a warning names a variable that the compiler made.
+
+        Such as the bounds of an intermediate array; or a value of a derived type, 'ply.9', by the name of the type.
+        """
+        match = re.match(r"'(\w+)(\.\d+)?", text)
         text_of_file = self._opinion.texts.get(file, "")
-        return match is not None and re.search(rf"\b{match[1]}\b", text_of_file, re.IGNORECASE) is None
+        if match is None:
+            return False
+        kind = r"^\s*type\b[^(\n]*" if match[2] else ""
+        there = re.search(rf"{kind}\b{match[1]}\b", text_of_file, re.IGNORECASE | re.MULTILINE) is not None
+        return there if match[2] else not there
 
     def _of_reals(self, file: str, line: int, column: int) -> bool:
         """Return whether a quotient of integers is part of a real variable's value, and of no index or argument."""
