@@ -23,7 +23,8 @@ INTENDED = {("U3", "order"), ("U10", "order"), *((kind, "energy") for kind in ("
 @pytest.mark.long
 @pytest.mark.parametrize("deck", DECKS, ids=lambda deck: f"{deck.parent.name}-{deck.stem}")
 def test_no_false_alarm(deck):
-    outcome = examine_isolated(deck, [path_of_amalgam()], increments=1)
+    # what the compiler says is the same in every deck: tests/harness/check/test_compiler.py
+    outcome = examine_isolated(deck, [path_of_amalgam()], increments=1, skip=["compiler"])
     failed = {
         (report.type, name): finding.message
         for report in outcome.types
