@@ -20,7 +20,8 @@ module abaqus_interface_elements
     p_e1_bottom, p_e2_bottom, p_e3_bottom, p_nu12_bottom, p_nu13_bottom, p_nu23_bottom, p_g12_bottom, p_g13_bottom, &
     p_g23_bottom, p_angle_bottom, p_e1_top, p_e2_top, p_e3_top, p_nu12_top, p_nu13_top, p_nu23_top, p_g12_top, p_g13_top, &
     p_g23_top, p_angle_top, p_expansion1_bottom, p_expansion2_bottom, p_expansion3_bottom, p_expansion1_top, p_expansion2_top, &
-    p_expansion3_top, p_direction1, p_direction2, p_direction3, j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, &
+    p_expansion3_top, p_direction1, p_direction2, p_direction3, p_initialn, p_initials, p_initialt, &
+    j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, &
     j_formulation_bottom, j_formulation_top, j_cracked, &
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
     v_maxn, v_maxt, v_spent, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, w_dissi, w_dissii, w_sn, w_st, &
@@ -186,7 +187,9 @@ contains
     choice = interface_options(options(j_integration), options(j_sampling), options(j_closure) /= paper_closure, &
       options(j_closure) == complete_closure, merge(1.0_dp, values(p_blend), options(j_tangent) == 1), finite, &
       iand(elements(itype)%family, stabilised) == 0, options(j_cracked) == 1, &
-      values([p_direction1, p_direction2, p_direction3]))
+      values([p_direction1, p_direction2, p_direction3]), &
+      merge([values(p_initialt), values(p_initialn), 0.0_dp], values([p_initials, p_initialn, p_initialt]), &
+        elements(itype)%dimension == 2))
   end function chosen
 
   !> Beta and gamma as the deck has them.

@@ -114,28 +114,30 @@ contains
   end subroutine stabilise
 
   !> B of each point: the matrix that takes the displacements of both elements to <sigma>.n = gamma_1 sigma_1.n + gamma_2 sigma_2.n
-  !> of (18) in the components of the frame there, less the traction of the thermal strains.
-  pure subroutine bulk_operators(sampling, dim, places, gamma_bottom, solids, faces, coordinates, matrices, thermal, status)
+  !> of (18) in the components of the frame there, less the traction of the thermal strains, plus that of the initial stress.
+  pure subroutine bulk_operators(sampling, dim, places, gamma_bottom, solids, faces, initial, coordinates, matrices, at_rest, &
+    status)
     integer, intent(in) :: sampling
     integer, intent(in) :: dim
     type(interface_place), intent(in) :: places(:)
     real(dp), intent(in) :: gamma_bottom(2)             !< (tau, n)
     type(solid_type), intent(in) :: solids(2)           !< bottom and top
     integer, intent(in) :: faces(:, :)                  !< nodes of the bottom and the top face, a column each
+    real(dp), intent(in) :: initial(3)                  !< traction of the initial stress, (s, n, t)
     real(dp), intent(in) :: coordinates(:, :)           !< original coordinates, (2 or 3, nodes), length
     real(dp), intent(out) :: matrices(:, :, :)          !< (2 or 3, unknowns, points)
-    real(dp), intent(out) :: thermal(:, :)              !< (2 or 3, points)
+    real(dp), intent(out) :: at_rest(:, :)              !< traction without displacements, (2 or 3, points)
     type(status_type), intent(out) :: status            !< inside_out: item 1 for the bottom element, 2 for the top one
     real(dp) :: weights(2, 2)
     integer :: side
 
     weights(:, 1) = gamma_bottom
     weights(:, 2) = 1.0_dp - gamma_bottom
-    thermal = 0.0_dp
+    at_rest = spread(initial(1:dim), 2, size(places))
     do side = 1, 2
       associate (first => first_node(solids, side), nodes => solids(side)%nodes)
         call side_operators(sampling, dim, places, weights(:, side), solids(side), faces(:, side) - first + 1, &
-          coordinates(:, first:first + nodes - 1), matrices(:, dim*(first - 1) + 1:dim*(first + nodes - 1), :), thermal, status)
+          coordinates(:, first:first + nodes - 1), matrices(:, dim*(first - 1) + 1:dim*(first + nodes - 1), :), at_rest, status)
       end associate
       if (status%code == ok) cycle
       status%item = side
@@ -144,7 +146,7 @@ contains
   end subroutine bulk_operators
 
   !> The part of one side.
-  pure subroutine side_operators(sampling, dim, places, weights, solid, face, coordinates, matrices, thermal, status)
+  pure subroutine side_operators(sampling, dim, places, weights, solid, face, coordinates, matrices, at_rest, status)
     integer, intent(in) :: sampling, dim
     type(interface_place), intent(in) :: places(:)
     real(dp), intent(in) :: weights(2)                  !< (tau, n)
@@ -152,7 +154,7 @@ contains
     integer, intent(in) :: face(:)                      !< nodes of the solid on the interface
     real(dp), intent(in) :: coordinates(dim, solid%nodes)
     real(dp), intent(out) :: matrices(:, :, :)
-    real(dp), intent(inout) :: thermal(:, :)
+    real(dp), intent(inout) :: at_rest(:, :)
     type(status_type), intent(out) :: status
     real(dp) :: of_strain(dim, 3*(dim - 1)), heating
     real(dp) :: samples(dim, max(size(places), most_samples)), shares(max(size(places), most_samples), size(places))
@@ -175,7 +177,7 @@ contains
         of_strain(j, :) = weights(mode_of(j))*of_strain(j, :)
       end do
       matrices(:, :, k) = matmul(of_strain, transpose(strain))
-      thermal(:, k) = thermal(:, k) + matmul(of_strain, heating*solid%expansion(1:size(of_strain, 2)))
+      at_rest(:, k) = at_rest(:, k) - matmul(of_strain, heating*solid%expansion(1:size(of_strain, 2)))
     end do
   end subroutine side_operators
 

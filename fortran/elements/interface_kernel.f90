@@ -65,7 +65,7 @@ contains
     type(stabilisation_type) :: used
     type(point_response) :: response
     type(interface_place) :: here, turned(2)
-    real(dp) :: bulk_of_points(dim, size(u), points), thermal(dim, points)
+    real(dp) :: bulk_of_points(dim, size(u), points), at_rest(dim, points)
     real(dp), dimension(dim, size(u)) :: jump, bulk, by_displacement
     real(dp), dimension(size(u)) :: moved, original, shifted, force
     real(dp) :: turning(3, dim, dim, size(faces, 1)), turning_faces(3, dim, dim, size(faces, 1), 2)
@@ -99,8 +99,8 @@ contains
       end if
       if (status%code /= ok) return
       if (present(solids)) then
-        call bulk_operators(options%sampling, dim, places, stabilisation%gamma_bottom, solids, faces, coordinates, &
-          bulk_of_points, thermal, status)
+        call bulk_operators(options%sampling, dim, places, stabilisation%gamma_bottom, solids, faces, &
+          options%initial, coordinates, bulk_of_points, at_rest, status)
         if (status%code /= ok) return
       end if
     end if
@@ -131,7 +131,7 @@ contains
             moved = co_rotated_solids(dim, split, places(k)%frame, turned, original, shifted)
           end if
           bulk = bulk_of_points(:, :, k)
-          bulk_traction(1:dim) = matmul(bulk, moved) - thermal(:, k)
+          bulk_traction(1:dim) = matmul(bulk, moved) + at_rest(:, k)
         else
           bulk_traction = matmul(here%frame, matmul(neighbours(:, :, k), places(k)%frame(2, :)))
         end if
@@ -189,7 +189,7 @@ contains
     type(interface_place) :: places(points), here, turned(2)
     real(dp) :: turning(3, dim, dim, size(faces, 1)), turning_faces(3, dim, dim, size(faces, 1), 2), gap(3), area
     real(dp), dimension(size(u)) :: original, shifted, moved
-    real(dp) :: bulk_of_points(dim, size(u), points), thermal(dim, points)
+    real(dp) :: bulk_of_points(dim, size(u), points), at_rest(dim, points)
     real(dp), dimension(dim, size(u)) :: jump, bulk
     logical :: layer
     integer :: k, nodes
@@ -201,8 +201,8 @@ contains
     original = about_mean(dim, reshape(coordinates, [size(u)]))
     shifted = about_mean(dim, reshape(coordinates, [size(u)]) + u)
     if (options%complete) then
-      call bulk_operators(options%sampling, dim, places, stabilisation%gamma_bottom, solids, faces, coordinates, bulk_of_points, &
-        thermal, status)
+      call bulk_operators(options%sampling, dim, places, stabilisation%gamma_bottom, solids, faces, options%initial, &
+        coordinates, bulk_of_points, at_rest, status)
       if (status%code /= ok) return
     end if
     do k = 1, points
@@ -229,7 +229,7 @@ contains
         if (status%code /= ok) return
         moved = co_rotated_solids(dim, dim*solids(1)%nodes, places(k)%frame, turned, original, shifted)
       end if
-      gap(1:dim) = (known(k)%traction(1:dim) - matmul(bulk, moved) + thermal(:, k))/stabilisation%beta(mode_of(1:dim))
+      gap(1:dim) = (known(k)%traction(1:dim) - matmul(bulk, moved) - at_rest(:, k))/stabilisation%beta(mode_of(1:dim))
       if (options%finite) bulk = solids_by_displacements(dim, nodes, faces, dim*solids(1)%nodes, places(k)%frame, turned, &
         turning_faces, shifted, bulk)
       residual = residual - area*matmul(gap(1:dim), bulk)

@@ -27,6 +27,7 @@ module elements_interface_point
     logical :: standard = .false.   !< without stabilisation: the faces may be apart
     logical :: cracked = .false.    !< failed from the start: its law does not soften, and asks nothing of beta
     real(dp) :: direction(3) = 0.0_dp   !< in space, s is its projection on the face; zero: that of x
+    real(dp) :: initial(3) = 0.0_dp     !< traction of the initial stress of the element's own solids, (s, n, t)
   end type interface_options
 
   !> State of an integration point at the end of the increment; vectors in the components (s, n, t) of `cohesive_shear`.

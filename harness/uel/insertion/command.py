@@ -27,6 +27,7 @@ from uel.insertion.connectivity import (
 )
 from uel.insertion.cut import NONE, Cells, Cut, cut, mask_of
 from uel.insertion.directions import NAMES, Pair, choose_directions
+from uel.insertion.initial_tractions import InitialTractions
 from uel.insertion.meshes import is_mesh, read_mesh
 from uel.insertion.neighbours import check_neighbours
 from uel.insertion.properties import (
@@ -152,6 +153,7 @@ def insert(
     interfaces: list[_Interface] = []
     if len(chosen):
         sections = Sections(deck)
+        tractions = InitialTractions(deck, sections)
         kinds = _kinds(deck, chosen, element)
         for kind, rows in kinds.items():
             check_values(kind, properties_given)
@@ -160,7 +162,7 @@ def insert(
             warnings += check_neighbours(deck, sections, kind, chosen[rows])
         pairs = [_two_sides(deck, chosen[rows]) for rows in kinds.values()]
         for (kind, rows), pair in zip(kinds.items(), _directed(kinds, sections, pairs, properties_given), strict=True):
-            values_of = _values(kind, sections, pair, cracked[rows], properties_given)
+            values_of = _values(kind, sections, pair, cracked[rows], tractions, properties_given)
             interfaces.append(_Interface(kind, chosen[rows], values_of))
         warnings += sections.warnings
     if request.plies is not None and not request.plies:
@@ -396,16 +398,20 @@ def _values(
     sections: Sections,
     sides: Pair,
     cracked: NDArray[np.bool_],
+    tractions: InitialTractions,
     properties: Mapping[str, float],
 ) -> dict[Items, IntArray]:
     """Return the rows of elements by their properties; cracked: (elements,) mask of those on a crack."""
     (below, first), (above, second) = (sections.sides(faces) for faces in sides)
     groups: dict[Items, list[IntArray]] = {}
-    alike = np.column_stack([cracked, first, second, sides[0].directions])
+    initial = tractions.at(sides) if kind.solids else np.zeros((len(cracked), 0))
+    alike = np.column_stack([cracked, first, second, sides[0].directions, initial])
     unique, number = np.unique(alike, axis=0, return_inverse=True)
-    for index, (crack, lower, upper, *direction) in enumerate(unique.tolist()):
+    for index, (crack, lower, upper, *vectors) in enumerate(unique.tolist()):
         rows = np.flatnonzero(number.ravel() == index)
+        direction, traction = vectors[:3], vectors[3:]
         given = {**properties, **(dict(zip(NAMES, direction, strict=True)) if any(direction) else {})}
+        given |= dict(zip(tractions.names, traction, strict=True)) if any(traction) else {}
         given |= {"CRACKED": 1.0} if crack else {}
         values = element_values(kind, given, below[int(lower)], above[int(upper)])
         groups.setdefault(tuple(values.items()), []).append(rows)

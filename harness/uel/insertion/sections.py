@@ -225,6 +225,14 @@ class Sections:
             except ValueError as error:
                 yield Side(thickness, plane, {}, f"{error} {location}", str(block.source)), rows
 
+    def stress_axes(self, number: int, section: SolidSection, faces: Faces) -> FloatArray:
+        """Return the directions (k, 3, 3), in rows, in which solids have their initial stress. Raises DeckError."""
+        owner, block = self._deck.section_blocks[number]
+        try:
+            return self._axes(owner, section, SolidLayer(1.0, 1, section.material, section.orientation), faces)
+        except ValueError as error:
+            raise block.error(str(error)) from None
+
     def name(self, faces: Faces, row: int) -> str:
         """Return the name of the solid of a face."""
         return self._deck.name(int(self._deck.solids.element[faces.numbers[row]]))

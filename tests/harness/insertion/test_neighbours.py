@@ -46,8 +46,13 @@ WRONG = [
         "U4 has one expansion along each axis of a ply",
     ),
     (
-        {"model": ["*INITIAL CONDITIONS, TYPE=STRESS", "LOW, 1., 0., 0."]},
-        r"deck.inp:\d+: U4 does not know the initial stress of the CPS4 beside it; take U2",
+        {"model": ["*INITIAL CONDITIONS, TYPE=STRESS, USER"]},
+        r"deck.inp:\d+: U4 takes an initial stress by components, and that of the CPS4 beside it varies; take U2",
+    ),
+    (
+        {"model": ["*INITIAL CONDITIONS, TYPE=STRESS", "LOW, 0., 2., 0., 1."]},
+        r"deck.inp:\d+: the initial stresses of elements \d+ and \d+ have the tractions \(1, 2, 0\) and \(0, 0, 0\) on "
+        "the interface between them; expected the same on both sides",
     ),
     ({"material": ["*CREEP", "1e-9, 2., 0."]}, r"deck.inp:\d+: \*CREEP of material M of the CPS4 beside U4"),
 ]

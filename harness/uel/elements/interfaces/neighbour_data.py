@@ -16,7 +16,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uel.elements.interfaces.neighbour_plies import Ply, SolidFaces, plies_at
+from uel.elements.interfaces.initial_tractions import NAMES, PLANE_NAMES, InitialStresses, components
+from uel.elements.interfaces.neighbour_plies import Ply, SolidFaces, plies_at, stress_axes
 from uel.elements.interfaces.neighbour_solids import (
     FORMULATIONS,
     NONE,
@@ -219,6 +220,7 @@ class _Pair:
             yield self._finding(0, f"THICKNESS = {given['THICKNESS']:g}", text, wrong=False)
         yield from self._formulation(given)
         yield from self._moduli(given)
+        yield from self._initial_traction(given)
 
     def _formulation(self, given: dict[str, float]) -> Iterator[Finding]:
         """Compare the formulation: the stress of another one is not that of the solid, nor bounded by its energy."""
@@ -240,12 +242,7 @@ class _Pair:
         if tensor is None:
             return
         axes = self._axes(np.radians(given[f"ANGLE {_SIDES[self.side][0]}"]), _direction(given))
-        assert self.group.definition is not None
-        layout = element_layouts()[self.group.definition.number]
-        corners = list(layout.faces[self.side][: layout.corners])
-        outward = axes[:, 2] * (1.0 if self.side == 0 else -1.0)
-        faces = SolidFaces(self.beside, self.solids, self.group.nodes[self.rows][:, corners], outward)
-        for ply in plies_at(self.model, faces, tensor):
+        for ply in plies_at(self.model, self._faces(axes[:, 2]), tensor):
             part = replace(self, rows=self.rows[ply.rows], solids=self.solids[ply.rows])
             if ply.why:
                 name = _named(self.model, self.group, int(part.rows[0]))
@@ -257,6 +254,48 @@ class _Pair:
             if found is not None:
                 yield found
                 return
+
+    def _initial_traction(self, given: dict[str, float]) -> Iterator[Finding]:
+        """Compare the traction of the initial stress of a solid."""
+        start = group_starts(self.model)[next(k for k, each in enumerate(self.model.groups) if each is self.beside)]
+        stresses = InitialStresses.of(self.model.initial_stresses, start + self.solids, tensor_of(self.beside))
+        names = PLANE_NAMES if "PLANE" in given else NAMES
+        mine = np.array([given[name] for name in names])
+        if stresses.source is None and not mine.any():
+            return
+        normals = self._normals()
+        try:
+            axes = stress_axes(self.model, self._faces(normals))
+        except ValueError as error:
+            yield self._finding(0, "its initial traction is not known", f"has an initial stress, and {error}")
+            return
+        direction = None if "PLANE" in given else np.broadcast_to(_direction(given), normals.shape)
+        theirs = components(stresses.tractions(axes, normals), normals, direction)
+        size = max(abs(stresses.tensors).max(), abs(mine).max())
+        apart = abs(theirs - mine) > TOLERANCE * size
+        if apart.any():
+            at = int(apart.any(axis=1).argmax())
+            k = int(apart[at].argmax())
+            text = f"has {theirs[at, k]:.6g} there by its initial stress"
+            yield self._finding(at, f"{names[k]} = {mine[k]:g}", text)
+
+    def _normals(self) -> FloatArray:
+        """Return the unit normals (m, 3) of the elements, from below to above."""
+        assert self.group.definition is not None
+        layout = element_layouts()[self.group.definition.number]
+        if layout.dimension == 3:
+            return _normals(self.model, self.group, self.rows)
+        ends = [self.model.mesh.coordinates[self.group.nodes[self.rows][:, list(face[:2])]] for face in layout.faces]
+        along = ends[0][:, 1] - ends[0][:, 0] + ends[1][:, 1] - ends[1][:, 0]
+        return _unit(np.stack([-along[:, 1], along[:, 0], 0.0 * along[:, 0]], axis=1))
+
+    def _faces(self, normals: FloatArray) -> SolidFaces:
+        """Return the faces of the solids at the elements."""
+        assert self.group.definition is not None
+        layout = element_layouts()[self.group.definition.number]
+        corners = list(layout.faces[self.side][: layout.corners])
+        outward = normals * (1.0 if self.side == 0 else -1.0)
+        return SolidFaces(self.beside, self.solids, self.group.nodes[self.rows][:, corners], outward)
 
     def _constants_of(self, ply: Ply, axes: FloatArray, given: dict[str, float], solid: Tensor) -> Finding | None:
         """Compare the constants of elements, whose axes are (m, 3, 3), with those of a ply beside each of them."""

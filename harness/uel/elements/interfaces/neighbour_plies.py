@@ -121,6 +121,19 @@ def _ply(model: Model, faces: SolidFaces, layer: SolidLayer, upright: FloatArray
     return Ply(rows, material, axes)
 
 
+def stress_axes(model: Model, faces: SolidFaces) -> FloatArray:
+    """Return the directions (k, 3, 3), in rows, in which solids have their initial stress.
+
+    Raises ValueError where they are not known.
+    """
+    section = faces.group.section
+    if not isinstance(section, SolidSection):
+        raise ValueError("its directions are not known")
+    if section.orientation is None:
+        return np.broadcast_to(np.eye(3), (len(faces.rows), 3, 3))
+    return _directions(model, faces, section.orientation)
+
+
 def _directions(model: Model, faces: SolidFaces, orientation: Orientation) -> FloatArray:
     """Compute directions (k, 3, 3) of an orientation in the middles of faces.
     Raises ValueError if they are not known.

@@ -3,9 +3,9 @@
 """Solids beside which a self-contained interface element is wrong or doubtful.
 
 Those that own their solids compute their traction themselves: from the displacements of all their nodes, with the
-formulation, the elastic constants and the expansion among their properties. So they do not know what else makes a
-stress in a solid: initial stress, inelastic strains, the strain normal to a plane, an electrical field, a temperature
-that is an unknown, or an interpolation of its own. The standard elements have no such limits.
+formulation, the elastic constants, the expansion and the traction of the initial stress among their properties. So they
+do not know what else makes a stress in a solid: inelastic strains, the strain normal to a plane, an electrical field, a
+temperature that is an unknown, or an interpolation of its own. The standard elements have no such limits.
 
 This is the only place that says beside what these elements can stand. `find_faults` is the rule; `examine` applies it
 to a model that has the elements, and `uel insert` to a deck before it has them.
@@ -94,7 +94,7 @@ class States:
     """Fields and initial states that a deck gives solids besides displacements.
 
     temperatures  nodes whose temperature changes, and the place that says so
-    stresses      positions of elements with initial stress, and its place
+    stresses      positions of elements whose initial stress varies within them, and its place
     """
 
     temperatures: Sequence[tuple[IntArray, Source]] = ()
@@ -274,12 +274,8 @@ def changed_nodes(model: Model) -> IntArray:
 
 
 def initially_stressed(stresses: Iterable[InitialStress]) -> list[tuple[IntArray, Source]]:
-    """Return the elements with *INITIAL CONDITIONS, TYPE=STRESS, and the place of each entry that is not zero."""
-    return [
-        (entry.elements, entry.source)
-        for entry in stresses
-        if entry.values is None or entry.profile is not None or entry.values.any()
-    ]
+    """Return the elements with initial stresses by SIGINI or GEOSTATIC, and the place of each entry."""
+    return [(each.elements, each.source) for each in stresses if each.values is None or each.profile is not None]
 
 
 def find_faults(solids: Neighbours, states: States) -> list[Finding]:
@@ -298,8 +294,8 @@ def find_faults(solids: Neighbours, states: States) -> list[Finding]:
         found += _temperature(solids, material, states)
     for elements, source in states.stresses:
         if np.isin(solids.elements, elements).any():
-            message = f"{_type(solids)} does not know the initial stress of the {solids.type} beside it"
-            found.append(Finding(f"{message}; {_instead(solids)}", source, wrong=True))
+            message = f"{_type(solids)} takes an initial stress by components, and that of the {solids.type} beside it"
+            found.append(Finding(f"{message} varies; {_instead(solids)}", source, wrong=True))
             break
     return found
 
