@@ -148,7 +148,7 @@ def test_other_counts_of_properties_are_refused(branch, element_of):
 
 
 def test_the_property_has_the_last_position(branch, element_of):
-    for jtype, position in ((2, 14), (3, 18), (4, 40), (5, 14), (6, 40)):
+    for jtype, position in ((2, 14), (3, 18), (4, 42), (5, 14), (6, 42)):
         layout = branch[1][jtype]
         assert (layout.reals[-1].name, layout.reals[-1].position) == ("PLATEAU", position)
     item = element_of(branch[0], 2, FLAT, layouts=branch[1], LAW=5, PLATEAU=1.0)

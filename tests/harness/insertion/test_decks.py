@@ -304,7 +304,8 @@ def test_elastic_constants_come_from_the_sections(tmp_path):
     section = next(group for group in after.groups if group.type == "U8").section
     bottom = [9, 8, 7, 0.1, 0.2, 0.3, 4, 5, 6, 30]
     top = [27, 26, 26, 0.3, 0.3, 0.3, 10, 10, 10, 0]
-    assert section.values.tolist()[16:] == pytest.approx([*bottom, *top, *[0.0] * 9])
+    assert section.values.tolist()[16:36] == pytest.approx([*bottom, *top])
+    assert not section.values[36:].any()
 
 
 def test_constants_are_renamed_where_another_axis_is_normal_to_the_interface(tmp_path):
@@ -319,7 +320,8 @@ def test_constants_are_renamed_where_another_axis_is_normal_to_the_interface(tmp
     section = next(group for group in after.groups if group.type == "U8").section
     # nu_32 = nu_23 E_3/E_2
     ply = [9, 7, 8, 0.2, 0.1, 0.3 * 7 / 8, 5, 4, 6, 0]
-    assert section.values.tolist()[16:] == pytest.approx([*ply, *ply, *[0.0] * 9])
+    assert section.values.tolist()[16:36] == pytest.approx([*ply, *ply])
+    assert not section.values[36:].any()
 
 
 def test_thickness_and_state_of_stress_come_from_the_solids(tmp_path):

@@ -10,6 +10,7 @@ import uel
 from uel.deck.reader import read_deck
 from uel.errors import UelError
 from uel.model.element_types import CONTINUUM
+from uel.usersub.layout import element_layouts
 
 KINDS = {
     **{
@@ -174,7 +175,10 @@ def test_spring_in_is_that_of_the_uncut_laminate(tmp_path):
     assert done.kinds == {"U8": 144}
     group = next(group for group in read_deck(tmp_path / "cut.inp").groups if group.type == "U8")
     # the radial axis of the material, 1, is axis 3 of the element; s is along the axis of the tube
-    assert group.section.values[-9:].tolist() == [*[0.0, 0.0, 3e-5] * 2, 0.0, 0.0, 1.0]
+    values = dict(zip((item.name for item in element_layouts()[8].reals), group.section.values.tolist(), strict=True))
+    for side in ("BOTTOM", "TOP"):
+        assert [values[f"EXPANSION{axis} {side}"] for axis in (1, 2, 3)] == [0.0, 0.0, 3e-5]
+    assert [values[f"DIRECTION{axis}"] for axis in (1, 2, 3)] == [0.0, 0.0, 1.0]
     turns = []
     for name in ("whole", "cut"):
         u = uel.run(tmp_path / f"{name}.inp", output_dir=tmp_path, quiet=True).field("U")

@@ -50,7 +50,7 @@ WRONG = [
         r"deck.inp:\d+: U4 takes an initial stress by components, and that of the CPS4 beside it varies; take U2",
     ),
     (
-        {"model": ["*INITIAL CONDITIONS, TYPE=STRESS", "LOW, 0., 2., 0., 1."]},
+        {"model": ["*INITIAL CONDITIONS, TYPE=STRESS", "LOW, 0., 2., 1."]},
         r"deck.inp:\d+: the initial stresses of elements \d+ and \d+ have the tractions \(1, 2, 0\) and \(0, 0, 0\) on "
         "the interface between them; expected the same on both sides",
     ),
