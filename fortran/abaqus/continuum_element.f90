@@ -14,7 +14,7 @@ module abaqus_continuum_element
   use core_rotation, only: ply_axes, strain_rotation
   use core_solid_rotation, only: solid_turn, find_turn, turn_forces, turn_stiffness
   use core_status, only: status_type, ok, inside_out
-  use core_strains, only: condense
+  use core_incompatible_modes, only: condense
   use materials_linear_elasticity, only: plane_strain
   use materials_spectral_norm, only: spectral_norm
   use elements_continuum_solid, only: modes_of, solid_gradient, solid_points, solid_shape, solid_strains

@@ -12,7 +12,8 @@ module elements_continuum_solid
   use core_serendipity, only: brick_gradient, brick_places, quad_places, quad8_gradient
   use core_shape_functions, only: quad_gradient
   use core_status, only: status_type, ok, inside_out
-  use core_strains, only: mode_matrix, strain_matrix
+  use core_incompatible_modes, only: mode_matrix
+  use core_strains, only: strain_matrix
   implicit none(type, external)
   private
   public :: incompatible_modes, mean_volume, modes_of

@@ -19,7 +19,7 @@ from contact_decks import step as contact_step
 from small_decks import snapping
 
 import uel
-from uel.assembly.kinematic_couplings import KinematicCouplings
+from uel.assembly.finite_couplings import KinematicCouplings
 from uel.cli import main
 from uel.errors import ConvergenceError, DeckError, SingularMatrixError, UelError, UsageError
 from uel.model.records import StateKept

@@ -13,7 +13,7 @@ import numpy as np
 from scipy import sparse
 
 from uel.assembly.constraints import Constraints, products, reduced_pattern
-from uel.assembly.kinematic_couplings import KinematicCouplings
+from uel.assembly.finite_couplings import KinematicCouplings
 from uel.assembly.prescribed_followers import COLUMNS
 from uel.assembly.system import System
 from uel.errors import Source

@@ -7,7 +7,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from uel.deck import ignored
-from uel.deck.constraints import equations as constraints
+from uel.deck.constraints import couplings, equations
 from uel.deck.constraints.tie import reader as ties
 from uel.deck.contact import general_contact, geometric_corrections, interactions
 from uel.deck.contact import pairs as contact
@@ -45,7 +45,19 @@ from uel.deck.steps import (
 from uel.deck.steps import step as steps
 
 _FILES = (
-    *(structure, lexer, placement, orientations, local_mesh, generation, user_elements, surfaces, constraints, ties),
+    *(
+        structure,
+        lexer,
+        placement,
+        orientations,
+        local_mesh,
+        generation,
+        user_elements,
+        surfaces,
+        equations,
+        couplings,
+        ties,
+    ),
     *(contact, general_contact, geometric_corrections, interactions),
     *(
         materials,

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from uel.deck.constraints.equations import ConstraintReader, read_equations
+from uel.deck.constraints.couplings import ConstraintReader
+from uel.deck.constraints.equations import read_equations
 from uel.deck.contact.general_contact import GeneralContact
 from uel.deck.contact.interactions import Interactions
 from uel.deck.contact.pairs import ContactReader, check_contact

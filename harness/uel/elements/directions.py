@@ -9,9 +9,9 @@ import numpy as np
 from uel.errors import DeckError
 from uel.model.arrays import FloatArray
 from uel.model.element_types import ContinuumType, SurfaceType
-from uel.model.local_systems import SystemKind, UndefinedDirectionsError
 from uel.model.mesh import ElementGroup
 from uel.model.model import Model
+from uel.model.orientation_axes import SystemKind, UndefinedDirectionsError
 from uel.model.properties import Orientation
 from uel.usersub import Library, _binding
 

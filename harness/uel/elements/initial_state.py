@@ -12,8 +12,8 @@ from uel.elements.routine import Routine
 from uel.errors import KernelError
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.element_types import ContinuumType
-from uel.model.local_systems import UndefinedDirectionsError, orthonormal
 from uel.model.mesh import ElementGroup
+from uel.model.orientation_axes import UndefinedDirectionsError, orthonormal
 from uel.model.properties import SolidSection
 from uel.model.steps import VerticalStress
 from uel.usersub import Library, _binding, _points

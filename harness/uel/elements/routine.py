@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from uel.model.arrays import FloatArray, IntArray
-from uel.model.local_systems import UndefinedDirectionsError
+from uel.model.orientation_axes import UndefinedDirectionsError
 from uel.model.properties import Orientation
 from uel.usersub.exchange import Called
 

@@ -36,7 +36,7 @@ from uel.insertion.assembly import Deck
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.element_types import BUILT_IN, ContinuumType, Tensor
 from uel.model.face_directions import face_directions
-from uel.model.local_systems import SystemKind, UndefinedDirectionsError
+from uel.model.orientation_axes import SystemKind, UndefinedDirectionsError
 from uel.model.properties import CompositeSection, ElasticType, Material, Orientation, SolidLayer, SolidSection
 
 PARALLEL = 1e-4

@@ -24,6 +24,22 @@ PLASTIC: Final = 3
 """Position in ENERGY of the dissipation by plasticity or, in some elements, by damage."""
 
 
+def external_work(before: FloatArray, after: FloatArray, du: FloatArray, energy: FloatArray) -> float:
+    """Return the external work of an increment, by the trapezoidal rule.
+
+    Parameters
+    ----------
+    before, after
+        (n,) external forces and reactions at its ends.
+    du
+        (n,) what moved, with signs that make a product with a force its work.
+    energy
+        (8,) sum of ENERGY over the elements; ENERGY(8) is the work of loads that they apply themselves, in this
+        increment only.
+    """
+    return 0.5 * float((before + after) @ du) + float(energy[7])
+
+
 def energies_of_elements(energy: FloatArray, damage: float) -> dict[str, float]:
     """Return energies by Abaqus name from a sum (8,) of ENERGY, and the dissipation by damage."""
     kinetic, elastic, creep, plastic, viscous, artificial, electrostatic = (float(e) for e in energy[:7])

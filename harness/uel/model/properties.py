@@ -13,7 +13,7 @@ import numpy as np
 from uel.errors import Source
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.damage import Damage
-from uel.model.local_systems import LocalSystem
+from uel.model.orientation_axes import LocalSystem
 from uel.model.records import PointVariables
 
 

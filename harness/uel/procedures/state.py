@@ -17,13 +17,13 @@ from uel.assembly import Constraints, DofMap, System
 from uel.elements import FIELD_NAMES, Predefined
 from uel.model.arrays import FloatArray
 from uel.model.dofs import POTENTIAL
-from uel.model.energies import energies_of_model
+from uel.model.energies import energies_of_model, external_work
 from uel.model.model import Model
 from uel.model.records import Solution
 from uel.model.restart import Saved
 from uel.model.steps import Step
 from uel.model.user_values import GivesValues
-from uel.procedures.general.convergence import FluxHistory
+from uel.procedures.general.average_flux import FluxHistory
 from uel.procedures.general.step_parts import InitialMotion, PartEnd
 from uel.procedures.linear.modes import Modes
 from uel.procedures.loads.element_loads import AllLoads, StepLoads
@@ -222,9 +222,7 @@ class ConvergedState:
         reaction = self.constraints.reactions(converged.r)
         external = load + released + reaction
         energy = converged.evaluation.energy
-        # ENERGY(8) is the work of loads that user elements apply themselves, in this increment only
-        moved = self.signs * converged.du
-        self.work += 0.5 * float((self.external + external) @ moved) + float(energy[7])
+        self.work += external_work(self.external, external, self.signs * converged.du, energy)
         self.displacement = self.displacement + converged.du
         self.reaction, self.load, self.external, self.energy = reaction, load, external, energy
         self.damage = converged.evaluation.damage

@@ -10,9 +10,9 @@ import pytest
 
 from uel.elements import FIELD_NAMES, build_blocks, field_of
 from uel.errors import DeckError, Source
-from uel.model.local_systems import LocalSystem, SystemKind
 from uel.model.mesh import Mesh
 from uel.model.model import Model
+from uel.model.orientation_axes import LocalSystem, SystemKind
 from uel.model.procedures import Dynamic, Static
 from uel.model.properties import Elastic, ElasticType, Material, Orientation, UserMaterial
 from uel.model.steps import Step

@@ -9,7 +9,7 @@ from uel.deck import read_deck
 from uel.model.controls import FieldControls
 from uel.model.records import IterationDone
 from uel.procedures import run_steps
-from uel.procedures.general.convergence import FluxHistory
+from uel.procedures.general.average_flux import FluxHistory
 from uel.usersub import load
 
 DECK = """\

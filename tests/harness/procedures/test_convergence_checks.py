@@ -11,7 +11,7 @@ from uel.assembly import Evaluation
 from uel.model.controls import Controls, FieldControls, TimeControls
 from uel.model.records import Convergence, Largest
 from uel.procedures.general import incrementation
-from uel.procedures.general.convergence import FluxHistory
+from uel.procedures.general.average_flux import FluxHistory
 from uel.procedures.general.convergence_checks import Checker
 from uel.solver.newton import Iterate
 

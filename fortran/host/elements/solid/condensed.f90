@@ -6,7 +6,7 @@ module host_condensed_modes
   use core_incompatible_mode_search, only: find_modes, mode_search, most_passes
   use core_rotation, only: about_mean
   use core_small_matrix, only: invert_general
-  use core_strains, only: condense
+  use core_incompatible_modes, only: condense
   use host_context, only: current, stress_matrix
   use host_enhanced_kinematics, only: enhanced_t
   use host_incompatible, only: begin_modes

@@ -1,7 +1,7 @@
 ! SPDX-FileCopyrightText: The uel-harness authors
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Incompatible modes of CPS4I, CPE4I and C3D8I, which let elements with straight edges bend. Their strains are those of
-!> core_strains, and core_incompatible_mode_search finds them.
+!> core_incompatible_modes, and core_incompatible_mode_search finds them.
 !>
 !> In large displacements they enhance the deformation gradient (J.C. Simo, F. Armero, Int. J. for Numerical Methods in Engineering
 !> 33 (1992) 1413): with the parent coordinate xi_k, its gradient in the middle of the initial element, and the Jacobians j there
@@ -16,7 +16,8 @@
 module host_incompatible
   use core_rotation, only: cross
   use core_small_matrix, only: cofactors, determinant, invert
-  use core_strains, only: mode_matrix, strain_matrix
+  use core_incompatible_modes, only: mode_matrix
+  use core_strains, only: strain_matrix
   use host_context, only: current
   use host_gradients, only: gradient_of
   use host_kinds, only: dp

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from uel.contact import RigidSurface
-from uel.deck.constraints.equations import bodies_with_surfaces, reference_node
+from uel.deck.constraints.couplings import bodies_with_surfaces, reference_node
 from uel.deck.language.blocks import Block, Row
 from uel.deck.mesh.flatten import FlatMesh
 from uel.deck.mesh.placement import Placement

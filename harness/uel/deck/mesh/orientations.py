@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """*ORIENTATION, with *DISTRIBUTION and *DISTRIBUTION TABLE for points or angles by element.
 
-`harness/uel/model/local_systems.py` computes the axes at the points of elements.
+`harness/uel/model/orientation_axes.py` computes the axes at the points of elements.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from uel.deck.language.table import INPUT, NAME, Keyword, Kind, Option, Where, o
 from uel.deck.mesh.flatten import FlatMesh, Owner
 from uel.deck.sections.user_elements import read_count
 from uel.model.arrays import FloatArray
-from uel.model.local_systems import LocalSystem, SystemKind, UndefinedDirectionsError
+from uel.model.orientation_axes import LocalSystem, SystemKind, UndefinedDirectionsError
 from uel.model.properties import Orientation
 
 _POINTS = ("COORD3D", "COORD3D")

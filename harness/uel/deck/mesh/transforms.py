@@ -20,9 +20,9 @@ from uel.deck.sections.user_elements import dofs_by_node
 from uel.errors import DeckError, Source
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.dofs import FIRST_LOCAL
-from uel.model.local_systems import LocalSystem, SystemKind, UndefinedDirectionsError
 from uel.model.mesh import ElementGroup
 from uel.model.model import Equation
+from uel.model.orientation_axes import LocalSystem, SystemKind, UndefinedDirectionsError
 
 _KINDS = {"R": SystemKind.RECTANGULAR, "C": SystemKind.CYLINDRICAL, "S": SystemKind.SPHERICAL}
 _ROTATIONS = 3

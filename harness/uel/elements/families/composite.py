@@ -39,9 +39,9 @@ from uel.elements.simpson import simpson
 from uel.errors import DeckError, unsupported
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.element_types import ContinuumType
-from uel.model.local_systems import UndefinedDirectionsError
 from uel.model.mesh import ElementGroup
 from uel.model.model import Model
+from uel.model.orientation_axes import UndefinedDirectionsError
 from uel.model.properties import CompositeSection, Orientation, SolidLayer, materials_of
 from uel.model.records import PointVariables
 from uel.usersub import Library, _binding, built_in

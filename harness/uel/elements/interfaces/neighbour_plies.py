@@ -14,9 +14,9 @@ from uel.elements.directions import first_element, is_user
 from uel.elements.families.composite import turned_directions
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.element_types import ContinuumType, Tensor
-from uel.model.local_systems import UndefinedDirectionsError
 from uel.model.mesh import ElementGroup
 from uel.model.model import Model
+from uel.model.orientation_axes import UndefinedDirectionsError
 from uel.model.properties import (
     CompositeSection,
     ElasticType,

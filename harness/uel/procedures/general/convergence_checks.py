@@ -21,7 +21,8 @@ from uel.model.dofs import ROTATIONS, dof_in_deck
 from uel.model.mesh import Mesh
 from uel.model.records import Convergence, FieldCheck, Largest
 from uel.model.restart import Saved
-from uel.procedures.general.convergence import FieldMeasures, FluxHistory, estimated_correction, judge
+from uel.procedures.general.average_flux import FluxHistory, spatial_average
+from uel.procedures.general.convergence import FieldMeasures, estimated_correction, judge
 from uel.procedures.general.incrementation import Cutback, judge_rate, out_of_iterations
 from uel.solver.newton import Iterate
 
@@ -208,11 +209,8 @@ class Checker:
 
     def _take_flux(self, checked: FieldChecker, state: Iterate) -> None:
         """Update the average flux of a field after an iteration, and its time average."""
-        evaluation = state.evaluation
-        checked.peak = float(evaluation.largest[checked.number])
-        leaves_out = checked.history.leaves_out(checked.peak)
-        count = (evaluation.flux_count if leaves_out else evaluation.entries)[checked.number]
-        checked.flux = float(evaluation.flux[checked.number] / count) if count else 0.0
+        checked.peak = float(state.evaluation.largest[checked.number])
+        checked.flux = spatial_average(state.evaluation, checked.number, checked.history)
         checked.average, checked.converted = checked.history.average(checked.flux, checked.controls), False
 
     def _convert(self) -> None:

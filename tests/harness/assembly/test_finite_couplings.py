@@ -16,7 +16,7 @@ from small_decks import bars
 
 from uel import usersub
 from uel.assembly import RotatingConstraints, system_of
-from uel.assembly.kinematic_couplings import KinematicCouplings
+from uel.assembly.finite_couplings import KinematicCouplings
 from uel.deck import read_deck
 from uel.elements import Call, Flags, rotation_matrices, spin_matrices
 from uel.errors import DeckError, Source
