@@ -91,7 +91,7 @@ def test_process_that_waits_for_ever_after_a_call_was_left(module, tmp_path: Pat
     )
     end, _ = module(text)
     assert (end.finished, end.reason) == (False, HANGS)
-    assert end.place == "in UEXTERNALDB for element 0, step 3, increment 4, iteration 0: XIT or STOP"
+    assert end.location == "in UEXTERNALDB for element 0, step 3, increment 4, iteration 0: XIT or STOP"
 
 
 def test_process_that_a_debugger_has_stopped_is_left_alone(tmp_path: Path) -> None:
