@@ -90,7 +90,7 @@ def _types(names: Sequence[str]) -> list[ContinuumType]:
 
 
 def _load(file: Path) -> Any:
-    import meshio  # noqa: PLC0415 (keeps the other commands quick)
+    from uel.output.meshio_cells import meshio  # noqa: PLC0415 (keeps the other commands quick)
 
     try:
         read_whole(file)

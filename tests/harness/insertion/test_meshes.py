@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes of other programs, and the command itself."""
 
+import subprocess
+import sys
+
 import meshio
 import numpy as np
 import pytest
@@ -74,7 +77,7 @@ def test_two_groups_that_would_be_one_set(tmp_path):
         read_mesh(tmp_path / "m.msh", ())
 
 
-@pytest.mark.parametrize("kind", ["CPS3", "CPS4", "CPS6", "CPS8", "C3D4", "C3D6", "C3D8", "C3D10", "C3D20"])
+@pytest.mark.parametrize("kind", ["CPS3", "CPS4", "CPS6", "CPS8", "C3D4", "C3D6", "C3D8", "C3D10", "C3D15", "C3D20"])
 def test_cells_become_the_elements_with_their_nodes(tmp_path, kind):
     mesh, groups = layers(kind, (2, 2, 2)[: CONTINUUM[kind].family.dimension])
     gmsh_file(tmp_path / "m.msh", mesh, groups)
@@ -186,3 +189,15 @@ def test_errors_of_the_deck_come_with_their_line(tmp_path, capsys):
     (tmp_path / "d.inp").write_text("*NODE\n1, 0., 0.\n*ELEMENT, TYPE=CPS4\n1, 1, 2, 3, 4\n*CONTACT CLEARANCE\n")
     assert main(["insert", str(tmp_path / "d.inp"), "-o", str(tmp_path / "o.inp"), "--plies", *LAW]) == 1
     assert "d.inp:5: *CONTACT CLEARANCE is not supported" in capsys.readouterr().err
+
+
+def test_wedges_of_fifteen_nodes_in_a_process_of_their_own(tmp_path):
+    """meshio lacks the dimension of these cells; nothing that other tests import may help."""
+    mesh, groups = layers("C3D15", (2, 2, 2))
+    gmsh_file(tmp_path / "m.msh", mesh, groups)
+    command = ["insert", "m.msh", "--between", "LOW", "HIGH", "SIGMAMAX=30", "TAUMAX=60", "GIC=10", "GIIC=10"]
+    command += ["ALPHAN=1e6", "--element", "U14", "-o", "out.inp"]
+    done = subprocess.run(
+        [sys.executable, "-m", "uel", *command], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert "8 elements U14 in INTERFACE" in done.stdout, done.stderr

@@ -19,9 +19,7 @@ from html import escape, unescape
 from pathlib import Path
 from typing import TypeVar
 
-import meshio
 import numpy as np
-from meshio._mesh import topological_dimension
 
 from uel.errors import UelError
 from uel.model.arrays import FloatArray, IntArray
@@ -29,11 +27,10 @@ from uel.model.model import Model
 from uel.model.nodal_variables import NodalIndex
 from uel.model.records import IncrementDone, Solution
 from uel.output.cells import Cells, cell_values, cells_of, is_solid
+from uel.output.meshio_cells import meshio
 from uel.output.schedule import Schedule, find_written
 
 Values = TypeVar("Values")
-# meshio 5.3.5 writes and reads this cell, but lacks its dimension, and ends with a KeyError
-topological_dimension.setdefault("wedge15", 3)
 _ENTRY = re.compile(r'<DataSet timestep="([^"]+)" part="0" file="([^"]*step(\d+)_increment(\d+)\.vtu)"/>')
 
 
