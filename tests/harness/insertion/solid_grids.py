@@ -9,33 +9,10 @@ from pathlib import Path
 import numpy as np
 from small_decks import body_lines
 
+from uel.delamination.solid_blocks import corner_elements, with_middles
 from uel.insertion.command import insert
 from uel.insertion.selection import CutRequest
 from uel.model.element_types import CONTINUUM
-
-# a square into two triangles, a cube into two wedges or six tetrahedra, by places 0 or 1 along each direction
-_TRIANGLES = (((0, 0), (1, 0), (1, 1)), ((0, 0), (1, 1), (0, 1)))
-_QUADRILATERAL = (((0, 0), (1, 0), (1, 1), (0, 1)),)
-_CUBE = (((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)),)
-_WEDGES = tuple(tuple((*corner, height) for height in (0, 1) for corner in triangle) for triangle in _TRIANGLES)
-
-
-def _paths():
-    """Tetrahedra along the edges from one corner of a cube to the opposite one, with positive volumes."""
-    for order in itertools.permutations(range(3)):
-        corners = np.array([[0, 0, 0], *np.cumsum(np.eye(3, dtype=int)[list(order)], axis=0)])
-        if np.linalg.det(corners[1:]) < 0:
-            corners = corners[[0, 2, 1, 3]]
-        yield tuple(map(tuple, corners.tolist()))
-
-
-_CELLS = {
-    (2, 3): _TRIANGLES,
-    (2, 4): _QUADRILATERAL,
-    (3, 4): tuple(_paths()),
-    (3, 6): _WEDGES,
-    (3, 8): _CUBE,
-}
 
 
 @dataclass
@@ -77,30 +54,12 @@ def grid(kind, counts, sizes, distort=0.0, seed=0):
     dimension = family.dimension
     counts = np.array(counts)
     places = np.array(list(itertools.product(*(range(count + 1) for count in counts[::-1]))))[:, ::-1]
-    strides = np.cumprod([1, *(counts[:-1] + 1)])
-    cells = np.array(list(itertools.product(*(range(count) for count in counts[::-1]))))[:, ::-1]
-    pattern = np.array(_CELLS[dimension, family.corners])
-    elements = ((cells[:, None, None, :] + pattern[None]) @ strides).reshape(-1, family.corners)
+    elements, cell = corner_elements(family, counts)
     steps = np.array(sizes) / counts
     nodes = places * steps
     inside = np.all((places > 0) & (places < counts), axis=1)
     nodes[inside] += np.random.default_rng(seed).uniform(-distort, distort, (inside.sum(), dimension)) * steps
-    if family.nodes > family.corners:
-        nodes, elements = _with_middles(family, nodes, elements)
-    return Grid(kind, nodes, elements, np.repeat(cells, len(pattern), axis=0))
-
-
-def _with_middles(family, nodes, elements):
-    """Nodes in the middles of the edges, and elements that have them."""
-    edges = {}
-    for face in family.faces:
-        corners = len(face) // 2 if family.dimension == 3 else 2
-        for k in range(corners if family.dimension == 3 else 1):
-            edges[face[corners + k]] = face[k], face[(k + 1) % corners]
-    pairs = np.sort(np.stack([elements[:, edges[node]] for node in sorted(edges)], axis=1), axis=2)
-    found, number = np.unique(pairs.reshape(-1, 2), axis=0, return_inverse=True)
-    middles = len(nodes) + number.reshape(pairs.shape[:2])
-    return np.concatenate([nodes, nodes[found].mean(axis=1)]), np.concatenate([elements, middles], axis=1)
+    return Grid(kind, *with_middles(family, nodes, elements), cell)
 
 
 LAW = ("SIGMAMAX=30", "TAUMAX=60", "GIC=0.26", "GIIC=1.")

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -212,24 +212,27 @@ def _of_interface(mesh: HalfStrip, result: Result) -> FloatArray:
 def _recovered(mesh: HalfStrip, result: Result) -> FloatArray:
     """Stresses (k, 2), shear and normal, that *EL PRINT averages at the nodes of the interface, at mid-face."""
     sums = np.zeros((len(mesh.nodes), 2))
-    for node, shear, normal in _printed(result.file(".dat")):
-        sums[node - 1] += [shear / 2, normal / 2]
+    for ply in printed_stresses(result.file(".dat")):
+        for node, stress in ply:
+            sums[node - 1] += [stress["S12"] / 2, stress["S22"] / 2]
     at_nodes = sums[mesh.face]
     return at_nodes[:, 2] if mesh.face.shape[1] == 3 else at_nodes.mean(axis=1)
 
 
-def _printed(path: Path) -> Iterator[tuple[int, float, float]]:
-    """Node, S12 and S22 of the rows of all tables of a .dat file."""
+def printed_stresses(path: Path) -> list[list[tuple[int, dict[str, float]]]]:
+    """Return the node and the stresses by name of the rows of each table of *EL PRINT in a .dat file."""
     names: list[str] = []
+    tables: list[list[tuple[int, dict[str, float]]]] = []
     for row in path.read_text(encoding="utf-8").splitlines():
         words = row.split()
         if "S22" in words:
             names = words[words.index("S11") :]
+            tables.append([])
         elif names and re.match(r"\s*\d+\s+-?\d", row) and len(words) > len(names):
-            values = dict(zip(names, map(float, words[-len(names) :]), strict=True))
-            yield int(words[0]), values["S12"], values["S22"]
+            tables[-1].append((int(words[0]), dict(zip(names, map(float, words[-len(names) :]), strict=True))))
         elif row.startswith((" MAXIMUM", "1", " THE")):
             names = []
+    return tables
 
 
 def order(coarse: float, fine: float) -> float:
