@@ -65,6 +65,9 @@ METAL = isotropic("METAL", 70000.0, 0.3)
 CIRCLE_ARM, CIRCLE_CRACK, CIRCLE_TOUGHNESS, CIRCLE_STRENGTH = 1.0, 20.0, 0.5, 30.0
 """Height of a plate, radius of the first delamination (mm), fracture energy (N/mm), strength (MPa)."""
 
+RIM = 0.6728
+"""Length, over its height, by which an isotropic arm is longer than the crack beside it: see `circle_load_with_rim`."""
+
 
 def literature_files() -> dict[str, Callable[[], dict[str, str]]]:
     """Return the functions that build the decks, by folder."""
@@ -157,6 +160,21 @@ def circle_load() -> float:
     G = G_c: P = 4 pi sqrt(D G_c). For one film on a rigid base it is sqrt(2) times as much.
     """
     return 4.0 * math.pi * math.sqrt(circle_bending() * CIRCLE_TOUGHNESS)
+
+
+def circle_load_with_rim(radius: float) -> float:
+    """Load (N) at which a circular delamination of a radius (mm) grows, with plates that give way at its rim.
+
+    At a front with the bending moment M and the shear force V per length, each arm of height h has K = 2 sqrt(3) (M +
+    chi V h)/h^(3/2), chi = RIM: the exact solution of an isotropic double cantilever beam, where M = P a and V = P
+    (R.M.L. Foote and V.T. Buchwald, International Journal of Fracture 29 (1985) 125). With G = K^2/E' = (M + chi V
+    h)^2/D of both arms, its compliance follows: the arm is longer by chi h, that is, the rim turns by M chi h/D. A
+    plate under a force P in its middle has V = P/(2 pi a) there and, clamped, M = P/(4 pi). A rotation t of its rim
+    takes D (1 + nu) t/a from M. Thus M = P/(4 pi) a/(a + (1 + nu) chi h), and G = G_c gives P.
+    """
+    rim = RIM * CIRCLE_ARM
+    moment = radius / (radius + (1.0 + METAL.ratios[0]) * rim)
+    return circle_load() / (moment + 2.0 * rim / radius)
 
 
 def circle_bending() -> float:
