@@ -61,10 +61,12 @@ contains
   end function nitsche_parameters
 
   !> Beta and gamma of an interface that knows the elements on both sides, the bottom one first among the nodes.
-  !> The complete form takes the bound of the traction that acts too, where that is greater than on the face itself.
-  pure subroutine stabilise(given, sampling, dim, solids, points, faces, direction, coordinates, used, status)
+  !> The complete form takes the bound of the traction that acts too, at the points where it acts, where that is greater than on the
+  !> face itself by Gauss' rule.
+  pure subroutine stabilise(given, sampling, rule, dim, solids, points, faces, direction, coordinates, used, status)
     type(stabilisation_type), intent(in) :: given
     integer, intent(in) :: sampling
+    integer, intent(in) :: rule
     integer, intent(in) :: dim
     type(solid_type), intent(in) :: solids(2)           !< bottom and top
     integer, intent(in) :: points                       !< integration points
@@ -76,39 +78,43 @@ contains
     type(interface_place) :: places(points)
     real(dp) :: samples(dim, max(points, most_samples)), shares(max(points, most_samples), points), frames(3, 3, points), measure
     real(dp) :: bounds(2, 2), bound(2), joint, greatest
-    integer :: side, k, i, n, first, last
+    integer :: samplings(2), rules(2), side, k, i, n, first, last
+    logical :: another
 
     used = given
-    call measure_interface(dim, size(faces, 1), points, coordinates(:, faces(:, 1)), coordinates(:, faces(:, 2)), gauss_rule, &
-      direction, places, status)
-    if (status%code /= ok) return
-    do k = 1, points
-      frames(:, :, k) = places(k)%frame
-    end do
+    samplings = [sample_face, sampling]
+    rules = [gauss_rule, rule]
+    another = given%local .and. given%complete .and. (sampling /= sample_face .or. rule /= gauss_rule)
     bounds = 0.0_dp
     greatest = 1.0_dp
-    do side = 1, 2
-      first = first_node(solids, side)
-      last = first + solids(side)%nodes - 1
-      if (given%local) then
-        do i = 1, merge(2, 1, given%complete .and. sampling /= sample_face)
-          call sample(merge(sample_face, sampling, i == 1), dim, solids(side), faces(:, side) - first + 1, places, samples, &
-            shares, n)
+    do i = 1, merge(2, 1, another)
+      call measure_interface(dim, size(faces, 1), points, coordinates(:, faces(:, 1)), coordinates(:, faces(:, 2)), rules(i), &
+        direction, places, status)
+      if (status%code /= ok) return
+      do k = 1, points
+        frames(:, :, k) = places(k)%frame
+      end do
+      do side = 1, 2
+        first = first_node(solids, side)
+        last = first + solids(side)%nodes - 1
+        if (given%local) then
+          call sample(samplings(i), dim, solids(side), faces(:, side) - first + 1, places, samples, shares, n)
           call solid_face_eigenvalue(dim, solids(side), coordinates(:, first:last), samples(:, 1:n), shares(1:n, :), frames, &
             places%area, bound, joint, status)
-          if (status%code /= ok) exit
-          bounds(:, side) = max(bounds(:, side), bound)
-          if (given%complete) greatest = max(greatest, joint)
-        end do
-      else
-        call solid_size(dim, solids(side), coordinates(:, first:last), measure, status)
-        if (status%code == ok) bounds(:, side) = sum(places%area)/measure &
-          *spectral_norm(solids(side)%stiffness(1:3*(dim - 1), 1:3*(dim - 1)))
-      end if
-      if (status%code /= ok) then
-        status%item = side
-        return
-      end if
+          if (status%code == ok) then
+            bounds(:, side) = max(bounds(:, side), bound)
+            if (given%complete) greatest = max(greatest, joint)
+          end if
+        else
+          call solid_size(dim, solids(side), coordinates(:, first:last), measure, status)
+          if (status%code == ok) bounds(:, side) = sum(places%area)/measure &
+            *spectral_norm(solids(side)%stiffness(1:3*(dim - 1), 1:3*(dim - 1)))
+        end if
+        if (status%code /= ok) then
+          status%item = side
+          return
+        end if
+      end do
     end do
     used = nitsche_parameters(given, bounds, greatest)
   end subroutine stabilise

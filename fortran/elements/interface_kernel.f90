@@ -90,7 +90,8 @@ contains
     if (present(solids)) split = dim*solids(1)%nodes
     if (present(stabilisation)) then
       if (present(solids) .and. .not. stabilisation%known) then
-        call stabilise(stabilisation, options%sampling, dim, solids, points, faces, options%direction, coordinates, used, status)
+        call stabilise(stabilisation, options%sampling, options%rule, dim, solids, points, faces, options%direction, coordinates, &
+          used, status)
         if (status%code /= ok) return
         stabilisation = used
       end if
