@@ -20,6 +20,11 @@ STEP = 0.05
 """Relative step of the differences: far above the teeth that single failing points give to a curve."""
 TOLERANCE = 3e-3
 """Relative change of the parameters, and of the sum of squares, at which the search ends."""
+LOOK = 2.0
+"""Distance, as part of the half-width of the confidence interval, at which a search that has converged looks for
+smaller differences: the teeth of a curve make local minima."""
+MOST_LOOK = 0.5
+"""Half-width, in the logarithm, from which on a variable is so uncertain that nothing is looked for."""
 LEVEL = 0.95
 """Level of the confidence intervals."""
 
@@ -70,6 +75,7 @@ class _Search:
         tell: Callable[[str], None],
     ) -> None:
         self._measured, self._variables, self._curves, self._tell = measured, variables, curves, tell
+        self._bounds = tuple(np.log([getattr(v, name) for v in variables]) for name in ("low", "high"))
         self._left = limit
         self._scale = float(np.abs(measured.y).max())
         self._known: dict[bytes, tuple[FloatArray, FloatArray]] = {}
@@ -84,13 +90,37 @@ class _Search:
         """Return the derivatives (n, k) of the residuals."""
         return self._at(logarithms)[1]
 
+    def look_around(self, distances: FloatArray) -> FloatArray | None:
+        """Return a point with smaller squares than the best one, at distances (k,) on both sides.
+
+        None without any, or without enough runs.
+        """
+        assert self.best is not None
+        steps = [row for row in np.diag(distances) if row.any()]
+        points = [np.clip(self.best + sign * row, *self._bounds) for row in steps for sign in (-1.0, 1.0)]
+        if self._left < len(points):
+            return None
+        self._left -= len(points)
+        curves = self._curves([np.exp(point) for point in points])
+        squares = [float(np.sum(((curve - self._measured.y) / self._scale) ** 2)) for curve in curves]
+        least = int(np.argmin(squares)) if squares else -1
+        return points[least] if squares and squares[least] < self._least else None
+
+    def uncertainty(self) -> tuple[FloatArray, FloatArray]:
+        """Return the covariance (k, k) at the best point, and the half-widths (k,) of the confidence intervals."""
+        assert self.best is not None
+        residual, slopes = self._at(self.best)
+        freedom = len(residual) - len(self.best)
+        covariance = _covariance(slopes, float(residual @ residual) / freedom)
+        return covariance, student.ppf(0.5 * (1.0 + LEVEL), freedom) * np.sqrt(np.diag(covariance))
+
     def _at(self, logarithms: FloatArray) -> tuple[FloatArray, FloatArray]:
         key = logarithms.tobytes()
         if key not in self._known:
             if self._left <= len(logarithms):
                 raise _SpentError
             self._left -= 1 + len(logarithms)
-            low, high = (np.log([getattr(v, name) for v in self._variables]) for name in ("low", "high"))
+            low, high = self._bounds
             size = np.minimum(STEP, 0.5 * (high - low))
             steps = np.where(logarithms + size <= high, size, -size)
             points = [logarithms, *(logarithms + row for row in np.diag(steps))]
@@ -137,21 +167,25 @@ def fit_curve(
         raise UelError(f"{count} points for {unknowns} parameters: expected more points than parameters")
     search = _Search(measured, variables, curves, limit, tell)
     start, low, high = (np.log([getattr(v, name) for v in variables]) for name in ("start", "low", "high"))
+    begin: FloatArray | None = start
     try:
-        solution = least_squares(
-            search.residual, start, search.jacobian, bounds=(low, high), xtol=TOLERANCE, ftol=TOLERANCE, gtol=1e-12
-        )
-        ended = CONVERGED if solution.success else solution.message
+        while begin is not None:
+            solution = least_squares(
+                search.residual, begin, search.jacobian, bounds=(low, high), xtol=TOLERANCE, ftol=TOLERANCE, gtol=1e-12
+            )
+            ended = CONVERGED if solution.success else solution.message
+            _, half = search.uncertainty()
+            begin = search.look_around(np.where(half < MOST_LOOK, LOOK * half, 0.0)) if solution.success else None
     except _SpentError:
         ended = f"the limit of {limit} runs"
     if search.best is None:
         raise UelError(f"{limit} runs do not suffice for one step of the search: expected at least {unknowns + 1}")
     residual, slopes = search.residual(search.best), search.jacobian(search.best)
-    scale, freedom = float(np.abs(measured.y).max()), count - unknowns
-    covariance = _covariance(slopes, float(residual @ residual) / freedom)
+    scale = float(np.abs(measured.y).max())
+    covariance, half = search.uncertainty()
     values, spread = np.exp(search.best), np.sqrt(np.diag(covariance))
     # beyond a factor of 1e100 nothing is known
-    width = np.exp(np.minimum(student.ppf(0.5 * (1.0 + LEVEL), freedom) * spread, 230.0))
+    width = np.exp(np.minimum(half, 230.0))
     known = np.isfinite(spread) & (spread > 0.0)
     correlation = np.eye(unknowns)
     inner = np.ix_(known, known)

@@ -43,6 +43,19 @@ def test_exact_curve() -> None:
     assert found.start == pytest.approx(saturating(np.array([1.5, 0.5])), rel=1e-12)
 
 
+def test_local_minima_of_a_curve_with_teeth() -> None:
+    """Its derivative changes its sign every tenth of the value; the search goes on where something is better."""
+    shape = saturating(np.array([1.0, 0.8]))
+
+    def toothed(p: np.ndarray) -> np.ndarray:
+        return np.asarray(p[0] * (1.0 + 0.03 * np.sin(2.0 * np.pi * np.log(p[0] / 3.0) / 0.1)) * shape)
+
+    y = 3.0 * shape + np.random.default_rng(5).normal(0.0, 0.15, len(X))
+    found, _ = fitted(y, toothed, [Variable("A", 0.5, 3.5, 8.0)])
+    assert found.ended == CONVERGED
+    assert found.values[0] == pytest.approx(3.0, rel=0.02)
+
+
 def test_interval_of_a_factor() -> None:
     # theory: the factor of a known curve has the standard error s/sqrt(sum of its squares), n - 1 degrees of freedom
     shape = saturating(np.array([1.0, 0.8]))
