@@ -184,7 +184,11 @@ class PaperCase:
     @property
     def increment_count(self) -> int:
         """Number of increments, if none is cut."""
-        return INCREMENTS[self.coarse] if self.increments is None else self.increments
+        if self.increments is not None:
+            return self.increments
+        # in each of them the crack passes as many elements as in the paper's specimen
+        longer = round(LONGER.get(self.problem, CRACK) / CRACK)
+        return INCREMENTS[self.coarse] * longer
 
     @property
     def work(self) -> float:
