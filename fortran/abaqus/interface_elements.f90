@@ -22,7 +22,7 @@ module abaqus_interface_elements
     p_g23_top, p_angle_top, p_expansion1_bottom, p_expansion2_bottom, p_expansion3_bottom, p_expansion1_top, p_expansion2_top, &
     p_expansion3_top, p_direction1, p_direction2, p_direction3, p_initialn, p_initials, p_initialt, &
     j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, &
-    j_formulation_bottom, j_formulation_top, j_cracked, &
+    j_formulation_bottom, j_formulation_top, j_cracked, j_pacing, &
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
     v_maxn, v_maxt, v_spent, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, w_dissi, w_dissii, w_sn, w_st, &
     w_dmax, w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt, w_spent
@@ -37,6 +37,14 @@ module abaqus_interface_elements
   implicit none(type, external)
   private
   public :: evaluate_interface, interface_forces_at
+
+  !> With PACING, least ratio of VISCOSITY to the next increment. A softening slope -k is stable whatever the structure if the
+  !> overstress adds k, a ratio of 1; structures take most of it, and 0.3 is enough in the specimens of fortran/newton.md.
+  real(dp), parameter :: least_damping = 0.3_dp
+  !> Growth of an increment that needs no limit: Abaqus' own after two easy increments, 1.5, is not more.
+  real(dp), parameter :: usual_growth = 1.5_dp
+  !> Growth in place of none: only a PNEWDT above 1 counts.
+  real(dp), parameter :: no_growth = 1.000001_dp
 
   !> Positions of the variables of a point: vectors by the components (s, n, t), pairs (tau, n).
   type :: point_positions
@@ -58,7 +66,7 @@ contains
   !> ENERGY(2) is what the law and, in the
   !> complete form, the gap store, ENERGY(4) what damage and friction have dissipated, ENERGY(5) what the viscous overstress has.
   subroutine evaluate_interface(itype, jelem, values, options, coords, u, temperatures, dtime, finite, with_tangent, svars, &
-    energy, residual, tangent, good)
+    energy, residual, tangent, growth, good)
     integer, intent(in) :: itype, jelem
     real(dp), intent(in) :: values(:)              !< properties by their rows in the layout
     integer, intent(in) :: options(:)
@@ -70,6 +78,7 @@ contains
     logical, intent(in) :: with_tangent            !< else it is zero
     real(dp), intent(inout) :: svars(*), energy(8)
     real(dp), intent(out) :: residual(:), tangent(:, :)
+    real(dp), intent(out) :: growth                !< largest ratio of the next increment to this one; huge without a limit
     logical, intent(out) :: good
     type(law_parameters) :: law
     type(interface_options) :: choice
@@ -82,7 +91,9 @@ contains
     real(dp) :: thickness, initial(2)
     integer :: nodes(nodes_of_face(itype), 2), n, dim
 
+    growth = huge(growth)
     call prepare_law(options(j_law), law_properties_of(values), law, status)
+    law%paced = options(j_pacing) == 1
     good = status%code == ok
     if (.not. good) then
       call report_status(itype, jelem, status)
@@ -128,6 +139,7 @@ contains
     good = status%code == ok
     if (good) then
       call warn_if_raised(itype, jelem, stabilisation%estimate, stabilisation%beta)
+      growth = paced_growth(law, dtime, old%history%damage, new%history%damage)
       call write_state(new, dim, svars)
       energy = 0.0_dp
       energy([2, 4, 5]) = energies
@@ -135,6 +147,18 @@ contains
       call report_status(itype, jelem, status)
     end if
   end subroutine evaluate_interface
+
+  !> Largest ratio of the next increment to this one that PACING asks for where damage grows.
+  pure function paced_growth(law, dtime, old, new) result(growth)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: dtime
+    real(dp), intent(in) :: old(:), new(:)   !< damage of the points at the ends of the increment
+    real(dp) :: growth
+
+    growth = huge(growth)
+    if (.not. (law%paced .and. law%viscosity > 0.0_dp .and. dtime > 0.0_dp .and. any(new > old))) return
+    if (law%viscosity < usual_growth*least_damping*dtime) growth = max(no_growth, law%viscosity/(least_damping*dtime))
+  end function paced_growth
 
   !> RHS of the tractions in SVARS, at the displacements to which they belong: of the start of an increment; `good` is false after a
   !> message.

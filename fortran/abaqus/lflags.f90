@@ -6,7 +6,7 @@ module abaqus_lflags
   use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: large_displacements, asks_for_nothing, asks_for_tangent, weight_of_start, give_answer
+  public :: large_displacements, asks_for_nothing, asks_for_tangent, weight_of_start, values_are_kept, give_answer
 
   ! LFLAGS(1): *DYNAMIC with automatic and with fixed increments
   integer, parameter :: dynamic(2) = [11, 12]
@@ -57,6 +57,13 @@ contains
     if (.not. any(lflags(1) == dynamic) .or. lflags(4) == 1) return
     if (lflags(3) == normal .or. lflags(3) == residual_alone) weight_of_start = -params(1)
   end function weight_of_start
+
+  !> SVARS, ENERGY and PNEWDT of the call count.
+  pure logical function values_are_kept(lflags)
+    integer, intent(in) :: lflags(*)
+
+    values_are_kept = lflags(3) == normal .and. lflags(4) /= 1
+  end function values_are_kept
 
   !> Hands over what a call asks for; the rest stays as it is, RHS and AMATRX zero. In a linear step, LFLAGS(4) = 1, RHS is the
   !> effect of the perturbation.

@@ -41,9 +41,10 @@ contains
   !> Traction, separation and damage for a trial traction, and the derivative of the traction by it.
   !>
   !> Viscosity adds the overstress eta dw/dt, by backward Euler: beta and p become beta + eta/dt and p + eta w_old/dt. Its
-  !> eta = viscosity k (1 - D_old), with the softening stiffness k of each mode, vanishes at failed points. A lag of the damage
-  !> cannot work: an undamaged point with infinite alpha does not open, and one that does not open has no damage to catch up with.
-  !> In an increment of zero duration a viscous law keeps its damage.
+  !> eta = viscosity k (1 - D_old), with the softening stiffness k of each mode, vanishes at failed points. With PACING it is
+  !> viscosity k until failure: a point softens as fast at its end as at its onset, and needs as much to do so steadily. A lag
+  !> of the damage cannot work: an undamaged point with infinite alpha does not open, and one that does not open has no damage to
+  !> catch up with. In an increment of zero duration a viscous law keeps its damage.
   pure subroutine solve_law(law, beta, trial, dtime, secant_share, history, state)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: beta(2)              !< stress/length, (tau, n)
@@ -62,7 +63,7 @@ contains
     driven%beta = beta
     driven%viscous = 0.0_dp
     if (law%viscosity > 0.0_dp .and. dtime > 0.0_dp) driven%viscous = (law%viscosity/dtime) &
-      *(1.0_dp - history%damage)*overstress_stiffness(law)
+      *remaining_share(law, history%damage)*overstress_stiffness(law)
     driven%secant_share = secant_share
     driven%fixed = law%viscosity > 0.0_dp .and. .not. dtime > 0.0_dp
     p = trial + driven%viscous(mode_of)*old
@@ -390,6 +391,16 @@ contains
       k = softening_stiffness(law)*law%ratio
     end if
   end function overstress_stiffness
+
+  !> Share of the overstress that acts at a damage.
+  pure function remaining_share(law, damage) result(share)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: damage
+    real(dp) :: share
+
+    share = 1.0_dp - damage
+    if (law%paced) share = merge(1.0_dp, 0.0_dp, damage < 1.0_dp)
+  end function remaining_share
 
   !> A vector without the penetration, or the compression, of a closed interface.
   pure function opening_part(vector) result(part)

@@ -17,6 +17,7 @@ module cohesive_parameters
     real(dp) :: strength(2)   !< tau_max, sigma_max, stress
     real(dp) :: toughness(2)  !< G_IIc, G_Ic, energy/area
     real(dp) :: viscosity     !< relaxation time; 0 for none
+    logical :: paced = .false.      !< the overstress of the consistent law does not fade before failure
     real(dp) :: friction = 0.0_dp   !< coefficient of Coulomb friction in the consistent law; 0 for none
     real(dp) :: eta = 0.0_dp        !< exponent of Benzeggagh and Kenane; 0 for the power law
     real(dp) :: power = 1.0_dp      !< exponent of the power law, positive

@@ -67,7 +67,7 @@ def properties(draw, reference, kind, closure, extra):
     if "rigid" in extra:
         values |= {"ALPHAN": 0.0, "ALPHAT": 0.0}
     if "viscous" in extra:
-        values["VISCOSITY"] = draw(positive(1e-3, 10.0))
+        values |= {"VISCOSITY": draw(positive(1e-3, 10.0)), "PACING": draw(st.integers(0, 1))}
     if "friction" in extra:
         values["FRICTION"] = draw(st.floats(0.05, 1.0))
     return values | (draw(betas(reference, values)) if closure else {})

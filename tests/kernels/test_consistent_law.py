@@ -99,6 +99,7 @@ def prepared(element, interface, state, seed, **values):
 @pytest.mark.parametrize("alpha", STIFFNESSES)
 def test_tangent(element, interface, reference, alpha, state):
     variants = [*OPTIONS.values(), {"VISCOSITY": 0.3}, {"VISCOSITY": 0.3, **GIVEN}, {"ALPHAT": 3 * alpha, **TURNED}]
+    variants += [{"VISCOSITY": 0.3, "PACING": 1}]
     for variant in variants:
         for seed in range(2):
             item, u = prepared(element, interface, state, seed, **{**rigid(alpha), **variant})
@@ -246,10 +247,11 @@ def test_traction_is_continuous_where_it_closes(element, interface, alpha):
     assert abs(np.diff(forces, axis=0)).max() < 8 * tangents * 1e-5
 
 
+@pytest.mark.parametrize("pacing", [0, 1])
 @pytest.mark.parametrize("alpha", [2.0e4, 1.0e12, 0.0])
-def test_viscous_overstress(element, interface, reference, law, ply, alpha):
-    """T = t(w) + VISCOSITY k (1 - D_old) dw/dt in opening, k the slope of softening in mode I."""
-    item = element(4, interface.eight, **rigid(alpha), VISCOSITY=0.4)
+def test_viscous_overstress(element, interface, reference, law, ply, alpha, pacing):
+    """T = t(w) + VISCOSITY k r dw/dt in opening, k the slope of softening in mode I, r = 1 - D_old or, paced, 1."""
+    item = element(4, interface.eight, **rigid(alpha), VISCOSITY=0.4, PACING=pacing)
     law = {**law, **rigid(alpha)}
     slope = reference.softening_slopes(law)[1]
     before, damage = np.zeros((2, 2)), np.zeros(2)
@@ -260,7 +262,7 @@ def test_viscous_overstress(element, interface, reference, law, ply, alpha):
         p, beta = trial(reference, interface, ply, u, {})
         np.testing.assert_allclose(traction + beta * w, p, rtol=1e-9)
         for k in (0, 1):
-            overstress = 0.4 * slope * (1 - damage[k]) * (w[k] - before[k]) / dtime
+            overstress = 0.4 * slope * (1.0 if pacing else 1 - damage[k]) * (w[k] - before[k]) / dtime
             expected = reference.law_traction(law, w[k]) + overstress
             np.testing.assert_allclose(traction[k], expected, rtol=1e-7, atol=1e-15 * alpha)
         before, damage = w, item.state["DAMAGE"]
@@ -272,11 +274,49 @@ def test_viscous_overstress(element, interface, reference, law, ply, alpha):
 
 
 @pytest.mark.parametrize("alpha", STIFFNESSES)
-@pytest.mark.parametrize("viscosity", [0.0, 0.05])
-def test_energies_sum_up_to_the_work_on_the_separation(element, interface, alpha, viscosity):
+def test_a_paced_point_that_has_failed_carries_nothing(element, interface, alpha):
+    """The overstress, which does not fade before failure, is gone from the increment after it on."""
+    item = element(4, interface.eight, **rigid(alpha), VISCOSITY=0.4, PACING=1)
+    for gap in (0.01, 0.05):
+        item.advance(interface.apart(0.0, gap), dtime=0.1)
+        assert (item.state["TN"] > 0).all()
+    assert (item.state["DAMAGE"] == 1).all()
+    item.advance(interface.apart(0.0, 0.06), dtime=0.1)
+    assert not item.state["TN"].any()
+
+
+@pytest.mark.parametrize(
+    ("values", "dtime", "growth"),
+    [
+        ({"VISCOSITY": 0.03, "PACING": 1}, 0.08, 0.03 / 0.3 / 0.08),
+        ({"VISCOSITY": 0.03, "PACING": 1}, 0.5, 1.0),
+        ({"VISCOSITY": 0.03, "PACING": 1}, 0.02, None),
+        ({"VISCOSITY": 0.03, "PACING": 1}, 0.0, None),
+        ({"VISCOSITY": 0.03}, 0.08, None),
+        ({"PACING": 1}, 0.08, None),
+    ],
+)
+def test_pacing_limits_the_growth_of_increments(element, interface, values, dtime, growth):
+    """Where damage grows, the next increment is 10/3 of VISCOSITY, or as long as this one; below 1 it would end."""
+    item = element(4, interface.eight, **rigid(0.0), **values)
+    item.advance(interface.apart(0.0, 0.004), dtime=0.1)
+    item.evaluate(interface.apart(0.0, 0.006), dtime=dtime)
+    pnewdt = item.report.pnewdt
+    if growth is None:
+        assert pnewdt > 1e30
+    else:
+        assert pnewdt > 1 and pnewdt == pytest.approx(growth, rel=2e-6)
+    # where it does not grow, none
+    item.evaluate(interface.apart(0.0, 0.003), dtime=dtime)
+    assert item.report.pnewdt > 1e30
+
+
+@pytest.mark.parametrize("alpha", STIFFNESSES)
+@pytest.mark.parametrize(("viscosity", "pacing"), [(0.0, 0), (0.05, 0), (0.05, 1)])
+def test_energies_sum_up_to_the_work_on_the_separation(element, interface, alpha, viscosity, pacing):
     """Stored + damage + viscous = work of T over w; the viscous part by backward Euler, the rest by trapezia, which err
     in the increments that hold onset, failure and the turn of the path: by 60 MPa times half of one, 2e-4 mm."""
-    item = element(4, interface.eight, **rigid(alpha), VISCOSITY=viscosity)
+    item = element(4, interface.eight, **rigid(alpha), VISCOSITY=viscosity, PACING=pacing)
     length, thickness = np.linalg.norm(np.diff(interface.edge, axis=0)), 2.0
     steps = [(0.3 * g, g) for g in (*np.linspace(0, 0.012, 60)[1:], *np.linspace(0.012, 0, 10)[1:])]
     steps += [(g, 0.5 * g) for g in np.linspace(0, 0.05, 250)[1:]]

@@ -141,14 +141,14 @@ def test_shear_that_reverses_and_grows(element, interface, law, variant):
 
 
 @pytest.mark.sample(2)
-@pytest.mark.parametrize("viscosity", [0.0, 0.3])
+@pytest.mark.parametrize(("viscosity", "pacing"), [(0.0, 0), (0.3, 0), (0.3, 1)])
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("variant", VARIANTS)
-def test_no_increment_dissipates_a_negative_energy(element, interface, variant, law, viscosity):
+def test_no_increment_dissipates_a_negative_energy(element, interface, variant, law, viscosity, pacing):
     """In no component, on a path that opens, closes, slides to both sides, in large increments."""
     rng = np.random.default_rng(11)
     friction = {"FRICTION": 0.4} if "consistent" in variant or "rigid" in variant else {}
-    point = Point(element, interface, variant, 64, **LAWS[law], **friction, VISCOSITY=viscosity)
+    point = Point(element, interface, variant, 64, **LAWS[law], **friction, VISCOSITY=viscosity, PACING=pacing)
     before = dict.fromkeys(("DISSI", "DISSII", "DISSV", "DISSF"), 0.0)
     for _ in range(12):
         gaps = rng.normal(size=(64, 2)) * 10 ** rng.uniform(-4, -1.3, (64, 1))

@@ -154,7 +154,7 @@ def test_geometry(element, jtype, coordinates, message):
     [
         (1, {"properties": 2}, r"U1 element 42: \*USER ELEMENT has PROPERTIES = 2: expected 1"),
         (2, {"properties": 7}, r"PROPERTIES = 7: expected 13"),
-        (4, {"integer_properties": 4}, r"I PROPERTIES = 4: expected 9"),
+        (4, {"integer_properties": 4}, r"I PROPERTIES = 4: expected 10"),
         (2, {"variables": 25}, r"VARIABLES = 25: expected at least 38"),
         (4, {"variables": 43}, r"VARIABLES = 43: expected at least 44"),
         (1, {"variables": 31}, r"VARIABLES = 31: expected at least 32"),

@@ -101,6 +101,7 @@ COLUMNS = {
     "u4_ppr": Column("PPR law", 4, values={"LAW": 4, "SHAPEN": 3.0, "SHAPET": 3.0}),
     "u4_secant": Column("secant matrix", 4, values={"LAW": 1, "TANGENT": 1}),
     "u4_blend": Column("share of the secant matrix", 4, values={"LAW": 1, "BLEND": 0.05}),
+    "u4_paced": Column("increments that follow the viscosity", 4, values={"LAW": 1, "VISCOSITY": 3e-3, "PACING": 1}),
     "u4_given": Column("beta and gamma given", 4, values={"LAW": 1, "BETAN": 2e5, "BETAT": 1e5, "GAMMABOT": 0.3}),
     "u4_friction": Column(
         "pressed and slid", 4, values={"LAW": 1, "FRICTION": 0.3, "CLOSURE": 3}, moved=(0.08, -0.0005)

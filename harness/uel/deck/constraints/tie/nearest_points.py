@@ -23,7 +23,8 @@ def nearest_points(
 ) -> tuple[sparse.csr_array, FloatArray]:
     """Return weights (m, n) of the nodes of the model at the points of the main surface nearest to `points`.
 
-    On faces the nearest point is the closest point projection of `harness/uel/contact/projection.py`.
+    On faces `harness/uel/contact/face_surface.py` chooses the face, with the closest point projection of
+    `harness/uel/contact/projection.py`.
 
     Parameters
     ----------
