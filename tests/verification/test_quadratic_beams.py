@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from reference_cells import nodes_of
 
-from uel.delamination.kernels import uel_property, user_element
+from uel.delamination.kernels import formulations, uel_property, user_element
 from uel.delamination.keywords import element_block, node_block, node_set, text
 from uel.model.arrays import FloatArray, IntArray
 from uel.running.job import run
@@ -54,7 +54,7 @@ def deck(beam: Beam, opening: float, increment: float) -> str:
     """The deck: the right end clamped, the left ends of the outer faces pulled apart in equal increments."""
     dim, kind = len(beam.counts), f"U{beam.interface}"
     places, arms, interface, sets = mesh(beam)
-    values = {"THICKNESS": beam.width, "PLANE": 1} | LAW | PLIES | dict(beam.values)
+    values = {"THICKNESS": beam.width, "PLANE": 1} | LAW | PLIES | formulations(beam.arm) | dict(beam.values)
     lines = [
         "*HEADING",
         f"Double cantilever beam of {beam.arm} and {kind}",
