@@ -71,6 +71,7 @@ class Column:
     moved   displacement of the top at the end along x and along the normal (mm); by default beyond failure
     turned  the lower block has its fibres along y
     heated  change of temperature during the step (K), in which the plies expand
+    stress  initial stress of the blocks, in Abaqus' order (MPa)
     """
 
     title: str
@@ -80,6 +81,7 @@ class Column:
     moved: tuple[float, float] = (0.0, 0.05)
     turned: bool = False
     heated: float = 0.0
+    stress: tuple[float, ...] = ()
 
     @property
     def plies(self) -> tuple[SolidPly, SolidPly]:
@@ -128,6 +130,15 @@ COLUMNS = {
         STRONG | {"ANGLE BOTTOM": 45.0, "ANGLE TOP": -45.0, "DIRECTION1": 2.0, "DIRECTION2": 2.0, "DIRECTION3": 1.0},
         (0.01, 0.0),
         turned=True,
+    ),
+    "u8_prestressed": Column(
+        "blocks with an initial stress, slid",
+        8,
+        "C3D8",
+        STRONG | {"ANGLE BOTTOM": 90.0, "INITIALS": 2.0, "INITIALN": 3.0, "INITIALT": 1.0},
+        (0.01, 0.0),
+        turned=True,
+        stress=(0.0, 0.0, 3.0, 0.0, 2.0, 1.0),
     ),
     **{
         f"u10_formulation{n}": Column(
@@ -200,6 +211,8 @@ def _deck(column: Column) -> list[str]:
     output = Output(f"FREQUENCY={INCREMENTS}", stresses=False, history={"TOP": "U, RF"}, energies="ALLSE, ALLPD, ALLWK")
     return [
         *lines,
+        *(["*INITIAL CONDITIONS, TYPE=STRESS"] if column.stress else []),
+        *(", ".join([name, *map(number, column.stress)]) for name in ("BELOW", "ABOVE") if column.stress),
         *["*BOUNDARY", f"BASE, 1, {dim}"],
         *[keyword("STEP", INC=10 * INCREMENTS, UNSYMM="YES"), "*STATIC", *table([(step, 1.0, 1e-6, step)])],
         *["*BOUNDARY", *(f"TOP, {i}, {i}, {number(value)}" for i, value in enumerate(moved, start=1))],

@@ -13,7 +13,8 @@ import pytest
 
 from uel.model.controls import FieldControls
 from uel.model.records import Convergence
-from uel.procedures.general.convergence import FieldMeasures, FluxHistory, judge, residual_tolerance
+from uel.procedures.general.average_flux import FluxHistory
+from uel.procedures.general.convergence import FieldMeasures, judge, residual_tolerance
 
 DATA = Path(__file__).parents[2] / "data"
 I_P = 9

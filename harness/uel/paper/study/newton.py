@@ -151,7 +151,7 @@ def _load(mesh: TwoArmMesh, name: str) -> list[str]:
         moved = [f"MIDSPAN, 2, 2, {number(-specimen.displacement)}"]
     energies = "ALLIE, ALLPD, ALLVD, ALLWK, ETOTAL"
     output = Output("FREQUENCY=50", stresses=False, history={loaded: "U2, RF2"}, energies=energies)
-    return lines + static_step((INCREMENT, 1.0, 1.0e-6, INCREMENT), moved, output)
+    return lines + static_step((INCREMENT, 1.0, 1.0e-6, INCREMENT), moved, output, limit=10000)
 
 
 @dataclass(frozen=True, slots=True)
