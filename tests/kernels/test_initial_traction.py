@@ -72,7 +72,7 @@ def test_it_turns_with_the_body(element, jtype):
 @pytest.mark.parametrize("flags", [SMALL, NLGEOM], ids=["small", "nlgeom"])
 @pytest.mark.parametrize("jtype", [4, 6, 8, 12, 34, 608])
 def test_tangent(element, jtype, flags):
-    """Of an opened, damaged element against central differences."""
+    """Check an opened, damaged element against central differences."""
     rng = np.random.default_rng(jtype)
     nodes = geometry(jtype, rng)
     values, _ = initial(jtype)

@@ -71,7 +71,7 @@ def test_plies_come_close_to_what_the_material_permits():
 
 
 def test_shapes_are_flat_and_tall():
-    """Of two quads: areas over the square of the common edge from about 1/50 to 50, in either order."""
+    """Geometry of two quads: areas over the square of the common edge from about 1/50 to 50, in either order."""
     shapes = random_shapes(4, np.random.default_rng(1), 400)
     edge = np.linalg.norm(shapes[:, 2] - shapes[:, 3], axis=1)
     np.testing.assert_allclose(shapes[:, [4, 5]], shapes[:, [3, 2]])

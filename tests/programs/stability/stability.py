@@ -61,7 +61,7 @@ END = "<!-- end of that table -->\n"
 
 @dataclass
 class Row:
-    """What is worst among the cases of a pair.
+    """Worst values among the cases of a pair.
 
     lowest   smallest eigenvalue over the largest one
     betti    difference of u1.K u2 and u2.K u1, over the sum of their terms' sizes
