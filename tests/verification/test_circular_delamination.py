@@ -27,7 +27,7 @@ MESHES = ("tetrahedra", "bricks")
 
 
 def test_closed_form_of_the_rim() -> None:
-    """Compare with thin plates: the force is the one of Timoshenko's; the first term in h/a, -(1 - nu) chi, is theirs by hand."""
+    """Compare with Timoshenko's thin plates; the first term in h/a, -(1 - nu) chi, is theirs by hand."""
     thin = literature.circle_load()
     assert literature.circle_load_with_rim(1e6) == pytest.approx(thin, rel=1e-5)
     share = 1.0 - literature.circle_load_with_rim(1e4) / thin
