@@ -32,7 +32,7 @@ from uel.output import Result
 from uel.paper.measures import cutbacks, iterations, load
 from uel.paper.run_deck import run_deck
 from uel.paper.study.cases import KINDS, LAYUPS, MESHES, deck_files, mesh_of
-from uel.paper.study.options import study_parser
+from uel.paper.study.options import study_parser, write_tables
 from uel.paper.study.reference import Profile, restricted
 from uel.paper.study.rows import at_tenths, oscillations, same_moments
 from uel.paper.study.spatial import opened
@@ -297,8 +297,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )
     tables = "\n".join(markdown(rows)) + "\n"
     if options.page:
-        above, mark, _ = options.page.read_text("utf-8").partition(MARK)
-        options.page.write_text(f"{above}{mark}\n{tables}", encoding="utf-8")
+        write_tables(options.page, MARK, tables)
     else:
         print(tables, end="")
     return 0

@@ -32,7 +32,7 @@ from uel.delamination.solid_blocks import block
 from uel.insertion.command import insert
 from uel.insertion.selection import CutRequest
 from uel.model.arrays import FloatArray
-from uel.paper.study.options import study_parser
+from uel.paper.study.options import study_parser, write_tables
 from uel.paper.study.rates import MARK, NEVER, SETS, printed_stresses
 from uel.running.job import run
 
@@ -246,8 +246,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     content = text(tables(options.output_dir))
     if options.page:
-        above, mark, _ = options.page.read_text("utf-8").partition(MARK)
-        options.page.write_text(f"{above}{mark}\n{content}", encoding="utf-8")
+        write_tables(options.page, MARK, content)
     Console().print(content, soft_wrap=True)
     return 0
 

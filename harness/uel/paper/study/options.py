@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Options of the commands of the studies."""
+"""Options of the commands of the studies, and the tables that they write into pages."""
 
 from __future__ import annotations
 
@@ -20,3 +20,9 @@ def study_parser(module: str, description: str, folder: str, *, resumes: bool = 
     if resumes:
         parser.add_argument("--workers", type=int, default=os.cpu_count(), help="processes (one for each core)")
     return parser
+
+
+def write_tables(page: Path, mark: str, content: str) -> None:
+    """Replace what stands below a mark on a page."""
+    above, mark, _ = page.read_text("utf-8").partition(mark)
+    page.write_text(f"{above}{mark}\n{content}", encoding="utf-8")

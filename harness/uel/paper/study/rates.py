@@ -35,7 +35,7 @@ from uel.insertion.selection import CutRequest
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.element_types import CONTINUUM
 from uel.output import Result
-from uel.paper.study.options import study_parser
+from uel.paper.study.options import study_parser, write_tables
 from uel.paper.study.pagano import Strip, StripPly
 from uel.running.job import run
 
@@ -273,8 +273,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     }
     content = tables(found)
     if options.page:
-        above, mark, _ = options.page.read_text("utf-8").partition(MARK)
-        options.page.write_text(f"{above}{mark}\n{content}", encoding="utf-8")
+        write_tables(options.page, MARK, content)
     Console().print(content, soft_wrap=True)
     return 0
 

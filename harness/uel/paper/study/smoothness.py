@@ -42,7 +42,7 @@ from uel.output import Result
 from uel.paper.bricks import ARM, CRACK, HEIGHT, LAW, LENGTH
 from uel.paper.measures import cutbacks, iterations, load
 from uel.paper.run_deck import run_deck
-from uel.paper.study.options import study_parser
+from uel.paper.study.options import study_parser, write_tables
 
 SIZE, GROWTH, RATIO, LARGEST = 0.5, 27.0, 1.5, 4.0
 """Length and width of the cells from the crack's tip to x = GROWTH, and the largest length (mm); ratio of neighbours
@@ -303,8 +303,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     content = text(["### Every kind of solids", "", *by_solids(rows), "", "### Other heights", "", *by_height(rows)])
     if options.page:
-        above, mark, _ = options.page.read_text("utf-8").partition(MARK)
-        options.page.write_text(f"{above}{mark}\n{content}", encoding="utf-8")
+        write_tables(options.page, MARK, content)
     Console().print(content, soft_wrap=True)
     return 0
 
