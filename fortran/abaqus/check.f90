@@ -4,11 +4,12 @@
 module abaqus_check
   use core_kinds, only: dp
   use core_status, only: status_type, sentence, too_brittle, zero_length, faces_apart, small_beta, &
-    too_brittle_mixed, late_secant, no_root, along_normal, layer_slants, layer_twists
+    too_brittle_mixed, late_secant, no_root, along_normal, layer_slants, layer_twists, bridging_strength, bridging_energy, &
+    brittle_tip, brittle_bridging, brittle_mixed_line, no_table, table_gap, table_separation, table_traction
   use abaqus_layout, only: elements, faces, reals, integers, expectations, every_continuum, with_solids, next_to_solids, &
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
-    p_betan, p_betat, p_shapen, p_shapet, p_friction, p_direction1, j_law, j_closure, j_formulation_bottom, &
-    j_formulation_top
+    p_sigmamax, p_taumax, p_betan, p_betat, p_shapen, p_shapet, p_friction, p_direction1, p_sigmabridge, p_taubridge, &
+    p_gibridge, p_giibridge, p_separation1, p_separation2, p_traction1, j_law, j_closure, j_formulation_bottom, j_formulation_top
   use abaqus_properties, only: unknowns_of, variables_of, real_position, integer_position, unpack, recommend, &
     by_eigenvalues, by_equation_21, consistent_closure, complete_closure
   use cohesive_law_properties, only: ppr_law
@@ -252,10 +253,35 @@ contains
       row = merge(p_gic, p_giic, status%item == 1)
       call fatal(itype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ' = %R, ' // trim(sentence(status%code)) // &
         '; expected more than %R', [real_position(itype, row)], [status%value, status%expected])
-    case (too_brittle_mixed)
+    case (too_brittle_mixed, brittle_mixed_line)
       call fatal(itype, jelem, 'PROPS(%I) ' // trim(reals(p_alphan)%name) // ' = %R, ' // &
         trim(sentence(status%code)) // ' where mode II has %I per cent of the energy; expected more than %R', &
         [real_position(itype, p_alphan), status%item], [status%value, status%expected])
+    case (bridging_strength)
+      row = merge(p_sigmabridge, p_taubridge, status%item == 1)
+      call refuse_part(row, merge(p_sigmamax, p_taumax, status%item == 1))
+    case (bridging_energy)
+      row = merge(p_gibridge, p_giibridge, status%item == 1)
+      call refuse_part(row, merge(p_gic, p_giic, status%item == 1))
+    case (brittle_tip, brittle_bridging)
+      row = merge(p_gibridge, p_giibridge, status%item == 1)
+      call fatal(itype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ' = %R, ' // trim(sentence(status%code)) // '; expected ' &
+        // trim(merge('less', 'more', status%code == brittle_tip)) // ' than %R', [real_position(itype, row)], &
+        [status%value, status%expected])
+    case (no_table)
+      call refuse_real(itype, jelem, p_separation1, status%value, ': ' // trim(sentence(status%code)) // &
+        '; expected a value between 0 and 1')
+    case (table_gap)
+      row = p_separation1 + (p_separation2 - p_separation1)*(status%item - 1)
+      call refuse_real(itype, jelem, row, status%value, ': ' // trim(sentence(status%code)) // '; expected 0')
+    case (table_separation)
+      row = p_separation1 + (p_separation2 - p_separation1)*(status%item - 1)
+      call fatal(itype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ' = %R: ' // trim(sentence(status%code)) // &
+        '; expected more than %R', [real_position(itype, row)], [status%value, status%expected])
+    case (table_traction)
+      row = p_traction1 + (p_separation2 - p_separation1)*(status%item - 1)
+      call fatal(itype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ' = %R: ' // trim(sentence(status%code)) // &
+        '; expected a positive value up to %R', [real_position(itype, row)], [status%value, status%expected])
     case (small_beta)
       row = merge(p_betan, p_betat, status%item == 1)
       call fatal(itype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ': beta = %R, ' // &
@@ -292,6 +318,17 @@ contains
       call fatal(itype, jelem, trim(adjustl(trim(side) // ' ' // solid_name(elements(itype)%dimension, nodes))) // ' ' // &
         trim(sentence(status%code)) // '; it is %R', [integer ::], [status%value])
     end select
+
+  contains
+
+    !> Sends the message for a property that is no part of another one.
+    subroutine refuse_part(part, total)
+      integer, intent(in) :: part, total   !< rows in the layout
+
+      call refuse_real(itype, jelem, part, status%value, ': ' // trim(sentence(status%code)) // '; expected a positive value ' // &
+        'below ' // trim(reals(total)%name))
+    end subroutine refuse_part
+
   end subroutine report_status
 
 end module abaqus_check

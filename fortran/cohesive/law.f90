@@ -17,11 +17,13 @@ module cohesive_law
   use core_kinds, only: dp
   use core_status, only: status_type, ok, small_beta
   use cohesive_parameters, only: law_parameters
-  use cohesive_law_properties, only: law_properties, bilinear_law, exponential_law, ppr_law
+  use cohesive_law_properties, only: law_properties, bilinear_law, exponential_law, ppr_law, bridging_law, table_law
   use cohesive_state, only: point_history, damage_state
   use cohesive_mode_mix, only: check_mode_mix
   use cohesive_bilinear, only: bilinear_softening, bilinear_steepest, bilinear_loss
   use cohesive_exponential, only: exponential_softening, exponential_steepest, exponential_loss
+  use cohesive_multilinear, only: prepare_bridging, prepare_table, check_bridging, multilinear_softening, multilinear_steepest, &
+    multilinear_loss
   use cohesive_ppr, only: prepare_ppr, check_ppr, check_ppr_beta, raise_ppr_beta, evolve_ppr
   implicit none(type, external)
   private
@@ -58,6 +60,8 @@ contains
     end if
     law%eta = given%eta
     if (given%power > 0.0_dp) law%power = given%power
+    if (kind == bridging_law) call prepare_bridging(law, status)
+    if (kind == table_law) call prepare_table(law, status)
   end subroutine prepare_law
 
   !> Checks what the ranges of single parameters cannot express; status%item is 1 for mode I, 2 for mode II.
@@ -69,6 +73,7 @@ contains
       call check_ppr(law, status)
     else
       call check_mode_mix(law, status)
+      if (status%code == ok .and. law%kind == bridging_law) call check_bridging(law, status)
     end if
   end subroutine check_law
 
@@ -129,6 +134,8 @@ contains
     select case (law%kind)
     case (exponential_law)
       slope = exponential_steepest(law)
+    case (bridging_law, table_law)
+      slope = multilinear_steepest(law)
     case default
       slope = bilinear_steepest(law)
     end select
@@ -147,6 +154,8 @@ contains
     select case (law%kind)
     case (exponential_law)
       call exponential_softening(law, separation, direction, traction, by_separation, by_direction)
+    case (bridging_law, table_law)
+      call multilinear_softening(law, separation, direction, traction, by_separation, by_direction)
     case default
       call bilinear_softening(law, separation, direction, traction, by_separation, by_direction)
     end select
@@ -164,6 +173,8 @@ contains
     select case (law%kind)
     case (exponential_law)
       area = exponential_loss(law, direction, stiff, lost)
+    case (bridging_law, table_law)
+      area = multilinear_loss(law, direction, stiff, lost)
     case default
       area = bilinear_loss(law, direction, stiff, lost)
     end select

@@ -19,7 +19,18 @@ module cohesive_mode_mix
   use cohesive_parameters, only: law_parameters
   implicit none(type, external)
   private
-  public :: measure_onset, measure_energy, check_mode_mix, least_reserve
+  public :: measure_onset, measure_energy, measure_share, direction_of_share, check_mode_mix, least_reserve, least_of_mixes
+
+  abstract interface
+    !> A quantity at a share of mode II in the energy.
+    pure function mix_measure(law, share) result(value)
+      import :: dp, law_parameters
+      implicit none(type, external)
+      type(law_parameters), intent(in) :: law
+      real(dp), intent(in) :: share
+      real(dp) :: value
+    end function mix_measure
+  end interface
 
 contains
 
@@ -131,46 +142,88 @@ contains
     if (.not. law%eta > 0.0_dp) bound = bound*min(1.0_dp, 2.0_dp**(1.0_dp - 1.0_dp/law%power))
   end function below_reserve
 
+  !> Share of mode II in the energy, and its derivatives by c.
+  pure subroutine measure_share(law, direction, share, slope)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: direction(2)   !< c, not zero
+    real(dp), intent(out) :: share
+    real(dp), intent(out) :: slope(2)      !< by c, its components taken as independent
+    real(dp) :: weighted(2), rho
+
+    weighted = law%ratio*direction
+    rho = weighted(1)*direction(1) + weighted(2)*direction(2)
+    share = weighted(1)*direction(1)/rho
+    slope = (2.0_dp/rho)*[(1.0_dp - share)*weighted(1), -share*weighted(2)]
+  end subroutine measure_share
+
+  !> A direction with a share of mode II in the energy: rho is 1 and not the length of c, which cancels in f**2/e.
+  pure function direction_of_share(law, share) result(direction)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: share
+    real(dp) :: direction(2)
+
+    direction = sqrt([share, 1.0_dp - share]/law%ratio)
+  end function direction_of_share
+
   !> Minimum of f**2/e over all mode mixes, and the share of mode II in the energy at which it occurs.
   !>
   !> It must exceed the flexibility: the separations at failure and onset are f/e and flexibility/f. As a function of the
   !> share it is 2 G_c(B) sum_i B_i ratio_i/strength_i**2, which for the linear criterion lies between its values in the
-  !> pure modes. Otherwise a scan finds the valley, and a golden section its floor: after so many cuts the share is right to
-  !> 6e-5, and the reserve, which is flat there, to the square of it.
+  !> pure modes.
   pure subroutine least_reserve(law, reserve, share)
     type(law_parameters), intent(in) :: law
     real(dp), intent(out) :: reserve   !< length/stress
     real(dp), intent(out) :: share
+
+    if (.not. is_linear(law)) then
+      call least_of_mixes(law, reserve_at, reserve, share)
+      return
+    end if
+    share = 0.0_dp
+    reserve = reserve_at(law, share)
+    if (reserve_at(law, 1.0_dp) < reserve) then
+      share = 1.0_dp
+      reserve = reserve_at(law, share)
+    end if
+  end subroutine least_reserve
+
+  !> Minimum of a quantity over all mode mixes, and the share of mode II in the energy at which it occurs.
+  !>
+  !> A scan finds the valley, and a golden section its floor: after so many cuts the share is right to 6e-5, and the quantity, which
+  !> is flat there, to the square of it.
+  pure subroutine least_of_mixes(law, measure, least, share)
+    type(law_parameters), intent(in) :: law
+    procedure(mix_measure) :: measure
+    real(dp), intent(out) :: least
+    real(dp), intent(out) :: share
     integer, parameter :: pieces = 16, cuts = 16
     real(dp), parameter :: golden = 0.6180339887498949_dp
     real(dp) :: left, right, inner(2), values(0:pieces)
-    integer :: i, step
+    integer :: i
 
-    step = merge(pieces, 1, is_linear(law))
-    do i = 0, pieces, step
-      values(i) = reserve_at(law, real(i, dp)/pieces)
+    do i = 0, pieces
+      values(i) = measure(law, real(i, dp)/pieces)
     end do
-    i = step*(minloc(values(::step), 1) - 1)
+    i = minloc(values, 1) - 1
     share = real(i, dp)/pieces
-    reserve = values(i)
-    if (is_linear(law)) return
+    least = values(i)
 
     left = max(0.0_dp, share - 1.0_dp/pieces)
     right = min(1.0_dp, share + 1.0_dp/pieces)
     do i = 1, cuts
       inner = [right - golden*(right - left), left + golden*(right - left)]
-      if (reserve_at(law, inner(1)) < reserve_at(law, inner(2))) then
+      if (measure(law, inner(1)) < measure(law, inner(2))) then
         right = inner(2)
       else
         left = inner(1)
       end if
     end do
     inner = 0.5_dp*(left + right)
-    if (reserve_at(law, inner(1)) < reserve) then
+    if (measure(law, inner(1)) < least) then
       share = inner(1)
-      reserve = reserve_at(law, share)
+      least = measure(law, share)
     end if
-  end subroutine least_reserve
+  end subroutine least_of_mixes
 
   !> f**2/e at a share of mode II in the energy.
   pure function reserve_at(law, share) result(reserve)
@@ -179,8 +232,7 @@ contains
     real(dp) :: reserve
     real(dp) :: direction(2), f, e, slope(2)
 
-    ! rho is 1 and not the length of c, which cancels
-    direction = sqrt([share, 1.0_dp - share]/law%ratio)
+    direction = direction_of_share(law, share)
     call measure_onset(law, direction, f, slope)
     call measure_energy(law, direction, e, slope)
     reserve = f**2/e

@@ -6,7 +6,10 @@ module cohesive_parameters
   use cohesive_law_properties, only: law_properties
   implicit none(type, external)
   private
-  public :: law_parameters
+  public :: law_parameters, most_ramps
+
+  !> Lines of a polygon through the points of a table: one more than there are points among the properties.
+  integer, parameter :: most_ramps = 6
 
   !> Parameters of a law. The initial stiffness is alpha_i = ratio_i/flexibility: laws use the flexibility, which stays finite for
   !> an infinite stiffness.
@@ -22,6 +25,13 @@ module cohesive_parameters
     real(dp) :: eta = 0.0_dp        !< exponent of Benzeggagh and Kenane; 0 for the power law
     real(dp) :: power = 1.0_dp      !< exponent of the power law, positive
     type(law_properties) :: given   !< as in the deck: what a law of its own needs besides
+    ! of the law with fibre bridging alone: shares of the bridging in the total, `prepare_bridging`
+    real(dp) :: bridging_strength(2) = 0.0_dp
+    real(dp) :: bridging_energy(2) = 0.0_dp
+    ! of the law by a table alone: its ramps, `prepare_table`
+    integer :: ramps = 0
+    real(dp) :: ramp_height(most_ramps) = 0.0_dp
+    real(dp) :: ramp_end(most_ramps) = 1.0_dp
     ! of the PPR law alone
     real(dp) :: shape(2) = 2.0_dp   !< exponents of the softening, the paper's beta and alpha, above 1
     real(dp) :: rise(2) = 0.0_dp    !< exponents of the rise, the paper's n and m: `prepare_ppr`

@@ -8,6 +8,8 @@ module core_status
   public :: status_type, sentence
   public :: ok, too_brittle, not_positive_definite, inside_out, zero_length, faces_apart, small_beta, too_brittle_mixed, &
     late_secant, no_root, along_normal, layer_slants, layer_twists
+  public :: bridging_strength, bridging_energy, brittle_tip, brittle_bridging, brittle_mixed_line, no_table, table_gap, &
+    table_separation, table_traction
 
   !> Outcome of a kernel; the caller knows the names of elements and properties.
   type :: status_type
@@ -30,6 +32,15 @@ module core_status
   integer, parameter :: along_normal = 10
   integer, parameter :: layer_slants = 11
   integer, parameter :: layer_twists = 12
+  integer, parameter :: bridging_strength = 13
+  integer, parameter :: bridging_energy = 14
+  integer, parameter :: brittle_tip = 15
+  integer, parameter :: brittle_bridging = 16
+  integer, parameter :: brittle_mixed_line = 17
+  integer, parameter :: no_table = 18
+  integer, parameter :: table_gap = 19
+  integer, parameter :: table_separation = 20
+  integer, parameter :: table_traction = 21
 
 contains
 
@@ -47,6 +58,25 @@ contains
     case (too_brittle_mixed)
       text = 'too soft for the fracture energy in mixed mode: the separation at failure ' // &
         'does not exceed that at the onset of damage'
+    case (brittle_mixed_line)
+      text = 'too soft for the fracture energy of one of the two lines in mixed mode: its separation at failure ' // &
+        'does not exceed that at the onset of damage'
+    case (bridging_strength, bridging_energy)
+      text = 'with LAW 5 the bridging is a part of the total'
+    case (brittle_tip)
+      text = 'leaves too little for the rest of the law and its stiffness: its separation at failure ' // &
+        'does not exceed that at the onset of damage'
+    case (brittle_bridging)
+      text = 'too small for the strength of the bridging and the stiffness: the separation at failure ' // &
+        'does not exceed that at the onset of damage'
+    case (no_table)
+      text = 'LAW 6 requires a point of its softening'
+    case (table_gap)
+      text = 'the point before it is not used'
+    case (table_separation)
+      text = 'the separations of LAW 6 increase from point to point'
+    case (table_traction)
+      text = 'the tractions of LAW 6 do not increase, and do not vanish before failure'
     case (late_secant)
       text = 'too small for its stiffness: the secant of the PPR law must decrease from the origin on'
     case (no_root)

@@ -28,7 +28,7 @@ unit = "1"
 range = "below_one"
 part = "law"
 meaning = "share of the plateau"
-laws = [5]
+laws = [7]
 """
 
 LAW = {
@@ -55,7 +55,7 @@ LAW = {
         ),
     ],
     "properties.toml": [
-        ('"exponential", "ppr"]', '"exponential", "ppr", "plateau"]'),
+        ('"bridging", "table"]', '"bridging", "table", "plateau"]'),
         ("\n# JPROPS\n", PLATEAU + "\n# JPROPS\n"),
     ],
     "meson.build": [("  'cohesive/ppr.f90',\n", "  'cohesive/plateau.f90',\n  'cohesive/ppr.f90',\n")],
@@ -125,11 +125,13 @@ def test_positions_of_existing_decks_stay(branch):
         assert after.svars == before.svars
 
 
-@pytest.mark.parametrize("law", [1, 2, 3, 4])
+@pytest.mark.parametrize("law", [1, 2, 3, 4, 5, 6])
 @pytest.mark.parametrize("jtype, closure", [(2, 0), (4, 0), (4, 1)])
 def test_existing_decks_give_what_they_gave(branch, element_of, library, interface, jtype, law, closure):
     """But for the new property, which is 0."""
     options = {"CLOSURE": 1, "BETAN": 1e5, "BETAT": 1e5} if closure else {}
+    # LAW 5 and 6 do not exist without theirs
+    options |= {5: {"SIGMABRIDGE": 4.0, "GIBRIDGE": 0.1}, 6: {"SEPARATION1": 0.2, "TRACTION1": 0.5}}.get(law, {})
     nodes = interface.four if jtype == 2 else interface.eight
     variants = [(library, element_layouts()), branch]
     items = [element_of(where, jtype, nodes, layouts=known, LAW=law, ETA=1.4, **options) for where, known in variants]
@@ -141,24 +143,24 @@ def test_existing_decks_give_what_they_gave(branch, element_of, library, interfa
 
 
 def test_other_counts_of_properties_are_refused(branch, element_of):
-    for count in (13, 15):
+    for count in (27, 29):
         item = element_of(branch[0], 2, FLAT, definition={"properties": count})
-        with pytest.raises(KernelError, match=rf"PROPERTIES = {count}: expected 14"):
+        with pytest.raises(KernelError, match=rf"PROPERTIES = {count}: expected 28"):
             item.evaluate(np.zeros(8))
 
 
 def test_the_property_has_the_last_position(branch, element_of):
-    for jtype, position in ((2, 14), (3, 18), (4, 42), (5, 14), (6, 42)):
+    for jtype, position in ((2, 28), (3, 32), (4, 56), (5, 28), (6, 56)):
         layout = branch[1][jtype]
         assert (layout.reals[-1].name, layout.reals[-1].position) == ("PLATEAU", position)
-    item = element_of(branch[0], 2, FLAT, layouts=branch[1], LAW=5, PLATEAU=1.0)
-    with pytest.raises(KernelError, match=r"PROPS\(14\) PLATEAU = 1.0.*expected zero or a value between 0 and 1"):
+    item = element_of(branch[0], 2, FLAT, layouts=branch[1], LAW=7, PLATEAU=1.0)
+    with pytest.raises(KernelError, match=r"PROPS\(28\) PLATEAU = 1.0.*expected zero or a value between 0 and 1"):
         item.evaluate(np.zeros(8))
 
 
 def test_the_law_has_its_plateau_and_its_area(branch, element_of):
     """G = strength (onset + (failure - onset)(1 + share))/2."""
-    item = element_of(branch[0], 2, FLAT, layouts=branch[1], LAW=5, PLATEAU=SHARE, ALPHAT=ALPHA)
+    item = element_of(branch[0], 2, FLAT, layouts=branch[1], LAW=7, PLATEAU=SHARE, ALPHAT=ALPHA)
     onset = STRENGTH / ALPHA
     failure = onset + (2 * TOUGHNESS / STRENGTH - onset) / (1 + SHARE)
     end = onset + SHARE * (failure - onset)
@@ -178,7 +180,7 @@ def test_the_tangent_of_the_law(branch, element_of, interface, size, closure):
     """On the plateau and where it falls, in mixed mode, in both ways to take the law."""
     options = {"CLOSURE": 1, "BETAN": 1e5, "BETAT": 1e5} if closure else {}
     jtype, nodes = (4, interface.eight) if closure else (2, interface.four)
-    item = element_of(branch[0], jtype, nodes, layouts=branch[1], LAW=5, PLATEAU=SHARE, ETA=1.4, **options)
+    item = element_of(branch[0], jtype, nodes, layouts=branch[1], LAW=7, PLATEAU=SHARE, ETA=1.4, **options)
     u = interface.displacements(len(nodes), (0.5 * size, size), (0.6 * size, 0.9 * size), 3).ravel()
     _, tangent = item.evaluate(u)
     step = 1e-4 * size

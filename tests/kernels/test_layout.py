@@ -93,7 +93,7 @@ ETA = 'name = "ETA"\nelements = "interfaces"\nunit = "1"\nrange = "exponent"\n'
         (ETA, ETA.replace("interfaces", "bars"), "reals ETA: elements: 'bars', expected one of continuum, standard, "),
         (ETA, ETA.replace('"exponent"', '"any"'), "reals ETA: range: 'any', expected one of positive, "),
         (ETA, ETA.replace("ETA", "BLEND"), "p_blend: two entries have this name in Fortran; give"),
-        ("laws = [4]", "laws = [5]", "reals SHAPEN: laws: '5', expected one of 1, 2, 3, 4"),
+        ("laws = [4]", "laws = [7]", "reals SHAPEN: laws: '7', expected one of 1, 2, 3, 4, 5, 6"),
         ('"next_to_solids", "with_solids"]', '"interfaces"]', "sets.stabilised: 'interfaces', expected one of"),
         ('variables = "brick"', 'variables = "bricks"', "families.continuum_3d: variables: 'bricks', expected one of"),
         ('type = "U12"', 'type = "U11"', "elements U11: expected U and a number above 11, the types in the order"),

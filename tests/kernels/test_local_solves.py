@@ -11,8 +11,8 @@ SOURCES = (
     *("core/kinds", "core/limit", "core/status", "core/root", "core/small_matrix"),
     *("law_properties", "cohesive/parameters", "cohesive/shear"),
     "cohesive/state",
-    *("cohesive/mode_mix", "cohesive/bilinear", "cohesive/exponential", "cohesive/ppr", "cohesive/law"),
-    "cohesive/friction",
+    *("cohesive/mode_mix", "cohesive/bilinear", "cohesive/exponential", "cohesive/multilinear", "cohesive/ppr"),
+    *("cohesive/law", "cohesive/friction"),
     *("cohesive/ppr_local_solve", "cohesive/local_solve"),
 )
 

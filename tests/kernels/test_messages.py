@@ -40,7 +40,7 @@ NODES = {1: QUAD, 2: FLAT, 3: FLAT, 4: EIGHT}
         (2, {"GIIC": 0.0}, r"PROPS\(7\) GIIC = 0.*positive"),
         (2, {"VISCOSITY": -1.0}, r"PROPS\(12\) VISCOSITY = -1.*zero or a positive value"),
         pytest.param(2, {"ALPHAN": np.nan}, r"PROPS\(2\) ALPHAN = NaN", marks=pytest.mark.nan),
-        (2, {"LAW": -1}, r"JPROPS\(1\) LAW = -1: expected 0 to 4"),
+        (2, {"LAW": -1}, r"JPROPS\(1\) LAW = -1: expected 0 to 6"),
         (2, {"INTEGRATION": 2}, r"JPROPS\(2\) INTEGRATION = 2: expected 0 to 1"),
         (2, {"TANGENT": -1}, r"JPROPS\(3\) TANGENT = -1: expected 0 to 1"),
         (
@@ -153,7 +153,7 @@ def test_geometry(element, jtype, coordinates, message):
     ("jtype", "definition", "message"),
     [
         (1, {"properties": 2}, r"U1 element 42: \*USER ELEMENT has PROPERTIES = 2: expected 1"),
-        (2, {"properties": 7}, r"PROPERTIES = 7: expected 13"),
+        (2, {"properties": 7}, r"PROPERTIES = 7: expected 27"),
         (4, {"integer_properties": 4}, r"I PROPERTIES = 4: expected 10"),
         (2, {"variables": 25}, r"VARIABLES = 25: expected at least 38"),
         (4, {"variables": 43}, r"VARIABLES = 43: expected at least 44"),

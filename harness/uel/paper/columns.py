@@ -41,6 +41,14 @@ FINITE = {"ALPHAN": 1.0e6, "ALPHAT": 1.0e6}
 ELASTIC = (0.0, 0.01)
 EXPANSION = (1.0e-6, 3.0e-5, 3.0e-5)
 """Of a ply along its axes, 1/K: fibres hardly expand."""
+BRIDGING = {"SIGMABRIDGE": 3.0, "TAUBRIDGE": 6.0, "GIBRIDGE": 0.1, "GIIBRIDGE": 0.3}
+SOFTENING = ((0.2, 1.0), (0.4, 0.5), (0.6, 0.3), (0.7, 0.2), (0.8, 0.1))
+"""Separation over that at failure, and traction over the strength."""
+TABLE = {
+    f"{name}{k}": value
+    for k, point in enumerate(SOFTENING, 1)
+    for name, value in zip(("SEPARATION", "TRACTION"), point, strict=True)
+}
 PAPER = FINITE | {"CLOSURE": 2, "BETAN": -2.0, "BETAT": -2.0}
 
 _SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
@@ -101,6 +109,8 @@ COLUMNS = {
     ),
     "u4_exponential": Column("exponential law", 4, values={"LAW": 3, "ETA": 2.0}, moved=(0.0, 0.08)),
     "u4_ppr": Column("PPR law", 4, values={"LAW": 4, "SHAPEN": 3.0, "SHAPET": 3.0}),
+    "u4_bridging": Column("fibre bridging, half-way", 4, values={"LAW": 5, "ETA": 2.0, **BRIDGING}, moved=(0.0, 0.04)),
+    "u4_table": Column("softening by a table, half-way", 4, values={"LAW": 6, **TABLE}, moved=(0.0, 0.012)),
     "u4_secant": Column("secant matrix", 4, values={"LAW": 1, "TANGENT": 1}),
     "u4_blend": Column("share of the secant matrix", 4, values={"LAW": 1, "BLEND": 0.05}),
     "u4_paced": Column("increments that follow the viscosity", 4, values={"LAW": 1, "VISCOSITY": 3e-3, "PACING": 1}),
