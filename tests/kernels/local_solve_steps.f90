@@ -24,6 +24,13 @@ subroutine local_solve_steps(kind, count, trials, histories, beta, searches, tot
   law%toughness = [1.002_c_double, 0.26_c_double]
   law%viscosity = 0
   law%eta = 1.45_c_double
+  law%bridging_strength = [0.15_c_double, 0.1_c_double]
+  law%bridging_energy = [0.3_c_double, 0.5_c_double]
+  ! a plateau up to 0.2, (0.5, 0.2), the end at 1: the area is 0.2 + 0.18 + 0.05, and the lines fall by 0, 0.8/0.3 and 0.4
+  law%ramps = 3
+  law%ramp_end(:3) = [0.2_c_double, 0.5_c_double, 1.0_c_double]/0.43_c_double
+  law%ramp_height(:3) = [-0.8_c_double/0.3_c_double*0.2_c_double, (0.8_c_double/0.3_c_double - 0.4_c_double)*0.5_c_double, &
+    0.4_c_double]
   searches = 0
   total = 0
   most = 0

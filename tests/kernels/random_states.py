@@ -14,7 +14,8 @@ from reference_cells import EDGES as EDGES_OF_CELLS
 from reference_cells import SQUARE_EDGES, with_middles
 from space import QUADRATIC, STANDARD, bottom_of, top_of
 
-LAWS, PPR = {1: (), 2: ("ETA", "POWER"), 3: ("ETA", "POWER"), 4: ("SHAPE",)}, 4
+EXPONENTS = ("ETA", "POWER")
+LAWS, PPR = {1: (), 2: EXPONENTS, 3: EXPONENTS, 4: ("SHAPE",), 5: EXPONENTS, 6: EXPONENTS}, 4
 # type and closure; what a law may have besides, each of which is a case of its own
 VARIANTS = {"U2": (2, 0), "U3": (3, 0), "U3 consistent": (3, 1), "U4": (4, 0), "U4 consistent": (4, 1)}
 VARIANTS |= {"U5": (5, 0), "U6": (6, 0), "U6 consistent": (6, 1)}
@@ -60,10 +61,19 @@ def properties(draw, reference, kind, closure, extra):
         least = {i: 4 * least[i] * a[i] / reference.ppr_final(a[i], a[i]) ** 2 for i in "NT"}
     elif exponent:
         least = {"N": mixed, "T": mixed}
+    if kind == 5:
+        values |= draw(bridging(values))
+        pure = zip(*reference.bridging_shares(values), strict=True)
+        brittle = max(max(r / m, (1 - r) / (1 - m)) for r, m in pure)
+        least = {mode: brittle * value for mode, value in least.items()}
+    elif kind == 6:
+        values |= draw(tables())
     alike = draw(st.booleans())
     values["ALPHAN"] = draw(positive(1.05, 1e4)) * least["N"]
     values["ALPHAT"] = values["ALPHAN"] if alike else draw(positive(1.05, 1e4)) * least["T"]
     assume(values["ALPHAT"] > 1.05 * least["T"])
+    if kind == 5:
+        assume(reference.steepest(values, values["ALPHAT"] / values["ALPHAN"]) < 1e4 / reference.reserve(values, 1.0))
     if "rigid" in extra:
         values |= {"ALPHAN": 0.0, "ALPHAT": 0.0}
     if "viscous" in extra:
@@ -71,6 +81,30 @@ def properties(draw, reference, kind, closure, extra):
     if "friction" in extra:
         values["FRICTION"] = draw(st.floats(0.05, 1.0))
     return values | (draw(betas(reference, values)) if closure else {})
+
+
+@st.composite
+def bridging(draw, values):
+    """Parts of the bridging, in both modes or in mode I alone."""
+    parts = st.floats(0.02, 0.9)
+    found = {"SIGMABRIDGE": draw(parts) * values["SIGMAMAX"], "GIBRIDGE": draw(parts) * values["GIC"]}
+    if draw(st.booleans()):
+        found |= {"TAUBRIDGE": draw(parts) * values["TAUMAX"], "GIIBRIDGE": draw(parts) * values["GIIC"]}
+    return found
+
+
+@st.composite
+def tables(draw):
+    """One to five points of a softening, a plateau in some."""
+    count = draw(st.integers(1, 5))
+    gaps = np.array([draw(st.floats(0.1, 1.0)) for _ in range(count + 1)])
+    separations = np.cumsum(gaps)[:-1] / gaps.sum()
+    tractions = np.cumprod([draw(st.sampled_from([1.0, 0.9, 0.6, 0.3])) for _ in range(count)])
+    return {
+        f"{name}{k}": float(value)
+        for name, row in (("SEPARATION", separations), ("TRACTION", tractions))
+        for k, value in enumerate(row, 1)
+    }
 
 
 @st.composite
@@ -84,10 +118,9 @@ def betas(draw, reference, values):
         coupling = values["SIGMAMAX"] * values["TAUMAX"] / min(values["GIC"], values["GIIC"])
         found = [size * (slopes[0] + coupling * spread), size * (slopes[1] + coupling / spread)]
     else:
-        room = reference.reserve(values, ratio)
-        assume(room > 0)
         # up to (2 - b_min/b_max) times the steepest slope is demanded
-        steepest = 2.0 * size * (2.0 if values["LAW"] == 3 else 1.0) / room
+        steepest = 2.0 * size * reference.steepest(values, ratio)
+        assume(np.isfinite(steepest))
         found = [steepest * max(1.0, spread), steepest * max(1.0, 1 / spread) * ratio]
     return {"CLOSURE": 1, "BETAN": found[0], "BETAT": found[1]}
 
@@ -222,6 +255,8 @@ def separations(rng, values, pure=1 / 6):
     strength = min(values["SIGMAMAX"], values["TAUMAX"])
     tail = max(1.0, values.get("SHAPEN", 2.0) / 2, values.get("SHAPET", 2.0) / 2)
     soft = 3.0 * tail * max(values["GIC"], values["GIIC"]) / strength
+    if "SIGMABRIDGE" in values:
+        soft *= max(1.0, values["GIBRIDGE"] / values["GIC"] * values["SIGMAMAX"] / values["SIGMABRIDGE"])
     alpha = max(values["ALPHAN"], values["ALPHAT"])
     stiff = min(0.1 * strength / alpha if alpha else soft, 1e-3 * soft)
     size = np.exp(rng.uniform(np.log(stiff), np.log(soft), (COPIES, 2)))

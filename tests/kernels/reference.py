@@ -266,10 +266,12 @@ def onset(law, g):
 
 
 def damage_of_law(law, g):
-    """Damage without history of LAW 2 and 3, from size of the separation along its ray: 1 at the onset.
+    """Damage without history of LAW 2, 3, 5 and 6, from size of the separation along its ray: 1 at the onset.
 
     The traction along the ray is 1 at the onset too, so the areas are in units of twice the energy at the onset.
     LAW 2: Camanho and Davila, NASA/TM-2002-211737. LAW 3: exponential decay of the traction from the onset.
+    LAW 5: two bilinear laws with one damage (Davila, Rose, Camanho, Int. J. of Fracture 158 (2009) 211), each with its
+    share of the traction at the onset and of the area. LAW 6: a polygon from the onset on.
     """
     scale = onset(law, g) if any(g) else np.inf
     size = 1 / scale
@@ -279,8 +281,62 @@ def damage_of_law(law, g):
     area = 0.5 * toughness(law, g) / at_onset
     if law["LAW"] == 3:
         return 1 - np.exp(-(size - 1) / (area - 0.5)) / size
+    if law["LAW"] == 5:
+        share = mode_mix(law, g)
+        strength, energy = (np.interp(share, [0, 1], pair) for pair in bridging_shares(law))
+        left = 0.0
+        for height, part in ((1 - strength, 1 - energy), (strength, energy)):
+            # half of height times the separation at failure
+            last = 2 * area * part / height
+            left += height * max(0.0, last - size) / (last - 1)
+        return 1 - left / size
+    if law["LAW"] == 6:
+        x, t = polygon(law)
+        return 1 - np.interp((size - 1) / (area - 0.5) * np.trapezoid(t, x), x, t) / size
     last = 2 * area
     return 1.0 if size >= last else last * (size - 1) / (size * (last - 1))
+
+
+def mode_mix(law, g):
+    """Share of mode II in the energy of a separation g; ALPHAN = 0 is infinite, and alike in both directions."""
+    alpha = [law["ALPHAT"], law["ALPHAN"]] if law["ALPHAN"] else [1.0, 1.0]
+    normal, tangential = alpha[1] * max(g[1], 0.0) ** 2, alpha[0] * g[0] ** 2
+    return tangential / (normal + tangential)
+
+
+def bridging_shares(law):
+    """Return the shares of the bridging in strength and energy, each in mode I and II; 0 in mode II: that of mode I."""
+    pairs = (("SIGMABRIDGE", "SIGMAMAX", "TAUBRIDGE", "TAUMAX"), ("GIBRIDGE", "GIC", "GIIBRIDGE", "GIIC"))
+    return [(law[a] / law[b], law[c] / law[d] if law.get(c) else law[a] / law[b]) for a, b, c, d in pairs]
+
+
+def polygon(law):
+    """Points of the softening of LAW 6: separation beyond the onset over that at failure, traction over the onset's."""
+    points = [(law.get(f"SEPARATION{k}", 0.0), law.get(f"TRACTION{k}", 0.0)) for k in range(1, 6)]
+    return np.array([(0.0, 1.0), *(p for p in points if p[0] > 0), (1.0, 0.0)]).T
+
+
+def steepest(values, ratio):
+    """Steepest softening -d tau/d lambda in any mode mix, stress/length, of LAW 1 to 3, 5 and 6."""
+    if values["LAW"] == 5:
+        share = mixes()
+        least, flexibility = reserves(values, ratio), 1 / values["ALPHAN"] if values["ALPHAN"] else 0.0
+        strength, energy = (np.interp(share, [0, 1], pair) for pair in bridging_shares(values))
+        lines = ((1 - strength, 1 - energy), (strength, energy))
+        slopes = [height / (part / height * least - flexibility) for height, part in lines]
+        # a line that falls before its onset is infinitely steep
+        return np.inf if min(map(np.min, slopes)) <= 0 else np.sum(slopes, axis=0).max()
+    room = reserve(values, ratio)
+    if values["LAW"] == 6:
+        x, t = polygon(values)
+        return 2 * np.trapezoid(t, x) * max(-np.diff(t) / np.diff(x)) / room if room > 0 else np.inf
+    return (2.0 if values["LAW"] == 3 else 1.0) / room if room > 0 else np.inf
+
+
+def mixes():
+    """Shares of mode II in the energy, all of them close enough and more near the pure modes."""
+    near = np.geomspace(1e-5, 1e-2, 40)
+    return np.unique(np.concatenate([np.linspace(0.0, 1.0, 401), near, 1 - near]))
 
 
 def reserve(values, ratio):
@@ -288,13 +344,18 @@ def reserve(values, ratio):
 
     ratio is ALPHAT/ALPHAN; ALPHAN = 0 is infinite. Its inverse is the steepest softening of the bilinear laws.
     """
-    share = np.linspace(0.0, 1.0, 401)
+    return reserves(values, ratio).min() - (1 / values["ALPHAN"] if values["ALPHAN"] else 0.0)
+
+
+def reserves(values, ratio):
+    """Separation at failure over the traction at onset in each of the `mixes`, of a straight softening."""
+    share = mixes()
     power = values.get("POWER", 1.0)
     toughness = ((share / values["GIIC"]) ** power + ((1 - share) / values["GIC"]) ** power) ** (-1 / power)
     if "ETA" in values:
         toughness = values["GIC"] + (values["GIIC"] - values["GIC"]) * share ** values["ETA"]
     strength = share * ratio / values["TAUMAX"] ** 2 + (1 - share) / values["SIGMAMAX"] ** 2
-    return (2 * toughness * strength).min() - (1 / values["ALPHAN"] if values["ALPHAN"] else 0.0)
+    return 2 * toughness * strength
 
 
 def ppr_final(a, m):

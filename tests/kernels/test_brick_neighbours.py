@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from lines import BRIDGING, TABLE
 from neighbours import BOTTOM, FACES, INTERFACE, Sandwich, numberings
 
 from uel.errors import KernelError, Source
@@ -38,6 +39,8 @@ OPTIONS = {
     "consistent": {"CLOSURE": 1, **BETA},
     "consistent, exponential": {"LAW": 3, "CLOSURE": 1, "BETAN": 2e5, "BETAT": 2e5, "FRICTION": 0.4},
     "consistent, PPR": {"LAW": 4, "SHAPEN": 3.0, "CLOSURE": 1, "BETAN": 2e5, "BETAT": 2e5, "FRICTION": 0.4},
+    "consistent, bridging": {**BRIDGING, "CLOSURE": 1, "BETAN": 2e5, "BETAT": 2e5, "FRICTION": 0.4},
+    "table": TABLE,
     "rigid": {**RIGID, "SAMPLING": 1, "INTEGRATION": 1},
     "rigid, viscous": {**RIGID, "VISCOSITY": 0.5, "FRICTION": 0.3},
 }

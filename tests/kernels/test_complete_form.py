@@ -10,6 +10,7 @@ from itertools import pairwise, product
 
 import numpy as np
 import pytest
+from lines import TABLE
 from reference_cells import SQUARE_EDGES, with_middles
 from space import nodes_of
 
@@ -21,6 +22,11 @@ BETA = {"BETAN": 3.0e5, "BETAT": 2.0e5, "GAMMABOT": 0.3}
 INFINITE = {"ALPHAN": 0.0, "ALPHAT": 0.0}
 STRONG = {"SIGMAMAX": 3e4, "TAUMAX": 6e4, "GIC": 1e6, "GIIC": 1e6}
 TYPES = (4, 6, 8, 12)
+LAWS = {
+    "bilinear": {},
+    "bridging": {"LAW": 5, "SIGMABRIDGE": 6.0, "GIBRIDGE": 0.1},
+    "table": TABLE,
+}
 
 
 @pytest.fixture
@@ -72,12 +78,14 @@ def test_forces_are_the_derivatives_of_the_energy(complete, jtype, stiffness, fl
     np.testing.assert_allclose(-slopes, force, rtol=0, atol=2e-7 * abs(force).max())
 
 
+@pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("flags", [LINEAR, NLGEOM])
 @pytest.mark.parametrize("opened", [0.0, 0.01], ids=["bonded", "softening"])
 @pytest.mark.parametrize("jtype", TYPES)
-def test_matrix_is_symmetric(complete, jtype, opened, flags):
+def test_matrix_is_symmetric(complete, jtype, opened, flags, law):
     """While bonded, and softening: the law has one strength and energy in all directions here, thus a potential."""
-    item, coordinates = complete(jtype, ALPHAN=2e4, ALPHAT=2e4, SIGMAMAX=30.0, TAUMAX=30.0, GIC=0.26, GIIC=0.26)
+    alike = {"ALPHAN": 2e4, "ALPHAT": 2e4, "SIGMAMAX": 30.0, "TAUMAX": 30.0, "GIC": 0.26, "GIIC": 0.26}
+    item, coordinates = complete(jtype, **alike, **LAWS[law])
     u = random_displacements(coordinates, 5, 1e-5)
     half = len(coordinates) // 2
     if opened:
@@ -104,11 +112,12 @@ def work_on_closed_path(item, coordinates, flags, steps=400):
     return work
 
 
+@pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("flags", [LINEAR, NLGEOM])
 @pytest.mark.parametrize("jtype", [4, 8])
-def test_a_closed_path_costs_what_is_dissipated(complete, jtype, flags):
+def test_a_closed_path_costs_what_is_dissipated(complete, jtype, flags, law):
     """The trapezoidal rule errs by 5e-4 in 400 increments and by 8e-5 in 1600."""
-    item, coordinates = complete(jtype, **INFINITE)
+    item, coordinates = complete(jtype, **INFINITE, **LAWS[law])
     work = work_on_closed_path(item, coordinates, flags)
     assert (item.state["DAMAGE"] == 1).all()
     assert item.energy[ELASTIC] == pytest.approx(0, abs=1e-9)

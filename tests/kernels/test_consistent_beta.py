@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 import pytest
+from lines import BRIDGING, TABLE
 from space import nodes_of as space_nodes
 from space import opened
 
@@ -118,7 +119,7 @@ def test_a_beta_of_the_deck_below_the_slope_is_refused(element, interface, refer
         item.evaluate(np.zeros(16))
 
 
-@pytest.mark.parametrize("kind", [2, 3, 4])
+@pytest.mark.parametrize("kind", [2, 3, 4, 5, 6])
 @pytest.mark.parametrize("jtype", [4, 6, 8, 12])
 def test_raised_beta_suits_every_law(element, interface, library, jtype, kind):
     """With coarse meshes, and stiffnesses that differ: the element goes on to failure."""
@@ -126,7 +127,7 @@ def test_raised_beta_suits_every_law(element, interface, library, jtype, kind):
     nodes = {4: interface.eight, 6: quadratic(interface.eight)}.get(jtype)
     nodes = space_nodes(jtype, "flat") if nodes is None else nodes
     values = {"LAW": kind, "ALPHAN": 1e7, "ALPHAT": 1e6, "CLOSURE": 1, "BETAN": 0.0, "BETAT": 0.0}
-    values |= {"ETA": 2.0} if kind < 4 else {"SHAPEN": 3.0}
+    values |= {"SHAPEN": 3.0} if kind == 4 else {"ETA": 2.0, **{5: BRIDGING, 6: TABLE}.get(kind, {})}
     library.messages()
     library.external_database(0, 0, (0.0, 0.0), 0.0, 0, 0)
     item = element(jtype, scale * nodes, **values)

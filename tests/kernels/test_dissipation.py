@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from lines import BRIDGING, TABLE
 from space import nodes_of, opened
 
 LAWS = {
@@ -12,6 +13,8 @@ LAWS = {
     "power law": {"LAW": 2, "POWER": 0.7},
     "exponential": {"LAW": 3, "ETA": 1.45},
     "PPR": {"LAW": 4, "SHAPEN": 2.5, "SHAPET": 4.0},
+    "bridging": BRIDGING,
+    "table": TABLE,
 }
 # one beta and one stiffness for all components: the separation of the law grows along a line with that of the element
 CONSISTENT = {"CLOSURE": 1, "BETAN": 5e4, "BETAT": 5e4, "ALPHAN": 2e4, "ALPHAT": 2e4}

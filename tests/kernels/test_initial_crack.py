@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from lines import BRIDGING, TABLE
 from neighbours import OWNED, Sandwich
 from scipy.spatial.transform import Rotation
 from solid_pairs import frames_at, geometry
@@ -30,6 +31,8 @@ LAWS = {
     "power": {"LAW": 2, "POWER": 1.5},
     "exponential": {"LAW": 3, "POWER": 1.0},
     "PPR": {"LAW": 4, "SHAPEN": 3.0, "SHAPET": 2.5},
+    "bridging": BRIDGING,
+    "table": TABLE,
 }
 every = pytest.mark.parametrize(("jtype", "closure"), CASES)
 every_law = pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)

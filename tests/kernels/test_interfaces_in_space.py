@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from lines import BRIDGING, TABLE
 from reference import serendipity
 from scipy.spatial.transform import Rotation
 from space import (
@@ -28,6 +29,8 @@ LAWS = {
     "BK": {"LAW": 2, "ETA": 1.45},
     "exponential": {"LAW": 3, "POWER": 1.3},
     "PPR": {"LAW": 4, "SHAPEN": 3.0, "SHAPET": 2.5},
+    "bridging": BRIDGING,
+    "table": TABLE,
 }
 BETA = {"BETAN": 6.0e4, "BETAT": 6.0e4}
 RIGID = {"ALPHAN": 0.0, "ALPHAT": 0.0, "CLOSURE": 1}

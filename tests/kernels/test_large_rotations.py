@@ -7,6 +7,7 @@ U3 and U10 are tested with the quads or bricks whose stress they take.
 
 import numpy as np
 import pytest
+from lines import BRIDGING, TABLE
 from neighbours import Sandwich
 from scipy.spatial.transform import Rotation
 from space import QUADRATIC, bottom_of, nodes_of, top_of
@@ -39,6 +40,7 @@ ELEMENTS = {
 }
 ELEMENTS |= {3: ELEMENTS[4], 10: ELEMENTS[8]}
 OPTIONS = {"Gauss": {}, "nodes, viscous": {"INTEGRATION": 1, "VISCOSITY": 0.3}, "BK": {"LAW": 2, "ETA": 1.45}}
+OPTIONS |= {"bridging": BRIDGING, "table": TABLE}
 RIGID = {"CLOSURE": 1, "ALPHAN": 0.0, "ALPHAT": 0.0, "BETAN": -1.0, "BETAT": -1.0, "FRICTION": 0.3}
 REDUCED = {f"FORMULATION {side}": 3 for side in ("BOTTOM", "TOP")}
 OF_NEIGHBOURS = {"rigid": RIGID, "rigid, viscous, face": {**RIGID, "VISCOSITY": 0.3, "SAMPLING": 1}}

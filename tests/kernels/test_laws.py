@@ -10,6 +10,9 @@ import pytest
 from uel.errors import KernelError
 
 FLAT = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 0.0]])
+BRIDGING = {"SIGMABRIDGE": 3.0, "TAUBRIDGE": 12.0, "GIBRIDGE": 0.08, "GIIBRIDGE": 0.5}
+POINTS = ((0.1, 0.5), (0.4, 0.5), (0.5, 0.2))
+TABLE = {f"{name}{k}": p[i] for k, p in enumerate(POINTS, 1) for i, name in enumerate(("SEPARATION", "TRACTION"))}
 LAWS = {
     "bilinear": {"LAW": 1},
     "Benzeggagh-Kenane": {"LAW": 2, "ETA": 2.284},
@@ -19,6 +22,12 @@ LAWS = {
     "exponential": {"LAW": 3},
     "exponential, Benzeggagh-Kenane": {"LAW": 3, "ETA": 1.45},
     "exponential, power law": {"LAW": 3, "POWER": 2.0},
+    "bridging": {"LAW": 5, **BRIDGING},
+    "bridging, Benzeggagh-Kenane": {"LAW": 5, "ETA": 2.284, "SIGMABRIDGE": 3.0, "GIBRIDGE": 0.15},
+    # in mode I the tip outlasts the bridging
+    "bridging, power law": {"LAW": 5, "POWER": 1.7, **BRIDGING, "SIGMABRIDGE": 12.0},
+    "plateau": {"LAW": 6, "SEPARATION1": 0.3, "TRACTION1": 1.0},
+    "table": {"LAW": 6, "ETA": 1.45, **TABLE},
 }
 STIFFNESSES = {"compliant": {}, "alike": {"ALPHAN": 1e6, "ALPHAT": 1e6}, "unlike": {"ALPHAN": 1e8, "ALPHAT": 1e5}}
 # separations from opening to sliding, either way
@@ -29,6 +38,24 @@ ANGLES = np.radians([0.0, 1e-3, 10.0, 35.0, 60.0, 85.0, 89.999, 90.0, -20.0, -90
 def law_values(request, law):
     """Properties of one law."""
     return {**law, **LAWS[request.param]}
+
+
+def edges_of(reference, values, ray):
+    """Separations beyond the onset, in units of the decay of the exponential law, between which a curve is smooth."""
+    if values["LAW"] == 3:
+        return np.linspace(0, 40, 21)
+    if values["LAW"] == 6:
+        x, t = reference.polygon(values)
+        return np.append(x / np.trapezoid(t, x), 1.1 / np.trapezoid(t, x))
+    if values["LAW"] == 5:
+        start, energy = reference.onset(values, ray), reference.toughness(values, ray)
+        elastic = 0.5 * (values["ALPHAN"] * max(ray[1], 0.0) ** 2 + values["ALPHAT"] * ray[0] ** 2) * start**2
+        share = reference.mode_mix(values, ray)
+        r, m = (np.interp(share, [0, 1], pair) for pair in reference.bridging_shares(values))
+        # a line ends where its area, half of height times separation, is its part
+        ends = [(energy * q - elastic) / (energy - elastic) for q in ((1 - m) / (1 - r), m / r)]
+        return 2.0 * np.array([0.0, *sorted(ends), 1.1 * max(ends)])
+    return np.array([0.0, 2.0, 3.0])
 
 
 def traction_of(item, g):
@@ -65,7 +92,7 @@ def test_area_under_the_curve_is_the_fracture_energy(element, reference, values,
         start, energy = reference.onset(values, ray), reference.toughness(values, ray)
         strength = traction_of(item, start * ray) @ ray
         decay = energy / strength - start / 2
-        edges = start + decay * (np.linspace(0, 40, 21) if values["LAW"] == 3 else np.array([0.0, 2.0, 3.0]))
+        edges = start + decay * edges_of(reference, values, ray)
         area = 0.5 * start * strength
         for left, right in pairwise(edges):
             sizes = 0.5 * (left + right) + 0.5 * (right - left) * points
@@ -83,9 +110,8 @@ def test_energies_at_failure_in_every_mode_mix(element, reference, values):
         ray = np.array([np.sin(angle), np.cos(angle)])
         item = element(2, FLAT, **values)
         energy = reference.toughness(values, ray)
-        reach = (
-            energy / (traction_of(item, reference.onset(values, ray) * ray) @ ray) * (15 if values["LAW"] == 3 else 3)
-        )
+        far = {3: 15, 5: 30, 6: 4}.get(values["LAW"], 3)
+        reach = far * energy / (traction_of(item, reference.onset(values, ray) * ray) @ ray)
         for fraction in np.linspace(0, 1, 21)[1:] ** 2:
             u = np.zeros((4, 2))
             u[2:] = fraction * reach * ray

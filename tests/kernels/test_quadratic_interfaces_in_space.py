@@ -7,6 +7,7 @@ What they share with U7 and U8 is in test_interfaces_in_space.py.
 
 import numpy as np
 import pytest
+from lines import BRIDGING, TABLE
 from reference import gauss, serendipity_strain
 from reference_cells import EDGES, SQUARE_EDGES, share_of_nodes, with_middles
 from reference_cells import nodes_of as cell_nodes
@@ -22,6 +23,8 @@ LAWS = {
     "BK": {"LAW": 2, "ETA": 1.45},
     "exponential": {"LAW": 3, "POWER": 1.3},
     "PPR": {"LAW": 4, "SHAPEN": 3.0, "SHAPET": 2.5},
+    "bridging": BRIDGING,
+    "table": TABLE,
 }
 
 

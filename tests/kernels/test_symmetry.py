@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from lines import BRIDGING, TABLE
 from space import bottom_of, top_of
 
 from uel.usersub.layout import element_layouts
@@ -20,6 +21,7 @@ PLANES = {
 """Nodes of the standard elements, which are closed."""
 SHEAR = {2: (0.004, 0.003), 3: (0.004, 0.003, 0.003)}
 """A separation in mixed mode at which the law softens."""
+LAWS = [{"LAW": 1}, {"LAW": 2, "ETA": 2.0}, {"LAW": 3, "ETA": 2.0}, BRIDGING, TABLE]
 ELASTIC = 0.05
 """Part of it, at which the law is elastic."""
 
@@ -42,15 +44,14 @@ def test_faces_are_where_the_layout_has_them():
 
 
 @pytest.mark.parametrize("jtype", PLANES)
-@pytest.mark.parametrize("law", [1, 2, 3])
-def test_softening_in_mixed_mode(element, jtype, law):
-    exponent = {} if law == 1 else {"ETA": 2.0}
-    assert asymmetry(element, jtype, 1.0, LAW=law, **exponent) > 0.1
+@pytest.mark.parametrize("values", LAWS, ids=lambda values: f"LAW {values['LAW']}")
+def test_softening_in_mixed_mode(element, jtype, values):
+    assert asymmetry(element, jtype, 1.0, **values) > 0.1
     # without the derivative of the damage, and before damage, it is symmetric: rounding remains
-    assert asymmetry(element, jtype, 1.0, LAW=law, TANGENT=1, **exponent) < 1e-14
-    assert asymmetry(element, jtype, ELASTIC, LAW=law, **exponent) < 1e-14
+    assert asymmetry(element, jtype, 1.0, **values, TANGENT=1) < 1e-14
+    assert asymmetry(element, jtype, ELASTIC, **values) < 1e-14
     # with NLGEOM the forces are derivatives of the same energy
-    assert asymmetry(element, jtype, 1.0, nlgeom=True, LAW=law, TANGENT=1, **exponent) < 1e-14
+    assert asymmetry(element, jtype, 1.0, nlgeom=True, **values, TANGENT=1) < 1e-14
 
 
 def test_ppr_has_a_potential_as_long_as_both_separations_grow(element):
