@@ -10,7 +10,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from uel.cli import main
-from uel.delamination import law
+from uel.delamination import law, softening
 from uel.delamination.law_report import Exploration, advice, explore, path_points
 from uel.errors import KernelError, UelError
 from uel.paper.decks import FOLDER
@@ -77,7 +77,56 @@ def test_ppr_law_in_the_pure_modes(curves):
     np.testing.assert_allclose(column["TN"][1:], 30.0 * (1 - column["SEPN"][1:] * 30.0 / 0.52), atol=1e-6)
 
 
-LAWS = [("LAW=1",), ("LAW=2", "ETA=2.3"), ("LAW=3", "POWER=1.5"), ("LAW=4", "SHAPET=3")]
+BRIDGING = ("LAW=5", "SIGMABRIDGE=3", "TAUBRIDGE=12", "GIBRIDGE=0.1", "GIIBRIDGE=0.3")
+TABLE = ("LAW=6", "SEPARATION1=0.2", "TRACTION1=1", "SEPARATION2=0.5", "TRACTION2=0.2")
+LAWS = [("LAW=1",), ("LAW=2", "ETA=2.3"), ("LAW=3", "POWER=1.5"), ("LAW=4", "SHAPET=3"), BRIDGING, TABLE]
+
+
+def test_bridging_and_table_in_mode_one(curves):
+    """Lines of 27 MPa and 0.16 N/mm, 3 MPa and 0.1 N/mm; a plateau up to 0.2, then lines, with an area of 0.43."""
+    rigid = {"angles": (0.0,), "element": 4, "increments": 50}
+    stiff = ("ALPHAN=0", "ALPHAT=0", "CLOSURE=1")
+    column = curves(properties=(*BRIDGING, *stiff), **rigid)["0°"]
+    w = column["SEPN"][1:]
+    lines = [strength * np.maximum(0, 1 - w * strength / (2 * energy)) for strength, energy in ((27, 0.16), (3, 0.1))]
+    np.testing.assert_allclose(column["TN"][1:], sum(lines), atol=1e-6)
+    column = curves(properties=(*TABLE, *stiff), **rigid)["0°"]
+    w = column["SEPN"][1:] / (0.26 / 30.0 / 0.43)
+    np.testing.assert_allclose(column["TN"][1:], 30.0 * np.interp(w, [0, 0.2, 0.5, 1], [1, 1, 0.2, 0]), atol=1e-6)
+
+
+@pytest.mark.parametrize("kind", [("LAW=2",), BRIDGING, TABLE], ids=lambda kind: kind[0])
+@pytest.mark.parametrize("stiffness", [COMPLIANT, ("ALPHAN=1e7", "ALPHAT=1e6")], ids=["compliant", "stiff"])
+def test_shares_of_the_pure_modes_are_those_of_the_element(curves, kind, stiffness):
+    """Dissipated share as a function of the secant, from which the advice on the strengths follows, beside SPENT."""
+    found = curves(properties=(*kind, *stiffness), angles=(0.0, 90.0), increments=100)
+    words = law.standard_properties() | law.read_properties((*kind, *stiffness))
+    for (columns, letter), mode in zip(
+        ((found["0°"], "N"), (found["90°"], "T")), softening.pure_modes(words), strict=True
+    ):
+        softened = (columns["DAMAGE"] > 0) & (columns["DAMAGE"] < 1)
+        secants = columns[f"T{letter}"][softened] / columns[f"SEP{letter}"][softened]
+        np.testing.assert_allclose(mode.shares_at(secants), columns["SPENT"][softened], rtol=1e-7)
+        assert softened.sum() > 20
+
+
+LARGE = ("TAUBRIDGE=150", "GIIBRIDGE=0.5")
+"""Bridging that in mode II, at 200 MPa, is a larger part than in mode I."""
+
+
+@pytest.mark.parametrize(
+    ("kind", "alike"),
+    [((*BRIDGING[:2], BRIDGING[3], *LARGE), False), (BRIDGING[:2] + BRIDGING[3:4], True), (TABLE, True)],
+)
+def test_advice_on_laws_of_several_lines(kind, alike):
+    """With k_I = k_II and one shape in both modes the energy stays between the toughnesses."""
+    weak = (*kind, "TAUMAX=200", "ALPHAN=0", "ALPHAT=0")
+    found = advice(Exploration(properties=weak))
+    better = 30.0 * np.sqrt(1.002 / 0.26)
+    assert f"With this SIGMAMAX, TAUMAX = {better:.3g}" in found
+    assert ("the same parts of the bridging in both modes, keep it between." in found) != alike
+    if alike:
+        assert not advice(Exploration(properties=(*weak, f"TAUMAX={better}")))
 
 
 @pytest.mark.sample(4)
@@ -150,7 +199,7 @@ def test_properties_of_a_deck(kind, jtype):
         ({"deck": FOLDER / "quad_cook/cook_u1.inp"}, r"cook_u1.inp: no interface elements"),
         ({"properties": ["CLOSURE=1"]}, r"CLOSURE: U2 has no such property .* ignore it; --element U4 or U6 has it$"),
         ({"properties": ["OFFSETTOP=1"], "element": 4}, r"OFFSETTOP: U4 has no such property and would ignore it$"),
-        ({"properties": ["ETA=1.45"]}, r"ETA: LAW 1 ignores it; LAW 2 or 3 has it$"),
+        ({"properties": ["ETA=1.45"]}, r"ETA: LAW 1 ignores it; LAW 2, 3, 5 or 6 has it$"),
         ({"properties": ["SHAPET=3", "LAW=3"], "element": 4}, r"SHAPET: LAW 3 ignores it; LAW 4 has it$"),
         ({"properties": ["E1_TOP=1", "LAW=2", "ETA=2", "POWER=2"], "element": 6}, r"POWER: ignored where ETA is not 0"),
         ({"properties": ["SIGMAMAX=30", "GIC=1e9"]}, r"traction at 0 degrees does not fall"),

@@ -22,6 +22,7 @@ from uel.deck import read_deck
 from uel.delamination.blocks import Interface, Specimen, interface_values
 from uel.delamination.materials import PLY_0, TABLE_2
 from uel.delamination.mesh import two_arms
+from uel.delamination.softening import pure_modes
 from uel.elements import Call, Flags, build_blocks
 from uel.errors import Source, UelError, UsageError
 from uel.model.arrays import FloatArray
@@ -270,17 +271,16 @@ class LawElement:
 def orders_of_modes(values: Properties) -> tuple[float, float]:
     """Return the least and the largest energy of a point that softens in one pure mode and fails in the other.
 
-    Per area, over all moments of the switch, for a linear softening. A mode that has softened to the secant K has
-    dissipated the share (1 - K/alpha) k/(K + k) of its toughness G, with its slope k = 1/(2 G/strength**2 - 1/alpha);
-    K, k and alpha of sliding are divided by ALPHAT/ALPHAN (fortran/laws.md, Strengths and the order of the modes).
+    Per area, over all moments of the switch, for a softening along straight lines. Both modes have one secant K, that
+    of sliding divided by ALPHAT/ALPHAN, and have dissipated the shares of their toughness that belong to it
+    (fortran/laws.md, Strengths and the order of the modes).
     """
     ratio = np.array([1.0, values["ALPHAT"] / values["ALPHAN"] if values["ALPHAN"] else 1.0])
-    energies = np.array([values["GIC"], values["GIIC"]])
-    strengths = np.array([values["SIGMAMAX"], values["TAUMAX"]])
-    flexibility = 1.0 / values["ALPHAN"] if values["ALPHAN"] else 0.0
-    slopes = 1.0 / (2.0 * energies * ratio / strengths**2 - flexibility)
-    remaining = np.geomspace(1e-4 * slopes.min(), 1e4 * slopes.max(), SWITCHES)
-    shares = np.maximum(1.0 - remaining * flexibility, 0.0) * slopes[:, None] / (remaining + slopes[:, None])
+    modes = pure_modes(values)
+    energies = np.array([mode.toughness for mode in modes])
+    slopes = np.array([0.5 * mode.strength**2 / mode.toughness for mode in modes]) / ratio
+    remaining = np.geomspace(1e-6 * slopes.min(), 1e4 * slopes.max(), SWITCHES)
+    shares = [mode.shares_at(remaining * part) for mode, part in zip(modes, ratio, strict=True)]
     opened_first = energies[0] * shares[0] + energies[1] * (1.0 - shares[1])
     either = np.concatenate([opened_first, energies.sum() - opened_first, energies])
     return float(either.min()), float(either.max())

@@ -21,6 +21,7 @@ from rich.table import Table
 from uel import usersub
 from uel.delamination import law
 from uel.delamination.law import LawCurve, LawElement
+from uel.delamination.softening import LAWS, alike_in_both_modes
 from uel.errors import UsageError
 from uel.model.arrays import FloatArray
 from uel.output.lock import job_stem, locked
@@ -28,8 +29,6 @@ from uel.output.pictures.plots import COLOURS, STYLE
 
 SURFACE_ANGLES = 31
 SURFACE_SIZES = 60
-LINEAR = (0, 1, 2)
-"""Values of LAW with a linear softening."""
 NOTICED = 0.05
 """Share of a toughness by which the dissipated energy may leave the range of both without a word."""
 _LINE = 130
@@ -105,7 +104,7 @@ def advice(options: Exploration) -> str:
         The properties are not those of a law.
     """
     _, values = _properties(options)
-    if int(values["LAW"]) not in LINEAR:
+    if int(values["LAW"]) not in LAWS:
         return ""
     least, most = law.orders_of_modes(values)
     low, high = sorted((values["GIC"], values["GIIC"]))
@@ -113,9 +112,13 @@ def advice(options: Exploration) -> str:
         return ""
     ratio = values["ALPHAT"] / values["ALPHAN"] if values["ALPHAN"] else 1.0
     better = values["SIGMAMAX"] * np.sqrt(values["GIIC"] * ratio / values["GIC"])
+    alike = (
+        "" if alike_in_both_modes(values) else ", and the same parts of the bridging in both modes, keep it between."
+    )
     return (
         f"A point that softens in one mode and fails in the other dissipates {least:.3g} to {most:.3g}, beyond GIC = "
-        f"{values['GIC']:g} and GIIC = {values['GIIC']:g}. With this SIGMAMAX, TAUMAX = {better:.3g} keeps it between."
+        f"{values['GIC']:g} and GIIC = {values['GIIC']:g}. With this SIGMAMAX, TAUMAX = {better:.3g}"
+        f"{alike or ' keeps it between.'}"
     )
 
 

@@ -159,8 +159,9 @@ def check_law_uses(jtype: int, values: Mapping[str, float], law: int) -> None:
     for item in layout.reals:
         # 0 is the default, LAW 1
         if item.laws and values.get(item.name) and (law or 1) not in item.laws:
-            others = " or ".join(map(str, item.laws))
-            raise UsageError(f"{item.name}: LAW {law or 1} ignores it; LAW {others} has it")
+            *others, last = map(str, item.laws)
+            known = f"{', '.join(others)} or {last}" if others else last
+            raise UsageError(f"{item.name}: LAW {law or 1} ignores it; LAW {known} has it")
     if values.get("ETA") and values.get("POWER"):
         raise UsageError("POWER: ignored where ETA is not 0; give one of the two")
 

@@ -387,7 +387,7 @@ ERRORS = [
     ({}, {"values": [*LAW[1:], "SIGMAMAX=stone"]}, "SIGMAMAX=stone: expected NAME=VALUE with a number"),
     ({}, {"values": [*LAW[1:], "SIGMAMAX=-1"]}, "SIGMAMAX=-1: expected a value above 0"),
     ({}, {"element": "U2"}, "U2 needs ALPHAN=VALUE: a stiffness, which only stabilised elements can do without"),
-    ({}, {"values": [*LAW, "LAW=1", "ETA=2"]}, "ETA: LAW 1 ignores it; LAW 2 or 3 has it"),
+    ({}, {"values": [*LAW, "LAW=1", "ETA=2"]}, "ETA: LAW 1 ignores it; LAW 2, 3, 5 or 6 has it"),
     ({}, {"values": [*LAW, "SHAPEN=2"]}, "SHAPEN: LAW 1 ignores it; LAW 4 has it"),
 ]
 
