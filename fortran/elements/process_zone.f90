@@ -5,8 +5,8 @@
 !>     l_II = sqrt(E_n E_t) G_IIc/(2 t**2),    l_I = E_n G_Ic/(2 s**2),
 !>
 !> with the moduli across (E_n) and along the interface (E_t) and the strengths t and s. Between slender arms, whose height the
-!> element does not know, it is shorter. harness/uel/elements/interfaces/process_zone.py has the sources, and the formulas of
-!> the arms.
+!> element does not know, it is shorter. With fibre bridging, s, t and G_c are those of the tip.
+!> harness/uel/elements/interfaces/process_zone.py has the sources, and the formulas of the arms.
 module elements_process_zone
   use core_cells, only: corners_of
   use core_kinds, only: dp
@@ -80,7 +80,9 @@ contains
         end if
       end associate
     end do
-    zones = 0.5_dp*[sqrt(across*along), across]*law%toughness/law%strength**2
+    ! where fibres bridge, the zone of the tip alone is the shorter one
+    zones = 0.5_dp*[sqrt(across*along), across]*((1.0_dp - law%bridging_energy)*law%toughness) &
+      /((1.0_dp - law%bridging_strength)*law%strength)**2
     shares = merge(1.0_dp, 0.0_dp, [zones(1) < zones(2), zones(1) >= zones(2)])
     if (sum(dissipated) > 0.0_dp) shares = min(max(dissipated/sum(dissipated), 0.0_dp), 1.0_dp)
     zone = 1.0_dp/sum(shares/zones)

@@ -232,6 +232,17 @@ def test_elements_do_not_know_the_arms(kind: str, tmp_path: Path) -> None:
     assert "fails and is 0.08 long" in " ".join((tmp_path / "deck.dat").read_text().split())
 
 
+@pytest.mark.parametrize("kind", ["U2", "U4", "U8"])
+def test_zone_of_the_tip_where_fibres_bridge(kind: str, tmp_path: Path) -> None:
+    """Half of E_n G/s^2 with E_n = 1000, and 0.02 N/mm and 8 MPa of the tip: 0.156 mm; 0.25 with the total."""
+    bridging = {"LAW": 5, "SIGMABRIDGE": 2.0, "GIBRIDGE": 0.03}
+    (warning,) = pulled(tmp_path, kind, 0.07, 1.0, opening=0.1, **bridging).warnings
+    if kind == "U2":
+        assert "fails and is 0.07 long, the process zone about 0.16 (0% mode II)" in warning
+    else:
+        assert told(warning, kind) == pytest.approx((3, 0.07, 0.15625, 0), rel=1e-5)
+
+
 def test_element_that_fails_in_the_last_increment(tmp_path: Path) -> None:
     """It would tell in the next one."""
     (warning,) = pulled(tmp_path, "U4", 0.1, 1.0, opening=0.05, first=1.0).warnings

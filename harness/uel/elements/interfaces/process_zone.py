@@ -14,7 +14,8 @@ composite delamination", Engineering Fracture Mechanics 75 (2008) 4774-4792, who
 is the modulus of A. Turon and others, Engineering Fracture Mechanics 74 (2007) 1665-1682; that the moduli of the modes
 have the ratio sqrt(E_t/E_n) follows from G. C. Sih, P. C. Paris and G. R. Irwin, International Journal of Fracture
 Mechanics 1 (1965) 189-203. In mixed mode, 1/l is the mean of 1/l_I and 1/l_II with the energies that the failing point
-has dissipated as weights, which has these limits; there is no formula of the literature for it.
+has dissipated as weights, which has these limits; there is no formula of the literature for it. Where fibres bridge (LAW 5),
+the zone is that of the tip alone, which is the shorter one: s, t and G_c less those of the bridging.
 
 The project's elements with solids of their own know the moduli, but not the arms. They send a message themselves, in
 Abaqus too, in the increment after the one in which a point fails (fortran/elements/process_zone.f90). The warning of
@@ -24,7 +25,7 @@ their groups waits until then, and is not given if they have spoken.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -39,12 +40,14 @@ from uel.model.model import Model
 from uel.model.properties import CohesiveSection, ElasticType, SolidSection, UserProperty
 from uel.model.records import IncrementDone
 from uel.usersub import Library
-from uel.usersub.layout import element_layouts
+from uel.usersub.layout import ElementLayout, element_layouts
 
 FACTOR: Final = 0.5
 """Factor m of Harper and Hallett."""
 ELEMENTS: Final = 3
 """Number of elements that the process zone has to hold."""
+BRIDGING: Final = 5
+"""LAW with fibre bridging."""
 FAILED: Final = 0.5
 """Part of the fracture energy from which on a point counts as failing: any law gives a bonded point less."""
 _FLAT: Final = 0.999
@@ -57,16 +60,26 @@ TOLD: Final = "the process zone at most"
 
 @dataclass(frozen=True, slots=True)
 class _Law:
-    """Strengths and fracture energies of modes I and II; speaks: the elements may send the message themselves."""
+    """Strengths and fracture energies of modes I and II; speaks: the elements may send the message themselves.
+
+    bridging  parts of the strengths and of the energies that bridging fibres have
+    """
 
     strengths: tuple[float, float]
     energies: tuple[float, float]
     speaks: bool = False
+    bridging: tuple[tuple[float, float], tuple[float, float]] = ((0.0, 0.0), (0.0, 0.0))
+
+    @property
+    def tip(self) -> tuple[FloatArray, FloatArray]:
+        """Strengths and fracture energies without the bridging."""
+        parts = np.array(self.bridging)
+        return np.array(self.strengths) - parts[0], np.array(self.energies) - parts[1]
 
     @property
     def valid(self) -> bool:
         """Whether all are positive; elsewhere the elements themselves say what is wrong."""
-        return min(*self.strengths, *self.energies) > 0.0
+        return bool(np.min(self.tip) > 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,7 +192,19 @@ def _law(group: ElementGroup, library: Library) -> _Law | None:
         # a crack that is there from the start does not fail
         return None
     values = {item.name: float(section.values[item.position - 1]) for item in layout.reals}
-    return _Law((values["SIGMAMAX"], values["TAUMAX"]), (values["GIC"], values["GIIC"]), speaks=bool(layout.own))
+    law = _Law((values["SIGMAMAX"], values["TAUMAX"]), (values["GIC"], values["GIIC"]), speaks=bool(layout.own))
+    if law.valid and _number_of_law(section, layout) == BRIDGING:
+        parts = (("SIGMABRIDGE", "TAUBRIDGE", law.strengths), ("GIBRIDGE", "GIIBRIDGE", law.energies))
+        # 0 in mode II: the same part as in mode I
+        pairs = [(values[a], values[b] or values[a] * total[1] / total[0]) for a, b, total in parts]
+        law = replace(law, bridging=(pairs[0], pairs[1]))
+    return law
+
+
+def _number_of_law(section: UserProperty, layout: ElementLayout) -> int:
+    """Return LAW of interface elements."""
+    position = next(item.position for item in layout.integers if item.name == "LAW")
+    return int(section.integers[position - 1]) if len(section.integers) >= position else 0
 
 
 def _built_in_law(section: CohesiveSection) -> _Law | None:
@@ -309,7 +334,8 @@ def _arm_height(inside: FloatArray, middle: FloatArray, normal: FloatArray) -> f
 
 def _zones(law: _Law, across: FloatArray, axial: FloatArray, height: float) -> FloatArray:
     """Compute the lengths of the process zones of modes I and II (2, m)."""
-    first, second = (energy / strength**2 for energy, strength in zip(law.energies, law.strengths, strict=True))
+    strengths, energies = law.tip
+    first, second = energies / strengths**2
     mode_1 = np.minimum(across * first, (axial * first) ** 0.25 * height**0.75)
     mode_2 = np.minimum(np.sqrt(across * axial) * second, np.sqrt(axial * second * height))
     return FACTOR * np.array([mode_1, mode_2])
