@@ -5,11 +5,12 @@
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import uel
 from uel import usersub
-from uel.delamination.kernels import state_labels
+from uel.delamination.kernels import state_labels, uel_property
 from uel.usersub import layout
 
 ROOT = Path(__file__).parents[2]
@@ -39,6 +40,27 @@ def test_the_deck_of_the_documentation_dissipates_its_fracture_energy(tmp_path):
     (tmp_path / "pulled.inp").write_text(deck[1])
     result = uel.run(tmp_path / "pulled.inp", output_dir=tmp_path)
     assert result.history["ALLPD"][-1] == pytest.approx(0.0325, rel=1e-9)
+
+
+def test_two_sets_of_the_documentation_are_one_of_the_law_with_bridging(tmp_path):
+    """3 MPa up to 0.2/3 mm are left of 0.26 N/mm: under the traction t, 0.26 - t/30 are dissipated, on 0.125 mm^2."""
+    page = (ROOT / "fortran/laws.md").read_text()
+    deck = re.search(r"^```abaqus two_sets.inp\n(.*?)^```$", page, re.M | re.S)[1]
+    (tmp_path / "two_sets.inp").write_text(deck)
+    law = {"ALPHAN": 1e6, "ALPHAT": 1e6, "SIGMAMAX": 30.0, "TAUMAX": 60.0, "GIC": 0.26, "GIIC": 1.0, "LAW": 5}
+    lines = uel_property(2, "TIP", law | {"THICKNESS": 1.0, "SIGMABRIDGE": 3.0, "GIBRIDGE": 0.1})
+    one = re.sub(r"\*ELEMENT, TYPE=U2, ELSET=BRIDGES\n.*\n", "", deck)
+    one = re.sub(
+        r"\*UEL PROPERTY, ELSET=TIP\n(?:.*\n)*?\*BOUNDARY\n", "\n".join([*lines, "*BOUNDARY", ""]), one, count=1
+    )
+    (tmp_path / "one_set.inp").write_text(one)
+    two, one = (uel.run(tmp_path / f"{name}.inp", output_dir=tmp_path) for name in ("two_sets", "one_set"))
+    for result in (two, one):
+        force = sum(result.history[f"RF2[TOP:{node}]"][-1] for node in (7, 8))
+        assert result.history["ALLPD"][-1] == pytest.approx(0.26 * 0.125 - force / 30.0, rel=1e-9)
+        assert force == pytest.approx(0.1507, abs=5e-5)
+    for name, values in two.history.items():
+        np.testing.assert_allclose(one.history[name], values, rtol=1e-9, atol=1e-12, err_msg=name)
 
 
 def test_names_of_svars():
