@@ -14,8 +14,8 @@ composite delamination", Engineering Fracture Mechanics 75 (2008) 4774-4792, who
 is the modulus of A. Turon and others, Engineering Fracture Mechanics 74 (2007) 1665-1682; that the moduli of the modes
 have the ratio sqrt(E_t/E_n) follows from G. C. Sih, P. C. Paris and G. R. Irwin, International Journal of Fracture
 Mechanics 1 (1965) 189-203. In mixed mode, 1/l is the mean of 1/l_I and 1/l_II with the energies that the failing point
-has dissipated as weights, which has these limits; there is no formula of the literature for it. Where fibres bridge (LAW 5),
-the zone is that of the tip alone, which is the shorter one: s, t and G_c less those of the bridging.
+has dissipated as weights, which has these limits; there is no formula of the literature for it. Where fibres bridge
+(LAW 5), the zone is that of the tip alone, which is the shorter one: s, t and G_c less those of the bridging.
 
 The project's elements with solids of their own know the moduli, but not the arms. They send a message themselves, in
 Abaqus too, in the increment after the one in which a point fails (fortran/elements/process_zone.f90). The warning of
