@@ -19,16 +19,20 @@ DECKS = sorted(
 INTENDED = {("U3", "order"), ("U10", "order"), *((kind, "energy") for kind in ("U4", "U6", "U8", "U12"))}
 """Results of harness/uel/check/README.md, 'The project's own elements'."""
 
+LOADED_AT_REST = {"u8_prestressed": {("U8", "rest")}}
+"""The same, of decks with an initial stress."""
+
 
 @pytest.mark.long
 @pytest.mark.parametrize("deck", DECKS, ids=lambda deck: f"{deck.parent.name}-{deck.stem}")
 def test_no_false_alarm(deck):
+    intended = INTENDED | LOADED_AT_REST.get(deck.stem, set())
     # what the compiler says is the same in every deck: tests/harness/check/test_compiler.py
     outcome = examine_isolated(deck, [path_of_amalgam()], increments=1, skip=["compiler"])
     failed = {
         (report.type, name): finding.message
         for report in outcome.types
         for name, finding in report.findings.items()
-        if finding.verdict is Verdict.FAILED and (report.type, name) not in INTENDED
+        if finding.verdict is Verdict.FAILED and (report.type, name) not in intended
     }
     assert not failed
