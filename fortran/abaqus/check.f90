@@ -7,12 +7,13 @@ module abaqus_check
     too_brittle_mixed, late_secant, no_root, along_normal, layer_slants, layer_twists, bridging_strength, bridging_energy, &
     brittle_tip, brittle_bridging, brittle_mixed_line, no_table, table_gap, table_separation, table_traction
   use abaqus_layout, only: elements, faces, reals, integers, expectations, every_continuum, with_solids, next_to_solids, &
-    positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, any_integer, p_alphan, p_alphat, p_gic, p_giic, &
-    p_sigmamax, p_taumax, p_betan, p_betat, p_shapen, p_shapet, p_friction, p_direction1, p_sigmabridge, p_taubridge, &
-    p_gibridge, p_giibridge, p_separation1, p_separation2, p_traction1, j_law, j_closure, j_formulation_bottom, j_formulation_top
+    positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, above_minus_one, load_ratio, any_integer, &
+    p_alphan, p_alphat, p_gic, p_giic, p_sigmamax, p_taumax, p_betan, p_betat, p_shapen, p_shapet, p_friction, p_direction1, &
+    p_sigmabridge, p_taubridge, p_gibridge, p_giibridge, p_separation1, p_separation2, p_traction1, j_law, j_closure, &
+    j_formulation_bottom, j_formulation_top, j_fatigue
   use abaqus_properties, only: unknowns_of, variables_of, real_position, integer_position, unpack, recommend, &
     by_eigenvalues, by_equation_21, consistent_closure, complete_closure
-  use cohesive_law_properties, only: ppr_law
+  use cohesive_law_properties, only: bilinear_law, mixed_bilinear_law, ppr_law
   use elements_bulk_solid, only: has_formulation, reduced_integration
   use abaqus_report, only: fatal
   implicit none(type, external)
@@ -94,6 +95,10 @@ contains
         good = values(i) >= 0.5_dp .or. abs(values(i)) <= 0.0_dp
       case (above_one)
         good = values(i) > 1.0_dp .or. abs(values(i)) <= 0.0_dp
+      case (above_minus_one)
+        good = values(i) > -1.0_dp .and. values(i) <= huge(1.0_dp)
+      case (load_ratio)
+        good = abs(values(i)) <= 1.0_dp
       case default
         good = abs(values(i)) <= huge(1.0_dp)
       end select
@@ -189,6 +194,18 @@ contains
     logical :: consistent, infinite
     integer :: i
 
+    good = options(j_fatigue) >= 0
+    if (.not. good) then
+      call fatal(itype, jelem, 'JPROPS(%I) FATIGUE = %I: expected zero or the number of a step', &
+        [integer_position(itype, j_fatigue), options(j_fatigue)], [real(dp) ::])
+      return
+    end if
+    good = options(j_fatigue) == 0 .or. any(options(j_law) == [bilinear_law, mixed_bilinear_law])
+    if (.not. good) then
+      call fatal(itype, jelem, 'JPROPS(%I) FATIGUE = %I, but LAW = %I, which has no fatigue: expected LAW = 1 or 2', &
+        [integer_position(itype, j_fatigue), options(j_fatigue), options(j_law)], [real(dp) ::])
+      return
+    end if
     consistent = any(options(j_closure) == [consistent_closure, complete_closure])
     good = options(j_closure) /= complete_closure .or. iand(elements(itype)%family, next_to_solids) == 0
     if (.not. good) then

@@ -6,7 +6,7 @@ module abaqus_interface_elements
   use core_status, only: status_type, ok, sentence
   use core_cells, only: corners_of, is_linear
   use materials_linear_elasticity, only: engineering_constants, plane_stiffness, solid_stiffness, plane_expansion, solid_expansion
-  use cohesive_parameters, only: law_parameters
+  use cohesive_parameters, only: law_parameters, load_cycles
   use cohesive_initial_crack, only: open_crack
   use cohesive_law, only: prepare_law
   use elements_bulk_solid, only: solid_type
@@ -20,12 +20,12 @@ module abaqus_interface_elements
     p_e1_bottom, p_e2_bottom, p_e3_bottom, p_nu12_bottom, p_nu13_bottom, p_nu23_bottom, p_g12_bottom, p_g13_bottom, &
     p_g23_bottom, p_angle_bottom, p_e1_top, p_e2_top, p_e3_top, p_nu12_top, p_nu13_top, p_nu23_top, p_g12_top, p_g13_top, &
     p_g23_top, p_angle_top, p_expansion1_bottom, p_expansion2_bottom, p_expansion3_bottom, p_expansion1_top, p_expansion2_top, &
-    p_expansion3_top, p_direction1, p_direction2, p_direction3, p_initialn, p_initials, p_initialt, &
+    p_expansion3_top, p_direction1, p_direction2, p_direction3, p_initialn, p_initials, p_initialt, p_damagejump, &
     j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, &
-    j_formulation_bottom, j_formulation_top, j_cracked, j_pacing, &
+    j_formulation_bottom, j_formulation_top, j_cracked, j_pacing, j_fatigue, &
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
-    v_maxn, v_maxt, v_spent, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, w_dissi, w_dissii, w_sn, w_st, &
-    w_dmax, w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt, w_spent
+    v_maxn, v_maxt, v_spent, v_relsep, v_dddn, v_cycles, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, &
+    w_dissi, w_dissii, w_sn, w_st, w_dmax, w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt, w_spent, w_relsep, w_dddn, w_cycles
   use abaqus_properties, only: face_nodes, nodes_of_face, real_position, variables_of_points, by_eigenvalues, complete_closure, &
     paper_closure
   use abaqus_check, only: report_status
@@ -46,27 +46,34 @@ module abaqus_interface_elements
   !> Growth in place of none: only a PNEWDT above 1 counts.
   real(dp), parameter :: no_growth = 1.000001_dp
 
+  !> Damage by the cycles of an increment that DAMAGEJUMP = 0 stands for.
+  real(dp), parameter :: usual_jump = 0.02_dp
+  !> Share of it at which the next increment aims: the rate of damage changes from one to the next.
+  real(dp), parameter :: aim = 0.9_dp
+
   !> Positions of the variables of a point: vectors by the components (s, n, t), pairs (tau, n).
   type :: point_positions
     integer :: count
     integer :: position(3), jump(3), traction(3), separation(3)
     integer :: stabilisation(2), dissipated(2), largest(2)
-    integer :: damage, damage_max, viscous, friction_work, spent
+    integer :: damage, damage_max, viscous, friction_work, spent, relative, rate, cycles
   end type point_positions
 
   type(point_positions), parameter :: positions(2:3) = [ &
     point_positions(interface_variables, [v_x, v_y, 0], [v_sept, v_sepn, 0], [v_tt, v_tn, 0], [v_wt, v_wn, 0], &
-      [v_st, v_sn], [v_dissii, v_dissi], [v_maxt, v_maxn], v_damage, v_dmax, v_dissv, v_dissf, v_spent), &
+      [v_st, v_sn], [v_dissii, v_dissi], [v_maxt, v_maxn], v_damage, v_dmax, v_dissv, v_dissf, v_spent, v_relsep, v_dddn, &
+      v_cycles), &
     point_positions(surface_variables, [w_x, w_y, w_z], [w_seps, w_sepn, w_sept], [w_ts, w_tn, w_tt], [w_ws, w_wn, w_wt], &
-      [w_st, w_sn], [w_dissii, w_dissi], [w_maxt, w_maxn], w_damage, w_dmax, w_dissv, w_dissf, w_spent)]
+      [w_st, w_sn], [w_dissii, w_dissi], [w_maxt, w_maxn], w_damage, w_dmax, w_dissv, w_dissf, w_spent, w_relsep, &
+      w_dddn, w_cycles)]
 
 contains
 
   !> Evaluates every type but U1 and U9; `good` is false after a message. SVARS and ENERGY come back with their end values:
   !> ENERGY(2) is what the law and, in the
   !> complete form, the gap store, ENERGY(4) what damage and friction have dissipated, ENERGY(5) what the viscous overstress has.
-  subroutine evaluate_interface(itype, jelem, values, options, coords, u, temperatures, dtime, finite, with_tangent, svars, &
-    energy, residual, tangent, growth, good)
+  subroutine evaluate_interface(itype, jelem, values, options, coords, u, temperatures, dtime, cycles, finite, with_tangent, &
+    svars, energy, residual, tangent, growth, good)
     integer, intent(in) :: itype, jelem
     real(dp), intent(in) :: values(:)              !< properties by their rows in the layout
     integer, intent(in) :: options(:)
@@ -74,6 +81,7 @@ contains
     real(dp), intent(in) :: u(:)
     real(dp), intent(in) :: temperatures(:, :)     !< (2, nodes) at the end of the increment, and its change
     real(dp), intent(in) :: dtime
+    type(load_cycles), intent(in) :: cycles        !< of the increment
     logical, intent(in) :: finite                  !< large rotations
     logical, intent(in) :: with_tangent            !< else it is zero
     real(dp), intent(inout) :: svars(*), energy(8)
@@ -94,6 +102,8 @@ contains
     growth = huge(growth)
     call prepare_law(options(j_law), law_properties_of(values), law, status)
     law%paced = options(j_pacing) == 1
+    law%fatigue = options(j_fatigue) > 0
+    law%cycles = cycles
     good = status%code == ok
     if (.not. good) then
       call report_status(itype, jelem, status)
@@ -139,7 +149,8 @@ contains
     good = status%code == ok
     if (good) then
       call warn_if_raised(itype, jelem, stabilisation%estimate, stabilisation%beta)
-      growth = paced_growth(law, dtime, old%history%damage, new%history%damage)
+      growth = min(paced_growth(law, dtime, old%history%damage, new%history%damage), &
+        jump_growth(values(p_damagejump), maxval(new%history%cycled%grown)))
       call write_state(new, dim, svars)
       energy = 0.0_dp
       energy([2, 4, 5]) = energies
@@ -159,6 +170,22 @@ contains
     if (.not. (law%paced .and. law%viscosity > 0.0_dp .and. dtime > 0.0_dp .and. any(new > old))) return
     if (law%viscosity < usual_growth*least_damping*dtime) growth = max(no_growth, law%viscosity/(least_damping*dtime))
   end function paced_growth
+
+  !> Largest ratio of the next increment to this one that DAMAGEJUMP asks for: below 1, this increment is to be repeated.
+  pure function jump_growth(given, grown) result(growth)
+    real(dp), intent(in) :: given   !< DAMAGEJUMP
+    real(dp), intent(in) :: grown   !< damage by the cycles of the increment, the largest of the points
+    real(dp) :: growth
+    real(dp) :: most
+
+    growth = huge(growth)
+    most = merge(given, usual_jump, given > 0.0_dp)
+    if (grown > most) then
+      growth = aim*most/grown
+    else if (usual_growth*grown > aim*most) then
+      growth = max(no_growth, aim*most/grown)
+    end if
+  end function jump_growth
 
   !> RHS of the tractions in SVARS, at the displacements to which they belong: of the start of an increment; `good` is false after a
   !> message.
@@ -372,6 +399,8 @@ contains
       points(k)%history%friction_work = svars(first + at%friction_work)
       points(k)%history%spent = svars(first + at%spent)
       points(k)%history%largest = svars(first + at%largest)
+      points(k)%history%cycled%relative = svars(first + at%relative)
+      points(k)%history%cycled%cycles = svars(first + at%cycles)
     end do
   end function points_from
 
@@ -398,6 +427,9 @@ contains
       svars(first + at%viscous) = points(k)%history%viscous
       svars(first + at%friction_work) = points(k)%history%friction_work
       svars(first + at%spent) = points(k)%history%spent
+      svars(first + at%relative) = points(k)%history%cycled%relative
+      svars(first + at%rate) = points(k)%history%cycled%rate
+      svars(first + at%cycles) = points(k)%history%cycled%cycles
     end do
   end subroutine write_state
 

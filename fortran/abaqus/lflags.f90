@@ -6,7 +6,7 @@ module abaqus_lflags
   use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: large_displacements, asks_for_nothing, asks_for_tangent, weight_of_start, values_are_kept, give_answer
+  public :: large_displacements, is_linear_step, asks_for_nothing, asks_for_tangent, weight_of_start, values_are_kept, give_answer
 
   ! LFLAGS(1): *DYNAMIC with automatic and with fixed increments
   integer, parameter :: dynamic(2) = [11, 12]
@@ -28,6 +28,13 @@ contains
 
     large_displacements = lflags(2) /= 0
   end function large_displacements
+
+  !> LFLAGS(4): the step is a linear perturbation.
+  pure logical function is_linear_step(lflags)
+    integer, intent(in) :: lflags(*)
+
+    is_linear_step = lflags(4) == 1
+  end function is_linear_step
 
   !> True for mass and damping alone: those matrices stay zero.
   pure logical function asks_for_nothing(lflags)
@@ -54,7 +61,7 @@ contains
     real(dp), intent(in) :: params(*)   !< alpha, beta and gamma in *DYNAMIC
 
     weight_of_start = 0.0_dp
-    if (.not. any(lflags(1) == dynamic) .or. lflags(4) == 1) return
+    if (.not. any(lflags(1) == dynamic) .or. is_linear_step(lflags)) return
     if (lflags(3) == normal .or. lflags(3) == residual_alone) weight_of_start = -params(1)
   end function weight_of_start
 
@@ -62,7 +69,7 @@ contains
   pure logical function values_are_kept(lflags)
     integer, intent(in) :: lflags(*)
 
-    values_are_kept = lflags(3) == normal .and. lflags(4) /= 1
+    values_are_kept = lflags(3) == normal .and. .not. is_linear_step(lflags)
   end function values_are_kept
 
   !> Hands over what a call asks for; the rest stays as it is, RHS and AMATRX zero. In a linear step, LFLAGS(4) = 1, RHS is the
@@ -73,7 +80,7 @@ contains
     real(dp), intent(inout) :: rhs(:), amatrx(:, :), svars(:), energy(8)
 
     if (asks_for_tangent(lflags)) amatrx = tangent
-    if (lflags(4) == 1) then
+    if (is_linear_step(lflags)) then
       if (lflags(3) == perturbation) rhs = -matmul(tangent, du)
       return
     end if

@@ -4,14 +4,16 @@
 !>
 !> Everything is declared, so that ABA_PARAM.INC and its implicit typing are not needed. The routine sets every entry of RHS and
 !> AMATRX, whatever they hold on entry. SVARS and ENERGY change only in calls whose values are kept, LFLAGS(3) = 1 of a general
-!> step; in these, elements with PACING lower PNEWDT to limit the next increment. In a linear step (LFLAGS(4) = 1) RHS is the effect
-!> of the perturbation: zero without loads on the elements, and -AMATRX DU once DU is known (LFLAGS(3) = 100). In *DYNAMIC it
-!> is (1 + alpha) G - alpha G_start, PARAMS(1) being alpha.
+!> step; in these, elements with PACING or FATIGUE lower PNEWDT to limit the next increment or to repeat this one. In a linear step
+!> (LFLAGS(4) = 1) RHS is the effect of the perturbation: zero without loads on the elements, and -AMATRX DU once DU is known
+!> (LFLAGS(3) = 100). In *DYNAMIC it is (1 + alpha) G - alpha G_start, PARAMS(1) being alpha.
 subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u, du, v, a, &
   jtype, time, dtime, kstep, kinc, jelem, params, ndload, jdltyp, adlmag, predef, npredf, lflags, mlvarx, ddlmag, &
   mdload, pnewdt, jprops, njprop, period)
   use core_kinds, only: dp
+  use cohesive_parameters, only: load_cycles
   use abaqus_check, only: call_is_good
+  use abaqus_cycles, only: count_cycles
   use abaqus_interface_elements, only: evaluate_interface, interface_forces_at
   use abaqus_layout, only: elements, every_continuum, names_of_types, reals, integers
   use abaqus_lflags, only: asks_for_nothing, asks_for_tangent, give_answer, large_displacements, weight_of_start, values_are_kept
@@ -26,6 +28,7 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   real(dp), intent(in) :: params(*), adlmag(mdload, *), predef(2, npredf, nnode), ddlmag(mdload, *), period
   real(dp) :: residual(ndofel), tangent(ndofel, ndofel), state(variables_of(row_of(jtype))), energies(8), values(size(reals))
   real(dp) :: before(ndofel), temperatures(2, nnode), weight, growth
+  type(load_cycles) :: cycles
   logical :: good
   integer :: n, itype, options(size(integers))
 
@@ -56,8 +59,10 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
       temperatures(1, :) - temperatures(2, :), large_displacements(lflags), state, before, good)
     if (.not. good) return
   end if
-  call evaluate_interface(itype, jelem, values, options, coords, u, temperatures, dtime, large_displacements(lflags), &
-    asks_for_tangent(lflags), state, energies, residual, tangent, growth, good)
+  call count_cycles(itype, jelem, values, options, lflags, kstep, dtime, npredf, predef, cycles, good)
+  if (.not. good) return
+  call evaluate_interface(itype, jelem, values, options, coords, u, temperatures, dtime, &
+    cycles, large_displacements(lflags), asks_for_tangent(lflags), state, energies, residual, tangent, growth, good)
   if (.not. good) return
   if (values_are_kept(lflags)) pnewdt = min(pnewdt, growth)
   if (abs(weight) > 0.0_dp) then

@@ -10,6 +10,9 @@
 !> Where the direction turns meanwhile, it is that of a direction in between. K never grows, so that no increment dissipates a
 !> negative energy.
 !>
+!> Under cycles the separation is below the envelope. An increment with cycles dissipates the work of its tractions by the
+!> trapezoidal rule less the change of the stored energy, (t0 w1 - t1 w0)/2.
+!>
 !> SPENT is the share of the fracture energy that a straight path to the present state dissipates, a function of K and the
 !> direction: the rest is what the point will dissipate on its way to failure in that direction. Where a path turns towards a
 !> tougher mode the function falls; SPENT keeps its largest value. It is 1 at failure, and nowhere else.
@@ -21,7 +24,8 @@ module cohesive_dissipation
   use cohesive_state, only: point_history, damage_state, law_solution
   use cohesive_law, only: loss, softening, stiffness_of
   use cohesive_mode_mix, only: measure_onset, measure_energy
-  use cohesive_local_solve, only: damage_at_secant, softening_stiffness, opening_part
+  use cohesive_local_solve, only: opening_part
+  use cohesive_local_equation, only: damage_at_secant, softening_stiffness
   use cohesive_ppr, only: ppr_work_of_damage, ppr_share_spent, ppr_damage_of_components
   implicit none(type, external)
   private
@@ -65,11 +69,11 @@ contains
       work = work_of_damage(law, before, after, (1.0_dp - history%damage)*stiffness_of(law)*before, old, new)
       spent = max(spent, share_spent(law, after, new))
     end if
-    if (law%viscosity > 0.0_dp) then
+    if (law%viscosity > 0.0_dp .or. law%cycles%count > 0.0_dp) then
       growth = 0.5_dp*stiffness_of(law)*growth
       of_component = growth(mode_of)*g0*g1
       most = max(0.0_dp, [sum(of_component(shears)), of_component(2)])
-      work = min(work, most)
+      work = merge(most, min(work, most), law%cycles%count > 0.0_dp)
       viscous = viscous + sum(most - work)
     end if
     dissipated = dissipated + work
@@ -85,7 +89,7 @@ contains
     real(dp), intent(out) :: viscous
     real(dp), intent(out) :: friction_work
     real(dp), intent(out) :: spent             !< share of the fracture energy
-    real(dp), dimension(3) :: w0, w1
+    real(dp), dimension(3) :: w0, w1, of_component
     real(dp), dimension(2) :: before, after
 
     w0 = opening_part(history%separation)
@@ -100,6 +104,10 @@ contains
     if (law%kind == ppr_law) then
       dissipated = dissipated + ppr_work_of_damage(law, history%largest, state%largest, before, after)
       spent = max(spent, ppr_share_spent(law, state%largest))
+    else if (law%cycles%count > 0.0_dp) then
+      of_component = 0.5_dp*(opening_part(traction)*w1 - opening_part(state%recoverable)*w0)
+      dissipated = dissipated + max(0.0_dp, [sum(of_component(shears)), of_component(2)])
+      spent = max(spent, share_spent(law, after, state%damage))
     else
       dissipated = dissipated + work_of_damage(law, before, after, resultant(opening_part(traction)), history%damage, state%damage)
       spent = max(spent, share_spent(law, after, state%damage))

@@ -21,6 +21,7 @@ module cohesive_law
   use cohesive_state, only: point_history, damage_state
   use cohesive_mode_mix, only: check_mode_mix
   use cohesive_bilinear, only: bilinear_softening, bilinear_steepest, bilinear_loss
+  use cohesive_fatigue, only: grow_at_separation
   use cohesive_exponential, only: exponential_softening, exponential_steepest, exponential_loss
   use cohesive_multilinear, only: prepare_bridging, prepare_table, check_bridging, multilinear_softening, multilinear_steepest, &
     multilinear_loss
@@ -236,6 +237,7 @@ contains
       state%damage_max = history%damage_max
       slope = 0.0_dp
     end if
+    if (law%fatigue) call grow_at_separation(law, separation, history, state%damage_max, slope, state%cycled)
     state%damage = state%damage_max
     if (law%viscosity > 0.0_dp) then
       state%damage = history%damage + fraction*(state%damage_max - history%damage)

@@ -23,18 +23,14 @@ module cohesive_local_solve
   use cohesive_shear, only: mode_of, shears, resultant, shear_direction, vector_tangent
   use cohesive_state, only: point_history, law_solution, driven_point, resultant_solution
   use cohesive_law, only: softening
+  use cohesive_fatigue_local_solve, only: grow_by_cycles, measure_cycles
+  use cohesive_local_equation, only: law_equation, equation_of, shares, direction_at, remainder_at, damage_of, damage_at_secant, &
+    at_damage, softening_stiffness
   use cohesive_friction, only: friction_state, coulomb_friction, add_friction
   use cohesive_ppr_local_solve, only: solve_ppr_law, ppr_trial_of_rest
   implicit none(type, external)
   private
-  public :: solve_law, damage_at_secant, softening_stiffness, opening_part
-
-  !> The scalar equation: b, and p/ratio without its compressive part.
-  type :: law_equation
-    real(dp) :: b(2)         !< (beta + viscous part)/ratio, stress/length
-    real(dp) :: least        !< smaller one of b
-    real(dp) :: driving(2)   !< p/ratio, stress
-  end type law_equation
+  public :: solve_law, opening_part
 
 contains
 
@@ -100,6 +96,7 @@ contains
     state%overstress = driven%viscous(mode_of)*(opening_part(state%separation) - old)
     state%traction = state%recoverable + state%overstress
     state%by_trial = vector_tangent(direction, solution%share, solution%by_trial)
+    state%cycled = solution%cycled
     state%friction = 0.0_dp
     if (.not. friction%acts) return
     state%friction = friction%traction
@@ -144,17 +141,6 @@ contains
     damage = damage_at_secant(law, traction, pair(1))
   end function damage_of_shear
 
-  !> The scalar equation of a point.
-  pure function equation_of(law, driven) result(equation)
-    type(law_parameters), intent(in) :: law
-    type(driven_point), intent(in) :: driven
-    type(law_equation) :: equation
-
-    equation%b = (driven%beta + driven%viscous)/law%ratio
-    equation%least = minval(equation%b)
-    equation%driving = 0.0_dp
-  end function equation_of
-
   !> The laws that are a softening curve in every direction, in (tau, n).
   pure subroutine solve_softening_law(law, driven, history, solution)
     type(law_parameters), intent(in) :: law
@@ -162,20 +148,30 @@ contains
     type(point_history), intent(in) :: history
     type(resultant_solution), intent(out) :: solution
     type(law_equation) :: equation
-    real(dp) :: stiff(2), soft(2), viscous(2), x
-    logical :: grows
+    real(dp) :: stiff(2), soft(2), viscous(2), by_driving(2), start, x
+    real(dp), dimension(2, 2) :: loading, opening
+    logical :: may_grow, grows
+    integer :: steps
 
     equation = equation_of(law, driven)
     equation%driving = [driven%trial(1), max(0.0_dp, driven%trial(2))]/law%ratio
     x = at_damage(law, equation%least, history%damage)
     solution%damage = history%damage
     solution%largest = 0.0_dp
-    grows = history%damage < 1.0_dp .and. .not. driven%sticks .and. .not. driven%fixed
+    may_grow = history%damage < 1.0_dp .and. .not. (driven%sticks .or. driven%fixed) .and. maxval(equation%driving) > 0.0_dp
+    grows = may_grow
     solution%solved = .true.
     solution%steps = 0
-    if (grows) call solve_for_damage(law, equation, x, grows, solution%solved, solution%steps)
+    start = x
+    if (may_grow) call solve_for_damage(law, equation, x, grows, solution%solved, solution%steps)
+    if (may_grow .and. law%cycles%count > 0.0_dp .and. solution%solved) then
+      call grow_by_cycles(law, equation, history%cycled%relative, start, x, solution%cycled%grown, by_driving, &
+        solution%solved, steps)
+      solution%steps = solution%steps + steps
+    end if
     ! where it is nearly 1, rounding could make it decrease
-    if (grows) solution%damage = max(history%damage, damage_of(law, equation%least, x))
+    if (grows .or. solution%cycled%grown > 0.0_dp) solution%damage = max(history%damage, damage_of(law, equation%least, x))
+    if (law%fatigue) call measure_cycles(law, equation, x, history, solution%cycled)
     call shares(law, driven, equation, x, stiff, soft)
     solution%recoverable = stiff*driven%trial
     solution%separation = soft*driven%trial
@@ -187,41 +183,29 @@ contains
     solution%by_trial = 0.0_dp
     solution%by_trial(1, 1) = solution%share
     solution%by_trial(2, 2) = stiff(2) + viscous(2)*soft(2)
-    if (grows .and. driven%secant_share < 1.0_dp) call blend_loading(law, equation, x, driven%closed, viscous, &
-      1.0_dp - driven%secant_share, solution%by_trial)
+    if (.not. driven%secant_share < 1.0_dp) return
+    if (solution%cycled%grown > 0.0_dp) then
+      call slopes_of_cycles(law, equation, x, by_driving, loading, opening)
+    else if (grows) then
+      call slopes_of_loading(law, equation, x, loading, opening)
+    else
+      return
+    end if
+    call blend_loading(driven%closed, viscous, 1.0_dp - driven%secant_share, loading, opening, solution%by_trial)
   end subroutine solve_softening_law
 
-  !> t and ratio w as shares of p, for the damage at x.
-  pure subroutine shares(law, driven, equation, x, stiff, soft)
-    type(law_parameters), intent(in) :: law
-    type(driven_point), intent(in) :: driven
-    type(law_equation), intent(in) :: equation
-    real(dp), intent(in) :: x
-    real(dp), intent(out) :: stiff(2)   !< t_i/p_i
-    real(dp), intent(out) :: soft(2)    !< w_i/p_i, length/stress
-
-    stiff = remainder_at(equation%least, x)/(1.0_dp + (equation%b - equation%least)*x)
-    soft = x/(1.0_dp + (equation%b - equation%least)*x)/law%ratio
-    if (driven%closed) then
-      stiff(2) = 1.0_dp/(1.0_dp + driven%beta(2)*law%flexibility)
-      soft(2) = law%flexibility*stiff(2)
-    end if
-  end subroutine shares
-
   !> Adds the slopes of growing damage to a share of dT/dp.
-  pure subroutine blend_loading(law, equation, x, closed, viscous, share, by_trial)
-    type(law_parameters), intent(in) :: law
-    type(law_equation), intent(in) :: equation
-    real(dp), intent(in) :: x
+  pure subroutine blend_loading(closed, viscous, share, of_traction, of_separation, by_trial)
     logical, intent(in) :: closed
     real(dp), intent(in) :: viscous(2)              !< overstress by w, stress/length
     real(dp), intent(in) :: share                   !< from 0 to 1
+    real(dp), intent(in) :: of_traction(2, 2)       !< dt/dp of growing damage
+    real(dp), intent(in) :: of_separation(2, 2)     !< dw/dp
     real(dp), intent(inout) :: by_trial(2, 2)       !< at fixed damage; blended
-    real(dp), dimension(2, 2) :: loading, opening
+    real(dp) :: loading(2, 2)
 
-    call slopes_of_loading(law, equation, x, loading, opening)
-    loading(1, :) = loading(1, :) + viscous(1)*opening(1, :)
-    loading(2, :) = loading(2, :) + viscous(2)*opening(2, :)
+    loading(1, :) = of_traction(1, :) + viscous(1)*of_separation(1, :)
+    loading(2, :) = of_traction(2, :) + viscous(2)*of_separation(2, :)
     if (closed) loading(:, 2) = [0.0_dp, by_trial(2, 2)]
     by_trial = (1.0_dp - share)*by_trial + share*loading
   end subroutine blend_loading
@@ -232,7 +216,7 @@ contains
   !> if the damage grows at all, to one that is not positive at failure.
   pure subroutine solve_for_damage(law, equation, x, grows, solved, steps)
     type(law_parameters), intent(in) :: law
-    type(law_equation), intent(in) :: equation
+    type(law_equation), intent(in) :: equation   !< driving is not zero
     real(dp), intent(inout) :: x         !< at the damage so far; at the damage of the end of the increment
     logical, intent(out) :: grows        !< false if the damage stays
     logical, intent(out) :: solved       !< false if the root was not found
@@ -242,8 +226,6 @@ contains
 
     solved = .true.
     steps = 0
-    grows = maxval(equation%driving) > 0.0_dp
-    if (.not. grows) return
     call law_residual(law, equation, x, h, slope)
     grows = h > 0.0_dp
     if (.not. grows) return
@@ -283,18 +265,6 @@ contains
     slope = -equation%least - by_separation*(1.0_dp - x*mean) - (by_angle*turn + traction*mean)/length
   end subroutine law_residual
 
-  !> Direction c of the separation at x, and lambda/x.
-  pure subroutine direction_at(equation, x, length, direction)
-    type(law_equation), intent(in) :: equation
-    real(dp), intent(in) :: x
-    real(dp), intent(out) :: length         !< stress
-    real(dp), intent(out) :: direction(2)
-
-    direction = equation%driving/(1.0_dp + (equation%b - equation%least)*x)
-    length = sqrt(direction(1)**2 + direction(2)**2)
-    direction = direction/length
-  end subroutine direction_at
-
   !> dt/dp and dw/dp while the damage grows, through lambda and the angle theta of c = (sin theta, cos theta):
   !> p_i/ratio_i = tau c_i + b_i lambda c_i.
   pure subroutine slopes_of_loading(law, equation, x, of_traction, of_separation)
@@ -327,58 +297,27 @@ contains
     end do
   end subroutine slopes_of_loading
 
-  !> Damage D = (1 - K/alpha) k/(K + k) at x, k the softening stiffness.
-  !>
-  !> 1 - K/alpha jumps to 1 where alpha is large or infinite. D does not: under opening, a bilinear law has dissipated the
-  !> fraction D of its fracture energy, at any alpha. It is a function of K alone, which never grows, so D never decreases.
-  pure function damage_of(law, least, x) result(damage)
+  !> dt/dp and dw/dp while cycles let the damage grow, from dx/d(p/ratio).
+  pure subroutine slopes_of_cycles(law, equation, x, by_driving, of_traction, of_separation)
     type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: least, x
-    real(dp) :: damage
+    type(law_equation), intent(in) :: equation
+    real(dp), intent(in) :: x
+    real(dp), intent(in) :: by_driving(2)
+    real(dp), intent(out) :: of_traction(2, 2)    !< dt/dp
+    real(dp), intent(out) :: of_separation(2, 2)  !< dw/dp
+    real(dp), dimension(2) :: share, share_slope
+    integer :: j
 
-    damage = damage_at_secant(law, remainder_at(least, x), x)
-  end function damage_of
-
-  !> The same for K = traction/separation, or numbers in this proportion.
-  pure function damage_at_secant(law, traction, separation) result(damage)
-    type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: traction, separation
-    real(dp) :: damage
-    real(dp) :: k
-
-    k = softening_stiffness(law)
-    damage = min(1.0_dp, k*max(0.0_dp, separation - law%flexibility*traction)/(traction + k*separation))
-  end function damage_at_secant
-
-  !> x at a damage: the inverse of `damage_of`.
-  pure function at_damage(law, least, damage) result(x)
-    type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: least, damage
-    real(dp) :: x
-    real(dp) :: k, flexible
-
-    k = softening_stiffness(law)
-    flexible = damage + k*law%flexibility
-    x = 1.0_dp/least
-    if (damage < 1.0_dp) x = flexible/(k*(1.0_dp - damage) + least*flexible)
-  end function at_damage
-
-  !> 1 - x min b = K x, zero at failure without rounding.
-  pure function remainder_at(least, x) result(rest)
-    real(dp), intent(in) :: least, x
-    real(dp) :: rest
-
-    rest = 0.0_dp
-    if (x < 1.0_dp/least) rest = 1.0_dp - least*x
-  end function remainder_at
-
-  !> Softening stiffness k of the bilinear law in mode I.
-  pure function softening_stiffness(law) result(k)
-    type(law_parameters), intent(in) :: law
-    real(dp) :: k
-
-    k = 1.0_dp/(2.0_dp*law%toughness(2)/law%strength(2)**2 - law%flexibility)
-  end function softening_stiffness
+    share = 1.0_dp/(1.0_dp + (equation%b - equation%least)*x)
+    share_slope = -(equation%b - equation%least)*share**2
+    do j = 1, 2
+      of_traction(:, j) = law%ratio*equation%driving*(remainder_at(equation%least, x)*share_slope - equation%least*share) &
+        *by_driving(j)/law%ratio(j)
+      of_separation(:, j) = equation%driving*(x*share_slope + share)*by_driving(j)/law%ratio(j)
+      of_traction(j, j) = of_traction(j, j) + remainder_at(equation%least, x)*share(j)
+      of_separation(j, j) = of_separation(j, j) + x*share(j)/law%ratio(j)
+    end do
+  end subroutine slopes_of_cycles
 
   !> Stiffness of the viscous overstress of an undamaged point, without the relaxation time: k, or strength**2/(2 G) for PPR.
   pure function overstress_stiffness(law) result(k)

@@ -6,10 +6,16 @@ module cohesive_parameters
   use cohesive_law_properties, only: law_properties
   implicit none(type, external)
   private
-  public :: law_parameters, most_ramps
+  public :: law_parameters, load_cycles, most_ramps
 
   !> Lines of a polygon through the points of a table: one more than there are points among the properties.
   integer, parameter :: most_ramps = 6
+
+  !> Cycles of a load between a least and a greatest value, of which the analysis follows the greatest.
+  type :: load_cycles
+    real(dp) :: count = 0.0_dp        !< cycles in the increment; zero: none
+    real(dp) :: load_ratio = 0.0_dp   !< least over greatest load, from -1 to 1
+  end type load_cycles
 
   !> Parameters of a law. The initial stiffness is alpha_i = ratio_i/flexibility: laws use the flexibility, which stays finite for
   !> an infinite stiffness.
@@ -24,6 +30,8 @@ module cohesive_parameters
     real(dp) :: friction = 0.0_dp   !< coefficient of Coulomb friction in the consistent law; 0 for none
     real(dp) :: eta = 0.0_dp        !< exponent of Benzeggagh and Kenane; 0 for the power law
     real(dp) :: power = 1.0_dp      !< exponent of the power law, positive
+    logical :: fatigue = .false.    !< damage grows by cycles in some steps
+    type(load_cycles) :: cycles     !< of the increment
     type(law_properties) :: given   !< as in the deck: what a law of its own needs besides
     ! of the law with fibre bridging alone: shares of the bridging in the total, `prepare_bridging`
     real(dp) :: bridging_strength(2) = 0.0_dp

@@ -7,7 +7,15 @@ module cohesive_state
   use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: point_history, damage_state, law_solution, driven_point, resultant_solution
+  public :: cycled_state, point_history, damage_state, law_solution, driven_point, resultant_solution
+
+  !> What cycles have done to a point: `cohesive_fatigue`.
+  type :: cycled_state
+    real(dp) :: relative = 0.0_dp   !< s, separation over that at which the point would soften
+    real(dp) :: rate = 0.0_dp       !< dD/dN, 1/cycle
+    real(dp) :: cycles = 0.0_dp     !< until the present or until failure
+    real(dp) :: grown = 0.0_dp      !< D that the cycles of the increment have added; zero where the softening line demands more
+  end type cycled_state
 
   !> What a point remembers from the end of the last increment.
   type :: point_history
@@ -19,6 +27,7 @@ module cohesive_state
     real(dp) :: viscous = 0.0_dp         !< by the viscous overstress, energy/area
     real(dp) :: friction_work = 0.0_dp   !< by friction, energy/area
     real(dp) :: spent = 0.0_dp           !< share of the fracture energy of the mode mix that is dissipated
+    type(cycled_state) :: cycled         !< zero without fatigue
   end type point_history
 
   !> Damage at the end of the increment.
@@ -28,6 +37,7 @@ module cohesive_state
     real(dp) :: largest(2)   !< as in the history
     real(dp) :: acting(2)    !< damage of shear and opening, t_i = (1 - acting_i) alpha_i g_i; but for the PPR law `damage`
     real(dp) :: slope(2, 2)  !< derivative of `acting` by the separation (tau, n), tau not negative, 1/length
+    type(cycled_state) :: cycled
   end type damage_state
 
   !> What drives a point of the consistent law, in pairs (tau, n).
@@ -50,6 +60,7 @@ module cohesive_state
     real(dp) :: stabilisation(2)   !< S of (17)
     real(dp) :: share              !< T_tau/p_tau, overstress included
     real(dp) :: by_trial(2, 2)     !< dT/dp
+    type(cycled_state) :: cycled
     logical :: solved
     integer :: steps
   end type resultant_solution
@@ -65,6 +76,7 @@ module cohesive_state
     real(dp) :: largest(2)         !< as in the history
     real(dp) :: stabilisation(2)   !< S of (17), shear and opening
     real(dp) :: by_trial(3, 3)     !< dT/dp
+    type(cycled_state) :: cycled
     logical :: solved              !< false where no separation was found
     integer :: steps               !< of the search for it; 0 where the damage stays
   end type law_solution

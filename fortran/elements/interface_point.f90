@@ -123,6 +123,7 @@ contains
     new%history%damage = state%damage
     new%history%damage_max = state%damage_max
     new%history%largest = state%largest
+    new%history%cycled = state%cycled
     call dissipate(law, old%history, jump, state, new%history%dissipated, new%history%viscous, new%history%spent)
   end subroutine store_damage
 
@@ -142,6 +143,7 @@ contains
     new%history%damage = state%damage
     new%history%damage_max = state%damage
     new%history%largest = state%largest
+    new%history%cycled = state%cycled
     call dissipate_consistently(law, old%history, old%traction, state, new%history%dissipated, new%history%viscous, &
       new%history%friction_work, new%history%spent)
   end subroutine store_solution

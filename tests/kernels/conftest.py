@@ -5,6 +5,7 @@
 import ctypes
 import importlib
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 from typing import ClassVar
 
@@ -15,6 +16,7 @@ from random_states import Tools
 
 from uel import usersub
 from uel.elements import Call, Flags, Request, build_blocks
+from uel.elements.call import Predefined
 from uel.errors import Source
 from uel.model.mesh import ElementGroup, Mesh
 from uel.model.model import Model
@@ -149,12 +151,26 @@ class Element:
         equations, entries = (np.arange(count * size, dtype=np.int32) for size in (n, n * n))
         self.block.bind(equations.reshape(count, n), entries.reshape(count, n, n))
 
-    def evaluate(self, u, *, du=None, dtime=1.0, request=1, flags=(1, 0, 0, 0), increment=1, params=(0.0, 0.0, 0.0)):
-        """RHS and AMATRX at u; flags are LFLAGS(1), (2), (4), (5), params PARAMS."""
+    def evaluate(
+        self,
+        u,
+        *,
+        du=None,
+        dtime=1.0,
+        request=1,
+        flags=(1, 0, 0, 0),
+        step=1,
+        increment=1,
+        params=(0.0, 0.0, 0.0),
+        fields=None,
+    ):
+        """RHS and AMATRX at u; flags LFLAGS(1), (2), (4), (5), params PARAMS, fields the predefined ones (n, nodes)."""
         told = Flags(flags[0], bool(flags[1]), Request(request), bool(flags[2]), bool(flags[3]))
         call = Call(
-            told, 1, increment, step_time=dtime, total_time=dtime, time_increment=dtime, period=1.0, params=params
+            told, step, increment, step_time=dtime, total_time=dtime, time_increment=dtime, period=1.0, params=params
         )
+        if fields is not None:
+            call = replace(call, predefined=Predefined(fields, np.zeros_like(fields), np.zeros(fields.shape[1])))
         u = np.ascontiguousarray(u, dtype=float).ravel()
         du = u if du is None else np.ascontiguousarray(du, dtype=float).ravel()
         rhs, amatrx = np.zeros(u.size), np.zeros(u.size * self.n)

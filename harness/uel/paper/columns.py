@@ -49,6 +49,7 @@ TABLE = {
     for k, point in enumerate(SOFTENING, 1)
     for name, value in zip(("SEPARATION", "TRACTION"), point, strict=True)
 }
+FATIGUE = {"ENDURANCE": 0.25, "BRITTLENESS": 0.8, "EXPONENT": 0.5, "LOADRATIO": 0.1, "DAMAGEJUMP": 0.01}
 PAPER = FINITE | {"CLOSURE": 2, "BETAN": -2.0, "BETAT": -2.0}
 
 _SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
@@ -80,6 +81,7 @@ class Column:
     turned  the lower block has its fibres along y
     heated  change of temperature during the step (K), in which the plies expand
     stress  initial stress of the blocks, in Abaqus' order (MPa)
+    cycles  in a second step, under the displacement of the first
     """
 
     title: str
@@ -90,6 +92,7 @@ class Column:
     turned: bool = False
     heated: float = 0.0
     stress: tuple[float, ...] = ()
+    cycles: float = 0.0
 
     @property
     def plies(self) -> tuple[SolidPly, SolidPly]:
@@ -111,6 +114,13 @@ COLUMNS = {
     "u4_ppr": Column("PPR law", 4, values={"LAW": 4, "SHAPEN": 3.0, "SHAPET": 3.0}),
     "u4_bridging": Column("fibre bridging, half-way", 4, values={"LAW": 5, "ETA": 2.0, **BRIDGING}, moved=(0.0, 0.04)),
     "u4_table": Column("softening by a table, half-way", 4, values={"LAW": 6, **TABLE}, moved=(0.0, 0.012)),
+    "u4_fatigue": Column(
+        "held under cycles",
+        4,
+        values={"LAW": 2, "FATIGUE": 2, **FATIGUE},
+        moved=(0.0, 6e-4),
+        cycles=1e5,
+    ),
     "u4_secant": Column("secant matrix", 4, values={"LAW": 1, "TANGENT": 1}),
     "u4_blend": Column("share of the secant matrix", 4, values={"LAW": 1, "BLEND": 0.05}),
     "u4_paced": Column("increments that follow the viscosity", 4, values={"LAW": 1, "VISCOSITY": 3e-3, "PACING": 1}),
@@ -229,7 +239,14 @@ def _deck(column: Column) -> list[str]:
         *(["*TEMPERATURE", f"ALL, {number(column.heated)}"] if column.heated else []),
         *output.lines(),
         "*END STEP",
+        *(_cycles(column.cycles, output) if column.cycles else []),
     ]
+
+
+def _cycles(count: float, output: Output) -> list[str]:
+    """Write a step in which time is the number of cycles; the element chooses the increments."""
+    head = [keyword("STEP", INC=10 * INCREMENTS, UNSYMM="YES"), "*STATIC", *table([(1.0, count, 1e-6, count)])]
+    return [*head, *output.lines(), "*END STEP"]
 
 
 def _blocks(column: Column, labels: IntArray) -> list[str]:
