@@ -83,12 +83,18 @@ def add_front(front: argparse.ArgumentParser) -> None:
 def trace_front(options: argparse.Namespace) -> int:
     """Run `uel front`."""
     from uel.output.pictures.front import draw_fronts, fronts, write_fronts  # noqa: PLC0415
+    from uel.output.pictures.tips import are_lines, draw_tips, tips, write_tips  # noqa: PLC0415
     from uel.output.results import Result  # noqa: PLC0415
 
     result = Result(options.job)
-    lines = fronts(result, options.damage)
     table, picture = result.file("_front.csv"), result.file("_front.png")
-    write_fronts(table, lines)
-    draw_fronts(picture, lines)
+    if are_lines(result):
+        places = tips(result, options.damage)
+        write_tips(table, places)
+        draw_tips(picture, places)
+    else:
+        lines = fronts(result, options.damage)
+        write_fronts(table, lines)
+        draw_fronts(picture, lines)
     print(f"written: {table} {picture}")
     return 0

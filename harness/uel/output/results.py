@@ -67,6 +67,8 @@ class Result:
         self._stem = Path(stem)
         self.seconds = seconds
         self._warnings = warnings
+        if not self._stem.name:
+            raise UelError(f"{stem}: expected the name of a job, with its folder")
         if not self.file(".sta").exists():
             # users may name the deck, or another file of the job
             there = self._stem.suffix and self._stem.with_suffix(".sta").exists()

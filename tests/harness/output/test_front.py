@@ -19,6 +19,28 @@ RADIUS, ZONE = 6.0, 3.0
 STRENGTH, FINAL = np.array([30.0, 40.0, 50.0]), np.array([0.01, 0.02, 0.03])
 """Traction where the zone begins, separation where it ends: normal, radial, around the circle."""
 G = 0.5 * STRENGTH * FINAL
+BAR = """*NODE
+1, 0., 0., 0.
+2, 1., 0., 0.
+*ELEMENT, TYPE=T3D2, ELSET=BAR
+1, 1, 2
+*SOLID SECTION, ELSET=BAR, MATERIAL=STEEL
+1.
+*MATERIAL, NAME=STEEL
+*ELASTIC
+2.1E5, 0.3
+*BOUNDARY
+1, 1, 3
+2, 2, 3
+*STEP
+*STATIC
+*CLOAD
+2, 1, 1.
+*OUTPUT, FIELD
+*NODE OUTPUT
+U
+*END STEP
+"""
 
 
 class Disc(Result):
@@ -278,9 +300,17 @@ def test_jobs_without_a_front(tmp_path: Path, capsys: pytest.CaptureFixture[str]
     deck = Path(__file__).parents[3] / "abaqus_inputs" / "patch_horizontal" / "flat_u2.inp"
     assert main(["run", str(deck), "--quiet", "--output-dir", str(tmp_path)]) == 0
     assert main(["front", str(tmp_path / "flat_u2")]) == 1
-    assert "no interface elements in space with a damage; a front is a line on" in capsys.readouterr().err
+    assert "no front to draw: the damage of no increment reaches that of the front" in capsys.readouterr().err
     (tmp_path / "flat_u2.pvd").unlink()
     assert main(["front", str(tmp_path / "flat_u2")]) == 1
     assert "no field output, from which the front is computed" in capsys.readouterr().err
     with pytest.raises(UelError, match="no front to draw: the damage of no increment reaches"):
         draw_fronts(tmp_path / "a.png", fronts(Disc(), 1.0))
+
+
+def test_jobs_without_an_interface(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    deck = tmp_path / "bar.inp"
+    deck.write_text(BAR)
+    assert main(["run", str(deck), "--quiet", "--output-dir", str(tmp_path)]) == 0
+    assert main(["front", str(tmp_path / "bar")]) == 1
+    assert "no interface elements with a damage; a front is a line on" in capsys.readouterr().err

@@ -189,7 +189,7 @@ def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
     surfaces = _surfaces(result.mesh(frames[0].increment, frames[0].step))
     if not surfaces:
         raise UelError(
-            f"{result.file('.pvd')}: no interface elements in space with a damage; "
+            f"{result.file('.pvd')}: no interface elements with a damage; "
             "a front is a line on a surface of interface elements with four nodes on a face"
         )
     profiles = {(int(profile["step"][0]), int(profile["increment"][0])): profile for profile in result.interfaces()}
