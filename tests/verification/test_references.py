@@ -16,7 +16,7 @@ from reference_values import Reference, read_references
 
 from uel.errors import ConvergenceError
 from uel.output import Result
-from uel.paper import measures
+from uel.paper import growth_measures, measures
 from uel.paper.decks import FOLDER
 from uel.running.job import run
 from uel.solver.options import SolverOptions
@@ -119,6 +119,8 @@ COLUMNS: dict[str, tuple[Column, ...]] = {
     "work - stored - dissipated": (Column(measures.energy_error, 0.1, 1e-3, 3.0),),
     "total variation of t_n (MPa)": (Column(measures.traction_variation, 0.02, 0.0, 3.0),),
     "increments, given up": (Column(measures.increments, 0.1, 0.0, 3.0), Column(measures.cutbacks, 0.1, 2.0, 3.0)),
+    "mm in 1000 cycles": (Column(lambda result: 1e3 * growth_measures.steady_rate(result), 0.01),),
+    "exponent": (Column(growth_measures.growth_exponent, 0.01),),
     "iterations": (Column(measures.iterations, 0.1, 0.0, 3.0),),
 }
 

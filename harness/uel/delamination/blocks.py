@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from uel.delamination.kernels import uel_property, user_element
 from uel.delamination.keywords import keyword, number, table, wrapped
@@ -33,6 +34,7 @@ class Interface:
     newton_cotes  integration points at the nodes instead of Gauss points
     secant     AMATRX without the derivative of the damage (TANGENT 1), equation (24)
     blend      weight of that matrix in AMATRX
+    cycles     properties of fatigue by name, FATIGUE among them
 
     COH2D4 and COH3D8 are built in: they have the law of `law` 1 or 2, integrate by Newton-Cotes, and ignore beta,
     weight, sampling, consistent, newton_cotes, secant and blend.
@@ -51,6 +53,7 @@ class Interface:
     newton_cotes: bool = False
     secant: bool = False
     blend: float = 0.0
+    cycles: Mapping[str, float] = field(default_factory=dict, hash=False)
 
     @property
     def closure(self) -> int:
@@ -234,6 +237,7 @@ def law_values(interface: Interface) -> dict[str, float]:
         "TANGENT": int(interface.secant),
         "SAMPLING": interface.sampling,
         "CLOSURE": interface.closure,
+        **interface.cycles,
     }
 
 

@@ -20,6 +20,7 @@ from uel.paper.bricks import bricks_files, stabilised_bricks_files
 from uel.paper.columns import column_files
 from uel.paper.comparator import comparator_files
 from uel.paper.cook import cook_files
+from uel.paper.cycled_specimens import fatigue_files
 from uel.paper.elastica import elastica_files
 from uel.paper.literature import literature_files
 from uel.paper.peel import peel_files
@@ -122,6 +123,7 @@ def all_files() -> dict[Path, str]:
         "dcb_3d_stabilised": stabilised_bricks_files,
         "space_beams": space_beam_files,
         "peel": peel_files,
+        "fatigue": fatigue_files,
         "dcb_elastica": elastica_files,
     }
     problems |= {f"paper_{name}": partial(paper, name) for name in PROBLEMS}

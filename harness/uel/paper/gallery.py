@@ -24,7 +24,10 @@ from uel.output import Result
 from uel.output.pictures.jobs import PictureOptions, draw
 from uel.output.pictures.plots import Curve, load_displacement, stacked
 from uel.paper import elastica, literature, measures, space_beams
+from uel.paper.cycled_specimens import exponent, toughness
 from uel.paper.decks import FOLDER
+from uel.paper.growth_measures import REST, START
+from uel.paper.growth_measures import growth as cycled
 from uel.running.job import run
 from uel.solver.options import SolverOptions
 
@@ -133,6 +136,26 @@ def _space_beam(results: Results) -> list[Curve]:
     return [Curve("beam theory", opening, loads, "reference")]
 
 
+def _growths(results: Results, path: Path) -> Path:
+    """Draw growth over the energy release rate: where it changes, and lines of b/2 from specimens under moments."""
+    curves = []
+    loads = {"mode I": "held apart", "mode II": "bent by a force"}
+    for k, (name, load) in enumerate(loads.items()):
+        limit = toughness(float(k))
+        whole, moments = (cycled(result) for result in results[2 * k : 2 * k + 2])
+        release, rate = whole.between(START, whole.length[-1] - REST).line
+        steady = moments.between(START, np.inf)
+        point = float(steady.release.sum(axis=1).mean()) / limit
+        shown = np.linspace(0.28, 0.68, 50)
+        line = np.log10(steady.rate) + 0.5 * exponent(float(k)) * np.log10(shown / point)
+        curves += [
+            Curve("exponent b/2", shown, line, "reference"),
+            Curve(f"{name}, {load}", release / limit, np.log10(rate)),
+            Curve(f"{name}, bent by moments", [point], [np.log10(steady.rate)], "points"),
+        ]
+    return stacked([curves], path, "$G/G_c$", ["$\\log_{10}$ of d$a$/d$N$ [mm/cycle]"])
+
+
 def _tractions(*names: str, exact: float | None = None) -> Callable[[Results, Path], Path]:
     """Draw the normal traction along an interface of runs, by name, and the exact one (MPa) where there is one."""
 
@@ -180,6 +203,7 @@ EXAMPLES: Final[Mapping[str, Example]] = {
     ),
     "dcb_elastica": Example(("dcb_elastica_u4",), _loads(_elastica, ARM)),
     "dcb_ref": Example(("dcb_ref",), _loads(_other_codes, ARM)),
+    "fatigue": Example(("dcb", "moments_opened", "enf", "moments_slid"), _growths),
     "krueger_dcb": Example(("krueger_dcb",), _loads(_krueger_dcb, OPENING)),
     "krueger_mmb": Example(
         ("mmb_20", "mmb_50", "mmb_80"),

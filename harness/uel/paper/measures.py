@@ -16,7 +16,7 @@ from uel.delamination.specimens import ARMS, CRACK, WIDTH
 from uel.delamination.theory import dcb_crack, dcb_curve
 from uel.model.arrays import FloatArray
 from uel.output import Result
-from uel.paper import literature_measures, space_beam_measures
+from uel.paper import growth_measures, literature_measures, space_beam_measures
 
 
 def load(result: Result) -> FloatArray:
@@ -204,7 +204,7 @@ QUANTITIES: dict[str, Callable[[Result], float]] = {
         *(traction_mean, traction_deviation, traction_lowest, traction_highest, traction_variation, damage_variation),
     )
 }
-QUANTITIES |= literature_measures.MEASURES | space_beam_measures.MEASURES
+QUANTITIES |= literature_measures.MEASURES | space_beam_measures.MEASURES | growth_measures.MEASURES
 COMPARISONS: dict[str, Callable[[Result, Result], float]] = {
     function.__name__: function for function in (curve_distance, whole_curve_distance)
 }

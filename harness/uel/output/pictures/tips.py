@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tips of delaminations in the plane (NAME_front.csv): places of damage 1/2, with their growth and energy release rates.
+"""Tips of delaminations in the plane (NAME_front.csv): places of damage 1/2, their growth, energy release rates.
 
 The damage is SPENT, the dissipated share of the fracture energy, or DAMAGE if an element has no other. Values are those
 of the integration points; between them they are linear.

@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Delamination specimens under cycles of a load (N, mm, MPa); time is the number of cycles in their second step.
+
+Two arms bent by end moments release an energy that does not depend on the length of the crack, in any mode mix
+(B.F. Sorensen et al., Engineering Fracture Mechanics 73 (2006) 2642): with moments M_I of opposite sense and M_II of
+the same sense in both arms, of width b and height h,
+
+    G_I = 12 M_I^2/(b^2 E h^3),    G_II = 9 M_II^2/(b^2 E h^3).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from uel.delamination.blocks import Specimen
+from uel.delamination.flexure import SPAN
+from uel.delamination.keywords import keyword, node_set, number, table, text
+from uel.delamination.specimens import deck_head
+from uel.delamination.steps import Output
+
+RISE = 10
+"""Increments of the static step, in which the load rises to the greatest of a cycle."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cycles:
+    """Step of cycles, under the load at the end of the step before.
+
+    count        cycles, the period of the step
+    limit        increments allowed
+    field_every  FREQUENCY of the field output
+    """
+
+    count: float
+    limit: int = 10000
+    field_every: int = 5
+
+
+def end_moments(specimen: Specimen, release: float, shear: float) -> tuple[float, float]:
+    """Return the moments (N mm) of the lower and the upper arm, counter-clockwise, at their left ends.
+
+    Parameters
+    ----------
+    specimen
+        Its arms have one height and one ply.
+    release
+        Energy release rate (N/mm).
+    shear
+        Share of mode II in it.
+    """
+    scale = specimen.width * math.sqrt(specimen.top.e1 * _height(specimen) ** 3)
+    opening = scale * math.sqrt((1.0 - shear) * release / 12.0)
+    sliding = scale * math.sqrt(shear * release / 9.0)
+    return opening - sliding, -opening - sliding
+
+
+def moments_deck(title: str, specimen: Specimen, moments: Sequence[float], cycles: Cycles) -> str:
+    """Write two arms bent by end moments (lower, upper) as pairs of forces, and clamped at the right end."""
+    mesh = specimen.mesh
+    lines = deck_head(title, ["right end clamped; arms bent by pairs of forces at the left end"], specimen)
+    below, _ = mesh.rows
+    left = mesh.edge(0)
+    loads = []
+    for low, high, moment in zip((0, below + 1), (below, -1), moments, strict=True):
+        force = moment / _height(specimen)
+        loads += [(int(left[low]), 1, force), (int(left[high]), 1, -force)]
+    lines += ["*BOUNDARY", "RIGHT, 1, 2"]
+    forces = ["*CLOAD", *(f"{node}, {dof}, {number(force)}" for node, dof, force in loads)]
+    return text([*lines, *_steps(forces, ["LOAD_TOP", "LOAD_BOTTOM"], cycles)])
+
+
+def opening_deck(title: str, specimen: Specimen, opening: float, cycles: Cycles) -> str:
+    """Write the double cantilever beam: outer left corners held apart by `opening` (mm) each, right end clamped."""
+    lines = deck_head(title, ["right end clamped; outer left corners held apart"], specimen)
+    lines += ["*BOUNDARY", "RIGHT, 1, 2"]
+    held = ["*BOUNDARY", f"LOAD_TOP, 2, 2, {number(opening)}", f"LOAD_BOTTOM, 2, 2, {number(-opening)}"]
+    return text([*lines, *_steps(held, ["LOAD_TOP", "LOAD_BOTTOM"], cycles)])
+
+
+def flexure_deck(title: str, specimen: Specimen, force: float, cycles: Cycles) -> str:
+    """Write the end-notched flexure under a force (N) at mid-span; its crack's faces have one deflection at the end."""
+    mesh = specimen.mesh
+    lines = deck_head(
+        title, ["simply supported; loaded at mid-span; one deflection of both faces at the left"], specimen
+    )
+    middle = int(np.argmin(np.abs(mesh.x - 0.5 * SPAN)))
+    lines += node_set("MIDSPAN", mesh.top_line[middle : middle + 1])
+    lines += node_set("SUPPORT_LEFT", mesh.line(1)[:1]) + node_set("SUPPORT_RIGHT", mesh.line(1)[-1:])
+    low, high = (int(line[0]) for line in mesh.interface_lines)
+    lines += ["*EQUATION", "2", *table([(high, 2, 1.0, low, 2, -1.0)])]
+    lines += ["*BOUNDARY", "SUPPORT_LEFT, 2, 2", "SUPPORT_RIGHT, 1, 2"]
+    return text([*lines, *_steps(["*CLOAD", f"MIDSPAN, 2, {number(-force)}"], ["MIDSPAN"], cycles)])
+
+
+def _height(specimen: Specimen) -> float:
+    return float(specimen.mesh.lower[-1] - specimen.mesh.lower[0])
+
+
+def _steps(load: Sequence[str], history: Sequence[str], cycles: Cycles) -> list[str]:
+    """Write the step in which the load rises, and that of its cycles, which keeps it."""
+    rise = ("The greatest load of a cycle", RISE, (1.0 / RISE, 1.0, 1e-6, 1.0 / RISE), RISE, load)
+    count = cycles.count
+    held = ("Its cycles", cycles.limit, (1.0, count, 1e-6, count), cycles.field_every, ())
+    lines = []
+    for title, limit, static, every, loads in (rise, held):
+        output = Output(
+            when=f"FREQUENCY={every}",
+            stresses=False,
+            history=dict.fromkeys(history, "U2, RF2"),
+            energies="ALLSE, ALLPD, ALLWK",
+        )
+        lines += [keyword("STEP", INC=limit, UNSYMM="YES"), title, "*STATIC", *table([static])]
+        lines += [*loads, *output.lines(), "*END STEP"]
+    return lines

@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: The uel-harness authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Decks of delaminations under cycles: double cantilever beams under moments and held apart, end-notched flexure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from uel.delamination.blocks import Interface, Specimen
+from uel.delamination.cycled import Cycles, end_moments, flexure_deck, moments_deck, opening_deck
+from uel.delamination.flexure import SPAN
+from uel.delamination.materials import PLY_0, TABLE_2
+from uel.delamination.mesh import TwoArmMesh, crack_columns, two_arms
+from uel.delamination.specimens import ARM_HEIGHT, CRACK, WIDTH, mesh_files
+from uel.model.arrays import FloatArray
+
+ETA = 2.73
+"""Exponent of Benzeggagh and Kenane of the measured toughnesses."""
+RATIO = 0.1
+"""R."""
+FATIGUE: Mapping[str, float] = {"FATIGUE": 2.0, "LOADRATIO": RATIO}
+RIGID = replace(TABLE_2, stiffness_normal=0.0, stiffness_shear=0.0)
+LENGTH, REFINED, SIZE = 100.0, 15.0, 0.25
+"""Length of the double cantilever beams; length of the fine mesh from the tip on, and that of its elements (mm)."""
+LEVEL = 0.6
+"""G/G_c of the specimens under moments."""
+OPENING = 1.2
+"""Displacement of each arm of the beam that is held apart (mm): 0.85 of G_c at first."""
+FORCE = 300.0
+"""On the end-notched flexure (N)."""
+
+
+def beam_mesh(refined: float = REFINED, size: float = SIZE, rows: int = 4) -> TwoArmMesh:
+    """Mesh double cantilever beams with elements of `size` (mm) over the path of the crack."""
+    x = crack_columns(LENGTH, (CRACK - 1.5, CRACK + refined), size, ratio=1.15, largest=(0.5, 1.0))
+    return two_arms(x, ARM_HEIGHT, rows, CRACK)
+
+
+def specimen(name: str, mesh: TwoArmMesh, interface: Interface) -> Specimen:
+    """Describe a specimen of the paper's composite, fibres along the crack."""
+    return Specimen(name, mesh, interface, WIDTH, PLY_0, PLY_0, "CPS4")
+
+
+def toughness(shear: float) -> float:
+    """Return G_c (N/mm) at a share of mode II."""
+    return float(TABLE_2.toughness_1 + (TABLE_2.toughness_2 - TABLE_2.toughness_1) * shear**ETA)
+
+
+def exponent(shear: float, endurance: float = 0.2, brittleness: float = 0.95) -> float:
+    """Return the exponent b of CF20 (fortran/laws.md, Fatigue)."""
+    e = endurance * (1.0 - 0.42 * shear)
+    return float(-7.0 * brittleness / np.log10(2.0 * e / (e + 1.0 + RATIO * (e - 1.0))))
+
+
+def fatigue_files() -> dict[str, str]:
+    """Write the decks."""
+    interface = Interface("U4", RIGID, law=2, eta=ETA, cycles=FATIGUE)
+    beams, flexure = specimen("dcb", beam_mesh(), interface), specimen("enf", flexure_mesh(), interface)
+    files = mesh_files("dcb", beams.mesh, (8,)) | mesh_files("enf", flexure.mesh, (8,))
+    for name, shear, count in (("opened", 0.0, 12000.0), ("mixed", 0.5, 4000.0), ("slid", 1.0, 750.0)):
+        moments = end_moments(beams, LEVEL * toughness(shear), shear)
+        title = f"Arms bent by end moments under cycles, {LEVEL:g} of G_c, {shear:.0%} mode II"
+        files[f"moments_{name}.inp"] = moments_deck(title, beams, moments, Cycles(count))
+    title = "Double cantilever beam held apart under cycles"
+    files["dcb.inp"] = opening_deck(title, beams, OPENING, Cycles(1e6))
+    files["enf.inp"] = flexure_deck("End-notched flexure under cycles of a force", flexure, FORCE, Cycles(2400.0))
+    return files
+
+
+def flexure_mesh() -> TwoArmMesh:
+    """Mesh the end-notched flexure, fine from the crack to mid-span."""
+    x: FloatArray = np.round(np.linspace(0.0, SPAN, round(SPAN / SIZE) + 1), 6)
+    return two_arms(x, ARM_HEIGHT, 4, CRACK)
