@@ -215,7 +215,7 @@ def report(folder: Path) -> str:
         "",
         f"Runs with the fitted values are within {off:.1%} of the growth that PHI foretells at G/G_c = {MIDDLE:g}.",
     ]
-    draw_lines(Path(__file__).parents[4] / "fortran" / "fatigue.png", grown, (endurance, brittleness), computed)
+    draw_lines(Path(__file__).parents[4] / "fortran" / "fatigue.png", grown, computed)
     return "\n".join(lines) + "\n"
 
 
@@ -264,7 +264,6 @@ def fit_lines(folder: Path) -> tuple[tuple[float, float], dict[float, FloatArray
 def draw_lines(
     path: Path,
     grown: Mapping[tuple[float, float], Measured],
-    fitted: tuple[float, float],
     computed: Mapping[float, FloatArray],
 ) -> None:
     """Draw the growth with the default properties, and measured lines with those of the fit."""
@@ -281,9 +280,7 @@ def draw_lines(
             right.loglog(ends, c * ends**m, color=colour)
             right.loglog(FITTED, 10 ** computed[shear], "--", color=colour)
         left.set(title="Default properties", xlabel="$G/G_c$", ylabel="d$a$/d$N$ (mm/cycle)")
-        right.set(
-            title=f"Measured (lines), ENDURANCE {fitted[0]:.2f}, BRITTLENESS {fitted[1]:.2f} (dashes)", xlabel="$G/G_c$"
-        )
+        right.set(title="Measured (lines) and fitted (dashes)", xlabel="$G/G_c$")
         for axes in (left, right):
             axes.set_xticks(LEVELS, [f"{level:g}" for level in LEVELS])
             axes.minorticks_off()
