@@ -10,7 +10,8 @@ module abaqus_check
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, above_minus_one, load_ratio, any_integer, &
     p_alphan, p_alphat, p_gic, p_giic, p_sigmamax, p_taumax, p_betan, p_betat, p_shapen, p_shapet, p_friction, p_direction1, &
     p_sigmabridge, p_taubridge, p_gibridge, p_giibridge, p_separation1, p_separation2, p_traction1, j_law, j_closure, &
-    j_formulation_bottom, j_formulation_top, j_fatigue
+    j_formulation_bottom, j_formulation_top, j_fatigue, p_temperature1, p_temperature2, p_temperature3, p_strength2, p_strength3, &
+    p_toughness2, p_toughness3
   use abaqus_properties, only: unknowns_of, variables_of, real_position, integer_position, unpack, recommend, &
     by_eigenvalues, by_equation_21, consistent_closure, complete_closure
   use cohesive_law_properties, only: bilinear_law, mixed_bilinear_law, ppr_law
@@ -206,6 +207,8 @@ contains
         [integer_position(itype, j_fatigue), options(j_fatigue), options(j_law)], [real(dp) ::])
       return
     end if
+    good = temperatures_fit(itype, jelem, values, options)
+    if (.not. good) return
     consistent = any(options(j_closure) == [consistent_closure, complete_closure])
     good = options(j_closure) /= complete_closure .or. iand(elements(itype)%family, next_to_solids) == 0
     if (.not. good) then
@@ -249,6 +252,41 @@ contains
     end function any_is
 
   end function options_fit
+
+  !> True if the table of temperatures is in order, and the law takes it.
+  function temperatures_fit(itype, jelem, values, options) result(good)
+    integer, intent(in) :: itype, jelem
+    real(dp), intent(in) :: values(:)
+    integer, intent(in) :: options(:)
+    logical :: good
+    integer, parameter :: temperatures(3) = [p_temperature1, p_temperature2, p_temperature3]
+    integer, parameter :: strengths(3) = [0, p_strength2, p_strength3], toughnesses(3) = [0, p_toughness2, p_toughness3]
+    integer :: k, row
+
+    good = .true.
+    do k = 2, 3
+      row = temperatures(k)
+      if (values(strengths(k)) > 0.0_dp) then
+        good = values(row) > values(temperatures(k - 1))
+        if (.not. good) call refuse_real(itype, jelem, row, values(row), ': expected more than ' // &
+          trim(reals(temperatures(k - 1))%name))
+      else
+        if (values(toughnesses(k)) > 0.0_dp) row = toughnesses(k)
+        good = .not. abs(values(row)) > 0.0_dp
+        if (.not. good) call refuse_real(itype, jelem, row, values(row), ', but no ' // trim(reals(strengths(k))%name) // &
+          ': expected both')
+      end if
+      if (.not. good) return
+    end do
+    good = .not. values(p_strength3) > 0.0_dp .or. values(p_strength2) > 0.0_dp
+    if (.not. good) then
+      call refuse_real(itype, jelem, p_strength3, values(p_strength3), ', but no STRENGTH2: expected it before')
+      return
+    end if
+    good = options(j_law) /= ppr_law .or. .not. values(p_strength2) > 0.0_dp
+    if (.not. good) call refuse_real(itype, jelem, p_strength2, values(p_strength2), &
+      ', which LAW 4 does not have: expected LAW 1, 2, 3, 5 or 6, or zero')
+  end function temperatures_fit
 
   !> Sends the message for the status of a kernel; self-contained elements count their quads or bricks in status%item.
   subroutine report_status(itype, jelem, status)

@@ -8,6 +8,7 @@ module abaqus_interface_elements
   use materials_linear_elasticity, only: engineering_constants, plane_stiffness, solid_stiffness, plane_expansion, solid_expansion
   use cohesive_parameters, only: law_parameters, load_cycles
   use cohesive_initial_crack, only: open_crack
+  use cohesive_temperature, only: suit_temperature
   use cohesive_law, only: prepare_law
   use elements_bulk_solid, only: solid_type
   use elements_interface_bulk, only: stabilisation_type
@@ -24,8 +25,9 @@ module abaqus_interface_elements
     j_law, j_integration, j_tangent, j_sampling, j_plane, j_closure, &
     j_formulation_bottom, j_formulation_top, j_cracked, j_pacing, j_fatigue, &
     v_x, v_y, v_sepn, v_sept, v_tn, v_tt, v_damage, v_dissi, v_dissii, v_sn, v_st, v_dmax, v_dissv, v_wn, v_wt, v_dissf, &
-    v_maxn, v_maxt, v_spent, v_relsep, v_dddn, v_cycles, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, w_damage, &
-    w_dissi, w_dissii, w_sn, w_st, w_dmax, w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt, w_spent, w_relsep, w_dddn, w_cycles
+    v_maxn, v_maxt, v_spent, v_relsep, v_dddn, v_cycles, w_x, w_y, w_z, w_sepn, w_seps, w_sept, w_tn, w_ts, w_tt, &
+    w_damage, w_dissi, w_dissii, w_sn, w_st, w_dmax, w_dissv, w_wn, w_ws, w_wt, w_dissf, w_maxn, w_maxt, w_spent, w_relsep, &
+    w_dddn, w_cycles
   use abaqus_properties, only: face_nodes, nodes_of_face, real_position, variables_of_points, by_eigenvalues, complete_closure, &
     paper_closure
   use abaqus_check, only: report_status
@@ -109,6 +111,7 @@ contains
       call report_status(itype, jelem, status)
       return
     end if
+    call suit_temperature(law, sum(temperatures(1, :))/size(temperatures, 2))
     choice = chosen(itype, values, options, finite)
     stabilisation = stabilisation_of(values, choice%complete)
     dim = elements(itype)%dimension

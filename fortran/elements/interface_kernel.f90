@@ -18,6 +18,7 @@ module elements_interface_kernel
   use core_status, only: status_type, ok
   use cohesive_parameters, only: law_parameters
   use cohesive_law, only: check_law, check_beta, raise_beta
+  use cohesive_temperature, only: suit_steepest_temperature
   use elements_bulk_solid, only: solid_type
   use elements_interface_bulk, only: stabilisation_type, stabilise, bulk_operators
   use cohesive_shear, only: mode_of
@@ -262,14 +263,18 @@ contains
     type(law_parameters), intent(in) :: law
     type(stabilisation_type), intent(inout) :: stabilisation
     type(status_type), intent(out) :: status    !< small_beta
+    type(law_parameters) :: steepest
     real(dp) :: beta(2)
 
-    call check_beta(law, stabilisation%beta, status)
+    ! beta stays, temperatures do not
+    steepest = law
+    call suit_steepest_temperature(steepest)
+    call check_beta(steepest, stabilisation%beta, status)
     if (status%code == ok .or. all(stabilisation%given)) return
     beta = stabilisation%beta
-    call raise_beta(law, .not. stabilisation%given, stabilisation%beta)
+    call raise_beta(steepest, .not. stabilisation%given, stabilisation%beta)
     where (stabilisation%beta > beta) stabilisation%estimate = beta
-    call check_beta(law, stabilisation%beta, status)
+    call check_beta(steepest, stabilisation%beta, status)
   end subroutine suit_law
 
   !> Adds area N^T x to a matrix.

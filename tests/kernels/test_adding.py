@@ -143,18 +143,18 @@ def test_existing_decks_give_what_they_gave(branch, element_of, library, interfa
 
 
 def test_other_counts_of_properties_are_refused(branch, element_of):
-    for count in (32, 34):
+    for count in (39, 41):
         item = element_of(branch[0], 2, FLAT, definition={"properties": count})
-        with pytest.raises(KernelError, match=rf"PROPERTIES = {count}: expected 33"):
+        with pytest.raises(KernelError, match=rf"PROPERTIES = {count}: expected 40"):
             item.evaluate(np.zeros(8))
 
 
 def test_the_property_has_the_last_position(branch, element_of):
-    for jtype, position in ((2, 33), (3, 37), (4, 61), (5, 33), (6, 61)):
+    for jtype, position in ((2, 40), (3, 44), (4, 68), (5, 40), (6, 68)):
         layout = branch[1][jtype]
         assert (layout.reals[-1].name, layout.reals[-1].position) == ("PLATEAU", position)
     item = element_of(branch[0], 2, FLAT, layouts=branch[1], LAW=7, PLATEAU=1.0)
-    with pytest.raises(KernelError, match=r"PROPS\(33\) PLATEAU = 1.0.*expected zero or a value between 0 and 1"):
+    with pytest.raises(KernelError, match=r"PROPS\(40\) PLATEAU = 1.0.*expected zero or a value between 0 and 1"):
         item.evaluate(np.zeros(8))
 
 

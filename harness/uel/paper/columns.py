@@ -50,6 +50,15 @@ TABLE = {
     for name, value in zip(("SEPARATION", "TRACTION"), point, strict=True)
 }
 FATIGUE = {"ENDURANCE": 0.25, "BRITTLENESS": 0.8, "EXPONENT": 0.5, "LOADRATIO": 0.1, "DAMAGEJUMP": 0.01}
+WARM = {
+    "TEMPERATURE1": -10.0,
+    "TEMPERATURE2": 40.0,
+    "STRENGTH2": 0.8,
+    "TOUGHNESS2": 0.9,
+    "TEMPERATURE3": 100.0,
+    "STRENGTH3": 0.5,
+    "TOUGHNESS3": 0.6,
+}
 PAPER = FINITE | {"CLOSURE": 2, "BETAN": -2.0, "BETAT": -2.0}
 
 _SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
@@ -82,6 +91,7 @@ class Column:
     heated  change of temperature during the step (K), in which the plies expand
     stress  initial stress of the blocks, in Abaqus' order (MPa)
     cycles  in a second step, under the displacement of the first
+    temperature  of all nodes, which does not change
     """
 
     title: str
@@ -93,6 +103,7 @@ class Column:
     heated: float = 0.0
     stress: tuple[float, ...] = ()
     cycles: float = 0.0
+    temperature: float = 0.0
 
     @property
     def plies(self) -> tuple[SolidPly, SolidPly]:
@@ -121,6 +132,7 @@ COLUMNS = {
         moved=(0.0, 6e-4),
         cycles=1e5,
     ),
+    "u4_warm": Column("strengths and fracture energies at 60 degrees", 4, values={"LAW": 1, **WARM}, temperature=60.0),
     "u4_secant": Column("secant matrix", 4, values={"LAW": 1, "TANGENT": 1}),
     "u4_blend": Column("share of the secant matrix", 4, values={"LAW": 1, "BLEND": 0.05}),
     "u4_paced": Column("increments that follow the viscosity", 4, values={"LAW": 1, "VISCOSITY": 3e-3, "PACING": 1}),
@@ -219,7 +231,7 @@ def _deck(column: Column) -> list[str]:
     lines.append("** written by python -m uel.paper.decks; units N, mm, MPa")
     lines += node_block(labels, places)
     lines += node_set("BASE", labels[places[:, -1] == -SIDE]) + node_set("TOP", labels[places[:, -1] == SIDE])
-    lines += node_set("ALL", labels) if column.heated else []
+    lines += node_set("ALL", labels) if column.heated or column.temperature else []
     lines += _blocks(column, labels.reshape(2, count))
     lines += _interface(column, labels, owner)
     lines += [
@@ -231,6 +243,11 @@ def _deck(column: Column) -> list[str]:
     output = Output(f"FREQUENCY={INCREMENTS}", stresses=False, history={"TOP": "U, RF"}, energies="ALLSE, ALLPD, ALLWK")
     return [
         *lines,
+        *(
+            ["*INITIAL CONDITIONS, TYPE=TEMPERATURE", f"ALL, {number(column.temperature)}"]
+            if column.temperature
+            else []
+        ),
         *(["*INITIAL CONDITIONS, TYPE=STRESS"] if column.stress else []),
         *(", ".join([name, *map(number, column.stress)]) for name in ("BELOW", "ABOVE") if column.stress),
         *["*BOUNDARY", f"BASE, 1, {dim}"],
