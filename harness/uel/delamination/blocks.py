@@ -34,7 +34,7 @@ class Interface:
     newton_cotes  integration points at the nodes instead of Gauss points
     secant     AMATRX without the derivative of the damage (TANGENT 1), equation (24)
     blend      weight of that matrix in AMATRX
-    cycles     properties of fatigue by name, FATIGUE among them
+    further    other properties by name
 
     COH2D4 and COH3D8 are built in: they have the law of `law` 1 or 2, integrate by Newton-Cotes, and ignore beta,
     weight, sampling, consistent, newton_cotes, secant and blend.
@@ -53,7 +53,7 @@ class Interface:
     newton_cotes: bool = False
     secant: bool = False
     blend: float = 0.0
-    cycles: Mapping[str, float] = field(default_factory=dict, hash=False)
+    further: Mapping[str, float] = field(default_factory=dict, hash=False)
 
     @property
     def closure(self) -> int:
@@ -237,7 +237,7 @@ def law_values(interface: Interface) -> dict[str, float]:
         "TANGENT": int(interface.secant),
         "SAMPLING": interface.sampling,
         "CLOSURE": interface.closure,
-        **interface.cycles,
+        **interface.further,
     }
 
 

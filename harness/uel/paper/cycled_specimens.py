@@ -57,7 +57,7 @@ def exponent(shear: float, endurance: float = 0.2, brittleness: float = 0.95) ->
 
 def fatigue_files() -> dict[str, str]:
     """Write the decks."""
-    interface = Interface("U4", RIGID, law=2, eta=ETA, cycles=FATIGUE)
+    interface = Interface("U4", RIGID, law=2, eta=ETA, further=FATIGUE)
     beams, flexure = specimen("dcb", beam_mesh(), interface), specimen("enf", flexure_mesh(), interface)
     files = mesh_files("dcb", beams.mesh, (8,)) | mesh_files("enf", flexure.mesh, (8,))
     for name, shear, count in (("opened", 0.0, 12000.0), ("mixed", 0.5, 4000.0), ("slid", 1.0, 750.0)):

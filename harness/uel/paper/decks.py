@@ -17,6 +17,7 @@ from uel.delamination.blocks import BY_EQUATION_21, Interface
 from uel.delamination.materials import TABLE_2
 from uel.delamination.steps import LINEAR, Increments
 from uel.paper.bricks import bricks_files, stabilised_bricks_files
+from uel.paper.bridging import bridging_files
 from uel.paper.columns import column_files
 from uel.paper.comparator import comparator_files
 from uel.paper.cook import cook_files
@@ -123,6 +124,7 @@ def all_files() -> dict[Path, str]:
         "dcb_3d_stabilised": stabilised_bricks_files,
         "space_beams": space_beam_files,
         "peel": peel_files,
+        "bridging": bridging_files,
         "fatigue": fatigue_files,
         "dcb_elastica": elastica_files,
     }

@@ -24,6 +24,7 @@ from uel.output import Result
 from uel.output.pictures.jobs import PictureOptions, draw
 from uel.output.pictures.plots import Curve, load_displacement, stacked
 from uel.paper import elastica, literature, measures, space_beams
+from uel.paper.bridging import TIP, TOTAL
 from uel.paper.cycled_specimens import exponent, toughness
 from uel.paper.decks import FOLDER
 from uel.paper.growth_measures import REST, START
@@ -136,6 +137,18 @@ def _space_beam(results: Results) -> list[Curve]:
     return [Curve("beam theory", opening, loads, "reference")]
 
 
+def _resistance(results: Results, path: Path) -> Path:
+    """Draw the energy release rate over the growth of a crack, beside that of its tip and of the plateau."""
+    whole = cycled(results[0])
+    length = [0.0, float(whole.length[-1])]
+    curves = [
+        Curve(name, length, [value] * 2, "reference")
+        for name, value in (("tip and plateau", TIP), ("tip and plateau", TOTAL))
+    ]
+    curves.append(Curve("uel front", whole.length, whole.release.sum(axis=1)))
+    return stacked([curves], path, "Growth of the crack [mm]", ["Energy release rate [N/mm]"])
+
+
 def _growths(results: Results, path: Path) -> Path:
     """Draw growth over the energy release rate: where it changes, and lines of b/2 from specimens under moments."""
     curves = []
@@ -194,6 +207,7 @@ def _mesh(field: str) -> Callable[[Results, Path], Path]:
 
 ARM, OPENING = "Displacement of an arm", "Opening"
 EXAMPLES: Final[Mapping[str, Example]] = {
+    "bridging": Example(("dcb",), _resistance),
     "circle": Example(("circle",), _loads(_circle, OPENING)),
     "cohesive": Example(("frmm_coh2d4", "frmm_u2", "frmm_u4"), _tractions("COH2D4", "U2, standard", "U4, consistent")),
     "dcb": Example(("dcb_u4_1e8",), _loads(_beam("dcb"), ARM)),

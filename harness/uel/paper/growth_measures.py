@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures of delaminations in the plane that grow under cycles, from their tips in the step of cycles."""
+"""Measures of delaminations in the plane that grow, from their tips in the last step."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ START: Final = 4.0
 """Growth before the process zone has its final shape (mm)."""
 REST: Final = 1.0
 """Length at the end that the process zone ahead of the tip may reach (mm)."""
+PLATEAU: Final = (15.0, 30.0)
+"""Growth in which bridging fibres have their final length (mm)."""
 SPACING: Final = 4
 """Increments with field output over which a rate is taken: a tip passes elements in small waves."""
 
@@ -84,6 +86,11 @@ def growth_exponent(result: Result) -> float:
     return float(np.polyfit(np.log(release[rising]), np.log(rate[rising]), 1)[0])
 
 
+def plateau_release(result: Result) -> float:
+    """Return the mean energy release rate (N/mm) in PLATEAU."""
+    return float(growth(result).between(*PLATEAU).release.sum(axis=1).mean())
+
+
 MEASURES: Final[dict[str, Callable[[Result], float]]] = {
-    function.__name__: function for function in (steady_rate, release_1, release_2, growth_exponent)
+    function.__name__: function for function in (steady_rate, release_1, release_2, growth_exponent, plateau_release)
 }

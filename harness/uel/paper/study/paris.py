@@ -104,7 +104,7 @@ class Case:
         fatigue = {"FATIGUE": 2.0, "LOADRATIO": RATIO, "DAMAGEJUMP": self.jump}
         fatigue |= {"ENDURANCE": self.endurance, "BRITTLENESS": self.brittleness}
         law = replace(TABLE_2, stiffness_normal=self.alpha, stiffness_shear=self.alpha)
-        interface = Interface(self.kind, law, beta=self.beta, law=2, eta=ETA, cycles=fatigue)
+        interface = Interface(self.kind, law, beta=self.beta, law=2, eta=ETA, further=fatigue)
         beams = specimen(self.name, mesh, interface)
         moments = end_moments(beams, self.level * self.toughness, self.shear)
         deck = moments_deck(
