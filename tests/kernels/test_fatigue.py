@@ -7,9 +7,11 @@ Expected values are closed forms of the law of Davila et al., NASA/TP-2020-22058
 
 import numpy as np
 import pytest
+from solid_pairs import OWNING, corners_of, geometry
 from space import nodes_of, opened
 
 from uel.errors import KernelError
+from uel.usersub.layout import element_layouts
 
 CYCLES, LESS_IN_SHEAR = 1e7, 0.42
 RIGID = {"CLOSURE": 3, "ALPHAN": 0.0, "ALPHAT": 0.0, "BETAN": 5e4, "BETAT": 5e4}
@@ -142,6 +144,40 @@ def test_life_under_a_constant_traction(cycled, variant, level, ratio, shear):
     for jump, error in ((0.02, 0.01), (0.005, 0.001)):
         point = cycled(variant, shear, LOADRATIO=ratio)
         assert lived(point, level, 1e-6 * expected, jump) == pytest.approx(expected, rel=error)
+
+
+STANDARD = {2: 4, 5: 6, 7: 8, 11: 12, 13: 404, 14: 1010}
+"""Types without solids, and types whose faces are theirs."""
+
+
+@pytest.mark.parametrize("jtype", [*STANDARD, *OWNING])
+def test_every_type_has_the_law(element, cycled, jtype):
+    """The damage of all points of an element whose top moves as a whole, in mode I: that of U2, or of U4."""
+    layouts = element_layouts()
+    owner = layouts[STANDARD.get(jtype, jtype)]
+    dim, rng = owner.dimension, np.random.default_rng(jtype)
+    nodes = geometry(STANDARD.get(jtype, jtype), rng, flat=True)
+    corners = nodes[list(owner.faces[0][: corners_of(owner)])]
+    along = corners[1:] - corners[0]
+    normal = np.array([-along[0, 1], along[0, 0]]) if dim == 2 else np.cross(along[0], along[1])
+    normal /= np.linalg.norm(normal)
+    top = np.arange(len(nodes)) >= owner.solids[0]
+    values = {"LAW": 2, "ETA": ETA, "FATIGUE": 1, "LOADRATIO": 0.1, "DAMAGEJUMP": 0.9}
+    if jtype in STANDARD:
+        layout = layouts[jtype]
+        chosen = np.zeros(layout.nodes, dtype=int)
+        for own, given in zip(layout.faces, owner.faces, strict=True):
+            chosen[list(own)] = given
+        nodes, top, values, like = nodes[chosen], top[chosen], values | STIFF, "U2"
+    else:
+        values, like = values | RIGID, "U4 rigid"
+    item, same = element(jtype, nodes, **values), cycled(like, 0.0)
+    for gap, cycles in ((4e-4, 0.0), (4e-4, 300.0), (5e-4, 1000.0)):
+        item.advance(gap * top[:, None] * normal, dtime=cycles)
+        same.move(gap, cycles)
+    assert same.spent > 0.01
+    np.testing.assert_allclose(item.state["SPENT"], same.spent, rtol=1e-8)
+    np.testing.assert_allclose(item.state["DDDN"], same.rate, rtol=1e-6)
 
 
 @pytest.mark.parametrize("level", [0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99])
