@@ -3,8 +3,9 @@
 """Couplings of nodes as linear equations between dofs: *MPC, *COUPLING, *KINEMATIC COUPLING, *RIGID BODY, *TIE.
 
 Equations have small rotations. With NLGEOM a node with all displacements coupled to a reference node becomes an arm,
-with finite rotations in general steps, and *DISTRIBUTING a coupling with finite rotations in static steps. Other
-couplings of displacements to rotations are refused, unless the rotations are zero in all steps.
+with finite rotations in general steps, and *DISTRIBUTING a coupling with finite rotations in static steps
+(`rotating_constraints.py` and `finite_couplings.py` in `harness/uel/assembly`). Other couplings of displacements to
+rotations are refused, unless the rotations are zero in all steps.
 """
 
 from __future__ import annotations

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """*ORIENTATION, with *DISTRIBUTION and *DISTRIBUTION TABLE for points or angles by element.
 
-`harness/uel/model/orientation_axes.py` computes the axes at the points of elements.
+`harness/uel/model/orientation_axes.py` computes the axes at the points of elements; the readers of
+`harness/uel/deck/sections` give them to the sections that name an ORIENTATION.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@
 
 Both vary as *CLOAD does: `variation.py` has their values at a time, `Loads` in `nodal.py` how they continue from step
 to step. A field that a step removes (OP=NEW) returns to its initial value. With USER, UTEMP and then UFIELD define the
-values at the end of each attempt.
+values at the end of each attempt. `harness/uel/elements/driver_arrays.py` makes the argument PREDEF of them.
 """
 
 from __future__ import annotations

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Nearest points of the main surface of *TIE: weights of its nodes there, and the distances."""
+"""Nearest points of the main surface of *TIE: weights of its nodes there, and the distances.
+
+`harness/uel/contact/face_surface.py` projects onto the faces (`projection.py` beside it), as in contact.
+"""
 
 from __future__ import annotations
 
