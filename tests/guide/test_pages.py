@@ -202,9 +202,9 @@ def stage(tmp_path_factory):
     return folder
 
 
-ELSEWHERE = re.compile(r"abaqus_inputs/|uel reproduce|my_uel\.inp|plot my_uel|--oldjob")
-"""Decks of the repository and `uel reproduce` run in tests/verification, a new project in tests/harness/project, and
-restarts in tests/harness/test_restart.py."""
+ELSEWHERE = re.compile(r"abaqus_inputs/|uel reproduce|my_uel\.inp|plot my_uel|--oldjob|fit bridged\.inp")
+"""Decks of the repository, `uel reproduce` and the fit of bridging run in tests/verification, a new project in
+tests/harness/project, and restarts in tests/harness/test_restart.py."""
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,7 @@ import uel
 from uel.cli import main
 from uel.deck.reader import read_deck
 from uel.errors import UsageError
+from uel.usersub.layout import element_layouts
 
 YOUNG, POISSON, MU = 1.0e4, 0.3, 0.25
 SIZES = (3.0, 1.0, 2.0)
@@ -183,12 +184,13 @@ def test_elements_on_the_crack_have_properties_and_a_set_of_their_own(tmp_path):
     assert done.lines("INTERFACE")[-1] == "4 elements U4 in INTERFACE, 2 of them on an initial crack, 5 nodes doubled"
     model = read_deck(tmp_path / "cut.inp")
     groups = [group for group in model.groups if group.type == "U4"]
-    # CRACKED is the last but one of the integers, FRICTION the twelfth of the reals (fortran/README.md)
-    assert [(int(group.section.integers[-2]), float(group.section.values[11])) for group in groups] == [
+    # FRICTION is the twelfth of the reals (fortran/README.md)
+    cracked = [item.name for item in element_layouts()[4].integers].index("CRACKED")
+    assert [(int(group.section.integers[cracked]), float(group.section.values[11])) for group in groups] == [
         (0, 0.3),
         (1, 0.3),
     ]
-    crack = next(group for group in groups if group.section.integers[-2])
+    crack = next(group for group in groups if group.section.integers[cracked])
     places = model.mesh.coordinates[crack.nodes[:, [3, 2]]]
     assert (places[..., 1] == 1.0).all() and places[..., 0].max() == pytest.approx(1.5)
     elements = {name: sorted(model.elsets[name].tolist()) for name in ("INTERFACE", "INTERFACE-CRACK")}

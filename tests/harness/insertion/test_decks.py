@@ -329,8 +329,9 @@ def test_thickness_and_state_of_stress_come_from_the_solids(tmp_path):
     path.write_text(path.read_text().replace("MATERIAL=M\n1.", "MATERIAL=M\n2.5"))
     section = next(g for g in read_deck(insert_between(path)).groups if g.type == "U4").section
     assert section.values[0] == 2.5
-    # LAW, CLOSURE, PLANE, INTEGRATION, SAMPLING, TANGENT, FORMULATION BOTTOM and TOP: those of CPE4; CRACKED, PACING
-    assert section.integers.tolist() == [1, 0, 1, 0, 0, 0, 2, 2, 0, 0]
+    # LAW, CLOSURE, PLANE, INTEGRATION, SAMPLING, TANGENT, FORMULATION BOTTOM and TOP: those of CPE4; CRACKED, PACING,
+    # FATIGUE
+    assert section.integers.tolist() == [1, 0, 1, 0, 0, 0, 2, 2, 0, 0, 0]
     # BETAN, BETAT: zeros are the recommendation
     assert section.values[12:14].tolist() == [0.0, 0.0]
 

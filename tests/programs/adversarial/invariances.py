@@ -52,7 +52,7 @@ THREADS = (1, 2, 4)
 
 _DIMENSIONS: Mapping[str, Dimension] = {
     **{"length": LENGTH, "stress/length": STIFFNESS, "stress": STRESS, "energy/area": TOUGHNESS, "time": TIME},
-    **{"1": ONE, "": ONE},
+    **{"1": ONE, "": ONE, "temperature": ONE},
 }
 """By the unit that a property has in fortran/properties.toml."""
 _U2 = element_layouts()[2]
