@@ -3,6 +3,7 @@
 """Fronts on surfaces with known fields: places, directions, and Rice's integral."""
 
 from pathlib import Path
+from typing import ClassVar
 
 import meshio
 import numpy as np
@@ -118,6 +119,39 @@ def test_a_round_front(tilt: float, names: str) -> None:
     inner = slice(2, -2)
     assert np.abs(front.tractions[inner]) == pytest.approx(np.tile(0.5 * STRENGTH, (len(radius) - 4, 1)), rel=0.1)
     assert front.releases[inner] == pytest.approx(np.tile(G, (len(radius) - 4, 1)), rel=0.08)
+
+
+class Growing(Disc):
+    """The disc in three increments, whose front moves from 5.5 to 6 and to 6.4 in times of 2 and 4."""
+
+    RADII: ClassVar = {3: (5.5, 1.0), 4: (6.0, 3.0), 5: (6.4, 7.0)}
+    now = 0.0
+
+    def damage(self, radius: np.ndarray) -> np.ndarray:
+        return np.clip(0.5 + (self.now - radius) / ZONE, 0.0, 1.0)
+
+    @property
+    def frames(self) -> list[Frame]:
+        return [Frame(1, increment, time, Path("none.vtu")) for increment, (_, time) in self.RADII.items()]
+
+    def interfaces(self) -> list[dict[str, np.ndarray]]:
+        found = []
+        for increment, (radius, time) in self.RADII.items():
+            self.now = radius
+            (profile,) = super().interfaces()
+            count = len(profile["X"])
+            found.append(profile | {"increment": np.full(count, float(increment)), "time": np.full(count, time)})
+        return found
+
+
+@pytest.mark.parametrize("tilt", [0.0, 0.7])
+def test_growth_along_a_front(tilt: float) -> None:
+    """0.5 in a time of 2 and 0.4 in 4, at each point; interpolation on elements of 0.5 is right to 0.02 of length."""
+    first, second, third = fronts(Growing(tilt))
+    assert np.isnan(first.rate).all()
+    assert second.rate == pytest.approx(0.25, abs=0.02 / 2.0)
+    assert third.rate == pytest.approx(0.1, abs=0.02 / 4.0)
+    assert third.rate.mean() == pytest.approx(0.1, rel=0.01)
 
 
 class Spent(Disc):
@@ -286,7 +320,7 @@ def test_files_of_a_front(tmp_path: Path) -> None:
     found = fronts(Disc())
     write_fronts(tmp_path / "disc_front.csv", found)
     lines = (tmp_path / "disc_front.csv").read_text().splitlines()
-    names = "step,increment,time,surface,line,point,X,Y,Z,AHEADX,AHEADY,AHEADZ,TN,TII,TIII,GI,GII,GIII,MIX"
+    names = "step,increment,time,surface,line,point,X,Y,Z,AHEADX,AHEADY,AHEADZ,TN,TII,TIII,GI,GII,GIII,MIX,RATE"
     assert lines[0] == names
     assert len(lines) == 1 + len(found[0].coordinates)
     rows = np.loadtxt(lines[1:], delimiter=",")

@@ -14,6 +14,9 @@ G_i = -int t_i dw_i, i = I for the normal, II and III for the shears normal to t
 traction, and w the separation of the law, or the displacement jump if an element has no other. While the delamination
 grows, their sum is the fracture energy of the law at this mode mix; before, it is the energy release rate of a crack
 whose process zone is forming. Beyond the edge of the interface, as in an initial crack, tractions are zero.
+
+The rate is the growth along `ahead` since the last increment with a front of that line, over the time since then. From
+the step FATIGUE on, time is the number of cycles, and the rate is da/dN.
 """
 
 from __future__ import annotations
@@ -61,6 +64,7 @@ class Front:
     ahead      (n, 3) unit normals of the front in the surface, towards smaller damage
     tractions  (n, 3) normal, shear along `ahead`, shear along the front
     releases   (n, 3) G_I, G_II, G_III (energy/area)
+    rate       (n,) growth over the time since the line before; NaN without one, or where it is not behind
     """
 
     step: int
@@ -72,6 +76,7 @@ class Front:
     ahead: FloatArray
     tractions: FloatArray
     releases: FloatArray
+    rate: FloatArray
 
 
 class _Surface:
@@ -194,6 +199,7 @@ def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
         )
     profiles = {(int(profile["step"][0]), int(profile["increment"][0])): profile for profile in result.interfaces()}
     all_fronts: list[Front] = []
+    last: dict[tuple[int, int], Front] = {}
     for frame in frames:
         # a killed run may lack the last profile
         profile = profiles.get((frame.step, frame.increment))
@@ -204,21 +210,29 @@ def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
             lines = _lines(surface, fields.damage, damage)
             reaches = _half_lengths(surface, fields.damage, [locations for locations, _ in lines])
             for line, ((locations, triangles), reach) in enumerate(zip(lines, reaches, strict=True), 1):
-                values = _along(surface, fields, locations, triangles, reach)
-                all_fronts.append(Front(frame.step, frame.increment, frame.time, number, line, *values))
+                points, ahead, *values = _along(surface, fields, locations, triangles, reach)
+                before = last.get((number, line))
+                rate = np.full(len(points), np.nan)
+                if before is not None and frame.time > before.time:
+                    rate = _growth(points, ahead, before.coordinates) / (frame.time - before.time)
+                front = Front(
+                    frame.step, frame.increment, frame.time, number, line, points, ahead, values[0], values[1], rate
+                )
+                last[number, line] = front
+                all_fronts.append(front)
     return all_fronts
 
 
 def write_fronts(path: Path, all_fronts: list[Front]) -> None:
     """Write NAME_front.csv: a row for each point of each front, with the ratio (G_II + G_III)/G as MIX."""
-    names = ("X", "Y", "Z", "AHEADX", "AHEADY", "AHEADZ", "TN", "TII", "TIII", "GI", "GII", "GIII", "MIX")
+    names = ("X", "Y", "Z", "AHEADX", "AHEADY", "AHEADZ", "TN", "TII", "TIII", "GI", "GII", "GIII", "MIX", "RATE")
     file = TextFile(path)
     file.write(",".join(["step,increment,time,surface,line,point", *names]) + "\n")
     for front in all_fronts:
         total = front.releases.sum(axis=1)
         shear = front.releases[:, 1:].sum(axis=1)
         mix = np.divide(shear, total, out=np.zeros_like(total), where=total > 0.0)
-        rows = np.column_stack([front.coordinates, front.ahead, front.tractions, front.releases, mix])
+        rows = np.column_stack([front.coordinates, front.ahead, front.tractions, front.releases, mix, front.rate])
         head = f"{front.step},{front.increment},{front.time!r},{front.surface},{front.line}"
         for point, row in enumerate(rows.tolist(), 1):
             file.write(f"{head},{point}," + ",".join(f"{value:.9g}" for value in row) + "\n")
@@ -366,6 +380,28 @@ def _along(
         for each in _components(mesh, fields, Locations(line.nodes[:, None], line.weights[:, None]), along)
     )
     return points, ahead, middle, releases
+
+
+def _growth(points: FloatArray, ahead: FloatArray, before: FloatArray) -> FloatArray:
+    """Return the distances (n,) of points to an earlier front (m, 3), along the directions `ahead` (n, 3).
+
+    The earlier front is a line of straight parts, the first and last of which go on by their own length, since a front
+    is sampled in the middles of its parts. The distance is that in the plane normal to the front here; NaN if the line
+    does not cross this plane nearby.
+    """
+    if len(before) < 2:
+        return np.full(len(points), np.nan)
+    chords = np.diff(before, axis=0)
+    line = np.concatenate([before[:1] - chords[:1], before, before[-1:] + chords[-1:]])
+    # signed distances (n, m + 2) of the earlier points from the planes
+    side = np.einsum("nmd,nd->nm", line - points[:, None], _unit(_tangents(points)))
+    low, high = side[:, :-1], side[:, 1:]
+    crossing = (low <= 0.0) != (high <= 0.0)
+    share = low / np.where(crossing, low - high, 1.0)
+    way = points[:, None] - (line[:-1] + share[..., None] * np.diff(line, axis=0))
+    length = np.where(crossing, np.linalg.norm(way, axis=-1), np.inf)
+    row, nearest = np.arange(len(points)), np.argmin(length, axis=1)
+    return np.where(np.isfinite(length[row, nearest]), np.sum(way[row, nearest] * ahead, axis=1), np.nan)
 
 
 def _components(
