@@ -12,7 +12,7 @@ the same sense in both arms, of width b and height h,
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,8 +20,10 @@ import numpy as np
 from uel.delamination.blocks import Specimen
 from uel.delamination.flexure import SPAN
 from uel.delamination.keywords import keyword, node_set, number, table, text
+from uel.delamination.plates import Laminate, mesh_blocks, property_blocks
 from uel.delamination.specimens import deck_head
 from uel.delamination.steps import Output
+from uel.model.arrays import IntArray
 
 RISE = 10
 """Increments of the static step, in which the load rises to the greatest of a cycle."""
@@ -97,11 +99,43 @@ def flexure_deck(title: str, specimen: Specimen, force: float, cycles: Cycles) -
     return text([*lines, *_steps(["*CLOAD", f"MIDSPAN, 2, {number(-force)}"], ["MIDSPAN"], cycles)])
 
 
+def solid_deck(
+    title: str,
+    comment: str,
+    laminate: Laminate,
+    sets: Mapping[str, IntArray],
+    boundary: Sequence[str],
+    forces: Sequence[tuple[int, int, float]],
+    cycles: Cycles,
+) -> str:
+    """Write bricks under forces at nodes.
+
+    Parameters
+    ----------
+    title, comment, laminate
+        Heading, a line about it, mesh with its properties.
+    sets
+        Node sets by name; history output is that of the first one.
+    boundary
+        Data lines of *BOUNDARY.
+    forces
+        Node, dof, force (N).
+    cycles
+        Step of the cycles.
+    """
+    lines = ["*HEADING", title, f"** {comment}"]
+    lines += ["** written by python -m uel.paper.decks; units N, mm, MPa", *mesh_blocks(laminate)]
+    for name, labels in sets.items():
+        lines += node_set(name, labels)
+    lines += [*property_blocks(laminate), "*BOUNDARY", *boundary]
+    return text([*lines, *_steps(["*CLOAD", *table(forces)], [next(iter(sets))], cycles, "U3, RF3")])
+
+
 def _height(specimen: Specimen) -> float:
     return float(specimen.mesh.lower[-1] - specimen.mesh.lower[0])
 
 
-def _steps(load: Sequence[str], history: Sequence[str], cycles: Cycles) -> list[str]:
+def _steps(load: Sequence[str], history: Sequence[str], cycles: Cycles, variables: str = "U2, RF2") -> list[str]:
     """Write the step in which the load rises, and that of its cycles, which keeps it."""
     rise = ("The greatest load of a cycle", RISE, (1.0 / RISE, 1.0, 1e-6, 1.0 / RISE), RISE, load)
     count = cycles.count
@@ -111,7 +145,7 @@ def _steps(load: Sequence[str], history: Sequence[str], cycles: Cycles) -> list[
         output = Output(
             when=f"FREQUENCY={every}",
             stresses=False,
-            history=dict.fromkeys(history, "U2, RF2"),
+            history=dict.fromkeys(history, variables),
             energies="ALLSE, ALLPD, ALLWK",
         )
         lines += [keyword("STEP", INC=limit, UNSYMM="YES"), title, "*STATIC", *table([static])]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Decks of delaminations under cycles: double cantilever beams under moments and held apart, end-notched flexure."""
+"""Decks of delaminations under cycles: double cantilever beams, end-notched flexure, circular delamination."""
 
 from __future__ import annotations
 
@@ -10,12 +10,13 @@ from dataclasses import replace
 import numpy as np
 
 from uel.delamination.blocks import Interface, Specimen
-from uel.delamination.cycled import Cycles, end_moments, flexure_deck, moments_deck, opening_deck
+from uel.delamination.cycled import Cycles, end_moments, flexure_deck, moments_deck, opening_deck, solid_deck
 from uel.delamination.flexure import SPAN
 from uel.delamination.materials import PLY_0, TABLE_2
 from uel.delamination.mesh import TwoArmMesh, crack_columns, two_arms
 from uel.delamination.specimens import ARM_HEIGHT, CRACK, WIDTH, mesh_files
 from uel.model.arrays import FloatArray
+from uel.paper.literature import CIRCLE_LAW, circle_load, circular_plates, consistent
 
 ETA = 2.73
 """Exponent of Benzeggagh and Kenane of the measured toughnesses."""
@@ -31,6 +32,8 @@ OPENING = 1.2
 """Displacement of each arm of the beam that is held apart (mm): 0.85 of G_c at first."""
 FORCE = 300.0
 """On the end-notched flexure (N)."""
+CIRCLE_SIZE, CIRCLE_FINE, CIRCLE_JUMP = 1.0, 26.0, 0.05
+"""Squares of the circular delamination (mm), up to where, and its DAMAGEJUMP."""
 
 
 def beam_mesh(refined: float = REFINED, size: float = SIZE, rows: int = 4) -> TwoArmMesh:
@@ -67,7 +70,31 @@ def fatigue_files() -> dict[str, str]:
     title = "Double cantilever beam held apart under cycles"
     files["dcb.inp"] = opening_deck(title, beams, OPENING, Cycles(1e6))
     files["enf.inp"] = flexure_deck("End-notched flexure under cycles of a force", flexure, FORCE, Cycles(2400.0))
+    files["circle.inp"] = circle()
     return files
+
+
+def circle() -> str:
+    """Write a quarter of two plates with a circular delamination, whose middle a force pulls apart: LEVEL of G_c.
+
+    G is that of thin plates, P^2/(16 pi^2 D), whatever the radius is.
+    """
+    interface = replace(consistent(CIRCLE_LAW), cycles={**FATIGUE, "DAMAGEJUMP": CIRCLE_JUMP})
+    plates = circular_plates(CIRCLE_SIZE, CIRCLE_FINE, interface)
+    both = plates.mesh.labels
+    bottom, top = (labels[:, 0, 0] for labels in both)
+    # without a reaction, since the forces are in balance
+    sets = {"TOP": top, "BOTTOM": bottom, "HELD": both[0][-1, -1, -1:]}
+    sets |= {"PLANE_X": np.concatenate([labels[:, :, 0].ravel() for labels in both])}
+    sets |= {"PLANE_Y": np.concatenate([labels[:, 0, :].ravel() for labels in both])}
+    # a quarter of the force, on the nodes through the height of each plate
+    force = 0.25 * circle_load() * np.sqrt(LEVEL) / len(top)
+    forces = [(node, 3, sign * force) for nodes, sign in ((top, 1.0), (bottom, -1.0)) for node in nodes.tolist()]
+    title = f"Circular delamination under cycles of a central force, {LEVEL:g} of G_c"
+    comment = "planes of symmetry x = 0 and y = 0; forces at the lines of nodes at x = y = 0"
+    return solid_deck(
+        title, comment, plates, sets, ["PLANE_X, 1, 1", "PLANE_Y, 2, 2", "HELD, 3, 3"], forces, Cycles(2400.0)
+    )
 
 
 def flexure_mesh() -> TwoArmMesh:

@@ -65,6 +65,8 @@ METAL = isotropic("METAL", 70000.0, 0.3)
 CIRCLE_ARM, CIRCLE_CRACK, CIRCLE_TOUGHNESS, CIRCLE_STRENGTH = 1.0, 20.0, 0.5, 30.0
 """Height of a plate, radius of the first delamination (mm), fracture energy (N/mm), strength (MPa)."""
 
+CIRCLE_LAW = Cohesive(0.0, 0.0, CIRCLE_STRENGTH, CIRCLE_STRENGTH, CIRCLE_TOUGHNESS, CIRCLE_TOUGHNESS)
+
 RIM = 0.6728
 """Length, over its height, by which an isotropic arm is longer than the crack beside it: see `circle_load_with_rim`."""
 
@@ -139,16 +141,19 @@ def mmb_benchmark(ratio: float, size: float = 0.25) -> str:
 
 def circle(size: float = 0.75, fine: float = 33.75, opening: float = 2.1) -> str:
     """Write a quarter of the circular delamination, on squares of `size` (mm) up to `fine`; opening: per plate (mm)."""
+    laminate = circular_plates(size, fine, consistent(CIRCLE_LAW))
+    title = "Circular delamination of two plates, C3D8I and U8 of infinite stiffness"
+    return text(circular_deck(title, laminate, opening, (0.02, 1.0, 1.0e-6, 0.02), every=2))
+
+
+def circular_plates(size: float, fine: float, interface: Interface) -> Laminate:
+    """Mesh a quarter of two plates with a circular delamination, on squares of `size` (mm) up to `fine`."""
     inner = np.linspace(0.0, fine, round(fine / size) + 1)
     edges = np.round(np.concatenate([inner, graded_columns(fine, fine + 12.0, size, 1.3, 4.0)[1:]]), 6)
     centres = 0.5 * (edges[1:] + edges[:-1])
     bonded = np.hypot(*np.meshgrid(centres, centres, indexing="ij")) > CIRCLE_CRACK
     z = np.array([0.0, CIRCLE_ARM])
-    law = Cohesive(0.0, 0.0, CIRCLE_STRENGTH, CIRCLE_STRENGTH, CIRCLE_TOUGHNESS, CIRCLE_TOUGHNESS)
-    mesh = TwoPlateMesh(edges, edges, z - CIRCLE_ARM, z, bonded)
-    laminate = Laminate(mesh, consistent(law), (METAL,), (METAL,))
-    title = "Circular delamination of two plates, C3D8I and U8 of infinite stiffness"
-    return text(circular_deck(title, laminate, opening, (0.02, 1.0, 1.0e-6, 0.02), every=2))
+    return Laminate(TwoPlateMesh(edges, edges, z - CIRCLE_ARM, z, bonded), interface, (METAL,), (METAL,))
 
 
 def circle_load() -> float:
