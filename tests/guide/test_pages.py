@@ -25,7 +25,7 @@ from uel.cli import main as run_command
 ROOT = Path(__file__).parents[2]
 LISTED = subprocess.run(["git", "ls-files", "*.md"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
 PAGES = [Path(name) for name in LISTED.split() if (ROOT / name).exists()]
-TUTORIALS = ("docs/dcb.md", "docs/install.md", "docs/plate.md", "docs/results.md", "docs/batch.md")
+TUTORIALS = ("docs/dcb.md", "docs/install.md", "docs/plate.md", "docs/fatigue.md", "docs/results.md", "docs/batch.md")
 GENERATED = "docs/generated/"
 """Written by `make docs`."""
 
