@@ -16,6 +16,7 @@ from uel.delamination.materials import PLY_0, TABLE_2
 from uel.delamination.mesh import TwoArmMesh, crack_columns, two_arms
 from uel.delamination.specimens import ARM_HEIGHT, CRACK, WIDTH, mesh_files
 from uel.model.arrays import FloatArray
+from uel.paper.bridged_beam import bridged_beam
 from uel.paper.literature import CIRCLE_LAW, circle_load, circular_plates, consistent
 
 ETA = 2.73
@@ -70,7 +71,7 @@ def fatigue_files() -> dict[str, str]:
     title = "Double cantilever beam held apart under cycles"
     files["dcb.inp"] = opening_deck(title, beams, OPENING, Cycles(1e6))
     files["enf.inp"] = flexure_deck("End-notched flexure under cycles of a force", flexure, FORCE, Cycles(2400.0))
-    files["circle.inp"] = circle()
+    files |= {"circle.inp": circle(), "bridged.inp": bridged_beam()}
     return files
 
 
