@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,15 +14,18 @@ import pytest
 from scipy.optimize import brentq
 
 import uel
-from uel.delamination.blocks import Interface
-from uel.delamination.cycled import Cycles, end_moments, moments_deck, opening_deck
+from uel.delamination.blocks import Interface, Specimen, interface_values
+from uel.delamination.cycled import Cycles, end_moments, moments_deck, opening_deck, solid_deck
 from uel.delamination.kernels import uel_property, user_element
-from uel.delamination.materials import TABLE_2
+from uel.delamination.keywords import wrapped
+from uel.delamination.materials import TABLE_2, SolidPly
 from uel.delamination.mesh import crack_columns, two_arms
+from uel.delamination.plates import Laminate, two_plates
 from uel.delamination.specimens import ARM_HEIGHT, dcb_ref_mesh, mesh_files
 from uel.errors import IncrementsUsedUpError
 from uel.output import Result
 from uel.output.files.state_files import folder_of, read_state
+from uel.output.pictures.front import fronts
 from uel.paper.cycled_specimens import ETA, FATIGUE, LEVEL, RIGID, exponent, specimen, toughness
 from uel.paper.growth_measures import START, growth
 
@@ -43,11 +47,12 @@ def beam(tmp_path: Path) -> Callable[..., Path]:
         largest: float = 2.0,
         count: float = 4000.0,
         shear: float = 0.0,
+        rows: int = 2,
         **values: float,
     ) -> Path:
         x = crack_columns(crack + 30.0, (crack - 1.5, crack + refined), size, ratio=1.3, largest=(largest, 2.0))
         interface = Interface(kind, LAWS[kind], law=2, eta=ETA, cycles=FATIGUE | values)
-        beams = specimen(name, two_arms(x, ARM_HEIGHT, 2, crack), interface)
+        beams = specimen(name, two_arms(x, ARM_HEIGHT, rows, crack), interface)
         for file, text in mesh_files(name, beams.mesh, (interface.nodes,)).items():
             (tmp_path / file).write_text(text)
         moments = end_moments(beams, LEVEL * toughness(shear), shear)
@@ -268,6 +273,57 @@ def test_damage_of_an_overload_is_kept(tmp_path):
     relative = peak ** (power + 1.0) + (failure - onset) * (0.8 * peak / limit) ** power * count / CYCLES
     assert cycled == pytest.approx((relative ** (1.0 / (power + 1.0)) - onset) / (failure - onset), rel=1e-3)
     assert cycled > 1.05 * over
+
+
+PLY = SolidPly("PLY_0", (1.2e5, 1.05e4, 1.05e4), (0.3, 0.3, 0.51), (5.52e3, 5.52e3, 3.48e3))
+"""The paper's composite in space, with its fibres along x."""
+
+
+def in_plane_strain(deck: Path, specimen: Specimen) -> None:
+    """Change the quads of a deck to CPE4I, and the constants of the interface elements to those of plane strain.
+
+    The plane is 1-3 of the ply in space, which is isotropic across its fibres.
+    """
+    sides = {"E3": 1.05e4, "NU13": 0.3, "NU23": 0.51, "FORMULATION": 1.0}
+    values = interface_values(specimen) | {"PLANE": 1}
+    values |= {f"{name} {side}": value for name, value in sides.items() for side in ("BOTTOM", "TOP")}
+    text = deck.read_text().replace("TYPE=CPS4", "TYPE=CPE4I")
+    constants = wrapped([*PLY.moduli, *PLY.ratios, *PLY.shear])
+    text = re.sub(r"TYPE=LAMINA\n.*\n", "\n".join(["TYPE=ENGINEERING CONSTANTS", *constants, ""]), text)
+    properties = "\n".join(uel_property(4, "INTERFACE", values))
+    deck.write_text(re.sub(r"\*\* THICKNESS(.*\n)*?(?=\*ELSET, ELSET=TIP)", f"{properties}\n", text))
+
+
+@pytest.mark.long
+def test_a_strip_grows_as_the_plane(beam):
+    """U8 between C3D8I, one across, in plane strain, as U4 between CPE4I, in mode I."""
+    count, shear = 6000.0, 0.0
+    plane = beam(size=0.25, refined=8.0, count=count, shear=shear, rows=4)
+    x = crack_columns(40.0, (8.5, 18.0), 0.25, ratio=1.3, largest=(2.0, 2.0))
+    interface = Interface("U8", RIGID, law=2, eta=ETA, cycles=FATIGUE)
+    mesh = two_plates(x, np.array([0.0, 1.0]), np.linspace(0.0, ARM_HEIGHT, 5), 10.0)
+    plane_specimen = specimen("beam", two_arms(x, ARM_HEIGHT, 4, 10.0), replace(interface, type="U4"))
+    in_plane_strain(plane, plane_specimen)
+    forces = []
+    moments = end_moments(plane_specimen, LEVEL * toughness(shear), shear)
+    for labels, moment in zip(mesh.labels, moments, strict=True):
+        # on both nodes of a width of 1 mm
+        force = 0.5 * moment / plane_specimen.width / ARM_HEIGHT
+        forces += [(int(node), 1, side) for side, row in ((force, 0), (-force, -1)) for node in labels[row, :, 0]]
+    parts = {"TOP": [mesh.labels[1][-1, :, 0]], "CLAMPED": [part[..., -1] for part in mesh.labels]}
+    parts["PLANE"] = list(mesh.labels)
+    sets = {name: np.concatenate([labels.ravel() for labels in some]) for name, some in parts.items()}
+    deck = plane.with_name("strip.inp")
+    laminate = Laminate(mesh, interface, (PLY,) * 4, (PLY,) * 4)
+    supports = ["CLAMPED, 1", "CLAMPED, 3", "PLANE, 2"]
+    cycles = Cycles(count, field_every=1)
+    deck.write_text(solid_deck("Strip under cycles", "right end clamped", laminate, sets, supports, forces, cycles))
+    expected = growth(run(plane)).between(2.5, 4.5)
+    places = [(front.time, front.coordinates[:, 0].mean()) for front in fronts(run(deck)) if front.step == 2]
+    times, lengths = np.array(places).T
+    grown = (lengths > 12.5) & (lengths < 14.5)
+    assert min(grown.sum(), len(expected.length)) > 50
+    assert np.polyfit(times[grown], lengths[grown], 1)[0] == pytest.approx(expected.rate, rel=0.03)
 
 
 @pytest.mark.long
