@@ -61,7 +61,7 @@ class Growth:
 
 def growth(result: Result) -> Growth:
     """Return the growth of the first tip in the last step."""
-    found = [tip for tip in tips(result, DAMAGE) if tip.step == result.status[-1].step and tip.number == 1]
+    found = [tip for tip in tips(result, DAMAGE) if tip.step == result.status[-1].step and tip.line == tip.number == 1]
     rows = np.array([(tip.time, tip.length, *tip.release) for tip in found])
     return Growth(rows[:, 0], rows[:, 1], rows[:, 2:])
 

@@ -141,3 +141,46 @@ def test_jobs_without_lines() -> None:
 def test_a_folder_is_no_job(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["front", "."]) == 1
     assert ".: expected the name of a job, with its folder" in capsys.readouterr().err
+
+
+class Superposed(Strip):
+    """The strip with a second element on the nodes of each one, whose tip is 3 behind; its nodes are the other way."""
+
+    def mesh(self, increment: int = -1, step: int | None = None) -> meshio.Mesh:
+        found = super().mesh(increment, step)
+        cells, labels = (
+            np.concatenate([self.cells, self.cells[:, ::-1]]),
+            np.concatenate([self.labels, self.labels + 900]),
+        )
+        return meshio.Mesh(
+            found.points,
+            [("line", cells)],
+            cell_data={"DAMAGE": [np.zeros(len(cells))], "ELEMENT": [labels]},
+        )
+
+    def interfaces(self) -> list[dict[str, np.ndarray]]:
+        first = super().interfaces()
+        self.arc = self.arc + 3.0
+        second = super().interfaces()
+        self.arc = self.arc - 3.0
+        for one, other in zip(first, second, strict=True):
+            other["element"] = other["element"] + 900
+            # the places are those of the first
+            other["X"], other["Y"] = one["X"], one["Y"]
+            for name in ("TT", "WT"):
+                other[name] = -other[name]
+        return [
+            {name: np.concatenate([one[name], other[name]]) for name in one}
+            for one, other in zip(first, second, strict=True)
+        ]
+
+
+def test_two_elements_on_the_same_nodes() -> None:
+    """Each law has its own tip."""
+    expected, found = tips(Strip(), 0.5), tips(Superposed(), 0.5)
+    for line, behind in ((1, 0.0), (2, 3.0)):
+        mine = [tip for tip in found if tip.line == line]
+        assert len(mine) == len(expected)
+        for tip, other in zip(mine, expected, strict=True):
+            assert tip.length == pytest.approx(other.length - behind, abs=1e-6)
+            assert tip.release == pytest.approx(other.release, rel=0.02)

@@ -32,8 +32,6 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from uel.errors import UelError
@@ -41,6 +39,7 @@ from uel.model.arrays import FloatArray, IntArray
 from uel.model.face_directions import face_directions
 from uel.output.files.interface import DIRECTIONS
 from uel.output.formats import TextFile
+from uel.output.pictures.interface_parts import parts
 from uel.output.pictures.plots import COLOURS, STYLE
 from uel.output.pictures.triangles import Locations, SurfacePaths, TriangulatedSurface
 from uel.output.results import Result
@@ -307,11 +306,7 @@ def _surfaces(mesh: meshio.Mesh) -> list[_Surface]:
     if not cells:
         return []
     faces, elements = np.concatenate(cells), np.concatenate(labels)
-    rows = np.repeat(np.arange(len(faces)), 4)
-    shape = (len(faces), len(mesh.points))
-    touching = coo_array((np.ones(rows.size), (rows, faces.ravel())), shape=shape).tocsr()
-    count, member = connected_components(touching @ touching.T, directed=False)
-    return [_Surface(mesh.points, faces[member == k], elements[member == k]) for k in range(count)]
+    return [_Surface(mesh.points, faces[part], elements[part]) for part in parts(faces, len(mesh.points))]
 
 
 def _fields(surface: _Surface, profile: Mapping[str, FloatArray]) -> _Fields:

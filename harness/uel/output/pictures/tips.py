@@ -26,11 +26,12 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from scipy.sparse import coo_array
-from scipy.sparse.csgraph import breadth_first_order, connected_components
+from scipy.sparse.csgraph import breadth_first_order
 
 from uel.errors import UelError
 from uel.model.arrays import FloatArray, IntArray
 from uel.output.formats import TextFile
+from uel.output.pictures.interface_parts import parts
 from uel.output.pictures.plots import COLOURS, STYLE
 from uel.output.results import Result
 
@@ -239,12 +240,8 @@ def _lines(mesh: meshio.Mesh) -> list[_Line]:
     if not cells:
         return []
     edges, elements = np.concatenate(cells), np.concatenate(labels)
-    rows = np.repeat(np.arange(len(edges)), 2)
-    shape = (len(edges), len(mesh.points))
-    touching = coo_array((np.ones(rows.size), (rows, edges.ravel())), shape=shape).tocsr()
-    count, member = connected_components(touching @ touching.T, directed=False)
     points = mesh.points[:, :2]
-    return [_Line(points, edges[member == k], elements[member == k]) for k in range(count)]
+    return [_Line(points, edges[part], elements[part]) for part in parts(edges, len(points))]
 
 
 def _crossings(
