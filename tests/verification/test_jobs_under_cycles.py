@@ -51,7 +51,7 @@ def beam(tmp_path: Path) -> Callable[..., Path]:
         **values: float,
     ) -> Path:
         x = crack_columns(crack + 30.0, (crack - 1.5, crack + refined), size, ratio=1.3, largest=(largest, 2.0))
-        interface = Interface(kind, LAWS[kind], law=2, eta=ETA, cycles=FATIGUE | values)
+        interface = Interface(kind, LAWS[kind], law=2, eta=ETA, further=FATIGUE | values)
         beams = specimen(name, two_arms(x, ARM_HEIGHT, rows, crack), interface)
         for file, text in mesh_files(name, beams.mesh, (interface.nodes,)).items():
             (tmp_path / file).write_text(text)
@@ -300,7 +300,7 @@ def test_a_strip_grows_as_the_plane(beam):
     count, shear = 6000.0, 0.0
     plane = beam(size=0.25, refined=8.0, count=count, shear=shear, rows=4)
     x = crack_columns(40.0, (8.5, 18.0), 0.25, ratio=1.3, largest=(2.0, 2.0))
-    interface = Interface("U8", RIGID, law=2, eta=ETA, cycles=FATIGUE)
+    interface = Interface("U8", RIGID, law=2, eta=ETA, further=FATIGUE)
     mesh = two_plates(x, np.array([0.0, 1.0]), np.linspace(0.0, ARM_HEIGHT, 5), 10.0)
     plane_specimen = specimen("beam", two_arms(x, ARM_HEIGHT, 4, 10.0), replace(interface, type="U4"))
     in_plane_strain(plane, plane_specimen)
@@ -329,7 +329,7 @@ def test_a_strip_grows_as_the_plane(beam):
 @pytest.mark.long
 def test_ten_million_cycles_of_a_beam(tmp_path):
     """A beam of 12,000 unknowns that is held apart by 2 mm; the increments are jumps over cycles."""
-    interface = Interface("U4", RIGID, law=2, eta=ETA, cycles=FATIGUE)
+    interface = Interface("U4", RIGID, law=2, eta=ETA, further=FATIGUE)
     beams = specimen("held", dcb_ref_mesh(), interface)
     for file, text in mesh_files("held", beams.mesh, (8,)).items():
         (tmp_path / file).write_text(text)

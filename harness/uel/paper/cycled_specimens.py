@@ -80,7 +80,7 @@ def circle() -> str:
 
     G is that of thin plates, P^2/(16 pi^2 D), whatever the radius is.
     """
-    interface = replace(consistent(CIRCLE_LAW), cycles={**FATIGUE, "DAMAGEJUMP": CIRCLE_JUMP})
+    interface = replace(consistent(CIRCLE_LAW), further={**FATIGUE, "DAMAGEJUMP": CIRCLE_JUMP})
     plates = circular_plates(CIRCLE_SIZE, CIRCLE_FINE, interface)
     both = plates.mesh.labels
     bottom, top = (labels[:, 0, 0] for labels in both)
