@@ -43,9 +43,9 @@ def beam_mesh(refined: float = REFINED, size: float = SIZE, rows: int = 4) -> Tw
     return two_arms(x, ARM_HEIGHT, rows, CRACK)
 
 
-def specimen(name: str, mesh: TwoArmMesh, interface: Interface) -> Specimen:
+def specimen(name: str, mesh: TwoArmMesh, interface: Interface, quads: str = "CPS4") -> Specimen:
     """Describe a specimen of the paper's composite, fibres along the crack."""
-    return Specimen(name, mesh, interface, WIDTH, PLY_0, PLY_0, "CPS4")
+    return Specimen(name, mesh, interface, WIDTH, PLY_0, PLY_0, quads)
 
 
 def toughness(shear: float) -> float:

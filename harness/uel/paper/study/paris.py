@@ -27,6 +27,7 @@ from scipy.optimize import least_squares
 
 from uel.delamination.blocks import Interface
 from uel.delamination.cycled import Cycles, end_moments, moments_deck
+from uel.delamination.kernels import formulations
 from uel.delamination.markdown import head, line
 from uel.delamination.materials import TABLE_2
 from uel.delamination.specimens import mesh_files
@@ -70,6 +71,7 @@ class Case:
     jump    DAMAGEJUMP
     beta    BETAN and BETAT, 0 for the estimate
     rows    quads over the height of an arm
+    quads   their type
     endurance, brittleness  ENDURANCE and BRITTLENESS
     """
 
@@ -81,6 +83,7 @@ class Case:
     jump: float = USUAL_JUMP
     beta: float = 0.0
     rows: int = 4
+    quads: str = "CPS4"
     endurance: float = 0.2
     brittleness: float = 0.95
 
@@ -102,10 +105,10 @@ class Case:
         """Write the deck and its include files."""
         mesh = beam_mesh(REFINED, self.size, self.rows)
         fatigue = {"FATIGUE": 2.0, "LOADRATIO": RATIO, "DAMAGEJUMP": self.jump}
-        fatigue |= {"ENDURANCE": self.endurance, "BRITTLENESS": self.brittleness}
+        fatigue |= {"ENDURANCE": self.endurance, "BRITTLENESS": self.brittleness, **formulations(self.quads)}
         law = replace(TABLE_2, stiffness_normal=self.alpha, stiffness_shear=self.alpha)
         interface = Interface(self.kind, law, beta=self.beta, law=2, eta=ETA, further=fatigue)
-        beams = specimen(self.name, mesh, interface)
+        beams = specimen(self.name, mesh, interface, self.quads)
         moments = end_moments(beams, self.level * self.toughness, self.shear)
         deck = moments_deck(
             "Arms bent by moments, under cycles",
@@ -163,6 +166,10 @@ def variations(shear: float) -> Iterator[tuple[str, Case]]:
         yield f"stiffness {alpha:.0e} N/mm³".replace("e+0", "e"), replace(case, alpha=alpha)
     for alpha in (1e6, 1e5):
         yield f"U2, stiffness {alpha:.0e} N/mm³".replace("e+0", "e"), replace(case, kind="U2", alpha=alpha)
+    for rows in (8, 4, 2):
+        yield f"CPS4I, {rows} rows", replace(case, quads="CPS4I", rows=rows)
+    yield "CPS4I, 2 rows, beta 2e5 N/mm³", replace(case, quads="CPS4I", rows=2, beta=2e5)
+    yield "CPS4, 2 rows", replace(case, rows=2)
 
 
 def report(folder: Path) -> str:
