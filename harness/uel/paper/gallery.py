@@ -21,6 +21,7 @@ from uel.delamination.theory import dcb_curve, dcb_elastica
 from uel.errors import FAILURES, tell_failure
 from uel.model.arrays import FloatArray
 from uel.output import Result
+from uel.output.pictures.growth import growth as cycled
 from uel.output.pictures.jobs import PictureOptions, draw
 from uel.output.pictures.plots import Curve, load_displacement, stacked
 from uel.paper import elastica, literature, measures, space_beams
@@ -28,7 +29,6 @@ from uel.paper.bridging import TIP, TOTAL
 from uel.paper.cycled_specimens import exponent, toughness
 from uel.paper.decks import FOLDER
 from uel.paper.growth_measures import REST, START
-from uel.paper.growth_measures import growth as cycled
 from uel.running.job import run
 from uel.solver.options import SolverOptions
 

@@ -5,15 +5,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
 from uel.model.arrays import FloatArray
 from uel.output import Result
-from uel.output.pictures.front import DAMAGE, fronts
-from uel.output.pictures.tips import tips
+from uel.output.pictures.front import fronts
+from uel.output.pictures.growth import growth
 from uel.paper.literature import CIRCLE_CRACK
 
 START: Final = 4.0
@@ -24,46 +23,6 @@ REST: Final = 1.0
 """Length at the end that the process zone ahead of the tip may reach (mm)."""
 PLATEAU: Final = (15.0, 30.0)
 """Growth in which bridging fibres have their final length (mm)."""
-SPACING: Final = 4
-"""Increments with field output over which a rate is taken: a tip passes elements in small waves."""
-
-
-@dataclass(frozen=True, slots=True)
-class Growth:
-    """Tip of a delamination in the increments with field output.
-
-    cycles   (n,) total time
-    length   (n,) damaged length
-    release  (n, 2) G_I, G_II
-    """
-
-    cycles: FloatArray
-    length: FloatArray
-    release: FloatArray
-
-    def between(self, low: float, high: float) -> Growth:
-        """Return the part in which the length is between two values."""
-        rows = (self.length > low) & (self.length < high)
-        return Growth(self.cycles[rows], self.length[rows], self.release[rows])
-
-    @property
-    def rate(self) -> float:
-        """Slope of the length over the cycles."""
-        return float(np.polyfit(self.cycles, self.length, 1)[0])
-
-    @property
-    def line(self) -> tuple[FloatArray, FloatArray]:
-        """Energy release rates and growth over SPACING increments, (n,) each."""
-        grown = self.length[SPACING:] - self.length[:-SPACING]
-        total = self.release.sum(axis=1)
-        return np.sqrt(total[SPACING:] * total[:-SPACING]), grown / (self.cycles[SPACING:] - self.cycles[:-SPACING])
-
-
-def growth(result: Result) -> Growth:
-    """Return the growth of the first tip in the last step."""
-    found = [tip for tip in tips(result, DAMAGE) if tip.step == result.status[-1].step and tip.line == tip.number == 1]
-    rows = np.array([(tip.time, tip.length, *tip.release) for tip in found])
-    return Growth(rows[:, 0], rows[:, 1], rows[:, 2:])
 
 
 def steady_rate(result: Result) -> float:

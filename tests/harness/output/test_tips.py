@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tips on lines with known fields: places, growth, directions, and Rice's integral."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import meshio
@@ -12,6 +13,8 @@ from uel.cli import main
 from uel.errors import UelError
 from uel.output import Result
 from uel.output.files.field_output import Frame
+from uel.output.files.sta_file import StatusRow
+from uel.output.pictures.growth import growth
 from uel.output.pictures.tips import are_lines, draw_tips, tips, write_tips
 
 LENGTH, ZONE, SIZE = 40.0, 3.0, 0.25
@@ -27,6 +30,8 @@ class Strip(Result):
     Both leave the middle at the same speed; without the left one, all is damaged from the beginning on. The damage
     falls linearly over the zone, tractions are the strengths times 1 - D and separations the final ones times D.
     """
+
+    increments: Sequence[int] = (1, 3, 4)
 
     def __init__(self, angle: float = 0.0, both: bool = False, bent: bool = False) -> None:
         count = round(LENGTH / SIZE)
@@ -57,8 +62,12 @@ class Strip(Result):
         return np.clip(np.minimum(left, right) if self.both else right, 0.0, 1.0)
 
     @property
+    def status(self) -> list[StatusRow]:
+        return [StatusRow(1, 4, 1, False, 1, 4.0, 4.0, 1.0)]
+
+    @property
     def frames(self) -> list[Frame]:
-        return [Frame(1, k, float(k), Path("none.vtu")) for k in (1, 3, 4)]
+        return [Frame(1, k, float(k), Path("none.vtu")) for k in self.increments]
 
     def file(self, ending: str) -> Path:
         return Path(f"strip{ending}")
@@ -112,6 +121,20 @@ def test_places_growth_and_energy_release_rates(angle: float, both: bool, bent: 
         assert tip.release == pytest.approx(G, rel=1e-2)
         first = tip.time == 1.0
         assert np.isnan(tip.rate) if first else tip.rate == pytest.approx(SPEED * (1 + both), rel=1e-2)
+
+
+def test_growth_over_the_energy_release_rate() -> None:
+    strip = Strip()
+    strip.increments = range(1, 12)
+    found = growth(strip)
+    assert found.cycles.tolist() == list(range(1, 12))
+    assert found.rate == pytest.approx(SPEED, rel=1e-3)
+    release, rate = found.line
+    assert len(release) == len(rate) == 7
+    assert release == pytest.approx(np.full(7, G.sum()), rel=1e-2)
+    assert rate == pytest.approx(np.full(7, SPEED), rel=1e-2)
+    with pytest.raises(UelError, match=r"strip\.pvd: 2 tips of delaminations in step 1, expected one"):
+        growth(Strip(both=True))
 
 
 def test_table_and_picture(tmp_path: Path) -> None:

@@ -34,9 +34,10 @@ from uel.delamination.specimens import mesh_files
 from uel.errors import IncrementsUsedUpError, UelError
 from uel.model.arrays import FloatArray
 from uel.output import Result
+from uel.output.pictures.growth import growth
 from uel.output.pictures.plots import COLOURS, STYLE
 from uel.paper.cycled_specimens import ETA, RATIO, beam_mesh, exponent, specimen, toughness
-from uel.paper.growth_measures import REST, START, growth
+from uel.paper.growth_measures import REST, START
 from uel.paper.study.options import study_parser, write_tables
 from uel.running.job import run
 
