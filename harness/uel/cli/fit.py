@@ -20,7 +20,8 @@ def add_fit(fit: argparse.ArgumentParser) -> None:
     fit.epilog = (
         "Written: DECK_fit.csv with values, confidence intervals and correlations, DECK_fit_curve.csv and DECK_fit.png "
         "with the curves and their derivatives. "
-        "Exit code: 0 the search has converged; 1 it has not, or a run cannot be compared; 2 wrong usage."
+        "Exit code: 0 the search has converged; 1 it has not, or a run cannot be compared; 2 wrong usage; 3 it has, "
+        "but with a value at its bound or residuals that are not noise: the column `note` of DECK_fit.csv says which."
     )
     fit.add_argument("deck", type=Path, metavar="DECK.inp", help="deck of the model")
     fit.add_argument(
@@ -33,8 +34,8 @@ def add_fit(fit: argparse.ArgumentParser) -> None:
         "variables",
         nargs="+",
         metavar="NAME=LOW:HIGH",
-        help="parameters of the deck's *PARAMETER, or properties of the project's interface elements, with bounds "
-        "above 0; NAME=LOW:START:HIGH chooses the start",
+        help="parameters of the deck's *PARAMETER, or properties of the project's interface elements, with "
+        "bounds; NAME=LOW:START:HIGH chooses the start",
     )
     for axis in "xy":
         fit.add_argument(
@@ -52,7 +53,6 @@ def add_fit(fit: argparse.ArgumentParser) -> None:
 def fit_parameters(options: argparse.Namespace) -> int:
     """Run `uel fit`."""
     from uel.fit.command import fit  # noqa: PLC0415
-    from uel.fit.estimate import CONVERGED  # noqa: PLC0415
 
     result = fit(
         options.deck,
@@ -66,4 +66,4 @@ def fit_parameters(options: argparse.Namespace) -> int:
         workers=options.cpus,
         quiet=options.quiet,
     )
-    return 0 if result.ended == CONVERGED else 1
+    return 0 if result.reliable else 3 if result.converged else 1

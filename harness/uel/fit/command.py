@@ -8,13 +8,12 @@ import csv
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
-
 from uel.batch.command import batch
 from uel.batch.runs import Settings
 from uel.errors import UelError, UsageError, tell
 from uel.fit.curve import Measurement, read_measurement
-from uel.fit.estimate import LEVEL, Fit, fit_curve
+from uel.fit.estimate import Fit, fit_curve
+from uel.fit.outcome import draw, summary, write_tables
 from uel.fit.variables import Variable, prepare_deck, read_variable
 from uel.model.arrays import FloatArray
 from uel.output import Result
@@ -74,9 +73,9 @@ def fit(
     say = (lambda _: None) if quiet else tell
     result = fit_curve(measured, variables, runs.curves, limit=limit, tell=say)
     stem = folder / f"{deck.stem}_fit"
-    _write(stem, variables, measured, result)
-    _draw(stem.with_suffix(".png"), variables, measured, result)
-    for line in _summary(variables, result, runs.count):
+    write_tables(stem, variables, measured, result)
+    draw(stem.with_suffix(".png"), variables, measured, result)
+    for line in summary(variables, measured, result, f"{result.ended} after {runs.count} runs"):
         say(line)
     say(f"{stem}.csv, {stem}_curve.csv, {stem}.png")
     return result
@@ -124,61 +123,3 @@ class _Runs:
             helps = "narrower bounds" if "--fallback" in self._settings.options else "narrower bounds or --fallback"
             error.add_note(f"what it printed is in {self._folder / job / job}.log; {helps} may help")
             raise
-
-
-def _summary(variables: Sequence[Variable], result: Fit, runs: int) -> list[str]:
-    lines = [f"{result.ended} after {runs} runs; standard deviation from the measured curve {result.deviation:.4g}"]
-    for k, variable in enumerate(variables):
-        low, high = result.intervals[k]
-        value, largest = result.values[k], float(np.abs(result.sensitivity[:, k]).max())
-        bound = next((f", at its bound {b:g}" for b in (variable.low, variable.high) if np.isclose(value, b, 1e-3)), "")
-        lines.append(
-            f"{variable.name} = {value:.5g}{bound}, {LEVEL:.0%} between {low:.5g} and {high:.5g}; 1 % more of it moves "
-            f"the curve by up to {0.01 * largest:.3g}"
-        )
-    for i in range(len(variables)):
-        for k in range(i):
-            if abs(result.correlation[i, k]) > 0.9:
-                lines.append(
-                    f"{variables[k].name} and {variables[i].name} cannot be told apart by this curve: correlation "
-                    f"{result.correlation[i, k]:.2f}"
-                )
-    return lines
-
-
-def _write(stem: Path, variables: Sequence[Variable], measured: Measurement, result: Fit) -> None:
-    """Write NAME_fit.csv with the variables, and NAME_fit_curve.csv with the curves and their derivatives."""
-    names = [variable.name for variable in variables]
-    head = ["name", "value", "lower", "upper", "start", "low", "high", *(f"correlation {name}" for name in names)]
-    rows = [
-        [v.name, result.values[k], *result.intervals[k], v.start, v.low, v.high, *result.correlation[k]]
-        for k, v in enumerate(variables)
-    ]
-    _write_table(Path(f"{stem}.csv"), head, rows)
-    x, y = map(str, measured.columns)
-    head = [x, f"measured {y}", f"fitted {y}", f"start {y}", *(f"{name} d/d{name}" for name in names)]
-    columns = [measured.x, measured.y, result.curve, result.start, *result.sensitivity.T]
-    _write_table(Path(f"{stem}_curve.csv"), head, np.column_stack(columns).tolist())
-
-
-def _write_table(path: Path, head: Sequence[str], rows: Sequence[Sequence[object]]) -> None:
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(head)
-        writer.writerows([[f"{c:.9g}" if isinstance(c, float) else c for c in row] for row in rows])
-
-
-def _draw(path: Path, variables: Sequence[Variable], measured: Measurement, result: Fit) -> None:
-    """Draw the curves, and how they depend on the variables."""
-    from uel.output.pictures.plots import Curve, Panel, grid  # noqa: PLC0415 (the runs come first)
-
-    x, y = map(str, measured.columns)
-    curves = [
-        Curve("measured", measured.x, measured.y, "points"),
-        Curve("start", measured.x, result.start, "reference"),
-        Curve("fitted", measured.x, result.curve),
-    ]
-    depends = [
-        Curve(f"1 % more {v.name}", measured.x, 0.01 * result.sensitivity[:, k]) for k, v in enumerate(variables)
-    ]
-    grid([[Panel("", curves, x, y), Panel("", depends, x, f"change of {y}")]], path)

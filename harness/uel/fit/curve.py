@@ -29,6 +29,23 @@ class Measurement:
     y: FloatArray
     columns: tuple[Column, Column]
 
+    @property
+    def scale(self) -> float:
+        """Largest measured value, of which residuals are a part."""
+        return float(np.abs(self.y).max())
+
+    def distance(self, deviation: float) -> str:
+        """Say how far a curve is from the measured one, by the root of the mean square."""
+        return f"off by {deviation / self.scale:.2%} of the peak"
+
+    def spread(self, deviation: float) -> str:
+        """Describe the root of the mean square between the fitted curve and the measured one."""
+        return f"standard deviation from the measured curve {deviation:.4g}"
+
+    def change(self, largest: float) -> str:
+        """Describe the largest change of the curve by a variable."""
+        return f"moves the curve by up to {largest:.3g}"
+
     def of_run(self, history: Mapping[str, FloatArray], job: str) -> FloatArray:
         """Return the values of a run (n,) at x, from a start at (0, 0) on.
 

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import least_squares
-from scipy.stats import t as student
 
 from uel.errors import UelError
 from uel.fit.curve import Measurement
-from uel.fit.variables import Variable
+from uel.fit.uncertainty import ROUNDING, Uncertainty, assess, covariance_of, half_widths
+from uel.fit.variables import Variable, coordinates, values_at
 from uel.model.arrays import FloatArray
 
 STEP = 0.05
@@ -24,10 +24,7 @@ LOOK = 2.0
 """Distance, as part of the half-width of the confidence interval, at which a search that has converged looks for
 smaller differences: the teeth of a curve make local minima."""
 MOST_LOOK = 0.5
-"""Half-width, in the logarithm, from which on a variable is so uncertain that nothing is looked for."""
-LEVEL = 0.95
-"""Level of the confidence intervals."""
-
+"""Half-width, in the coordinate, from which on a variable is so uncertain that nothing is looked for."""
 CONVERGED = "converged"
 """Reasons why the search ended, if it has converged."""
 
@@ -40,23 +37,30 @@ class Fit:
     """A fitted curve.
 
     values       (k,) of the variables
-    intervals    (k, 2) confidence intervals, as long as the errors of the points are independent; from 0 or so to
-                 1e100 where the curve does not depend on the variable
-    sensitivity  (n, k) change of the curve for each variable, as part of its value
-    correlation  (k, k) of the variables
+    certainty    how certain they are, if the search has converged
+    sensitivity  (n, k) change of the curve for each variable, in its coordinate
     curve, start (n,) fitted curve, and that of the start
     deviation    root of the mean square between curve and measurement
     ended        why the search ended
     """
 
     values: FloatArray
-    intervals: FloatArray
+    certainty: Uncertainty
     sensitivity: FloatArray
-    correlation: FloatArray
     curve: FloatArray
     start: FloatArray
     deviation: float
     ended: str
+
+    @property
+    def converged(self) -> bool:
+        """True if the search has converged."""
+        return self.ended == CONVERGED
+
+    @property
+    def reliable(self) -> bool:
+        """True if the intervals hold: the search has converged between the bounds, and left noise."""
+        return self.converged and self.certainty.noise and not self.certainty.bounds.any()
 
 
 class _SpentError(Exception):
@@ -64,7 +68,7 @@ class _SpentError(Exception):
 
 
 class _Search:
-    """Residuals and their derivatives for the logarithms of the variables, from runs made side by side."""
+    """Residuals and their derivatives for the coordinates of the variables, from runs made side by side."""
 
     def __init__(
         self,
@@ -75,20 +79,20 @@ class _Search:
         tell: Callable[[str], None],
     ) -> None:
         self._measured, self._variables, self._curves, self._tell = measured, variables, curves, tell
-        self._bounds = tuple(np.log([getattr(v, name) for v in variables]) for name in ("low", "high"))
+        self._bounds = tuple(coordinates(variables, name) for name in ("low", "high"))
         self._left = limit
-        self._scale = float(np.abs(measured.y).max())
+        self._scale = measured.scale
         self._known: dict[bytes, tuple[FloatArray, FloatArray]] = {}
         self.best: FloatArray | None = None
         self._least = np.inf
 
-    def residual(self, logarithms: FloatArray) -> FloatArray:
-        """Return the differences (n,), as part of the largest measured value."""
-        return self._at(logarithms)[0]
+    def residual(self, point: FloatArray) -> FloatArray:
+        """Return the differences (n,), as part of the scale of the measurement."""
+        return self._at(point)[0]
 
-    def jacobian(self, logarithms: FloatArray) -> FloatArray:
+    def jacobian(self, point: FloatArray) -> FloatArray:
         """Return the derivatives (n, k) of the residuals."""
-        return self._at(logarithms)[1]
+        return self._at(point)[1]
 
     def look_around(self, distances: FloatArray) -> FloatArray | None:
         """Return a point with smaller squares than the best one, at distances (k,) on both sides.
@@ -101,38 +105,38 @@ class _Search:
         if self._left < len(points):
             return None
         self._left -= len(points)
-        curves = self._curves([np.exp(point) for point in points])
+        curves = self._curves([values_at(self._variables, point) for point in points])
         squares = [float(np.sum(((curve - self._measured.y) / self._scale) ** 2)) for curve in curves]
         least = int(np.argmin(squares)) if squares else -1
         return points[least] if squares and squares[least] < self._least else None
 
-    def uncertainty(self) -> tuple[FloatArray, FloatArray]:
-        """Return the covariance (k, k) at the best point, and the half-widths (k,) of the confidence intervals."""
+    def likelihood(self) -> tuple[FloatArray, FloatArray, int]:
+        """Return second (k, k) and first (k,) derivatives of the negative log-likelihood, and degrees of freedom."""
         assert self.best is not None
         residual, slopes = self._at(self.best)
         freedom = len(residual) - len(self.best)
-        covariance = _covariance(slopes, float(residual @ residual) / freedom)
-        return covariance, student.ppf(0.5 * (1.0 + LEVEL), freedom) * np.sqrt(np.diag(covariance))
+        variance = max(float(residual @ residual) / freedom, ROUNDING**2)
+        return slopes.T @ slopes / variance, slopes.T @ residual / variance, freedom
 
-    def _at(self, logarithms: FloatArray) -> tuple[FloatArray, FloatArray]:
-        key = logarithms.tobytes()
+    def _at(self, point: FloatArray) -> tuple[FloatArray, FloatArray]:
+        key = point.tobytes()
         if key not in self._known:
-            if self._left <= len(logarithms):
+            if self._left <= len(point):
                 raise _SpentError
-            self._left -= 1 + len(logarithms)
+            self._left -= 1 + len(point)
             low, high = self._bounds
             size = np.minimum(STEP, 0.5 * (high - low))
-            steps = np.where(logarithms + size <= high, size, -size)
-            points = [logarithms, *(logarithms + row for row in np.diag(steps))]
-            base, *moved = self._curves([np.exp(point) for point in points])
+            steps = np.where(point + size <= high, size, -size)
+            points = [point, *(point + row for row in np.diag(steps))]
+            base, *moved = self._curves([values_at(self._variables, point) for point in points])
             residual = (base - self._measured.y) / self._scale
             slopes = np.column_stack([(curve - base) / step for curve, step in zip(moved, steps, strict=True)])
             self._known[key] = residual, slopes / self._scale
             if (squares := float(residual @ residual)) < self._least:
-                self.best, self._least = logarithms.copy(), squares
-            named = zip(self._variables, np.exp(logarithms), strict=True)
-            off = np.sqrt(squares / len(residual))
-            self._tell(f"{', '.join(f'{v.name} = {value:.6g}' for v, value in named)}: off by {off:.2%} of the peak")
+                self.best, self._least = point.copy(), squares
+            named = zip(self._variables, values_at(self._variables, point), strict=True)
+            off = self._measured.distance(float(np.sqrt(squares / len(residual))) * self._scale)
+            self._tell(f"{', '.join(f'{v.name} = {value:.6g}' for v, value in named)}: {off}")
         return self._known[key]
 
 
@@ -144,7 +148,7 @@ def fit_curve(
     limit: int,
     tell: Callable[[str], None],
 ) -> Fit:
-    """Fit the variables, on logarithmic scales: a trust-region method within the bounds, derivatives by differences.
+    """Fit the variables, in their coordinates: a trust-region method within the bounds, derivatives by differences.
 
     Parameters
     ----------
@@ -166,7 +170,7 @@ def fit_curve(
     if count <= unknowns:
         raise UelError(f"{count} points for {unknowns} parameters: expected more points than parameters")
     search = _Search(measured, variables, curves, limit, tell)
-    start, low, high = (np.log([getattr(v, name) for v in variables]) for name in ("start", "low", "high"))
+    start, low, high = (coordinates(variables, name) for name in ("start", "low", "high"))
     begin: FloatArray | None = start
     try:
         while begin is not None:
@@ -174,38 +178,21 @@ def fit_curve(
                 search.residual, begin, search.jacobian, bounds=(low, high), xtol=TOLERANCE, ftol=TOLERANCE, gtol=1e-12
             )
             ended = CONVERGED if solution.success else solution.message
-            _, half = search.uncertainty()
+            information, _, freedom = search.likelihood()
+            half = half_widths(covariance_of(information), freedom)
             begin = search.look_around(np.where(half < MOST_LOOK, LOOK * half, 0.0)) if solution.success else None
     except _SpentError:
         ended = f"the limit of {limit} runs"
     if search.best is None:
         raise UelError(f"{limit} runs do not suffice for one step of the search: expected at least {unknowns + 1}")
     residual, slopes = search.residual(search.best), search.jacobian(search.best)
-    scale = float(np.abs(measured.y).max())
-    covariance, half = search.uncertainty()
-    values, spread = np.exp(search.best), np.sqrt(np.diag(covariance))
-    # beyond a factor of 1e100 nothing is known
-    width = np.exp(np.minimum(half, 230.0))
-    known = np.isfinite(spread) & (spread > 0.0)
-    correlation = np.eye(unknowns)
-    inner = np.ix_(known, known)
-    correlation[inner] = covariance[inner] / np.outer(spread[known], spread[known])
+    scale = measured.scale
     return Fit(
-        values=values,
-        intervals=np.column_stack([values / width, values * width]),
+        values=values_at(variables, search.best),
+        certainty=assess(variables, search.best, residual, slopes, *search.likelihood()),
         sensitivity=slopes * scale,
-        correlation=correlation,
         curve=measured.y + residual * scale,
         start=measured.y + search.residual(start) * scale,
         deviation=float(np.sqrt(residual @ residual / count)) * scale,
         ended=ended,
     )
-
-
-def _covariance(slopes: FloatArray, variance: float) -> FloatArray:
-    """Return the covariance (k, k) of the variables; infinite for those on which nothing depends."""
-    covariance = np.diag(np.full(slopes.shape[1], np.inf))
-    moving = np.linalg.norm(slopes, axis=0) > 1e-9
-    inner = slopes[:, moving]
-    covariance[np.ix_(moving, moving)] = variance * np.linalg.pinv(inner.T @ inner)
-    return covariance

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,35 +17,76 @@ from uel.deck import read_deck, survey_deck
 from uel.deck.language.lexer import unknown_parameter
 from uel.errors import UsageError
 from uel.files import read_whole
+from uel.model.arrays import FloatArray
 from uel.model.mesh import ElementGroup
 from uel.model.properties import UserProperty
 from uel.usersub.layout import element_layouts
 
+_DEFAULT = re.compile(r"; 0: (?!0(?:,|$))(.*)")
+"""What 0 stands for at the end of the meaning of a property, unless that is 0 itself."""
 _INPUT = re.compile(r'(\bINPUT\s*=\s*)("[^"]*"|[^,\n]+?)(\s*(?:,|$))', re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
 class Variable:
-    """A parameter that is fitted, within low and high; positive, as strengths, toughnesses and stiffnesses are."""
+    """A parameter that is fitted, within low and high.
+
+    A positive one, as strengths, toughnesses and stiffnesses are, is sought on a logarithmic scale, one whose low is
+    not above 0 on a linear scale. Its coordinate is the logarithm, or its place between the bounds, from 0 to 1.
+    """
 
     name: str
     low: float
     start: float
     high: float
 
+    @property
+    def logarithmic(self) -> bool:
+        """True if the coordinate is the logarithm."""
+        return self.low > 0.0
+
+    @property
+    def hundredth(self) -> str:
+        """Change of the coordinate by 0.01 in words."""
+        return "1 % more" if self.logarithmic else "1 % of its range more"
+
+    def coordinate(self, value: float) -> float:
+        """Return the coordinate of a value."""
+        return math.log(value) if self.logarithmic else (value - self.low) / (self.high - self.low)
+
+    def value(self, coordinate: float) -> float:
+        """Return the value at a coordinate."""
+        if self.logarithmic:
+            return math.exp(coordinate)
+        return self.low + coordinate * (self.high - self.low)
+
+
+def coordinates(variables: Sequence[Variable], name: str) -> FloatArray:
+    """Return the coordinates (k,) of the starts ('start') or bounds ('low', 'high') of variables."""
+    return np.array([variable.coordinate(getattr(variable, name)) for variable in variables])
+
+
+def values_at(variables: Sequence[Variable], point: FloatArray) -> FloatArray:
+    """Return the values (k,) at coordinates (k,)."""
+    return np.array([variable.value(at) for variable, at in zip(variables, point.tolist(), strict=True)])
+
 
 def read_variable(text: str) -> Variable:
-    """Read a variable, NAME=LOW:HIGH or NAME=LOW:START:HIGH; the start defaults to the geometric mean. UsageError."""
+    """Read a variable, NAME=LOW:HIGH or NAME=LOW:START:HIGH.
+
+    The start defaults to the geometric mean of the bounds, or to their mean if LOW is not above 0. Raises UsageError.
+    """
     name, _, rest = text.partition("=")
     try:
         values = [float(value_of(word.strip())) for word in rest.split(":")]
         low, *start, high = values
-        variable = Variable(name.strip(), low, start[0] if start else float(np.sqrt(low * high)), high)
-        if len(start) > 1 or not variable.name or not 0.0 < low < high or not low <= variable.start <= high:
+        middle = math.sqrt(low * high) if 0.0 < low < high else 0.5 * (low + high)
+        variable = Variable(name.strip(), low, start[0] if start else middle, high)
+        if len(start) > 1 or not variable.name or not low < high or not low <= variable.start <= high:
             raise ValueError
     except ValueError:
         raise UsageError(
-            f"'{text}': expected NAME=LOW:HIGH or NAME=LOW:START:HIGH with 0 < LOW <= START <= HIGH"
+            f"'{text}': expected NAME=LOW:HIGH or NAME=LOW:START:HIGH with LOW < HIGH and LOW <= START <= HIGH"
         ) from None
     return variable
 
@@ -61,7 +103,7 @@ def prepare_deck(deck: Path, variables: Sequence[Variable], folder: Path) -> Pat
     DeckError
         The deck cannot be read.
     UsageError
-        A variable is neither a parameter nor such a property.
+        A variable is neither a parameter nor such a property, or a property whose 0, within the bounds, is a default.
     """
     known = survey_deck(deck).parameters
     missing = [variable for variable in variables if variable.name.lower() not in {name.lower() for name in known}]
@@ -71,7 +113,7 @@ def prepare_deck(deck: Path, variables: Sequence[Variable], folder: Path) -> Pat
     groups = list({group.section.source: group for group in read_deck(deck).groups}.values())
     for variable in missing:
         text = f"<{variable.name.upper()}>"
-        positions = [position for group in groups if (position := _position_of(group, variable.name, deck)) is not None]
+        positions = [position for group in groups if (position := _position_of(group, variable, deck)) is not None]
         if not [position for position in positions if _replace(lines, *position, text)]:
             raise UsageError(
                 f"{unknown_parameter(variable.name, deck, known)}; nor is '{variable.name}' a property of the "
@@ -86,16 +128,23 @@ def prepare_deck(deck: Path, variables: Sequence[Variable], folder: Path) -> Pat
     return copy
 
 
-def _position_of(group: ElementGroup, name: str, deck: Path) -> tuple[int, int] | None:
-    """Find a property on *UEL PROPERTY in the deck: line from 1 and position from 0; None if there is no such."""
+def _position_of(group: ElementGroup, variable: Variable, deck: Path) -> tuple[int, int] | None:
+    """Find a property on *UEL PROPERTY in the deck: line from 1 and position from 0; None if there is no such.
+
+    Raises UsageError if 0, which stands for a default, is within the bounds.
+    """
     section = group.section
     if not isinstance(section, UserProperty) or group.definition is None or section.source.file != str(deck):
         return None
     layout = element_layouts().get(group.definition.number)
     if layout is None or not layout.faces[0]:
         return None
-    positions = [item.position - 1 for item in layout.reals if item.name == name.upper()]
-    return (section.source.line, positions[0]) if positions else None
+    items = [item for item in layout.reals if item.name == variable.name.upper()]
+    if not items:
+        return None
+    if variable.low <= 0.0 <= variable.high and (default := _DEFAULT.search(items[0].meaning)):
+        raise UsageError(f"{variable.name}: 0 stands for {default[1]}, so that bounds above 0 are expected")
+    return section.source.line, items[0].position - 1
 
 
 def _replace(lines: list[str], keyword: int, position: int, text: str) -> bool:

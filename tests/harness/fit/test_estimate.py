@@ -10,7 +10,8 @@ from scipy.stats import t as student
 
 from uel.errors import UelError
 from uel.fit.curve import Measurement
-from uel.fit.estimate import CONVERGED, LEVEL, Fit, fit_curve
+from uel.fit.estimate import CONVERGED, Fit, fit_curve
+from uel.fit.uncertainty import LEVEL
 from uel.fit.variables import Variable
 from uel.output.pictures.column import Column
 
@@ -66,14 +67,14 @@ def test_interval_of_a_factor() -> None:
     reach = student.ppf(0.5 + 0.5 * LEVEL, len(X) - 1) * error
     assert found.values[0] == pytest.approx(value, rel=1e-4)
     # the search is in the logarithm, with one-sided differences
-    assert found.intervals[0] == pytest.approx([value - reach, value + reach], rel=0.1 * reach / value)
+    assert found.certainty.intervals[0] == pytest.approx([value - reach, value + reach], rel=0.1 * reach / value)
 
 
 def test_intervals_hold_the_truth_as_often_as_they_say() -> None:
     truth, generator, hits = np.array([3.0, 0.8]), np.random.default_rng(11), 0
     for _ in range(60):
         found, _ = fitted(saturating(truth) + generator.normal(0.0, 0.05, len(X)), saturating)
-        hits += int(np.sum((found.intervals[:, 0] <= truth) & (truth <= found.intervals[:, 1])))
+        hits += int(np.sum((found.certainty.intervals[:, 0] <= truth) & (truth <= found.certainty.intervals[:, 1])))
     # 95 % of 120 are 114, with a standard deviation of 2.4 for independent ones
     assert 106 <= hits < 120
 
@@ -87,15 +88,15 @@ def test_bounds_are_kept() -> None:
 def test_variable_without_effect() -> None:
     found, _ = fitted(saturating(np.array([3.0, 0.8])), lambda p: saturating(np.array([p[0], 0.8])))
     assert found.values[0] == pytest.approx(3.0, rel=1e-3)
-    assert found.intervals[1, 0] < 1e-90
-    assert found.intervals[1, 1] > 1e90
-    assert found.correlation[0, 1] == 0.0
+    assert found.certainty.intervals[1, 0] < 1e-90
+    assert found.certainty.intervals[1, 1] > 1e90
+    assert found.certainty.correlation[0, 1] == 0.0
 
 
 def test_variables_that_cannot_be_told_apart() -> None:
     y = 3.0 * X + np.random.default_rng(3).normal(0.0, 0.01, len(X))
     found, _ = fitted(y, lambda p: p[0] * p[1] ** 1.01 * X + 1e-3 * p[1] * X**2)
-    assert abs(found.correlation[0, 1]) > 0.9
+    assert abs(found.certainty.correlation[0, 1]) > 0.9
 
 
 def test_limit_of_runs() -> None:

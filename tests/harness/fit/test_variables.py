@@ -19,14 +19,17 @@ def test_words() -> None:
     assert read_variable("GIC=0.1:0.2:0.5") == GIC
     # the geometric mean
     assert read_variable(" E = 1:100") == Variable("E", 1.0, 10.0, 100.0)
+    # the mean, where there is no other
+    assert read_variable("EXPONENT=-0.5:1.5") == Variable("EXPONENT", -0.5, 0.5, 1.5)
+    assert read_variable("EXPONENT=0:1:3") == Variable("EXPONENT", 0.0, 1.0, 3.0)
 
 
 @pytest.mark.parametrize(
-    "text", ["GIC", "GIC=", "GIC=1", "=1:2", "GIC=2:1", "GIC=0:1", "GIC=1:3:2", "GIC=1:2:3:4", "GIC=a:b", "GIC=1:inf"]
+    "text", ["GIC", "GIC=", "GIC=1", "=1:2", "GIC=2:1", "GIC=1:3:2", "GIC=1:2:3:4", "GIC=a:b", "GIC=1:inf"]
 )
 def test_wrong_words(text: str) -> None:
     with pytest.raises(
-        UsageError, match=r"expected NAME=LOW:HIGH or NAME=LOW:START:HIGH with 0 < LOW <= START <= HIGH"
+        UsageError, match=r"expected NAME=LOW:HIGH or NAME=LOW:START:HIGH with LOW < HIGH and LOW <= START <= HIGH"
     ):
         read_variable(text)
 
@@ -68,3 +71,13 @@ def test_name_that_is_neither(tmp_path: Path) -> None:
         (tmp_path / name).write_text(text)
     with pytest.raises(UsageError, match="nor is 'GICC' a property of the project's interface elements on data lines"):
         prepare_deck(tmp_path / f"{case.name}.inp", [Variable("GICC", 0.1, 0.2, 0.5)], tmp_path / "fit")
+
+
+def test_zero_that_stands_for_a_default(tmp_path: Path) -> None:
+    case = PaperCase("dcb", "0/0", "consistent", "1e6", size=4.0)
+    for name, text in case.files().items():
+        (tmp_path / name).write_text(text)
+    deck = tmp_path / f"{case.name}.inp"
+    prepare_deck(deck, [Variable("EXPONENT", 0.0, 1.0, 2.0)], tmp_path / "fit")
+    with pytest.raises(UsageError, match=r"ENDURANCE: 0 stands for 0\.2, so that bounds above 0 are expected"):
+        prepare_deck(deck, [Variable("ENDURANCE", 0.0, 0.2, 0.5)], tmp_path / "fit")
