@@ -8,7 +8,7 @@ import argparse
 from pathlib import Path
 
 from uel.cli.run_options import add_run_options, settings_of
-from uel.cli.values import positive
+from uel.cli.values import NOT_NEGATIVE, positive
 
 
 def add_fit(fit: argparse.ArgumentParser) -> None:
@@ -28,7 +28,8 @@ def add_fit(fit: argparse.ArgumentParser) -> None:
         "curve",
         type=Path,
         metavar="CURVE.csv",
-        help="two columns, whose names are those of the history: x, which rises, y",
+        help="two columns, whose names are those of the history: x, which rises, y; or a Paris line, G and RATE: "
+        "energy release rate and growth per cycle, for a deck in the plane with FATIGUE",
     )
     fit.add_argument(
         "variables",
@@ -41,6 +42,12 @@ def add_fit(fit: argparse.ArgumentParser) -> None:
         fit.add_argument(
             f"--{axis}", metavar="COLUMN", help=f"column of the history that is {axis}, such as U2[TOP], 2*U2[TOP]"
         )
+    fit.add_argument(
+        "--after",
+        type=NOT_NEGATIVE,
+        metavar="LENGTH",
+        help="growth of the crack that is left out of a Paris line, while its process zone forms (0)",
+    )
     fit.add_argument(
         "-o", "--output-dir", type=Path, default=Path("fit"), metavar="DIR", help="folder of the output (fit)"
     )
@@ -62,6 +69,7 @@ def fit_parameters(options: argparse.Namespace) -> int:
         settings_of(options),
         x=options.x,
         y=options.y,
+        after=options.after,
         limit=options.runs,
         workers=options.cpus,
         quiet=options.quiet,

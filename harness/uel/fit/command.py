@@ -11,10 +11,11 @@ from pathlib import Path
 from uel.batch.command import batch
 from uel.batch.runs import Settings
 from uel.errors import UelError, UsageError, tell
-from uel.fit.curve import Measurement, read_measurement
+from uel.fit.curve import Measurement, measured_curve, read_points
 from uel.fit.estimate import Fit, fit_curve
 from uel.fit.outcome import draw, summary, write_tables
-from uel.fit.variables import Variable, prepare_deck, read_variable
+from uel.fit.paris_line import RATE, check_cycles, paris_line
+from uel.fit.variables import Variable, prepare_deck, read_variables
 from uel.model.arrays import FloatArray
 from uel.output import Result
 
@@ -32,6 +33,7 @@ def fit(
     limit: int,
     x: str | None = None,
     y: str | None = None,
+    after: float | None = None,
     workers: int | None = None,
     quiet: bool = False,
 ) -> Fit:
@@ -50,7 +52,9 @@ def fit(
     limit
         Largest number of runs.
     x, y
-        Columns of the history that the curve's are, by default what the file says.
+        Columns of the history that the curve's are, or G and RATE of a Paris line; by default what the file says.
+    after
+        Growth of the crack that is left out of a Paris line.
     workers
         Runs at a time; one for each core by default.
     quiet
@@ -64,11 +68,16 @@ def fit(
     Interrupted
         By a signal; the same command continues.
     """
-    variables = [read_variable(word) for word in words]
-    twice = {v.name for v in variables if sum(v.name.lower() == w.name.lower() for w in variables) > 1}
-    if twice:
-        raise UsageError(f"{', '.join(sorted(twice))}: given more than once")
-    measured = read_measurement(curve, x, y)
+    variables = read_variables(words)
+    points = read_points(curve, x, y)
+    measured: Measurement
+    if points.columns[1].names(RATE.name):
+        measured = paris_line(points, after or 0.0)
+        check_cycles(deck)
+    elif after is None:
+        measured = measured_curve(points)
+    else:
+        raise UsageError(f"--after {after:g}: expected a curve of RATE, the growth of a crack, over G")
     runs = _Runs(prepare_deck(deck, variables, folder), variables, measured, folder, settings, workers)
     say = (lambda _: None) if quiet else tell
     result = fit_curve(measured, variables, runs.curves, limit=limit, tell=say)
@@ -118,7 +127,7 @@ class _Runs:
         job = row[0]
         named = ", ".join(f"{v.name} = {float(text):.6g}" for v, text in zip(self._variables, row[1:], strict=True))
         try:
-            return self._measured.of_run(Result(self._folder / job / job).history, f"{job} ({named})")
+            return self._measured.of_result(Result(self._folder / job / job), f"{job} ({named})")
         except UelError as error:
             helps = "narrower bounds" if "--fallback" in self._settings.options else "narrower bounds or --fallback"
             error.add_note(f"what it printed is in {self._folder / job / job}.log; {helps} may help")

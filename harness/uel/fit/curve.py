@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The measured curve, and the curve of a run at the same x."""
+"""Measured points, and the curve of a run at their x."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,20 +14,31 @@ import numpy as np
 from uel.batch.table import read_cells
 from uel.errors import DeckError, Source, UelError
 from uel.model.arrays import FloatArray
+from uel.output import Result
 from uel.output.pictures.column import Column, read_column
 
 
 @dataclass(frozen=True, slots=True)
 class Measurement:
-    """A measured curve.
+    """Measured points.
 
     x, y     values (n,), x rising
-    columns  what they are in the history of a run
+    columns  what they are in the results of a run; here the history
     """
 
     x: FloatArray
     y: FloatArray
     columns: tuple[Column, Column]
+
+    @property
+    def logarithmic(self) -> bool:
+        """True if x and y are shown on logarithmic scales."""
+        return False
+
+    @property
+    def difference(self) -> str:
+        """Name of a difference of two y."""
+        return f"change of {self.columns[1]}"
 
     @property
     def scale(self) -> float:
@@ -45,6 +56,14 @@ class Measurement:
     def change(self, largest: float) -> str:
         """Describe the largest change of the curve by a variable."""
         return f"moves the curve by up to {largest:.3g}"
+
+    def written(self, values: FloatArray) -> FloatArray:
+        """Return values (n,) such as y in the measure of the file."""
+        return values
+
+    def of_result(self, result: Result, job: str) -> FloatArray:
+        """Return the values of a run (n,) at x. Raises UelError if it cannot be compared."""
+        return self.of_run(result.history, job)
 
     def of_run(self, history: Mapping[str, FloatArray], job: str) -> FloatArray:
         """Return the values of a run (n,) at x, from a start at (0, 0) on.
@@ -71,24 +90,39 @@ class Measurement:
         return np.asarray(np.interp(self.x, x, y))
 
 
-def read_measurement(path: Path, x: str | None, y: str | None) -> Measurement:
-    """Read a measured curve from a CSV file: a line of two names, then lines of two numbers.
+@dataclass(frozen=True, slots=True)
+class Points:
+    """Points of a file.
+
+    values   (n, 2)
+    columns  what they are in the results of a run
+    sources  where each point is
+    """
+
+    values: FloatArray
+    columns: tuple[Column, Column]
+    sources: Sequence[Source]
+
+
+def read_points(path: Path, x: str | None, y: str | None) -> Points:
+    """Read points from a CSV file: a line of two names, then lines of two numbers.
 
     Parameters
     ----------
     path
         The file.
     x, y
-        Columns of the history that correspond to its columns; None: the names in the file.
+        Columns of the results that correspond to its columns; None: the names in the file.
 
     Raises
     ------
     UsageError
         The file cannot be read, or a column has no such name.
     DeckError
-        With file:line where a line is not as expected, or x does not rise.
+        With file:line where a line is not as expected.
     """
     rows: list[list[float]] = []
+    sources: list[Source] = []
     names: list[str] = []
     for source, words in read_cells(path, str(path)):
         if len(words) != 2:
@@ -97,13 +131,19 @@ def read_measurement(path: Path, x: str | None, y: str | None) -> Measurement:
             names = words
         else:
             rows.append(_numbers(source, words))
-            if len(rows) > 1 and not rows[-1][0] > rows[-2][0]:
-                raise DeckError(source, f"{names[0]} has to rise: {rows[-1][0]:g} after {rows[-2][0]:g}")
+            sources.append(source)
     if len(rows) < 3:
         raise DeckError(Source(str(path), 1), f"expected a line of two names and at least 3 points, found {len(rows)}")
-    values = np.array(rows)
-    columns = read_column(x or names[0]), read_column(y or names[1])
-    return Measurement(values[:, 0], values[:, 1], columns)
+    return Points(np.array(rows), (read_column(x or names[0]), read_column(y or names[1])), sources)
+
+
+def measured_curve(points: Points) -> Measurement:
+    """Return points as a curve over a column of the history. Raises DeckError where x does not rise."""
+    x, y = points.values.T
+    for before, after, source in zip(x[:-1], x[1:], points.sources[1:], strict=True):
+        if not after > before:
+            raise DeckError(source, f"{points.columns[0]} has to rise: {after:g} after {before:g}")
+    return Measurement(x, y, points.columns)
 
 
 def _numbers(source: Source, words: list[str]) -> list[float]:

@@ -91,7 +91,8 @@ def write_tables(stem: Path, variables: Sequence[Variable], measured: Measuremen
     _write_table(Path(f"{stem}.csv"), [*head, *(f"correlation {name}" for name in names)], rows)
     x, y = map(str, measured.columns)
     head = [x, f"measured {y}", f"fitted {y}", f"start {y}", *(f"{name} d/d{name}" for name in names)]
-    columns = [measured.x, measured.y, result.curve, result.start, *result.sensitivity.T]
+    written = [measured.written(values) for values in (measured.y, result.curve, result.start)]
+    columns = [measured.x, *written, *result.sensitivity.T]
     _write_table(Path(f"{stem}_curve.csv"), head, np.column_stack(columns).tolist())
 
 
@@ -108,11 +109,13 @@ def draw(path: Path, variables: Sequence[Variable], measured: Measurement, resul
 
     x, y = map(str, measured.columns)
     curves = [
-        Curve("measured", measured.x, measured.y, "points"),
-        Curve("start", measured.x, result.start, "reference"),
-        Curve("fitted", measured.x, result.curve),
+        Curve("measured", measured.x, measured.written(measured.y), "points"),
+        Curve("start", measured.x, measured.written(result.start), "reference"),
+        Curve("fitted", measured.x, measured.written(result.curve)),
     ]
     depends = [
         Curve(f"{v.hundredth} {v.name}", measured.x, 0.01 * result.sensitivity[:, k]) for k, v in enumerate(variables)
     ]
-    grid([[Panel("", curves, x, y), Panel("", depends, x, f"change of {y}")]], path)
+    left = Panel("", curves, x, y, logarithmic="xy" if measured.logarithmic else "")
+    right = Panel("", depends, x, measured.difference, logarithmic="x" if measured.logarithmic else "")
+    grid([[left, right]], path)

@@ -91,6 +91,15 @@ def read_variable(text: str) -> Variable:
     return variable
 
 
+def read_variables(words: Sequence[str]) -> list[Variable]:
+    """Read variables, each of another name. Raises UsageError."""
+    variables = [read_variable(word) for word in words]
+    twice = {v.name for v in variables if sum(v.name.lower() == w.name.lower() for w in variables) > 1}
+    if twice:
+        raise UsageError(f"{', '.join(sorted(twice))}: given more than once")
+    return variables
+
+
 def prepare_deck(deck: Path, variables: Sequence[Variable], folder: Path) -> Path:
     """Write the deck with all variables among its parameters: itself, or a copy in the folder, NAME_fit.inp.
 

@@ -8,18 +8,18 @@ import numpy as np
 import pytest
 
 from uel.errors import DeckError, UelError, UsageError
-from uel.fit.curve import Measurement, read_measurement
+from uel.fit.curve import Measurement, measured_curve, read_points
 from uel.output.pictures.column import Column
 
 
 def test_curve_of_a_file(tmp_path: Path) -> None:
     file = tmp_path / "curve.csv"
     file.write_text("\ufeff2*U1[END], RF1[END]\n\n0.1, 1\n0.2,2.5\r\n 0.4 , 2 \n", encoding="utf-8")
-    found = read_measurement(file, None, None)
+    found = measured_curve(read_points(file, None, None))
     assert found.x.tolist() == [0.1, 0.2, 0.4]
     assert found.y.tolist() == [1.0, 2.5, 2.0]
     assert found.columns == (Column("U1[END]", 2.0), Column("RF1[END]", 1.0))
-    assert read_measurement(file, "time", "-RF1[END]").columns == (Column("time", 1.0), Column("RF1[END]", -1.0))
+    assert read_points(file, "time", "-RF1[END]").columns == (Column("time", 1.0), Column("RF1[END]", -1.0))
 
 
 @pytest.mark.parametrize(
@@ -36,12 +36,12 @@ def test_curve_of_a_file(tmp_path: Path) -> None:
 def test_wrong_files(tmp_path: Path, text: str, message: str) -> None:
     (tmp_path / "curve.csv").write_text(text)
     with pytest.raises(DeckError, match=message):
-        read_measurement(tmp_path / "curve.csv", None, None)
+        measured_curve(read_points(tmp_path / "curve.csv", None, None))
 
 
 def test_file_that_is_not_there(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match=r"none.csv: No such file"):
-        read_measurement(tmp_path / "none.csv", None, None)
+        read_points(tmp_path / "none.csv", None, None)
 
 
 X = np.array([1.0, 2.0, 3.0])

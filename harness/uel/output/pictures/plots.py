@@ -55,7 +55,10 @@ class Curve:
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """Pair of axes of a `grid`: title, labels with units, and the ranges shown (all of the data by default)."""
+    """Pair of axes of a `grid`: title, labels with units, and the ranges shown (all of the data by default).
+
+    logarithmic  axes with a logarithmic scale: '', 'x', 'xy'
+    """
 
     title: str
     curves: Sequence[Curve]
@@ -63,6 +66,7 @@ class Panel:
     y_label: str
     x_range: tuple[float, float] | None = None
     y_range: tuple[float, float] | None = None
+    logarithmic: str = ""
 
 
 def load_displacement(curves: Sequence[Curve], path: Path, *, x_label: str = "Displacement [mm]") -> Path:
@@ -161,6 +165,7 @@ def grid(rows: Sequence[Sequence[Panel]], path: Path, *, share_y: bool = False, 
             for curve in panel.curves:
                 axis.plot(curve.x, curve.y, label=curve.label, **looks[curve.label])
             axis.set(title=panel.title, xlabel=panel.x_label, ylabel=panel.y_label)
+            axis.set(**{f"{name}scale": "log" for name in panel.logarithmic})
             axis.margins(x=0.02)
             if panel.x_range:
                 axis.set_xlim(panel.x_range)
