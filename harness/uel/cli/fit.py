@@ -1,14 +1,18 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`uel fit`."""
+"""`uel fit` and `uel fit-sn`."""
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from uel.cli.run_options import add_run_options, settings_of
 from uel.cli.values import NOT_NEGATIVE, positive
+
+if TYPE_CHECKING:
+    from uel.fit.estimate import Fit
 
 
 def add_fit(fit: argparse.ArgumentParser) -> None:
@@ -74,4 +78,46 @@ def fit_parameters(options: argparse.Namespace) -> int:
         workers=options.cpus,
         quiet=options.quiet,
     )
+    return _code(result)
+
+
+def add_fit_sn(fit: argparse.ArgumentParser) -> None:
+    """Add the options of `uel fit-sn`."""
+    fit.description = (
+        "Fits ENDURANCE, BRITTLENESS and EXPONENT of FATIGUE to measured lives under a constant traction, in the "
+        "logarithm, without a deck."
+    )
+    fit.epilog = (
+        "Written: POINTS_fit.csv with values, confidence intervals and correlations, POINTS_fit_curve.csv and "
+        "POINTS_fit.png with lives and their derivatives. Exit codes are those of `uel fit`."
+    )
+    fit.add_argument(
+        "points",
+        type=Path,
+        metavar="POINTS.csv",
+        help="columns S (greatest traction over strength) and CYCLES to failure; and R (load ratio, 0 without), B "
+        "(share of mode II, 0 without), RUNOUT (1 where the test ended without failure)",
+    )
+    fit.add_argument(
+        "variables",
+        nargs="+",
+        metavar="NAME=LOW:HIGH",
+        help="of ENDURANCE, BRITTLENESS and EXPONENT, those that are fitted, with bounds; others are as by default",
+    )
+    fit.add_argument(
+        "-o", "--output-dir", type=Path, default=Path("fit"), metavar="DIR", help="folder of the output (fit)"
+    )
+    fit.add_argument("--quiet", action="store_true", help="print errors only")
+    fit.set_defaults(function=fit_lives)
+
+
+def fit_lives(options: argparse.Namespace) -> int:
+    """Run `uel fit-sn`."""
+    from uel.fit.command import fit_sn  # noqa: PLC0415
+
+    return _code(fit_sn(options.points, options.variables, options.output_dir, quiet=options.quiet))
+
+
+def _code(result: Fit) -> int:
+    """Return the exit code of a fit."""
     return 0 if result.reliable else 3 if result.converged else 1

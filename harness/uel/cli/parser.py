@@ -9,7 +9,7 @@ import argparse
 from uel.cli.batch import add_batch
 from uel.cli.check import add_check
 from uel.cli.files import add_amalgamate, add_new
-from uel.cli.fit import add_fit
+from uel.cli.fit import add_fit, add_fit_sn
 from uel.cli.insert import add_insert
 from uel.cli.installation import add_completion, add_doctor, add_solvers
 from uel.cli.law import add_law
@@ -28,6 +28,7 @@ def build_parser() -> argparse.ArgumentParser:
     add_run(commands.add_parser("run", help="run a deck"))
     add_batch(commands.add_parser("batch", help="run many decks, or one deck with many values, several at a time"))
     add_fit(commands.add_parser("fit", help="find parameters of a deck from a measured curve"))
+    add_fit_sn(commands.add_parser("fit-sn", help="find properties of FATIGUE from S-N points"))
     add_insert(commands.add_parser("insert", help="put interface elements into a deck or a mesh"))
     add_new(commands.add_parser("new", help="start a user element: kernel, deck, tests, CI"))
     add_reproduce(

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from uel.batch.command import batch
@@ -13,6 +14,7 @@ from uel.batch.runs import Settings
 from uel.errors import UelError, UsageError, tell
 from uel.fit.curve import Measurement, measured_curve, read_points
 from uel.fit.estimate import Fit, fit_curve
+from uel.fit.lives import check_properties, fit_lives, read_lives
 from uel.fit.outcome import draw, summary, write_tables
 from uel.fit.paris_line import RATE, check_cycles, paris_line
 from uel.fit.variables import Variable, prepare_deck, read_variables
@@ -87,6 +89,42 @@ def fit(
     for line in summary(variables, measured, result, f"{result.ended} after {runs.count} runs"):
         say(line)
     say(f"{stem}.csv, {stem}_curve.csv, {stem}.png")
+    return result
+
+
+def fit_sn(path: Path, words: Sequence[str], folder: Path, *, quiet: bool = False) -> Fit:
+    """Fit the S-N line of CF20 to points, without a deck.
+
+    Parameters
+    ----------
+    path
+        The CSV file of the points.
+    words
+        Variables, such as ENDURANCE=0.1:0.5.
+    folder
+        Gets NAME_fit.csv, NAME_fit_curve.csv and NAME_fit.png.
+    quiet
+        Only errors are printed.
+
+    Raises
+    ------
+    UelError
+        UsageError and DeckError for what is wrong with the words or the points; UelError for too few failures.
+    """
+    variables = [replace(variable, name=variable.name.upper()) for variable in read_variables(words)]
+    check_properties(variables)
+    measured = read_lives(path)
+    result = fit_lives(measured, variables)
+    folder.mkdir(parents=True, exist_ok=True)
+    stem = folder / f"{path.stem}_fit"
+    write_tables(stem, variables, measured, result)
+    draw(stem.with_suffix(".png"), variables, measured, result)
+    runouts = int(measured.runout.sum())
+    ended = f"{result.ended}: {len(measured.x) - runouts} failures, {runouts} runouts"
+    for line in summary(variables, measured, result, ended) if not quiet else []:
+        tell(line)
+    if not quiet:
+        tell(f"{stem}.csv, {stem}_curve.csv, {stem}.png")
     return result
 
 

@@ -36,6 +36,16 @@ class Measurement:
         return False
 
     @property
+    def beside(self) -> dict[str, FloatArray]:
+        """Columns of the table beside x and y, by name."""
+        return {}
+
+    @property
+    def parts(self) -> list[slice]:
+        """Points that a line joins."""
+        return [slice(None)]
+
+    @property
     def difference(self) -> str:
         """Name of a difference of two y."""
         return f"change of {self.columns[1]}"

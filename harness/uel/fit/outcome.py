@@ -90,9 +90,9 @@ def write_tables(stem: Path, variables: Sequence[Variable], measured: Measuremen
     ]
     _write_table(Path(f"{stem}.csv"), [*head, *(f"correlation {name}" for name in names)], rows)
     x, y = map(str, measured.columns)
-    head = [x, f"measured {y}", f"fitted {y}", f"start {y}", *(f"{name} d/d{name}" for name in names)]
+    head = [x, *measured.beside, f"measured {y}", f"fitted {y}", f"start {y}", *(f"{name} d/d{name}" for name in names)]
     written = [measured.written(values) for values in (measured.y, result.curve, result.start)]
-    columns = [measured.x, *written, *result.sensitivity.T]
+    columns = [measured.x, *measured.beside.values(), *written, *result.sensitivity.T]
     _write_table(Path(f"{stem}_curve.csv"), head, np.column_stack(columns).tolist())
 
 
@@ -108,13 +108,17 @@ def draw(path: Path, variables: Sequence[Variable], measured: Measurement, resul
     from uel.output.pictures.plots import Curve, Panel, grid  # noqa: PLC0415 (the runs come first)
 
     x, y = map(str, measured.columns)
+    shown = measured.written(measured.y), measured.written(result.start), measured.written(result.curve)
+    kinds = ("measured", "points"), ("start", "reference"), ("fitted", "line")
     curves = [
-        Curve("measured", measured.x, measured.written(measured.y), "points"),
-        Curve("start", measured.x, measured.written(result.start), "reference"),
-        Curve("fitted", measured.x, measured.written(result.curve)),
+        Curve(label, measured.x[part], values[part], kind)
+        for (label, kind), values in zip(kinds, shown, strict=True)
+        for part in measured.parts
     ]
     depends = [
-        Curve(f"{v.hundredth} {v.name}", measured.x, 0.01 * result.sensitivity[:, k]) for k, v in enumerate(variables)
+        Curve(f"{v.hundredth} {v.name}", measured.x[part], 0.01 * result.sensitivity[part, k])
+        for k, v in enumerate(variables)
+        for part in measured.parts
     ]
     left = Panel("", curves, x, y, logarithmic="xy" if measured.logarithmic else "")
     right = Panel("", depends, x, measured.difference, logarithmic="x" if measured.logarithmic else "")
