@@ -79,14 +79,19 @@ def test_tutorial_of_the_fit(replayed, assert_same):
     of which half is allowed.
     """
     page = "docs/fit.md"
-    steps = re.compile(r"^.*: off by .* of the peak\n|(?<=converged )after \d+ runs", re.MULTILINE)
+    steps = re.compile(r"^.*: off by .*\n|(?<=converged )after \d+ runs", re.MULTILINE)
     found, text = (steps.sub("", page) for page in (replayed(page), text_of(Path(page))))
     assert_same(found, text, 5e-2)
     made_with = re.search(r"a\s+toughness\s+of\s+(\S+)\s+N/mm\s+and\s+a\s+strength\s+of\s+(\S+)\s+MPa", text)
     toughness, strength = map(float, made_with.groups())
-    for name, value in {"GIC": toughness, "SIGMAMAX": strength}.items():
-        low, high = map(float, re.search(rf"^{name} = \S+ 95% between (\S+) and (\S+);", found, re.MULTILINE).groups())
-        assert low < value < high
+    made_with = re.search(r"made\s+with\s+ENDURANCE\s+(\S+),\s+BRITTLENESS\s+(\S+),", text)
+    endurance, brittleness = map(float, made_with.groups())
+    true = {"GIC": toughness, "SIGMAMAX": strength, "ENDURANCE": endurance, "BRITTLENESS": brittleness}
+    for name, value in true.items():
+        intervals = re.findall(rf"^{name} = \S+ 95% between (\S+) and (\S+);", found, re.MULTILINE)
+        # of the Paris line, and of the S-N points
+        assert len(intervals) == 1 + (name in ("ENDURANCE", "BRITTLENESS"))
+        assert all(float(low) < value < float(high) for low, high in intervals)
     deck = Path("dcb.inp").read_text()
     made = deck.replace("20., 0., 0., 30., 60., 0.26,", f"20., 0., 0., {strength}, 60., {toughness},")
     assert made != deck

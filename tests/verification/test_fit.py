@@ -109,11 +109,16 @@ def interface_decks(folder: Path, increments: int) -> None:
     # far from what the curve is made with
     start = total | {"LAW": 5, "GIC": 0.5, "SIGMABRIDGE": 3.0, "GIBRIDGE": 0.2}
     (folder / "bridged.inp").write_text(deck.replace(given[0], properties("INTERFACE", **start)))
+    # without fibres
+    (folder / "plain.inp").write_text(deck.replace(given[0], properties("INTERFACE", **total, LAW=2)))
 
 
 @pytest.mark.long
-def test_fibre_bridging(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """LAW 5 leaves nothing but the noise, and its parts are those of the two elements that made the curve."""
+def test_fibre_bridging(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """LAW 5 leaves nothing but the noise, and its parts are those of the two elements that made the curve.
+
+    LAW 2 cannot follow, and the fit says so.
+    """
     monkeypatch.chdir(tmp_path)
     interface_decks(tmp_path, 120)
     result = run("two.inp", output_dir="true", solver=SolverOptions(fallback=True))
@@ -122,6 +127,9 @@ def test_fibre_bridging(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
     y = np.interp(x, measures.displacement(result), measures.load(result)) + noise
     rows = [f"{a:.6g}, {b:.6g}\n" for a, b in zip(x, y, strict=True)]
     Path("measured.csv").write_text("U2[LOAD_TOP], RF2[LOAD_TOP]\n" + "".join(rows))
+
+    assert main(["fit", "plain.inp", "measured.csv", "GIC=0.2:0.5:0.8", "--fallback"]) == 3
+    assert "the residuals are not noise: neighbours along U2[LOAD_TOP] go together" in capsys.readouterr().out
 
     words = ["GIC=0.47:0.5:0.8", "GIBRIDGE=0.1:0.2:0.45", "SIGMABRIDGE=0.5:3:6", "--fallback", "--runs", "80"]
     assert main(["fit", "bridged.inp", "measured.csv", *words]) == 0

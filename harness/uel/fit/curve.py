@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from uel.batch.table import read_cells
 from uel.errors import DeckError, Source, UelError
@@ -39,6 +40,11 @@ class Measurement:
     def beside(self) -> dict[str, FloatArray]:
         """Columns of the table beside x and y, by name."""
         return {}
+
+    @property
+    def marks(self) -> dict[str, NDArray[np.bool_]]:
+        """Points (n,) of each kind in a picture, by its name."""
+        return {"measured": np.ones(len(self.x), dtype=bool)}
 
     @property
     def parts(self) -> list[slice]:

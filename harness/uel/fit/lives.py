@@ -78,6 +78,11 @@ class Lives(LogarithmicMeasurement):
         return {"R": self.ratio, "B": self.shear, "RUNOUT": self.runout.astype(float)}
 
     @property
+    def marks(self) -> dict[str, NDArray[np.bool_]]:
+        """Failures, and runouts if there are any."""
+        return {"measured": ~self.runout, **({"runout": self.runout} if self.runout.any() else {})}
+
+    @property
     def parts(self) -> list[slice]:
         """Points of one R and B each."""
         changes = np.flatnonzero((np.diff(self.ratio) != 0.0) | (np.diff(self.shear) != 0.0)) + 1

@@ -42,7 +42,7 @@ class LogarithmicMeasurement(Measurement):
 
     def change(self, largest: float) -> str:
         """Describe the largest change of the curve by a variable."""
-        return f"changes {self.columns[1]} by up to {math.expm1(largest):.3g} of it"
+        return f"changes {self.columns[1]} by up to {math.expm1(largest):.2%}"
 
     def written(self, values: FloatArray) -> FloatArray:
         """Return values (n,) such as y in the measure of the file."""

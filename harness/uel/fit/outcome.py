@@ -108,13 +108,11 @@ def draw(path: Path, variables: Sequence[Variable], measured: Measurement, resul
     from uel.output.pictures.plots import Curve, Panel, grid  # noqa: PLC0415 (the runs come first)
 
     x, y = map(str, measured.columns)
-    shown = measured.written(measured.y), measured.written(result.start), measured.written(result.curve)
-    kinds = ("measured", "points"), ("start", "reference"), ("fitted", "line")
-    curves = [
-        Curve(label, measured.x[part], values[part], kind)
-        for (label, kind), values in zip(kinds, shown, strict=True)
-        for part in measured.parts
-    ]
+    points = measured.written(measured.y)
+    curves = [Curve(label, measured.x[rows], points[rows], "points") for label, rows in measured.marks.items()]
+    for label, kind, values in (("start", "reference", result.start), ("fitted", "line", result.curve)):
+        written = measured.written(values)
+        curves += [Curve(label, measured.x[part], written[part], kind) for part in measured.parts]
     depends = [
         Curve(f"{v.hundredth} {v.name}", measured.x[part], 0.01 * result.sensitivity[part, k])
         for k, v in enumerate(variables)

@@ -2,16 +2,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Paris lines of `uel fit`: the file, and the line of a run."""
 
+import csv
 from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.stats import t as student
 
 from uel.cli import main
 from uel.errors import DeckError, UelError, UsageError
 from uel.fit import paris_line as module
 from uel.fit.curve import read_points
+from uel.fit.estimate import fit_curve
+from uel.fit.outcome import write_tables
 from uel.fit.paris_line import ParisLine, check_cycles, paris_line
+from uel.fit.variables import Variable
 from uel.output.pictures.column import Column
 from uel.output.pictures.growth import Growth
 
@@ -133,4 +138,28 @@ def test_what_a_fit_says_is_in_the_logarithm() -> None:
     line = ParisLine(np.ones(3), np.zeros(3), (Column("G"), Column("RATE")))
     assert line.distance(np.log(1.25)) == "off by a factor of 1.25"
     assert line.spread(np.log(1.25)) == "standard deviation from the measured RATE: a factor of 1.25"
-    assert line.change(np.log(1.25)) == "changes RATE by up to 0.25 of it"
+    assert line.change(np.log(1.25)) == "changes RATE by up to 25.00%"
+
+
+def test_fit_of_a_power(tmp_path: Path) -> None:
+    """The line ln RATE = ln C + m ln G is linear in ln C: the interval of C is that of a mean, for a known m."""
+    release = np.geomspace(0.1, 0.2, 12)
+    noise = np.random.default_rng(3).normal(0.0, 0.2, len(release))
+    line = ParisLine(release, np.log(1e-3 * release**EXPONENT) + noise, (Column("G"), Column("RATE")))
+    variable = Variable("C", 1e-4, 2e-4, 1e-2)
+    found = fit_curve(
+        line,
+        [variable],
+        lambda values: [np.log(value[0] * release**EXPONENT) for value in values],
+        limit=40,
+        tell=lambda _: None,
+    )
+    reach = student.ppf(0.975, len(release) - 1) * noise.std(ddof=1) / np.sqrt(len(release))
+    assert found.values[0] == pytest.approx(1e-3 * np.exp(noise.mean()), rel=1e-3)
+    assert np.log(found.certainty.intervals[0] / found.values[0]) == pytest.approx([-reach, reach], rel=1e-3)
+    write_tables(tmp_path / "x_fit", [variable], line, found)
+    with (tmp_path / "x_fit_curve.csv").open(newline="") as file:
+        first = next(csv.DictReader(file))
+    assert float(first["measured RATE"]) == pytest.approx(1e-3 * 0.1**EXPONENT * np.exp(noise[0]))
+    assert float(first["fitted RATE"]) == pytest.approx(found.values[0] * 0.1**EXPONENT)
+    assert float(first["C d/dC"]) == pytest.approx(1.0)

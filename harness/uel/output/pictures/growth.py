@@ -50,15 +50,8 @@ class Growth:
         return np.sqrt(total[SPACING:] * total[:-SPACING]), grown / (self.cycles[SPACING:] - self.cycles[:-SPACING])
 
 
-def growth(result: Result, line: int | None = None) -> Growth:
+def growth(result: Result) -> Growth:
     """Return the growth of the delamination in the last step.
-
-    Parameters
-    ----------
-    result
-        Result of a job in the plane.
-    line
-        Number of the interface from 1, where several laws lie on the same nodes; by default the job has one tip.
 
     Raises
     ------
@@ -66,7 +59,7 @@ def growth(result: Result, line: int | None = None) -> Growth:
         The job has no interface elements in the plane that have a damage, or several tips in the last step.
     """
     step = result.status[-1].step
-    last = [tip for tip in tips(result, DAMAGE) if tip.step == step and line in (None, tip.line)]
+    last = [tip for tip in tips(result, DAMAGE) if tip.step == step]
     count = len({(tip.line, tip.number) for tip in last})
     if count > 1:
         raise UelError(f"{result.file('.pvd')}: {count} tips of delaminations in step {step}, expected one")

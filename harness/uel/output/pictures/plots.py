@@ -16,6 +16,7 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator, NullLocator
 from numpy.typing import ArrayLike
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
@@ -166,6 +167,11 @@ def grid(rows: Sequence[Sequence[Panel]], path: Path, *, share_y: bool = False, 
                 axis.plot(curve.x, curve.y, label=curve.label, **looks[curve.label])
             axis.set(title=panel.title, xlabel=panel.x_label, ylabel=panel.y_label)
             axis.set(**{f"{name}scale": "log" for name in panel.logarithmic})
+            if "x" in panel.logarithmic and axis.dataLim.x1 < 10.0 * axis.dataLim.x0:
+                # powers of ten would be too few
+                axis.xaxis.set_major_locator(MaxNLocator(5))
+                axis.xaxis.set_major_formatter("{x:g}")
+                axis.xaxis.set_minor_locator(NullLocator())
             axis.margins(x=0.02)
             if panel.x_range:
                 axis.set_xlim(panel.x_range)
