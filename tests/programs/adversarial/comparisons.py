@@ -123,7 +123,7 @@ def text(body: Body, variant: Variant) -> str:
 
 
 def scaled(loads: Lines, factor: float) -> Lines:
-    """Multiply the magnitudes of loads, the third fields of data lines, or the second of temperatures."""
+    """Multiply loads, the third fields of lines; of temperatures the second, of *BOUNDARY the last."""
     keyword, done = "", []
     for line in loads:
         if line.startswith("*"):
@@ -131,7 +131,7 @@ def scaled(loads: Lines, factor: float) -> Lines:
             done.append(line)
             continue
         fields = line.split(", ")
-        magnitude = 1 if keyword.startswith("*TEMPERATURE") else 2
+        magnitude = {"*TEMPERATURE": 1, "*BOUNDARY": len(fields) - 1}.get(keyword.split(",")[0], 2)
         fields[magnitude] = repr(factor * float(fields[magnitude]))
         done.append(", ".join(fields))
     return done
