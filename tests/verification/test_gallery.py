@@ -100,4 +100,4 @@ def test_pictures_without_a_load_of_reference(problem: str, tmp_path: Path) -> N
 def test_unknown_problem(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="2"):
         gallery.main(["dbc"])
-    assert "no problem dbc; expected some of circle, cohesive, dcb," in capsys.readouterr().err
+    assert "no problem dbc; expected some of bridging, circle, cohesive, dcb," in capsys.readouterr().err
