@@ -55,7 +55,7 @@ module cohesive_fatigue
     real(dp) :: lost_slope = 0.0_dp
   end type secant_line
 
-  !> What vanishes at the end of an increment, with its derivatives.
+  !> The equation of an increment, zero at its end, with its derivatives.
   type :: growth_equation
     real(dp) :: value
     real(dp) :: by_unknown   !< rises with the damage

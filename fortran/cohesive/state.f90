@@ -9,7 +9,7 @@ module cohesive_state
   private
   public :: cycled_state, point_history, damage_state, law_solution, driven_point, resultant_solution
 
-  !> What cycles have done to a point: `cohesive_fatigue`.
+  !> Effect of cycles on a point: `cohesive_fatigue`.
   type :: cycled_state
     real(dp) :: relative = 0.0_dp   !< s, separation over that at which the point would soften
     real(dp) :: rate = 0.0_dp       !< dD/dN, 1/cycle

@@ -23,7 +23,7 @@ from uel.model.properties import UserProperty
 from uel.usersub.layout import element_layouts
 
 _DEFAULT = re.compile(r"; 0: (?!0(?:,|$))(.*)")
-"""What 0 stands for at the end of the meaning of a property, unless that is 0 itself."""
+"""Default that 0 stands for, at the end of the meaning of a property, unless that is 0 itself."""
 _INPUT = re.compile(r'(\bINPUT\s*=\s*)("[^"]*"|[^,\n]+?)(\s*(?:,|$))', re.IGNORECASE)
 
 

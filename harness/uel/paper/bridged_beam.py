@@ -32,7 +32,7 @@ HEIGHT, CRACK, LENGTH = 2.25, 50.8, 100.0
 REFINED, SIZE, ROWS = 7.5, 0.1, 4
 """Length of the fine mesh ahead of the crack, that of its elements (mm), and quads through an arm."""
 OPENING = 1.92
-"""Of both arms (mm)."""
+"""Opening of both arms together (mm)."""
 RATIO, CYCLES, JUMP = 0.1, 1e5, 0.05
 """R, the number of cycles, and DAMAGEJUMP."""
 MODULI, RATIOS, SHEAR = (

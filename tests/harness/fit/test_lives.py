@@ -90,7 +90,7 @@ def test_intervals_with_runouts_hold_the_truth_as_often() -> None:
 
 
 def test_runouts_have_the_largest_likelihood() -> None:
-    """Of censored data, by scipy; the variance here is per degree of freedom, which moves the values a little."""
+    """Values from scipy's censored data; the variance here is per degree of freedom, which moves them a little."""
     points = lives(1, END)
     assert points.runout.sum() == 6
     found = fit_lives(points, [ENDURANCE, BRITTLENESS])

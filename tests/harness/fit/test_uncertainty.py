@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What `uel fit` says where a model cannot follow: residuals that are not noise, bounds, searches that end early."""
+"""Sentences of `uel fit` where a model cannot follow: residuals that are not noise, bounds, searches that end early."""
 
 import csv
 from collections.abc import Callable, Sequence

@@ -49,13 +49,13 @@ SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)
 REFINED = 30.0
 """Length of the fine mesh from the tip on (mm)."""
 USUAL_JUMP = 0.02
-"""What DAMAGEJUMP = 0 stands for."""
+"""DAMAGEJUMP that 0 stands for."""
 INCREMENTS = 900
-"""Of the step of cycles at that, which ends with them: about 15 mm of growth."""
+"""Increments of the step of cycles at that jump, which ends with them: about 15 mm of growth."""
 MIDDLE, COMPARED = 0.6, (0.0, 0.5, 1.0)
 """G/G_c and mode mixes for which other meshes and properties are compared."""
 ENDURANCES = (0.1, 0.2, 0.35)
-"""Of the runs that give PHI."""
+"""ENDURANCE of the runs that give PHI."""
 FITTED = (0.4, 0.6, 0.8)
 """G/G_c at which measured and computed lines are compared."""
 
