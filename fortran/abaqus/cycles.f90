@@ -31,10 +31,11 @@ contains
 
     good = .true.
     if (options(j_fatigue) <= 0 .or. kstep < options(j_fatigue) .or. is_linear_step(lflags)) return
-    cycles%count = dtime
     cycles%load_ratio = values(p_loadratio)
     if (npredf > 1) cycles%load_ratio = sum(predef(1, 2, :))/size(predef, 3)
     good = cycles%load_ratio >= -1.0_dp .and. cycles%load_ratio <= 1.0_dp
+    ! a load that does not change has no cycles
+    if (cycles%load_ratio < 1.0_dp) cycles%count = dtime
     if (.not. good) call fatal(itype, jelem, 'field variable 1, which is the load ratio since there is FATIGUE = %I, is %R: ' // &
       'expected a value from -1 to 1', [options(j_fatigue)], [cycles%load_ratio])
   end subroutine count_cycles

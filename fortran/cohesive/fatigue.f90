@@ -163,7 +163,7 @@ contains
     logical :: grows
     real(dp) :: limit, exponent, slope
 
-    grows = law%cycles%count > 0.0_dp .and. law%cycles%load_ratio < 1.0_dp
+    grows = law%cycles%count > 0.0_dp
     if (.not. grows) return
     call endurance(law, measures%shear, limit, exponent, slope)
     grows = start >= limit
@@ -232,7 +232,7 @@ contains
     real(dp) :: cycles
 
     cycles = history%cycled%cycles
-    if (history%damage_max < 1.0_dp .and. law%cycles%load_ratio < 1.0_dp) cycles = cycles + law%cycles%count
+    if (history%damage_max < 1.0_dp) cycles = cycles + law%cycles%count
   end function cycles_survived
 
   !> 1 - D on a secant, and its derivatives by theta and by the unknown.

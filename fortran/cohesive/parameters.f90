@@ -14,7 +14,7 @@ module cohesive_parameters
   !> Cycles of a load between a least and a greatest value, of which the analysis follows the greatest.
   type :: load_cycles
     real(dp) :: count = 0.0_dp        !< cycles in the increment; zero: none
-    real(dp) :: load_ratio = 0.0_dp   !< least over greatest load, from -1 to 1
+    real(dp) :: load_ratio = 0.0_dp   !< least over greatest load, from -1 and below 1
   end type load_cycles
 
   !> Parameters of a law. The initial stiffness is alpha_i = ratio_i/flexibility: laws use the flexibility, which stays finite for

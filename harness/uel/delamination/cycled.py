@@ -15,10 +15,8 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from uel.delamination.blocks import Specimen
-from uel.delamination.flexure import SPAN
+from uel.delamination.flexure import flexure_head
 from uel.delamination.keywords import keyword, node_set, number, table, text
 from uel.delamination.plates import Laminate, mesh_blocks, property_blocks
 from uel.delamination.specimens import deck_head
@@ -85,17 +83,8 @@ def opening_deck(title: str, specimen: Specimen, opening: float, cycles: Cycles)
 
 
 def flexure_deck(title: str, specimen: Specimen, force: float, cycles: Cycles) -> str:
-    """Write the end-notched flexure under a force (N) at mid-span; its crack's faces have one deflection at the end."""
-    mesh = specimen.mesh
-    lines = deck_head(
-        title, ["simply supported; loaded at mid-span; one deflection of both faces at the left"], specimen
-    )
-    middle = int(np.argmin(np.abs(mesh.x - 0.5 * SPAN)))
-    lines += node_set("MIDSPAN", mesh.top_line[middle : middle + 1])
-    lines += node_set("SUPPORT_LEFT", mesh.line(1)[:1]) + node_set("SUPPORT_RIGHT", mesh.line(1)[-1:])
-    low, high = (int(line[0]) for line in mesh.interface_lines)
-    lines += ["*EQUATION", "2", *table([(high, 2, 1.0, low, 2, -1.0)])]
-    lines += ["*BOUNDARY", "SUPPORT_LEFT, 2, 2", "SUPPORT_RIGHT, 1, 2"]
+    """Write the end-notched flexure under a force (N) at mid-span."""
+    lines = flexure_head(title, "loaded at mid-span", specimen)
     return text([*lines, *_steps(["*CLOAD", f"MIDSPAN, 2, {number(-force)}"], ["MIDSPAN"], cycles)])
 
 

@@ -39,15 +39,7 @@ def frmm_mesh(size: float = 0.125, bump: float = 0.0, crack: float = CRACK) -> T
 
 def enf_deck(title: str, specimen: Specimen, deflection: float, increments: Increments, field_every: int) -> str:
     """Write the end-notched flexure: supported at both ends, mid-span of the upper face pushed by `deflection` (mm)."""
-    comments = ["simply supported; mid-span pushed down; the crack's faces have one deflection above the left support"]
-    lines = deck_head(title, comments, specimen)
-    mesh = specimen.mesh
-    middle = int(np.argmin(np.abs(mesh.x - 0.5 * SPAN)))
-    lines += node_set("MIDSPAN", mesh.top_line[middle : middle + 1])
-    lines += node_set("SUPPORT_LEFT", mesh.line(1)[:1]) + node_set("SUPPORT_RIGHT", mesh.line(1)[-1:])
-    low, high = (int(line[0]) for line in mesh.interface_lines)
-    lines += ["*EQUATION", "2", *table([(high, 2, 1.0, low, 2, -1.0)])]
-    lines += ["*BOUNDARY", "SUPPORT_LEFT, 2, 2", "SUPPORT_RIGHT, 1, 2"]
+    lines = flexure_head(title, "mid-span pushed down", specimen)
     lines += step_block(
         f"Deflection of {deflection:g} mm at mid-span",
         increments,
@@ -57,6 +49,22 @@ def enf_deck(title: str, specimen: Specimen, deflection: float, increments: Incr
         built_in=specimen.interface.built_in,
     )
     return text(lines)
+
+
+def flexure_head(title: str, load: str, specimen: Specimen) -> list[str]:
+    """Write the end-notched flexure with its supports, before the steps; load: in a few words, for a comment."""
+    comment = f"simply supported; {load}; the crack's faces have one deflection above the left support"
+    mesh = specimen.mesh
+    middle = int(np.argmin(np.abs(mesh.x - 0.5 * SPAN)))
+    low, high = (int(line[0]) for line in mesh.interface_lines)
+    return [
+        *deck_head(title, [comment], specimen),
+        *node_set("MIDSPAN", mesh.top_line[middle : middle + 1]),
+        *node_set("SUPPORT_LEFT", mesh.line(1)[:1]),
+        *node_set("SUPPORT_RIGHT", mesh.line(1)[-1:]),
+        *["*EQUATION", "2", *table([(high, 2, 1.0, low, 2, -1.0)])],
+        *["*BOUNDARY", "SUPPORT_LEFT, 2, 2", "SUPPORT_RIGHT, 1, 2"],
+    ]
 
 
 def frmm_deck(title: str, specimen: Specimen, opening: float, increments: Increments, field_every: int) -> str:

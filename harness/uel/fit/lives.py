@@ -23,6 +23,7 @@ from scipy.stats import norm
 
 from uel.batch.table import read_cells
 from uel.errors import DeckError, Source, UelError, UsageError
+from uel.fit.endurance import BRITTLENESS, CYCLES, ENDURANCE, endurance_limit
 from uel.fit.estimate import CONVERGED, Fit
 from uel.fit.logarithmic import LogarithmicMeasurement
 from uel.fit.uncertainty import ROUNDING, assess
@@ -30,12 +31,8 @@ from uel.fit.variables import Variable, coordinates, values_at
 from uel.model.arrays import FloatArray
 from uel.output.pictures.column import Column
 
-CYCLES: Final = 1e7
-"""Life at the endurance limit."""
-LESS_IN_SHEAR: Final = 0.42
-"""Part by which the endurance limit of mode II is less than that of mode I."""
-DEFAULTS: Final[Mapping[str, float]] = {"ENDURANCE": 0.2, "BRITTLENESS": 0.95, "EXPONENT": 0.0}
-"""Values of the properties that are not fitted: what 0 stands for."""
+DEFAULTS: Final[Mapping[str, float]] = {"ENDURANCE": ENDURANCE, "BRITTLENESS": BRITTLENESS, "EXPONENT": 0.0}
+"""Values of the properties that are not fitted."""
 RANGES: Final[Mapping[str, tuple[float, float]]] = {
     "ENDURANCE": (0.0, 1.0),
     "BRITTLENESS": (0.0, np.inf),
@@ -45,7 +42,7 @@ RANGES: Final[Mapping[str, tuple[float, float]]] = {
 COLUMNS: Final[Mapping[str, tuple[float, float, str]]] = {
     "S": (0.0, 1.0, "above 0 and below 1"),
     "CYCLES": (0.0, np.inf, "above 0"),
-    "R": (-np.inf, 1.0, "below 1"),
+    "R": (-1.0 - 1e-9, 1.0, "from -1 to below 1"),
     "B": (-1e-9, 1.0 + 1e-9, "from 0 to 1"),
     "RUNOUT": (-1e-9, 1.0 + 1e-9, "0 or 1"),
 }
@@ -98,9 +95,7 @@ def log_life(
     level: FloatArray, ratio: FloatArray, shear: FloatArray, *, endurance: float, brittleness: float, exponent: float
 ) -> FloatArray:
     """Return the logarithms of the lives (n,) at S, R and B, (n,) each; below E as if there were no threshold."""
-    e = endurance * (1.0 - LESS_IN_SHEAR * shear)
-    limit = 2.0 * e / (e + 1.0 + ratio * (e - 1.0))
-    slope = -7.0 * brittleness / np.log10(limit)
+    limit, slope = endurance_limit(ratio, shear, endurance, brittleness)
     power = slope + exponent + 1.0
     return np.asarray(np.log(CYCLES) + slope * np.log(limit / level) + np.log1p(-(level**power)))
 

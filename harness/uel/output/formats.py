@@ -8,6 +8,7 @@ import math
 import os
 import re
 import textwrap
+from collections.abc import Iterable, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -92,6 +93,15 @@ class TextFile:
     def close(self) -> None:
         """Close the file."""
         os.close(self._descriptor)
+
+
+def write_numbers(path: Path, names: Sequence[str], rows: Iterable[tuple[Sequence[object], Sequence[float]]]) -> None:
+    """Write a CSV table: in each row what identifies it, then numbers with nine digits."""
+    file = TextFile(path)
+    file.write(",".join(names) + "\n")
+    for identity, values in rows:
+        file.write(",".join([*map(str, identity), *(f"{value:.9g}" for value in values)]) + "\n")
+    file.close()
 
 
 def read_remarks(path: Path, kind: str) -> list[str]:

@@ -15,6 +15,7 @@ from uel.delamination.flexure import SPAN
 from uel.delamination.materials import PLY_0, TABLE_2
 from uel.delamination.mesh import TwoArmMesh, crack_columns, two_arms
 from uel.delamination.specimens import ARM_HEIGHT, CRACK, WIDTH, mesh_files
+from uel.fit.endurance import BRITTLENESS, ENDURANCE, endurance_limit
 from uel.model.arrays import FloatArray
 from uel.paper.bridged_beam import bridged_beam
 from uel.paper.literature import CIRCLE_LAW, circle_load, circular_plates, consistent
@@ -53,10 +54,9 @@ def toughness(shear: float) -> float:
     return float(TABLE_2.toughness_1 + (TABLE_2.toughness_2 - TABLE_2.toughness_1) * shear**ETA)
 
 
-def exponent(shear: float, endurance: float = 0.2, brittleness: float = 0.95) -> float:
-    """Return the exponent b of CF20 (fortran/laws.md, Fatigue)."""
-    e = endurance * (1.0 - 0.42 * shear)
-    return float(-7.0 * brittleness / np.log10(2.0 * e / (e + 1.0 + RATIO * (e - 1.0))))
+def exponent(shear: float, endurance: float = ENDURANCE, brittleness: float = BRITTLENESS) -> float:
+    """Return the exponent b of CF20 at RATIO."""
+    return float(endurance_limit(RATIO, shear, endurance, brittleness)[1])
 
 
 def fatigue_files() -> dict[str, str]:

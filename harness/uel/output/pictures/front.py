@@ -38,7 +38,7 @@ from uel.errors import UelError
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.face_directions import face_directions
 from uel.output.files.interface import DIRECTIONS
-from uel.output.formats import TextFile
+from uel.output.formats import write_numbers
 from uel.output.pictures.interface_parts import parts
 from uel.output.pictures.plots import COLOURS, STYLE
 from uel.output.pictures.triangles import Locations, SurfacePaths, TriangulatedSurface
@@ -46,6 +46,9 @@ from uel.output.results import Result
 
 DAMAGE = 0.5
 """Damage at the front."""
+
+NAMES = ("X", "Y", "Z", "AHEADX", "AHEADY", "AHEADZ", "TN", "TII", "TIII", "GI", "GII", "GIII", "MIX", "RATE")
+"""Columns of the table."""
 
 _FLAT = 0.05
 """Extent of fronts normal to a plane, over that in it, up to which they are drawn in the plane."""
@@ -224,18 +227,15 @@ def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
 
 def write_fronts(path: Path, all_fronts: list[Front]) -> None:
     """Write NAME_front.csv: a row for each point of each front, with the ratio (G_II + G_III)/G as MIX."""
-    names = ("X", "Y", "Z", "AHEADX", "AHEADY", "AHEADZ", "TN", "TII", "TIII", "GI", "GII", "GIII", "MIX", "RATE")
-    file = TextFile(path)
-    file.write(",".join(["step,increment,time,surface,line,point", *names]) + "\n")
+    rows = []
     for front in all_fronts:
         total = front.releases.sum(axis=1)
         shear = front.releases[:, 1:].sum(axis=1)
         mix = np.divide(shear, total, out=np.zeros_like(total), where=total > 0.0)
-        rows = np.column_stack([front.coordinates, front.ahead, front.tractions, front.releases, mix, front.rate])
-        head = f"{front.step},{front.increment},{front.time!r},{front.surface},{front.line}"
-        for point, row in enumerate(rows.tolist(), 1):
-            file.write(f"{head},{point}," + ",".join(f"{value:.9g}" for value in row) + "\n")
-    file.close()
+        values = np.column_stack([front.coordinates, front.ahead, front.tractions, front.releases, mix, front.rate])
+        head = front.step, front.increment, front.time, front.surface, front.line
+        rows += [((*head, point), row) for point, row in enumerate(values.tolist(), 1)]
+    write_numbers(path, ["step", "increment", "time", "surface", "line", "point", *NAMES], rows)
 
 
 def draw_fronts(path: Path, all_fronts: list[Front]) -> None:

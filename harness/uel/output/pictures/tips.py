@@ -30,7 +30,7 @@ from scipy.sparse.csgraph import breadth_first_order
 
 from uel.errors import UelError
 from uel.model.arrays import FloatArray, IntArray
-from uel.output.formats import TextFile
+from uel.output.formats import write_numbers
 from uel.output.pictures.interface_parts import parts
 from uel.output.pictures.plots import COLOURS, STYLE
 from uel.output.results import Result
@@ -186,15 +186,13 @@ def tips(result: Result, damage: float) -> list[Tip]:
 
 def write_tips(path: Path, all_tips: list[Tip]) -> None:
     """Write NAME_front.csv: a row for each tip, with the ratio G_II/G as MIX."""
-    file = TextFile(path)
-    file.write(",".join(["step,increment,time,line,tip", *NAMES]) + "\n")
+    rows = []
     for tip in all_tips:
         total = float(tip.release.sum())
         mix = float(tip.release[1]) / total if total > 0.0 else 0.0
-        row = [*tip.place, *tip.ahead, tip.length, tip.rate, *tip.traction, *tip.release, mix]
-        head = f"{tip.step},{tip.increment},{tip.time!r},{tip.line},{tip.number}"
-        file.write(f"{head}," + ",".join(f"{value:.9g}" for value in row) + "\n")
-    file.close()
+        values = [*tip.place, *tip.ahead, tip.length, tip.rate, *tip.traction, *tip.release, mix]
+        rows.append(((tip.step, tip.increment, tip.time, tip.line, tip.number), values))
+    write_numbers(path, ["step", "increment", "time", "line", "tip", *NAMES], rows)
 
 
 def draw_tips(path: Path, all_tips: list[Tip]) -> None:

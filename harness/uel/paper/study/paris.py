@@ -32,6 +32,7 @@ from uel.delamination.markdown import head, line
 from uel.delamination.materials import TABLE_2
 from uel.delamination.specimens import mesh_files
 from uel.errors import IncrementsUsedUpError, UelError
+from uel.fit.endurance import BRITTLENESS, CYCLES, DECADES, ENDURANCE
 from uel.model.arrays import FloatArray
 from uel.output import Result
 from uel.output.pictures.growth import growth
@@ -85,8 +86,8 @@ class Case:
     beta: float = 0.0
     rows: int = 4
     quads: str = "CPS4"
-    endurance: float = 0.2
-    brittleness: float = 0.95
+    endurance: float = ENDURANCE
+    brittleness: float = BRITTLENESS
 
     @property
     def name(self) -> str:
@@ -243,7 +244,7 @@ def lengths(shear: float, folder: Path) -> tuple[FloatArray, FloatArray]:
     cases = [Case(MIDDLE, shear, endurance=endurance) for endurance in ENDURANCES]
     powers = np.array([exponent(shear, case.endurance) for case in cases])
     rates = np.array([measure(case, folder).rate for case in cases])
-    return powers, np.log10(rates * 1e7 * (powers + 1.0)) - 7 * 0.95 - 0.5 * powers * np.log10(MIDDLE)
+    return powers, np.log10(rates * CYCLES * (powers + 1.0)) - DECADES * BRITTLENESS - 0.5 * powers * np.log10(MIDDLE)
 
 
 def fit_lines(folder: Path) -> tuple[tuple[float, float], dict[float, FloatArray]]:
@@ -256,7 +257,7 @@ def fit_lines(folder: Path) -> tuple[tuple[float, float], dict[float, FloatArray
         for shear, phi in known.items():
             power = exponent(shear, *values)
             growth[shear] = (
-                7 * values[1] - np.log10(1e7 * (power + 1.0)) + np.polyval(phi, power) + 0.5 * power * levels
+                DECADES * values[1] - np.log10(CYCLES * (power + 1.0)) + np.polyval(phi, power) + 0.5 * power * levels
             )
         return growth
 
@@ -265,7 +266,7 @@ def fit_lines(folder: Path) -> tuple[tuple[float, float], dict[float, FloatArray
         wanted = {shear: np.log10(c) + m * levels for shear in SHARES for c, m in [measured_line(shear)]}
         return np.concatenate([growth[shear] - wanted[shear] for shear in SHARES])
 
-    found = least_squares(misses, np.array([0.2, 0.95]), bounds=([0.01, 0.1], [0.9, 3.0]))
+    found = least_squares(misses, np.array([ENDURANCE, BRITTLENESS]), bounds=([0.01, 0.1], [0.9, 3.0]))
     return (float(found.x[0]), float(found.x[1])), computed(found.x)
 
 
