@@ -226,7 +226,7 @@ def test_orient_writes_outside_t(run_deck):
 
 
 def test_a_job_without_orient(run_deck):
-    message = r"\*ORIENTATION, NAME=O: SYSTEM=USER needs ORIENT; the project's kernels has UEL"
+    message = r"\*ORIENTATION, NAME=O: SYSTEM=USER needs ORIENT; this project's file has UEL"
     with pytest.raises(DeckError, match=message):
         run_deck(deck(BY_USER))
 

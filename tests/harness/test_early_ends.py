@@ -17,6 +17,7 @@ from small_decks import pulled, snapping
 from uel.cli import main
 from uel.output import Result
 from uel.paper import demo
+from uel.usersub.layout import element_layouts
 
 DECKS = Path(__file__).parents[2] / "abaqus_inputs"
 SPRINGS = Path(__file__).parent / "procedures" / "springs.f"
@@ -205,6 +206,36 @@ def test_user_element_without_a_file(
     if not old:
         assert main(["run", str(deck), "--user", str(SPRINGS), "--quiet", "--output-dir", str(tmp_path)]) == 0
         assert "--user" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("number", sorted(element_layouts()))
+def test_user_element_of_other_nodes_and_properties(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], number: int
+) -> None:
+    """The deck's own element has three nodes and one property; no element of the project has both."""
+    layout = element_layouts()[number]
+    deck = tmp_path / "other.inp"
+    deck.write_text(f"""*NODE
+1, 0., 0.
+2, 1., 0.
+3, 0., 1.
+*USER ELEMENT, TYPE=U{number}, NODES=3, COORDINATES={layout.dimension}, PROPERTIES=1, VARIABLES=1
+1, 2
+*ELEMENT, TYPE=U{number}, ELSET=ALL
+1, 1, 2, 3
+*UEL PROPERTY, ELSET=ALL
+1.
+*STEP
+*STATIC
+1., 1.
+*BOUNDARY
+1, 1, 2
+*END STEP
+""")
+    assert main(["run", str(deck), "--quiet", "--output-dir", str(tmp_path)]) == 1
+    said = capsys.readouterr().err
+    expected = f"U{number} element 1: (\\*USER ELEMENT has (NODES = 3|PROPERTIES = 1): expected|takes its stress from)"
+    assert re.search(expected, said), said
 
 
 @pytest.mark.parametrize("name", ["pulled", "my.job"])

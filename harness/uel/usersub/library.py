@@ -275,7 +275,7 @@ def _include(deck: Path | None) -> tuple[Path, ...]:
 def _name_of(files: Sequence[Path]) -> str:
     """Return the name of the user files in messages."""
     others = f" and {len(files) - 1} more" if len(files) > 1 else ""
-    return f"{files[0]}{others}" if files else "the project's kernels"
+    return f"{files[0]}{others}" if files else "this project's file"
 
 
 def _shared_library(files: Sequence[Path], include: Sequence[Path], **how: bool) -> Built:

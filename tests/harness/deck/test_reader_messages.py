@@ -308,7 +308,7 @@ def test_mistake_in_structure(refuse: Refuse, mistake: tuple[str, str, str]) -> 
 
 def test_element_without_section(read: Read) -> None:
     start, end = FLAT.index("*UEL PROPERTY, ELSET=BULK"), FLAT.index("*UEL PROPERTY, ELSET=INTERFACE")
-    with pytest.raises(DeckError, match=r"^deck.inp:21: element 1 and 1 more of type U1 has no section: no \*UEL PROP"):
+    with pytest.raises(DeckError, match=r"^deck.inp:21: element 1 and 1 more of type U1 have no section: no \*UEL"):
         read(FLAT[:start] + FLAT[end:])
 
 

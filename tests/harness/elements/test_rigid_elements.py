@@ -165,7 +165,7 @@ def test_no_forces_in_averages(tmp_path):
     ("old", "new", "message"),
     [
         ("BODY_HIGH, TOOL", "TOOL, BODY_HIGH", r"surface TOOL is rigid \(R2D2\); expected it as the main surface"),
-        (", ELSET=TOOL\n*SURF", ", PIN NSET=REF\n*SURF", r"has no section: no \*RIGID BODY refers to it"),
+        (", ELSET=TOOL\n*SURF", ", PIN NSET=REF\n*SURF", r"have no section: no \*RIGID BODY refers to it"),
         ("80001, 70001, 70002", "80001, 70001, 70002, 70003", "element 80001 has 3 nodes, but R2D2 needs 2"),
         ("*BOUNDARY\nREF, 1\n", "*DLOAD\nTOOL, P1, 1.\n*BOUNDARY\nREF, 1\n", r"load type P1 on elements of type R2D2"),
         ("TOOL, SPOS", "TOOL, S1", r"elements of type R2D2 have no face S1 \(faces: SNEG, SPOS\)"),

@@ -176,9 +176,9 @@ def _check_assigned(elements: _Elements, problems: Problems) -> None:
     for index, kind in enumerate(elements.types):
         lacking = without[elements.type_of[without] == index]
         if len(lacking):
-            more = f" and {len(lacking) - 1} more of type {kind.name}" if len(lacking) > 1 else ""
+            more = f" and {len(lacking) - 1} more of type {kind.name} have" if len(lacking) > 1 else " has"
             name = elements.flat.element_name(int(lacking[0]))
-            message = f"element {name}{more} has no section: no *{kind.section} refers to it"
+            message = f"element {name}{more} no section: no *{kind.section} refers to it"
             problems.add(_source(elements.flat, int(lacking[0])), message)
 
 

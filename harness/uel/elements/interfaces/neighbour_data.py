@@ -94,9 +94,7 @@ def compare(model: Model, groups: Iterable[ElementGroup]) -> list[Finding]:
     """
     found: list[Finding] = []
     for group in groups:
-        if group.definition is None or not owns_solids(group.definition.number):
-            continue
-        if not isinstance(group.section, UserProperty):
+        if not owns_solids(group) or not isinstance(group.section, UserProperty):
             continue
         sides = solids_of(model, group)
         found += _along_normals(model, group)

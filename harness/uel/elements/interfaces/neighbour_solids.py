@@ -120,10 +120,13 @@ def formulation_of(kind: ContinuumType) -> int:
     return 0
 
 
-def owns_solids(jtype: int) -> bool:
-    """Return whether elements Un of the project are interface elements that own the solids on both sides."""
-    layout = element_layouts().get(jtype)
-    return layout is not None and bool(layout.own)
+def owns_solids(group: ElementGroup) -> bool:
+    """Return whether elements are interface elements of the project that own the solids on both sides.
+
+    Those with another number of nodes do not: they are refused when they are called.
+    """
+    layout = None if group.definition is None else element_layouts().get(group.definition.number)
+    return layout is not None and bool(layout.own) and group.nodes.shape[1] == layout.nodes
 
 
 def standard_type(jtype: int) -> int:
@@ -156,7 +159,8 @@ def examine(model: Model, groups: Iterable[ElementGroup]) -> list[Finding]:
     starts = group_starts(model)
     owned: dict[int, IntArray] = {}
     for group in groups:
-        if group.definition is not None and owns_solids(group.definition.number):
+        if owns_solids(group):
+            assert group.definition is not None
             jtype = group.definition.number
             others = owned.get(jtype, np.zeros(0, dtype=np.int64))
             owned[jtype] = np.unique(np.concatenate([others, *solids_of(model, group)]))
@@ -225,7 +229,7 @@ def _is_solid(group: ElementGroup) -> bool:
     """Return whether elements are continuum elements, built in or of the project."""
     if group.definition is None:
         return isinstance(group.built_in, ContinuumType)
-    return not owns_solids(group.definition.number)
+    return not owns_solids(group)
 
 
 def changed_temperatures(
