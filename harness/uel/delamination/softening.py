@@ -13,10 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from uel.elements.interfaces.bridging import BRIDGING, bridging_shares
 from uel.model.arrays import FloatArray
 
 BILINEAR = (0, 1, 2)
-BRIDGING, TABLE = 5, 6
+TABLE = 6
 LAWS = (*BILINEAR, BRIDGING, TABLE)
 """Values of LAW of these laws."""
 
@@ -56,35 +57,26 @@ class PureMode:
 
 def pure_modes(values: Mapping[str, float]) -> tuple[PureMode, PureMode]:
     """Return the softening in mode I and II of a law by its properties."""
-    return _pure_mode(values, ("ALPHAN", "SIGMAMAX", "GIC", "I")), _pure_mode(
-        values, ("ALPHAT", "TAUMAX", "GIIC", "II")
+    first, second = bridging_shares(values).T
+    return _pure_mode(values, ("ALPHAN", "SIGMAMAX", "GIC"), first), _pure_mode(
+        values, ("ALPHAT", "TAUMAX", "GIIC"), second
     )
 
 
 def alike_in_both_modes(values: Mapping[str, float]) -> bool:
     """Tell whether both modes soften along curves of one shape: not with other shares of the bridging in mode II."""
-    shares = bridging_shares(values, "I"), bridging_shares(values, "II")
-    return int(values["LAW"]) != BRIDGING or bool(np.allclose(*shares))
+    return bool(np.allclose(*bridging_shares(values).T))
 
 
-def bridging_shares(values: Mapping[str, float], mode: str) -> tuple[float, float]:
-    """Return the shares of the bridging in strength and fracture energy in mode I or II; 0 in mode II: those of I."""
-    strength, energy = values.get("SIGMABRIDGE", 0.0) / values["SIGMAMAX"], values.get("GIBRIDGE", 0.0) / values["GIC"]
-    if mode == "II":
-        strength = values.get("TAUBRIDGE", 0.0) / values["TAUMAX"] or strength
-        energy = values.get("GIIBRIDGE", 0.0) / values["GIIC"] or energy
-    return strength, energy
-
-
-def _pure_mode(values: Mapping[str, float], names: tuple[str, str, str, str]) -> PureMode:
-    stiffness, strength, toughness = (values[name] for name in names[:3])
+def _pure_mode(values: Mapping[str, float], names: tuple[str, str, str], bridging: FloatArray) -> PureMode:
+    """Return the softening in one mode; bridging: its shares (2,) in strength and fracture energy."""
+    stiffness, strength, toughness = (values[name] for name in names)
     onset = strength / stiffness if stiffness else 0.0
     failure = 2.0 * toughness / strength
     heights, ends = np.ones(1), np.array([failure])
     if int(values["LAW"]) == BRIDGING:
-        part, energy = bridging_shares(values, names[3])
-        heights = np.array([1.0 - part, part])
-        ends = failure * np.array([1.0 - energy, energy]) / heights
+        heights, energies = np.array([1.0 - bridging, bridging]).T
+        ends = failure * energies / heights
     elif int(values["LAW"]) == TABLE:
         rows = [(values.get(f"SEPARATION{k}", 0.0), values.get(f"TRACTION{k}", 0.0)) for k in range(1, 6)]
         x, t = np.array([(0.0, 1.0), *(row for row in rows if row[0]), (1.0, 0.0)]).T

@@ -22,8 +22,6 @@ from uel.model.mesh import ElementGroup
 from uel.model.properties import UserProperty
 from uel.usersub.layout import element_layouts
 
-_DEFAULT = re.compile(r"; 0: (?!0(?:,|$))(.*)")
-"""Default that 0 stands for, at the end of the meaning of a property, unless that is 0 itself."""
 _INPUT = re.compile(r'(\bINPUT\s*=\s*)("[^"]*"|[^,\n]+?)(\s*(?:,|$))', re.IGNORECASE)
 
 
@@ -151,8 +149,8 @@ def _position_of(group: ElementGroup, variable: Variable, deck: Path) -> tuple[i
     items = [item for item in layout.reals if item.name == variable.name.upper()]
     if not items:
         return None
-    if variable.low <= 0.0 <= variable.high and (default := _DEFAULT.search(items[0].meaning)):
-        raise UsageError(f"{variable.name}: 0 stands for {default[1]}, so that bounds above 0 are expected")
+    if variable.low <= 0.0 <= variable.high and items[0].default:
+        raise UsageError(f"{variable.name}: 0 stands for {items[0].default}, so that bounds above 0 are expected")
     return section.source.line, items[0].position - 1
 
 

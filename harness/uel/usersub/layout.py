@@ -16,6 +16,7 @@ from typing import Any, Final
 
 from uel.errors import UsageError
 from uel.model.arrays import IntArray
+from uel.model.properties import UserProperty
 from uel.model.records import PointVariables
 from uel.usersub.own_kernels import path_of_properties
 
@@ -36,6 +37,7 @@ class Item:
     meaning   in words, with what 0 stands for and with `laws`
     required  True for a property without a default
     laws      values of LAW that use it; () if all do
+    default   what 0 stands for; '' if that is 0
     """
 
     position: int
@@ -45,6 +47,7 @@ class Item:
     meaning: str
     required: bool = False
     laws: tuple[int, ...] = ()
+    default: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +88,14 @@ class ElementLayout:
     def svars(self) -> int:
         """Number of SVARS, VARIABLES= of *USER ELEMENT."""
         return self.points * len(self.variables) + len(self.own)
+
+    def named(self, section: UserProperty) -> dict[str, float]:
+        """Return the properties of a section by name; those that the deck leaves out are 0."""
+        return {
+            item.name: float(values[item.position - 1]) if item.position <= len(values) else 0.0
+            for items, values in ((self.reals, section.values), (self.integers, section.integers))
+            for item in items
+        }
 
     @property
     def corners(self) -> int:
@@ -267,7 +278,16 @@ def _from_zero(nodes: Iterable[int]) -> tuple[int, ...]:
 def _real(position: int, row: Mapping[str, Any], ranges: Mapping[str, Mapping[str, str]]) -> Item:
     permitted = ranges[row["range"]]["permitted"]
     required = row["range"] == "positive"
-    return Item(position, row["name"], row["unit"], permitted, _meaning(row), required, tuple(row.get("laws", ())))
+    return Item(
+        position,
+        row["name"],
+        row["unit"],
+        permitted,
+        _meaning(row),
+        required,
+        laws=tuple(row.get("laws", ())),
+        default=row.get("default", ""),
+    )
 
 
 def _integer(position: int, row: Mapping[str, Any]) -> Item:

@@ -110,12 +110,7 @@ def compare(model: Model, groups: Iterable[ElementGroup]) -> list[Finding]:
 def _given(group: ElementGroup) -> dict[str, float]:
     """Return the properties by name; those that the deck leaves out are 0."""
     assert group.definition is not None and isinstance(group.section, UserProperty)
-    layout = element_layouts()[group.definition.number]
-    return {
-        item.name: float(values[item.position - 1]) if item.position <= len(values) else 0.0
-        for items, values in ((layout.reals, group.section.values), (layout.integers, group.section.integers))
-        for item in items
-    }
+    return element_layouts()[group.definition.number].named(group.section)
 
 
 def _named(model: Model, group: ElementGroup, row: int) -> str:

@@ -25,13 +25,14 @@ their groups waits until then, and is not given if they have spoken.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uel.elements.families.user import TENSORS
+from uel.elements.interfaces.bridging import bridging_shares
 from uel.elements.materials.library import global_compliance
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.element_types import CohesiveType, ContinuumType, Tensor
@@ -40,14 +41,12 @@ from uel.model.model import Model
 from uel.model.properties import CohesiveSection, ElasticType, SolidSection, UserProperty
 from uel.model.records import IncrementDone
 from uel.usersub import Library
-from uel.usersub.layout import ElementLayout, element_layouts
+from uel.usersub.layout import element_layouts
 
 FACTOR: Final = 0.5
 """Factor m of Harper and Hallett."""
 ELEMENTS: Final = 3
 """Number of elements that the process zone has to hold."""
-BRIDGING: Final = 5
-"""LAW with fibre bridging."""
 FAILED: Final = 0.5
 """Part of the fracture energy from which on a point counts as failing: any law gives a bonded point less."""
 _FLAT: Final = 0.999
@@ -62,24 +61,23 @@ TOLD: Final = "the process zone at most"
 class _Law:
     """Strengths and fracture energies of modes I and II; speaks: the elements may send the message themselves.
 
-    bridging  parts of the strengths and of the energies that bridging fibres have
+    shares  (2, 2), of the bridging in them
     """
 
     strengths: tuple[float, float]
     energies: tuple[float, float]
     speaks: bool = False
-    bridging: tuple[tuple[float, float], tuple[float, float]] = ((0.0, 0.0), (0.0, 0.0))
+    shares: FloatArray = field(default_factory=lambda: np.zeros((2, 2)))
 
     @property
-    def tip(self) -> tuple[FloatArray, FloatArray]:
-        """Strengths and fracture energies without the bridging."""
-        parts = np.array(self.bridging)
-        return np.array(self.strengths) - parts[0], np.array(self.energies) - parts[1]
+    def tip(self) -> FloatArray:
+        """Strengths and fracture energies (2, 2) without the bridging."""
+        return np.array([self.strengths, self.energies]) * (1.0 - self.shares)
 
     @property
     def valid(self) -> bool:
         """Whether all are positive; elsewhere the elements themselves say what is wrong."""
-        return bool(np.min(self.tip) > 0.0)
+        return bool(self.tip.min() > 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,24 +185,12 @@ def _law(group: ElementGroup, library: Library) -> _Law | None:
     if len(section.values) < len(layout.reals) or group.definition.nodes < layout.nodes:
         # the elements themselves say what is missing
         return None
-    cracked = next(item.position for item in layout.integers if item.name == "CRACKED")
-    if section.integers[cracked - 1 : cracked].any():
+    values = layout.named(section)
+    if values["CRACKED"]:
         # a crack that is there from the start does not fail
         return None
-    values = {item.name: float(section.values[item.position - 1]) for item in layout.reals}
     law = _Law((values["SIGMAMAX"], values["TAUMAX"]), (values["GIC"], values["GIIC"]), speaks=bool(layout.own))
-    if law.valid and _number_of_law(section, layout) == BRIDGING:
-        parts = (("SIGMABRIDGE", "TAUBRIDGE", law.strengths), ("GIBRIDGE", "GIIBRIDGE", law.energies))
-        # 0 in mode II: the same part as in mode I
-        pairs = [(values[a], values[b] or values[a] * total[1] / total[0]) for a, b, total in parts]
-        law = replace(law, bridging=(pairs[0], pairs[1]))
-    return law
-
-
-def _number_of_law(section: UserProperty, layout: ElementLayout) -> int:
-    """Return LAW of interface elements."""
-    position = next(item.position for item in layout.integers if item.name == "LAW")
-    return int(section.integers[position - 1]) if len(section.integers) >= position else 0
+    return replace(law, shares=bridging_shares(values)) if law.valid else law
 
 
 def _built_in_law(section: CohesiveSection) -> _Law | None:
