@@ -185,8 +185,27 @@ def test_solids_are_those_with_the_nodes_of_a_side(tmp_path):
 
 
 def test_standard_elements_take_the_place_of_those_that_own_their_solids():
-    own = [jtype for jtype in element_layouts() if owns_solids(jtype)]
+    own = [jtype for jtype, layout in element_layouts().items() if layout.own]
     assert own[:4] == [4, 6, 8, 12]
     standard = {4: 2, 6: 5, 8: 7, 12: 11, 34: 2, 68: 5, 406: 13, 608: 7, 1015: 14, 2015: 11}
     assert {jtype: standard_type(jtype) for jtype in standard} == standard
-    assert not np.any([owns_solids(jtype) for jtype in (1, 2, 3, 9, 10, 99)])
+
+
+@pytest.mark.parametrize(
+    ("definition", "nodes", "owns"),
+    [
+        (DEFINITION, "1, 2, 3, 4, 5, 6, 7, 8", True),
+        (DEFINITION.replace("NODES=8", "NODES=4"), "4, 3, 5, 6", False),  # refused when it is called
+        ("\n".join(user_element(2)), "4, 3, 5, 6", False),
+        (DEFINITION.replace("U4", "U99"), "1, 2, 3, 4, 5, 6, 7, 8", False),
+    ],
+)
+def test_elements_that_own_solids_have_their_type_and_their_nodes(tmp_path, definition, nodes, owns):
+    kind = re.search(r"TYPE=(U\d+)", definition)[1]
+    text = quads().replace(DEFINITION, definition).replace("TYPE=U4", f"TYPE={kind}")
+    if kind == "U2":
+        text = text.replace(PROPERTIES, "\n".join(uel_property(2, "INTERFACE", {})))
+    path = tmp_path / "deck.inp"
+    path.write_text(text.replace("3, 1, 2, 3, 4, 5, 6, 7, 8", f"3, {nodes}").replace("\n\n", "\n"))
+    assert [owns_solids(group) for group in read_deck(path).groups if group.type == kind] == [owns]
+    assert not any(owns_solids(group) for group in read_deck(path).groups if group.type != kind)
