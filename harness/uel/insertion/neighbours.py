@@ -18,12 +18,14 @@ from uel.elements.interfaces.neighbour_solids import (
     changed_temperatures,
     find_faults,
     initially_stressed,
+    shell_fault,
 )
 from uel.errors import DeckError, all_of
 from uel.insertion.assembly import Deck
 from uel.insertion.connectivity import InterfaceType
 from uel.insertion.sections import Sections
 from uel.model.arrays import IntArray
+from uel.model.element_types import BUILT_IN, ContinuumShellType
 from uel.model.steps import Load
 
 
@@ -35,13 +37,22 @@ def check_neighbours(deck: Deck, sections: Sections, kind: InterfaceType, sides:
     if not kind.solids:
         return []
     states = _read_states(deck)
-    findings: dict[str, Finding] = {}
+    findings = {str(finding): finding for finding in _shells(deck, sections, kind, sides.ravel())}
     for neighbours in _neighbours(deck, sections, kind, sides.ravel()):
         findings |= {str(finding): finding for finding in find_faults(neighbours, states)}
     errors = [DeckError(finding.source, finding.message) for finding in findings.values() if finding.wrong]
     if errors:
         raise all_of(errors)
     return list(findings)
+
+
+def _shells(deck: Deck, sections: Sections, kind: InterfaceType, faces: IntArray) -> Iterator[Finding]:
+    """Find the continuum shells, whose sections are none of solids."""
+    for number, type, rows in sections.kinds(faces):
+        if number >= 0 and isinstance(BUILT_IN.get(type.name), ContinuumShellType):
+            _, block = deck.section_blocks[number]
+            name = deck.name(int(np.min(deck.solids.element[faces[rows]])))
+            yield shell_fault(kind.jtype, type.name, name, block.source)
 
 
 def _neighbours(deck: Deck, sections: Sections, kind: InterfaceType, faces: IntArray) -> Iterator[Neighbours]:

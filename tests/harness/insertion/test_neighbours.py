@@ -80,3 +80,22 @@ def test_what_does_not_matter_is_not_said(tmp_path):
     assert places == []
     model = ["*INITIAL CONDITIONS, TYPE=STRESS", "LOW, 0., 0., 0."]
     assert insert(tmp_path, model=model)[1] == []
+
+
+@pytest.mark.parametrize(
+    ("shell", "solid", "element", "standard"),
+    [("SC8R", "C3D8", "U8", "U7"), ("SC6R", "C3D6", "U606", "U13")],
+)
+def test_continuum_shells_are_refused_by_name(tmp_path, shell, solid, element, standard):
+    mesh = grid(solid, (2, 2, 2), (2.0, 2.0, 2.0))
+    mesh.sets = {"LOW": mesh.cell[:, 2] == 0, "HIGH": mesh.cell[:, 2] == 1}
+    lines = [*mesh.lines(), "*SHELL SECTION, ELSET=BODY, MATERIAL=M", "1.", "*MATERIAL, NAME=M", "*ELASTIC", "1e4, 0.3"]
+    path = tmp_path / "deck.inp"
+    path.write_text("\n".join([*lines, "*STEP", "*STATIC", "1., 1.", "*END STEP", ""]).replace(solid, shell))
+    of_solids = (
+        rf"{shell} beside {element} \(element \d+\) has the stresses of a shell, where {element} takes those of a"
+    )
+    with pytest.raises(DeckError, match=rf"deck.inp:\d+: {of_solids} solid; take {standard}, which"):
+        inserted(path, tmp_path / "out.inp", LAW, between=[("LOW", "HIGH")], element="")
+    inserted(path, tmp_path / "out.inp", STANDARD, between=[("LOW", "HIGH")], element=standard)
+    assert f"*ELEMENT, TYPE={standard}" in (tmp_path / "out.inp").read_text()

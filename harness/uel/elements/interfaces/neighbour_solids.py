@@ -304,12 +304,24 @@ def find_faults(solids: Neighbours, states: States) -> list[Finding]:
     return found
 
 
+def shell_fault(jtype: int, type: str, name: str, place: Source) -> Finding:
+    """Return the finding about a continuum shell, its type and name, beside Un that owns its solids."""
+    message = (
+        f"{type} beside U{jtype} (element {name}) has the stresses of a shell, where U{jtype} takes those of a solid"
+    )
+    return Finding(f"{message}; {_standard(jtype)}", place, wrong=True)
+
+
 def _type(solids: Neighbours) -> str:
     return f"U{solids.jtype}"
 
 
 def _instead(solids: Neighbours) -> str:
-    return f"take U{standard_type(solids.jtype)}, which needs no stress of its solids"
+    return _standard(solids.jtype)
+
+
+def _standard(jtype: int) -> str:
+    return f"take U{standard_type(jtype)}, which needs no stress of its solids"
 
 
 def _formulation(solids: Neighbours) -> Iterator[Finding]:
@@ -319,8 +331,7 @@ def _formulation(solids: Neighbours) -> Iterator[Finding]:
         return
     place, here = solids.section.source, f"{solids.type} beside {_type(solids)} (element {solids.name})"
     if isinstance(kind, ContinuumShellType):
-        message = f"{here} has the stresses of a shell, where {_type(solids)} takes those of a solid"
-        yield Finding(f"{message}; {_instead(solids)}", place, wrong=True)
+        yield shell_fault(solids.jtype, solids.type, solids.name, place)
         return
     if kind.modified:
         message = f"{here} has an interpolation of its own, which {_type(solids)} does not know"
