@@ -15,6 +15,7 @@ from uel.errors import UelError
 from uel.output import Result
 from uel.output.files.field_output import Frame
 from uel.output.pictures.front import draw_fronts, fronts, write_fronts
+from uel.output.pictures.interface_surface import Faces, InterfaceSurface
 
 RADIUS, ZONE = 6.0, 3.0
 STRENGTH, FINAL = np.array([30.0, 40.0, 50.0]), np.array([0.01, 0.02, 0.03])
@@ -66,6 +67,8 @@ class Disc(Result):
         self.plane, self.cells = plane, cells
         # elements are numbered neither from one nor in the order of the file
         self.labels = np.random.default_rng(1).permutation(len(cells)) + 100
+        self.blocks = [("quad", cells, self.labels)]
+        self.elements, self.numbers = np.repeat(self.labels, 4), np.tile(np.arange(1.0, 5.0), len(cells))
 
     @staticmethod
     def damage(radius: np.ndarray) -> np.ndarray:
@@ -79,9 +82,10 @@ class Disc(Result):
         return Path(f"disc{ending}")
 
     def mesh(self, increment: int = -1, step: int | None = None) -> meshio.Mesh:
-        some = np.zeros(len(self.cells))
-        nodes = self.plane @ self.turn.T
-        return meshio.Mesh(nodes, [("quad", self.cells)], cell_data={"DAMAGE": [some], "ELEMENT": [self.labels]})
+        shapes = [(kind, cells) for kind, cells, _ in self.blocks]
+        labels = [names for _, _, names in self.blocks]
+        damage = [np.zeros(len(names)) for names in labels]
+        return meshio.Mesh(self.plane @ self.turn.T, shapes, cell_data={"DAMAGE": damage, "ELEMENT": labels})
 
     def interfaces(self) -> list[dict[str, np.ndarray]]:
         x, y, _ = self.points.T
@@ -91,7 +95,7 @@ class Disc(Result):
         around = np.stack([-outward[:, 1], outward[:, 0]], axis=-1)
         count = len(x)
         profile = {"step": np.full(count, 1.0), "increment": np.full(count, 3.0), "time": np.full(count, 0.5)}
-        profile |= {"element": np.repeat(self.labels, 4), "point": np.tile(np.arange(1.0, 5.0), count // 4)}
+        profile |= {"element": self.elements, "point": self.numbers}
         profile |= dict(zip("XYZ", (self.points @ self.turn.T).T, strict=True)) | {"DAMAGE": damage}
         for name, share, sizes in (("T", 1.0 - damage, STRENGTH), (self.names, damage, FINAL)):
             shear = sizes[1] * outward + sizes[2] * around
@@ -119,6 +123,75 @@ def test_a_round_front(tilt: float, names: str) -> None:
     inner = slice(2, -2)
     assert np.abs(front.tractions[inner]) == pytest.approx(np.tile(0.5 * STRENGTH, (len(radius) - 4, 1)), rel=0.1)
     assert front.releases[inner] == pytest.approx(np.tile(G, (len(radius) - 4, 1)), rel=0.08)
+
+
+def weights_of_corners(kind: str) -> np.ndarray:
+    """Integration points of a face as weights of its corners: 3 on triangles, 9 on faces of eight nodes."""
+    if kind.startswith("triangle"):
+        return np.full((3, 3), 1 / 6) + 0.5 * np.eye(3)
+    place = np.sqrt(0.6) if kind == "quad8" else np.sqrt(1.0 / 3.0)
+    line = np.array([-place, 0.0, place] if kind == "quad8" else [-place, place])
+    xi = np.stack(np.meshgrid(line, line), axis=-1).reshape(-1, 1, 2)
+    corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    return 0.25 * np.prod(1.0 + xi * corners, axis=-1)
+
+
+class Shaped(Disc):
+    """The disc with faces of other shapes, in turns where there are several: squares are cut along one diagonal."""
+
+    def __init__(self, *kinds: str, tilt: float = 0.0) -> None:
+        super().__init__(tilt)
+        cells, self.blocks = self.cells, []
+        points, elements, numbers = [], [], []
+        for k, kind in enumerate(kinds):
+            some = cells[k :: len(kinds)]
+            if kind.startswith("triangle"):
+                some = np.concatenate([some[:, [0, 1, 2]], some[:, [0, 2, 3]]])
+            labels = k * 10_000 + 1 + np.arange(len(some))
+            weights = weights_of_corners(kind)
+            points.append((weights @ self.plane[some]).reshape(-1, 3))
+            elements.append(np.repeat(labels, len(weights)))
+            numbers.append(np.tile(np.arange(1.0, len(weights) + 1.0), len(some)))
+            if kind[-1] in "68":
+                between = 0.5 * (self.plane[some] + self.plane[np.roll(some, -1, axis=1)])
+                middles, inverse = np.unique(between.reshape(-1, 3), axis=0, return_inverse=True)
+                some = np.concatenate([some, len(self.plane) + inverse.reshape(some.shape)], axis=1)
+                self.plane = np.concatenate([self.plane, middles])
+            self.blocks.append((kind, some, labels))
+        self.points = np.concatenate(points)
+        self.elements, self.numbers = np.concatenate(elements), np.concatenate(numbers)
+
+
+@pytest.mark.parametrize("tilt", [0.0, 0.7])
+@pytest.mark.parametrize("kinds", [("triangle",), ("triangle6",), ("quad8",), ("quad", "triangle")])
+def test_a_round_front_on_faces_of_other_shapes(kinds: tuple[str, ...], tilt: float) -> None:
+    """The same tolerances as on squares with four nodes."""
+    disc = Shaped(*kinds, tilt=tilt)
+    (front,) = fronts(disc)
+    flat = front.coordinates @ disc.turn
+    radius = np.hypot(flat[:, 0], flat[:, 1])
+    assert radius == pytest.approx(RADIUS, abs=0.1 * 0.5)
+    assert np.sum(front.ahead @ disc.turn * flat / radius[:, None], axis=1).min() > 0.99
+    assert len(radius) == pytest.approx(0.5 * np.pi * RADIUS / 0.5, rel=0.1)
+    inner = slice(2, -2)
+    assert np.abs(front.tractions[inner]) == pytest.approx(np.tile(0.5 * STRENGTH, (len(radius) - 4, 1)), rel=0.1)
+    assert front.releases[inner] == pytest.approx(np.tile(G, (len(radius) - 4, 1)), rel=0.08)
+
+
+@pytest.mark.parametrize(
+    ("corners", "natural"),
+    [
+        (4, [[-1, -1], [1, -1], [1, 1], [-1, 1], [0, -1], [1, 0], [0, 1], [-1, 0], [0, 0]]),
+        (3, [[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5], [1 / 3, 1 / 3]]),
+    ],
+)
+def test_the_middle_of_a_curved_face_is_on_it(corners: int, natural: list[list[float]]) -> None:
+    """Quadratic functions are those of its nodes."""
+    x, y = np.array(natural).T
+    nodes = np.column_stack([x, y, 0.3 + 0.1 * x + 0.2 * x**2 - 0.3 * y**2 + 0.1 * x * y])
+    faces = Faces(corners, np.arange(len(nodes) - 1)[None], np.array([1]))
+    surface = InterfaceSurface(nodes[:-1], [faces])
+    np.testing.assert_allclose(surface.triangles.nodes[-1], nodes[-1], atol=1e-14)
 
 
 class Growing(Disc):

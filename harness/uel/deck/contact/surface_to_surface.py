@@ -17,8 +17,9 @@ import numpy as np
 from scipy import sparse
 
 from uel.contact import square_samples, triangle_samples
-from uel.deck.contact.anchor_points import EDGE, EQUAL, find_anchors, natural_gradients, nodal_normals, shape_functions
+from uel.deck.contact.anchor_points import EDGE, EQUAL, find_anchors, nodal_normals
 from uel.model.arrays import FloatArray, IntArray
+from uel.model.face_shapes import natural_gradients, shape_functions
 
 ALONG: Final = 6
 """Points of a face along each direction in space; a segment of a line has half of them."""

@@ -21,12 +21,10 @@ the step FATIGUE on, time is the number of cycles, and the rate is da/dN.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib as mpl
-import meshio
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection
@@ -36,10 +34,8 @@ from scipy.spatial import cKDTree
 
 from uel.errors import UelError
 from uel.model.arrays import FloatArray, IntArray
-from uel.model.face_directions import face_directions
-from uel.output.files.interface import DIRECTIONS
 from uel.output.formats import write_numbers
-from uel.output.pictures.interface_parts import parts
+from uel.output.pictures.interface_surface import Fields, InterfaceSurface, interface_surfaces
 from uel.output.pictures.plots import COLOURS, STYLE
 from uel.output.pictures.triangles import Locations, SurfacePaths, TriangulatedSurface
 from uel.output.results import Result
@@ -52,8 +48,6 @@ NAMES = ("X", "Y", "Z", "AHEADX", "AHEADY", "AHEADZ", "TN", "TII", "TIII", "GI",
 
 _FLAT = 0.05
 """Extent of fronts normal to a plane, over that in it, up to which they are drawn in the plane."""
-
-_CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,100 +75,6 @@ class Front:
     rate: FloatArray
 
 
-class _Surface:
-    """Interface elements that share nodes, as triangles.
-
-    Parameters
-    ----------
-    points
-        (n, 3) coordinates of the nodes of the model.
-    cells
-        (m, 4) nodes of the faces.
-    elements
-        (m,) labels.
-    """
-
-    def __init__(self, points: FloatArray, cells: IntArray, elements: IntArray) -> None:
-        used, numbers = np.unique(cells, return_inverse=True)
-        self.elements = elements
-        self._cells = numbers.reshape(cells.shape)
-        self._points = points[used]
-        corners = self._points[self._cells]
-        areas = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
-        self.size = float(np.sqrt(np.median(np.linalg.norm(areas, axis=1)) / 2.0))
-        # with a node at the centre of each face the triangles prefer no diagonal
-        middle = len(used) + np.arange(len(cells))
-        triangles = [np.column_stack([self._cells[:, k], self._cells[:, (k + 1) % 4], middle]) for k in range(4)]
-        nodes = np.concatenate([self._points, corners.mean(axis=1)])
-        self.triangles = TriangulatedSurface(nodes, np.concatenate(triangles))
-        self._to_corners: tuple[IntArray, FloatArray, FloatArray] | None = None
-
-    def at_nodes(
-        self, locations: FloatArray, values: FloatArray, shears: FloatArray, directions: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return the values at the nodes from those at the integration points, which are at `locations` (m, 4, 3).
-
-        Parameters
-        ----------
-        values
-            (m, 4, k).
-        shears
-            (m, 4, c, 2) components of vectors along s and t.
-        directions
-            (m, 3) directions of the elements whose projections are s, zero for x.
-
-        Returns
-        -------
-        (n, k), (n, c, 3)
-            Values, and vectors in global components, since s and t differ from face to face.
-        """
-        if self._to_corners is None:
-            corners = self._points[self._cells]
-            nearest = np.argmin(np.linalg.norm(corners[:, :, None] - locations[:, None], axis=-1), axis=2)
-            centres = corners.mean(axis=1, keepdims=True)
-            reach = (
-                np.linalg.norm(locations - centres, axis=-1).mean() / np.linalg.norm(corners - centres, axis=-1).mean()
-            )
-            # bilinear functions of the points, at the corners
-            shares = 0.25 * np.prod(1.0 + _CORNERS[:, None] * _CORNERS / reach, axis=-1)
-            self._to_corners = nearest, shares, _directions(corners, reach, directions)
-        nearest, shares, directions = self._to_corners
-        rows = np.arange(len(values))[:, None]
-        vectors = np.einsum("mpca,mpad->mpcd", shears[rows, nearest], directions)
-        flat = np.concatenate([values[rows, nearest], vectors.reshape(*vectors.shape[:2], -1)], axis=-1)
-        sums = np.zeros((len(self._points), flat.shape[-1]))
-        np.add.at(sums, self._cells, shares @ flat)
-        mean = sums / np.bincount(self._cells.ravel())[:, None]
-        nodal = np.concatenate([mean, flat.mean(axis=1)])
-        count = values.shape[-1]
-        return nodal[:, :count], nodal[:, count:].reshape(len(nodal), -1, 3)
-
-
-def _directions(corners: FloatArray, reach: float, directions: FloatArray) -> FloatArray:
-    """Return the local directions s and t, (m, 4, 2, 3), at the points next to the corners (m, 4, 3) of faces."""
-    xi, eta = reach * _CORNERS.T
-    # derivatives of the bilinear functions of the corners, (points, corners)
-    along = 0.25 * _CORNERS[:, 0] * (1.0 + eta[:, None] * _CORNERS[:, 1])
-    across = 0.25 * _CORNERS[:, 1] * (1.0 + xi[:, None] * _CORNERS[:, 0])
-    normal = np.cross(np.einsum("pk,mkd->mpd", along, corners), np.einsum("pk,mkd->mpd", across, corners))
-    normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
-    return np.stack(face_directions(normal, directions[:, None]), axis=-2)
-
-
-@dataclass(frozen=True, slots=True)
-class _Fields:
-    """Fields at the nodes of a surface.
-
-    damage   (n,) SPENT or DAMAGE
-    normals  (n, 2) traction and separation in the direction of the normal
-    shears   (n, 2, 3) traction and separation in the surface, in global components
-    """
-
-    damage: FloatArray
-    normals: FloatArray
-    shears: FloatArray
-
-
 def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
     """Return the fronts of all increments of the field output, in order.
 
@@ -193,11 +93,11 @@ def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
     frames = result.frames
     if not frames:
         raise UelError(f"{result.file('.pvd')}: no field output, from which the front is computed")
-    surfaces = _surfaces(result.mesh(frames[0].increment, frames[0].step))
+    surfaces = interface_surfaces(result.mesh(frames[0].increment, frames[0].step))
     if not surfaces:
         raise UelError(
             f"{result.file('.pvd')}: no interface elements with a damage; "
-            "a front is a line on a surface of interface elements with four nodes on a face"
+            "a front is a line on a surface of interface elements in space"
         )
     profiles = {(int(profile["step"][0]), int(profile["increment"][0])): profile for profile in result.interfaces()}
     all_fronts: list[Front] = []
@@ -208,7 +108,7 @@ def fronts(result: Result, damage: float = DAMAGE) -> list[Front]:
         if profile is None:
             continue
         for number, surface in enumerate(surfaces, 1):
-            fields = _fields(surface, profile)
+            fields = surface.fields(profile)
             lines = _lines(surface, fields.damage, damage)
             reaches = _half_lengths(surface, fields.damage, [locations for locations, _ in lines])
             for line, ((locations, triangles), reach) in enumerate(zip(lines, reaches, strict=True), 1):
@@ -295,48 +195,7 @@ def _draw_lines(figure: Figure, all_fronts: list[Front]) -> None:
     figure.colorbar(drawn, ax=above, label="Time")
 
 
-def _surfaces(mesh: meshio.Mesh) -> list[_Surface]:
-    """Return the surfaces of interface elements with a damage, in the order of their first elements."""
-    cells, labels = [], []
-    damage = mesh.cell_data.get("DAMAGE", [])
-    for block, values, names in zip(mesh.cells, damage, mesh.cell_data["ELEMENT"], strict=False):
-        if block.type == "quad" and np.isfinite(values).all():
-            cells.append(block.data)
-            labels.append(names)
-    if not cells:
-        return []
-    faces, elements = np.concatenate(cells), np.concatenate(labels)
-    return [_Surface(mesh.points, faces[part], elements[part]) for part in parts(faces, len(mesh.points))]
-
-
-def _fields(surface: _Surface, profile: Mapping[str, FloatArray]) -> _Fields:
-    """Return the fields at the nodes of a surface from the integration points."""
-    order = np.lexsort((profile["point"], profile["element"]))
-    labels = profile["element"][order].astype(np.int64)
-    rows = order[np.isin(labels, surface.elements)]
-    sorted_labels = np.sort(surface.elements)
-    back = np.argsort(np.argsort(surface.elements))
-    count = len(rows) // len(sorted_labels)
-
-    def gather(*names: str) -> FloatArray:
-        stacked = np.stack([profile[name][rows] for name in names], axis=-1)
-        return stacked.reshape(len(sorted_labels), count, len(names))[back]
-
-    def known(name: str) -> bool:
-        return name in profile and bool(np.isfinite(profile[name][rows]).all())
-
-    damage, separation = "SPENT" if known("SPENT") else "DAMAGE", "W" if known("WN") else "SEP"
-    shears = [gather(f"{name}S", f"{name}T") for name in ("T", separation)]
-    directions = np.zeros((len(sorted_labels), 3))
-    if known(DIRECTIONS[0]):
-        directions = gather(*DIRECTIONS)[:, 0]
-    values, vectors = surface.at_nodes(
-        gather("X", "Y", "Z"), gather(damage, "TN", f"{separation}N"), np.stack(shears, axis=2), directions
-    )
-    return _Fields(np.clip(values[:, 0], 0.0, 1.0), values[:, 1:], vectors)
-
-
-def _lines(surface: _Surface, damage: FloatArray, level: float) -> list[tuple[Locations, IntArray]]:
+def _lines(surface: InterfaceSurface, damage: FloatArray, level: float) -> list[tuple[Locations, IntArray]]:
     """Return the lines of a level of damage, as locations at distances of an element and their triangles."""
     if not damage.min() < level < damage.max():
         return []
@@ -349,7 +208,7 @@ def _lines(surface: _Surface, damage: FloatArray, level: float) -> list[tuple[Lo
 
 
 def _along(
-    surface: _Surface, fields: _Fields, line: Locations, triangles: IntArray, reach: float
+    surface: InterfaceSurface, fields: Fields, line: Locations, triangles: IntArray, reach: float
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Return the locations, normals, tractions and energy release rates of a front, as in `Front`."""
     mesh = surface.triangles
@@ -400,7 +259,7 @@ def _growth(points: FloatArray, ahead: FloatArray, before: FloatArray) -> FloatA
 
 
 def _components(
-    mesh: TriangulatedSurface, fields: _Fields, locations: Locations, along: FloatArray
+    mesh: TriangulatedSurface, fields: Fields, locations: Locations, along: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return the tractions and separations (n, k, 3) at locations (n, k): normal, ahead of the front and along it.
 
@@ -440,7 +299,7 @@ def _tangents(points: FloatArray) -> FloatArray:
     return np.asarray(points[np.minimum(index + 2, len(points) - 1)] - points[np.maximum(index - 2, 0)])
 
 
-def _half_lengths(surface: _Surface, damage: FloatArray, lines: list[Locations]) -> list[float]:
+def _half_lengths(surface: InterfaceSurface, damage: FloatArray, lines: list[Locations]) -> list[float]:
     """Return half the length of the paths through the process zone of each front.
 
     It covers all partly damaged points closer to this front than to others, and three faces.
