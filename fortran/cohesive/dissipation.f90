@@ -7,8 +7,8 @@
 !> damage grows, the separation lies on the envelope of the law, so that the energy dissipated along a direction is a function of
 !> K: `loss`. Its difference between the ends of an increment is exact along a direction, whatever the size of the increment, and
 !> whether the separation has been at the envelope before, comes back to it, from the other side even, or goes beyond failure.
-!> Where the direction turns meanwhile, it is that of a direction in between. K never grows, so that no increment dissipates a
-!> negative energy.
+!> Where the direction turns meanwhile, the difference is that along a path which bends, in eight straight parts. K never grows, so
+!> that no increment dissipates a negative energy.
 !>
 !> Under cycles the separation is below the envelope. An increment with cycles dissipates the work of its tractions by the
 !> trapezoidal rule less the change of the stored energy, (t0 w1 - t1 w0)/2.
@@ -23,7 +23,7 @@ module cohesive_dissipation
   use cohesive_shear, only: mode_of, shears, resultant
   use cohesive_state, only: point_history, damage_state, law_solution
   use cohesive_law, only: loss, softening, stiffness_of
-  use cohesive_mode_mix, only: measure_onset, measure_energy
+  use cohesive_mode_mix, only: measure_onset
   use cohesive_local_solve, only: opening_part
   use cohesive_local_equation, only: damage_at_secant, softening_stiffness
   use cohesive_ppr, only: ppr_work_of_damage, ppr_share_spent, ppr_damage_of_components
@@ -141,62 +141,62 @@ contains
 
   !> Energy that sliding and opening dissipate while the damage D grows.
   !>
-  !> It is that of one of the directions between those at which D begins and ceases to grow. Where the direction turns, the
-  !> trapezoidal rule tells which: on a straight way of the same secants it is wrong by the same as on the way that was gone.
+  !> The separation follows a path between the ends of the increment. It leaves an intact point in the direction of its traction, and
+  !> bends towards the end: what is across that direction grows with the square of what is along it. The further the separation has
+  !> come before, the straighter is the path. Between two points of the path the energy is that of the direction of the middle.
   pure function work_of_damage(law, before, after, traction, old, new) result(work)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: before(2), after(2)   !< separations at the ends of the increment
     real(dp), intent(in) :: traction(2)           !< at its start
     real(dp), intent(in) :: old, new              !< D
     real(dp) :: work(2)
-    integer, parameter :: steps = 4
-    real(dp), dimension(2) :: first, last, middle, start, from, to, straight, slope
-    real(dp) :: reached, part, f, least, most, wanted
-    logical :: rises   ! from the first to the last direction
-    integer :: step
+    integer, parameter :: parts = 8
+    real(dp), dimension(2) :: change, bend, first, here, there, direction
+    real(dp) :: most, damage, reached, s
+    integer :: part
 
     work = 0.0_dp
     if (.not. new > old) return
-    reached = damage_without_history(law, before)
-    part = 0.0_dp
-    if (new > max(reached, old)) part = max(0.0_dp, old - reached)/(new - reached)
-    start = before + part*(after - before)
-    last = unit(after)
-    first = unit(start)
-    if (.not. maxval(first) > 0.0_dp) first = unit(traction/law%ratio)
-    if (.not. maxval(first) > 0.0_dp) first = last
-    if (.not. maxval(last) > 0.0_dp) last = first
-    middle = unit(start + after)
-    if (.not. maxval(middle) > 0.0_dp) return
-    from = secant_at(law, old)
-    to = secant_at(law, new)
-    work = work_along(law, middle, from, to)
-    if (.not. maxval(abs(last - first)) > 0.0_dp) return
-    if (maxval(start) > 0.0_dp) then
-      slope = 0.5_dp*law%ratio*(stiffness_at(law, from) - stiffness_at(law, to))
-      straight = norm2(start)*(length_at(law, middle, from)/length_at(law, first, from)) &
-        *norm2(after)*(length_at(law, middle, to)/length_at(law, last, to))*middle**2
-      wanted = sum(work + slope*(start*after - straight))
-    else
-      call measure_onset(law, middle, f, slope)
-      straight = norm2(traction/law%strength)*law%ratio*middle/f
-      wanted = sum(work + 0.5_dp*(traction - straight)*after)
+    change = after - before
+    first = unit(before)
+    if (.not. old > 0.0_dp) first = direction_at_onset(law, traction, unit(after))
+    bend = 0.0_dp
+    if (norm2(after) > norm2(before)) then
+      bend = (1.0_dp - norm2(before)/norm2(after))**2*(change - dot_product(change, first)*first)
     end if
-    rises = sum(work_along(law, first, from, to)) < sum(work_along(law, last, from, to))
-    least = 0.0_dp
-    most = 1.0_dp
-    do step = 1, steps
-      part = 0.5_dp*(least + most)
-      work = work_along(law, unit(first + part*(last - first)), from, to)
-      if ((sum(work) < wanted) .eqv. rises) then
-        least = part
-      else
-        most = part
+    ! the damage of the path without history is not the one here where damage lags behind
+    most = max(damage_without_history(law, after), new)
+    here = before
+    reached = old
+    do part = 1, parts
+      s = real(part, dp)/parts
+      there = max(0.0_dp, before + s*change - s*(1.0_dp - s)*bend)
+      damage = new
+      if (part < parts) then
+        damage = max(reached, old + (new - old)*(damage_without_history(law, there) - old)/(most - old))
+        damage = min(damage, new)
       end if
+      direction = unit(here + there)
+      if (damage > reached .and. maxval(direction) > 0.0_dp) then
+        work = work + work_along(law, direction, secant_at(law, reached), secant_at(law, damage))
+        reached = damage
+      end if
+      here = there
     end do
-    part = 0.5_dp*(least + most)
-    work = work_along(law, unit(first + part*(last - first)), from, to)
   end function work_of_damage
+
+  !> Direction in which an intact point begins to separate, from its traction below onset and the direction that follows.
+  pure function direction_at_onset(law, traction, later) result(direction)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: traction(2), later(2)
+    real(dp) :: direction(2)
+    real(dp) :: f, not_used(2)
+
+    direction = later
+    if (.not. maxval(later) > 0.0_dp) return
+    call measure_onset(law, later, f, not_used)
+    direction = unit(traction/law%ratio + max(0.0_dp, 1.0_dp - norm2(traction/law%strength))*later/f)
+  end function direction_at_onset
 
   !> The same in one direction.
   pure function work_along(law, direction, from, to) result(work)
@@ -207,28 +207,6 @@ contains
 
     work = law%ratio*direction**2*max(0.0_dp, loss(law, direction, to(1), to(2)) - loss(law, direction, from(1), from(2)))
   end function work_along
-
-  !> Secant stiffness K.
-  pure function stiffness_at(law, secant) result(stiffness)
-    type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: secant(2)   !< as `loss` takes it
-    real(dp) :: stiffness
-
-    stiffness = secant(1)/(secant(2) + law%flexibility*secant(1))
-  end function stiffness_at
-
-  !> Separation on the envelope of the bilinear law in a direction, lambda**2 = -2 dL/dK.
-  pure function length_at(law, direction, secant) result(length)
-    type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: direction(2)
-    real(dp), intent(in) :: secant(2)   !< as `loss` takes it
-    real(dp) :: length
-    real(dp) :: f, e, not_used(2)
-
-    call measure_onset(law, direction, f, not_used)
-    call measure_energy(law, direction, e, not_used)
-    length = f*(secant(2) + law%flexibility*secant(1))/(f**2*secant(1) + e*secant(2))
-  end function length_at
 
   !> A pair of unit length; zero where it has no length.
   pure function unit(pair) result(direction)

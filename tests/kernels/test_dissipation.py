@@ -186,6 +186,37 @@ def test_paths_that_turn_balance_as_increments_shrink(element, interface, varian
     assert errors[1] < max(errors[0] / 20, 1e-4)
 
 
+def parabola(shear, opening, count):
+    """Separations that slide in proportion to time and open with its square."""
+    s = np.linspace(0.0, 1.0, count + 1)[1:, None]
+    return s * [shear, 0.0] + s**2 * [0.0, opening]
+
+
+@pytest.mark.parametrize("law", [name for name in LAWS if name != "PPR"])
+@pytest.mark.parametrize(
+    ("variant", "stiffness"),
+    [("U2", 2e4), ("U4 consistent", 1e5 / 7.0), ("U4 rigid", 5e4), ("U8 rigid", 5e4)],
+)
+def test_few_increments_from_sliding_to_opening(element, interface, variant, stiffness, law):
+    """As in front of a crack, whose points slide at onset and open at failure: nothing tells an increment its path.
+
+    Its guess is wrong by less than a tenth of the energy in two increments, and by half of that at most in four.
+    """
+    found = {}
+    for count in (2, 4, 400):
+        point = Point(element, interface, variant, **LAWS[law])
+        start = np.array([0.9 * 60.0 / stiffness, 0.0])
+        point.advance(start)
+        assert point.item.state["DAMAGE"].max() == 0.0
+        for gap in parabola(0.02, 0.05, count):
+            point.advance(start + gap)
+        assert point.item.state["DAMAGE"].min() > 0.9
+        found[count] = point.dissipated
+    two, four = (np.abs(found[count] - found[400]).max() / found[400].sum() for count in (2, 4))
+    assert two < 0.1
+    assert four < 0.5 * two
+
+
 def test_viscosity_dissipates_the_fracture_energy_and_more(element, interface, law):
     """With time to spare the share of the overstress vanishes; that of damage is G_Ic but for the trapezoidal rule at
     onset and failure, 30 MPa times half an increment of 2.5e-5 mm each."""

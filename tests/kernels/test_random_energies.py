@@ -78,7 +78,10 @@ def check_energies(tools, variant, kind, extra, data):
         np.testing.assert_allclose(energy[:, VISCOUS], state["DISSV"] @ area, rtol=1e-12, atol=1e-300)
         assert "VISCOSITY" in values or not energy[:, VISCOUS].any()
         assert (state["DAMAGE"] <= 1).all()
-    assert before["DISSI"].any() and before["DISSII"].any()
+    # the overstress of a large viscosity leaves nothing for damage
+    damaged = bool(item.state["DAMAGE"].any())
+    assert damaged or "VISCOSITY" in values
+    assert before["DISSI"].any() == before["DISSII"].any() == damaged
 
 
 @cases
