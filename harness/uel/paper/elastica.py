@@ -36,11 +36,11 @@ TYPES = {
 
 def elastica_files() -> dict[str, str]:
     """Write the decks."""
-    return {f"dcb_elastica_{kind.lower()}.inp": _deck(kind) for kind in TYPES}
+    return {f"dcb_elastica_{kind.lower()}.inp": elastica_deck(kind) for kind in TYPES}
 
 
-def _deck(kind: str) -> str:
-    """Write the deck with a type of interface element."""
+def elastica_deck(kind: str, largest: float = 0.02) -> str:
+    """Write the deck with a type of interface element; largest: increment, in step time."""
     along, through = QUADS
     # by arm (bottom, top), height and length
     labels = 1 + np.arange(2 * (through + 1) * (along + 1)).reshape(2, through + 1, along + 1)
@@ -67,7 +67,7 @@ def _deck(kind: str) -> str:
         *bending_section("ARMS", "ARM", MODULUS),
         *uel_property(int(kind[1:]), "INTERFACE", TYPES[kind]),
         *static_step(
-            (0.01, 1.0, 1.0e-7, 0.02),
+            (min(0.01, largest), 1.0, 1.0e-7, largest),
             [
                 "CLAMPED, 1, 2",
                 f"LOAD_TOP, 2, 2, {number(OPENING / 2.0)}",

@@ -76,16 +76,16 @@ class SpaceBeam:
         """Name of the deck."""
         return f"{self.problem}_{self.plies}" + ("_turned" if self.turned else "")
 
-    def deck(self, generated: bool = True) -> str:
-        """Write the deck; with its mesh generated, or written out."""
+    def deck(self, generated: bool = True, static: tuple[float, float, float, float] = STATIC) -> str:
+        """Write the deck; with its mesh generated, or written out; static: the data of *STATIC."""
         lines = "turned mesh lines" if self.turned else "mesh lines along the front"
         title = f"{self.problem.upper()} of [{self.plies.replace('_', '/')}] in plane strain, {lines}"
         laminate = replace(laminate_of(self), generated=generated)
         moved = DISPLACEMENTS[self.problem, self.plies]
         if self.problem == "mmb":
-            return text(mmb_deck(title, laminate, LENGTH, LEVER, moved, STATIC, part=STRIP, every=1))
+            return text(mmb_deck(title, laminate, LENGTH, LEVER, moved, static, part=STRIP, every=1))
         build = dcb_deck if self.problem == "dcb" else enf_deck
-        return text(build(title, laminate, moved, STATIC, part=STRIP, every=1))
+        return text(build(title, laminate, moved, static, part=STRIP, every=1))
 
 
 CASES = [SpaceBeam(problem, plies, turned) for problem, plies in DISPLACEMENTS for turned in (False, True)]
