@@ -19,27 +19,27 @@ module cohesive_bilinear
 
 contains
 
-  !> Softening curve along a direction of the separation, with its derivatives.
-  pure subroutine bilinear_softening(law, separation, direction, traction, by_separation, by_direction)
+  !> Softening curve in a direction with the measures f and e, and its derivatives.
+  pure subroutine bilinear_softening(law, separation, f, e, traction, by_separation, by_f, by_e)
     type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: separation         !< lambda, length
-    real(dp), intent(in) :: direction(2)       !< c, not negative, of unit length
-    real(dp), intent(out) :: traction          !< tau, stress; zero after failure
-    real(dp), intent(out) :: by_separation     !< stress/length
-    real(dp), intent(out) :: by_direction(2)   !< by c, its components taken as independent
-    real(dp) :: f, e, below, f_slope(2), e_slope(2)
+    real(dp), intent(in) :: separation       !< lambda, length
+    real(dp), intent(in) :: f, e             !< 1/stress, area/energy
+    real(dp), intent(out) :: traction        !< tau, stress; zero after failure
+    real(dp), intent(out) :: by_separation   !< stress/length
+    real(dp), intent(out) :: by_f, by_e
+    real(dp) :: below
 
     traction = 0.0_dp
     by_separation = 0.0_dp
-    by_direction = 0.0_dp
-    call measure_onset(law, direction, f, f_slope)
-    call measure_energy(law, direction, e, e_slope)
+    by_f = 0.0_dp
+    by_e = 0.0_dp
     if (separation*e >= f) return
 
     below = f**2 - e*law%flexibility
     traction = (f - separation*e)/below
     by_separation = -e/below
-    by_direction = (f_slope - separation*e_slope - traction*(2.0_dp*f*f_slope - law%flexibility*e_slope))/below
+    by_f = (1.0_dp - 2.0_dp*f*traction)/below
+    by_e = (law%flexibility*traction - separation)/below
   end subroutine bilinear_softening
 
   !> Largest softening slope -d tau/d lambda = 1/(f**2/e - flexibility) of all directions.

@@ -22,25 +22,23 @@ module cohesive_exponential
 
 contains
 
-  !> Softening curve along a direction of the separation, with its derivatives.
-  pure subroutine exponential_softening(law, separation, direction, traction, by_separation, by_direction)
+  !> Softening curve in a direction with the measures f and e, and its derivatives.
+  pure subroutine exponential_softening(law, separation, f, e, traction, by_separation, by_f, by_e)
     type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: separation         !< lambda, length
-    real(dp), intent(in) :: direction(2)       !< c, not negative, of unit length
-    real(dp), intent(out) :: traction          !< tau, stress
-    real(dp), intent(out) :: by_separation     !< stress/length
-    real(dp), intent(out) :: by_direction(2)   !< by c, its components taken as independent
-    real(dp) :: f, e, below, beyond, x, f_slope(2), e_slope(2), x_slope(2)
+    real(dp), intent(in) :: separation       !< lambda, length
+    real(dp), intent(in) :: f, e             !< 1/stress, area/energy
+    real(dp), intent(out) :: traction        !< tau, stress
+    real(dp), intent(out) :: by_separation   !< stress/length
+    real(dp), intent(out) :: by_f, by_e
+    real(dp) :: below, beyond, x
 
-    call measure_onset(law, direction, f, f_slope)
-    call measure_energy(law, direction, e, e_slope)
     below = f**2 - e*law%flexibility
     beyond = f*separation - law%flexibility
     x = 2.0_dp*e*beyond/below
     traction = exp(-max(x, -largest_rise))/f
     by_separation = -traction*2.0_dp*e*f/below
-    x_slope = (2.0_dp*(beyond*e_slope + e*separation*f_slope) - x*(2.0_dp*f*f_slope - law%flexibility*e_slope))/below
-    by_direction = -traction*(f_slope/f + x_slope)
+    by_f = -traction*(1.0_dp/f + 2.0_dp*(e*separation - x*f)/below)
+    by_e = -traction*(2.0_dp*beyond + x*law%flexibility)/below
   end subroutine exponential_softening
 
   !> Largest softening slope, 2/(f**2/e - flexibility) at the onset in the steepest direction.

@@ -19,7 +19,7 @@ module cohesive_law
   use cohesive_parameters, only: law_parameters
   use cohesive_law_properties, only: law_properties, bilinear_law, exponential_law, ppr_law, bridging_law, table_law
   use cohesive_state, only: point_history, damage_state
-  use cohesive_mode_mix, only: check_mode_mix
+  use cohesive_mode_mix, only: measure_onset, measure_energy, measure_share, check_mode_mix
   use cohesive_bilinear, only: bilinear_softening, bilinear_steepest, bilinear_loss
   use cohesive_fatigue, only: grow_at_separation
   use cohesive_exponential, only: exponential_softening, exponential_steepest, exponential_loss
@@ -150,16 +150,22 @@ contains
     real(dp), intent(out) :: traction        !< tau, stress
     real(dp), intent(out) :: by_separation   !< stress/length
     real(dp), intent(out) :: by_angle        !< stress
-    real(dp) :: by_direction(2)
+    real(dp) :: f, e, share, by_f, by_e, by_share, by_direction(2), f_slope(2), e_slope(2), share_slope(2)
 
+    call measure_onset(law, direction, f, f_slope)
+    call measure_energy(law, direction, e, e_slope)
+    by_share = 0.0_dp
+    share_slope = 0.0_dp
     select case (law%kind)
     case (exponential_law)
-      call exponential_softening(law, separation, direction, traction, by_separation, by_direction)
+      call exponential_softening(law, separation, f, e, traction, by_separation, by_f, by_e)
     case (bridging_law, table_law)
-      call multilinear_softening(law, separation, direction, traction, by_separation, by_direction)
+      call measure_share(law, direction, share, share_slope)
+      call multilinear_softening(law, separation, f, e, share, traction, by_separation, by_f, by_e, by_share)
     case default
-      call bilinear_softening(law, separation, direction, traction, by_separation, by_direction)
+      call bilinear_softening(law, separation, f, e, traction, by_separation, by_f, by_e)
     end select
+    by_direction = by_f*f_slope + by_e*e_slope + by_share*share_slope
     by_angle = by_direction(1)*direction(2) - by_direction(2)*direction(1)
   end subroutine softening
 

@@ -32,8 +32,8 @@ module cohesive_multilinear
     integer :: count
     real(dp) :: height(most_ramps)            !< a_j
     real(dp) :: last(most_ramps)              !< x_j
-    real(dp) :: height_slope(2, most_ramps)   !< derivatives by the direction c, its components taken as independent
-    real(dp) :: last_slope(2, most_ramps)
+    real(dp) :: height_slope(3, most_ramps)   !< derivatives by f, e and the share of mode II in the energy
+    real(dp) :: last_slope(3, most_ramps)
   end type ramp_curve
 
 contains
@@ -166,17 +166,15 @@ contains
     value = pure_modes(2) + (pure_modes(1) - pure_modes(2))*share
   end function mixed
 
-  !> Ramps of a law in a direction, with the measures f and e there.
-  pure subroutine find_ramps(law, direction, f, e, f_slope, e_slope, curve)
+  !> Ramps of a law in a direction with the measures f and e and a share of mode II in the energy.
+  pure subroutine find_ramps(law, f, e, share, curve)
     type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: direction(2)   !< c, not zero
-    real(dp), intent(out) :: f, e, f_slope(2), e_slope(2)
+    real(dp), intent(in) :: f, e, share
     type(ramp_curve), intent(out) :: curve
-    real(dp) :: share, r, m, q(2), reserve, share_slope(2), r_slope(2), m_slope(2), q_slope(2, 2), reserve_slope(2)
+    real(dp), parameter :: by_share(3) = [0.0_dp, 0.0_dp, 1.0_dp]
+    real(dp) :: r, m, q(2), reserve, r_slope(3), m_slope(3), q_slope(3, 2), reserve_slope(3)
     integer :: k
 
-    call measure_onset(law, direction, f, f_slope)
-    call measure_energy(law, direction, e, e_slope)
     if (law%kind /= bridging_law) then
       curve%count = law%ramps
       curve%height = law%ramp_height
@@ -185,16 +183,15 @@ contains
       curve%last_slope = 0.0_dp
       return
     end if
-    call measure_share(law, direction, share, share_slope)
     r = mixed(law%bridging_strength, share)
     m = mixed(law%bridging_energy, share)
-    r_slope = (law%bridging_strength(1) - law%bridging_strength(2))*share_slope
-    m_slope = (law%bridging_energy(1) - law%bridging_energy(2))*share_slope
+    r_slope = (law%bridging_strength(1) - law%bridging_strength(2))*by_share
+    m_slope = (law%bridging_energy(1) - law%bridging_energy(2))*by_share
     q = [(1.0_dp - m)/(1.0_dp - r), m/r]
     q_slope(:, 1) = (q(1)*r_slope - m_slope)/(1.0_dp - r)
     q_slope(:, 2) = (m_slope - q(2)*r_slope)/r
     reserve = f**2/e
-    reserve_slope = (2.0_dp*f*f_slope - reserve*e_slope)/e
+    reserve_slope = [2.0_dp*f, -reserve, 0.0_dp]/e
     curve%count = 2
     curve%height(:2) = [1.0_dp - r, r]
     curve%height_slope(:, 1) = -r_slope
@@ -206,23 +203,22 @@ contains
     end do
   end subroutine find_ramps
 
-  !> Softening curve along a direction of the separation, with its derivatives.
-  pure subroutine multilinear_softening(law, separation, direction, traction, by_separation, by_direction)
+  !> Softening curve in a direction with the measures f and e and a share of mode II in the energy, and its derivatives.
+  pure subroutine multilinear_softening(law, separation, f, e, share, traction, by_separation, by_f, by_e, by_share)
     type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: separation         !< lambda, length
-    real(dp), intent(in) :: direction(2)       !< c, not negative, of unit length
-    real(dp), intent(out) :: traction          !< tau, stress; zero after failure
-    real(dp), intent(out) :: by_separation     !< stress/length
-    real(dp), intent(out) :: by_direction(2)   !< by c, its components taken as independent
+    real(dp), intent(in) :: separation        !< lambda, length
+    real(dp), intent(in) :: f, e, share       !< 1/stress, area/energy, 1
+    real(dp), intent(out) :: traction         !< tau, stress; zero after failure
+    real(dp), intent(out) :: by_separation    !< stress/length
+    real(dp), intent(out) :: by_f, by_e, by_share
     type(ramp_curve) :: curve
-    real(dp) :: f, e, below, beyond, x, height, slope, f_slope(2), e_slope(2), x_slope(2), height_slope(2)
+    real(dp) :: below, beyond, x, height, slope, height_slope(3)
     integer :: j
 
-    call find_ramps(law, direction, f, e, f_slope, e_slope, curve)
+    call find_ramps(law, f, e, share, curve)
     below = f**2 - e*law%flexibility
     beyond = f*separation - law%flexibility
     x = 2.0_dp*e*beyond/below
-    x_slope = (2.0_dp*(beyond*e_slope + e*separation*f_slope) - x*(2.0_dp*f*f_slope - law%flexibility*e_slope))/below
     height = 0.0_dp
     slope = 0.0_dp
     height_slope = 0.0_dp
@@ -236,7 +232,9 @@ contains
     end do
     traction = height/f
     by_separation = 2.0_dp*e*slope/below
-    by_direction = (height_slope + slope*x_slope - traction*f_slope)/f
+    by_f = (height_slope(1) + slope*2.0_dp*(e*separation - x*f)/below - traction)/f
+    by_e = (height_slope(2) + slope*(2.0_dp*beyond + x*law%flexibility)/below)/f
+    by_share = height_slope(3)/f
   end subroutine multilinear_softening
 
   !> Largest softening slope -d tau/d lambda = -T'/h of all directions.
@@ -255,10 +253,13 @@ contains
     real(dp), intent(in) :: share
     real(dp) :: inverse   !< length/stress
     type(ramp_curve) :: curve
-    real(dp) :: f, e, f_slope(2), e_slope(2), slope, steepest
+    real(dp) :: direction(2), f, e, slope, steepest, not_used(2)
     integer :: j
 
-    call find_ramps(law, direction_of_share(law, share), f, e, f_slope, e_slope, curve)
+    direction = direction_of_share(law, share)
+    call measure_onset(law, direction, f, not_used)
+    call measure_energy(law, direction, e, not_used)
+    call find_ramps(law, f, e, share, curve)
     steepest = 0.0_dp
     associate (n => curve%count)
       do j = 1, n
@@ -281,10 +282,13 @@ contains
     real(dp) :: loss                         !< stress times length
     type(ramp_curve) :: curve
     logical :: passed(most_ramps)
-    real(dp) :: f, e, h, x, f_slope(2), e_slope(2)
+    real(dp) :: f, e, h, x, share, not_used(2)
     integer :: j
 
-    call find_ramps(law, direction, f, e, f_slope, e_slope, curve)
+    call measure_onset(law, direction, f, not_used)
+    call measure_energy(law, direction, e, not_used)
+    call measure_share(law, direction, share, not_used)
+    call find_ramps(law, f, e, share, curve)
     loss = 0.5_dp/e
     if (.not. stiff > 0.0_dp) return
     h = 0.5_dp*(f**2/e - law%flexibility)

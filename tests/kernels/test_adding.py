@@ -43,10 +43,10 @@ LAW = {
             "      slope = exponential_steepest(law)\n    case (plateau_law)\n      slope = plateau_steepest(law)\n",
         ),
         (
-            "      call exponential_softening(law, separation, direction, traction, by_separation, by_direction)\n",
-            "      call exponential_softening(law, separation, direction, traction, by_separation, by_direction)\n"
+            "      call exponential_softening(law, separation, f, e, traction, by_separation, by_f, by_e)\n",
+            "      call exponential_softening(law, separation, f, e, traction, by_separation, by_f, by_e)\n"
             "    case (plateau_law)\n"
-            "      call plateau_softening(law, separation, direction, traction, by_separation, by_direction)\n",
+            "      call plateau_softening(law, separation, f, e, traction, by_separation, by_f, by_e)\n",
         ),
         (
             "      area = exponential_loss(law, direction, stiff, lost)\n",

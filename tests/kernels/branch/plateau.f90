@@ -15,34 +15,36 @@ module cohesive_plateau
 
 contains
 
-  !> Softening curve along a direction of the separation, with its derivatives.
-  pure subroutine plateau_softening(law, separation, direction, traction, by_separation, by_direction)
+  !> Softening curve in a direction with the measures f and e, and its derivatives.
+  pure subroutine plateau_softening(law, separation, f, e, traction, by_separation, by_f, by_e)
     type(law_parameters), intent(in) :: law
-    real(dp), intent(in) :: separation         !< lambda, length
-    real(dp), intent(in) :: direction(2)       !< c, not negative, of unit length
-    real(dp), intent(out) :: traction          !< tau, stress; zero after failure
-    real(dp), intent(out) :: by_separation     !< stress/length
-    real(dp), intent(out) :: by_direction(2)   !< by c, its components taken as independent
-    real(dp) :: f, e, onset, failure, fall, f_slope(2), e_slope(2), onset_slope(2), failure_slope(2), fall_slope(2)
+    real(dp), intent(in) :: separation       !< lambda, length
+    real(dp), intent(in) :: f, e             !< 1/stress, area/energy
+    real(dp), intent(out) :: traction        !< tau, stress; zero after failure
+    real(dp), intent(out) :: by_separation   !< stress/length
+    real(dp), intent(out) :: by_f, by_e
+    real(dp) :: onset, failure, fall, slope(2), onset_slope(2), failure_slope(2), fall_slope(2)
 
-    call measure_onset(law, direction, f, f_slope)
-    call measure_energy(law, direction, e, e_slope)
     onset = law%flexibility/f
     failure = onset + (f/e - onset)/(1.0_dp + law%given%plateau)
     fall = (1.0_dp - law%given%plateau)*(failure - onset)
     traction = 1.0_dp/f
     by_separation = 0.0_dp
-    by_direction = -f_slope/f**2
+    by_f = -1.0_dp/f**2
+    by_e = 0.0_dp
     if (separation <= failure - fall) return
 
     traction = max(0.0_dp, (failure - separation)/(f*fall))
-    by_direction = 0.0_dp
+    by_f = 0.0_dp
     if (.not. traction > 0.0_dp) return
     by_separation = -1.0_dp/(f*fall)
-    onset_slope = -onset*f_slope/f
-    failure_slope = onset_slope + (f_slope/e - f*e_slope/e**2 - onset_slope)/(1.0_dp + law%given%plateau)
+    ! by f and e
+    onset_slope = [-onset/f, 0.0_dp]
+    failure_slope = onset_slope + ([1.0_dp/e, -f/e**2] - onset_slope)/(1.0_dp + law%given%plateau)
     fall_slope = (1.0_dp - law%given%plateau)*(failure_slope - onset_slope)
-    by_direction = failure_slope/(f*fall) - traction*(f_slope/f + fall_slope/fall)
+    slope = failure_slope/(f*fall) - traction*([1.0_dp/f, 0.0_dp] + fall_slope/fall)
+    by_f = slope(1)
+    by_e = slope(2)
   end subroutine plateau_softening
 
   !> Largest softening slope -d tau/d lambda of all directions.
