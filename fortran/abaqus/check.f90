@@ -5,13 +5,13 @@ module abaqus_check
   use core_kinds, only: dp
   use core_status, only: status_type, sentence, too_brittle, zero_length, faces_apart, small_beta, &
     too_brittle_mixed, late_secant, no_root, along_normal, layer_slants, layer_twists, bridging_strength, bridging_energy, &
-    brittle_tip, brittle_bridging, brittle_mixed_line, no_table, table_gap, table_separation, table_traction
+    brittle_tip, brittle_bridging, brittle_mixed_line, no_table, table_gap, table_separation, table_traction, falls_with_rate
   use abaqus_layout, only: elements, faces, reals, integers, expectations, every_continuum, with_solids, next_to_solids, &
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, above_minus_one, load_ratio, any_integer, &
     p_alphan, p_alphat, p_gic, p_giic, p_sigmamax, p_taumax, p_betan, p_betat, p_shapen, p_shapet, p_friction, p_direction1, &
     p_sigmabridge, p_taubridge, p_gibridge, p_giibridge, p_separation1, p_separation2, p_traction1, j_law, j_closure, &
     j_formulation_bottom, j_formulation_top, j_fatigue, p_temperature1, p_temperature2, p_temperature3, p_strength2, p_strength3, &
-    p_toughness2, p_toughness3
+    p_toughness2, p_toughness3, p_ratereference, p_ratelimit, p_strengthrate, p_toughnessrate
   use abaqus_properties, only: unknowns_of, variables_of, real_position, integer_position, unpack, recommend, &
     by_eigenvalues, by_equation_21, consistent_closure, complete_closure
   use cohesive_law_properties, only: bilinear_law, mixed_bilinear_law, ppr_law
@@ -208,6 +208,7 @@ contains
       return
     end if
     good = temperatures_fit(itype, jelem, values, options)
+    if (good) good = rates_fit(itype, jelem, values, options)
     if (.not. good) return
     consistent = any(options(j_closure) == [consistent_closure, complete_closure])
     good = options(j_closure) /= complete_closure .or. iand(elements(itype)%family, next_to_solids) == 0
@@ -288,6 +289,38 @@ contains
       ', which LAW 4 does not have: expected LAW 1, 2, 3, 5 or 6, or zero')
   end function temperatures_fit
 
+  !> True if the properties of the rate are complete and in order, and the law takes them.
+  function rates_fit(itype, jelem, values, options) result(good)
+    integer, intent(in) :: itype, jelem
+    real(dp), intent(in) :: values(:)
+    integer, intent(in) :: options(:)
+    logical :: good
+    integer, parameter :: others(3) = [p_ratelimit, p_strengthrate, p_toughnessrate]
+    character(len=:), allocatable :: text
+    integer :: row
+
+    row = p_ratereference
+    text = ''
+    if (.not. values(row) > 0.0_dp) then
+      row = others(maxloc(values(others), 1))
+      if (values(row) > 0.0_dp) text = ', but no RATEREFERENCE: expected both'
+    else if (.not. maxval(values([p_strengthrate, p_toughnessrate])) > 0.0_dp) then
+      text = ', but neither STRENGTHRATE nor TOUGHNESSRATE: expected one of them'
+    else if (.not. values(p_ratelimit) > values(row)) then
+      row = p_ratelimit
+      text = ': expected more than RATEREFERENCE'
+    else if (values(p_toughnessrate) > 0.0_dp .and. values(p_toughnessrate) < values(p_strengthrate)) then
+      row = p_toughnessrate
+      text = ': expected zero or at least STRENGTHRATE, below which the traction would fall with the rate'
+    else if (options(j_law) == ppr_law) then
+      text = ', which LAW 4 does not have: expected LAW 1, 2, 3, 5 or 6, or zero'
+    else if (options(j_fatigue) > 0) then
+      text = ', but FATIGUE, whose time is the number of cycles: expected one of them'
+    end if
+    good = len(text) == 0
+    if (.not. good) call refuse_real(itype, jelem, row, values(row), text)
+  end function rates_fit
+
   !> Sends the message for the status of a kernel; self-contained elements count their quads or bricks in status%item.
   subroutine report_status(itype, jelem, status)
     integer, intent(in) :: itype, jelem
@@ -337,6 +370,9 @@ contains
       row = p_traction1 + (p_separation2 - p_separation1)*(status%item - 1)
       call fatal(itype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ' = %R: ' // trim(sentence(status%code)) // &
         '; expected a positive value up to %R', [real_position(itype, row)], [status%value, status%expected])
+    case (falls_with_rate)
+      call fatal(itype, jelem, 'PROPS(%I) ' // trim(reals(p_toughnessrate)%name) // ' = %R: ' // trim(sentence(status%code)) // &
+        '; expected at least %R', [real_position(itype, p_toughnessrate)], [status%value, status%expected])
     case (small_beta)
       row = merge(p_betan, p_betat, status%item == 1)
       call fatal(itype, jelem, 'PROPS(%I) ' // trim(reals(row)%name) // ': beta = %R, ' // &

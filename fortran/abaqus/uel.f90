@@ -16,7 +16,8 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   use abaqus_cycles, only: count_cycles
   use abaqus_interface_elements, only: evaluate_interface, interface_forces_at
   use abaqus_layout, only: elements, every_continuum, names_of_types, reals, integers
-  use abaqus_lflags, only: asks_for_nothing, asks_for_tangent, give_answer, large_displacements, weight_of_start, values_are_kept
+  use abaqus_lflags, only: asks_for_nothing, asks_for_tangent, give_answer, is_linear_step, large_displacements, weight_of_start, &
+    values_are_kept
   use abaqus_properties, only: row_of, variables_of
   use abaqus_report, only: fatal, refuse_type
   use abaqus_temperatures, only: warn_if_heated
@@ -61,7 +62,8 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   end if
   call count_cycles(itype, jelem, values, options, lflags, kstep, dtime, npredf, predef, cycles, good)
   if (.not. good) return
-  call evaluate_interface(itype, jelem, values, options, coords, u, temperatures, dtime, &
+  ! a linear step perturbs a state, in no time
+  call evaluate_interface(itype, jelem, values, options, coords, u, temperatures, merge(0.0_dp, dtime, is_linear_step(lflags)), &
     cycles, large_displacements(lflags), asks_for_tangent(lflags), state, energies, residual, tangent, growth, good)
   if (.not. good) return
   if (values_are_kept(lflags)) pnewdt = min(pnewdt, growth)

@@ -13,9 +13,14 @@
 !> Under cycles the separation is below the envelope. An increment with cycles dissipates the work of its tractions by the
 !> trapezoidal rule less the change of the stored energy, (t0 w1 - t1 w0)/2.
 !>
+!> Where the law depends on the rate, damage grows along the envelope of the rate of the increment, and the same holds while the
+!> rate is constant. Where it changes, the point starts beside that envelope. What it dissipates from there is in proportion to the
+!> secants that it passes (`work_at_rate`): the work of its tractions less the change of the stored energy, but for an error of the
+!> square of the increment.
+!>
 !> SPENT is the share of the fracture energy that a straight path to the present state dissipates, a function of K and the
 !> direction: the rest is what the point will dissipate on its way to failure in that direction. Where a path turns towards a
-!> tougher mode the function falls; SPENT keeps its largest value. It is 1 at failure, and nowhere else.
+!> tougher mode, or slows down, the function may fall; SPENT keeps its largest value. It is 1 at failure, and nowhere else.
 module cohesive_dissipation
   use core_kinds, only: dp
   use cohesive_parameters, only: law_parameters
@@ -26,6 +31,7 @@ module cohesive_dissipation
   use cohesive_mode_mix, only: measure_onset
   use cohesive_local_solve, only: opening_part
   use cohesive_local_equation, only: damage_at_secant, softening_stiffness
+  use cohesive_rate, only: depends_on_rate, suit_rate
   use cohesive_ppr, only: ppr_work_of_damage, ppr_share_spent, ppr_damage_of_components
   implicit none(type, external)
   private
@@ -66,8 +72,7 @@ contains
     else
       old = damage_at_secant(law, 1.0_dp - history%damage, law%flexibility)
       new = damage_at_secant(law, 1.0_dp - state%damage, law%flexibility)
-      work = work_of_damage(law, before, after, (1.0_dp - history%damage)*stiffness_of(law)*before, old, new)
-      spent = max(spent, share_spent(law, after, new))
+      call follow_envelope(law, before, after, (1.0_dp - history%damage)*stiffness_of(law)*before, old, new, work, spent)
     end if
     if (law%viscosity > 0.0_dp .or. law%cycles%count > 0.0_dp) then
       growth = 0.5_dp*stiffness_of(law)*growth
@@ -90,7 +95,7 @@ contains
     real(dp), intent(out) :: friction_work
     real(dp), intent(out) :: spent             !< share of the fracture energy
     real(dp), dimension(3) :: w0, w1, of_component
-    real(dp), dimension(2) :: before, after
+    real(dp), dimension(2) :: before, after, work
 
     w0 = opening_part(history%separation)
     w1 = opening_part(state%separation)
@@ -109,10 +114,77 @@ contains
       dissipated = dissipated + max(0.0_dp, [sum(of_component(shears)), of_component(2)])
       spent = max(spent, share_spent(law, after, state%damage))
     else
-      dissipated = dissipated + work_of_damage(law, before, after, resultant(opening_part(traction)), history%damage, state%damage)
-      spent = max(spent, share_spent(law, after, state%damage))
+      call follow_envelope(law, before, after, resultant(opening_part(traction)), history%damage, state%damage, work, spent)
+      dissipated = dissipated + work
     end if
   end subroutine dissipate_consistently
+
+  !> Energy that sliding and opening dissipate while the damage D grows on the envelope, and the share of the fracture energy.
+  pure subroutine follow_envelope(law, before, after, traction, old, new, work, spent)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: before(2), after(2)   !< separations at the ends of the increment
+    real(dp), intent(in) :: traction(2)           !< at its start
+    real(dp), intent(in) :: old, new              !< D
+    real(dp), intent(out) :: work(2)
+    real(dp), intent(inout) :: spent
+    type(law_parameters) :: present
+    real(dp) :: last
+
+    if (depends_on_rate(law)) then
+      present = law
+      call suit_rate(present, norm2(after))
+      last = damage_by(present, law, new)
+      work = work_at_rate(law, present, before, after, traction, damage_by(present, law, old), last)
+      spent = max(spent, share_spent(present, after, last))
+    else
+      work = work_of_damage(law, before, after, traction, old, new)
+      spent = max(spent, share_spent(law, after, new))
+    end if
+  end subroutine follow_envelope
+
+  !> Energy that sliding and opening dissipate while the damage D grows to the envelope of the present rate.
+  !>
+  !> At the separation of the start, that envelope has a secant of its own. Beyond it, where the rate has fallen, the point first
+  !> loses the difference to it. Short of it, where the rate has risen, it dissipates that share of what the envelope does. With
+  !> straight lines both are the trapezoidal rule. A point that is within the envelope of the slowest rates has been unloaded: it
+  !> follows its secant up to the envelope, as without a rate.
+  pure function work_at_rate(law, present, before, after, traction, old, new) result(work)
+    type(law_parameters), intent(in) :: law
+    type(law_parameters), intent(in) :: present   !< the law at the rate of the increment
+    real(dp), intent(in) :: before(2), after(2), traction(2)
+    real(dp), intent(in) :: old, new              !< D of `present`
+    real(dp) :: work(2)
+    !> Damage that is lost in the rounding of a point on its envelope.
+    real(dp), parameter :: rounding = sqrt(epsilon(1.0_dp))
+    real(dp) :: reached, slowest, last, until(2)
+
+    reached = min(new, damage_without_history(present, before))
+    ! the separation has not grown yet: its rate is zero
+    slowest = damage_by(present, law, damage_without_history(law, before))
+    last = stiffness_at(present, secant_at(present, new))
+    if (reached > old) then
+      until = after
+      if (.not. last > 0.0_dp) until = min(before, after)
+      work = 0.5_dp*law%ratio*before*until*(stiffness_at(present, secant_at(present, old)) &
+        - stiffness_at(present, secant_at(present, reached))) + work_of_damage(present, before, after, traction, reached, new)
+    else if (old > 0.0_dp .and. new > reached .and. slowest > old - rounding) then
+      work = (stiffness_at(present, secant_at(present, old)) - last)/(stiffness_at(present, secant_at(present, reached)) - last) &
+        *work_of_damage(present, before, after, traction, reached, new)
+    else
+      work = work_of_damage(present, before, after, traction, old, new)
+    end if
+  end function work_at_rate
+
+  !> Damage D by one law of the secant that has a damage by another law.
+  pure function damage_by(law, other, damage) result(same)
+    type(law_parameters), intent(in) :: law, other
+    real(dp), intent(in) :: damage   !< by the other law
+    real(dp) :: same
+    real(dp) :: secant(2)
+
+    secant = secant_at(other, damage)
+    same = damage_at_secant(law, secant(1), secant(2) + law%flexibility*secant(1))
+  end function damage_by
 
   !> Damage of the consistent law at a separation without history.
   pure function damage_without_history(law, separation) result(damage)
@@ -207,6 +279,15 @@ contains
 
     work = law%ratio*direction**2*max(0.0_dp, loss(law, direction, to(1), to(2)) - loss(law, direction, from(1), from(2)))
   end function work_along
+
+  !> Secant stiffness K.
+  pure function stiffness_at(law, secant) result(stiffness)
+    type(law_parameters), intent(in) :: law
+    real(dp), intent(in) :: secant(2)   !< as `loss` takes it
+    real(dp) :: stiffness
+
+    stiffness = secant(1)/(secant(2) + law%flexibility*secant(1))
+  end function stiffness_at
 
   !> A pair of unit length; zero where it has no length.
   pure function unit(pair) result(direction)

@@ -15,13 +15,14 @@
 !> components has its own damage, and it brings its own routines.
 module cohesive_law
   use core_kinds, only: dp
-  use core_status, only: status_type, ok, small_beta
+  use core_status, only: status_type, ok, small_beta, falls_with_rate
   use cohesive_parameters, only: law_parameters
   use cohesive_law_properties, only: law_properties, bilinear_law, exponential_law, ppr_law, bridging_law, table_law
   use cohesive_state, only: point_history, damage_state
-  use cohesive_mode_mix, only: measure_onset, measure_energy, measure_share, check_mode_mix
+  use cohesive_mode_mix, only: measure_onset, measure_energy, measure_share, check_mode_mix, least_reserve
   use cohesive_bilinear, only: bilinear_softening, bilinear_steepest, bilinear_loss
   use cohesive_fatigue, only: grow_at_separation
+  use cohesive_rate, only: depends_on_rate, measure_rate, rate_exponents, suit_steepest_rate
   use cohesive_exponential, only: exponential_softening, exponential_steepest, exponential_loss
   use cohesive_multilinear, only: prepare_bridging, prepare_table, check_bridging, multilinear_softening, multilinear_steepest, &
     multilinear_loss
@@ -72,11 +73,38 @@ contains
 
     if (law%kind == ppr_law) then
       call check_ppr(law, status)
+    else if (depends_on_rate(law)) then
+      call check_rates(law, status)
     else
-      call check_mode_mix(law, status)
-      if (status%code == ok .and. law%kind == bridging_law) call check_bridging(law, status)
+      call check_shape(law, status)
     end if
   end subroutine check_law
+
+  !> Demands of a softening curve that failure comes after the onset of damage.
+  pure subroutine check_shape(law, status)
+    type(law_parameters), intent(in) :: law
+    type(status_type), intent(out) :: status
+
+    call check_mode_mix(law, status)
+    if (status%code == ok .and. law%kind == bridging_law) call check_bridging(law, status)
+  end subroutine check_shape
+
+  !> The same at every rate, and that the traction does not fall with the rate: fortran/laws.md.
+  pure subroutine check_rates(law, status)
+    type(law_parameters), intent(in) :: law
+    type(status_type), intent(out) :: status   !< falls_with_rate: TOUGHNESSRATE and its bound
+    type(law_parameters) :: steepest
+    real(dp) :: exponents(2), reserve, share, least
+
+    steepest = law
+    call suit_steepest_rate(steepest)
+    call check_shape(steepest, status)
+    if (status%code /= ok .or. .not. any(law%kind == [exponential_law, table_law])) return
+    exponents = rate_exponents(law)
+    call least_reserve(steepest, reserve, share)
+    least = exponents(1)*(1.0_dp + law%flexibility/reserve)
+    if (exponents(2) < least) status = status_type(falls_with_rate, 0, exponents(2), least)
+  end subroutine check_rates
 
   !> Demands that beta exceeds the softening slope; otherwise the trial traction does not determine the separation.
   !>
@@ -142,7 +170,8 @@ contains
     end select
   end function steepest
 
-  !> Softening curve of a law in the direction c = (sin theta, cos theta), with its derivatives by lambda and theta.
+  !> Softening curve of a law in the direction c = (sin theta, cos theta), with its derivatives by lambda and theta. Where the law
+  !> depends on the rate, that is the rate with which this increment reaches lambda.
   pure subroutine softening(law, separation, direction, traction, by_separation, by_angle)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: separation       !< lambda, not negative, length
@@ -150,10 +179,17 @@ contains
     real(dp), intent(out) :: traction        !< tau, stress
     real(dp), intent(out) :: by_separation   !< stress/length
     real(dp), intent(out) :: by_angle        !< stress
-    real(dp) :: f, e, share, by_f, by_e, by_share, by_direction(2), f_slope(2), e_slope(2), share_slope(2)
+    real(dp) :: f, e, share, by_f, by_e, by_share, by_direction(2), f_slope(2), e_slope(2), share_slope(2), factors(2), slopes(2)
 
     call measure_onset(law, direction, f, f_slope)
     call measure_energy(law, direction, e, e_slope)
+    if (depends_on_rate(law)) then
+      call measure_rate(law, separation, factors, slopes)
+      f = f/factors(1)
+      f_slope = f_slope/factors(1)
+      e = e/factors(2)
+      e_slope = e_slope/factors(2)
+    end if
     by_share = 0.0_dp
     share_slope = 0.0_dp
     select case (law%kind)
@@ -165,6 +201,7 @@ contains
     case default
       call bilinear_softening(law, separation, f, e, traction, by_separation, by_f, by_e)
     end select
+    if (depends_on_rate(law)) by_separation = by_separation - by_f*f*slopes(1) - by_e*e*slopes(2)
     by_direction = by_f*f_slope + by_e*e_slope + by_share*share_slope
     by_angle = by_direction(1)*direction(2) - by_direction(2)*direction(1)
   end subroutine softening
@@ -223,7 +260,8 @@ contains
   !> the slope is zero; on it, the slope is that of further loading.
   !>
   !> The damage that acts follows d with the relaxation time `viscosity`, d_v' = (d - d_v)/viscosity, integrated by
-  !> backward Euler; an increment of zero duration leaves it unchanged.
+  !> backward Euler; an increment of zero duration leaves it unchanged. Without a duration there is no rate either, and a law that
+  !> depends on it keeps its damage.
   pure subroutine evolve_damage(law, history, separation, dtime, state)
     type(law_parameters), intent(in) :: law
     type(point_history), intent(in) :: history
@@ -239,7 +277,7 @@ contains
       return
     end if
     call damage_envelope(law, separation, state%damage_max, slope)
-    if (state%damage_max < history%damage_max) then
+    if (state%damage_max < history%damage_max .or. (depends_on_rate(law) .and. .not. dtime > 0.0_dp)) then
       state%damage_max = history%damage_max
       slope = 0.0_dp
     end if

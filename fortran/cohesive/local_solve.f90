@@ -27,6 +27,7 @@ module cohesive_local_solve
   use cohesive_local_equation, only: law_equation, equation_of, shares, direction_at, remainder_at, damage_of, damage_at_secant, &
     at_damage, softening_stiffness
   use cohesive_friction, only: friction_state, coulomb_friction, add_friction
+  use cohesive_rate, only: depends_on_rate
   use cohesive_ppr_local_solve, only: solve_ppr_law, ppr_trial_of_rest
   implicit none(type, external)
   private
@@ -40,7 +41,7 @@ contains
   !> eta = viscosity k (1 - D_old), with the softening stiffness k of each mode, vanishes at failed points. With PACING it is
   !> viscosity k until failure: a point softens as fast at its end as at its onset, and needs as much to do so steadily. A lag
   !> of the damage cannot work: an undamaged point with infinite alpha does not open, and one that does not open has no damage to
-  !> catch up with. In an increment of zero duration a viscous law keeps its damage.
+  !> catch up with. In an increment of zero duration a law that is viscous or depends on the rate keeps its damage.
   pure subroutine solve_law(law, beta, trial, dtime, secant_share, history, state)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: beta(2)              !< stress/length, (tau, n)
@@ -61,7 +62,7 @@ contains
     if (law%viscosity > 0.0_dp .and. dtime > 0.0_dp) driven%viscous = (law%viscosity/dtime) &
       *remaining_share(law, history%damage)*overstress_stiffness(law)
     driven%secant_share = secant_share
-    driven%fixed = law%viscosity > 0.0_dp .and. .not. dtime > 0.0_dp
+    driven%fixed = (law%viscosity > 0.0_dp .or. depends_on_rate(law)) .and. .not. dtime > 0.0_dp
     p = trial + driven%viscous(mode_of)*old
     driven%closed = p(2) < 0.0_dp
     driven%sticks = .false.

@@ -6,7 +6,7 @@ module cohesive_parameters
   use cohesive_law_properties, only: law_properties
   implicit none(type, external)
   private
-  public :: law_parameters, load_cycles, most_ramps
+  public :: law_parameters, load_cycles, rate_increment, most_ramps
 
   !> Lines of a polygon through the points of a table: one more than there are points among the properties.
   integer, parameter :: most_ramps = 6
@@ -16,6 +16,12 @@ module cohesive_parameters
     real(dp) :: count = 0.0_dp        !< cycles in the increment; zero: none
     real(dp) :: load_ratio = 0.0_dp   !< least over greatest load, from -1 and below 1
   end type load_cycles
+
+  !> Increment of a point whose law depends on the rate of the separation.
+  type :: rate_increment
+    real(dp) :: start = 0.0_dp      !< length of the separation at its start
+    real(dp) :: duration = 0.0_dp
+  end type rate_increment
 
   !> Parameters of a law. The initial stiffness is alpha_i = ratio_i/flexibility: laws use the flexibility, which stays finite for
   !> an infinite stiffness.
@@ -32,6 +38,7 @@ module cohesive_parameters
     real(dp) :: power = 1.0_dp      !< exponent of the power law, positive
     logical :: fatigue = .false.    !< damage grows by cycles in some steps
     type(load_cycles) :: cycles     !< of the increment
+    type(rate_increment) :: rate    !< of the point, where the law depends on it: `cohesive_rate`
     type(law_properties) :: given   !< as in the deck: what a law of its own needs besides
     ! of the law with fibre bridging alone: shares of the bridging in the total, `prepare_bridging`
     real(dp) :: bridging_strength(2) = 0.0_dp

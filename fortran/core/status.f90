@@ -9,7 +9,7 @@ module core_status
   public :: ok, too_brittle, not_positive_definite, inside_out, zero_length, faces_apart, small_beta, too_brittle_mixed, &
     late_secant, no_root, along_normal, layer_slants, layer_twists
   public :: bridging_strength, bridging_energy, brittle_tip, brittle_bridging, brittle_mixed_line, no_table, table_gap, &
-    table_separation, table_traction
+    table_separation, table_traction, falls_with_rate
 
   !> Outcome of a kernel; the caller knows the names of elements and properties.
   type :: status_type
@@ -41,6 +41,7 @@ module core_status
   integer, parameter :: table_gap = 19
   integer, parameter :: table_separation = 20
   integer, parameter :: table_traction = 21
+  integer, parameter :: falls_with_rate = 22
 
 contains
 
@@ -77,6 +78,8 @@ contains
       text = 'the separations of LAW 6 increase from point to point'
     case (table_traction)
       text = 'the tractions of LAW 6 do not increase, and do not vanish before failure'
+    case (falls_with_rate)
+      text = 'with the tail of this law and its stiffness, the traction would fall with the rate'
     case (late_secant)
       text = 'too small for its stiffness: the secant of the PPR law must decrease from the origin on'
     case (no_root)

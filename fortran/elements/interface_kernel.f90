@@ -18,6 +18,7 @@ module elements_interface_kernel
   use core_status, only: status_type, ok
   use cohesive_parameters, only: law_parameters
   use cohesive_law, only: check_law, check_beta, raise_beta
+  use cohesive_rate, only: begin_rate, suit_steepest_rate
   use cohesive_temperature, only: suit_steepest_temperature
   use elements_bulk_solid, only: solid_type
   use elements_interface_bulk, only: stabilisation_type, stabilise, bulk_operators
@@ -66,6 +67,7 @@ contains
     type(stabilisation_type) :: used
     type(point_response) :: response
     type(interface_place) :: here, turned(2)
+    type(law_parameters) :: of_point
     real(dp) :: bulk_of_points(dim, size(u), points), at_rest(dim, points)
     real(dp), dimension(dim, size(u)) :: jump, bulk, by_displacement
     real(dp), dimension(size(u)) :: moved, original, shifted, force
@@ -107,7 +109,9 @@ contains
       end if
     end if
 
+    of_point = law
     do k = 1, points
+      call begin_rate(of_point, old(k)%history%separation, dtime)
       new(k)%position = places(k)%position
       here = places(k)
       moved = u
@@ -137,14 +141,15 @@ contains
         else
           bulk_traction = matmul(here%frame, matmul(neighbours(:, :, k), places(k)%frame(2, :)))
         end if
-        call stabilised_point(law, options, dtime, stabilisation%beta, separation, bulk_traction, old(k), new(k), response, status)
+        call stabilised_point(of_point, options, dtime, stabilisation%beta, separation, bulk_traction, old(k), new(k), response, &
+          status)
         if (status%code /= ok) then
           status%item = k
           return
         end if
         if (options%complete) gap = (new(k)%traction - bulk_traction)/stabilisation%beta(mode_of)
       else
-        call standard_point(law, options, dtime, separation, old(k), new(k), response)
+        call standard_point(of_point, options, dtime, separation, old(k), new(k), response)
       end if
       area = places(k)%area*thickness
       energies = energies + point_energies(area, new(k))
@@ -266,9 +271,10 @@ contains
     type(law_parameters) :: steepest
     real(dp) :: beta(2)
 
-    ! beta stays, temperatures do not
+    ! beta stays, temperatures and rates do not
     steepest = law
     call suit_steepest_temperature(steepest)
+    call suit_steepest_rate(steepest)
     call check_beta(steepest, stabilisation%beta, status)
     if (status%code == ok .or. all(stabilisation%given)) return
     beta = stabilisation%beta

@@ -21,9 +21,24 @@ VARIANTS = {"U2": (2, 0), "U3": (3, 0), "U3 consistent": (3, 1), "U4": (4, 0), "
 VARIANTS |= {"U5": (5, 0), "U6": (6, 0), "U6 consistent": (6, 1)}
 IN_SPACE = {"U7": (7, 0), "U8": (8, 0), "U8 consistent": (8, 1), "U10": (10, 0), "U10 consistent": (10, 1)}
 IN_SPACE |= {"U11": (11, 0), "U12": (12, 0), "U12 consistent": (12, 1)}
-EXTRAS = {0: ("plain", "viscous"), 1: ("plain", "viscous", "friction", "rigid", "rigid, viscous, friction")}
-CASES = [(v, k, e) for v, (_, closure) in VARIANTS.items() for k in LAWS for e in EXTRAS[closure]]
-SPACE_CASES = [(v, k, e) for v, (_, closure) in IN_SPACE.items() for k in LAWS for e in EXTRAS[closure]]
+EXTRAS = {
+    0: ("plain", "viscous", "rate", "viscous, rate"),
+    1: ("plain", "viscous", "friction", "rigid", "rigid, viscous, friction", "rate", "rigid, viscous, friction, rate"),
+}
+
+
+def cases(variants):
+    """(variant, law, what it has besides): every combination there is."""
+    return [
+        (variant, kind, extra)
+        for variant, (_, closure) in variants.items()
+        for kind in LAWS
+        for extra in EXTRAS[closure]
+        if not (kind == PPR and "rate" in extra)
+    ]
+
+
+CASES, SPACE_CASES = cases(VARIANTS), cases(IN_SPACE)
 
 COPIES, INCREMENTS, DTIME = 32, 4, 0.3
 STATES = COPIES * INCREMENTS
@@ -80,7 +95,41 @@ def properties(draw, reference, kind, closure, extra):
         values |= {"VISCOSITY": draw(positive(1e-3, 10.0)), "PACING": draw(st.integers(0, 1))}
     if "friction" in extra:
         values["FRICTION"] = draw(st.floats(0.05, 1.0))
+    if "rate" in extra:
+        values |= draw(rates(reference, values))
     return values | (draw(betas(reference, values)) if closure else {})
+
+
+@st.composite
+def rates(draw, reference, values):
+    """Exponents and rates with which the law exists at every rate, and its traction does not fall with it."""
+    strength = draw(st.floats(0.0, 0.3))
+    toughness = max(strength * draw(st.floats(1.0, 3.0)), 0.01)
+    # from the onset to failure in an increment of one or of ten thousand
+    length = min(values["GIC"], values["GIIC"]) / max(values["SIGMAMAX"], values["TAUMAX"])
+    slowest, span = length / DTIME * draw(positive(1e-4, 1.0)), draw(positive(1.5, 1e4))
+    brittle = brittleness(reference, values) * (1 + span) ** max(0.0, 2.0 * strength - toughness)
+    assume(brittle < 1.0)
+    if values["LAW"] in (3, 6):
+        toughness = max(toughness, 1.01 * strength * (1.0 + brittle))
+    return {
+        "RATEREFERENCE": slowest,
+        "RATELIMIT": slowest * span,
+        "STRENGTHRATE": strength,
+        "TOUGHNESSRATE": toughness,
+    }
+
+
+def brittleness(reference, values):
+    """Upper bound of the separation at onset over that at failure, in every mode mix and of every line; 0 if rigid."""
+    if not values["ALPHAN"]:
+        return 0.0
+    ratio = values["ALPHAT"] / values["ALPHAN"]
+    shorter = 1.0
+    if values["LAW"] == 5:
+        pure = zip(*reference.bridging_shares(values), strict=True)
+        shorter = min(min((1 - m) / (1 - r), m / r) for r, m in pure)
+    return 1.0 / (values["ALPHAN"] * reference.reserves(values, ratio).min() * shorter)
 
 
 @st.composite
@@ -107,6 +156,19 @@ def tables(draw):
     }
 
 
+def at_steepest_rate(values):
+    """Properties of the law at the rate at which it softens most steeply, k ~ strength^2/toughness."""
+    if "RATELIMIT" not in values:
+        return values
+    span = 1 + values["RATELIMIT"] / values["RATEREFERENCE"]
+    factors = {"G": span ** values["TOUGHNESSRATE"], "S": span ** values["STRENGTHRATE"]}
+    if factors["S"] ** 2 < factors["G"]:
+        return values
+    names = {"SIGMAMAX": "S", "TAUMAX": "S", "GIC": "G", "GIIC": "G", "SIGMABRIDGE": "S", "TAUBRIDGE": "S"}
+    names |= {"GIBRIDGE": "G", "GIIBRIDGE": "G"}
+    return {name: value * factors[names[name]] if name in names else value for name, value in values.items()}
+
+
 @st.composite
 def betas(draw, reference, values):
     """CLOSURE 1 with a beta that is large enough, alike in both directions or not."""
@@ -119,7 +181,7 @@ def betas(draw, reference, values):
         found = [size * (slopes[0] + coupling * spread), size * (slopes[1] + coupling / spread)]
     else:
         # up to (2 - b_min/b_max) times the steepest slope is demanded
-        steepest = 2.0 * size * reference.steepest(values, ratio)
+        steepest = 2.0 * size * reference.steepest(at_steepest_rate(values), ratio)
         assume(np.isfinite(steepest))
         found = [steepest * max(1.0, spread), steepest * max(1.0, 1 / spread) * ratio]
     return {"CLOSURE": 1, "BETAN": found[0], "BETAT": found[1]}

@@ -143,18 +143,18 @@ def test_existing_decks_give_what_they_gave(branch, element_of, library, interfa
 
 
 def test_other_counts_of_properties_are_refused(branch, element_of):
-    for count in (39, 41):
+    for count in (43, 45):
         item = element_of(branch[0], 2, FLAT, definition={"properties": count})
-        with pytest.raises(KernelError, match=rf"PROPERTIES = {count}: expected 40"):
+        with pytest.raises(KernelError, match=rf"PROPERTIES = {count}: expected 44"):
             item.evaluate(np.zeros(8))
 
 
 def test_the_property_has_the_last_position(branch, element_of):
-    for jtype, position in ((2, 40), (3, 44), (4, 68), (5, 40), (6, 68)):
+    for jtype, position in ((2, 44), (3, 48), (4, 72), (5, 44), (6, 72)):
         layout = branch[1][jtype]
         assert (layout.reals[-1].name, layout.reals[-1].position) == ("PLATEAU", position)
     item = element_of(branch[0], 2, FLAT, layouts=branch[1], LAW=7, PLATEAU=1.0)
-    with pytest.raises(KernelError, match=r"PROPS\(40\) PLATEAU = 1.0.*expected zero or a value between 0 and 1"):
+    with pytest.raises(KernelError, match=r"PROPS\(44\) PLATEAU = 1.0.*expected zero or a value between 0 and 1"):
         item.evaluate(np.zeros(8))
 
 

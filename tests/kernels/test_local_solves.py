@@ -12,7 +12,7 @@ SOURCES = (
     *("law_properties", "cohesive/parameters", "cohesive/shear"),
     "cohesive/state",
     *("cohesive/mode_mix", "cohesive/bilinear", "cohesive/exponential", "cohesive/multilinear", "cohesive/ppr"),
-    *("cohesive/fatigue", "cohesive/law", "cohesive/friction", "cohesive/local_equation"),
+    *("cohesive/fatigue", "cohesive/rate", "cohesive/law", "cohesive/friction", "cohesive/local_equation"),
     *("cohesive/fatigue_local_solve", "cohesive/ppr_local_solve", "cohesive/local_solve"),
 )
 

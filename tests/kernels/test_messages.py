@@ -153,7 +153,7 @@ def test_geometry(element, jtype, coordinates, message):
     ("jtype", "definition", "message"),
     [
         (1, {"properties": 2}, r"U1 element 42: \*USER ELEMENT has PROPERTIES = 2: expected 1"),
-        (2, {"properties": 7}, r"PROPERTIES = 7: expected 39"),
+        (2, {"properties": 7}, r"PROPERTIES = 7: expected 43"),
         (4, {"integer_properties": 4}, r"I PROPERTIES = 4: expected 11"),
         (2, {"variables": 25}, r"VARIABLES = 25: expected at least 44"),
         (4, {"variables": 43}, r"VARIABLES = 43: expected at least 50"),

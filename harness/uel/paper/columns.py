@@ -59,6 +59,7 @@ WARM = {
     "STRENGTH3": 0.5,
     "TOUGHNESS3": 0.6,
 }
+FAST = {"RATEREFERENCE": 1e-3, "RATELIMIT": 1.0, "STRENGTHRATE": 0.1, "TOUGHNESSRATE": 0.15}
 PAPER = FINITE | {"CLOSURE": 2, "BETAN": -2.0, "BETAT": -2.0}
 
 _SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
@@ -133,6 +134,7 @@ COLUMNS = {
         cycles=1e5,
     ),
     "u4_warm": Column("strengths and fracture energies at 60 degrees", 4, values={"LAW": 1, **WARM}, temperature=60.0),
+    "u4_fast": Column("opened at 0.01 mm per unit of time", 4, values={"LAW": 1, **FAST}, moved=(0.0, 0.01)),
     "u4_secant": Column("secant matrix", 4, values={"LAW": 1, "TANGENT": 1}),
     "u4_blend": Column("share of the secant matrix", 4, values={"LAW": 1, "BLEND": 0.05}),
     "u4_paced": Column("increments that follow the viscosity", 4, values={"LAW": 1, "VISCOSITY": 3e-3, "PACING": 1}),
