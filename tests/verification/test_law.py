@@ -182,6 +182,17 @@ def test_viscosity_sees_the_duration(curves):
     assert (quick["DAMAGE"] <= quick["DMAX"]).all()
 
 
+def test_rate_sees_the_duration(curves):
+    """The curves begin slowly and end at twice their mean rate, where no traction is left."""
+    rates = ("RATEREFERENCE=0.01", "RATELIMIT=1e3", "STRENGTHRATE=0.1", "TOUGHNESSRATE=0.2")
+    for duration in (1e6, 1.0, 1e-3):
+        opened = curves(properties=rates, angles=(0.0,), duration=duration)["0°"]
+        rate = 2 * opened["SEPN"][-1] / duration
+        # 2 G/strength at this rate, to a thousandth of the traction
+        assert opened["SEPN"][-1] == pytest.approx(2 * 0.26 / 30 * (1 + rate / 0.01) ** 0.1, rel=2e-3)
+        assert opened["SPENT"][-1] > 0.998
+
+
 @pytest.mark.parametrize(("kind", "jtype"), [("u2", 2), ("u3", 2), ("u4", 4)])
 def test_properties_of_a_deck(kind, jtype):
     found, values = law.deck_properties(FOLDER / "dcb" / f"dcb_{kind}_1e8.inp", "interface")

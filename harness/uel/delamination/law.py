@@ -201,9 +201,9 @@ class LawElement:
         self._u = u
         return traction
 
-    def probe(self, separation: FloatArray) -> FloatArray:
+    def probe(self, separation: FloatArray, dtime: float) -> FloatArray:
         """Return the traction of a standard element at a trial separation, without advancing."""
-        return self._traction(self._displacements(separation, self._gradient), 1.0)
+        return self._traction(self._displacements(separation, self._gradient), dtime)
 
     def variables(self) -> dict[str, float]:
         """Return the committed variables of the first point by name."""
@@ -313,8 +313,11 @@ def opening(
     return path
 
 
-def reach_of(library: Library, values: Properties, angle: float) -> float:
-    """Return the separation at an angle (degrees) at which the traction has dropped to a thousandth of the strength."""
+def reach_of(library: Library, values: Properties, angle: float, duration: float = 1.0) -> float:
+    """Return the separation at an angle (degrees) at which the traction has dropped to a thousandth of the strength.
+
+    The duration is that of a curve `opening`, which ends at twice its mean rate.
+    """
     for name in ("SIGMAMAX", "TAUMAX", "GIC", "GIIC"):
         if not values[name] > 0.0:
             raise UelError(f"{name} = {values[name]:g}: expected a number above 0, which determines the reach")
@@ -325,7 +328,7 @@ def reach_of(library: Library, values: Properties, angle: float) -> float:
     limit = 1e-3 * min(values["SIGMAMAX"], values["TAUMAX"])
 
     def above_limit(size: float) -> bool:
-        return float(np.linalg.norm(element.probe(size * direction))) > limit
+        return float(np.linalg.norm(element.probe(size * direction, 0.5 * duration))) > limit
 
     # a bilinear law ends at twice this in pure modes
     estimate = lower = min(values["GIC"] / values["SIGMAMAX"], values["GIIC"] / values["TAUMAX"])

@@ -53,7 +53,7 @@ class Exploration:
     close       fraction of the reach by which to close after unloading
     surface     also draw both tractions over both separations
     increments  per curve, or per segment of a path
-    duration    step time of a curve, for VISCOSITY
+    duration    step time of a curve, for VISCOSITY and the rate of the separation
     units       of length and traction, for the axes; None: those of the paper, with a deck none
     """
 
@@ -134,7 +134,7 @@ def _explore(options: Exploration) -> tuple[list[LawCurve], list[Path]]:
             return law.drive(LawElement(library, jtype, values), label, path, options.duration)
 
         def reach(angle: float) -> float:
-            return options.reach or law.reach_of(library, values, angle)
+            return options.reach or law.reach_of(library, values, angle, options.duration)
 
         if options.path is None:
             curves = [
