@@ -97,6 +97,10 @@ STEPS = beam(
 )
 DELAMINATION = DCB.read_text().replace("*STEP", "*RESTART, WRITE\n*STEP", 1).replace("INPUT=", f"INPUT={DCB.parent}/")
 DELAMINATION = re.sub(r"(\*STATIC.*\n).*", r"\g<1>0.03, 0.15", DELAMINATION)
+FAST = DCB.parents[1] / "properties" / "u4_fast.inp"
+FAST = FAST.read_text().replace("*STEP", "*RESTART, WRITE\n*STEP", 1).replace("FREQUENCY=100", "FREQUENCY=1")
+FAST = re.sub(r"(\*STATIC.*\n).*", r"\g<1>0.03, 0.3, 1e-6, 0.03", FAST)
+"""The rate of the separation, in an increment, needs the separation at its start."""
 CONTACT = two_boxes(
     *plane(0.01, upper=3),
     [
@@ -161,6 +165,7 @@ SPINNING = "\n".join(
 DECKS = {
     **{"dynamic": DYNAMIC, "rubber": RUBBER, "heat": HEAT, "umat": UMAT, "steps": STEPS, "delamination": DELAMINATION},
     **{"contact": CONTACT, "sliding": SLIDING, "turning": TURNING, "held": HELD, "spinning": SPINNING},
+    "fast": FAST,
     "surfaces": SLIDING.replace("NODE TO", "SURFACE TO"),
 }
 
